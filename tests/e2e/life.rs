@@ -6,7 +6,9 @@
 
 use std::time::Duration;
 
-use glidepath_link::{EndOfEpoch, EventKind, FaultCause, MachineState, Power, Setpoint};
+use glidepath_link::{
+    EndOfEpoch, EventKind, EventRecord, FaultCause, MachineState, Power, Setpoint,
+};
 use glidepath_plant::{HomeSettings, JointSettings, SwitchSettings, Upset};
 use glidepath_program::CodeWord;
 use glidepath_tests::{Instance, Operated, Process, ServoStack, Tape, Watchdog};
@@ -193,7 +195,10 @@ impl<'a> Life<'a> {
     /// The setpoint that tells of an M code, behind a place of the tape.
     fn told(&self, behind: usize, code: f64) -> Setpoint {
         let is_it = |s: &&Setpoint| {
-            s.event_kind == EventKind::MCode.code() && (s.event_value - code).abs() < 1e-9
+            let is_code = |event: &EventRecord| event.kind == EventKind::MCode.code();
+            let told = s.events().iter().filter(|event| is_code(event));
+            told.into_iter()
+                .any(|event| (event.value - code).abs() < 1e-9)
         };
         loop {
             if let Some(told) = self.tape.since(behind).iter().find(is_it) {

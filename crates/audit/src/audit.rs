@@ -1,13 +1,14 @@
 //! An audit under way: samples and items in, verdict out.
 
 use crate::along::AlongAudit;
+use crate::event_places::EventPlaces;
 use crate::limits::LimitAudit;
 use crate::matching::Matching;
 use crate::report::Report;
 use crate::sample::{Sample, Seen};
 use crate::settings::AuditSettings;
 use crate::travel::TravelAudit;
-use glidepath_program::{Frame, Item};
+use glidepath_program::{Event, Frame, Item};
 
 /// An audit under way.
 ///
@@ -19,6 +20,7 @@ pub struct Audit {
     travel: TravelAudit,
     along: AlongAudit,
     matching: Matching,
+    events: EventPlaces,
 }
 
 impl Audit {
@@ -30,6 +32,7 @@ impl Audit {
             travel: TravelAudit::new(settings),
             along: AlongAudit::new(settings),
             matching: Matching::new(settings),
+            events: EventPlaces::new(settings.period_t),
         }
     }
 
@@ -49,11 +52,17 @@ impl Audit {
     /// The next item of the program.
     pub fn program(&mut self, item: &Item) {
         self.matching.program(item);
+        self.events.program(item);
     }
 
     /// The next sample of the motion.
     pub fn sample(&mut self, sample: &Sample) {
         self.see(&sample.into());
+    }
+
+    /// An event happens before the next sample, so many ns after the last one.
+    pub fn event(&mut self, event: Event, offset_ns: u32) {
+        self.events.happens(event, offset_ns);
     }
 
     /// The next sample of the motion, away from the path: it is judged by limits and travel alone. The
@@ -62,6 +71,7 @@ impl Audit {
         let seen = sample.into();
         self.limits.sample(&seen);
         self.travel.sample(&seen);
+        self.events.sample_away(&sample.position);
     }
 
     /// The next sample of the motion and its path position, whose limits are judged too.
@@ -71,8 +81,11 @@ impl Audit {
         self.see(&seen);
     }
 
-    /// The next sample of the motion: a frame, its path position and all.
+    /// The next sample of the motion: a frame, its events, its path position and all.
     pub fn frame(&mut self, frame: &Frame) {
+        for told in frame.events.as_slice() {
+            self.events.happens(told.event, told.offset_ns);
+        }
         let seen = frame.into();
         self.along.sample(&seen, frame.path_s);
         self.see(&seen);
@@ -82,6 +95,7 @@ impl Audit {
         self.limits.sample(seen);
         self.travel.sample(seen);
         self.matching.sample(seen);
+        self.events.sample(seen.position);
     }
 
     /// The verdict, after the last sample: the machine rests there from now on.
@@ -89,7 +103,12 @@ impl Audit {
     pub fn finish(mut self) -> Report {
         self.matching.finish();
         self.limits.finish();
-        Report::new(&self.limits, &self.travel, &self.along, &self.matching)
+        Report::new(
+            (&self.limits, &self.travel),
+            &self.along,
+            &self.matching,
+            &self.events,
+        )
     }
 }
 

@@ -14,7 +14,7 @@
 //! * exact stops, dwells, the programmed feed, and that the path was run to its end.
 //!
 //! Memory is bounded by how far the program is fed ahead of the samples; work is linear in both.
-//! Beside violations it tells of *tremors* ([`tremor`]): motion inside all limits that the program
+//! Of events that do not stop the motion it tells how far from their places they happen. Beside violations it tells of *tremors* ([`tremor`]): motion inside all limits that the program
 //! does not ask for. What keeps a motion from being faster is told by [`diagnosis`], fed in the same way, and how
 //! smooth it is by [`smoothness`].
 //!
@@ -41,6 +41,7 @@ mod along;
 mod audit;
 mod column;
 pub mod diagnosis;
+mod event_places;
 mod flatten;
 mod free_space;
 mod judge;

@@ -1,6 +1,7 @@
 //! The verdict on a motion.
 
 use crate::along::AlongAudit;
+use crate::event_places::EventPlaces;
 use crate::limits::LimitAudit;
 use crate::matching::Matching;
 use crate::travel::TravelAudit;
@@ -53,6 +54,14 @@ pub struct Report {
     pub last_motion_tick: u64,
     /// From the first to the last motion, dwells in between included, s.
     pub cycle_time_s: f64,
+    /// Events that do not stop the motion.
+    pub events: u64,
+    /// How far from its place the motion was when one of them happened, at most, mm.
+    pub max_event_off_mm: f64,
+    /// The line of that event.
+    pub max_event_off_line: u32,
+    /// The same in the mean, mm.
+    pub mean_event_off_mm: f64,
     /// Position of the last sample.
     pub final_position: AxisVector,
     /// The first violations, in the order found.
@@ -74,10 +83,10 @@ impl Report {
     }
 
     pub(crate) fn new(
-        limits: &LimitAudit,
-        travel: &TravelAudit,
+        (limits, travel): (&LimitAudit, &TravelAudit),
         along: &AlongAudit,
         matching: &Matching,
+        events: &EventPlaces,
     ) -> Self {
         let mut violations = limits.violations.kept.clone();
         violations.extend_from_slice(&travel.violations.kept);
@@ -113,6 +122,10 @@ impl Report {
             first_motion_tick: limits.first_motion_tick.unwrap_or(0),
             last_motion_tick: limits.last_motion_tick,
             cycle_time_s: limits.cycle_time_s(),
+            events: events.count,
+            max_event_off_mm: events.most_off.0,
+            max_event_off_line: events.most_off.1,
+            mean_event_off_mm: events.mean_mm(),
             final_position: limits.last_position(),
             violations,
             violation_count: limits.violations.count

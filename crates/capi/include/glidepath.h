@@ -47,9 +47,9 @@ extern "C" {
 
 /* layout: begin, written by a test of the library */
 /* The version of the ABI: functions and structures. */
-#define GP_ABI 3u
+#define GP_ABI 4u
 /* What the structures of this header are, as one number. */
-#define GP_LAYOUT UINT64_C(0x257be0137e94ded6)
+#define GP_LAYOUT UINT64_C(0x94b7a3391cbd1c05)
 /* Axes X Y Z A B C U V W, and joints J0 to J8. */
 #define GP_AXES 9
 
@@ -190,7 +190,7 @@ enum {
     GP_CONTACT_ALREADY_SO = 2
 };
 
-/* What the lowest byte of event_kind says. */
+/* What an event is: kind of a gp_event, and the lowest byte of event_kind of a gp_segment. */
 enum {
     GP_EVENT_NONE = 0,
     GP_EVENT_SPINDLE_SPEED = 1,
@@ -205,7 +205,8 @@ enum {
     GP_EVENT_CODE_WORD_P = 10,
     GP_EVENT_CODE_WORD_Q = 11,
     GP_EVENT_AWAIT = 12,
-    GP_EVENT_TAP = 13
+    GP_EVENT_TAP = 13,
+    GP_EVENT_PASSING_CODE = 14
 };
 
 /* What a drive does, by the states of CiA 402. */
@@ -408,7 +409,33 @@ GP_FIELD(gp_latch, rising, 92, 4);
 GP_FIELD(gp_latch, kind, 96, 4);
 GP_FIELD(gp_latch, reserved, 100, 4);
 
-/* What the drives are to do at apply_ns. The record glidepath.Setpoint.v3. */
+/* An event in the period of a setpoint. */
+typedef struct gp_event {
+    /* Speed (rev/min), tool, M code, value of an output, way of a revolution (mm). */
+    double value;
+    /* When it happens: ns after scheduled_ns of its setpoint, up to a period. */
+    uint32_t offset_ns;
+    /* A GP_EVENT_. */
+    uint32_t kind;
+    /* Of an output: which; else 0. */
+    uint32_t number;
+    /* Of a tapped hole: index of the axis; else 0. */
+    uint32_t axis;
+    /* Of a tapped hole: depth in micrometres; else 0. */
+    uint32_t depth_um;
+    /* Of a pass of a thread: the angle it begins at, in 2^-24 of a revolution; else 0. */
+    uint32_t phase;
+} gp_event;
+GP_ASSERT(sizeof(gp_event) == 32, "gp_event has another size");
+GP_FIELD(gp_event, value, 0, 8);
+GP_FIELD(gp_event, offset_ns, 8, 4);
+GP_FIELD(gp_event, kind, 12, 4);
+GP_FIELD(gp_event, number, 16, 4);
+GP_FIELD(gp_event, axis, 20, 4);
+GP_FIELD(gp_event, depth_um, 24, 4);
+GP_FIELD(gp_event, phase, 28, 4);
+
+/* What the drives are to do at apply_ns. The record glidepath.Setpoint.v4. */
 typedef struct gp_setpoint {
     /* Identifies one life of the interpolator: all counts start again with a new one. */
     uint64_t boot_id;
@@ -445,9 +472,8 @@ typedef struct gp_setpoint {
     uint32_t marks;
     /* A GP_STATE_. */
     uint32_t state;
-    /* The event that happens now: a GP_EVENT_ in the lowest byte, the number of an output
-       above it. */
-    uint32_t event_kind;
+    /* How many of events are used. */
+    uint32_t event_count;
     /* Block of the program being executed, 0 before the first. */
     uint32_t block;
     /* The joints whose drives are to have power, one bit each, J0 lowest. */
@@ -456,8 +482,6 @@ typedef struct gp_setpoint {
        positions here are those they report, and nothing to be followed: having found it,
        they stay there until their bit is 0. */
     uint32_t home;
-    /* The event's number (speed, tool, M code), 0 without an event. */
-    double event_value;
     /* Path position since the start of the program, mm. */
     double path_s;
     /* Rate of path position as executed, mm/s; below 0 while the motion goes back. */
@@ -479,8 +503,10 @@ typedef struct gp_setpoint {
     /* How far the axes are from the path, mm or degrees, because they were jogged while the
        program was held: the positions above are those of the path and this together. */
     double away[9];
+    /* What happens in the period from scheduled_ns to apply_ns, in order. */
+    gp_event events[16];
 } gp_setpoint;
-GP_ASSERT(sizeof(gp_setpoint) == 656, "gp_setpoint has another size");
+GP_ASSERT(sizeof(gp_setpoint) == 1160, "gp_setpoint has another size");
 GP_FIELD(gp_setpoint, boot_id, 0, 8);
 GP_FIELD(gp_setpoint, reference, 8, 8);
 GP_FIELD(gp_setpoint, number, 16, 8);
@@ -496,21 +522,21 @@ GP_FIELD(gp_setpoint, line, 88, 4);
 GP_FIELD(gp_setpoint, flags, 92, 4);
 GP_FIELD(gp_setpoint, marks, 96, 4);
 GP_FIELD(gp_setpoint, state, 100, 4);
-GP_FIELD(gp_setpoint, event_kind, 104, 4);
+GP_FIELD(gp_setpoint, event_count, 104, 4);
 GP_FIELD(gp_setpoint, block, 108, 4);
 GP_FIELD(gp_setpoint, enable, 112, 4);
 GP_FIELD(gp_setpoint, home, 116, 4);
-GP_FIELD(gp_setpoint, event_value, 120, 8);
-GP_FIELD(gp_setpoint, path_s, 128, 8);
-GP_FIELD(gp_setpoint, feed_v, 136, 8);
-GP_FIELD(gp_setpoint, effective_override, 144, 8);
-GP_FIELD(gp_setpoint, position, 152, 72);
-GP_FIELD(gp_setpoint, velocity, 224, 72);
-GP_FIELD(gp_setpoint, acceleration, 296, 72);
-GP_FIELD(gp_setpoint, joint_position, 368, 72);
-GP_FIELD(gp_setpoint, joint_velocity, 440, 72);
-GP_FIELD(gp_setpoint, joint_acceleration, 512, 72);
-GP_FIELD(gp_setpoint, away, 584, 72);
+GP_FIELD(gp_setpoint, path_s, 120, 8);
+GP_FIELD(gp_setpoint, feed_v, 128, 8);
+GP_FIELD(gp_setpoint, effective_override, 136, 8);
+GP_FIELD(gp_setpoint, position, 144, 72);
+GP_FIELD(gp_setpoint, velocity, 216, 72);
+GP_FIELD(gp_setpoint, acceleration, 288, 72);
+GP_FIELD(gp_setpoint, joint_position, 360, 72);
+GP_FIELD(gp_setpoint, joint_velocity, 432, 72);
+GP_FIELD(gp_setpoint, joint_acceleration, 504, 72);
+GP_FIELD(gp_setpoint, away, 576, 72);
+GP_FIELD(gp_setpoint, events, 648, 512);
 
 /* What the interpolator does and how well. Counts are of this life of it. The record
    glidepath.Status.v9. */
@@ -905,7 +931,8 @@ typedef struct gp_segment {
     uint32_t mode;
     /* Of an arc: a GP_PLANE_. */
     uint32_t plane;
-    /* Of an event: its code, as in gp_setpoint. */
+    /* Of an event: a GP_EVENT_ in the lowest byte; above it the number of an output, or a
+       phase, or an axis in four bits and a depth in micrometres. */
     uint32_t event_kind;
     /* The event's number (speed, tool, M code). */
     double event_value;

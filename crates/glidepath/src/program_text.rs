@@ -199,7 +199,9 @@ impl ProgramText {
             | Event::Tap { .. } => {
                 return Err(UnknownEvent { line });
             }
-            Event::MCode(number) | Event::ProgramStop(number) => writeln!(self.text, "M{number}"),
+            Event::MCode(number) | Event::PassingCode(number) | Event::ProgramStop(number) => {
+                writeln!(self.text, "M{number}")
+            }
             // The configuration says so again.
             Event::Await(_) => Ok(()),
             Event::OptionalStop => writeln!(self.text, "M1"),

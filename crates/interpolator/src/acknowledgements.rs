@@ -3,6 +3,7 @@
 
 use crate::gates::{Answer, Gates};
 use crate::message::Report;
+use crate::wait::kind_and_value;
 use glidepath_link::{EndOfEpoch, EventId, Objection};
 
 /// Most events that are told and not yet awaited. Of more the oldest is answered at its gate alone.
@@ -36,7 +37,7 @@ impl Acknowledgements {
         }
     }
 
-    /// Takes note of the event of a setpoint.
+    /// Takes note of the event at rest of a setpoint.
     pub(crate) fn note(&mut self, report: &Report) {
         let setpoint = &report.setpoint;
         let Some(gate) = self.gates.late(setpoint) else {
@@ -48,7 +49,7 @@ impl Acknowledgements {
                 epoch: setpoint.epoch,
                 sequence: setpoint.sequence,
             },
-            code: setpoint.event_value,
+            code: kind_and_value(setpoint.rest_event()).1,
             by_feedback: gate.answer != Answer::Acknowledgement,
         });
     }

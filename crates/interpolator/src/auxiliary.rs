@@ -5,7 +5,7 @@ use crate::code_words::CodeWordsBook;
 use crate::gates::Gates;
 use crate::message::{Awaited, Report};
 use crate::stops::{StopCause, StopSettings};
-use glidepath_link::{Auxiliary, CodeWords, EventId};
+use glidepath_link::{Auxiliary, CodeWords, EventId, EventRecord};
 use glidepath_program::Event;
 
 /// The record, and what it was when it was published last.
@@ -43,7 +43,7 @@ impl AuxiliaryBook {
     /// Takes up what happens with a setpoint.
     pub(crate) fn note(&mut self, report: &Report) {
         let setpoint = &report.setpoint;
-        if let Ok(Some(event)) = setpoint.event() {
+        for event in setpoint.events().iter().flat_map(EventRecord::event) {
             self.record.take(event);
             self.words.note(setpoint, event);
             (self.record.epoch, self.record.sequence) = (setpoint.epoch, setpoint.sequence);

@@ -1,7 +1,7 @@
 //! Which M codes are waited for, and what ends the wait.
 
 use core::time::Duration;
-use glidepath_link::{Auxiliary, EventKind, Setpoint, SetpointFrame, SpindleFlags};
+use glidepath_link::{Auxiliary, Setpoint, SetpointFrame, SpindleFlags};
 use glidepath_program::Event;
 
 /// Most rules of a machine.
@@ -119,10 +119,10 @@ impl Gates {
             .filter(|rule| rule.answer != Answer::Nobody)
     }
 
-    /// The rule for the event of a frame, if the motion does not pass it.
+    /// The rule for the event at rest of a frame, if the motion does not pass it.
     #[must_use]
     pub fn of_frame(&self, frame: &SetpointFrame) -> Option<Gate> {
-        if frame.event_kind == EventKind::None.code() {
+        if frame.event_count == 0 {
             return None;
         }
         match frame.event() {
@@ -135,7 +135,7 @@ impl Gates {
 
     /// The rule for the event of a setpoint, if that is an M code that is waited for later.
     pub(crate) fn late(&self, setpoint: &Setpoint) -> Option<Gate> {
-        if setpoint.event_kind != EventKind::MCode.code() {
+        if setpoint.event_count == 0 {
             return None;
         }
         match setpoint.event() {

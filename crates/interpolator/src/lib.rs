@@ -110,6 +110,7 @@ mod config;
 mod counters;
 mod differences;
 mod drives;
+mod events_told;
 mod fault;
 mod feedback;
 mod frame_summary;

@@ -28,7 +28,7 @@
 use crate::gates::Gates;
 use crate::program_time::ProgramTime;
 use crate::track::{TRACK_CAPACITY, Track};
-use glidepath_link::{EventKind, SetpointFrame};
+use glidepath_link::SetpointFrame;
 use glidepath_program::{Event, FrameFlags, Limits};
 
 /// Frames that are taken in one tick, as from a planner.
@@ -36,7 +36,7 @@ const FRAMES_PER_TICK: usize = 8;
 
 /// For so long the motion can go back, s, if the frames of that are no more than [`MOST_KEPT`].
 const KEPT_S: f64 = 62.0;
-/// Most frames that are kept: 20 MB.
+/// Most frames that are kept: 52 MB.
 const MOST_KEPT: usize = 1 << 16;
 
 /// Program time M of the program is 0 on the way back.
@@ -199,8 +199,7 @@ fn back(frame: &SetpointFrame) -> SetpointFrame {
         .with(FrameFlags::PROGRAM_STOP);
     SetpointFrame {
         flags: frame.flags & !flags.0,
-        event_kind: EventKind::None.code(),
-        event_value: 0.0,
+        event_count: 0,
         // Not negated: what is zero has no sign.
         path_v: 0.0 - frame.path_v,
         velocity: frame.velocity.map(|v| 0.0 - v),

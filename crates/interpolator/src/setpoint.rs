@@ -1,5 +1,6 @@
 //! What is published in a tick, apart from the joints, the time and the state.
 
+use crate::events_told::EventsTold;
 use crate::frame_summary::FrameSummary;
 use crate::jog::AxesMotion;
 use crate::rate::Progress;
@@ -19,12 +20,11 @@ pub(crate) struct SetpointWriter {
     enable: u32,
     /// The joints that are to find their home by themselves.
     home: u32,
-    /// The frame whose event was published last.
-    announced: Option<u64>,
+    told: EventsTold,
 }
 
 impl SetpointWriter {
-    pub(crate) const fn new(period_t: f64, boot_id: u64, enable: u32) -> Self {
+    pub(crate) fn new(period_t: f64, boot_id: u64, enable: u32) -> Self {
         Self {
             period_t,
             boot_id,
@@ -32,13 +32,13 @@ impl SetpointWriter {
             reference: 1,
             enable,
             home: 0,
-            announced: None,
+            told: EventsTold::new(period_t),
         }
     }
 
     /// An epoch begins: its frames are others, so their events are new.
     pub(crate) const fn begin_epoch(&mut self) {
-        self.announced = None;
+        self.told.begin_epoch();
     }
 
     /// The next setpoints do not continue those before.
@@ -66,11 +66,8 @@ impl SetpointWriter {
         self.identify(epoch, &summary, setpoint);
         setpoint.fraction = now.time.fraction;
         setpoint.effective_override = (summary.planned_override * now.rate).min(OVERRIDE_MAX);
-        (setpoint.event_kind, setpoint.event_value) = (0, 0.0);
-        if self.announced != Some(summary.sequence) {
-            self.announced = Some(summary.sequence);
-            (setpoint.event_kind, setpoint.event_value) = (frame.event_kind, frame.event_value);
-        }
+        setpoint.silence();
+        self.told.go_on(now.time, track, setpoint);
         Some(())
     }
 
@@ -90,7 +87,7 @@ impl SetpointWriter {
             setpoint.fraction,
             setpoint.effective_override,
         ) = (0.0, 0.0, 0.0);
-        (setpoint.event_kind, setpoint.event_value) = (0, 0.0);
+        setpoint.silence();
     }
 
     /// Writes the setpoint of axes that are moved by hand, so far away from the path.

@@ -81,8 +81,8 @@ impl Stops {
         match event {
             Event::MCode(3 | 4 | 19) => self.spindle_on = true,
             Event::MCode(5 | 6) => self.spindle_on = false,
-            Event::MCode(7 | 8) => self.coolant_on = true,
-            Event::MCode(9) => self.coolant_on = false,
+            Event::MCode(7 | 8) | Event::PassingCode(7 | 8) => self.coolant_on = true,
+            Event::MCode(9) | Event::PassingCode(9) => self.coolant_on = false,
             _ => {}
         }
     }

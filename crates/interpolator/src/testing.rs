@@ -86,12 +86,20 @@ use crate::jog::DemandReader;
 use crate::message::{HAPPENINGS, Happening, Inputs, Order, PortsEnds, Report, Rings};
 use crate::tick::Interpolator;
 use glidepath_geometry::AxisVector;
-use glidepath_link::{Command, JogDemand, MachineState, Setpoint};
+use glidepath_link::{Command, EventRecord, JogDemand, MachineState, Setpoint};
 use glidepath_motion::Planner;
-use glidepath_program::{Effort, Item, ItemKind, Limits, Settings, Smoothing};
+use glidepath_program::{Effort, Event, Item, ItemKind, Limits, Settings, Smoothing};
 use glidepath_realtime::{EventReader, Events, Wake, event_ring};
 use heapless::spsc::Producer;
 use std::collections::VecDeque;
+
+/// Lets an event happen at a frame, and nothing else.
+pub(crate) fn happens(frame: &mut SetpointFrame, event: Event) {
+    frame.silence();
+    let offset_ns = frame.period_ns.try_into().unwrap();
+    frame.events[0] = EventRecord::new(event, offset_ns);
+    frame.event_count = 1;
+}
 
 /// The real-time thread's state with a grid of its own instead of a clock.
 pub(crate) struct Rig {

@@ -21,7 +21,7 @@ use crate::quintic::{Kinematic, Quintic};
 use crate::rest::is_at_rest;
 use crate::stop_time::{StopLimits, StopTime};
 use glidepath_geometry::AxisVector;
-use glidepath_link::{EventKind, SetpointFrame};
+use glidepath_link::SetpointFrame;
 use glidepath_program::{FrameFlags, Limits};
 
 /// Most frames that are owned at a time.
@@ -131,7 +131,7 @@ impl Track {
     pub(crate) fn push_at(&mut self, sequence: u64, frame: &SetpointFrame) {
         let place = self.place(sequence);
         if let Some(slot) = self.frames.get_mut(place) {
-            *slot = *frame;
+            slot.copy_used(frame);
             self.own(sequence);
         }
     }
@@ -174,7 +174,7 @@ impl Track {
     pub(crate) fn silence(&mut self, sequence: u64) {
         let place = self.place(sequence);
         if let Some(frame) = self.frames.get_mut(place) {
-            (frame.event_kind, frame.event_value) = (EventKind::None.code(), 0.0);
+            frame.event_count = 0;
             frame.flags &= !FrameFlags::PROGRAM_STOP.0;
         }
     }

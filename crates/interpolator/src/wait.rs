@@ -12,7 +12,7 @@ use crate::acknowledgements::MOST_TOLD;
 use crate::drives::Drives;
 use crate::gates::{Answer, Gate};
 use crate::message::Awaited;
-use glidepath_link::{EventId, EventKind, FaultCause, Setpoint};
+use glidepath_link::{EventId, EventKind, EventRecord, FaultCause, Setpoint};
 
 /// What became of a wait in a tick.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -82,12 +82,13 @@ impl Wait {
 
     /// Takes note of an M code that is told with a setpoint, and awaited later.
     pub(crate) fn hear(&mut self, setpoint: &Setpoint) {
+        let (event_kind, event_value) = kind_and_value(setpoint.rest_event());
         self.tell(Awaited {
             epoch: setpoint.epoch,
             sequence: setpoint.sequence,
             line: setpoint.line,
-            event_kind: setpoint.event_kind,
-            event_value: setpoint.event_value,
+            event_kind,
+            event_value,
             since_ns: 0,
             told_by: setpoint.number,
             by_feedback: false,
@@ -187,4 +188,11 @@ impl Wait {
             None => Outcome::Open,
         }
     }
+}
+
+/// Kind and value of an event, or that there is none.
+pub(crate) fn kind_and_value(event: Option<&EventRecord>) -> (u32, f64) {
+    event.map_or((EventKind::None.code(), 0.0), |event| {
+        (event.kind, event.value)
+    })
 }

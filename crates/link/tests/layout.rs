@@ -22,18 +22,18 @@ macro_rules! layout {
     };
 }
 
-layout!(setpoint_frame, SetpointFrame, "glidepath.SetpointFrame.v2", 296, {
-    epoch: 0, sequence: 8, period_ns: 16, line: 24, flags: 28, event_kind: 32, block: 36,
-    event_value: 40, path_v: 48, path_s: 56, planned_override: 64, program: 72, position: 80,
-    velocity: 152, acceleration: 224,
+layout!(setpoint_frame, SetpointFrame, "glidepath.SetpointFrame.v3", 800, {
+    epoch: 0, sequence: 8, period_ns: 16, line: 24, flags: 28, event_count: 32, block: 36,
+    path_v: 40, path_s: 48, planned_override: 56, program: 64, position: 72,
+    velocity: 144, acceleration: 216, events: 288,
 });
-layout!(setpoint, Setpoint, "glidepath.Setpoint.v3", 656, {
+layout!(setpoint, Setpoint, "glidepath.Setpoint.v4", 1160, {
     boot_id: 0, reference: 8, number: 16, tick: 24, scheduled_ns: 32, apply_ns: 40,
     lateness_ns: 48, missed_ticks: 56, epoch: 64, sequence: 72, fraction: 80, line: 88, flags: 92,
-    marks: 96, state: 100, event_kind: 104, block: 108, enable: 112, home: 116, event_value: 120,
-    path_s: 128, feed_v: 136, effective_override: 144, position: 152, velocity: 224,
-    acceleration: 296, joint_position: 368, joint_velocity: 440, joint_acceleration: 512,
-    away: 584,
+    marks: 96, state: 100, event_count: 104, block: 108, enable: 112, home: 116,
+    path_s: 120, feed_v: 128, effective_override: 136, position: 144, velocity: 216,
+    acceleration: 288, joint_position: 360, joint_velocity: 432, joint_acceleration: 504,
+    away: 576, events: 648,
 });
 layout!(status, Status, "glidepath.Status.v9", 1496, {
     boot_id: 0, updated_ns: 8, period_ns: 16, tick: 24, epoch: 32, frames_received: 40,

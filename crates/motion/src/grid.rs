@@ -1,15 +1,16 @@
 //! The period grid: what every frame has besides the state of the axes.
 //!
-//! Frames are numbered without gaps. Events are told one a frame, in order, at the place where they
-//! happen or as soon after it as there is a frame; a rest lasts until all of them are told. Where
-//! the motion comes to rest, one frame still belongs to the block that led there: who stops at the
+//! Frames are numbered without gaps. An event that does not stop the motion is told with the frame
+//! that ends its period, and with the time in it at which the motion is at its place: path positions
+//! and speeds of both frames give that. Of more than a period carries, the others follow in the next
+//! one; a rest lasts until all of them are told. Where the motion comes to rest, one frame still belongs to the block that led there: who stops at the
 //! end of every block stops there by the plan itself, and what the next block tells has not been
 //! told. Engines say what they pass and where they rest; the frames are made here, so that they
 //! tell the same story whoever planned them.
 
 use super::rest::{Rest, RestKind};
 use glidepath_geometry::AxisVector;
-use glidepath_program::{Event, Frame, FrameFlags, ProgramLine};
+use glidepath_program::{EVENTS_MOST, Event, Frame, FrameEvents, FrameFlags, ProgramLine};
 use std::collections::VecDeque;
 
 /// Makes frames, one for each period.
@@ -18,7 +19,10 @@ pub(crate) struct FrameGrid {
     period_t: f64,
     sequence: u64,
     passing: Passing,
-    events: VecDeque<Event>,
+    /// Events that the motion comes to in this period, and their path positions, mm.
+    events: VecDeque<(f64, Event)>,
+    /// Path position and speed of the last frame.
+    before: PathPoint,
     /// Frames still to come at rest.
     rest: Option<Resting>,
     /// The motion has come to rest, and no frame has told it yet.
@@ -62,6 +66,40 @@ pub(crate) struct Moving {
     pub acceleration: AxisVector,
 }
 
+/// Where the motion is along the path, and how fast.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct PathPoint {
+    s: f64,
+    v: f64,
+}
+
+impl PathPoint {
+    /// The part of a period, 0 to 1, after which the motion from here to another point, by the cubic
+    /// through both, is at a path position.
+    fn part_to(self, to: Self, at_s: f64, period_t: f64) -> f64 {
+        if at_s <= self.s {
+            return 0.0;
+        }
+        if at_s >= to.s {
+            return 1.0;
+        }
+        let (step, v0, v1) = (to.s - self.s, self.v * period_t, to.v * period_t);
+        let (c2, c3) = (3.0 * step - 2.0 * v0 - v1, v0 + v1 - 2.0 * step);
+        let passed = |u: f64| ((c3 * u + c2) * u + v0) * u >= at_s - self.s;
+        let (mut low, mut high) = (0.0, 1.0);
+        // To a billionth of the period.
+        for _ in 0..30 {
+            let middle = 0.5 * (low + high);
+            if passed(middle) {
+                high = middle;
+            } else {
+                low = middle;
+            }
+        }
+        high
+    }
+}
+
 #[derive(Debug, Clone, Copy)]
 struct Resting {
     frames: u64,
@@ -87,6 +125,7 @@ impl FrameGrid {
             sequence: 0,
             passing: Passing::NONE,
             events: VecDeque::new(),
+            before: PathPoint { s: 0.0, v: 0.0 },
             rest: Some(first),
             arrives: false,
             position: start,
@@ -94,9 +133,11 @@ impl FrameGrid {
         }
     }
 
-    /// The motion comes to another part of the program, whose events happen from now on.
-    pub(crate) fn enter(&mut self, passing: Passing, events: &[Event]) {
-        self.events.extend(events);
+    /// The motion comes to another part of the program, which begins at a path position, and whose
+    /// events happen there.
+    pub(crate) fn enter(&mut self, passing: Passing, events: &[Event], from_s: f64) {
+        self.events
+            .extend(events.iter().map(|event| (from_s, *event)));
         self.passing = passing;
     }
 
@@ -115,6 +156,10 @@ impl FrameGrid {
         self.passing.line = frame.program_line();
         self.passing.planned_override = frame.planned_override;
         self.arrives = false;
+        self.before = PathPoint {
+            s: frame.path_s,
+            v: frame.path_v,
+        };
         let sequence = self.sequence;
         self.sequence += 1;
         Frame { sequence, ..frame }
@@ -130,12 +175,13 @@ impl FrameGrid {
     /// Where the machine rests is 0 from now on.
     pub(crate) const fn count_from_here(&mut self) {
         self.path_s = 0.0;
+        self.before = PathPoint { s: 0.0, v: 0.0 };
     }
 
     /// Sets up the frames of a rest; false if it has none.
     pub(crate) fn enter_rest(&mut self, rest: Rest) -> bool {
         // Events of the motion that still wait happen first, from its end on.
-        let waiting = self.events.len() as u64;
+        let waiting = self.events.len().div_ceil(EVENTS_MOST) as u64;
         let of_motion = waiting.max(u64::from(self.arrives));
         let resting = |frames, flags, event| Resting {
             frames,
@@ -186,8 +232,14 @@ impl FrameGrid {
         let resting = *resting;
         self.arrives = false;
         let last = resting.frames == 0;
-        let queued = self.events.pop_front();
-        let event = queued.or(if last { resting.event } else { None });
+        let to = PathPoint {
+            s: self.path_s,
+            v: 0.0,
+        };
+        let mut events = self.events_up_to(to);
+        if let Some(event) = resting.event.filter(|_| last) {
+            let _has_room = events.push(event, self.period_ns());
+        }
         // The end and the wait for the operator come when nothing is left to happen before them.
         let is_final = FrameFlags::PROGRAM_STOP.with(FrameFlags::LAST).0;
         let flags = if !last && resting.flags.0 & is_final != 0 {
@@ -205,7 +257,7 @@ impl FrameGrid {
             velocity: AxisVector::zeros(),
             acceleration: AxisVector::zeros(),
         };
-        Some(self.frame(&at_rest, flags, event))
+        Some(self.frame(&at_rest, flags, events))
     }
 
     /// The next frame of a motion.
@@ -220,11 +272,49 @@ impl FrameGrid {
             FrameFlags::default()
         };
         self.arrives = false;
-        let event = self.events.pop_front();
-        self.frame(moving, flags, event)
+        let to = PathPoint {
+            s: moving.path_s,
+            v: moving.path_v,
+        };
+        let events = self.events_up_to(to);
+        self.frame(moving, flags, events)
     }
 
-    const fn frame(&mut self, state: &Moving, flags: FrameFlags, event: Option<Event>) -> Frame {
+    /// The events of the period that ends at a point, as many as it carries.
+    fn events_up_to(&mut self, to: PathPoint) -> FrameEvents {
+        let before = core::mem::replace(&mut self.before, to);
+        let mut events = FrameEvents::NONE;
+        if self.events.is_empty() {
+            return events;
+        }
+        let period_ns = self.period_ns();
+        let mut offset_ns = 0;
+        let count = self.events.len().min(EVENTS_MOST);
+        for (at_s, event) in self.events.drain(..count) {
+            let part = before.part_to(to, at_s, self.period_t);
+            #[allow(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "a part of the period, which is a second at most"
+            )]
+            let at_ns = (part * f64::from(period_ns)).round() as u32;
+            offset_ns = offset_ns.max(at_ns);
+            let _has_room = events.push(event, offset_ns);
+        }
+        events
+    }
+
+    /// The period, ns.
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a second at most"
+    )]
+    fn period_ns(&self) -> u32 {
+        (self.period_t * 1e9).round() as u32
+    }
+
+    const fn frame(&mut self, state: &Moving, flags: FrameFlags, events: FrameEvents) -> Frame {
         let sequence = self.sequence;
         self.sequence += 1;
         Frame {
@@ -232,7 +322,7 @@ impl FrameGrid {
             line: self.passing.line.number,
             block: self.passing.line.block,
             flags,
-            event,
+            events,
             planned_override: self.passing.planned_override,
             path_v: state.path_v,
             path_s: state.path_s,

@@ -82,6 +82,7 @@
 //! | `_k` | curvature, 1/mm |
 
 mod error;
+mod event_pace;
 mod feed_axes;
 mod grid;
 mod guard;

@@ -1,5 +1,6 @@
 //! The planner: items in, frames out.
 
+use super::event_pace::{EventPace, Paced};
 use super::guard::GuardedFrames;
 use super::on_path::OnPathEngine;
 use super::stretches::StretchEngine;
@@ -20,6 +21,7 @@ use std::sync::Arc;
 pub struct Planner {
     engine: Engine,
     frames: GuardedFrames,
+    pace: EventPace,
 }
 
 /// How motion is planned.
@@ -38,6 +40,13 @@ impl Engine {
             }
         }
     }
+
+    fn push(&mut self, item: &Item) -> Result<(), PlanError> {
+        match self {
+            Self::OnPath(engine) => engine.push(item),
+            Self::Stretches(engine) => engine.push(item),
+        }
+    }
 }
 
 impl Planner {
@@ -47,6 +56,7 @@ impl Planner {
         Self {
             engine: Engine::new(settings, start),
             frames: GuardedFrames::new(&settings, start),
+            pace: EventPace::new(&settings),
         }
     }
 
@@ -84,10 +94,14 @@ impl Planner {
     /// After [`Planner::pop_frame`] has failed, its error.
     pub fn push(&mut self, item: &Item) -> Result<(), PlanError> {
         self.frames.check()?;
-        match &mut self.engine {
-            Engine::OnPath(engine) => engine.push(item),
-            Engine::Stretches(engine) => engine.push(item),
+        let mut pace = self.pace;
+        let Paced { rest, item } = pace.take(item);
+        if let Some(rest) = rest {
+            self.engine.push(&rest)?;
         }
+        self.engine.push(&item)?;
+        self.pace = pace;
+        Ok(())
     }
 
     /// No more items: what is planned ends at rest. Further calls do nothing.

@@ -5,6 +5,10 @@ use std::time::Duration;
 use glidepath_program::{Frame, Item};
 
 /// One step of a pipeline.
+#[allow(
+    clippy::large_enum_variant,
+    reason = "there is one at a time, and nearly all of them are frames"
+)]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Output {
     /// The planner took this item. An auditor listens to these.

@@ -4,7 +4,7 @@ use crate::joint::{Joint, JointSettings};
 use crate::spindle::{Spindle, SpindleSettings};
 use bytemuck::Zeroable as _;
 use glidepath_link::servo::{JointState, JointStates};
-use glidepath_link::{DriveState, Feedback, LatchKind, Setpoint};
+use glidepath_link::{DriveState, EventRecord, Feedback, LatchKind, Setpoint};
 use std::collections::VecDeque;
 
 /// The input of the index pulse of joint 0; those of the others follow.
@@ -202,12 +202,12 @@ impl Plant {
         self.number += 1;
     }
 
-    /// The event of a setpoint, once.
+    /// The events of a setpoint, once.
     fn carry_out(&mut self, setpoint: &Setpoint) {
         let which = (setpoint.boot_id, setpoint.number);
         if self.carried_out != Some(which) {
             self.carried_out = Some(which);
-            if let Ok(Some(event)) = setpoint.event() {
+            for event in setpoint.events().iter().flat_map(EventRecord::event) {
                 self.spindle.take(event);
             }
         }

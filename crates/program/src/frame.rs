@@ -1,6 +1,6 @@
 //! The planner's product: the state of the machine at one instant of program time.
 
-use crate::{Event, ProgramLine};
+use crate::{FrameEvents, ProgramLine};
 use glidepath_geometry::AxisVector;
 
 /// Properties of a frame, one bit each.
@@ -51,8 +51,8 @@ pub struct Frame {
     pub block: u32,
     /// Properties.
     pub flags: FrameFlags,
-    /// The event that happens at this instant, at most one a frame.
-    pub event: Option<Event>,
+    /// The events of the period that ends here.
+    pub events: FrameEvents,
     /// The override this was planned with: of the feed, or of rapids on a rapid.
     pub planned_override: f64,
     /// Rate of path position, mm/s.
@@ -86,7 +86,7 @@ impl Frame {
             line: 0,
             block: 0,
             flags: FrameFlags::default(),
-            event: None,
+            events: FrameEvents::NONE,
             planned_override: 1.0,
             path_v: 0.0,
             path_s: 0.0,

@@ -123,6 +123,9 @@ pub enum Event {
     SelectTool(u32),
     /// An M code other than the program stops. The machine is at rest when it happens.
     MCode(u32),
+    /// An M code that needs no rest (M7 to M9, M48, M49) of a machine that does not wait for it.
+    /// Does not stop the motion.
+    PassingCode(u32),
     /// M0 or M60: the machine rests until the operator resumes.
     ProgramStop(u32),
     /// M1: like [`Event::ProgramStop`] if the operator asked for optional stops.
@@ -186,6 +189,7 @@ impl Event {
         match self {
             Self::SpindleSpeed(_)
             | Self::SelectTool(_)
+            | Self::PassingCode(_)
             | Self::DigitalOutput { .. }
             | Self::AnalogOutput { .. } => false,
             Self::MCode(_)

@@ -40,6 +40,7 @@
 //! ```
 
 mod frame;
+mod frame_events;
 mod item;
 mod limits;
 mod override_;
@@ -47,6 +48,7 @@ mod settings;
 mod travel;
 
 pub use frame::{Frame, FrameFlags};
+pub use frame_events::{EVENTS_MOST, FrameEvents, TimedEvent};
 pub use item::{
     CodeWord, Event, Item, ItemKind, PHASE_STEPS, PathMode, ProgramLine, Rate, TAP_DEPTHS_UM,
     TAP_OVERTRAVEL,

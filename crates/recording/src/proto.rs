@@ -3,7 +3,7 @@
 
 use crate::table::{FieldOf, Message};
 use core::fmt::Write as _;
-use glidepath_link::{Setpoint, Status};
+use glidepath_link::{EventRecord, Setpoint, Status};
 
 /// The text of `glidepath.proto`.
 #[must_use]
@@ -13,6 +13,7 @@ pub fn proto() -> String {
                     // What the fields mean, with units: crates/link/src/record.\n\
                     syntax = \"proto3\";\n\npackage glidepath;\n"
         .to_owned();
+    put(EventRecord::NAME, &EventRecord::fields(), &mut text);
     put(Setpoint::NAME, &Setpoint::fields(), &mut text);
     put(Status::NAME, &Status::fields(), &mut text);
     text

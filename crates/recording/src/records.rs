@@ -2,8 +2,9 @@
 //! number of a field that is gone is not given again.
 
 use crate::table::message;
-use glidepath_link::{Setpoint, Status};
+use glidepath_link::{EventRecord, Setpoint, Status};
 
+// 16 and 20 were the one event that there was.
 message!(Setpoint, "glidepath.Setpoint", {
     1 boot_id,
     2 reference,
@@ -20,11 +21,9 @@ message!(Setpoint, "glidepath.Setpoint", {
     13 flags,
     14 marks,
     15 state,
-    16 event_kind,
     17 block,
     18 enable,
     19 home,
-    20 event_value,
     21 path_s,
     22 feed_v,
     23 effective_override,
@@ -35,6 +34,18 @@ message!(Setpoint, "glidepath.Setpoint", {
     28 joint_velocity,
     29 joint_acceleration,
     30 away,
+    31 event_count,
+    32 events,
+});
+
+message!(EventRecord, "glidepath.Event", {
+    1 value,
+    2 offset_ns,
+    3 kind,
+    4 number,
+    5 axis,
+    6 depth_um,
+    7 phase,
 });
 
 message!(Status, "glidepath.Status", {

@@ -2,12 +2,13 @@
 //! reading and the description in the file are all made from it.
 
 use crate::protobuf::{Fields, Malformed, Wire, put_bytes, put_fixed64, put_varint};
-use glidepath_link::{CodeWords, Quantiles, Text};
+use glidepath_link::{CodeWords, EventRecord, Quantiles, Text};
 
 /// Types of a `FieldDescriptorProto`.
 const DOUBLE: u64 = 1;
 const FIXED64: u64 = 6;
 const STRING: u64 = 9;
+const MESSAGE: u64 = 11;
 const UINT32: u64 = 13;
 /// Its labels.
 const OPTIONAL: u64 = 1;
@@ -17,8 +18,27 @@ const REPEATED: u64 = 3;
 pub(crate) trait Value {
     /// Type and label in the description.
     const TYPE: (u64, u64);
+    /// The message that it is, where it is one.
+    const MESSAGE: Option<Nested> = None;
     fn put(&self, number: u32, out: &mut Vec<u8>);
     fn get(&mut self, wire: Wire<'_>) -> Result<(), Malformed>;
+}
+
+/// A message within messages.
+#[derive(Clone, Copy)]
+pub(crate) struct Nested {
+    /// Its full name.
+    pub(crate) name: &'static str,
+    pub(crate) fields: fn() -> Vec<FieldOf>,
+}
+
+impl Nested {
+    const fn of<M: Message>() -> Self {
+        Self {
+            name: M::NAME,
+            fields: M::fields,
+        }
+    }
 }
 
 /// Eight bytes each, alone or in a row.
@@ -146,6 +166,28 @@ impl Value for CodeWords {
     }
 }
 
+/// Each a message of its own; those that are not used, which have no kind, are left out.
+impl<const N: usize> Value for [EventRecord; N] {
+    const TYPE: (u64, u64) = (MESSAGE, REPEATED);
+    const MESSAGE: Option<Nested> = Some(Nested::of::<EventRecord>());
+
+    fn put(&self, number: u32, out: &mut Vec<u8>) {
+        for event in self.iter().filter(|event| event.kind != 0) {
+            let mut bytes = Vec::new();
+            Message::put(event, &mut bytes);
+            put_bytes(number, &bytes, out);
+        }
+    }
+
+    fn get(&mut self, wire: Wire<'_>) -> Result<(), Malformed> {
+        let Wire::Bytes(bytes) = wire else {
+            return Err(Malformed);
+        };
+        let free = self.iter_mut().find(|event| event.kind == 0);
+        free.ok_or(Malformed)?.read(bytes)
+    }
+}
+
 #[allow(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -164,6 +206,7 @@ pub(crate) struct FieldOf {
     pub(crate) name: &'static str,
     pub(crate) number: u32,
     pub(crate) kind: (u64, u64),
+    pub(crate) message: Option<Nested>,
     /// Bytes in the record.
     #[cfg(test)]
     pub(crate) size: usize,
@@ -171,16 +214,44 @@ pub(crate) struct FieldOf {
 
 impl FieldOf {
     /// Its type, as Protocol Buffers write it.
-    pub(crate) const fn type_name(&self) -> &'static str {
-        match self.kind {
+    pub(crate) fn type_name(&self) -> String {
+        if let Some(message) = self.message {
+            let (_, name) = parted(message.name);
+            return format!("repeated {name}");
+        }
+        let name = match self.kind {
             (DOUBLE, REPEATED) => "repeated double",
             (DOUBLE, _) => "double",
             (FIXED64, REPEATED) => "repeated fixed64",
             (FIXED64, _) => "fixed64",
             (STRING, _) => "string",
             _ => "uint32",
-        }
+        };
+        name.to_owned()
     }
+}
+
+/// Package and name of a message.
+pub(crate) fn parted(name: &'static str) -> (&'static str, &'static str) {
+    name.rsplit_once('.').unwrap_or(("", name))
+}
+
+/// A `DescriptorProto`.
+fn described_message(name: &'static str, fields: &[FieldOf]) -> Vec<u8> {
+    let mut message = Vec::new();
+    put_bytes(1, parted(name).1.as_bytes(), &mut message);
+    for field in fields {
+        let mut described = Vec::new();
+        put_bytes(1, field.name.as_bytes(), &mut described);
+        put_varint(3, field.number.into(), &mut described);
+        put_varint(4, field.kind.1, &mut described);
+        put_varint(5, field.kind.0, &mut described);
+        if let Some(message) = field.message {
+            put_bytes(6, format!(".{}", message.name).as_bytes(), &mut described);
+        }
+        put_bytes(2, &described, &mut message);
+    }
+    message
 }
 
 /// A record that is a message.
@@ -201,23 +272,17 @@ pub(crate) trait Message: Sized {
         Ok(())
     }
 
-    /// A `FileDescriptorSet` with this message in it.
+    /// A `FileDescriptorSet` with this message in it, and those within it.
     fn description() -> Vec<u8> {
-        let (package, name) = Self::NAME.rsplit_once('.').unwrap_or(("", Self::NAME));
-        let mut message = Vec::new();
-        put_bytes(1, name.as_bytes(), &mut message);
-        for field in Self::fields() {
-            let mut described = Vec::new();
-            put_bytes(1, field.name.as_bytes(), &mut described);
-            put_varint(3, field.number.into(), &mut described);
-            put_varint(4, field.kind.1, &mut described);
-            put_varint(5, field.kind.0, &mut described);
-            put_bytes(2, &described, &mut message);
-        }
         let mut file = Vec::new();
         put_bytes(1, format!("{}.proto", Self::NAME).as_bytes(), &mut file);
-        put_bytes(2, package.as_bytes(), &mut file);
-        put_bytes(4, &message, &mut file);
+        put_bytes(2, parted(Self::NAME).0.as_bytes(), &mut file);
+        let fields = Self::fields();
+        for nested in fields.iter().filter_map(|field| field.message) {
+            let message = described_message(nested.name, &(nested.fields)());
+            put_bytes(4, &message, &mut file);
+        }
+        put_bytes(4, &described_message(Self::NAME, &fields), &mut file);
         // In this syntax numbers in a row are packed.
         put_bytes(12, b"proto3", &mut file);
         let mut set = Vec::new();
@@ -237,6 +302,7 @@ pub(crate) fn described<V: Value>(name: &'static str, number: u32, value: &V) ->
         name,
         number,
         kind,
+        message: V::MESSAGE,
         #[cfg(test)]
         size: size_of::<V>(),
     }

@@ -6,8 +6,8 @@ Written by a test of the library: do not change it here.
 import ctypes
 import enum
 
-ABI = 3
-LAYOUT = 0x257be0137e94ded6
+ABI = 4
+LAYOUT = 0x94b7a3391cbd1c05
 AXES = 9
 
 
@@ -158,7 +158,7 @@ class Contact(enum.IntEnum):
 
 
 class Event(enum.IntEnum):
-    """What the lowest byte of event_kind says."""
+    """What an event is: kind of a gp_event, and the lowest byte of event_kind of a gp_segment."""
 
     NONE = 0
     SPINDLE_SPEED = 1
@@ -174,6 +174,7 @@ class Event(enum.IntEnum):
     CODE_WORD_Q = 11
     AWAIT = 12
     TAP = 13
+    PASSING_CODE = 14
 
 
 class Drive(enum.IntEnum):
@@ -361,6 +362,20 @@ class LatchRecord(ctypes.Structure):
     ]
 
 
+class EventRecord(ctypes.Structure):
+    """An event in the period of a setpoint."""
+
+    _fields_ = [
+        ("value", ctypes.c_double),
+        ("offset_ns", ctypes.c_uint32),
+        ("kind", ctypes.c_uint32),
+        ("number", ctypes.c_uint32),
+        ("axis", ctypes.c_uint32),
+        ("depth_um", ctypes.c_uint32),
+        ("phase", ctypes.c_uint32),
+    ]
+
+
 class SetpointRecord(ctypes.Structure):
     """What the drives are to do at apply_ns."""
 
@@ -380,11 +395,10 @@ class SetpointRecord(ctypes.Structure):
         ("flags", ctypes.c_uint32),
         ("marks", ctypes.c_uint32),
         ("state", ctypes.c_uint32),
-        ("event_kind", ctypes.c_uint32),
+        ("event_count", ctypes.c_uint32),
         ("block", ctypes.c_uint32),
         ("enable", ctypes.c_uint32),
         ("home", ctypes.c_uint32),
-        ("event_value", ctypes.c_double),
         ("path_s", ctypes.c_double),
         ("feed_v", ctypes.c_double),
         ("effective_override", ctypes.c_double),
@@ -395,6 +409,7 @@ class SetpointRecord(ctypes.Structure):
         ("joint_velocity", ctypes.c_double * 9),
         ("joint_acceleration", ctypes.c_double * 9),
         ("away", ctypes.c_double * 9),
+        ("events", EventRecord * 16),
     ]
 
 
@@ -686,7 +701,16 @@ PLACES = {
         "kind": 96,
         "reserved": 100,
     }),
-    SetpointRecord: (656, {
+    EventRecord: (32, {
+        "value": 0,
+        "offset_ns": 8,
+        "kind": 12,
+        "number": 16,
+        "axis": 20,
+        "depth_um": 24,
+        "phase": 28,
+    }),
+    SetpointRecord: (1160, {
         "boot_id": 0,
         "reference": 8,
         "number": 16,
@@ -702,21 +726,21 @@ PLACES = {
         "flags": 92,
         "marks": 96,
         "state": 100,
-        "event_kind": 104,
+        "event_count": 104,
         "block": 108,
         "enable": 112,
         "home": 116,
-        "event_value": 120,
-        "path_s": 128,
-        "feed_v": 136,
-        "effective_override": 144,
-        "position": 152,
-        "velocity": 224,
-        "acceleration": 296,
-        "joint_position": 368,
-        "joint_velocity": 440,
-        "joint_acceleration": 512,
-        "away": 584,
+        "path_s": 120,
+        "feed_v": 128,
+        "effective_override": 136,
+        "position": 144,
+        "velocity": 216,
+        "acceleration": 288,
+        "joint_position": 360,
+        "joint_velocity": 432,
+        "joint_acceleration": 504,
+        "away": 576,
+        "events": 648,
     }),
     StatusRecord: (1496, {
         "boot_id": 0,

@@ -4,7 +4,7 @@ use super::structure::Structure;
 use super::{demands, digest, own, records};
 
 /// The version of the ABI: functions and structures. It rises with every change of either.
-pub(crate) const ABI: u32 = 3;
+pub(crate) const ABI: u32 = 4;
 
 /// All structures, each after those it is made of.
 pub(super) const STRUCTURES: &[&Structure] = &[
@@ -12,6 +12,7 @@ pub(super) const STRUCTURES: &[&Structure] = &[
     &records::EVENT_ID,
     &records::CODE_WORDS,
     &records::LATCH,
+    &records::EVENT,
     &records::SETPOINT,
     &records::STATUS,
     &records::FEEDBACK,

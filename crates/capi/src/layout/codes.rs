@@ -126,7 +126,7 @@ pub(super) fn codes() -> Vec<Codes> {
         all!("CONTACT", "What a probe has found.", ContactKind),
         all!(
             "EVENT",
-            "What the lowest byte of event_kind says.",
+            "What an event is: kind of a gp_event, and the lowest byte of event_kind of a gp_segment.",
             EventKind
         ),
         all!(

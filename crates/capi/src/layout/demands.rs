@@ -50,7 +50,8 @@ structure! {
         mode: u32,
         /// Of an arc: a GP_PLANE_.
         plane: u32,
-        /// Of an event: its code, as in gp_setpoint.
+        /// Of an event: a GP_EVENT_ in the lowest byte; above it the number of an output, or a phase, or
+        /// an axis in four bits and a depth in micrometres.
         event_kind: u32,
         /// The event's number (speed, tool, M code).
         event_value: f64,

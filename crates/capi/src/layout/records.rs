@@ -3,8 +3,8 @@
 use super::structure::{Each, Field, InC, Structure, structure};
 
 use glidepath_link::{
-    CodeWords, CommandReply, EventId, FRAME_REFUSALS, Feedback, LATCHES, Latch, Quantiles, Record,
-    Setpoint, Status, Text,
+    CodeWords, CommandReply, EVENTS_MOST, EventId, EventRecord, FRAME_REFUSALS, Feedback, LATCHES,
+    Latch, Quantiles, Record, Setpoint, Status, Text,
 };
 
 structure! {
@@ -68,8 +68,28 @@ structure! {
 }
 
 structure! {
+    /// An event in the period of a setpoint.
+    EVENT: "gp_event" = EventRecord, "", 32 {
+        /// Speed (rev/min), tool, M code, value of an output, way of a revolution (mm).
+        value: f64,
+        /// When it happens: ns after scheduled_ns of its setpoint, up to a period.
+        offset_ns: u32,
+        /// A GP_EVENT_.
+        kind: u32,
+        /// Of an output: which; else 0.
+        number: u32,
+        /// Of a tapped hole: index of the axis; else 0.
+        axis: u32,
+        /// Of a tapped hole: depth in micrometres; else 0.
+        depth_um: u32,
+        /// Of a pass of a thread: the angle it begins at, in 2^-24 of a revolution; else 0.
+        phase: u32,
+    }
+}
+
+structure! {
     /// What the drives are to do at apply_ns.
-    SETPOINT: "gp_setpoint" = Setpoint, Setpoint::NAME, 656 {
+    SETPOINT: "gp_setpoint" = Setpoint, Setpoint::NAME, 1160 {
         /// Identifies one life of the interpolator: all counts start again with a new one.
         boot_id: u64,
         /// Counts how often the position was taken from the drives, or given a new meaning, instead
@@ -104,9 +124,8 @@ structure! {
         marks: u32,
         /// A GP_STATE_.
         state: u32,
-        /// The event that happens now: a GP_EVENT_ in the lowest byte, the number of an output
-        /// above it.
-        event_kind: u32,
+        /// How many of events are used.
+        event_count: u32,
         /// Block of the program being executed, 0 before the first.
         block: u32,
         /// The joints whose drives are to have power, one bit each, J0 lowest.
@@ -115,8 +134,6 @@ structure! {
         /// positions here are those they report, and nothing to be followed: having found it, they
         /// stay there until their bit is 0.
         home: u32,
-        /// The event's number (speed, tool, M code), 0 without an event.
-        event_value: f64,
         /// Path position since the start of the program, mm.
         path_s: f64,
         /// Rate of path position as executed, mm/s; below 0 while the motion goes back.
@@ -138,6 +155,8 @@ structure! {
         /// How far the axes are from the path, mm or degrees, because they were jogged while the
         /// program was held: the positions above are those of the path and this together.
         away: Each<f64>,
+        /// What happens in the period from scheduled_ns to apply_ns, in order.
+        events: [EventRecord; EVENTS_MOST],
     }
 }
 

@@ -1,7 +1,7 @@
 //! A structure and its fields, and the macro that holds a list of them against a Rust type.
 
 use glidepath_geometry::AXES;
-use glidepath_link::{CodeWords, EventId, Latch, Quantiles, Text};
+use glidepath_link::{CodeWords, EventId, EventRecord, Latch, Quantiles, Text};
 
 /// A structure of the library.
 #[derive(Debug)]
@@ -65,6 +65,7 @@ in_c! {
     f64: "double",
     Quantiles: "gp_quantiles",
     EventId: "gp_event_id",
+    EventRecord: "gp_event",
     CodeWords: "gp_code_words",
     Latch: "gp_latch",
 }

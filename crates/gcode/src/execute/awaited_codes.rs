@@ -48,7 +48,7 @@ impl AwaitedCodes {
             | ItemKind::Event(Event::Probe { .. } | Event::Synchronise { .. }) => {
                 self.at_feed.pop().map(|code| self.awaited(code))
             }
-            ItemKind::Event(Event::MCode(code)) => {
+            ItemKind::Event(Event::MCode(code) | Event::PassingCode(code)) => {
                 self.tell(code);
                 None
             }

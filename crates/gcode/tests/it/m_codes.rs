@@ -83,7 +83,7 @@ fn course(text: &str, options: Options) -> Vec<String> {
             ItemKind::Move { rate, .. } if rate.is_rapid() => "rapid".to_owned(),
             ItemKind::Move { .. } => "feed".to_owned(),
             ItemKind::Dwell(_) => "dwell".to_owned(),
-            ItemKind::Event(Event::MCode(code)) => format!("M{code}"),
+            ItemKind::Event(Event::MCode(code) | Event::PassingCode(code)) => format!("M{code}"),
             ItemKind::Event(Event::Await(code)) => format!("wait M{code}"),
             ItemKind::Event(event) => format!("{event:?}"),
         })

@@ -40,7 +40,9 @@ fn items(text: &str) -> String {
             }
             ItemKind::Dwell(seconds) => write!(all, "dwell{seconds} ").expect("a string"),
             ItemKind::Event(event) => match event {
-                Event::MCode(code) => write!(all, "M{code} ").expect("a string"),
+                Event::MCode(code) | Event::PassingCode(code) => {
+                    write!(all, "M{code} ").expect("a string");
+                }
                 Event::SpindleSpeed(speed) => write!(all, "S{speed:.0} ").expect("a string"),
                 other => write!(all, "{other:?} ").expect("a string"),
             },

@@ -217,8 +217,8 @@ fn a_block_acts_in_the_prescribed_order() {
             (line, event(Event::SelectTool(7))),
             (line, event(Event::MCode(6))),
             (line, event(Event::MCode(3))),
-            (line, event(Event::MCode(8))),
-            (line, event(Event::MCode(48))),
+            (line, event(Event::PassingCode(8))),
+            (line, event(Event::PassingCode(48))),
             (line, ItemKind::Dwell(2.5)),
         ]
     );
@@ -227,7 +227,7 @@ fn a_block_acts_in_the_prescribed_order() {
         kinds[8..],
         [
             (1, event(Event::ProgramStop(0))),
-            (2, event(Event::MCode(9))),
+            (2, event(Event::PassingCode(9))),
             (2, event(Event::OptionalStop)),
             (3, event(Event::ProgramStop(60))),
         ]

@@ -19,7 +19,7 @@ fn items(text: &str) -> String {
                 };
                 format!("{feed}({:.1},{:.1})", end[0], end[2])
             }
-            ItemKind::Event(Event::MCode(code)) => format!("M{code}"),
+            ItemKind::Event(Event::MCode(code) | Event::PassingCode(code)) => format!("M{code}"),
             ItemKind::Event(Event::SpindleSpeed(speed)) => format!("S{speed:.0}"),
             other => format!("{other:?}"),
         },

@@ -63,6 +63,15 @@ pub struct MotionReport {
     /// of a plan, where joints are not axes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_joint_line_error: Option<f64>,
+    /// Events that do not stop the motion; absent if there are none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub events: Option<u64>,
+    /// How far from its place the motion was when one of them happened, at most, mm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_event_off_mm: Option<f64>,
+    /// The same in the mean, mm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mean_event_off_mm: Option<f64>,
     /// Breaches of limits, tolerance or order the auditor found. More than none is a defect of
     /// ours.
     pub violation_count: u64,
@@ -119,6 +128,9 @@ impl MotionReport {
             max_acceleration_ratio: audit.max_acceleration_ratio.ratio,
             max_jerk_ratio: audit.max_jerk_ratio.ratio,
             max_feed_ratio: audit.max_feed_ratio.ratio,
+            events: (audit.events > 0).then_some(audit.events),
+            max_event_off_mm: (audit.events > 0).then_some(audit.max_event_off_mm),
+            mean_event_off_mm: (audit.events > 0).then_some(audit.mean_event_off_mm),
             violation_count: audit.violation_count,
             violations: shown(&audit.violations),
             smoothness_finding_count: audit.tremor_count,
@@ -150,6 +162,20 @@ impl MotionReport {
         text
     }
 
+    /// How far from their places the events happen that do not stop the motion.
+    fn write_events(&self, text: &mut String) -> core::fmt::Result {
+        let (Some(events), Some(mean_mm), Some(most_mm)) =
+            (self.events, self.mean_event_off_mm, self.max_event_off_mm)
+        else {
+            return Ok(());
+        };
+        writeln!(
+            text,
+            "  events        {}, off their places by {mean_mm:.4} mm in the mean, {most_mm:.4} mm at most",
+            grouped(events)
+        )
+    }
+
     fn write_text(&self, text: &mut String) -> core::fmt::Result {
         writeln!(
             text,
@@ -175,6 +201,7 @@ impl MotionReport {
             percent(self.max_jerk_ratio),
             percent(self.max_feed_ratio)
         )?;
+        self.write_events(text)?;
         self.write_planning(text)?;
         let end: Vec<String> = self
             .final_position

@@ -7,7 +7,7 @@
 
 use super::settings::AdaptiveFeed;
 use crate::message::Report;
-use glidepath_link::{EventKind, Feedback, MotionMode};
+use glidepath_link::{Feedback, MotionMode};
 use glidepath_program::{CodeWord, Event};
 
 /// Least change of the factor, but for those to 0 and 1.
@@ -58,9 +58,7 @@ impl AdaptiveWatch {
         let Some(settings) = self.settings else {
             return;
         };
-        if setpoint.event_kind == EventKind::None.code() {
-            return;
-        }
+        // Both are at rest.
         match setpoint.event() {
             Ok(Some(Event::CodeWord {
                 word: CodeWord::P,

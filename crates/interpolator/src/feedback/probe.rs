@@ -10,7 +10,8 @@ use super::claims::Joints;
 use super::settings::ProbeInput;
 use crate::message::Report;
 use glidepath_kinematics::{JOINTS, JointVector};
-use glidepath_link::{ContactKind, EndOfEpoch, EventKind, Feedback};
+use glidepath_link::{ContactKind, EndOfEpoch, Feedback};
+use glidepath_program::Event;
 
 /// What a search has found.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -69,10 +70,12 @@ impl ProbeWatch {
         let setpoint = &report.setpoint;
         self.guard.moves = setpoint.velocity.iter().any(|v| v.abs() > 0.0);
         self.is_open = report.end_of_epoch == EndOfEpoch::Open;
-        if setpoint.event_kind == EventKind::Probe.code() && self.is_open {
+        if let Ok(Some(Event::Probe { release })) = setpoint.event()
+            && self.is_open
+        {
             self.search = Some(Search {
                 epoch: setpoint.epoch,
-                release: setpoint.event_value > 0.0,
+                release,
                 since_ns: setpoint.scheduled_ns,
                 before: None,
                 found: None,

@@ -7,6 +7,7 @@
 
 use super::observation::Turn;
 use crate::message::Report;
+use glidepath_link::EventRecord;
 use glidepath_program::{Event, FrameFlags};
 
 /// Least change of the factor, in parts of it, but for those to 0 and 1: half of what a feed per
@@ -44,8 +45,10 @@ impl RevolutionWatch {
     /// Takes note of a setpoint: what it tells the spindle, and whether it is of such a move.
     pub(super) fn note(&mut self, report: &Report) {
         let setpoint = &report.setpoint;
-        if let Ok(Some(Event::SpindleSpeed(per_min))) = setpoint.event() {
-            self.told_v = per_min / 60.0;
+        for event in setpoint.events().iter().flat_map(EventRecord::event) {
+            if let Event::SpindleSpeed(per_min) = event {
+                self.told_v = per_min / 60.0;
+            }
         }
         self.is_on = setpoint.has(FrameFlags::PER_REV);
     }
@@ -93,15 +96,15 @@ impl RevolutionWatch {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glidepath_link::EventKind;
 
     const MS: u64 = 1_000_000;
 
     fn watch(per_min: f64) -> RevolutionWatch {
         let mut watch = RevolutionWatch::new(12 * MS);
         let mut report = Report::blank();
-        report.setpoint.event_kind = EventKind::SpindleSpeed.code();
-        report.setpoint.event_value = per_min;
+        report.setpoint.silence();
+        let speed = EventRecord::new(Event::SpindleSpeed(per_min), 0);
+        assert!(report.setpoint.tell(speed));
         watch.note(&report);
         report = Report::blank();
         report.setpoint.flags = FrameFlags::PER_REV.0;

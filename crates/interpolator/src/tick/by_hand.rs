@@ -6,7 +6,7 @@ use crate::jog::Surroundings;
 use crate::message::{Inputs, Order};
 use crate::output::Written;
 use crate::stops::StopCause;
-use glidepath_link::{Command, EndOfEpoch, EventKind, FaultCause, MachineState, Setpoint};
+use glidepath_link::{Command, EndOfEpoch, EventRecord, FaultCause, MachineState, Setpoint};
 use glidepath_program::Event;
 use glidepath_realtime::Wake;
 
@@ -193,9 +193,8 @@ impl Interpolator<'_> {
         if self.is_open() || self.moves_by_hand() {
             return;
         }
-        if let Some(Event::MCode(code)) = self.stops.take() {
-            setpoint.event_kind = EventKind::MCode.code();
-            setpoint.event_value = f64::from(code);
+        if let Some(event) = self.stops.take() {
+            let _has_room = setpoint.tell(EventRecord::new(event, 0));
             self.tell_spindle(setpoint);
         }
     }

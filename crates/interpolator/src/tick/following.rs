@@ -10,7 +10,7 @@ use crate::program_time::ProgramTime;
 use crate::rate::Situation;
 use crate::spindle::{Follow, Hole, Lead, LeadOutcome, SpindleSeen, Tap};
 use glidepath_geometry::AxisVector;
-use glidepath_link::{EventKind, FaultCause, Setpoint, SpindleFlags};
+use glidepath_link::{EventRecord, FaultCause, Setpoint, SpindleFlags};
 use glidepath_program::{Event, FrameFlags};
 use glidepath_realtime::Wake;
 
@@ -107,9 +107,9 @@ impl Interpolator<'_> {
         }
     }
 
-    /// Tells a spindle that is simulated of an event, and what stops with the motion.
+    /// Tells a spindle that is simulated what happens, and what stops with the motion.
     pub(super) fn tell_spindle(&mut self, setpoint: &Setpoint) {
-        if let Ok(Some(event)) = setpoint.event() {
+        for event in setpoint.events().iter().flat_map(EventRecord::event) {
             self.simulated_spindle.hear(event);
             self.stops.hear(event);
         }
@@ -300,11 +300,12 @@ impl Interpolator<'_> {
         self.judge(written, tick);
         if let Some(turns) = step.turns {
             let code = match turns {
-                turns if turns > 0.0 => 3.0,
-                turns if turns < 0.0 => 4.0,
-                _ => 5.0,
+                turns if turns > 0.0 => 3,
+                turns if turns < 0.0 => 4,
+                _ => 5,
             };
-            (setpoint.event_kind, setpoint.event_value) = (EventKind::MCode.code(), code);
+            let period_ns = u32::try_from(period_ns).unwrap_or(u32::MAX);
+            let _has_room = setpoint.tell(EventRecord::new(Event::MCode(code), period_ns));
             self.tell_spindle(setpoint);
         }
         // Where it stopped for a fault, it stays until the epoch has ended.

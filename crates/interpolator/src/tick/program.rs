@@ -10,8 +10,8 @@ use crate::rate::{Situation, beside_full};
 use crate::rest::SAME_POSITION;
 use crate::stops::StopCause;
 use glidepath_geometry::AxisVector;
-use glidepath_link::{EndOfEpoch, EventKind, FaultCause, FrameRefusal, Setpoint, SetpointFrame};
-use glidepath_program::FrameFlags;
+use glidepath_link::{EndOfEpoch, FaultCause, FrameRefusal, Setpoint, SetpointFrame};
+use glidepath_program::{Event, FrameFlags};
 
 /// Frames taken from the ring in one tick. More than one, so that the track fills up; few, so that
 /// a tick stays short.
@@ -188,16 +188,16 @@ impl Interpolator<'_> {
         if self.requests.retraces() {
             self.place_retraced(setpoint);
         }
-        if setpoint.event_kind != EventKind::None.code() {
-            self.hear_event(setpoint);
+        if setpoint.event_count != 0 {
+            self.hear_events(setpoint);
         }
     }
 
     /// Takes note of what happens with a setpoint.
     #[cold]
     #[inline(never)]
-    fn hear_event(&mut self, setpoint: &Setpoint) {
-        if setpoint.event_kind == EventKind::Probe.code() {
+    fn hear_events(&mut self, setpoint: &Setpoint) {
+        if matches!(setpoint.event(), Ok(Some(Event::Probe { .. }))) {
             self.probing.begin();
         }
         if self.track.gates().late(setpoint).is_some() {

@@ -23,11 +23,11 @@ mod tap_by_axis;
 
 use super::*;
 use crate::config::Config;
-use crate::testing::{Numbers, Rig, lines, mill, plan, random_cases, records};
+use crate::testing::{Numbers, Rig, happens, lines, mill, plan, random_cases, records};
 use glidepath_geometry::AxisVector;
 use glidepath_link::SetpointFrame;
-use glidepath_link::{Command, EndOfEpoch, MachineState, SetpointMarks};
-use glidepath_program::FrameFlags;
+use glidepath_link::{Command, EndOfEpoch, EventRecord, MachineState, SetpointMarks};
+use glidepath_program::{Event, FrameFlags};
 use proptest::prelude::*;
 
 const INSIDE: f64 = 1.0 + 1e-6;

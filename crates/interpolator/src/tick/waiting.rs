@@ -4,7 +4,7 @@ use super::state::Interpolator;
 use crate::gates::Answer;
 use crate::message::Awaited;
 use crate::program_time::ProgramTime;
-use crate::wait::Outcome;
+use crate::wait::{Outcome, kind_and_value};
 
 impl Interpolator<'_> {
     /// Looks whether what the motion stands for was answered.
@@ -34,12 +34,13 @@ impl Interpolator<'_> {
             && !self.requests.is_stopping()
             && self.tap.is_none()
         {
+            let (event_kind, event_value) = kind_and_value(frame.rest_event());
             let awaited = Awaited {
                 epoch: frame.epoch,
                 sequence: frame.sequence,
                 line: frame.line,
-                event_kind: frame.event_kind,
-                event_value: frame.event_value,
+                event_kind,
+                event_value,
                 since_ns: scheduled_ns,
                 told_by: number,
                 by_feedback: gate.answer != Answer::Acknowledgement,

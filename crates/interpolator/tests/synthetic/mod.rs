@@ -16,7 +16,7 @@
 use glidepath_geometry::{AXES, AxisVector};
 use glidepath_kinematics::{Hexapod, Mechanism};
 use glidepath_link::SetpointFrame;
-use glidepath_program::{Frame, FrameFlags, Limits};
+use glidepath_program::{Frame, FrameEvents, FrameFlags, Limits};
 
 /// The default machine: 200 mm/s, 2000 mm/s², 40000 mm/s³ on every axis.
 pub fn mill() -> Limits {
@@ -166,7 +166,7 @@ pub fn integrate(jerks: &[Vec<f64>], period_t: f64, start: AxisVector) -> Vec<Fr
             sequence: k as u64,
             line: k as u32 / 50 + 1,
             flags,
-            event: None,
+            events: FrameEvents::NONE,
             planned_override: 1.0,
             path_v: v.norm(),
             path_s,

@@ -26,7 +26,9 @@ fuzz_target!(|data: &[u8]| {
         1 => {
             if let Some(record) = read::<Setpoint>(bytes) {
                 record.state().expect("it was checked");
-                record.event().expect("it was checked");
+                for event in record.events() {
+                    event.event().expect("it was checked");
+                }
             }
         }
         2 => {

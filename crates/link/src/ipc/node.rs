@@ -358,7 +358,7 @@ mod tests {
             "{error}"
         );
         let text = error.to_string();
-        assert!(text.contains("glidepath.Setpoint.v3"), "{text}");
+        assert!(text.contains("glidepath.Setpoint.v4"), "{text}");
         assert!(text.contains("IncompatibleTypes"), "{text}");
         drop(service);
         open().unwrap();

@@ -120,7 +120,7 @@ impl Auxiliary {
         match event {
             Event::SpindleSpeed(speed) => self.spindle_speed = speed,
             Event::SelectTool(tool) => self.prepared_tool = tool,
-            Event::MCode(code) => self.take_m_code(code),
+            Event::MCode(code) | Event::PassingCode(code) => self.take_m_code(code),
             Event::DigitalOutput { number, on } => {
                 let bit = 1_u64.checked_shl(number).unwrap_or(0);
                 self.digital_out &= !bit;

@@ -1,9 +1,10 @@
 //! Planner to interpolator: the state of the machine on the grid of program time.
 
 use super::check::{Fields, RecordError};
-use super::{OVERRIDE_MAX, Record, event};
+use super::{EventRecord, OVERRIDE_MAX, Record, event};
+use core::mem::offset_of;
 use glidepath_geometry::{AXES, AxisVector};
-use glidepath_program::{Event, Frame, FrameFlags};
+use glidepath_program::{EVENTS_MOST, Event, Frame, FrameEvents, FrameFlags};
 use iceoryx2::prelude::ZeroCopySend;
 
 /// Longest interpolation period, ns.
@@ -24,7 +25,7 @@ pub(crate) const FRAME_FLAGS: u32 = FrameFlags::FIRST
 /// the quintic Hermite polynomial through both.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.SetpointFrame.v2")]
+#[type_name("glidepath.SetpointFrame.v3")]
 pub struct SetpointFrame {
     /// Which trajectory this belongs to: a new one for every start from rest, > 0, rising. Planners
     /// take the number after that of the last; one that is more than 65 536 above it is refused.
@@ -37,13 +38,11 @@ pub struct SetpointFrame {
     pub line: u32,
     /// Bits of [`FrameFlags`].
     pub flags: u32,
-    /// Code of the event at this instant, 0 for none.
-    pub event_kind: u32,
+    /// How many of `events` are used.
+    pub event_count: u32,
     /// Which block of the program this belongs to: the number of its item, from 1, counted through
     /// loops and subprograms; 0 before the first.
     pub block: u32,
-    /// The event's number (speed, tool, M code), 0 without an event.
-    pub event_value: f64,
     /// Rate of path position, mm/s.
     pub path_v: f64,
     /// Path position since the start of the program, mm.
@@ -58,22 +57,25 @@ pub struct SetpointFrame {
     pub velocity: [f64; AXES],
     /// Acceleration, mm/s² or °/s².
     pub acceleration: [f64; AXES],
+    /// The events of the period that ends here, in order. An event at rest is the last of them, and
+    /// happens at its end; the others do not stop the motion. What is not used is zero.
+    pub events: [EventRecord; EVENTS_MOST],
 }
 
 impl SetpointFrame {
     /// The record of a planned frame, bit for bit, of an unknown program.
     #[must_use]
     pub fn from_frame(frame: &Frame, epoch: u64, period_ns: u64) -> Self {
-        let (event_kind, event_value) = event::encode(frame.event);
+        let mut events = [EventRecord::default(); EVENTS_MOST];
+        let event_count = event::put(frame.events.as_slice(), &mut events);
         Self {
             epoch,
             sequence: frame.sequence,
             period_ns,
             line: frame.line,
             flags: frame.flags.0,
-            event_kind,
+            event_count,
             block: frame.block,
-            event_value,
             path_v: frame.path_v,
             path_s: frame.path_s,
             planned_override: frame.planned_override,
@@ -81,6 +83,7 @@ impl SetpointFrame {
             position: frame.position.into(),
             velocity: frame.velocity.into(),
             acceleration: frame.acceleration.into(),
+            events,
         }
     }
 
@@ -96,7 +99,7 @@ impl SetpointFrame {
             line: self.line,
             block: self.block,
             flags: FrameFlags(self.flags),
-            event: self.event()?,
+            events: self.frame_events()?,
             planned_override: self.planned_override,
             path_v: self.path_v,
             path_s: self.path_s,
@@ -106,13 +109,50 @@ impl SetpointFrame {
         })
     }
 
-    /// The event at this instant.
+    /// The events of the period that ends here.
+    #[must_use]
+    pub fn events(&self) -> &[EventRecord] {
+        event::used(&self.events, self.event_count)
+    }
+
+    /// The event that the machine rests for, if there is one.
+    #[must_use]
+    pub fn rest_event(&self) -> Option<&EventRecord> {
+        event::at_rest(self.events())
+    }
+
+    /// The same as an event.
     ///
     /// # Errors
     ///
-    /// An unknown code, or a number that does not fit it.
+    /// A number that does not fit it.
     pub fn event(&self) -> Result<Option<Event>, RecordError> {
-        event::decode(Self::NAME, self.event_kind, self.event_value)
+        self.rest_event().map(EventRecord::event).transpose()
+    }
+
+    fn frame_events(&self) -> Result<FrameEvents, RecordError> {
+        let mut events = FrameEvents::NONE;
+        for record in self.events() {
+            let offset_ns = record.offset_ns;
+            let _has_room = events.push(record.event()?, offset_ns);
+        }
+        Ok(events)
+    }
+
+    /// No events.
+    pub fn silence(&mut self) {
+        self.events = [EventRecord::default(); EVENTS_MOST];
+        self.event_count = 0;
+    }
+
+    /// Becomes another frame. What is not used of the events may stay as it was: for whoever looks
+    /// at those that are used alone, and has little time.
+    pub fn copy_used(&mut self, other: &Self) {
+        let used = offset_of!(Self, events) + size_of_val(other.events());
+        let (to, from) = (bytemuck::bytes_of_mut(self), bytemuck::bytes_of(other));
+        if let (Some(to), Some(from)) = (to.get_mut(..used), from.get(..used)) {
+            to.copy_from_slice(from);
+        }
     }
 
     /// Whether all of `flags` are set.
@@ -123,7 +163,7 @@ impl SetpointFrame {
 }
 
 impl Record for SetpointFrame {
-    const NAME: &'static str = "glidepath.SetpointFrame.v2";
+    const NAME: &'static str = "glidepath.SetpointFrame.v3";
 
     fn check(&self) -> Result<(), RecordError> {
         let fields = Fields(Self::NAME);
@@ -160,6 +200,16 @@ impl Record for SetpointFrame {
                 high,
             });
         }
-        self.event().map(|_| ())
+        event::check(Self::NAME, (&self.events, self.event_count), self.period_ns)?;
+        let before_last = self
+            .events()
+            .split_last()
+            .map_or(&[][..], |(_, before)| before);
+        if event::at_rest(before_last).is_some() {
+            let record = Self::NAME;
+            let field = "what follows an event at rest";
+            return Err(RecordError::NotZero { record, field });
+        }
+        Ok(())
     }
 }

@@ -38,9 +38,10 @@ pub use command::{
     COMMAND_KINDS, Command, CommandKind, CommandOutcome, CommandRefusal, CommandReply,
     CommandRequest, EventId,
 };
-pub use event::EventKind;
+pub use event::{EventKind, EventRecord};
 pub use feedback::{DriveState, Feedback, LATCHES, Latch, LatchKind, SpindleFlags};
 pub use frame::{PERIOD_NS_MAX, SetpointFrame};
+pub use glidepath_program::EVENTS_MOST;
 pub use job::{JobKind, JobReply, JobRequest, JobState};
 pub use jog::{JogDemand, JogMode};
 pub use joint::ALL_JOINTS;

@@ -94,7 +94,8 @@ pub struct SegmentRequest {
     pub mode: u32,
     /// For an arc: 1 XY, 2 ZX, 3 YZ, 4 UV, 5 WU, 6 VW.
     pub plane: u32,
-    /// For an event: its code, as in [`super::SetpointFrame`].
+    /// For an event: the code of an [`super::EventKind`] in the lowest byte; above it the number of an
+    /// output, or the phase, or the axis in four bits and the depth in µm.
     pub event_kind: u32,
     /// The event's number (speed, tool, M code).
     pub event_value: f64,

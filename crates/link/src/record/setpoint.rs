@@ -1,9 +1,12 @@
 //! Interpolator to servo: what to do at one tick.
 
 use super::check::{Fields, RecordError};
-use super::{ALL_JOINTS, MachineState, OVERRIDE_MAX, Record, event, frame::FRAME_FLAGS};
+use super::{
+    ALL_JOINTS, EventRecord, MachineState, OVERRIDE_MAX, PERIOD_NS_MAX, Record, event,
+    frame::FRAME_FLAGS,
+};
 use glidepath_geometry::AXES;
-use glidepath_program::{Event, FrameFlags};
+use glidepath_program::{EVENTS_MOST, Event, FrameFlags};
 use iceoryx2::prelude::ZeroCopySend;
 
 /// Properties of a setpoint, one bit each.
@@ -20,7 +23,7 @@ impl SetpointMarks {
 /// What the drives are to do at `apply_ns`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.Setpoint.v3")]
+#[type_name("glidepath.Setpoint.v4")]
 pub struct Setpoint {
     /// Identifies one life of the interpolator: all counts start again with a new one.
     pub boot_id: u64,
@@ -55,8 +58,8 @@ pub struct Setpoint {
     pub marks: u32,
     /// Code of a [`MachineState`].
     pub state: u32,
-    /// Code of the event that happens now, 0 for none.
-    pub event_kind: u32,
+    /// How many of `events` are used.
+    pub event_count: u32,
     /// Block of the program being executed, 0 before the first: see
     /// [`super::SetpointFrame::block`].
     pub block: u32,
@@ -66,8 +69,6 @@ pub struct Setpoint {
     /// here are those they report, and nothing to be followed: having found it, they stay there
     /// until their bit is 0.
     pub home: u32,
-    /// The event's number (speed, tool, M code), 0 without an event.
-    pub event_value: f64,
     /// Path position since the start of the program, mm.
     pub path_s: f64,
     /// Rate of path position as executed, mm/s; below 0 while the motion goes back.
@@ -90,6 +91,9 @@ pub struct Setpoint {
     /// How far the axes are from the path, mm or degrees, because they were jogged while the
     /// program was held: the positions above are those of the path and this together.
     pub away: [f64; AXES],
+    /// What happens in the period from `scheduled_ns` to `apply_ns`, in order: each event so many ns
+    /// after `scheduled_ns`. What is not used is zero.
+    pub events: [EventRecord; EVENTS_MOST],
 }
 
 impl Setpoint {
@@ -102,18 +106,44 @@ impl Setpoint {
         Fields(Self::NAME).code("state", self.state)
     }
 
-    /// The event that happens now.
+    /// What happens in the period from `scheduled_ns` to `apply_ns`, in order.
+    #[must_use]
+    pub fn events(&self) -> &[EventRecord] {
+        event::used(&self.events, self.event_count)
+    }
+
+    /// The event that the machine rests for, if there is one.
+    #[must_use]
+    pub fn rest_event(&self) -> Option<&EventRecord> {
+        event::at_rest(self.events())
+    }
+
+    /// The same as an event.
     ///
     /// # Errors
     ///
-    /// An unknown code, or a number that does not fit it.
+    /// A number that does not fit it.
     pub fn event(&self) -> Result<Option<Event>, RecordError> {
-        event::decode(Self::NAME, self.event_kind, self.event_value)
+        self.rest_event().map(EventRecord::event).transpose()
     }
 
-    /// Sets the event that happens now.
-    pub fn set_event(&mut self, event: Option<Event>) {
-        (self.event_kind, self.event_value) = event::encode(event);
+    /// Nothing happens.
+    pub fn silence(&mut self) {
+        for event in self.events.iter_mut().take(self.event_count as usize) {
+            *event = EventRecord::default();
+        }
+        self.event_count = 0;
+    }
+
+    /// One more event happens, if there is room for it.
+    pub fn tell(&mut self, event: EventRecord) -> bool {
+        let slot = self.events.get_mut(self.event_count as usize);
+        let has_room = slot.is_some();
+        if let Some(slot) = slot {
+            *slot = event;
+            self.event_count += 1;
+        }
+        has_room
     }
 
     /// Whether all of `flags` are set.
@@ -124,7 +154,7 @@ impl Setpoint {
 }
 
 impl Record for Setpoint {
-    const NAME: &'static str = "glidepath.Setpoint.v3";
+    const NAME: &'static str = "glidepath.Setpoint.v4";
 
     fn check(&self) -> Result<(), RecordError> {
         let fields = Fields(Self::NAME);
@@ -150,6 +180,6 @@ impl Record for Setpoint {
         fields.flags("enable", self.enable, ALL_JOINTS)?;
         fields.flags("home", self.home, ALL_JOINTS)?;
         self.state()?;
-        self.event().map(|_| ())
+        event::check(Self::NAME, (&self.events, self.event_count), PERIOD_NS_MAX)
     }
 }

@@ -3,7 +3,8 @@
 use glidepath_geometry::{Arc, AxisVector, Plane, Quintic, Segment};
 use glidepath_link::{ALL_JOINTS, Command, EventId, OVERRIDE_MAX, StreamItem};
 use glidepath_program::{
-    CodeWord, Event, Frame, FrameFlags, Item, ItemKind, PHASE_STEPS, PathMode, Rate, TAP_DEPTHS_UM,
+    CodeWord, EVENTS_MOST, Event, Frame, FrameEvents, FrameFlags, Item, ItemKind, PHASE_STEPS,
+    PathMode, Rate, TAP_DEPTHS_UM,
 };
 use proptest::prelude::*;
 
@@ -26,6 +27,7 @@ pub(crate) fn event() -> impl Strategy<Value = Event> {
         finite().prop_map(Event::SpindleSpeed),
         any::<u32>().prop_map(Event::SelectTool),
         any::<u32>().prop_map(Event::MCode),
+        any::<u32>().prop_map(Event::PassingCode),
         any::<u32>().prop_map(Event::ProgramStop),
         Just(Event::OptionalStop),
         any::<bool>().prop_map(|release| Event::Probe { release }),
@@ -34,6 +36,14 @@ pub(crate) fn event() -> impl Strategy<Value = Event> {
             value,
         }),
         any::<u32>().prop_map(Event::Await),
+        (any::<u32>(), any::<bool>()).prop_map(|(number, on)| Event::DigitalOutput {
+            number: number >> 8,
+            on
+        }),
+        (any::<u32>(), finite()).prop_map(|(number, value)| Event::AnalogOutput {
+            number: number >> 8,
+            value
+        }),
         (1e-3..1e3, 0..PHASE_STEPS)
             .prop_map(|(pitch_mm, phase)| Event::Synchronise { pitch_mm, phase }),
         (0..9_u32, 1e-3..1e3, 0..TAP_DEPTHS_UM).prop_map(|(axis, pitch_mm, depth_um)| {
@@ -46,10 +56,25 @@ pub(crate) fn event() -> impl Strategy<Value = Event> {
     ]
 }
 
+/// Events of a period of 4 ms, in order, of which the last may be at rest.
+pub(crate) fn events() -> impl Strategy<Value = FrameEvents> {
+    let passing = event().prop_filter("passes", |event| !event.is_at_rest());
+    let passing = proptest::collection::vec((passing, 0..4_000_000_u32), 0..EVENTS_MOST);
+    (passing, proptest::option::of(event())).prop_map(|(mut passing, last)| {
+        passing.sort_by_key(|(_, offset_ns)| *offset_ns);
+        passing.extend(last.map(|event| (event, 4_000_000)));
+        let mut events = FrameEvents::NONE;
+        for (event, offset_ns) in passing {
+            assert!(events.push(event, offset_ns));
+        }
+        events
+    })
+}
+
 prop_compose! {
     pub(crate) fn frame()(
         (sequence, line, flags) in (any::<u64>(), any::<u32>(), 0..128_u32),
-        event in proptest::option::of(event()),
+        events in events(),
         planned_override in 0.001..=OVERRIDE_MAX,
         (path_v, path_s) in (finite(), finite()),
         (position, velocity, acceleration) in (vector(), vector(), vector()),
@@ -59,7 +84,7 @@ prop_compose! {
             sequence,
             line,
             flags,
-            event,
+            events,
             planned_override,
             path_v,
             path_s,

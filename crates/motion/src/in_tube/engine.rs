@@ -223,10 +223,12 @@ impl InTubeEngine {
         let Drive::Window(stretch) = &mut self.drive else {
             return None;
         };
-        let grid = &mut self.grid;
+        let (grid, start_s) = (&mut self.grid, self.path_s);
         stretch
             .ledger
-            .come_to(period.tag, |passing, events| grid.enter(passing, events));
+            .come_to(period.tag, |passing, events, from_s| {
+                grid.enter(passing, events, start_s + from_s);
+            });
         if period.rest_at_end {
             return None;
         }
@@ -249,10 +251,10 @@ impl InTubeEngine {
     fn arrive(&mut self) -> bool {
         let (end, end_s, then) = match &mut self.drive {
             Drive::Window(stretch) if stretch.planner.is_over() && stretch.then.is_some() => {
-                let grid = &mut self.grid;
-                stretch
-                    .ledger
-                    .come_to(u64::MAX, |passing, events| grid.enter(passing, events));
+                let (grid, start_s) = (&mut self.grid, self.path_s);
+                stretch.ledger.come_to(u64::MAX, |passing, events, from_s| {
+                    grid.enter(passing, events, start_s + from_s);
+                });
                 let end_s = self.path_s + stretch.length_s;
                 (stretch.end, end_s, stretch.then)
             }

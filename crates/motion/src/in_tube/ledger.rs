@@ -67,14 +67,14 @@ impl Ledger {
     }
 
     /// The motion comes to the entry with a tag: forgets those before it, and tells each that is
-    /// entered, in order, with its events.
-    pub(crate) fn come_to(&mut self, tag: u64, mut enter: impl FnMut(Passing, &[Event])) {
+    /// entered, in order, with its events and where it begins.
+    pub(crate) fn come_to(&mut self, tag: u64, mut enter: impl FnMut(Passing, &[Event], f64)) {
         loop {
             if self.entered <= self.first
                 && let Some(entry) = self.entries.front()
             {
                 self.entered = self.first + 1;
-                enter(self.passing(self.first_s), &entry.events);
+                enter(self.passing(self.first_s), &entry.events, self.first_s);
             }
             if self.first >= tag || self.entries.len() <= 1 {
                 return;

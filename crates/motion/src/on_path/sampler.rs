@@ -289,6 +289,7 @@ impl Sampler {
                     planned_override: piece.planned_override(),
                 },
                 &piece.events,
+                self.path_s,
             );
         }
     }

@@ -4,7 +4,7 @@ use crate::PlanError;
 use crate::intake::{Intake, check_dwell};
 use crate::wing::Wing;
 use glidepath_geometry::{AxisVector, LINEAR_XYZ, Segment};
-use glidepath_program::{Event, Item, ItemKind, PathMode, Settings};
+use glidepath_program::{Item, ItemKind, PathMode, Settings};
 
 /// Fewest items of a part that another one follows: fewer are not worth a planner of their own.
 const LEAST_ITEMS: usize = 16;
@@ -81,13 +81,10 @@ impl Cutter {
                 self.rest(item, out);
             }
             ItemKind::Event(event) if event.is_at_rest() => self.rest(item, out),
-            ItemKind::Event(Event::SpindleSpeed(_) | Event::SelectTool(_))
-                if self.rests && self.held.len() < MOST_HELD =>
-            {
+            ItemKind::Event(_) if self.rests && self.held.len() < MOST_HELD => {
                 self.held.push(item);
             }
             ItemKind::Event(_) => {
-                // Whether the machine rests for an output is up to the engine.
                 self.rests = false;
                 self.make_up();
                 self.give(None, out);

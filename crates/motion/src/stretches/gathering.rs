@@ -125,10 +125,10 @@ impl Gathering {
                 check_dwell(line.number, dwell_t)?;
                 self.rest(RestKind::Dwell(dwell_t), line);
             }
-            ItemKind::Event(event @ (Event::SpindleSpeed(_) | Event::SelectTool(_))) => {
-                self.events.push((line, event));
+            ItemKind::Event(event) if event.is_at_rest() => {
+                self.rest(RestKind::Event(event), line);
             }
-            ItemKind::Event(event) => self.rest(RestKind::Event(event), line),
+            ItemKind::Event(event) => self.events.push((line, event)),
         }
         self.last = line;
         Ok(())

@@ -53,7 +53,8 @@ proptest! {
             match kind {
                 3 => kinds.push(ItemKind::Dwell(0.01)),
                 4 => kinds.push(ItemKind::Event(Event::SpindleSpeed(x))),
-                5 => kinds.push(ItemKind::Event(Event::MCode(8))),
+                5 => kinds.push(ItemKind::Event(Event::MCode(3))),
+                6 => kinds.push(ItemKind::Event(Event::PassingCode(8))),
                 _ => {}
             }
             kinds.extend(moves(&[from, to], 60.0, mode));

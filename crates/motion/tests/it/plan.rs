@@ -12,7 +12,8 @@ use crate::support::{FREE, at, cases, efforts, mill, optimal};
 use glidepath_geometry::{AxisVector, Segment};
 use glidepath_motion::Planner;
 use glidepath_program::{
-    Event, Frame, FrameFlags, Item, ItemKind, Limits, PathMode, Rate, Settings, Smoothing,
+    EVENTS_MOST, Event, Frame, FrameFlags, Item, ItemKind, Limits, PathMode, Rate, Settings,
+    Smoothing,
 };
 use proptest::prelude::*;
 
@@ -205,7 +206,7 @@ fn check_events(settings: Settings) {
     let frames = plan(&items, settings, 1);
     let seen: Vec<_> = frames
         .iter()
-        .filter_map(|f| f.event.map(|event| (event, f)))
+        .flat_map(|f| f.events.as_slice().iter().map(move |told| (told.event, f)))
         .collect();
     let events: Vec<_> = seen.iter().map(|(event, _)| *event).collect();
     let expected = [
@@ -235,7 +236,7 @@ fn check_events(settings: Settings) {
     assert_eq!(stop, 1, "one frame asks for the operator");
     for (line, end) in [(5, 20.0_f64), (8, 30.0)] {
         let arrives = frames.iter().find(|f| f.line == line && f.path_v <= 0.0);
-        let arrives = arrives.map(|f| (f.position[0].to_bits(), f.event));
+        let arrives = arrives.map(|f| (f.position[0].to_bits(), f.events.at_rest()));
         assert_eq!(arrives, Some((end.to_bits(), None)), "it ends at rest");
     }
     let dwell = frames
@@ -246,6 +247,103 @@ fn check_events(settings: Settings) {
         (25..=27).contains(&dwell),
         "0.1 s are 25 periods, got {dwell}"
     );
+}
+
+#[test]
+fn what_needs_no_rest_passes_at_the_feed() {
+    for settings in efforts() {
+        let points: Vec<_> = (0..=4).map(|i| at(20.0 * f64::from(i), 0.0)).collect();
+        let plain = moves(&points, 100.0, FREE);
+        let events = [
+            Event::AnalogOutput {
+                number: 0,
+                value: 1.0,
+            },
+            Event::DigitalOutput {
+                number: 3,
+                on: true,
+            },
+            Event::PassingCode(8),
+        ];
+        let told = plain.iter().zip([None].into_iter().chain(events.map(Some)));
+        let told: Vec<_> = told
+            .flat_map(|(kind, event)| event.map(ItemKind::Event).into_iter().chain([*kind]))
+            .collect();
+        let (frames, without) = (
+            plan(&numbered(told), settings, 1),
+            plan(&numbered(plain), settings, 1),
+        );
+        assert_eq!(frames.len(), without.len(), "they take no time");
+        let middle = frames
+            .iter()
+            .filter(|f| (5.0..75.0).contains(&f.position[0]));
+        let slowest_v = middle.map(|f| f.path_v).fold(f64::INFINITY, f64::min);
+        assert!(slowest_v > 99.0, "slows to {slowest_v} mm/s");
+    }
+}
+
+#[test]
+fn a_word_every_tenth_of_a_millimetre_is_in_its_place_at_the_feed() {
+    for settings in efforts() {
+        let points: Vec<_> = (0..=200).map(|i| at(0.1 * f64::from(i), 0.0)).collect();
+        let words = (0_u32..).map(|i| ItemKind::Event(Event::SpindleSpeed(f64::from(i))));
+        let told: Vec<_> = words
+            .zip(moves(&points, 100.0, FREE))
+            .flat_map(|(word, leg)| [word, leg])
+            .collect();
+        let frames = plan(&numbered(told), settings, 1);
+        let plain = plan(
+            &numbered(moves(&[points[0], points[200]], 100.0, FREE)),
+            settings,
+            1,
+        );
+        assert!(
+            frames.len() <= plain.len() + 1,
+            "{} periods, {} without words",
+            frames.len(),
+            plain.len()
+        );
+        let mut next = 0;
+        for pair in frames.windows(2) {
+            let [from, to] = [pair[0].position[0], pair[1].position[0]];
+            for told in pair[1].events.as_slice() {
+                assert_eq!(told.event, Event::SpindleSpeed(f64::from(next)), "in order");
+                let place = 0.1 * f64::from(next);
+                let found = from + (to - from) * f64::from(told.offset_ns) / 4e6;
+                // Between two frames the motion is no straight line in time: a T²/8.
+                let off_mm = (found - place).abs();
+                assert!(off_mm < 0.005, "word {next} is off by {off_mm} mm");
+                next += 1;
+            }
+        }
+        assert_eq!(next, 200, "each of them once");
+    }
+}
+
+#[test]
+fn more_events_than_fit_make_the_motion_slower() {
+    for settings in efforts() {
+        let points: Vec<_> = (0..=300).map(|i| at(0.02 * f64::from(i), 0.0)).collect();
+        let words = (0_u32..).map(|i| ItemKind::Event(Event::SpindleSpeed(f64::from(i))));
+        let told: Vec<_> = words
+            .zip(moves(&points, 100.0, FREE))
+            .flat_map(|(word, leg)| [word, leg])
+            .collect();
+        let frames = plan(&numbered(told), settings, 1);
+        let most = frames.iter().map(|frame| frame.events.as_slice().len());
+        assert!(most.max() < Some(EVENTS_MOST), "a frame is full");
+        for pair in frames.windows(2) {
+            let [from, to] = [pair[0].position[0], pair[1].position[0]];
+            for told in pair[1].events.as_slice() {
+                let Event::SpindleSpeed(number) = told.event else {
+                    panic!("{told:?}")
+                };
+                let found = from + (to - from) * f64::from(told.offset_ns) / 4e6;
+                let off_mm = (found - 0.02 * number).abs();
+                assert!(off_mm < 0.005, "word {number} is off by {off_mm} mm");
+            }
+        }
+    }
 }
 
 #[test]
@@ -260,7 +358,11 @@ fn events_of_a_move_shorter_than_a_period_all_happen_before_the_end() {
             leg(at(10.0, 0.0), at(10.00001, 0.0)),
         ]);
         let frames = plan(&items, settings, 1);
-        let events: Vec<_> = frames.iter().filter_map(|frame| frame.event).collect();
+        let events: Vec<_> = frames
+            .iter()
+            .flat_map(|frame| frame.events.as_slice())
+            .map(|told| told.event)
+            .collect();
         let expected = [
             Event::SpindleSpeed(1000.0),
             Event::SelectTool(3),

@@ -24,7 +24,7 @@ impl SaidOutputs {
             event,
             Event::SpindleSpeed(_) | Event::MCode(3 | 4 | 5 | 6 | 19)
         );
-        self.has_told_coolant |= matches!(event, Event::MCode(7..=9));
+        self.has_told_coolant |= matches!(event, Event::MCode(7..=9) | Event::PassingCode(7..=9));
     }
 
     /// The events that make spindle and coolant what the program has made them, from what they are
@@ -64,7 +64,7 @@ mod tests {
         let events = [
             Event::SpindleSpeed(8000.0),
             Event::MCode(3),
-            Event::MCode(8),
+            Event::PassingCode(8),
             Event::MCode(7),
         ];
         let mut now = Auxiliary::default();

@@ -1,7 +1,7 @@
 //! The search for the machine along a program.
 
 use glidepath_geometry::{AxisVector, LINEAR_XYZ, ROTARY_ABC, Segment, UVW};
-use glidepath_program::{Event, Item, ItemKind, PathMode};
+use glidepath_program::{Item, ItemKind, PathMode};
 
 use super::point::{ROUNDING_MM, ResumePoint};
 
@@ -87,10 +87,7 @@ impl MachineSearch {
             }
             // The motion does not go on without resting here, and telling so by the block.
             ItemKind::Dwell(_) => self.ended = true,
-            ItemKind::Event(Event::SpindleSpeed(_) | Event::SelectTool(_)) => {
-                self.ended |= place == 0;
-            }
-            ItemKind::Event(_) => self.ended = true,
+            ItemKind::Event(event) => self.ended |= event.is_at_rest() || place == 0,
         }
     }
 

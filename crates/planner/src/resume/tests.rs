@@ -186,7 +186,7 @@ impl Machine {
                 Step::Pending => self.desk.answer(Answer::Input(2.5)).unwrap(),
                 Step::Frame => {
                     let frame = *pipeline.frame();
-                    looks |= matches!(frame.event, Some(Event::Probe { .. }));
+                    looks |= matches!(frame.events.at_rest(), Some(Event::Probe { .. }));
                     let touches = frame.position[2] <= PART_Z;
                     let found = looks && touches;
                     assert!(found || !touches || !looks, "it moves into the part");
@@ -410,7 +410,7 @@ fn what_was_stopped_turns_again_before_anything_moves() {
         while let Some(frame) = pipeline.next_frame().unwrap() {
             let moves = frame.velocity.amax() > 0.0;
             assert!(!moves || before.len() >= told.len(), "it moves too early");
-            before.extend(frame.event);
+            before.extend(frame.events.as_slice().iter().map(|told| told.event));
             assert!(frame.block >= left.block);
             assert!(frame.line >= left.line || frame.flags.contains(FrameFlags::FIRST));
             last = frame.block;

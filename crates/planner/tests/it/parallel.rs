@@ -49,10 +49,10 @@ fn seen(frame: &Frame) -> Seen {
         line,
         block,
         flags,
-        event,
+        events,
         ..
     } = frame;
-    let told = format!("{sequence} {line} {block} {flags:?} {event:?}");
+    let told = format!("{sequence} {line} {block} {flags:?} {events:?}");
     Seen::Frame(told, bits.collect())
 }
 

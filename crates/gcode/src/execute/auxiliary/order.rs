@@ -35,8 +35,11 @@ impl Interpreter {
                 _ => *coolant = Coolant::default(),
             }
         }
-        for Coded { code, .. } in [codes.spindle, codes.coolant].into_iter().flatten() {
+        if let Some(Coded { code, .. }) = codes.spindle {
             self.push(out, ItemKind::Event(Event::MCode(code)));
+        }
+        if let Some(Coded { code, .. }) = codes.coolant {
+            self.push_passing_code(code, out);
         }
         self.arm_rigid_tapping(block, out)?;
         self.overrides(block, out)?;
@@ -55,6 +58,16 @@ impl Interpreter {
             self.push(out, ItemKind::Dwell(seconds));
         }
         Ok(())
+    }
+
+    /// An M code that needs no rest, unless the machine says where it is waited for.
+    pub(super) fn push_passing_code(&mut self, code: u32, out: &mut Vec<Item>) {
+        let event = if self.options.m_codes.contains(code) {
+            Event::MCode(code)
+        } else {
+            Event::PassingCode(code)
+        };
+        self.push(out, ItemKind::Event(event));
     }
 }
 

@@ -56,7 +56,7 @@ impl Interpreter {
         };
         if matches!(code, 48 | 49) {
             self.state.overrides_off = code == 49;
-            self.push(out, ItemKind::Event(Event::MCode(code)));
+            self.push_passing_code(code, out);
             return Ok(());
         }
         if block.dialect != Dialect::LinuxCnc {

@@ -113,7 +113,7 @@ impl Interpreter {
         self.restore_coolant(saved.coolant, out);
         if saved.overrides_off != self.state.overrides_off {
             self.state.overrides_off = saved.overrides_off;
-            self.event(if saved.overrides_off { 49 } else { 48 }, out);
+            self.push_passing_code(if saved.overrides_off { 49 } else { 48 }, out);
         }
         Ok(())
     }
@@ -127,13 +127,13 @@ impl Interpreter {
         // One of them goes off by M9 alone, which takes the other with it.
         let off = (present.mist && !saved.mist) || (present.flood && !saved.flood);
         if off {
-            self.event(9, out);
+            self.push_passing_code(9, out);
         }
         if saved.mist && (off || !present.mist) {
-            self.event(7, out);
+            self.push_passing_code(7, out);
         }
         if saved.flood && (off || !present.flood) {
-            self.event(8, out);
+            self.push_passing_code(8, out);
         }
         self.state.coolant = saved;
     }

@@ -98,6 +98,11 @@ impl Follows {
             position: setpoint.position.into(),
             reported: None,
         };
+        for told in setpoint.events() {
+            if let Ok(event) = told.event() {
+                self.audit.event(event, told.offset_ns);
+            }
+        }
         let time = (setpoint.sequence, setpoint.fraction);
         let behind_mm = (!is_idle).then(|| self.passed.off_mm(time, &sample.position));
         if let Some(off_mm) = behind_mm.flatten() {

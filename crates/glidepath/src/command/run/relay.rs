@@ -183,6 +183,11 @@ impl Judge {
             reported: None,
         };
         self.audit.raise_override(setpoint.effective_override);
+        for told in setpoint.events() {
+            if let Ok(event) = told.event() {
+                self.audit.event(event, told.offset_ns);
+            }
+        }
         let is_idle = matches!(setpoint.state(), Ok(MachineState::Idle));
         let is_away = setpoint.away.iter().any(|away| *away != 0.0);
         let time = (setpoint.sequence, setpoint.fraction);

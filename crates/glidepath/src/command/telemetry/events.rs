@@ -1,7 +1,7 @@
 //! What happens, from setpoint to setpoint.
 
 use super::message::unix_ms;
-use glidepath_link::{MachineState, Setpoint};
+use glidepath_link::{EventRecord, MachineState, Setpoint};
 use glidepath_program::{CodeWord, Event};
 use serde_json::json;
 
@@ -25,7 +25,7 @@ impl Events {
         let before = self.last.replace((setpoint.boot_id, state));
         let starts = before.is_none_or(|(boot, _)| boot != setpoint.boot_id);
         let from = before.map(|(_, state)| state).filter(|_| !starts);
-        let of_program = setpoint.event().ok().flatten();
+        let of_program = words(setpoint);
         if !starts && from == Some(state) && of_program.is_none() {
             return None;
         }
@@ -47,11 +47,18 @@ impl Events {
             "line": setpoint.line,
             "from": from.map(MachineState::name),
             "to": state.name(),
-            "event": of_program.map(word),
+            "event": of_program,
             "left_out": left_out,
         });
         Some(message.to_string())
     }
+}
+
+/// What happens in the period of a setpoint, as a program says it; nothing if nothing does.
+fn words(setpoint: &Setpoint) -> Option<String> {
+    let events = setpoint.events().iter().flat_map(EventRecord::event);
+    let words: Vec<String> = events.map(word).collect();
+    (!words.is_empty()).then(|| words.join(" "))
 }
 
 /// An event as a program says it.
@@ -59,7 +66,9 @@ fn word(event: Event) -> String {
     match event {
         Event::SpindleSpeed(speed) => format!("S{speed}"),
         Event::SelectTool(tool) => format!("T{tool}"),
-        Event::MCode(number) | Event::ProgramStop(number) => format!("M{number}"),
+        Event::MCode(number) | Event::PassingCode(number) | Event::ProgramStop(number) => {
+            format!("M{number}")
+        }
         Event::OptionalStop => "M1".to_owned(),
         Event::Probe { release: false } => "G38.2".to_owned(),
         Event::Probe { release: true } => "G38.4".to_owned(),
@@ -116,7 +125,7 @@ mod tests {
             (&json!(7), &json!("ab"))
         );
         let mut with_event = setpoint(3, running);
-        with_event.set_event(Some(Event::MCode(3)));
+        assert!(with_event.tell(EventRecord::new(Event::MCode(3), 0)));
         let event = told(&mut events, &with_event, 0).expect("an event");
         assert_eq!(event["event"], json!("M3"));
         assert_eq!(told(&mut events, &setpoint(4, running), 0), None);

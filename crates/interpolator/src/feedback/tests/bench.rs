@@ -14,7 +14,7 @@ use glidepath_link::{
     Status, Subscriber, Transport,
 };
 use glidepath_plant::{JointSettings, Plant, Upset};
-use glidepath_program::{Event, FrameFlags};
+use glidepath_program::{Event, FrameEvents, FrameFlags};
 use glidepath_realtime::{CountingAllocator, Events, Wake, event_ring};
 use heapless::spsc::Producer;
 use std::collections::VecDeque;
@@ -259,7 +259,8 @@ impl Bench {
             at = planned[planned.len() - 1].position;
             let mut part = records(&planned, self.epoch, PERIOD_NS);
             let (mut told, line) = (planned[0], stretch as u32 + 1);
-            (told.event, told.line) = (Some(*event), line);
+            told.events = FrameEvents::one(*event, PERIOD_NS as u32);
+            told.line = line;
             let rest = SetpointFrame {
                 line,
                 block: line,
@@ -312,7 +313,7 @@ impl Bench {
 
     /// The sequence of the frame with an M code that is still to be published.
     pub(super) fn feed_of(&self, code: f64) -> u64 {
-        let is_it = |frame: &&SetpointFrame| frame.event_value == code;
+        let is_it = |frame: &&SetpointFrame| frame.event() == Ok(Some(Event::MCode(code as u32)));
         self.feed.iter().find(is_it).unwrap().sequence
     }
 

@@ -3,10 +3,11 @@
 use super::bench::{Bench, config, numbers};
 use crate::config::Config;
 use crate::gates::{Answer, Gate, Gates};
+use crate::testing::happens;
 use core::time::Duration;
 use glidepath_geometry::AxisVector;
 use glidepath_link::{
-    Auxiliary, Command, EventId, EventKind, FaultCause, MachineState, Setpoint, Transport as _,
+    Auxiliary, Command, EventId, FaultCause, MachineState, Setpoint, Transport as _,
 };
 use glidepath_plant::JointSettings;
 use glidepath_program::{CodeWord, Event};
@@ -154,8 +155,7 @@ fn a_spindle_that_turns_up_is_waited_for() {
     ]));
     bench.load_codes(6, 60, &[7, 3, 5]);
     // A speed before the first motion: 3000 rev/min take 1.25 s.
-    bench.feed[1].event_kind = EventKind::SpindleSpeed.code();
-    bench.feed[1].event_value = 3000.0;
+    happens(&mut bench.feed[1], Event::SpindleSpeed(3000.0));
     assert!(bench.run_to(MachineState::Awaiting, 1000));
     let awaited = bench.awaited().unwrap();
     let refused = acknowledge(&mut bench, awaited, DONE).unwrap_err();
@@ -314,7 +314,7 @@ const LATER: [Event; 4] = [
 /// The event of a code that was told, once it was; single blocks go on.
 pub(super) fn told(bench: &mut Bench, code: f64) -> EventId {
     let begun = bench.setpoints.len();
-    let is_it = |s: &&Setpoint| s.event_kind == EventKind::MCode.code() && s.event_value == code;
+    let is_it = |s: &&Setpoint| s.event() == Ok(Some(Event::MCode(code as u32)));
     for _ in 0..2000 {
         if bench.tick().state() == Ok(MachineState::ProgramStop) {
             bench.command(Command::Resume).unwrap();

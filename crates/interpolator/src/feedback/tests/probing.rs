@@ -3,13 +3,14 @@
 use super::bench::{Bench, PERIOD_NS, config, numbers};
 use crate::config::Config;
 use crate::feedback::{FeedbackSettings, ProbeInput};
+use crate::testing::happens;
 use core::f64::consts::TAU;
 use glidepath_geometry::AxisVector;
 use glidepath_link::{
-    Command, ContactKind, EndOfEpoch, EventKind, FaultCause, MachineState, Setpoint, SetpointFrame,
+    Command, ContactKind, EndOfEpoch, FaultCause, MachineState, Setpoint, SetpointFrame,
 };
 use glidepath_plant::{JointSettings, Upset};
-use glidepath_program::FrameFlags;
+use glidepath_program::{Event, FrameFlags};
 
 const T: f64 = 0.004;
 /// Between two samples of the drives, s.
@@ -110,8 +111,7 @@ fn search(bench: &Bench, way: AxisVector, v: f64, release: bool) -> Vec<Setpoint
         })
         .collect();
     frames[0].flags = FrameFlags::FIRST.0;
-    frames[1].event_kind = EventKind::Probe.code();
-    frames[1].event_value = f64::from(u8::from(release));
+    happens(&mut frames[1], Event::Probe { release });
     let last = frames.len() - 1;
     frames[last].flags = FrameFlags::LAST.0;
     frames
@@ -260,7 +260,10 @@ fn a_contact_that_was_there_before_stops_at_once_and_one_that_ends_is_found() {
     bench.load_frames(
         frames
             .into_iter()
-            .map(|f| SetpointFrame { event_kind: 0, ..f })
+            .map(|f| SetpointFrame {
+                event_count: 0,
+                ..f
+            })
             .collect(),
     );
     assert!(bench.run_to(MachineState::Running, 50) && bench.run_to(MachineState::Idle, 900));
@@ -376,7 +379,7 @@ fn a_search_is_held_goes_on_and_is_aborted_like_any_motion() {
 fn way(bench: &Bench) -> Vec<SetpointFrame> {
     let frames = search(bench, AxisVector::x() * 3.0, 20.0, false);
     let plain = |frame| SetpointFrame {
-        event_kind: 0,
+        event_count: 0,
         ..frame
     };
     frames.into_iter().map(plain).collect()
@@ -450,7 +453,7 @@ fn a_contact_that_nobody_looks_for_stops_the_motion_where_that_is_wanted() {
         bench.load_frames(frames);
         assert!(bench.run_to(MachineState::Waiting, 3000));
         let mut back = down(&bench, 38.0);
-        back[1].event_kind = 0;
+        back[1].silence();
         bench.load_frames(back);
         assert!(bench.run_to(MachineState::Running, 100));
         assert!(bench.run_to(MachineState::Idle, 3000));
@@ -458,7 +461,7 @@ fn a_contact_that_nobody_looks_for_stops_the_motion_where_that_is_wanted() {
         assert_eq!(bench.fault(), None);
 
         let mut frames = down(&bench, 30.0);
-        frames[1].event_kind = 0;
+        frames[1].silence();
         bench.load_frames(frames);
         assert!(bench.run_to(MachineState::Running, 100));
         let end = if protects {

@@ -2,7 +2,7 @@
 
 use super::bench::{Bench, config};
 use crate::config::Config;
-use crate::testing::{blocks, mill, planned};
+use crate::testing::{blocks, happens, mill, planned};
 use glidepath_geometry::{AxisVector, Segment};
 use glidepath_link::{Command, EndOfEpoch, FaultCause, MachineState, Setpoint, SetpointFrame};
 use glidepath_plant::{JointSettings, SpindleSettings, Upset};
@@ -323,10 +323,11 @@ fn a_spindle_that_never_turns_does_not_begin() {
     let frames: Vec<_> = program(AxisVector::from(start))
         .into_iter()
         .map(|frame| match frame.event() {
-            Ok(Some(Event::MCode(3))) => SetpointFrame {
-                event_value: 5.0,
-                ..frame
-            },
+            Ok(Some(Event::MCode(3))) => {
+                let mut told = frame;
+                happens(&mut told, Event::MCode(5));
+                told
+            }
             _ => frame,
         })
         .collect();

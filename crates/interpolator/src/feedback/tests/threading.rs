@@ -5,9 +5,7 @@
 use super::bench::{Bench, config};
 use crate::testing::{blocks, mill, planned};
 use glidepath_geometry::{AxisVector, Segment};
-use glidepath_link::{
-    Command, EndOfEpoch, EventKind, FaultCause, MachineState, Setpoint, SetpointFrame,
-};
+use glidepath_link::{Command, EndOfEpoch, FaultCause, MachineState, Setpoint, SetpointFrame};
 use glidepath_plant::{JointSettings, SpindleSettings, Upset};
 use glidepath_program::{Effort, Event, FrameFlags, Item, ItemKind, PHASE_STEPS, PathMode, Rate};
 
@@ -334,11 +332,8 @@ fn frames_that_stay_away_in_a_thread_end_it() {
     let mut bench = bench(COUNTED);
     let start = AxisVector::from(bench.last().position);
     let mut all = frames(&Thread::USUAL.items(start), start, Effort::Optimal);
-    let event = EventKind::Synchronise.code();
-    let begins = all
-        .iter()
-        .position(|f| f.event_kind & 0xFF == event)
-        .unwrap();
+    let is_pass = |f: &SetpointFrame| matches!(f.event(), Ok(Some(Event::Synchronise { .. })));
+    let begins = all.iter().position(is_pass).unwrap();
     all.truncate(begins + 220);
     bench.load_frames(all);
     assert!(

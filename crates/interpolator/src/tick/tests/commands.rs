@@ -109,8 +109,8 @@ fn abort_ends_the_epoch_at_rest_and_drops_what_was_under_way() {
 fn each_event_is_published_once() {
     let (mut rig, frames) = rig(3, 1, 200);
     for frame in &mut rig.feed {
-        frame.event_value = frame.sequence as f64;
-        frame.event_kind = 1;
+        let speed = frame.sequence as f64;
+        happens(frame, Event::SpindleSpeed(speed));
     }
     rig.run(40);
     rig.command(Command::Hold);
@@ -120,10 +120,64 @@ fn each_event_is_published_once() {
     let events: Vec<_> = rig
         .setpoints
         .iter()
-        .filter(|s| s.event_kind == 1)
-        .map(|s| s.event_value as u64)
+        .flat_map(|s| s.events())
+        .map(|event| event.value as u64)
         .collect();
     assert_eq!(events, (0..frames.len() as u64).collect::<Vec<_>>());
+}
+
+#[test]
+fn events_happen_in_their_places_at_any_rate() {
+    for factor in [1.0, 0.37] {
+        let (mut rig, frames) = rig(3, 1, 200);
+        // Three in every period; two of them at once.
+        let offsets_ns = [400_000, 3_000_000, 3_000_000];
+        for frame in rig.feed.iter_mut().skip(1) {
+            let number = frame.sequence as f64;
+            for (slot, offset_ns) in frame.events.iter_mut().zip(offsets_ns) {
+                *slot = EventRecord::new(Event::SpindleSpeed(number), offset_ns);
+            }
+            frame.event_count = 3;
+        }
+        rig.command(Command::FeedOverride(factor));
+        rig.command(Command::RapidOverride(factor));
+        rig.run(60);
+        rig.command(Command::Hold);
+        rig.run(150);
+        rig.command(Command::Resume);
+        assert!(rig.run_until(6_000, is_idle));
+        let mut numbers = Vec::new();
+        for pair in rig.setpoints.windows(2) {
+            let [from, to] = [&pair[0], &pair[1]];
+            let is_steady = to.fraction == 0.0 && from.fraction == 0.0;
+            for event in to.events() {
+                numbers.push(event.value as u64);
+                // Where the plan is at that time, and where the setpoints are.
+                let [last, frame] = [-1, 0].map(|k| {
+                    let index = (event.value as i64 + k) as usize;
+                    AxisVector::from(frames[index].position)
+                });
+                let first_ns = event.offset_ns;
+                if is_steady && from.sequence + 1 == to.sequence {
+                    assert!(
+                        offsets_ns.contains(&first_ns),
+                        "{first_ns} at a steady rate"
+                    );
+                }
+                let part = f64::from(event.offset_ns) / 4e6;
+                let found = AxisVector::from(from.position) * (1.0 - part)
+                    + AxisVector::from(to.position) * part;
+                let near = offsets_ns.map(|ns| {
+                    let part = f64::from(ns) / 4e6;
+                    (last * (1.0 - part) + frame * part - found).amax()
+                });
+                let off_mm = near.into_iter().fold(f64::INFINITY, f64::min);
+                assert!(off_mm < 0.01, "off by {off_mm} mm");
+            }
+        }
+        let expected: Vec<u64> = (1..frames.len() as u64).flat_map(|k| [k; 3]).collect();
+        assert_eq!(numbers, expected);
+    }
 }
 
 /// How long a hold takes to begin and to end. A figure for people; limits are checked too.
