@@ -99,6 +99,12 @@ class Instance(unittest.TestCase):
                 following = setpoints.next()
             self.assertEqual(following.number, latest.number + 1)
             self.assertEqual(following.joint_position[0], latest.joint_position[0])
+            told = following.events[: following.event_count]
+            self.assertEqual([event.offset_ns for event in told], [0, 1_000_001, 4_000_000])
+            self.assertEqual([event.number for event in told], [0, 1, 2])
+            analog = glidepath.Event.ANALOG_OUTPUT
+            self.assertEqual({event.kind for event in told}, {analog})
+            self.assertEqual(told[1].value, float(following.number))
 
     def test_handles_belong_to_their_thread(self):
         with self.link.setpoints() as setpoints:

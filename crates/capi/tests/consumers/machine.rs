@@ -3,10 +3,11 @@
 use crate::build::Place;
 use bytemuck::Zeroable as _;
 use glidepath_link::{
-    Command, CommandRefusal, CommandReply, CommandRequest, Feedback, Ipc, JogDemand, LinkConfig,
-    MachineState, Record as _, RequestKind, SegmentRefusal, SegmentReply, SegmentRequest, Setpoint,
-    Status, Text, Transport as _, remove_leftovers,
+    Command, CommandRefusal, CommandReply, CommandRequest, EventRecord, Feedback, Ipc, JogDemand,
+    LinkConfig, MachineState, Record as _, RequestKind, SegmentRefusal, SegmentReply,
+    SegmentRequest, Setpoint, Status, Text, Transport as _, remove_leftovers,
 };
+use glidepath_program::Event;
 use glidepath_realtime::{Clock as _, Monotonic};
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
@@ -62,6 +63,13 @@ pub(crate) fn setpoint(number: u64) -> Setpoint {
         setpoint.joint_velocity[joint] = 20.0 * omega * cos * (1.0 + 0.01 * at);
         setpoint.joint_acceleration[joint] = -20.0 * omega * omega * sin * (1.0 + 0.01 * at);
         setpoint.away[joint] = 0.001 * at;
+    }
+    for (output, offset_ns) in (0..).zip([0, 1_000_001, 4_000_000]) {
+        let event = Event::AnalogOutput {
+            number: output,
+            value: number as f64,
+        };
+        assert!(setpoint.tell(EventRecord::new(event, offset_ns)));
     }
     setpoint
 }

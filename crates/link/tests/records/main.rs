@@ -262,7 +262,7 @@ fn frames_out_of_range_are_refused() {
         ));
     }
     // What the machine rests for is the last of its period.
-    let rest = EventRecord::new(Event::MCode(3), 0);
+    let rest = EventRecord::new(Event::MCode(3), 1);
     assert!(with_events(good, &[tool, rest]).to_frame().is_ok());
     assert!(with_events(good, &[rest, tool]).to_frame().is_err());
 }
@@ -397,7 +397,7 @@ fn codes_are_consecutive_and_known() {
     in_sequence(JogMode::ALL.iter().map(|code| code.code()), 0, 4);
     in_sequence(LatchKind::ALL.iter().map(|code| code.code()), 0, 3);
     in_sequence(DriveState::ALL.iter().map(|code| code.code()), 0, 8);
-    in_sequence(EventKind::ALL.iter().map(|code| code.code()), 0, 13);
+    in_sequence(EventKind::ALL.iter().map(|code| code.code()), 0, 14);
     assert_eq!(FrameRefusal::ALL.len(), FRAME_REFUSALS);
     assert!(
         FrameRefusal::ALL

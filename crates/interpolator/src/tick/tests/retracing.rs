@@ -137,7 +137,8 @@ fn square(events: &[Event]) -> Vec<SetpointFrame> {
 
 fn events(setpoints: &[Setpoint]) -> Vec<Event> {
     let events = setpoints.iter().filter(|s| s.epoch == 1);
-    events.filter_map(|s| s.event().unwrap()).collect()
+    let events = events.flat_map(Setpoint::events);
+    events.map(|event| event.event().unwrap()).collect()
 }
 
 #[test]
