@@ -7,7 +7,6 @@ use crate::message::{Inputs, Order};
 use crate::output::Written;
 use crate::stops::StopCause;
 use glidepath_link::{Command, EndOfEpoch, EventRecord, FaultCause, MachineState, Setpoint};
-use glidepath_program::Event;
 use glidepath_realtime::Wake;
 
 /// Orders taken in one tick.
