@@ -1766,7 +1766,7 @@ _glidepath() {
             return 0
             ;;
         glidepath__subcmd__home)
-            opts="-c -h --config --json --instance --help"
+            opts="-c -h --no-wait --config --json --instance --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -2698,7 +2698,7 @@ _glidepath() {
             return 0
             ;;
         glidepath__subcmd__run__subcmd__file)
-            opts="-c -h --from-line --pass --yes --config --json --instance --help"
+            opts="-c -h --from-line --pass --yes --resume --config --json --instance --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0

@@ -48,6 +48,15 @@ fn a_killed_planner_is_replaced_in_the_middle_of_the_program() {
         let _killed = planner.wait();
         let left = services.wait_for(MachineState::Faulted);
         assert_eq!(left.end_of_epoch(), Ok(EndOfEpoch::Faulted));
+        // No fault is cleared in passing.
+        for command in [
+            &["planner", &program][..],
+            &["planner", &program, "--resume"],
+        ] {
+            let refused = Process::join(&instance, command).wait().expect(5);
+            assert!(refused.stderr.contains("glidepath reset"), "{refused:#?}");
+        }
+        let _reset = Process::join(&instance, &["reset"]).wait().expect(0);
         let refused = resume(&other).expect(1);
         assert!(refused.stderr.contains("not the program"), "{refused:#?}");
         planner = Process::join(&instance, &["planner", &program, "--resume"]);

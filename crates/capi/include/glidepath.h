@@ -83,7 +83,8 @@ enum {
     GP_STATE_JOGGING = 12,
     GP_STATE_HOMING = 13,
     GP_STATE_OFF = 14,
-    GP_STATE_NOT_HOMED = 15
+    GP_STATE_NOT_HOMED = 15,
+    GP_STATE_PREPARING = 16
 };
 
 /* What can be commanded. */
@@ -108,7 +109,8 @@ enum {
     GP_COMMAND_JOG_OVERRIDE = 18,
     GP_COMMAND_TELL = 19,
     GP_COMMAND_REVERSE = 20,
-    GP_COMMAND_FORWARD = 21
+    GP_COMMAND_FORWARD = 21,
+    GP_COMMAND_JOB = 22
 };
 
 /* Why a command was refused. */
@@ -188,6 +190,17 @@ enum {
     GP_CONTACT_NONE = 0,
     GP_CONTACT_MADE = 1,
     GP_CONTACT_ALREADY_SO = 2
+};
+
+/* How the job of a planner stands. */
+enum {
+    GP_JOB_NONE = 0,
+    GP_JOB_WAITING = 1,
+    GP_JOB_PREPARING = 2,
+    GP_JOB_BEGUN = 3,
+    GP_JOB_OVER = 4,
+    GP_JOB_ABORTED = 5,
+    GP_JOB_REFUSED = 6
 };
 
 /* What an event is: kind of a gp_event, and the lowest byte of event_kind of a gp_segment. */
@@ -539,7 +552,7 @@ GP_FIELD(gp_setpoint, away, 576, 72);
 GP_FIELD(gp_setpoint, events, 648, 512);
 
 /* What the interpolator does and how well. Counts are of this life of it. The record
-   glidepath.Status.v9. */
+   glidepath.Status.v10. */
 typedef struct gp_status {
     /* Identifies one life of the interpolator. */
     uint64_t boot_id;
@@ -689,6 +702,14 @@ typedef struct gp_status {
     gp_quantiles latency;
     /* From the deadline of a tick to its setpoint handed to the thread that publishes it. */
     gp_quantiles response;
+    /* The number of the job that a planner has told of last, 0 for none. */
+    uint64_t job_number;
+    /* The number that the next epoch has to have. An abort uses it up. */
+    uint64_t next_epoch;
+    /* A GP_JOB_. */
+    uint32_t job_stage;
+    /* 1 if the job begins held, 0 if not. */
+    uint32_t job_held;
     /* The last error, for people. */
     char last_error[128];
     /* The last thing that happened (a change of state, missed ticks, ...), for people. */
@@ -696,8 +717,12 @@ typedef struct gp_status {
     /* What the program said last to people: MSG, DEBUG, the comment of a stop; empty before
        that. */
     char message[128];
+    /* The job that a planner has told of last, and what is being done for it, for people. */
+    char job[128];
+    /* Why that job does not begin, for people; empty if it may. */
+    char job_end[128];
 } gp_status;
-GP_ASSERT(sizeof(gp_status) == 1496, "gp_status has another size");
+GP_ASSERT(sizeof(gp_status) == 1776, "gp_status has another size");
 GP_FIELD(gp_status, boot_id, 0, 8);
 GP_FIELD(gp_status, updated_ns, 8, 8);
 GP_FIELD(gp_status, period_ns, 16, 8);
@@ -768,9 +793,15 @@ GP_FIELD(gp_status, lateness, 984, 32);
 GP_FIELD(gp_status, work, 1016, 32);
 GP_FIELD(gp_status, latency, 1048, 32);
 GP_FIELD(gp_status, response, 1080, 32);
-GP_FIELD(gp_status, last_error, 1112, 128);
-GP_FIELD(gp_status, last_event, 1240, 128);
-GP_FIELD(gp_status, message, 1368, 128);
+GP_FIELD(gp_status, job_number, 1112, 8);
+GP_FIELD(gp_status, next_epoch, 1120, 8);
+GP_FIELD(gp_status, job_stage, 1128, 4);
+GP_FIELD(gp_status, job_held, 1132, 4);
+GP_FIELD(gp_status, last_error, 1136, 128);
+GP_FIELD(gp_status, last_event, 1264, 128);
+GP_FIELD(gp_status, message, 1392, 128);
+GP_FIELD(gp_status, job, 1520, 128);
+GP_FIELD(gp_status, job_end, 1648, 128);
 
 /* What a servo stack knows of the joints it drives, at one moment. The record
    glidepath.Feedback.v1. */

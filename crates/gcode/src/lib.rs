@@ -75,6 +75,7 @@ pub use setup::fanuc::{Arctangent, FanucControl, FanucParameters, OffsetMemory, 
 pub use setup::m_codes::{MCodes, WaitsAt};
 pub use setup::machine::{Machine, Travel};
 pub use setup::options::{AdaptiveFeed, Connections, LoopLimits, Options};
+pub use setup::reading_watch::ReadingWatch;
 pub use setup::spindle_axis::SpindleAxis;
 pub use setup::subroutine_file::{
     MAX_SUBROUTINE_BYTES, NoSubroutineFile, SubroutineFile, Subroutines,

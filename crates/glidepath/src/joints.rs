@@ -8,7 +8,7 @@
 
 use crate::config::MachineConfig;
 use crate::plan_steps::PlanSteps;
-use glidepath_gcode::{Diagnostic, DiagnosticCode};
+use glidepath_gcode::{Diagnostic, DiagnosticCode, ReadingWatch};
 use glidepath_geometry::{Axis, AxisVector, Segment};
 use glidepath_kinematics::{
     JointFault, JointWatch, Kinematics as _, KinematicsError, Mechanism, Quantity,
@@ -163,6 +163,14 @@ pub(crate) fn check_plan(
     let source = || FileSource::open(path, config.program_options(start), &settings);
     let mut steps = PlanSteps::on_all_cores(source, config, start)?;
     while let Some(frame) = steps.next_frame()? {
+        if config
+            .program
+            .watch
+            .as_ref()
+            .is_some_and(ReadingWatch::is_to_end)
+        {
+            return Err(std::io::Error::from(std::io::ErrorKind::Interrupted).into());
+        }
         if frame.sequence.is_multiple_of(FRAMES_PER_NOTICE) {
             told(steps.statistics().lines);
         }

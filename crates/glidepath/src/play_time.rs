@@ -243,7 +243,8 @@ const fn cause_of(state: MachineState, has_moved: bool) -> Option<Cause> {
         | MachineState::Jogging
         | MachineState::Homing
         | MachineState::Off
-        | MachineState::NotHomed => None,
+        | MachineState::NotHomed
+        | MachineState::Preparing => None,
     }
 }
 

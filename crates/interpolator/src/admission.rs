@@ -71,6 +71,8 @@ pub(crate) struct Admission {
     last: Option<Last>,
     /// The epoch had a frame that did not pass.
     broken: bool,
+    /// No epoch up to this number begins any more.
+    barred: u64,
     /// What follows the spindle may come: it was announced.
     is_pass: bool,
 }
@@ -87,17 +89,36 @@ impl Admission {
             epoch: 0,
             last: None,
             broken: false,
+            barred: 0,
             is_pass: false,
         }
+    }
+
+    /// The number that the next epoch has to have.
+    pub(crate) fn next_epoch(&self, machine_epoch: u64) -> u64 {
+        self.epoch.max(machine_epoch).max(self.barred) + 1
+    }
+
+    /// No epoch up to this number begins any more: it was aborted before it began, or did not begin
+    /// as it should have.
+    pub(crate) fn bar(&mut self, epoch: u64) {
+        self.barred = self.barred.max(epoch);
+    }
+
+    /// The epoch that frames passed of, if the real-time thread has not opened it, and may yet.
+    pub(crate) fn opening(&self, machine_epoch: u64) -> Option<u64> {
+        let is_opening = self.epoch > machine_epoch && !self.broken && !self.is_barred(self.epoch);
+        is_opening.then_some(self.epoch)
+    }
+
+    /// Whether an epoch does not begin any more.
+    pub(crate) const fn is_barred(&self, epoch: u64) -> bool {
+        epoch <= self.barred
     }
 
     /// Frames of the epoch that passed.
     pub(crate) fn received(&self) -> u64 {
         self.last.map_or(0, |last| last.frame.sequence + 1)
-    }
-
-    pub(crate) const fn epoch(&self) -> u64 {
-        self.epoch
     }
 
     /// Learns what became of the machine.
@@ -111,8 +132,16 @@ impl Admission {
         if let Err(error) = frame.check() {
             return self.refuse(frame, refusal_of(&error));
         }
+        if self.is_barred(frame.epoch) {
+            return Verdict::Refused(FrameRefusal::Epoch);
+        }
         if frame.epoch > self.epoch {
-            return self.open(frame, machine);
+            let verdict = self.open(frame, machine);
+            // Its planner has no other first frame: it is to hear that this epoch does not begin.
+            if matches!(verdict, Verdict::Refused(_)) && self.is_in_reach(frame.epoch) {
+                self.bar(frame.epoch);
+            }
+            return verdict;
         }
         // An epoch that passed its first frame but is not open any more has ended.
         let is_over = machine.epoch >= frame.epoch && !machine.is_open;
@@ -142,7 +171,7 @@ impl Admission {
 
     /// A frame whose fields cannot be trusted, not even its epoch: a fault if one is open.
     fn refuse(&mut self, frame: &SetpointFrame, refusal: FrameRefusal) -> Verdict {
-        if self.last.is_none() || self.broken {
+        if self.last.is_none() || self.broken || self.is_barred(self.epoch) {
             return Verdict::Refused(refusal);
         }
         self.broken = true;
@@ -153,12 +182,17 @@ impl Admission {
         ))
     }
 
+    /// Whether a planner may have counted up to this number.
+    fn is_in_reach(&self, epoch: u64) -> bool {
+        epoch.saturating_sub(self.epoch.max(self.barred)) <= EPOCH_STEP_MAX
+    }
+
     /// The first frame of a new epoch.
     fn open(&mut self, frame: &SetpointFrame, machine: &Machine) -> Verdict {
-        if frame.epoch - self.epoch > EPOCH_STEP_MAX {
+        if !self.is_in_reach(frame.epoch) {
             return Verdict::Refused(FrameRefusal::Epoch);
         }
-        let pending = self.epoch > machine.epoch && !self.broken;
+        let pending = self.opening(machine.epoch).is_some();
         let moves = machine.is_open && machine.state != MachineState::Starved;
         if pending || moves {
             return Verdict::Later;

@@ -1,131 +1,220 @@
 //! Commands: what may be done when, and the answer.
+//!
+//! A job that has the machine is a state of its own here. What would move the axes, or change where
+//! they are, is refused then; what is to end a motion ends the job; a hold counts for its beginning.
 
 use crate::acknowledgements::Acknowledgements;
+use crate::admission::Admission;
 use crate::feedback::DriveBook;
+use crate::job::{JobBook, Told, unfit};
 use crate::message::{Order, PortsEnds, Report};
 use glidepath_link::{
-    Command, CommandOutcome, CommandRefusal, CommandReply, CommandRequest, MachineState, Objection,
+    Command, CommandOutcome, CommandRefusal, CommandReply, CommandRequest, JobPhase, JobStage,
+    MachineState, Objection,
 };
 
-/// Answers a command: passes it on to the real-time thread, or says why not.
-///
-/// Acceptance means that the command is on its way. It is carried out at the next tick if the state
-/// then still allows it.
-pub(crate) fn answer(
-    request: &CommandRequest,
-    report: &Report,
-    boot_id: u64,
-    drives: Option<(&mut DriveBook, u64)>,
-    acknowledgements: &mut Acknowledgements,
-    ends: &mut PortsEnds<'_>,
-) -> CommandReply {
-    let (outcome, message) = match request.command() {
-        Err(error) => (Err(CommandRefusal::Malformed), error.to_string()),
-        Ok(Command::Ping | Command::Tell) => (Ok(()), String::new()),
-        Ok(Command::Acknowledge { event, done }) => {
-            match acknowledgements.judge(event, done, report) {
-                Err(why) => objected(why),
-                Ok(()) => {
-                    let command = Command::Acknowledge { event, done };
-                    let (outcome, message) = pass_on(command, report.state, ends);
-                    if outcome.is_ok() {
-                        acknowledgements.answer(event);
-                    }
-                    (outcome, message)
+/// Orders that one command comes to, at most.
+const ORDERS_PER_COMMAND: usize = 3;
+
+/// What commands are judged by, and what they change.
+pub(crate) struct Desk<'d, 'a> {
+    pub(crate) report: Report,
+    pub(crate) boot_id: u64,
+    pub(crate) now_ns: u64,
+    pub(crate) drives: Option<&'d mut DriveBook>,
+    pub(crate) acknowledgements: &'d mut Acknowledgements,
+    pub(crate) jobs: &'d mut JobBook,
+    pub(crate) admission: &'d mut Admission,
+    pub(crate) ends: &'d mut PortsEnds<'a>,
+    /// Something was passed on that may change what the machine does: the next report tells.
+    pub(crate) is_ordered: bool,
+}
+
+impl Desk<'_, '_> {
+    /// Answers a command: passes it on to the real-time thread, or says why not.
+    ///
+    /// Acceptance means that the command is on its way. It is carried out at the next tick if the
+    /// state then still allows it.
+    pub(crate) fn answer(&mut self, request: &CommandRequest) -> CommandReply {
+        let reported = self.report.state;
+        self.report.state = self.jobs.state(&self.report);
+        let state = self.report.state;
+        let (outcome, message) = if self.has_room() {
+            self.carry_out(request)
+        } else {
+            let why = CommandRefusal::Busy;
+            (Err(why), why.text().to_owned())
+        };
+        self.report.state = reported;
+        CommandReply::new(self.boot_id, request.number, outcome, state, &message)
+    }
+
+    fn has_room(&self) -> bool {
+        let orders = &self.ends.orders;
+        orders.capacity() - orders.len() >= ORDERS_PER_COMMAND
+    }
+
+    fn carry_out(&mut self, request: &CommandRequest) -> (CommandOutcome, String) {
+        let wrong = |why: String| (Err(CommandRefusal::WrongState), why);
+        let done = (Ok(()), String::new());
+        let command = match request.command() {
+            Err(error) => return (Err(CommandRefusal::Malformed), error.to_string()),
+            Ok(Command::Ping | Command::Tell) => return done,
+            Ok(Command::Job { number, phase }) => {
+                return match self.hear_job((number, phase), request) {
+                    Ok(()) => done,
+                    Err(why) => wrong(why),
+                };
+            }
+            Ok(Command::Acknowledge {
+                event,
+                done: is_done,
+            }) => {
+                let judged = self.acknowledgements.judge(event, is_done, &self.report);
+                if let Err(why) = judged {
+                    return wrong(why.text().to_owned());
+                }
+                self.acknowledgements.answer(event);
+                self.order(Order::Command(Command::Acknowledge {
+                    event,
+                    done: is_done,
+                }));
+                return done;
+            }
+            Ok(command) => command,
+        };
+        match self.judge(command) {
+            Err(why) => return wrong(why.text().to_owned()),
+            Ok(is_for_motion) => {
+                self.tell_job(command);
+                if is_for_motion {
+                    self.order(Order::Command(command));
                 }
             }
         }
-        Ok(command) => match judge(command, report, drives) {
-            Err(why) => objected(why),
-            Ok(false) => (Ok(()), String::new()),
-            Ok(true) => pass_on(command, report.state, ends),
-        },
-    };
-    CommandReply::new(boot_id, request.number, outcome, report.state, &message)
-}
-
-fn objected(why: Objection) -> (CommandOutcome, String) {
-    (Err(CommandRefusal::WrongState), why.text().to_owned())
-}
-
-/// Whether the real-time thread has to know of a command.
-///
-/// # Errors
-/// Why it is not possible.
-fn judge(
-    command: Command,
-    report: &Report,
-    drives: Option<(&mut DriveBook, u64)>,
-) -> Result<bool, Objection> {
-    // Joints that were just told to come home are not yet seen to move.
-    let sets_out = drives.as_ref().is_some_and(|(book, _)| book.is_homing());
-    let is_stop = command == Command::Abort && sets_out;
-    if !is_stop && let Some(why) = objection(command, report, drives.is_some()) {
-        return Err(why);
+        self.is_ordered |= matches!(
+            command,
+            Command::Home(_)
+                | Command::Unhome(_)
+                | Command::SetPosition { .. }
+                | Command::Enable
+                | Command::Disable
+        );
+        done
     }
-    drives.map_or(Ok(true), |(book, now_ns)| {
-        book.command(command, report, now_ns)
-    })
-}
 
-fn pass_on(
-    command: Command,
-    state: MachineState,
-    ends: &mut PortsEnds<'_>,
-) -> (CommandOutcome, String) {
-    // Without a program, what is left to abort is a latched fault.
-    let clears_fault = command == Command::Abort && state == MachineState::Faulted;
-    let command = if clears_fault {
-        Command::Reset
-    } else {
-        command
-    };
-    match ends.orders.enqueue(Order::Command(command)) {
-        Ok(()) => (Ok(()), String::new()),
-        Err(_) => (
-            Err(CommandRefusal::Busy),
-            CommandRefusal::Busy.text().to_owned(),
-        ),
+    /// A planner tells of its job.
+    fn hear_job(
+        &mut self,
+        (number, phase): (u64, JobPhase),
+        request: &CommandRequest,
+    ) -> Result<(), String> {
+        let is_homing = self.drives.as_ref().is_some_and(|book| book.is_homing());
+        let free = if is_homing || self.is_ordered {
+            Err("the machine was given another order")
+        } else {
+            unfit(self.report.state).map_or(Ok(()), Err)
+        };
+        let told = self
+            .jobs
+            .tell((number, phase), request.text, self.now_ns, free)?;
+        match told {
+            Told::Nothing => {}
+            Told::Takes => {
+                self.order(Order::Prepare(true));
+                if self.jobs.is_held() {
+                    self.order(Order::Command(Command::Hold));
+                }
+            }
+            Told::GivesBack => self.bar(),
+        }
+        Ok(())
+    }
+
+    /// What a command is to a job that has not begun.
+    fn tell_job(&mut self, command: Command) {
+        if matches!(command, Command::Hold | Command::Resume) {
+            self.jobs.hold(command == Command::Hold);
+        }
+        let (stage, why) = if command == Command::Abort {
+            (JobStage::Aborted, "aborted before anything moved")
+        } else if command == Command::Disable {
+            (JobStage::Refused, "the drives were switched off")
+        } else {
+            return;
+        };
+        let had_machine = self.jobs.end(stage, why);
+        if let Some(epoch) = self.admission.opening(self.report.setpoint.epoch) {
+            self.admission.bar(epoch);
+            self.order(Order::Bar(epoch));
+            self.jobs.does_not_begin(stage, why);
+        } else if had_machine {
+            self.bar();
+        }
+    }
+
+    /// The machine is not a job's any more, and the epoch that would have come does not begin.
+    fn bar(&mut self) {
+        let epoch = self.admission.next_epoch(self.report.setpoint.epoch);
+        self.admission.bar(epoch);
+        self.order(Order::Bar(epoch));
+        self.order(Order::Prepare(false));
+    }
+
+    fn order(&mut self, order: Order) {
+        // There is room: that was looked at before.
+        self.ends.orders.enqueue(order).ok();
+    }
+
+    /// Whether the real-time thread has to know of a command.
+    ///
+    /// # Errors
+    /// Why it is not possible.
+    fn judge(&mut self, command: Command) -> Result<bool, Objection> {
+        let report = &self.report;
+        let is_for_job = command == Command::Resume && self.jobs.is_held();
+        if !is_for_job && let Some(why) = objection(command, report, self.drives.is_some()) {
+            return Err(why);
+        }
+        match &mut self.drives {
+            Some(book) => book.command(command, report, self.now_ns),
+            None => Ok(true),
+        }
     }
 }
 
 /// Why a command is not possible as things are, if it is not.
 fn objection(command: Command, report: &Report, has_drives: bool) -> Option<Objection> {
     use MachineState::{
-        Awaiting, Faulted, Held, Holding, Homing, Idle, Jogging, NotHomed, Off, ProgramStop,
-        Stopping,
+        Awaiting, Faulted, Held, Holding, Homing, Idle, Jogging, NotHomed, Off, Preparing,
+        ProgramStop, Stopping,
     };
     let (state, is_away) = (report.state, report.is_away);
     let (is_possible, why) = match command {
         Command::Ping
         | Command::Tell
         | Command::Forward
+        | Command::Abort
         | Command::RapidOverride(_)
         | Command::JogOverride(_)
         | Command::SingleBlock(_) => return None,
         Command::FeedOverride(ratio) if ratio >= 0.0 => return None,
         Command::FeedOverride(_) | Command::Reverse => (
-            !matches!(state, Idle | Faulted | Off | NotHomed | Homing),
+            !matches!(state, Idle | Preparing | Faulted | Off | NotHomed | Homing),
             Objection::NoPathBack,
         ),
-        Command::Hold => (
-            !matches!(state, Idle | Faulted | Off | NotHomed | Homing),
-            Objection::NothingToHold,
-        ),
+        // At rest it is held already.
+        Command::Hold => (state != Homing, Objection::HomingNotHeld),
         Command::Resume | Command::Step if is_away => (false, Objection::Away),
         Command::Resume => (
             matches!(state, Holding | Held | ProgramStop),
             Objection::NothingHeld,
         ),
-        Command::Abort => (
-            !matches!(state, Idle | Off | NotHomed) || report.has_use_of_abort,
-            Objection::NothingToAbort,
-        ),
         Command::Reset => (state == Faulted, Objection::NoFault),
         Command::StopAtEndOfBlock => (
             !matches!(
                 state,
-                Idle | Faulted | Stopping | Jogging | Off | NotHomed | Homing
+                Idle | Preparing | Faulted | Stopping | Jogging | Off | NotHomed | Homing
             ),
             Objection::NoBlock,
         ),
@@ -133,6 +222,11 @@ fn objection(command: Command, report: &Report, has_drives: bool) -> Option<Obje
             matches!(state, Holding | Held | ProgramStop),
             Objection::NoStep,
         ),
+        Command::SetPosition { .. } | Command::Home(_) | Command::Unhome(_)
+            if state == Preparing =>
+        {
+            (false, Objection::JobHasMachine)
+        }
         Command::Enable
         | Command::Disable
         | Command::SetPosition { .. }
@@ -143,8 +237,8 @@ fn objection(command: Command, report: &Report, has_drives: bool) -> Option<Obje
             matches!(state, Held | ProgramStop | Awaiting),
             Objection::Moving,
         ),
-        // It is judged by itself.
-        Command::Acknowledge { .. } => return None,
+        // They are judged by themselves.
+        Command::Acknowledge { .. } | Command::Job { .. } => return None,
     };
     (!is_possible).then_some(why)
 }

@@ -209,6 +209,7 @@ impl Drives {
             | Command::JogOverride(_)
             | Command::Reverse
             | Command::Forward
+            | Command::Job { .. }
             | Command::Tell => {}
         }
     }

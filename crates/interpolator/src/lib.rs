@@ -116,6 +116,7 @@ mod feedback;
 mod frame_summary;
 mod gates;
 mod homing;
+mod job;
 mod jog;
 mod joints;
 mod loops;

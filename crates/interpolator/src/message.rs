@@ -94,6 +94,10 @@ pub(crate) enum Order {
     PlannerLives,
     /// Joints are moved each for itself.
     Joints(JointsOrder),
+    /// A job has the machine, or has it no longer.
+    Prepare(bool),
+    /// No epoch up to this number begins; the one with this number ends, if it is open.
+    Bar(u64),
 }
 
 /// An event that is awaited.
@@ -148,8 +152,6 @@ pub(crate) struct Report {
     pub(crate) is_returning: bool,
     /// The axes are not where the program is held.
     pub(crate) is_away: bool,
-    /// An abort stops something, also without a program.
-    pub(crate) has_use_of_abort: bool,
     /// Frames of the epoch whose instant has come.
     pub(crate) frames_executed: u64,
     /// Frames the real-time thread owns and has not reached.
@@ -166,6 +168,8 @@ pub(crate) struct Report {
     pub(crate) starved_ticks: u64,
     pub(crate) power: Power,
     pub(crate) moved: Moved,
+    /// No epoch up to this number begins any more.
+    pub(crate) barred: u64,
 }
 
 impl Report {
@@ -179,7 +183,6 @@ impl Report {
             awaited: None,
             is_returning: false,
             is_away: false,
-            has_use_of_abort: false,
             frames_executed: 0,
             queue_depth: 0,
             timing: Timing::default(),
@@ -193,6 +196,7 @@ impl Report {
             starved_ticks: 0,
             power: Power::Simulated,
             moved: Moved::default(),
+            barred: 0,
         }
     }
 }

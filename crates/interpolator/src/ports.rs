@@ -8,19 +8,20 @@
 use crate::acknowledgements::Acknowledgements;
 use crate::admission::{Admission, Machine, Verdict};
 use crate::auxiliary::AuxiliaryBook;
-use crate::commands::{answer, is_refusal};
+use crate::commands::{Desk, is_refusal};
 use crate::config::Config;
 use crate::fault::Fault;
 use crate::feedback::DriveBook;
+use crate::job::{JobBook, unfit};
 use crate::jog::DemandReader;
 use crate::message::{Happening, Order, PortsEnds, Report};
 use crate::status::{StatusBook, grants_of};
 use crate::stops::StopCause;
 use glidepath_geometry::AxisVector;
 use glidepath_link::{
-    Auxiliary, Command, CommandReply, CommandRequest, EndOfEpoch, FaultCause, Feedback, JogDemand,
-    LinkError, MachineState, Publisher, Server, Setpoint, SetpointFrame, Status, Subscriber,
-    Transport,
+    Auxiliary, Command, CommandReply, CommandRequest, EndOfEpoch, FaultCause, Feedback, JobStage,
+    JogDemand, LinkError, MachineState, Publisher, Server, Setpoint, SetpointFrame, Status,
+    Subscriber, Transport,
 };
 use glidepath_realtime::{EventReader, Grants, Mode};
 
@@ -85,6 +86,9 @@ pub(crate) struct Ports<'a> {
     book: StatusBook,
     auxiliary: AuxiliaryBook,
     acknowledgements: Acknowledgements,
+    jobs: JobBook,
+    /// Number of the setpoint after which an order was passed on that a job waits for.
+    ordered_after: Option<u64>,
     boot_id: u64,
     status_due_ns: u64,
     clean_up_due_ns: u64,
@@ -118,6 +122,8 @@ impl<'a> Ports<'a> {
             book: StatusBook::new(config, boot_id),
             auxiliary: AuxiliaryBook::new(boot_id, config.gates, config.stops),
             acknowledgements: Acknowledgements::new(boot_id, config.gates),
+            jobs: JobBook::new(),
+            ordered_after: None,
             boot_id,
             status_due_ns: 0,
             clean_up_due_ns: 0,
@@ -162,6 +168,7 @@ impl<'a> Ports<'a> {
             // Before the frames: they are judged by the position that the drives report.
             self.observe(now_ns),
             self.move_frames(),
+            self.watch_job(now_ns),
             self.publish_status(now_ns),
             self.clean_up(now_ns),
         ];
@@ -272,22 +279,23 @@ impl<'a> Ports<'a> {
         let Some(report) = self.report else {
             return Ok(());
         };
-        let Self {
-            links,
-            ends,
-            book,
-            boot_id,
-            drives,
-            acknowledgements,
-            log,
-            ..
-        } = self;
+        let number = Some(report.setpoint.number);
+        let is_ordered = self.ordered_after == number || self.demanded_after == number;
+        let mut desk = Desk {
+            report,
+            boot_id: self.boot_id,
+            now_ns,
+            drives: self.drives.as_mut(),
+            acknowledgements: &mut self.acknowledgements,
+            jobs: &mut self.jobs,
+            admission: &mut self.admission,
+            ends: &mut self.ends,
+            is_ordered,
+        };
+        let (book, log) = (&mut self.book, &mut self.log);
         for _ in 0..COMMANDS_PER_TURN {
-            let served = links.commands.serve(&mut |request| {
-                let reply = {
-                    let drives = drives.as_mut().map(|drives| (drives, now_ns));
-                    answer(request, &report, *boot_id, drives, acknowledgements, ends)
-                };
+            let served = self.links.commands.serve(&mut |request| {
+                let reply = desk.answer(request);
                 let text = request.text.as_str();
                 let command = request.command().ok();
                 let has_failed = matches!(command, Some(Command::Acknowledge { done: false, .. }));
@@ -297,14 +305,20 @@ impl<'a> Ports<'a> {
                 } else if has_failed && !is_refusal(&reply) && !text.is_empty() {
                     log(text);
                     book.last_error(text);
+                } else if matches!(command, Some(Command::Job { .. })) {
+                    // Its planner waits for that.
+                    self.status_due_ns = 0;
                 }
                 book.status.commands_served += 1;
                 book.status.commands_refused += u64::from(is_refusal(&reply));
                 reply
             })?;
             if !served {
-                return Ok(());
+                break;
             }
+        }
+        if desk.is_ordered {
+            self.ordered_after = number;
         }
         Ok(())
     }
@@ -364,6 +378,9 @@ impl<'a> Ports<'a> {
             }
             match self.admission.judge(&frame, &machine) {
                 Verdict::Pass => {
+                    if frame.sequence == 0 {
+                        self.jobs.begin();
+                    }
                     self.book.passed(&frame);
                     self.ends.frames.enqueue(frame).ok(); // There is room: it was ready.
                 }
@@ -375,9 +392,12 @@ impl<'a> Ports<'a> {
                     return Ok(());
                 }
                 Verdict::Refused(refusal) => {
+                    let cause = FaultCause::Frame(refusal);
+                    let text = Fault::new(cause, frame.line, frame.sequence).to_string();
+                    if self.jobs.end(JobStage::Refused, &text) {
+                        self.give_machine_back();
+                    }
                     if self.book.refused(refusal) {
-                        let cause = FaultCause::Frame(refusal);
-                        let text = Fault::new(cause, frame.line, frame.sequence).to_string();
                         self.tell(&format!("epoch {}: {text}", frame.epoch));
                     }
                 }
@@ -392,6 +412,37 @@ impl<'a> Ports<'a> {
         Ok(())
     }
 
+    /// Ends a job that cannot begin any more.
+    fn watch_job(&mut self, now_ns: u64) -> Result<(), LinkError> {
+        let Some(report) = self.report else {
+            return Ok(());
+        };
+        let machine_epoch = report.setpoint.epoch;
+        if let Some(epoch) = self.admission.opening(machine_epoch)
+            && epoch <= report.barred
+        {
+            let why = unfit(report.state).unwrap_or("the machine was given another order");
+            self.jobs.does_not_begin(JobStage::Refused, why);
+        }
+        self.admission.bar(report.barred);
+        let is_opening = self.admission.opening(machine_epoch).is_some();
+        if self.jobs.watch(&report, is_opening, now_ns) {
+            self.give_machine_back();
+        }
+        Ok(())
+    }
+
+    /// No job has the machine any more, and the epoch that would have come does not begin.
+    fn give_machine_back(&mut self) {
+        let machine_epoch = self.report.map_or(0, |report| report.setpoint.epoch);
+        let epoch = self.admission.next_epoch(machine_epoch);
+        self.admission.bar(epoch);
+        // The ring has room for many more orders than there are commands in a turn.
+        self.ends.orders.enqueue(Order::Bar(epoch)).ok();
+        self.ends.orders.enqueue(Order::Prepare(false)).ok();
+        self.status_due_ns = 0;
+    }
+
     fn publish_status(&mut self, now_ns: u64) -> Result<(), LinkError> {
         if now_ns < self.status_due_ns {
             return Ok(());
@@ -403,6 +454,8 @@ impl<'a> Ports<'a> {
         let waiting = self.ends.frames.len() as u64;
         self.book.write(&report, &self.admission, waiting, now_ns);
         self.book.status.awaited_words = self.auxiliary.awaited_words();
+        self.book.status.state = self.jobs.state(&report).code();
+        self.jobs.write(&mut self.book.status);
         if let Some(drives) = &self.drives {
             drives.write(&mut self.book.status, now_ns);
         }

@@ -2,7 +2,7 @@
 //!
 //! A search ends its epoch, and the program goes on in another one, which takes its planner a
 //! moment. In between the machine waits: a hold is in force when it goes on, and an abort ends the
-//! program, also where the first frame behind the search is already under way.
+//! program: the epoch that would have gone on is barred, whose first frame may be under way.
 
 use glidepath_link::EndOfEpoch;
 
@@ -18,12 +18,7 @@ enum Search {
     Tripped,
     /// The epoch is over, and the program goes on in another.
     Over,
-    /// It was aborted there; what was under way is to have come in after so many ticks.
-    Aborted(u64),
 }
-
-/// How long frames may be under way: several times what a planner takes to hear of an abort.
-const UNDER_WAY_NS: u64 = 250_000_000;
 
 /// A search for a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -65,23 +60,12 @@ impl Probing {
     }
 
     /// The program does not go on.
-    pub(crate) const fn abort(&mut self, period_ns: u64) {
-        self.0 = Search::Aborted(UNDER_WAY_NS / period_ns);
-    }
-
-    /// A tick has passed without an epoch.
-    pub(crate) const fn wait(&mut self) {
-        self.0 = match self.0 {
-            Search::Aborted(0) => Search::None,
-            Search::Aborted(ticks) => Search::Aborted(ticks - 1),
-            search => search,
-        };
-    }
-
-    /// An epoch begins. Returns whether it is one that was aborted before it came.
-    pub(crate) const fn open(&mut self) -> bool {
-        let is_aborted = matches!(self.0, Search::Aborted(_));
+    pub(crate) const fn abort(&mut self) {
         self.0 = Search::None;
-        is_aborted
+    }
+
+    /// An epoch begins.
+    pub(crate) const fn open(&mut self) {
+        self.0 = Search::None;
     }
 }

@@ -16,6 +16,8 @@ use glidepath_realtime::{Histogram, Item, Mode};
 pub(crate) struct StatusBook {
     pub(crate) status: Status,
     block_starts: BlockStarts,
+    /// The first frame of an epoch that the real-time thread has not opened.
+    entering: Option<SetpointFrame>,
     lateness: Histogram,
     work: Histogram,
     latency: Histogram,
@@ -41,6 +43,7 @@ impl StatusBook {
         Self {
             status,
             block_starts: BlockStarts::new(frames_kept(config.period_t())),
+            entering: None,
             lateness: Histogram::new(),
             work: Histogram::new(),
             latency: Histogram::new(),
@@ -50,6 +53,13 @@ impl StatusBook {
 
     /// Counts a tick.
     pub(crate) fn count(&mut self, report: &Report) {
+        if let Some(frame) = self
+            .entering
+            .take_if(|frame| frame.epoch <= report.setpoint.epoch)
+            && frame.epoch == report.setpoint.epoch
+        {
+            self.enter(&frame);
+        }
         if report.setpoint.block != self.status.block {
             self.status.block = report.setpoint.block;
             let path_s = report.setpoint.path_s;
@@ -72,8 +82,7 @@ impl StatusBook {
         *count == 1
     }
 
-    /// A frame passed to the real-time thread. The first one of a program tells which program that
-    /// is, and where it starts; that of a planner that goes on with one tells of a block of the same.
+    /// A frame passed to the real-time thread.
     pub(crate) fn passed(&mut self, frame: &SetpointFrame) {
         if frame.sequence > 0 {
             return;
@@ -82,6 +91,13 @@ impl StatusBook {
         if self.status.state != MachineState::Waiting.code() {
             self.message("");
         }
+        self.entering = Some(*frame);
+    }
+
+    /// An epoch has begun. The first frame of a program tells which program that is, and where it
+    /// starts; that of a planner that goes on with one tells of a block of the same. One that is
+    /// aborted before it begins leaves what can be resumed as it was.
+    fn enter(&mut self, frame: &SetpointFrame) {
         if frame.block == 0 || frame.program != self.status.program {
             self.block_starts.forget();
             self.status.program = frame.program;
@@ -111,11 +127,13 @@ impl StatusBook {
         now_ns: u64,
     ) {
         let setpoint = &report.setpoint;
-        let is_newer = admission.epoch() > setpoint.epoch;
+        let opening = admission.opening(setpoint.epoch);
+        let is_newer = opening.is_some();
         let status = &mut self.status;
         status.updated_ns = now_ns;
         status.tick = setpoint.tick;
-        status.epoch = admission.epoch().max(setpoint.epoch);
+        status.epoch = opening.unwrap_or(setpoint.epoch);
+        status.next_epoch = admission.next_epoch(setpoint.epoch);
         status.frames_received = admission.received();
         status.frames_executed = if is_newer { 0 } else { report.frames_executed };
         status.queue_depth = u32::try_from(report.queue_depth + waiting).unwrap_or(u32::MAX);
@@ -194,7 +212,8 @@ fn mode(report: &Report) -> MotionMode {
         | MachineState::Waiting
         | MachineState::Awaiting
         | MachineState::Off
-        | MachineState::NotHomed => match report.end_of_epoch {
+        | MachineState::NotHomed
+        | MachineState::Preparing => match report.end_of_epoch {
             EndOfEpoch::Open if report.feed_override.is_sign_negative() => MotionMode::Backwards,
             EndOfEpoch::Open => MotionMode::Program,
             EndOfEpoch::None

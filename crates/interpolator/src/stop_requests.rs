@@ -51,6 +51,8 @@ pub(crate) struct StopRequests {
     rapid_r: f64,
     /// It goes, or is to go, through frames that were passed before.
     retraces: bool,
+    /// A job has the machine, and none of its frames has come.
+    is_prepared: bool,
 }
 
 /// Which way along the path the motion goes.
@@ -106,6 +108,7 @@ impl Default for StopRequests {
             feed_r: 1.0,
             rapid_r: 1.0,
             retraces: false,
+            is_prepared: false,
         }
     }
 }
@@ -116,8 +119,9 @@ impl StopRequests {
         match order {
             Order::Command(command) => return self.carry_out_command(command, is_open),
             Order::Fault(fault) | Order::Cut(fault) => self.fail(fault),
-            // These concern the supply and the joints.
-            Order::PlannerLives | Order::Joints(_) => {}
+            Order::Prepare(is_prepared) => self.prepare(is_prepared, is_open),
+            // These concern the supply, the joints and the epochs.
+            Order::PlannerLives | Order::Joints(_) | Order::Bar(_) => {}
         }
         Released::NOTHING
     }
@@ -135,8 +139,9 @@ impl StopRequests {
             | Command::Unhome(_)
             | Command::Return
             | Command::JogOverride(_)
+            | Command::Job { .. }
             | Command::Acknowledge { .. } => {}
-            Command::Hold => self.hold = is_open,
+            Command::Hold => self.hold = is_open || self.is_prepared,
             Command::Resume => return self.go_on(),
             Command::Step => {
                 self.stop_at_block_end = is_open;
@@ -167,6 +172,17 @@ impl StopRequests {
             program_stop: core::mem::replace(&mut self.program_stop, false),
             block_end: core::mem::replace(&mut self.block_end, false),
         }
+    }
+
+    /// A job has the machine: a hold counts for the epoch to come.
+    const fn prepare(&mut self, is_prepared: bool, is_open: bool) {
+        self.is_prepared = is_prepared && !is_open;
+        self.hold = self.hold && (is_open || is_prepared);
+    }
+
+    /// Whether a job has the machine, of which no frame has come.
+    pub(crate) const fn is_prepared(&self) -> bool {
+        self.is_prepared
     }
 
     /// The program goes on only when the operator says so.
@@ -221,8 +237,9 @@ impl StopRequests {
     }
 
     /// An epoch begins or ends: only a latched fault, the overrides and the single-block mode
-    /// outlive it, and a hold if the program goes on. Every program begins onward.
+    /// outlive it, and a hold if the program goes on or was prepared. Every program begins onward.
     pub(crate) const fn forget_epoch(&mut self, goes_on: bool) {
+        let goes_on = goes_on || core::mem::replace(&mut self.is_prepared, false);
         self.go(Heading::Onward);
         self.reverse(false);
         self.abort = false;

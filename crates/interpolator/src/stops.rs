@@ -95,11 +95,6 @@ impl Stops {
         self.is_due = self.stops_spindle || self.stops_coolant;
     }
 
-    /// Whether an abort would stop anything.
-    pub(crate) const fn has_use_of_abort(&self) -> bool {
-        self.settings.abort && (self.spindle_on || self.coolant_on)
-    }
-
     /// Whether something is still to be stopped. Every tick asks.
     pub(crate) const fn is_due(&self) -> bool {
         self.is_due

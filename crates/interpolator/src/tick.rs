@@ -139,7 +139,8 @@ impl Interpolator<'_> {
             | MachineState::Jogging
             | MachineState::Homing
             | MachineState::Off
-            | MachineState::NotHomed => of_program,
+            | MachineState::NotHomed
+            | MachineState::Preparing => of_program,
         };
         self.has_moved = is_open && (self.has_moved || !stands);
         // Before the motion begins, frames are few by nature, and rests that the program begins with
@@ -162,7 +163,6 @@ impl Interpolator<'_> {
         report.awaited = self.wait.awaited();
         report.is_returning = self.jog.is_returning();
         report.is_away = self.jog.owns_axes() && self.is_open();
-        report.has_use_of_abort = self.stops.has_use_of_abort();
         report.frames_executed = if self.epoch == 0 {
             0
         } else {
@@ -177,6 +177,7 @@ impl Interpolator<'_> {
         report.jog_override = self.jog.override_ratio();
         report.power = self.drives.power();
         report.moved = self.mover.moved();
+        report.barred = self.barred;
         report.single_block = self.requests.is_single_block();
         self.account.fill(report);
     }

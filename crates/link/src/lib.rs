@@ -69,11 +69,11 @@ pub use record::{
     ALL_JOINTS, ANALOG_OUTPUTS, Auxiliary, COMMAND_KINDS, CodeWords, Command, CommandKind,
     CommandOutcome, CommandRefusal, CommandReply, CommandRequest, ContactKind, Coolant, DriveState,
     EVENTS_MOST, EndOfEpoch, EventId, EventKind, EventRecord, FRAME_REFUSALS, FaultCause, Feedback,
-    FrameRefusal, Grants, JobKind, JobReply, JobRequest, JobState, JogDemand, JogMode, LATCHES,
-    Latch, LatchKind, LongText, MachineState, ModeCode, MotionMode, OVERRIDE_MAX, PERIOD_NS_MAX,
-    PlaneCode, Power, Quantiles, Record, RecordError, RequestKind, SegmentOutcome, SegmentRefusal,
-    SegmentReply, SegmentRequest, Setpoint, SetpointFrame, SetpointMarks, SpindleFlags,
-    SpindleState, Status, StreamItem, Text, decode,
+    FrameRefusal, Grants, JobKind, JobPhase, JobReply, JobRequest, JobStage, JobState, JobWish,
+    JogDemand, JogMode, LATCHES, Latch, LatchKind, LongText, MachineState, ModeCode, MotionMode,
+    OVERRIDE_MAX, PERIOD_NS_MAX, PlaneCode, Power, Quantiles, Record, RecordError, RequestKind,
+    SegmentOutcome, SegmentRefusal, SegmentReply, SegmentRequest, Setpoint, SetpointFrame,
+    SetpointMarks, SpindleFlags, SpindleState, Status, StreamItem, Text, decode,
 };
 pub use service::Capacity;
 pub use wording::{FaultReport, Objection, StateChange, is_printable, printable, refused};

@@ -35,7 +35,7 @@ layout!(setpoint, Setpoint, "glidepath.Setpoint.v4", 1160, {
     acceleration: 288, joint_position: 360, joint_velocity: 432, joint_acceleration: 504,
     away: 576, events: 648,
 });
-layout!(status, Status, "glidepath.Status.v9", 1496, {
+layout!(status, Status, "glidepath.Status.v10", 1776, {
     boot_id: 0, updated_ns: 8, period_ns: 16, tick: 24, epoch: 32, frames_received: 40,
     frames_executed: 48, queue_depth: 56, queue_capacity: 60, pid: 64, state: 68, end_of_epoch: 72,
     fault: 76, fault_line: 80, fault_axis: 84, fault_joint: 88, drive_fault: 92,
@@ -48,11 +48,12 @@ layout!(status, Status, "glidepath.Status.v9", 1496, {
     feed_override: 776, rapid_override: 784, jog_override: 792, effective_override: 800, adaptive_feed: 808, ticks: 816,
     missed_ticks: 824, late_ticks: 832, setpoints_published: 840, setpoints_lost: 848,
     reserve_stops: 856, starved_ticks: 864, commands_served: 872, commands_refused: 880,
-    frames_refused: 888, lateness: 984, work: 1016, latency: 1048, response: 1080, last_error: 1112,
-    last_event: 1240, message: 1368,
+    frames_refused: 888, lateness: 984, work: 1016, latency: 1048, response: 1080,
+    job_number: 1112, next_epoch: 1120, job_stage: 1128, job_held: 1132, last_error: 1136,
+    last_event: 1264, message: 1392, job: 1520, job_end: 1648,
 });
-layout!(command_request, CommandRequest, "glidepath.CommandRequest.v5", 184, {
-    client: 0, number: 8, value: 16, kind: 24, joints: 28, event: 32, text: 56,
+layout!(command_request, CommandRequest, "glidepath.CommandRequest.v6", 192, {
+    client: 0, number: 8, value: 16, kind: 24, joints: 28, event: 32, job: 56, text: 64,
 });
 layout!(auxiliary, Auxiliary, "glidepath.Auxiliary.v2", 656, {
     boot_id: 0, generation: 8, epoch: 16, sequence: 24, awaited: 32, awaited_since_ns: 56,
@@ -73,10 +74,11 @@ layout!(jog_demand, JogDemand, "glidepath.JogDemand.v1", 128, {
     client: 0, number: 8, sent_ns: 16, mode: 24, mask: 28, by_joint: 32, reserved: 36,
     velocity_v: 40, scale: 48, value: 56,
 });
-layout!(job_request, JobRequest, "glidepath.JobRequest.v1", 1056, {
-    client: 0, number: 8, kind: 16, from_line: 20, pass: 24, confirmed: 28, text: 32,
+layout!(job_request, JobRequest, "glidepath.JobRequest.v2", 1064, {
+    client: 0, number: 8, kind: 16, from_line: 20, pass: 24, confirmed: 28, resumes: 32, wish: 36,
+    text: 40,
 });
-layout!(job_reply, JobReply, "glidepath.JobReply.v1", 1048, {
+layout!(job_reply, JobReply, "glidepath.JobReply.v2", 1048, {
     client: 0, number: 8, state: 16, reserved: 20, text: 24,
 });
 layout!(segment_request, SegmentRequest, "glidepath.SegmentRequest.v2", 352, {

@@ -6,7 +6,7 @@ const WORDS = {
   idle: ['idle', 'Ready', 0, 'idle'], running: ['running', 'Running', 0, 'running'], holding: ['hold', 'Holding', 1, 'held'], held: ['hold', 'Held', 1, 'held'],
   starving: ['warn', 'Slowing', 1, 'held'], starved: ['warn', 'Waiting', 1, 'held'], 'program-stop': ['hold', 'Program stop', 2, 'await'], stopping: ['hold', 'Stopping', 1, 'held'],
   faulted: ['fault', 'Fault', 3, 'fault'], waiting: ['hold', 'Waiting', 0, 'idle'], awaiting: ['await', 'Waiting', 2, 'await'], jogging: ['running', 'By hand', 1, 'held'],
-  homing: ['running', 'Homing', 1, 'held'], off: ['idle', 'Off', 0, 'idle'], 'not-homed': ['idle', 'Not homed', 0, 'idle'],
+  homing: ['running', 'Homing', 1, 'held'], off: ['idle', 'Off', 0, 'idle'], 'not-homed': ['idle', 'Not homed', 0, 'idle'], preparing: ['running', 'Preparing', 0, 'idle'],
   stale: ['stale', 'No data', 3, 'stale'], none: ['stale', 'No machine', 0, 'stale'], file: ['plot', 'Plan', 0, 'running'],
 };
 const line = status => status.line ? `line ${status.line}${INFO.program && INFO.program.lines ? ` of ${grouped(INFO.program.lines)}` : ''}` : 'before its first line';
@@ -20,7 +20,7 @@ function cause() {
   if (S.state === 'faulted') return `${sentence(s.fault || 'a fault')}.`;
   if (S.state === 'awaiting' && s.awaited) return `${program}${line(s)}: ${s.awaited.event} of line ${s.awaited.line} is awaited, for ${span(s.awaited.waited_s)}.`;
   // In these nothing of a program is under way.
-  const alone = ['idle', 'off', 'not-homed', 'homing', 'jogging'].includes(S.state);
+  const alone = ['idle', 'preparing', 'off', 'not-homed', 'homing', 'jogging'].includes(S.state);
   return `${sentence(`${alone ? '' : `${program}${line(s)}: `}${plain(s.state_text || S.state)}`)}.`;
 }
 /* Texts come from the machine: commands in backticks, no capital, no full stop. */
@@ -53,7 +53,7 @@ function paintState() {
   fill($('#attn'), attention());
   if (S.file) return;
   const can = {
-    hold: ['running', 'starving', 'starved'].includes(S.state), resume: ['held', 'program-stop'].includes(S.state),
+    hold: ['running', 'starving', 'starved', 'preparing'].includes(S.state), resume: ['held', 'program-stop'].includes(S.state),
     step: ['held', 'program-stop'].includes(S.state), abort: !['idle', 'stale', 'none', 'off', 'not-homed', 'faulted', 'stopping'].includes(S.state),
   };
   const names = { hold: 'Hold', resume: 'Resume', step: 'Step', abort: 'Abort' }, icons = { hold: 'hold', resume: 'running', step: 'step', abort: 'abort' };

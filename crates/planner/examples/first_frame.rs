@@ -20,7 +20,10 @@ use std::time::{Duration, Instant};
 
 use glidepath_gcode::{Machine, Options, Travel};
 use glidepath_geometry::{Axis, AxisVector};
-use glidepath_link::{InProcess, MachineState, Status, Transport as _};
+use glidepath_link::{
+    Command, CommandReply, CommandRequest, InProcess, JobStage, MachineState, Status,
+    Transport as _,
+};
 use glidepath_planner::{Control, Notice, Pace, Pipeline, ProgramSource, Publisher, RunError};
 use glidepath_program::Effort;
 use mill::mill;
@@ -80,8 +83,18 @@ fn publish(path: &Path, effort: Effort) -> Result<Duration, Box<dyn Error>> {
     let sink = transport.status_sink()?;
     let (sink, mut status): (_, Status) = (RefCell::new(sink), bytemuck::Zeroable::zeroed());
     (status.period_ns, status.state) = (PERIOD_NS, MachineState::Idle.code());
+    status.next_epoch = 1;
     let stop = AtomicBool::new(false);
+    let mut commands = transport.command_server()?;
     let mut pause = |time| {
+        // Whatever job it is told of has the machine.
+        let mut answer = |request: &CommandRequest| {
+            if let Ok(Command::Job { number, .. }) = request.command() {
+                (status.job_number, status.job_stage) = (number, JobStage::Preparing.code());
+            }
+            CommandReply::new(0, request.number, Ok(()), MachineState::Idle, "")
+        };
+        while commands.serve(&mut answer).is_ok_and(|any| any) {}
         status.updated_ns += 1;
         // A queue that is full has enough of them.
         let _ = sink.borrow_mut().publish(&status);
@@ -93,11 +106,14 @@ fn publish(path: &Path, effort: Effort) -> Result<Duration, Box<dyn Error>> {
     let mut published = None;
     let mut publisher = Publisher::connect(&transport, Pace::new(PERIOD_NS, 0.6))?;
     let mut none = |_: &Notice<'_>| {};
-    let position = publisher.wait_until_ready(&mut Control {
-        stop: &stop,
-        pause: &mut pause,
-        notify: &mut none,
-    })?;
+    let position = publisher.wait_until_ready(
+        "part",
+        &mut Control {
+            stop: &stop,
+            pause: &mut pause,
+            notify: &mut none,
+        },
+    )?;
     let start = Instant::now();
     let mut notify = |notice: &Notice<'_>| {
         if matches!(notice, Notice::Started { .. }) {

@@ -15,8 +15,6 @@ pub enum Notice<'a> {
     NoInterpolator,
     /// The interpolator is not ready for a new program; the planner goes on waiting.
     NotReady(MachineState),
-    /// The planner before died and left its cause latched; it was reset.
-    FaultReset,
     /// A listening planner waits for a client.
     Listening,
     /// A client opened a stream.

@@ -11,6 +11,7 @@ use std::time::Duration;
 use glidepath_geometry::AxisVector;
 use glidepath_link::{Command, LinkError, MachineState};
 
+use crate::attend::Attend;
 use crate::machine::POLL;
 use crate::{Control, ItemSource, Pipeline, Publisher, RunError, Statistics};
 
@@ -26,22 +27,22 @@ impl Publisher<'_> {
         pipeline: &mut Pipeline<S>,
         control: &mut Control<'_>,
     ) -> Result<Statistics, RunError> {
-        self.publish_and_attend(pipeline, &mut |_| {}, control)
+        self.publish_and_attend(pipeline, &mut |_: Duration| {}, control)
     }
 
-    /// As [`Publisher::publish`], for a source that has others to answer to: `attend` is called
-    /// every few milliseconds, with the time waited since the last call.
+    /// As [`Publisher::publish`], for a source that has others to answer to.
     ///
     /// # Errors
     /// As [`Publisher::publish`].
     pub fn publish_and_attend<S: ItemSource + Send>(
         &mut self,
         pipeline: &mut Pipeline<S>,
-        attend: &mut dyn FnMut(Duration),
+        attend: &mut dyn Attend,
         control: &mut Control<'_>,
     ) -> Result<Statistics, RunError> {
         let published = self.publish_epochs(pipeline, attend, control);
         self.remarks = None;
+        self.release(control);
         published
     }
 
@@ -49,7 +50,7 @@ impl Publisher<'_> {
     fn publish_epochs<S: ItemSource + Send>(
         &mut self,
         pipeline: &mut Pipeline<S>,
-        attend: &mut dyn FnMut(Duration),
+        attend: &mut dyn Attend,
         control: &mut Control<'_>,
     ) -> Result<Statistics, RunError> {
         let mut goes_on = false;
@@ -97,7 +98,8 @@ impl Publisher<'_> {
                 | MachineState::Stopping
                 | MachineState::Awaiting
                 | MachineState::Jogging
-                | MachineState::Homing => self.machine.pause(POLL, control),
+                | MachineState::Homing
+                | MachineState::Preparing => self.machine.pause(POLL, control),
             }
         }
     }

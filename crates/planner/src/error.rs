@@ -18,6 +18,18 @@ pub enum RunError {
     /// Somebody aborted it at the interpolator.
     #[error("aborted at the interpolator")]
     Aborted,
+    /// The interpolator did not begin it.
+    #[error("nothing moved: {why}")]
+    NotBegun {
+        /// Why.
+        why: String,
+    },
+    /// Whoever wanted it does not want it any more.
+    #[error("{why}")]
+    Ended {
+        /// Why.
+        why: String,
+    },
     /// The interpolator stopped by a fault and latched its cause.
     #[error(
         "the machine stopped by a fault: {0}; {remedy}", remedy = .0.cause.remedy()

@@ -1,22 +1,33 @@
 //! The planner's service: lines and files that operators want executed, one at a time.
 //!
-//! A request that is sent again asks how its job stands, so nothing is executed twice. While a job
-//! runs, others are told that the service is busy. One that comes while the machine is not ready
-//! waits a moment before it is refused: what is known of the machine is from before whatever made it
-//! ready just now.
+//! A request that is sent again asks how its job stands, and answers are remembered, so nothing is
+//! executed twice. While a job runs, others are told that the service is busy. One that comes while the
+//! machine is not ready waits a moment before it is refused: what is known of the machine is from before
+//! whatever made it ready just now.
+//!
+//! A job that has not begun lives by its client, which asks again and again. One that says that it does
+//! not want it any more, or of which nothing is heard for [`CLIENT_SILENCE`], ends it; and before the
+//! first frame it has to ask once more, so that nothing begins for a client that ended while this
+//! process could not notice. Once the machine moves, the motion goes on without its client.
 
+use std::collections::VecDeque;
 use std::path::PathBuf;
 use std::time::Duration;
 
 use glidepath_geometry::AxisVector;
-use glidepath_link::{JobKind, JobReply, JobRequest, JobState, LinkError, Record as _, Server};
+use glidepath_link::{
+    JobKind, JobReply, JobRequest, JobState, JobWish, LinkError, LongText, Record as _, Server,
+};
 
-use crate::{Control, Publisher, StartLine};
+use crate::attend::{Attend, Attended};
+use crate::{CLIENT_SILENCE, Control, Publisher, StartLine};
 
 /// Requests served between two looks at the motion.
 const REQUESTS_PER_TURN: u32 = 32;
 /// How long a job waits for a machine that is not ready.
-const NEWS: Duration = Duration::from_millis(250);
+pub(crate) const NEWS: Duration = Duration::from_millis(250);
+/// Answers that are remembered: several for each client that there may be.
+const REMEMBERED: usize = 64;
 
 /// Something to execute.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -31,6 +42,8 @@ pub enum Job {
         from: Option<StartLine>,
         /// What was told of that beginning is agreed to.
         confirmed: bool,
+        /// It goes on where it was left.
+        resumes: bool,
     },
 }
 
@@ -46,8 +59,21 @@ impl Job {
                     pass: request.pass.max(1),
                 }),
                 confirmed: request.confirmed == 1,
+                resumes: request.resumes == 1,
             },
         })
+    }
+
+    /// What it is called, for people.
+    #[must_use]
+    pub fn name(&self) -> String {
+        match self {
+            Self::Line(text) => format!("mdi {text}"),
+            Self::File { path, .. } => {
+                let name = path.file_name().unwrap_or(path.as_os_str());
+                name.to_string_lossy().into_owned()
+            }
+        }
     }
 }
 
@@ -66,78 +92,102 @@ pub enum JobEnd {
 
 /// Who executes jobs.
 pub trait JobRunner {
-    /// Executes a job, for a machine that stands at a position. `attend` is to be called every few
-    /// milliseconds while the machine moves.
+    /// Executes a job that has the machine, which stands at a position. Whatever takes long is to be
+    /// done by [`Publisher::work`], so that `attend` is called every few milliseconds.
     fn run(
         &mut self,
         job: &Job,
         start: AxisVector,
         publisher: &mut Publisher<'_>,
-        attend: &mut dyn FnMut(Duration),
+        attend: &mut dyn Attend,
         control: &mut Control<'_>,
     ) -> JobEnd;
+}
+
+/// What a job waits for before its first frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Gate {
+    /// The first frame is not ready.
+    Closed,
+    /// It is, and the client has not asked since.
+    Ready,
+    /// The client has asked since.
+    Open,
+}
+
+/// The job that was taken.
+#[derive(Debug)]
+struct Current {
+    client: (u64, u64),
+    /// Since when its client was not heard.
+    silent: Duration,
+    is_unwanted: bool,
+    gate: Gate,
+}
+
+impl Current {
+    /// Its client asks.
+    fn hear(&mut self, wish: JobWish) {
+        self.silent = Duration::ZERO;
+        self.is_unwanted |= wish == JobWish::Cancel;
+        if self.gate == Gate::Ready {
+            self.gate = Gate::Open;
+        }
+    }
+
+    /// Why it is to end, if it is.
+    fn unwanted(&self) -> Option<&'static str> {
+        if self.is_unwanted {
+            return Some("ended by its client");
+        }
+        let is_silent = self.silent >= CLIENT_SILENCE && self.gate != Gate::Open;
+        is_silent.then_some("its client fell silent before anything moved")
+    }
 }
 
 /// Where jobs are handed in.
 pub(crate) struct JobDesk {
     server: Box<dyn Server<JobRequest, JobReply>>,
-    /// The job taken last, and how it stands.
-    last: Option<JobReply>,
+    current: Option<Current>,
     /// That job, and how long it has waited for the machine to be ready.
     waiting: Option<(Job, Duration)>,
+    /// How the jobs before have ended, the last one last.
+    past: VecDeque<JobReply>,
 }
 
 impl JobDesk {
     pub(crate) const fn new(server: Box<dyn Server<JobRequest, JobReply>>) -> Self {
         Self {
             server,
-            last: None,
+            current: None,
             waiting: None,
+            past: VecDeque::new(),
         }
     }
 
-    /// Answers what came in while nothing is executed; returns a job if one is to be executed now.
-    /// `waited` is the time since the last call.
-    pub(crate) fn serve_idle(
-        &mut self,
-        ready: &Result<AxisVector, String>,
-        waited: Duration,
-    ) -> Result<Option<(Job, AxisVector)>, LinkError> {
-        if self.waiting.is_none() {
-            self.take()?;
-        } else {
-            self.serve_busy("waits for the machine to be ready")?;
-        }
-        match (self.waiting.take(), ready) {
-            (Some((job, _)), Ok(start)) => Ok(Some((job, *start))),
-            (Some((_, since)), Err(why)) if since >= NEWS => {
-                self.end(JobState::NotReady, why);
-                Ok(None)
-            }
-            (Some((job, since)), Err(_)) => {
-                self.waiting = Some((job, since + waited));
-                Ok(None)
-            }
-            (None, _) => Ok(None),
-        }
-    }
-
-    /// Takes the next job that came in.
-    fn take(&mut self) -> Result<(), LinkError> {
+    /// Answers what came in while nothing is executed, and takes a job, if one came: `claim` is called
+    /// before its client is told.
+    pub(crate) fn take(&mut self, claim: &mut dyn FnMut(&Job)) -> Result<(), LinkError> {
         for _ in 0..REQUESTS_PER_TURN {
-            let (last, waiting) = (&mut self.last, &mut self.waiting);
+            let (current, past) = (&mut self.current, &self.past);
+            let waiting = &mut self.waiting;
             let any = self.server.serve(&mut |request| {
-                if let Some(known) = answered(*last, request) {
-                    return known;
-                }
-                if let Err(error) = request.check() {
-                    return JobReply::new(request, JobState::Refused, &error.to_string());
-                }
-                let Some(job) = Job::of(request) else {
-                    return JobReply::new(request, JobState::Refused, "unknown");
+                let wish = match judged(past, request) {
+                    Ok(wish) => wish,
+                    Err(reply) => return *reply,
                 };
+                let Some(job) = Job::of(request).filter(|_| wish == JobWish::Execute) else {
+                    return unknown(request);
+                };
+                claim(&job);
                 *waiting = Some((job, Duration::ZERO));
-                *last.insert(JobReply::new(request, JobState::Running, ""))
+                *current = Some(Current {
+                    client: (request.client, request.number),
+                    silent: Duration::ZERO,
+                    is_unwanted: false,
+                    gate: Gate::Closed,
+                });
+                JobReply::new(request, JobState::Running, "waits for the machine")
             })?;
             if self.waiting.is_some() || !any {
                 break;
@@ -146,22 +196,75 @@ impl JobDesk {
         Ok(())
     }
 
-    /// Answers what came in while something is executed.
-    pub(crate) fn serve_busy(&mut self, what: &str) -> Result<(), LinkError> {
+    /// Whether a job waits for the machine.
+    pub(crate) const fn has_waiting(&self) -> bool {
+        self.waiting.is_some()
+    }
+
+    /// The job that waits has the machine.
+    pub(crate) fn take_waiting(&mut self) -> Option<Job> {
+        self.waiting.take().map(|(job, _)| job)
+    }
+
+    /// A job waits on. Returns how it ends, if it has waited for long enough.
+    pub(crate) fn wait(&mut self, waited: Duration, why: &str) -> bool {
+        let Some((_, since)) = &mut self.waiting else {
+            return false;
+        };
+        *since += waited;
+        if *since < NEWS {
+            return false;
+        }
+        self.end(JobState::NotReady, why);
+        true
+    }
+
+    /// Answers what came in while a job is `doing` something, or somebody else has the planner.
+    /// Returns why the job is to end, if its client does not want it any more.
+    pub(crate) fn serve_busy(
+        &mut self,
+        waited: Duration,
+        (doing, busy): (&str, &str),
+    ) -> Result<Option<&'static str>, LinkError> {
+        if let Some(current) = &mut self.current {
+            current.silent = current.silent.saturating_add(waited);
+        }
         for _ in 0..REQUESTS_PER_TURN {
-            let last = self.last;
+            let (current, past) = (&mut self.current, &self.past);
             let any = self.server.serve(&mut |request| {
-                answered(last, request)
-                    .unwrap_or_else(|| JobReply::new(request, JobState::Busy, what))
+                let wish = match judged(past, request) {
+                    Ok(wish) => wish,
+                    Err(reply) => return *reply,
+                };
+                match current {
+                    Some(current) if current.client == (request.client, request.number) => {
+                        current.hear(wish);
+                        JobReply::new(request, JobState::Running, doing)
+                    }
+                    _ if wish == JobWish::Execute => JobReply::new(request, JobState::Busy, busy),
+                    _ => unknown(request),
+                }
             })?;
             if !any {
                 break;
             }
         }
-        Ok(())
+        Ok(self.current.as_ref().and_then(Current::unwanted))
     }
 
-    /// The job taken last has ended.
+    /// The first frame of the job is ready. Returns whether it may be published: its client has asked
+    /// since.
+    pub(crate) fn may_begin(&mut self) -> bool {
+        let Some(current) = &mut self.current else {
+            return true;
+        };
+        if current.gate == Gate::Closed {
+            current.gate = Gate::Ready;
+        }
+        current.gate == Gate::Open
+    }
+
+    /// The job has ended.
     pub(crate) fn finish(&mut self, end: &JobEnd) {
         let (state, text) = match end {
             JobEnd::Done(text) => (JobState::Done, text),
@@ -173,13 +276,76 @@ impl JobDesk {
     }
 
     fn end(&mut self, state: JobState, text: &str) {
-        if let Some(last) = &mut self.last {
-            (last.state, last.text) = (state.code(), glidepath_link::LongText::new(text));
+        self.waiting = None;
+        let Some(Current { client, .. }) = self.current.take() else {
+            return;
+        };
+        if self.past.len() == REMEMBERED {
+            self.past.pop_front();
         }
+        self.past.push_back(JobReply {
+            client: client.0,
+            number: client.1,
+            state: state.code(),
+            reserved: 0,
+            text: LongText::new(text),
+        });
     }
 }
 
-/// The answer to a request that was answered before.
-fn answered(last: Option<JobReply>, request: &JobRequest) -> Option<JobReply> {
-    last.filter(|last| (last.client, last.number) == (request.client, request.number))
+/// What a request wants of a job that has not ended, or the answer to it.
+fn judged(past: &VecDeque<JobReply>, request: &JobRequest) -> Result<JobWish, Box<JobReply>> {
+    let is_it =
+        |reply: &&JobReply| (reply.client, reply.number) == (request.client, request.number);
+    if let Some(known) = past.iter().rev().find(is_it) {
+        return Err(Box::new(*known));
+    }
+    request
+        .check()
+        .and_then(|()| request.wish())
+        .map_err(|error| {
+            Box::new(JobReply::new(
+                request,
+                JobState::Refused,
+                &error.to_string(),
+            ))
+        })
+}
+
+fn unknown(request: &JobRequest) -> JobReply {
+    const WHY: &str = "the planner knows nothing of this job: it was started anew; `glidepath status` \
+                       tells what the machine does";
+    JobReply::new(request, JobState::Unknown, WHY)
+}
+
+/// Attends to the client of a job, and tells others that the planner is busy.
+pub(crate) struct JobAttendant<'a> {
+    pub(crate) jobs: &'a mut JobDesk,
+    /// Serves whoever wants to stream segments.
+    pub(crate) refuse: &'a mut dyn FnMut(&str) -> Result<(), LinkError>,
+    pub(crate) failed: Result<(), LinkError>,
+}
+
+/// What others are told while a job is executed.
+pub(crate) const BUSY: &str =
+    "the planner executes a line or a file; wait for its end, or abort it";
+
+impl Attend for JobAttendant<'_> {
+    fn attend(&mut self, waited: Duration, doing: &str) -> Attended {
+        let served = (self.refuse)(BUSY).and_then(|()| self.jobs.serve_busy(waited, (doing, BUSY)));
+        match served {
+            Ok(Some(why)) => Attended::End(why.to_owned()),
+            Ok(None) => Attended::GoesOn,
+            Err(error) => {
+                if self.failed.is_ok() {
+                    self.failed = Err(error);
+                }
+                Attended::GoesOn
+            }
+        }
+    }
+
+    fn may_begin(&mut self) -> bool {
+        self.jobs.may_begin()
+    }
 }

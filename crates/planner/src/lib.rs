@@ -62,9 +62,11 @@
 //! ```
 
 mod ahead;
+mod attend;
 mod attending;
 mod blocks;
 mod changes;
+mod claim;
 mod control;
 mod curve;
 mod desk;
@@ -100,6 +102,7 @@ mod step;
 mod stream;
 mod unchanged_file;
 
+pub use attend::{Attend, Attended};
 pub use attending::Attending;
 pub use changes::{ChangeLog, SetUp};
 pub use control::{Control, Notice, Progress};

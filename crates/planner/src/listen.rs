@@ -18,7 +18,7 @@ use glidepath_link::{LinkError, SegmentRefusal, SegmentReply, SegmentRequest, Se
 use glidepath_motion::PlanError;
 use glidepath_program::Settings;
 
-use crate::jobs::{Job, JobDesk, JobRunner};
+use crate::jobs::{BUSY, Job, JobAttendant, JobDesk, JobEnd, JobRunner, NEWS};
 use crate::machine::POLL;
 use crate::stream::refuse;
 use crate::{
@@ -124,7 +124,8 @@ struct Listener<'t> {
 }
 
 impl Listener<'_> {
-    /// Waits for a client that opens a stream, or hands in a job, while the machine is ready for it.
+    /// Waits for a client that opens a stream, or hands in a job, and for the machine to be ready for
+    /// it.
     fn accept(
         &mut self,
         listening: &Listening,
@@ -134,22 +135,69 @@ impl Listener<'_> {
             if control.is_stopped() {
                 return Err(RunError::Interrupted);
             }
-            let ready = match self.publisher.ready(control) {
+            let ready = match self.publisher.ready() {
                 Ok(Some(position)) => Ok(position),
                 Ok(None) => Err(self.publisher.why_not_ready()),
                 Err(error) if ends_the_listener(&error) => return Err(error),
                 Err(error) => Err(error.to_string()),
             };
-            if let Some(jobs) = &mut self.jobs
-                && let Some((job, start)) = jobs.serve_idle(&ready, POLL)?
-            {
-                return Ok(Accepted::Job(job, start));
+            if let Some(accepted) = self.serve_jobs(control)? {
+                return Ok(accepted);
             }
-            if let Some((stream, position)) = self.serve_waiting(&ready, listening.limits)? {
+            let has_waiting = self.jobs.as_ref().is_some_and(JobDesk::has_waiting);
+            if !has_waiting
+                && let Some((stream, position)) =
+                    self.serve_waiting(&ready, listening.limits, control)?
+            {
                 return Ok(Accepted::Stream(Box::new(stream), position));
             }
             self.publisher.idle(control)?;
         }
+    }
+
+    /// Answers operators; returns a job that has the machine.
+    fn serve_jobs(&mut self, control: &mut Control<'_>) -> Result<Option<Accepted>, RunError> {
+        let (Some(jobs), publisher) = (&mut self.jobs, &mut self.publisher) else {
+            return Ok(None);
+        };
+        if !jobs.has_waiting() {
+            jobs.take(&mut |job| publisher.claim(&job.name(), control))?;
+        }
+        if !jobs.has_waiting() {
+            return Ok(None);
+        }
+        let doing = publisher.doing();
+        let unwanted = jobs.serve_busy(POLL, (&doing, BUSY))?;
+        let taken = match unwanted {
+            Some(why) => Err(RunError::Ended {
+                why: why.to_owned(),
+            }),
+            None => publisher.tend(POLL).and_then(|()| publisher.take(control)),
+        };
+        match taken {
+            Ok(Some(start)) => {
+                let job = jobs.take_waiting();
+                return Ok(job.map(|job| Accepted::Job(job, start)));
+            }
+            Ok(None) => {
+                if jobs.wait(POLL, &publisher.why_not_ready()) {
+                    publisher.release(control);
+                }
+            }
+            Err(error) if ends_the_listener(&error) => return Err(error),
+            Err(
+                error @ (RunError::Aborted | RunError::NotBegun { .. } | RunError::Ended { .. }),
+            ) => {
+                publisher.release(control);
+                jobs.finish(&JobEnd::Failed(error.to_string()));
+            }
+            Err(error) => {
+                if jobs.wait(POLL, &error.to_string()) {
+                    publisher.release(control);
+                }
+            }
+        }
+        Ok(None)
     }
 
     /// Answers what came in; returns a stream if one was opened.
@@ -157,8 +205,9 @@ impl Listener<'_> {
         &mut self,
         ready: &Result<AxisVector, String>,
         limits: Option<SoftLimits>,
+        control: &mut Control<'_>,
     ) -> Result<Option<(Stream, AxisVector)>, RunError> {
-        let last = &mut self.last;
+        let (last, publisher) = (&mut self.last, &mut self.publisher);
         for _ in 0..REQUESTS_PER_TURN {
             let mut opened = None;
             let any = self.server.serve(&mut |request| {
@@ -168,17 +217,24 @@ impl Listener<'_> {
                 if let Some(last) = known {
                     return last.answer(request);
                 }
-                let refused = match ready {
-                    Ok(position) => match Stream::open(request, *position, limits) {
+                let stopped = |why| (SegmentRefusal::Stopped, why);
+                let taken = match ready {
+                    Ok(_) => publisher.take_now("a stream of segments", NEWS, control),
+                    Err(why) => return refuse(request, &stopped(why.clone())),
+                };
+                let refused = match taken {
+                    Ok(Some(position)) => match Stream::open(request, position, limits) {
                         Ok(mut stream) => {
                             let reply = stream.answer(request);
-                            opened = Some((stream, *position));
+                            opened = Some((stream, position));
                             return reply;
                         }
                         Err(refused) => refused,
                     },
-                    Err(why) => (SegmentRefusal::Stopped, why.clone()),
+                    Ok(None) => stopped(publisher.why_not_ready()),
+                    Err(error) => stopped(error.to_string()),
                 };
+                publisher.release(control);
                 refuse(request, &refused)
             })?;
             // What follows in an opened stream is for the stream to answer.
@@ -198,7 +254,6 @@ impl Listener<'_> {
         start: AxisVector,
         control: &mut Control<'_>,
     ) -> Result<(), RunError> {
-        const BUSY: &str = "the planner executes a line or a file; wait for its end, or abort it";
         let Self {
             server,
             jobs,
@@ -206,19 +261,20 @@ impl Listener<'_> {
             ..
         } = self;
         let Some(jobs) = jobs else { return Ok(()) };
-        let mut failed = Ok(());
-        let mut attend = |_: Duration| {
-            let refused = (SegmentRefusal::Busy, BUSY.to_owned());
-            let served = server.serve(&mut |request| refuse(request, &refused));
-            let served = served.map(|_| ()).and(jobs.serve_busy(BUSY));
-            if failed.is_ok() {
-                failed = served;
-            }
+        let mut attendant = JobAttendant {
+            jobs,
+            refuse: &mut |why| {
+                let refused = (SegmentRefusal::Busy, why.to_owned());
+                server
+                    .serve(&mut |request| refuse(request, &refused))
+                    .map(|_| ())
+            },
+            failed: Ok(()),
         };
-        let end = runner.run(job, start, publisher, &mut attend, control);
+        let end = runner.run(job, start, publisher, &mut attendant, control);
+        let failed = attendant.failed;
+        publisher.release(control);
         jobs.finish(&end);
-        // Its client may ask how it ended before anything else is taken.
-        jobs.serve_busy(BUSY)?;
         failed.map_err(Into::into)
     }
 
@@ -244,11 +300,12 @@ impl Listener<'_> {
             .with_joints(listening.joints)
             .of_stream();
         let jobs = &mut self.jobs;
-        let mut attend = |waited| {
+        let mut attend = |waited: Duration| {
             attendant.attend(waited);
             if let Some(jobs) = jobs {
                 // A port that fails is told when the stream is over.
-                jobs.serve_busy("another program streams segments").ok();
+                let busy = ("", "another program streams segments");
+                jobs.serve_busy(waited, busy).ok();
             }
         };
         let outcome = self

@@ -5,7 +5,7 @@ use std::time::Duration;
 use glidepath_gcode::Probed;
 use glidepath_geometry::AxisVector;
 use glidepath_link::{
-    Client, Command, CommandReply, CommandRequest, ContactKind, EndOfEpoch, LinkError,
+    Client, Command, CommandReply, CommandRequest, ContactKind, EndOfEpoch, JobStage, LinkError,
     MachineState, Record, Status, Subscriber, Transport,
 };
 use glidepath_program::Override;
@@ -139,6 +139,10 @@ impl Machine {
         if state == MachineState::Faulted || (status.epoch == epoch && end == EndOfEpoch::Faulted) {
             return Err(RunError::fault(status));
         }
+        if status.epoch < epoch && status.next_epoch > epoch {
+            // Its number was used up: it does not begin any more.
+            return Err(why_not_begun(status, end));
+        }
         if status.epoch != epoch {
             // Another epoch in the middle of ours means that somebody ended ours and started again.
             // So does an abort of the epoch before, behind which the program was to go on.
@@ -194,13 +198,6 @@ impl Machine {
         self.status().map_or(0, |status| status.line)
     }
 
-    /// Waits for news again before anything is believed: what was last heard is from before a
-    /// change.
-    pub(crate) fn forget(&mut self) {
-        self.latest = None;
-        self.alive = false;
-    }
-
     /// Has shown, to whoever looks at the machine, what the program says.
     pub(crate) fn tell(&mut self, text: &str, control: &mut Control<'_>) -> Result<(), RunError> {
         self.ask(Command::Tell, text, control)
@@ -213,6 +210,27 @@ impl Machine {
         control: &mut Control<'_>,
     ) -> Result<(), RunError> {
         self.ask(command, "", control)
+    }
+
+    /// Tells of a job, and waits for the answer.
+    pub(crate) fn tell_of_job(
+        &mut self,
+        command: Command,
+        text: &str,
+        control: &mut Control<'_>,
+    ) -> Result<(), RunError> {
+        self.ask(command, text, control)
+    }
+
+    /// Sends a command whose answer is not waited for. One that cannot be sent now is left out.
+    pub(crate) fn post(&mut self, command: Command, text: &str) -> Result<(), LinkError> {
+        while let Ok(Some(_)) = self.commands.reply() {}
+        self.commands_sent += 1;
+        let request = CommandRequest::new(self.client, self.commands_sent, command).saying(text);
+        match self.commands.ask(&request) {
+            Err(LinkError::NoServer { .. } | LinkError::TooManyRequests { .. }) => Ok(()),
+            sent => sent,
+        }
     }
 
     fn ask(
@@ -244,5 +262,19 @@ impl Machine {
         Err(RunError::CommandUnanswered {
             command: command.kind(),
         })
+    }
+}
+
+/// Why the next epoch does not begin.
+fn why_not_begun(status: &Status, end: EndOfEpoch) -> RunError {
+    match status.job_stage() {
+        Ok(JobStage::Aborted) => RunError::Aborted,
+        Ok(JobStage::Refused) => RunError::NotBegun {
+            why: status.job_end.as_str().to_owned(),
+        },
+        _ if end == EndOfEpoch::Aborted => RunError::Aborted,
+        _ => RunError::NotBegun {
+            why: status.last_error.as_str().to_owned(),
+        },
     }
 }

@@ -7,7 +7,8 @@
 //! ```
 //!
 //! * **Start.** An epoch starts at rest where the machine stands, so the publisher waits until the
-//!   interpolator lives (its status changes) and is idle, and takes the position from the status.
+//!   interpolator lives (its status changes) and its job has the machine (the module `claim`), and
+//!   takes the position from the status.
 //!   The first frame is published with a head start behind it: a few frames at rest before motion
 //!   that is hard to plan would be executed, and the machine starve.
 //! * **Pace.** Frame *n* is offered when *n* < executed + horizon. What is not yet published can
@@ -37,6 +38,8 @@ use glidepath_link::{
 use glidepath_program::Override;
 
 use crate::ahead::{FrameQueue, Next, planned_ahead};
+use crate::attend::{Attend, Attended};
+use crate::claim::Claim;
 use crate::epoch::Epoch;
 use crate::inputs::InputWatch;
 use crate::machine::{HUNGRY_POLL, Machine, POLL, SILENCE, Standing};
@@ -61,6 +64,8 @@ pub struct Publisher<'t> {
     pub(crate) idle_t: Duration,
     pub(crate) inputs: Option<InputWatch>,
     pub(crate) remarks: Option<RemarkLog>,
+    /// The job that the interpolator was told of.
+    pub(crate) claim: Option<Claim>,
 }
 
 impl std::fmt::Debug for Publisher<'_> {
@@ -109,6 +114,7 @@ impl<'t> Publisher<'t> {
             idle_t: Duration::ZERO,
             inputs: None,
             remarks: None,
+            claim: None,
         })
     }
 
@@ -175,12 +181,14 @@ impl<'t> Publisher<'t> {
         &mut self,
         epoch: Epoch,
         pipeline: &mut Pipeline<S>,
-        attend: &mut dyn FnMut(Duration),
+        attend: &mut dyn Attend,
         control: &mut Control<'_>,
     ) -> Result<bool, RunError> {
         let wanted = self.machine.wanted_override().unwrap_or(Override::NONE);
         pipeline.follow_override(wanted);
         let program = pipeline.fingerprint();
+        let watch = self.watch();
+        self.say("planning");
         let room = (self.pace.frames_ahead(), self.pace.head_start());
         let published = planned_ahead(pipeline, room, |queue| {
             let plan = Plan {
@@ -188,7 +196,12 @@ impl<'t> Publisher<'t> {
                 program,
                 wanted,
             };
-            self.publish_planned(plan, epoch, attend, control)
+            let published = self.publish_planned(plan, epoch, attend, control);
+            if published.is_err() {
+                // The thread that plans may be reading for long.
+                watch.end();
+            }
+            published
         });
         published.map_err(RunError::NoThread)?
     }
@@ -197,7 +210,7 @@ impl<'t> Publisher<'t> {
         &mut self,
         mut plan: Plan<'_>,
         mut epoch: Epoch,
-        attend: &mut dyn FnMut(Duration),
+        attend: &mut dyn Attend,
         control: &mut Control<'_>,
     ) -> Result<bool, RunError> {
         let mut waited = Duration::ZERO;
@@ -207,7 +220,14 @@ impl<'t> Publisher<'t> {
                 return Err(RunError::Interrupted);
             }
             self.machine.observe()?;
-            attend(waited);
+            if let Attended::End(why) = attend.attend(waited, &self.doing()) {
+                self.abort(&epoch, control)?;
+                return Err(RunError::Ended { why });
+            }
+            if epoch.is_known() {
+                self.say("");
+            }
+            self.tend(waited)?;
             if let Err(error) = self.answer_inputs(&epoch, waited) {
                 self.abort(&epoch, control)?;
                 return Err(error);
@@ -228,7 +248,7 @@ impl<'t> Publisher<'t> {
                 plan.queue.replan(wanted);
             }
             plan.queue.ask_again();
-            let turn = self.turn(&plan, &mut epoch, control)?;
+            let turn = self.turn(&plan, &mut epoch, attend, control)?;
             waited = match turn {
                 Turn::Busy => Duration::ZERO,
                 Turn::Hungry => HUNGRY_POLL,
@@ -251,9 +271,10 @@ impl<'t> Publisher<'t> {
         }
     }
 
-    pub(crate) fn next_epoch(&self, goes_on: bool) -> Result<Epoch, RunError> {
-        let status = self.machine.status().ok_or(RunError::InterpolatorLost)?;
-        let number = status.epoch.saturating_add(1);
+    pub(crate) fn next_epoch(&mut self, goes_on: bool) -> Result<Epoch, RunError> {
+        let status = *self.machine.status().ok_or(RunError::InterpolatorLost)?;
+        // That of a job is the one it was given with the machine: what was aborted since is over.
+        let number = self.take_epoch(&status)?.unwrap_or(status.next_epoch);
         let mut epoch = Epoch::new(status.boot_id, number, self.pace.horizon_frames);
         epoch.goes_on = goes_on;
         Ok(epoch)
@@ -264,11 +285,14 @@ impl<'t> Publisher<'t> {
         &mut self,
         plan: &Plan<'_>,
         epoch: &mut Epoch,
+        attend: &mut dyn Attend,
         control: &mut Control<'_>,
     ) -> Result<Turn, RunError> {
         for _ in 0..FRAMES_PER_TURN {
             if let Some(frame) = epoch.in_hand {
+                let begins = frame.sequence == 0 && !epoch.goes_on;
                 if frame.sequence >= epoch.limit()
+                    || (begins && !attend.may_begin())
                     || self.sink.offer(&frame)? != Delivery::Delivered
                 {
                     return Ok(Turn::Wait);

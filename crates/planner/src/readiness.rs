@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use glidepath_geometry::AxisVector;
-use glidepath_link::{Command, FaultCause, LinkError, MachineState};
+use glidepath_link::{LinkError, MachineState};
 
 use crate::machine::POLL;
 use crate::publish::Publisher;
@@ -16,49 +16,32 @@ const NOTICE_AFTER: Duration = Duration::from_secs(1);
 const CLEAN_UP_INTERVAL: Duration = Duration::from_secs(1);
 
 impl Publisher<'_> {
-    /// Waits until the interpolator is there and ready for a program; returns where the machine
-    /// stands. A latched fault whose cause is the death of the planner before is reset.
+    /// Tells the interpolator of a job, and waits until that has the machine; returns where the machine
+    /// stands. No fault is reset: that is for whoever has looked at its cause.
     ///
     /// # Errors
-    /// [`RunError::Interrupted`] by the stop flag, [`RunError::Fault`] if a fault is latched that
-    /// needs the operator, [`RunError::PeriodMismatch`], or a failure of the link.
-    pub fn wait_until_ready(&mut self, control: &mut Control<'_>) -> Result<AxisVector, RunError> {
+    /// [`RunError::Interrupted`] by the stop flag, [`RunError::Fault`] if a fault is latched, the job
+    /// was aborted while it waited, [`RunError::PeriodMismatch`], or a failure of the link.
+    pub fn wait_until_ready(
+        &mut self,
+        name: &str,
+        control: &mut Control<'_>,
+    ) -> Result<AxisVector, RunError> {
         let mut told = None;
+        self.claim(name, control);
         loop {
             if control.is_stopped() {
                 return Err(RunError::Interrupted);
             }
-            if let Some(position) = self.ready(control)? {
+            if let Some(position) = self.take(control)? {
                 return Ok(position);
             }
             self.idle(control)?;
+            self.tend(POLL)?;
             let state = self.machine.status().and_then(|status| status.state().ok());
-            if self.idle_t >= NOTICE_AFTER && told != Some(state) {
-                (control.notify)(&state.map_or(Notice::NoInterpolator, Notice::NotReady));
-                told = Some(state);
-            }
-        }
-    }
-
-    /// Waits until the machine rests, with a fault latched or without, and tells where the program
-    /// was left that was under way. Nothing is reset.
-    ///
-    /// # Errors
-    /// [`RunError::Interrupted`] by the stop flag, [`RunError::Resume`] if there is no such program,
-    /// or a failure of the link.
-    pub fn wait_until_left(&mut self, control: &mut Control<'_>) -> Result<ResumePoint, RunError> {
-        let mut told = None;
-        loop {
-            if control.is_stopped() {
-                return Err(RunError::Interrupted);
-            }
-            self.machine.observe()?;
-            let state = self.machine.status().and_then(|status| status.state().ok());
-            if matches!(state, Some(MachineState::Idle | MachineState::Faulted)) {
-                return self.resume_point();
-            }
-            self.idle(control)?;
-            if self.idle_t >= NOTICE_AFTER && told != Some(state) {
+            // In these the job has the machine in a moment.
+            let is_coming = matches!(state, Some(MachineState::Idle | MachineState::Preparing));
+            if self.idle_t >= NOTICE_AFTER && told != Some(state) && !is_coming {
                 (control.notify)(&state.map_or(Notice::NoInterpolator, Notice::NotReady));
                 told = Some(state);
             }
@@ -79,9 +62,6 @@ impl Publisher<'_> {
         Ok(())
     }
 
-    /// One look at whether the machine is ready, and where it stands.
-    ///
-    /// # Errors
     /// Why the machine is not ready, for people.
     pub(crate) fn why_not_ready(&self) -> String {
         let state = self.machine.status().and_then(|status| status.state().ok());
@@ -93,11 +73,11 @@ impl Publisher<'_> {
         format!("the machine is not ready for a program: {why}")
     }
 
-    /// As [`Publisher::wait_until_ready`], without the stop flag.
-    pub(crate) fn ready(
-        &mut self,
-        control: &mut Control<'_>,
-    ) -> Result<Option<AxisVector>, RunError> {
+    /// One look at whether the machine is ready for a job, and where it stands.
+    ///
+    /// # Errors
+    /// A fault is latched, [`RunError::PeriodMismatch`], or a failure of the link.
+    pub(crate) fn ready(&mut self) -> Result<Option<AxisVector>, RunError> {
         self.machine.observe()?;
         let Some(status) = self.machine.status() else {
             return Ok(None);
@@ -109,13 +89,7 @@ impl Publisher<'_> {
             });
         }
         if status.state().map_err(LinkError::from)? == MachineState::Faulted {
-            if status.fault().map_err(LinkError::from)? != Some(FaultCause::PlannerLost) {
-                return Err(RunError::fault(status));
-            }
-            self.machine.command(Command::Reset, control)?;
-            (control.notify)(&Notice::FaultReset);
-            self.machine.forget();
-            return Ok(None);
+            return Err(RunError::fault(status));
         }
         Ok(self.machine.ready_position())
     }

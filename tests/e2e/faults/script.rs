@@ -3,7 +3,7 @@
 
 use std::time::{Duration, Instant};
 
-use glidepath_link::{Command, EndOfEpoch, EventId, FaultCause, MachineState};
+use glidepath_link::{Command, EndOfEpoch, EventId, MachineState};
 use glidepath_program::{Frame, Item};
 use glidepath_tests::Process;
 use rustix::process::Signal;
@@ -347,7 +347,7 @@ fn expect_exit(player: Player, code: i32) -> Checked<()> {
 fn recover(bench: &mut Bench<'_>, programs: &Programs) -> Checked<Verdict> {
     bench.until("a status", |heard| heard.status.is_some())?;
     let status = bench.look(|heard| heard.status).ok_or("no status")?;
-    let needs_reset = !matches!(status.fault(), Ok(None | Some(FaultCause::PlannerLost)));
+    let needs_reset = !matches!(status.fault(), Ok(None));
     if needs_reset {
         bench.command(Command::Reset)?;
         bench.until_state(MachineState::Idle)?;

@@ -44,6 +44,7 @@ class State(enum.IntEnum):
     HOMING = 13
     OFF = 14
     NOT_HOMED = 15
+    PREPARING = 16
 
 
 class Command(enum.IntEnum):
@@ -70,6 +71,7 @@ class Command(enum.IntEnum):
     TELL = 19
     REVERSE = 20
     FORWARD = 21
+    JOB = 22
 
 
 class Refusal(enum.IntEnum):
@@ -155,6 +157,18 @@ class Contact(enum.IntEnum):
     NONE = 0
     MADE = 1
     ALREADY_SO = 2
+
+
+class Job(enum.IntEnum):
+    """How the job of a planner stands."""
+
+    NONE = 0
+    WAITING = 1
+    PREPARING = 2
+    BEGUN = 3
+    OVER = 4
+    ABORTED = 5
+    REFUSED = 6
 
 
 class Event(enum.IntEnum):
@@ -487,9 +501,15 @@ class StatusRecord(ctypes.Structure):
         ("work", QuantilesRecord),
         ("latency", QuantilesRecord),
         ("response", QuantilesRecord),
+        ("job_number", ctypes.c_uint64),
+        ("next_epoch", ctypes.c_uint64),
+        ("job_stage", ctypes.c_uint32),
+        ("job_held", ctypes.c_uint32),
         ("last_error", ctypes.c_char * 128),
         ("last_event", ctypes.c_char * 128),
         ("message", ctypes.c_char * 128),
+        ("job", ctypes.c_char * 128),
+        ("job_end", ctypes.c_char * 128),
     ]
 
 
@@ -742,7 +762,7 @@ PLACES = {
         "away": 576,
         "events": 648,
     }),
-    StatusRecord: (1496, {
+    StatusRecord: (1776, {
         "boot_id": 0,
         "updated_ns": 8,
         "period_ns": 16,
@@ -813,9 +833,15 @@ PLACES = {
         "work": 1016,
         "latency": 1048,
         "response": 1080,
-        "last_error": 1112,
-        "last_event": 1240,
-        "message": 1368,
+        "job_number": 1112,
+        "next_epoch": 1120,
+        "job_stage": 1128,
+        "job_held": 1132,
+        "last_error": 1136,
+        "last_event": 1264,
+        "message": 1392,
+        "job": 1520,
+        "job_end": 1648,
     }),
     FeedbackRecord: (808, {
         "boot_id": 0,

@@ -104,6 +104,9 @@ extern "C" fn gp_command(
             let what = "kind: events are acknowledged with gp_acknowledge";
             return Err(Failure::Argument(what));
         }
+        if CommandKind::from_code(kind) == Some(CommandKind::Job) {
+            return Err(Failure::Argument("kind: only planners tell of jobs"));
+        }
         Ok(request(kind, value, joints, EventId::default()))
     };
     command(&link, request, patience_ms, &reply, size)
@@ -134,6 +137,7 @@ fn request(kind: u32, value: f64, joints: u32, event: EventId) -> CommandRequest
         kind,
         joints,
         event,
+        job: 0,
         text: Text::default(),
     }
 }

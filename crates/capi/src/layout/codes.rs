@@ -4,8 +4,8 @@ use super::own::{Stopped, TooMuch};
 use crate::failure::Code;
 use glidepath_link::{
     CommandKind, CommandRefusal, ContactKind, DriveState, EndOfEpoch, EventKind, FaultCause,
-    Grants, JogMode, LatchKind, MachineState, ModeCode, MotionMode, PlaneCode, Power, RequestKind,
-    SegmentRefusal, SetpointMarks, SpindleFlags,
+    Grants, JobStage, JogMode, LatchKind, MachineState, ModeCode, MotionMode, PlaneCode, Power,
+    RequestKind, SegmentRefusal, SetpointMarks, SpindleFlags,
 };
 use glidepath_program::FrameFlags;
 
@@ -124,6 +124,7 @@ pub(super) fn codes() -> Vec<Codes> {
         ),
         all!("MODE", "What moves the axes.", MotionMode),
         all!("CONTACT", "What a probe has found.", ContactKind),
+        all!("JOB", "How the job of a planner stands.", JobStage),
         all!(
             "EVENT",
             "What an event is: kind of a gp_event, and the lowest byte of event_kind of a gp_segment.",

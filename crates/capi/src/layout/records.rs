@@ -162,7 +162,7 @@ structure! {
 
 structure! {
     /// What the interpolator does and how well. Counts are of this life of it.
-    STATUS: "gp_status" = Status, Status::NAME, 1496 {
+    STATUS: "gp_status" = Status, Status::NAME, 1776 {
         /// Identifies one life of the interpolator.
         boot_id: u64,
         /// When this was true, ns of CLOCK_MONOTONIC. A reader takes an old one for a dead
@@ -311,12 +311,24 @@ structure! {
         latency: Quantiles,
         /// From the deadline of a tick to its setpoint handed to the thread that publishes it.
         response: Quantiles,
+        /// The number of the job that a planner has told of last, 0 for none.
+        job_number: u64,
+        /// The number that the next epoch has to have. An abort uses it up.
+        next_epoch: u64,
+        /// A GP_JOB_.
+        job_stage: u32,
+        /// 1 if the job begins held, 0 if not.
+        job_held: u32,
         /// The last error, for people.
         last_error: Text,
         /// The last thing that happened (a change of state, missed ticks, ...), for people.
         last_event: Text,
         /// What the program said last to people: MSG, DEBUG, the comment of a stop; empty before that.
         message: Text,
+        /// The job that a planner has told of last, and what is being done for it, for people.
+        job: Text,
+        /// Why that job does not begin, for people; empty if it may.
+        job_end: Text,
     }
 }
 

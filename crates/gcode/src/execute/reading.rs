@@ -6,7 +6,9 @@ use std::mem;
 use glidepath_program::Item;
 
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::fault::Outcome;
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::{Fault, Outcome};
+use crate::diagnostic::span::SourceSpan;
 use crate::execute::line_origin::LineOrigin;
 use crate::execute::program::Program;
 use crate::syntax::dialect::Dialect;
@@ -22,6 +24,13 @@ impl<R: BufRead> Program<R> {
         self.given = 0;
         if self.ended {
             return None;
+        }
+        if let Some(watch) = &self.interpreter.options.watch {
+            watch.come_to(self.line_of_program());
+            if watch.is_to_end() {
+                self.ended = true;
+                return Some(Err(self.here().diagnostic(ended())));
+            }
         }
         let goes_on = mem::take(&mut self.was_straight);
         let result = self.read_line(goes_on);
@@ -49,6 +58,15 @@ impl<R: BufRead> Program<R> {
             Dialect::Marlin => self.read_marlin(),
         }
     }
+}
+
+/// Whoever watches has ended the reading.
+fn ended() -> Fault {
+    let message = "the reading was ended".to_owned();
+    let fault = Fault::new(DiagnosticCode::ReadFailed, SourceSpan::default(), message);
+    *fault
+        .because("whoever wanted the program does not want it any more")
+        .help("read it again")
 }
 
 impl<R: BufRead> Iterator for Program<R> {

@@ -8,6 +8,7 @@ use crate::execute::state::in_force::InForce;
 use crate::setup::fanuc::{FanucControl, FanucParameters};
 use crate::setup::m_codes::MCodes;
 use crate::setup::machine::Machine;
+use crate::setup::reading_watch::ReadingWatch;
 use crate::setup::spindle_axis::SpindleAxis;
 use crate::setup::subroutine_file::Subroutines;
 use crate::setup::threading::Threading;
@@ -66,6 +67,8 @@ pub struct Options {
     pub in_force: Option<InForce>,
     /// How long loops may go on.
     pub loops: LoopLimits,
+    /// Who watches the reading, and may end it; `None`: nobody.
+    pub watch: Option<ReadingWatch>,
 }
 
 /// What inputs, outputs (M62 to M68), spindle orientation (M19) and the probe (G38) are.
@@ -157,6 +160,7 @@ impl Default for Options {
             waits_for_speed: false,
             in_force: None,
             loops: LoopLimits::default(),
+            watch: None,
         }
     }
 }

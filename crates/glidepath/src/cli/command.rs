@@ -12,8 +12,8 @@ use super::motion::{
 };
 use super::offsets::OffsetsCommand;
 use super::operator::{
-    AbortArgs, AcknowledgeArgs, JointsArgs, MdiArgs, OperatorArgs, OverrideArgs, RunFileArgs,
-    SetPositionArgs, SingleBlockArgs, StatusArgs,
+    AbortArgs, AcknowledgeArgs, HomeArgs, JointsArgs, MdiArgs, OperatorArgs, OverrideArgs,
+    RunFileArgs, SetPositionArgs, SingleBlockArgs, StatusArgs,
 };
 use super::path::PathArgs;
 use super::program::ProgramArgs;
@@ -141,9 +141,9 @@ pub enum Command {
     /// Come to rest on the path, drop the rest of the program, and take the power from the drives
     #[command(after_help = "Example: glidepath disable")]
     Disable(OperatorArgs),
-    /// Have drives find the home of their joints
+    /// Have drives find the home of their joints, and wait for that
     #[command(after_help = "Examples: glidepath home · glidepath home J2")]
-    Home(JointsArgs),
+    Home(HomeArgs),
     /// Do not believe any more that joints know where they are
     #[command(after_help = "Example: glidepath unhome J2")]
     Unhome(JointsArgs),
@@ -239,7 +239,8 @@ impl Command {
             | Self::Enable(args)
             | Self::Disable(args)
             | Self::Reset(args) => &args.basic,
-            Self::Home(args) | Self::Unhome(args) => &args.operator.basic,
+            Self::Home(args) => &args.joints.operator.basic,
+            Self::Unhome(args) => &args.operator.basic,
             Self::SetPosition(args) => &args.operator.basic,
             Self::Abort(args) => &args.operator.basic,
             Self::Acknowledge(args) => &args.operator.basic,
@@ -288,7 +289,8 @@ impl Command {
             | Self::Enable(args)
             | Self::Disable(args)
             | Self::Reset(args) => &args.instance,
-            Self::Home(args) | Self::Unhome(args) => &args.operator.instance,
+            Self::Home(args) => &args.joints.operator.instance,
+            Self::Unhome(args) => &args.operator.instance,
             Self::SetPosition(args) => &args.operator.instance,
             Self::Abort(args) => &args.operator.instance,
             Self::Acknowledge(args) => &args.operator.instance,

@@ -33,8 +33,8 @@ pub use offsets::{
     UseArgs,
 };
 pub use operator::{
-    AbortArgs, AcknowledgeArgs, JointsArgs, MdiArgs, OperatorArgs, OverrideArgs, RunFileArgs,
-    SetPositionArgs, SingleBlockArgs, StatusArgs, Switch,
+    AbortArgs, AcknowledgeArgs, HomeArgs, JointsArgs, MdiArgs, OperatorArgs, OverrideArgs,
+    RunFileArgs, SetPositionArgs, SingleBlockArgs, StatusArgs, Switch,
 };
 pub use path::PathArgs;
 pub use program::ProgramArgs;

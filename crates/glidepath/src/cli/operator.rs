@@ -119,6 +119,9 @@ pub struct RunFileArgs {
     /// Agree to what would be asked
     #[arg(long, requires = "from_line")]
     pub yes: bool,
+    /// Go on with this program where it was left, after an abort or a fault
+    #[arg(long, conflicts_with = "from_line")]
+    pub resume: bool,
     /// Configuration and form of the report.
     #[command(flatten)]
     pub basic: BasicArgs,
@@ -146,7 +149,18 @@ pub struct SingleBlockArgs {
     pub operator: OperatorArgs,
 }
 
-/// Arguments of `home` and `unhome`.
+/// Arguments of `home`.
+#[derive(Debug, Args)]
+pub struct HomeArgs {
+    /// Return when the drives were told, without waiting for the end
+    #[arg(long)]
+    pub no_wait: bool,
+    /// The joints.
+    #[command(flatten)]
+    pub joints: JointsArgs,
+}
+
+/// Arguments of `unhome`, and the joints of `home`.
 #[derive(Debug, Args)]
 pub struct JointsArgs {
     /// The joints, such as J0 J2; all if none is given

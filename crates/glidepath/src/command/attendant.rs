@@ -221,7 +221,6 @@ pub(super) fn tell(notice: &Notice<'_>, quiet: bool) {
         Notice::NotReady(state) => {
             format!("the machine is not ready for a program: {}", state.text())
         }
-        Notice::FaultReset => "reset the fault of a planner that died".to_owned(),
         Notice::Listening => "ready: it takes lines, programs and streams".to_owned(),
         Notice::StreamOpened { session } => format!("stream {session} opened"),
         Notice::StreamExecuted(statistics) => {

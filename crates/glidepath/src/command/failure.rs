@@ -293,10 +293,10 @@ pub(super) enum Failure {
     /// The command was interrupted.
     #[error("interrupted")]
     Interrupted,
-    /// The command was interrupted while the planner's service did not answer.
+    /// The command was interrupted, and its job has not ended yet.
     #[error(
-        "interrupted, and the planner does not answer: what it was given may begin yet; `glidepath \
-         abort` stops it then"
+        "interrupted: the job was told to end, and has not said yet that it has; `glidepath status` \
+         tells what the machine does"
     )]
     NoAnswer,
 }

@@ -1,7 +1,7 @@
 //! `glidepath mdi` and `glidepath run-file`: what the planner's service is to execute.
 
 use super::attention::Attention;
-use super::operator::{reach, send};
+use super::operator::reach;
 use super::session;
 use crate::cli::{InstanceArgs, MdiArgs, RunFileArgs};
 use crate::command::failure::Failure;
@@ -11,8 +11,8 @@ use crate::file_error::FileError;
 use crate::interrupt::Interrupt;
 use crate::output;
 use glidepath_link::{
-    Client, Command, JobKind, JobReply, JobRequest, JobState, LinkError, Record as _,
-    Transport as _,
+    Client, Command, CommandRequest, JobKind, JobReply, JobRequest, JobState, JobWish, LinkConfig,
+    LinkError, Record as _, Transport as _,
 };
 use serde_json::json;
 use std::io::{BufRead as _, IsTerminal as _};
@@ -20,8 +20,12 @@ use std::time::{Duration, Instant};
 
 /// How long a service may take to start.
 const PATIENCE: Duration = Duration::from_secs(2);
-/// How long an answer is waited for behind an interrupt: that comes when a program has been read.
-const ANSWER_PATIENCE: Duration = Duration::from_secs(10);
+/// How long the end of a job is waited for behind an interrupt.
+const END_PATIENCE: Duration = Duration::from_millis(600);
+/// How long the interpolator may take to answer then.
+const ABORT_PATIENCE: Duration = Duration::from_millis(100);
+/// When it is said for the first time what is being done; each time after that, twice as much later.
+const TELL_INTERVAL: Duration = Duration::from_secs(1);
 /// Between two looks at how a job stands.
 const POLL: Duration = Duration::from_millis(20);
 
@@ -59,6 +63,7 @@ pub(super) fn run_file(args: &RunFileArgs, config: &MachineConfig) -> Result<Exi
     }
     (request.from_line, request.pass) = (args.from_line.unwrap_or(0), args.pass);
     request.confirmed = u32::from(args.yes);
+    request.resumes = u32::from(args.resume);
     let text = execute(&args.instance, config, request, true)?;
     report("run-file", &text, args.basic.json);
     Ok(Exit::Done)
@@ -78,7 +83,7 @@ fn report(command: &str, text: &str, json: bool) {
     }
 }
 
-/// Hands a job in, and waits for its end. An interrupt aborts the motion.
+/// Hands a job in, and waits for its end. It is told what is being done; an interrupt ends the job.
 fn execute(
     args: &InstanceArgs,
     config: &MachineConfig,
@@ -87,17 +92,31 @@ fn execute(
 ) -> Result<String, Failure> {
     let interrupt = Interrupt::install().map_err(Failure::Signals)?;
     let transport = session::join(args, config)?;
-    let mut client = transport.job_client()?;
     let mut attention = Attention::new(&transport, config)?;
-    let mut is_aborted = false;
+    let link = session::link(&session::instance(args, config), config);
+    let mut desk = Desk {
+        client: transport.job_client()?,
+        link: &link,
+        interrupt: &interrupt,
+        interrupted: None,
+        is_taken: false,
+        told: Told::new(),
+    };
     loop {
-        let reply = ask(&mut *client, &request, &interrupt)?;
+        let reply = desk.ask(&request)?;
         let text = reply.text.as_str().to_owned();
         match reply.state().map_err(LinkError::from)? {
-            JobState::Running => attention.look()?,
+            JobState::Running => {
+                attention.look()?;
+                desk.is_taken = true;
+                desk.told.tell(&text);
+                let wish = desk.wish()?;
+                request = request.wishing(wish);
+            }
             JobState::Done => return Ok(text),
             JobState::ToConfirm if may_ask && agrees(&text)? => {
                 (request.number, request.confirmed) = (request.number + 1, 1);
+                request = request.wishing(JobWish::Execute);
             }
             JobState::ToConfirm => {
                 return Err(Failure::Job {
@@ -111,57 +130,130 @@ fn execute(
                     exit: Exit::Rejected,
                 });
             }
-            JobState::Failed | JobState::Busy | JobState::NotReady => {
+            JobState::Failed | JobState::Busy | JobState::NotReady | JobState::Unknown => {
                 return Err(Failure::Job {
                     text,
                     exit: Exit::Fault,
                 });
             }
         }
-        if interrupt.is_set() && !is_aborted {
-            is_aborted = true;
-            let link = session::link(&session::instance(args, config), config);
-            let operator = reach(&link)?;
-            // What it answers is seen by how the job ends.
-            send(&operator, &link, Command::Abort)?;
-        }
         std::thread::sleep(POLL);
     }
 }
 
-fn ask(
-    client: &mut dyn Client<JobRequest, JobReply>,
-    request: &JobRequest,
-    interrupt: &Interrupt,
-) -> Result<JobReply, Failure> {
-    let started = Instant::now();
-    let mut interrupted = None::<Instant>;
-    loop {
-        match client.ask(request) {
-            // It may have been started just now.
-            Err(LinkError::NoServer { .. }) if started.elapsed() < PATIENCE => {
-                std::thread::sleep(POLL);
-            }
-            Err(LinkError::NoServer { .. }) => return Err(Failure::NoService),
-            asked => {
-                asked?;
-                break;
-            }
+/// Where the job is handed in, and what has come of it.
+struct Desk<'d> {
+    client: Box<dyn Client<JobRequest, JobReply>>,
+    link: &'d LinkConfig,
+    interrupt: &'d Interrupt,
+    /// When the interrupt was seen.
+    interrupted: Option<Instant>,
+    /// The service has taken the job.
+    is_taken: bool,
+    told: Told,
+}
+
+impl Desk<'_> {
+    /// What is wanted of a job that was taken. The interpolator is told of an interrupt, too: it needs
+    /// no planner to end the motion.
+    fn wish(&mut self) -> Result<JobWish, Failure> {
+        if !self.interrupt.is_set() {
+            return Ok(JobWish::Ask);
+        }
+        if self.interrupted.is_none() {
+            self.interrupted = Some(Instant::now());
+            self.abort();
+        }
+        self.give_up()?;
+        Ok(JobWish::Cancel)
+    }
+
+    /// Ends the command where its job does not end soon enough.
+    fn give_up(&mut self) -> Result<(), Failure> {
+        if !self.interrupt.is_set() {
+            return Ok(());
+        }
+        let since = *self.interrupted.get_or_insert_with(Instant::now);
+        if since.elapsed() < END_PATIENCE {
+            return Ok(());
+        }
+        if self.is_taken {
+            self.abort();
+        }
+        Err(Failure::NoAnswer)
+    }
+
+    fn abort(&self) {
+        let request = CommandRequest::new(u64::from(std::process::id()), 1, Command::Abort);
+        // What it comes to is seen by how the job ends.
+        if let Ok(operator) = reach(self.link) {
+            let _answer = operator.call(&request, ABORT_PATIENCE);
         }
     }
-    loop {
-        // A long program is read before it is answered; a service that ended is an error here.
-        if let Some(reply) = client.reply()? {
-            reply.check().map_err(LinkError::from)?;
-            return Ok(reply);
+
+    /// Asks until there is an answer, or nobody is there who could give one.
+    fn ask(&mut self, request: &JobRequest) -> Result<JobReply, Failure> {
+        let started = Instant::now();
+        loop {
+            match self.client.ask(request) {
+                // It may have been started just now.
+                Err(LinkError::NoServer { .. }) if started.elapsed() < PATIENCE => {
+                    self.told.wait_for("the planner's service", started);
+                    if self.interrupt.is_set() {
+                        return Err(Failure::Interrupted);
+                    }
+                    std::thread::sleep(POLL);
+                }
+                Err(LinkError::NoServer { .. }) => return Err(Failure::NoService),
+                asked => {
+                    asked?;
+                    break;
+                }
+            }
         }
-        // What was asked for may begin yet: then it is aborted. One that is stopped itself never answers.
-        if interrupt.is_set()
-            && interrupted.get_or_insert_with(Instant::now).elapsed() > ANSWER_PATIENCE
-        {
-            return Err(Failure::NoAnswer);
+        let started = Instant::now();
+        loop {
+            // A service that ended is an error here.
+            if let Some(reply) = self.client.reply()? {
+                reply.check().map_err(LinkError::from)?;
+                return Ok(reply);
+            }
+            self.told.wait_for("an answer of the planner", started);
+            self.give_up()?;
+            std::thread::sleep(Duration::from_millis(1));
         }
-        std::thread::sleep(Duration::from_millis(1));
+    }
+}
+
+/// What was said of the job.
+struct Told {
+    last: String,
+    since: Instant,
+    interval: Duration,
+}
+
+impl Told {
+    fn new() -> Self {
+        Self {
+            last: String::new(),
+            since: Instant::now(),
+            interval: TELL_INTERVAL,
+        }
+    }
+
+    /// Says what is being done, now and then, if it takes long enough to be read.
+    fn tell(&mut self, doing: &str) {
+        if self.since.elapsed() >= self.interval && self.last != doing {
+            output::note(doing);
+            doing.clone_into(&mut self.last);
+            (self.since, self.interval) = (Instant::now(), self.interval * 2);
+        }
+    }
+
+    fn wait_for(&mut self, whom: &str, started: Instant) {
+        if started.elapsed() >= TELL_INTERVAL {
+            self.tell(&format!("waiting for {whom}"));
+        }
     }
 }
 

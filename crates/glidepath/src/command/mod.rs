@@ -18,6 +18,7 @@ mod feed;
 mod fit;
 mod fitting;
 mod forecast;
+mod home;
 mod interpolator;
 mod jitter;
 mod jobs;
@@ -142,7 +143,7 @@ fn dispatch(command: &Command) -> Result<Exit, Failure> {
         Command::Disable(args) => {
             operator::command(args, &config()?, "disable", link::Command::Disable)
         }
-        Command::Home(args) => operator::joints(args, &config()?, "home", link::Command::Home),
+        Command::Home(args) => home::home(args, &config()?),
         Command::Unhome(args) => {
             operator::joints(args, &config()?, "unhome", link::Command::Unhome)
         }

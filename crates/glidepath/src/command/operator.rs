@@ -78,10 +78,14 @@ pub(super) fn joints(
     name: &'static str,
     of: impl Fn(u32) -> Command,
 ) -> Result<Exit, Failure> {
+    command(&args.operator, config, name, of(joints_meant(args, config)))
+}
+
+/// The joints given, or all of the machine, one bit each.
+pub(super) fn joints_meant(args: &JointsArgs, config: &MachineConfig) -> u32 {
     let given = args.joints.iter().fold(0, |mask, joint| mask | 1 << joint);
     let all = (1 << config.drives()) - 1;
-    let mask = if given == 0 { all } else { given };
-    command(&args.operator, config, name, of(mask))
+    if given == 0 { all } else { given }
 }
 
 /// Sets the overrides that are given.

@@ -16,12 +16,13 @@ use crate::output;
 use crate::program_file::ProgramFile;
 use crate::report::{counted, peak_rss_bytes, seconds};
 use glidepath_geometry::AxisVector;
-use glidepath_link::{Ipc, Transport};
+use glidepath_link::Transport;
 use glidepath_planner::{
-    Control, FileSource, ItemSource, Listening, Notice, PipeSource, Pipeline, Publisher, Refusal,
-    Remainder, RunError, SoftLimits, Statistics, serve as serve_jobs,
+    Control, FileSource, ItemSource, Listening, Notice, PipeSource, Pipeline, Publisher, Remainder,
+    RunError, SoftLimits, Statistics, serve as serve_jobs,
 };
 use serde_json::{Value, json};
+use std::time::Duration;
 
 /// Plans and publishes until the motion is executed, or, with `--listen`, until asked to end.
 ///
@@ -66,17 +67,22 @@ pub(super) fn planner(args: &PlannerArgs, config: &MachineConfig) -> Result<Exit
         pause: &mut std::thread::sleep,
         notify: &mut notify,
     };
-    let job = Job {
-        transport: &transport,
+    let mut publisher = Publisher::connect(&transport, session::pace(&config))?;
+    attendant.engage(&mut publisher, &config)?;
+    let mut job = Job {
+        publisher,
         config: &config,
         attendant: &attendant,
         file,
     };
-    let statistics = match (file.is_standard_input(), args.resume) {
+    let executed = match (file.is_standard_input(), args.resume) {
         (true, _) => job.pipe(&mut control),
         (false, true) => job.resume(&mut control),
-        (false, false) => job.run(&mut control, false, |start| job.open(start, &config)),
-    }?;
+        (false, false) => job.run(&mut control),
+    };
+    // Also where nothing came of it.
+    job.publisher.release(&mut control);
+    let statistics = executed?;
     let name = job.name();
     if args.basic.json {
         output::object(&object(&name, &statistics));
@@ -98,7 +104,7 @@ fn only_read(config: &mut MachineConfig) -> Result<(), Failure> {
 
 /// A program, and what it is run with.
 struct Job<'a> {
-    transport: &'a Ipc,
+    publisher: Publisher<'a>,
     config: &'a MachineConfig,
     attendant: &'a Attendant,
     file: &'a ProgramFile,
@@ -109,56 +115,92 @@ impl Job<'_> {
         self.file.name().display().to_string()
     }
 
-    fn publisher(&self) -> Result<Publisher<'_>, Failure> {
-        let mut publisher = Publisher::connect(self.transport, session::pace(self.config))?;
-        self.attendant.engage(&mut publisher, self.config)?;
-        Ok(publisher)
+    /// What the job is called at the interpolator.
+    fn short_name(&self) -> String {
+        if self.file.is_standard_input() {
+            return "standard input".to_owned();
+        }
+        let name = self.file.name();
+        let last = name.file_name().unwrap_or(name.as_os_str());
+        last.to_string_lossy().into_owned()
+    }
+
+    /// The configuration for a program whose reading the interpolator can end.
+    fn watched(&self) -> MachineConfig {
+        let mut config = self.config.clone();
+        config.program.watch = Some(self.publisher.watch());
+        config
     }
 
     /// The program as a file, checked from its beginning to its end.
-    fn open(&self, start: AxisVector, config: &MachineConfig) -> Result<FileSource, Refusal> {
+    fn open(
+        &mut self,
+        start: AxisVector,
+        config: &MachineConfig,
+        control: &mut Control<'_>,
+    ) -> Result<FileSource, Failure> {
         let file = self.file.path();
-        joints::check_plan(file, config, start, &mut |_| {})?;
-        let options = config.program_options(start);
-        let source = FileSource::open(file, options, &config.settings())?;
+        let open = || {
+            joints::check_plan(file, config, start, &mut |_| {})?;
+            FileSource::open(file, config.program_options(start), &config.settings())
+        };
+        let opened = self.work("checking", control, open)?;
+        let source = opened.map_err(|refusal| Failure::refused(&self.name(), refusal, false))?;
         Ok(source.attended(self.attendant.attending()))
     }
 
+    /// Has something done that takes long, while the job can be ended.
+    fn work<T: Send>(
+        &mut self,
+        doing: &str,
+        control: &mut Control<'_>,
+        work: impl FnOnce() -> T + Send,
+    ) -> Result<T, RunError> {
+        let nobody = &mut |_: Duration| {};
+        self.publisher.work(doing, nobody, control, work)
+    }
+
     /// A program that comes through standard input.
-    fn pipe(&self, control: &mut Control<'_>) -> Result<Statistics, Failure> {
+    fn pipe(&mut self, control: &mut Control<'_>) -> Result<Statistics, Failure> {
         if !self.attendant.is_quiet() {
             output::note(
                 "planner: reading standard input; the machine waits on the path where no more has come",
             );
         }
-        self.run(control, true, |start| {
-            let options = self.config.program_options(start);
-            PipeSource::spawn(std::io::stdin(), options, self.attendant.attending())
-        })
+        let name = self.short_name();
+        let start = self.publisher.wait_until_ready(&name, control)?;
+        let options = self.watched().program_options(start);
+        let source = PipeSource::spawn(std::io::stdin(), options, self.attendant.attending())
+            .map_err(|refusal| Failure::refused(&self.name(), refusal, true))?;
+        let pipeline = Pipeline::new(source, self.config.settings(), start).of_stream();
+        self.publish(pipeline, start, true, control)
     }
 
     /// One program, from where the machine stands.
-    fn run<S: ItemSource + Send>(
-        &self,
-        control: &mut Control<'_>,
+    fn run(&mut self, control: &mut Control<'_>) -> Result<Statistics, Failure> {
+        let name = self.short_name();
+        let start = self.publisher.wait_until_ready(&name, control)?;
+        let source = self.open(start, &self.watched(), control)?;
+        let pipeline = Pipeline::new(source, self.config.settings(), start);
+        self.publish(pipeline, start, false, control)
+    }
+
+    fn publish<S: ItemSource + Send>(
+        &mut self,
+        pipeline: Pipeline<S>,
+        start: AxisVector,
         is_pipe: bool,
-        open: impl FnOnce(AxisVector) -> Result<S, Refusal>,
+        control: &mut Control<'_>,
     ) -> Result<Statistics, Failure> {
-        let name = self.name();
-        let mut publisher = self.publisher()?;
-        let start = publisher.wait_until_ready(control)?;
-        let source = open(start).map_err(|refusal| Failure::refused(&name, refusal, false))?;
-        self.attendant.begin(source.fingerprint(), &start)?;
-        let mut pipeline = Pipeline::new(source, self.config.settings(), start)
+        let mut pipeline = pipeline
             .with_joints(self.config.path_caps())
             .with_clock(clock::elapsed);
-        if is_pipe {
-            pipeline = pipeline.of_stream();
-        }
-        let published = publisher.publish(&mut pipeline, control);
-        let kept = self.attendant.end(&published, &publisher, self.config);
+        let fingerprint = pipeline.source().fingerprint();
+        self.attendant.begin(fingerprint, &start)?;
+        let published = self.publisher.publish(&mut pipeline, control);
+        let kept = self.attendant.end(&published, &self.publisher, self.config);
         let statistics = published.map_err(|error| match error {
-            RunError::Refused(refusal) => Failure::refused(&name, refusal, is_pipe),
+            RunError::Refused(refusal) => Failure::refused(&self.name(), refusal, is_pipe),
             error => error.into(),
         })?;
         kept?;
@@ -166,35 +208,23 @@ impl Job<'_> {
     }
 
     /// The rest of a program, from where the machine stands on its path.
-    fn resume(&self, control: &mut Control<'_>) -> Result<Statistics, Failure> {
-        let mut publisher = self.publisher()?;
-        let point = publisher.wait_until_left(control)?;
+    fn resume(&mut self, control: &mut Control<'_>) -> Result<Statistics, Failure> {
+        let name = self.short_name();
+        let start = self.publisher.wait_until_ready(&name, control)?;
+        let point = self.publisher.resume_point()?;
         // What it began with, not what it has made of that meanwhile.
-        let mut config = self.config.clone();
+        let mut config = self.watched();
         self.attendant.resume(point.program, &mut config)?;
-        let source = self
-            .open(point.program_start, &config)
-            .map_err(|refusal| Failure::refused(&self.name(), refusal, false))?;
+        let source = self.open(point.program_start, &config, control)?;
         let settings = config.settings();
-        let remainder = Remainder::find(source, point, settings.tolerance_mm)?;
+        let find = || Remainder::find(source, point, settings.tolerance_mm);
+        let remainder = self.work("reading up to where it was left", control, find)??;
         self.attendant.begin_here()?;
-        // Only now is a fault reset: one that resumes nothing leaves it to whoever looks at it.
-        let start = publisher.wait_until_ready(control)?;
-        self.attendant.begin(point.program, &start)?;
         // What an abort or a fault has stopped turns before anything moves.
-        let (restoring, line) = (
-            remainder.restoring(&publisher.auxiliary(control)?),
-            remainder.line(),
-        );
-        let mut pipeline = Pipeline::resuming(remainder, settings)
-            .beginning_with(restoring, line)
-            .with_joints(config.path_caps())
-            .with_clock(clock::elapsed);
-        let published = publisher.publish(&mut pipeline, control);
-        let kept = self.attendant.end(&published, &publisher, &config);
-        let statistics = published?;
-        kept?;
-        Ok(statistics)
+        let now = self.publisher.auxiliary(control)?;
+        let (restoring, line) = (remainder.restoring(&now), remainder.line());
+        let pipeline = Pipeline::resuming(remainder, settings).beginning_with(restoring, line);
+        self.publish(pipeline, start, false, control)
     }
 }
 

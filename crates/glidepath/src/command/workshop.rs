@@ -14,8 +14,9 @@ use glidepath_gcode::{InForce, Program};
 use glidepath_geometry::AxisVector;
 use glidepath_link::refused;
 use glidepath_planner::{
-    Control, FileSource, ItemSource, Job, JobEnd, JobRunner, LineStart, Notice, Pipeline,
-    ProgramSource, Publisher, Refusal, RunError, StartLine, Statistics, Supply,
+    Attend, Control, FileSource, ItemSource, Job, JobEnd, JobRunner, LineStart, Notice, Pipeline,
+    ProgramSource, Publisher, Refusal, Remainder, ResumePoint, RunError, StartLine, Statistics,
+    Supply,
 };
 use std::io::Cursor;
 use std::path::Path;
@@ -30,13 +31,25 @@ pub(super) struct Workshop<'c> {
     config: &'c MachineConfig,
     /// What the job before has left in force.
     in_force: Option<InForce>,
+    /// The program begun last, and what it began with.
+    begun: Option<(u64, Option<InForce>)>,
 }
 
 /// The side of the service while a job runs.
 struct Bench<'b, 't, 'c> {
     publisher: &'b mut Publisher<'t>,
-    attend: &'b mut dyn FnMut(Duration),
+    attend: &'b mut dyn Attend,
     control: &'b mut Control<'c>,
+}
+
+impl Bench<'_, '_, '_> {
+    /// Has something done that takes long, while the service answers.
+    fn work<T: Send>(&mut self, doing: &str, work: impl FnOnce() -> T + Send) -> Result<T, Stop> {
+        let done = self
+            .publisher
+            .work(doing, &mut *self.attend, self.control, work);
+        done.map_err(|error| Stop::Failed(error.to_string()))
+    }
 }
 
 impl<'c> Workshop<'c> {
@@ -44,11 +57,12 @@ impl<'c> Workshop<'c> {
         Self {
             config,
             in_force: None,
+            begun: None,
         }
     }
 
     /// The configuration and the attendant of the next job.
-    fn set_up(&self) -> Result<(MachineConfig, Attendant), Failure> {
+    fn set_up(&self, publisher: &Publisher<'_>) -> Result<(MachineConfig, Attendant), Failure> {
         let mut config = self.config.clone();
         let attendant = Attendant::new(&mut config, true)?;
         if let Some(in_force) = self.in_force.as_ref().filter(|_| !attendant.keeps()) {
@@ -56,6 +70,7 @@ impl<'c> Workshop<'c> {
             config.program.tools = in_force.tools().cloned().or(config.program.tools);
         }
         config.program.in_force = self.in_force.clone();
+        config.program.watch = Some(publisher.watch());
         Ok((config, attendant))
     }
 
@@ -64,25 +79,25 @@ impl<'c> Workshop<'c> {
         if text.contains(['\n', '\r']) {
             return Err(Stop::Refused("give one line at a time".to_owned()));
         }
-        let (config, attendant) = self.set_up()?;
+        let (config, attendant) = self.set_up(bench.publisher)?;
         let text = format!("{text}\n").into_bytes();
         let options = || config.program_options(start);
-        for item in Program::new(text.as_slice(), options()) {
-            item.map_err(|diagnostic| {
-                refusal(&Refusal::Program {
-                    diagnostics: vec![diagnostic],
-                    unlisted: 0,
-                })
-            })?;
+        let judge = || Program::new(text.as_slice(), options()).find_map(Result::err);
+        if let Some(diagnostic) = bench.work("checking", judge)? {
+            return Err(refusal(&Refusal::Program {
+                diagnostics: vec![diagnostic],
+                unlisted: 0,
+            }));
         }
-        let source = || LineSource::new(Cursor::new(text.clone()), options());
-        let attended = source().attended(attendant.attending());
+        let source = |options| LineSource::new(Cursor::new(text.clone()), options);
+        let attended = source(options()).attended(attendant.attending());
         let pipeline = Pipeline::new(attended, config.settings(), start);
         let (run, in_force) = Self::publish(pipeline, (&config, &attendant), start, bench, |p| {
             Some(p.in_force())
         });
         self.settle(&run, in_force, bench, &attendant, || {
-            Ok(Some(source().attended(recalling(&config, 0))))
+            let options = unwatched(&config).program_options(start);
+            Ok(Some(source(options).attended(recalling(&config, 0))))
         });
         let statistics = run?;
         Ok(format!(
@@ -91,49 +106,68 @@ impl<'c> Workshop<'c> {
         ))
     }
 
-    /// A file, from its beginning or from a line.
+    /// A file, from its beginning, from a line, or from where it was left.
     fn file(
         &mut self,
-        path: &Path,
-        from: Option<StartLine>,
-        confirmed: bool,
+        file: &FileJob<'_>,
         start: AxisVector,
         bench: &mut Bench<'_, '_, '_>,
     ) -> End {
-        must_be_a_file(path)?;
-        let (config, attendant) = self.set_up()?;
-        let config = for_program(&ProgramFile::named(path), &config);
-        joints::check_plan(path, &config, start, &mut |_| {}).map_err(|e| refusal(&e))?;
-        let open = || FileSource::open(path, config.program_options(start), &config.settings());
-        let source = open().map_err(|e| refusal(&e))?;
+        must_be_a_file(file.path)?;
+        let (config, attendant) = self.set_up(bench.publisher)?;
+        let mut config = for_program(&ProgramFile::named(file.path), &config);
+        let begins = self.begins(file, start, &mut config, (&attendant, &*bench))?;
+        let config = config;
+        let source = bench.work("checking", || open(file.path, &config, begins.start))?;
+        let source = source.map_err(|e| refusal(&e))?;
         let source = source.attended(attendant.attending());
-        let (run, in_force) = match from {
-            None => {
-                let pipeline = Pipeline::new(source, config.settings(), start);
+        let fingerprint = source.fingerprint();
+        let settings = config.settings();
+        let run = match (begins.point, file.from) {
+            (Some(point), _) => {
+                let find = || Remainder::find(source, point, settings.tolerance_mm);
+                let rest = bench.work("reading up to where it was left", find)?;
+                let rest = rest.map_err(|error| Stop::Refused(error.to_string()))?;
+                attendant.begin_here()?;
+                // What an abort or a fault has stopped turns before anything moves.
+                let now = bench.publisher.auxiliary(bench.control);
+                let now = now.map_err(|error| Stop::Failed(error.to_string()))?;
+                let (restoring, line) = (rest.restoring(&now), rest.line());
+                let pipeline = Pipeline::resuming(rest, settings).beginning_with(restoring, line);
+                Self::publish(pipeline, (&config, &attendant), start, bench, |rest| {
+                    rest.source().in_force()
+                })
+            }
+            (None, None) => {
+                self.begun = Some((fingerprint, config.program.in_force.clone()));
+                let pipeline = Pipeline::new(source, settings, start);
                 Self::publish(pipeline, (&config, &attendant), start, bench, |source| {
                     source.in_force()
                 })
             }
-            Some(from) => {
+            (None, Some(from)) => {
                 let approach = approach(&config, start, bench.publisher, bench.control)?;
-                attendant.recall(source.fingerprint())?;
-                let found = LineStart::find(source, from, &approach)
-                    .map_err(|error| Stop::Refused(error.to_string()))?;
-                if !confirmed {
+                attendant.recall(fingerprint)?;
+                let find = || LineStart::find(source, from, &approach);
+                let found = bench.work("reading up to its line", find)?;
+                let found = found.map_err(|error| Stop::Refused(error.to_string()))?;
+                if !file.confirmed {
                     return Err(Stop::ToConfirm(agreement(from, &found, &approach, &config)));
                 }
                 attendant.begin_with(found.block())?;
+                self.begun = Some((fingerprint, config.program.in_force.clone()));
                 let rest = found.approached(&approach);
-                let pipeline = Pipeline::resuming(rest, config.settings());
+                let pipeline = Pipeline::resuming(rest, settings);
                 Self::publish(pipeline, (&config, &attendant), start, bench, |rest| {
                     rest.source().in_force()
                 })
             }
         };
+        let (run, in_force) = run;
         self.settle(&run, in_force, bench, &attendant, || {
-            let source = open()?;
-            let recalling = recalling(&config, source.fingerprint());
-            Ok(match source.attended(recalling) {
+            let options = unwatched(&config).program_options(begins.start);
+            let source = FileSource::unchecked(file.path, options, &settings)?;
+            Ok(match source.attended(recalling(&config, fingerprint)) {
                 FileSource::Program(source) => Some(*source),
                 FileSource::Curve(_) | FileSource::Nurbs(_) => None,
             })
@@ -141,10 +175,37 @@ impl<'c> Workshop<'c> {
         let statistics = run?;
         Ok(format!(
             "{}: executed; {}, {}",
-            path.display(),
+            file.path.display(),
             counted(statistics.lines, "line"),
             counted(statistics.segments, "segment")
         ))
+    }
+
+    /// Where a program is read from. One that is resumed is read with what it began with.
+    fn begins(
+        &self,
+        file: &FileJob<'_>,
+        start: AxisVector,
+        config: &mut MachineConfig,
+        (attendant, bench): (&Attendant, &Bench<'_, '_, '_>),
+    ) -> Result<Begins, Stop> {
+        if !file.resumes {
+            return Ok(Begins { start, point: None });
+        }
+        let point = bench.publisher.resume_point();
+        let point = point.map_err(|error| Stop::Refused(error.to_string()))?;
+        let known = self.begun.as_ref().filter(|(of, _)| *of == point.program);
+        let in_force = known.and_then(|(_, in_force)| in_force.clone());
+        if let Some(in_force) = in_force.as_ref().filter(|_| !attendant.keeps()) {
+            config.program.offsets = in_force.work_offsets();
+            config.program.tools = in_force.tools().cloned().or(config.program.tools.take());
+        }
+        config.program.in_force = in_force;
+        attendant.resume(point.program, config)?;
+        Ok(Begins {
+            start: point.program_start,
+            point: Some(point),
+        })
     }
 
     /// Publishes what a pipeline plans. Returns what is in force at its end, too, if it came there.
@@ -202,9 +263,9 @@ impl<'c> Workshop<'c> {
         &mut self,
         run: &Result<Statistics, Stop>,
         left: Option<InForce>,
-        bench: &Bench<'_, '_, '_>,
+        bench: &mut Bench<'_, '_, '_>,
         attendant: &Attendant,
-        again: impl FnOnce() -> Result<Option<ProgramSource<R>>, Refusal>,
+        again: impl FnOnce() -> Result<Option<ProgramSource<R>>, Refusal> + Send,
     ) {
         if left.is_some() {
             self.in_force = left;
@@ -213,20 +274,32 @@ impl<'c> Workshop<'c> {
             return;
         }
         let block = bench.publisher.block();
-        let Ok(Some(mut source)) = again() else {
-            return;
-        };
-        for _ in 0..block {
-            match source.next_item() {
-                Supply::Item(_) => {}
-                Supply::Refused(error) => {
-                    output::note(&format!("planner: what was in force is not known: {error}"));
-                    return;
+        let read = || {
+            let Some(mut source) = again()? else {
+                return Ok(None);
+            };
+            for _ in 0..block {
+                match source.next_item() {
+                    Supply::Item(_) => {}
+                    Supply::Refused(error) => return Err(error),
+                    Supply::Pending | Supply::Probe | Supply::End => break,
                 }
-                Supply::Pending | Supply::Probe | Supply::End => break,
+            }
+            Ok(Some(source.in_force()))
+        };
+        // Whoever wanted the job may not want it any more; what is in force is for the next one.
+        let attend = &mut *bench.attend;
+        let mut attend = |waited: Duration| {
+            let _ended = attend.attend(waited, "reading what is in force");
+        };
+        let known = bench.publisher.work("", &mut attend, bench.control, read);
+        match known {
+            Ok(Ok(Some(in_force))) => self.in_force = Some(in_force),
+            Ok(Ok(None)) | Err(_) => {}
+            Ok(Err(error)) => {
+                output::note(&format!("planner: what was in force is not known: {error}"));
             }
         }
-        self.in_force = Some(source.in_force());
     }
 }
 
@@ -236,7 +309,7 @@ impl JobRunner for Workshop<'_> {
         job: &Job,
         start: AxisVector,
         publisher: &mut Publisher<'_>,
-        attend: &mut dyn FnMut(Duration),
+        attend: &mut dyn Attend,
         control: &mut Control<'_>,
     ) -> JobEnd {
         let mut bench = Bench {
@@ -250,7 +323,17 @@ impl JobRunner for Workshop<'_> {
                 path,
                 from,
                 confirmed,
-            } => self.file(path, *from, *confirmed, start, &mut bench),
+                resumes,
+            } => {
+                let (from, confirmed, resumes) = (*from, *confirmed, *resumes);
+                let file = FileJob {
+                    path,
+                    from,
+                    confirmed,
+                    resumes,
+                };
+                self.file(&file, start, &mut bench)
+            }
         };
         let (told, end) = match end {
             Ok(text) => (text.clone(), JobEnd::Done(text)),
@@ -264,6 +347,35 @@ impl JobRunner for Workshop<'_> {
         output::note(&format!("planner: {told}"));
         end
     }
+}
+
+/// A file, and how it is to begin.
+struct FileJob<'j> {
+    path: &'j Path,
+    from: Option<StartLine>,
+    confirmed: bool,
+    resumes: bool,
+}
+
+/// What a program is read from.
+struct Begins {
+    /// Where the machine stands, or stood when the program began.
+    start: AxisVector,
+    /// Where it was left, if it is to go on there.
+    point: Option<ResumePoint>,
+}
+
+/// A program as a file, checked from its beginning to its end.
+fn open(path: &Path, config: &MachineConfig, start: AxisVector) -> Result<FileSource, Refusal> {
+    joints::check_plan(path, config, start, &mut |_| {})?;
+    FileSource::open(path, config.program_options(start), &config.settings())
+}
+
+/// For reading that goes on when the job is over.
+fn unwatched(config: &MachineConfig) -> MachineConfig {
+    let mut config = config.clone();
+    config.program.watch = None;
+    config
 }
 
 /// Why a job was not executed to its end.

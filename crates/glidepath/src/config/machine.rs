@@ -350,6 +350,7 @@ impl MachineConfig {
                 Some(_) => glidepath_gcode::AdaptiveFeed::Switched,
             },
             in_force: self.program.in_force.clone(),
+            watch: self.program.watch.clone(),
             m_codes: Arc::new(m_codes),
             waits_for_speed: self.waits_for_speed(),
             spline_tolerance_mm: SPLINE_SHARE * self.path.tolerance_mm,

@@ -1,7 +1,8 @@
 //! How programs are read.
 
 use glidepath_gcode::{
-    Connections, Dialect, FanucParameters, InForce, Subroutines, ToolTable, WorkOffsets,
+    Connections, Dialect, FanucParameters, InForce, ReadingWatch, Subroutines, ToolTable,
+    WorkOffsets,
 };
 use glidepath_geometry::Axis;
 use std::path::PathBuf;
@@ -31,6 +32,8 @@ pub struct ProgramConfig {
     pub extruder: Option<Axis>,
     /// What is in force when the program begins, behind others of the same service.
     pub in_force: Option<InForce>,
+    /// Who watches the reading, and may end it.
+    pub watch: Option<ReadingWatch>,
     /// Whether a program may run that could not be checked to its end.
     pub may_run_unchecked: bool,
 }

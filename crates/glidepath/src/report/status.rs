@@ -5,7 +5,9 @@ use super::quantity::{grouped, microseconds};
 use crate::machine_options::complete;
 use core::fmt::Write as _;
 use glidepath_geometry::Axis;
-use glidepath_link::{EndOfEpoch, FaultCause, Grants, MachineState, MotionMode, Quantiles, Status};
+use glidepath_link::{
+    EndOfEpoch, FaultCause, Grants, JobStage, MachineState, MotionMode, Quantiles, Status,
+};
 use serde_json::{Map, Value, json};
 
 /// How any fault is cleared, in the marks that commands stand in.
@@ -133,8 +135,39 @@ pub fn status_object(instance: &str, status: &Status) -> Value {
     });
     if let Value::Object(object) = &mut object {
         object.extend(machine_object(status));
+        object.insert("job".to_owned(), job_object(status));
     }
     object
+}
+
+/// The job that is prepared or executed, with what is being done for it.
+fn job_text(status: &Status) -> Option<String> {
+    let held = if status.job_held == 1 {
+        "; begins held"
+    } else {
+        ""
+    };
+    job_stage(status).map(|_| format!("{}{held}", status.job.as_str()))
+}
+
+fn job_object(status: &Status) -> Value {
+    job_stage(status).map_or(Value::Null, |stage| {
+        json!({
+            "stage": stage,
+            "text": status.job.as_str(),
+            "begins_held": status.job_held == 1,
+        })
+    })
+}
+
+/// How the job stands, if there is one that is not over.
+fn job_stage(status: &Status) -> Option<&'static str> {
+    match status.job_stage() {
+        Ok(JobStage::Waiting) => Some("waiting"),
+        Ok(JobStage::Preparing) => Some("preparing"),
+        Ok(JobStage::Begun) => Some("begun"),
+        _ => None,
+    }
 }
 
 /// What an input makes of the overrides, if it does anything.
@@ -185,6 +218,9 @@ pub fn status_text(instance: &str, status: &Status) -> String {
     }
     if let Some(awaited) = awaited_text(status) {
         let _ = writeln!(text, "  awaits        {awaited}");
+    }
+    if let Some(job) = job_text(status) {
+        let _ = writeln!(text, "  job           {job}");
     }
     let _ = writeln!(text, "  position      {}", position.join("  "));
     let _ = writeln!(text, "  power         {}", power_text(status));

@@ -193,7 +193,10 @@ fn a_new_epoch_waits_until_the_machine_stands() {
     };
     admission.note(&faulted);
     assert_eq!(admission.judge(&frames(3)[0], &faulted), refused);
-    assert_eq!(admission.judge(&frames(3)[0], &aborted), Verdict::Pass);
+    // One whose first frame was refused does not begin any more: its planner was told so.
+    assert_eq!(admission.judge(&frames(3)[0], &aborted), refused);
+    assert_eq!(admission.next_epoch(2), 4);
+    assert_eq!(admission.judge(&frames(4)[0], &aborted), Verdict::Pass);
 }
 
 #[test]
@@ -207,7 +210,7 @@ fn no_epoch_leaves_no_number_for_the_next_planner() {
         assert_eq!(admission.judge(&frames(1)[1], &running(1)), Verdict::Pass);
         let ended = Machine { epoch: 1, ..idle() };
         assert_eq!(admission.judge(&frames(highest)[0], &ended), refused);
-        assert_eq!(admission.epoch(), 1);
+        assert_eq!(admission.epoch, 1);
         assert_eq!(admission.judge(&frames(2)[0], &ended), Verdict::Pass);
     }
 }

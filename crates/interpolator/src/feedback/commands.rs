@@ -48,6 +48,7 @@ impl DriveBook {
             | Command::JogOverride(_)
             | Command::Reverse
             | Command::Forward
+            | Command::Job { .. }
             | Command::Tell => Ok(true),
             // Without a program, what is left to abort is a latched fault.
             Command::Reset | Command::Abort => {

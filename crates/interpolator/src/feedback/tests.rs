@@ -18,6 +18,7 @@ mod gantry;
 mod gates;
 mod homing;
 mod hostile;
+mod jobs;
 mod jogging;
 mod life_cycle;
 mod matrix;

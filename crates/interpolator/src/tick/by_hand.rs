@@ -22,11 +22,12 @@ impl Interpolator<'_> {
                 Order::PlannerLives => self.supply.planner_lives(),
                 Order::Command(command) => self.drives.carry_out(command, self.is_open()),
                 Order::Cut(_) => self.lose_power(),
+                Order::Bar(epoch) => self.bar(epoch),
                 Order::Joints(order) => {
                     let stands = self.may_move_joints().then(|| *self.output.joints());
                     self.mover.take(&order, stands.as_ref());
                 }
-                Order::Fault(_) => {}
+                Order::Fault(_) | Order::Prepare(_) => {}
             }
             if let Order::Command(command) = order
                 && !self.is_for_program(command)
@@ -78,6 +79,7 @@ impl Interpolator<'_> {
             | Command::Unhome(_)
             | Command::Reverse
             | Command::Forward
+            | Command::Job { .. }
             | Command::Tell => {}
         }
         true
@@ -101,6 +103,7 @@ impl Interpolator<'_> {
             matches!(state, MachineState::Idle | MachineState::NotHomed)
                 && self.drives.following() == 0
                 && !self.mover.is_active()
+                && !self.requests.is_prepared()
                 && inputs.frames.peek().is_none()
         };
         let may_start = is_free && !self.requests.is_stopping();
@@ -117,6 +120,7 @@ impl Interpolator<'_> {
     fn may_move_joints(&self) -> bool {
         let is_free =
             !self.has_program() && !self.jog.owns_axes() && self.requests.fault().is_none();
+        let is_free = is_free && !self.requests.is_prepared();
         is_free && self.drives.are_on() && self.output.published().is_at_rest()
     }
 

@@ -36,7 +36,8 @@ impl Interpolator<'_> {
             let Some(next) = inputs.frames.peek() else {
                 return;
             };
-            let is_first = next.has(FrameFlags::FIRST) && next.epoch > self.epoch;
+            let is_new = next.epoch > self.epoch.max(self.barred);
+            let is_first = is_new && next.has(FrameFlags::FIRST);
             if is_first && self.is_open() && self.requests.is_stopping() {
                 // The open epoch is about to end; then this one can begin.
                 return;
@@ -46,6 +47,9 @@ impl Interpolator<'_> {
                 self.track.push(next);
             } else if is_first && self.requests.fault().is_none() && self.may_begin() {
                 self.open(next);
+            } else if is_first {
+                // Its planner has no other first frame, and hears of it.
+                self.barred = next.epoch;
             }
             let _taken = inputs.frames.dequeue();
         }
@@ -60,6 +64,7 @@ impl Interpolator<'_> {
     fn open(&mut self, frame: &SetpointFrame) {
         let away = AxisVector::from(frame.position) - self.output.published().position();
         if away.amax() > SAME_POSITION || !self.output.published().is_at_rest() {
+            self.barred = frame.epoch;
             let cause = FaultCause::Frame(FrameRefusal::Elsewhere);
             self.requests
                 .fail(Fault::new(cause, frame.line, frame.sequence));
@@ -79,9 +84,15 @@ impl Interpolator<'_> {
         }
         let is_held = self.probing.goes_on();
         self.requests.forget_epoch(is_held);
-        if self.probing.open() {
+        self.probing.open();
+    }
+
+    /// No epoch up to this number begins; the one with this number ends, if it is open.
+    pub(super) fn bar(&mut self, epoch: u64) {
+        if self.is_open() && self.epoch == epoch {
             self.requests.abort();
         }
+        self.barred = self.barred.max(epoch);
     }
 
     /// Looks whether there are frames enough, and stops for good if the planner is lost.
@@ -260,8 +271,9 @@ impl Interpolator<'_> {
                 StopCause::Abort
             });
             self.requests.forget_epoch(false);
-            self.probing.abort(self.drives.period_ns());
+            // The first frame behind the search may be under way.
+            self.bar(self.epoch + 1);
+            self.probing.abort();
         }
-        self.probing.wait();
     }
 }

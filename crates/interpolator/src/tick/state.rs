@@ -53,6 +53,8 @@ pub(crate) struct Interpolator<'a> {
     pub(super) output: Output,
     /// The open or last epoch, 0 before the first.
     pub(super) epoch: u64,
+    /// No epoch up to this number begins any more.
+    pub(super) barred: u64,
     pub(super) end_of_epoch: EndOfEpoch,
     /// What is kept of the last frame passed.
     pub(super) passed: FrameSummary,
@@ -88,6 +90,7 @@ impl<'a> Interpolator<'a> {
             drives: Drives::new(config),
             output: Output::new(config, boot_id),
             epoch: 0,
+            barred: 0,
             end_of_epoch: EndOfEpoch::None,
             passed: FrameSummary::NONE,
             has_moved: false,

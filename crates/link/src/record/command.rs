@@ -2,7 +2,7 @@
 
 use super::check::{Fields, RecordError};
 use super::code::coded;
-use super::{ALL_JOINTS, HIGHEST_JOINT, MachineState, Record, Text};
+use super::{ALL_JOINTS, HIGHEST_JOINT, JobPhase, MachineState, Record, Text};
 use iceoryx2::prelude::ZeroCopySend;
 
 coded! {
@@ -50,6 +50,8 @@ coded! {
         Reverse = 20,
         /// See [`Command::Forward`].
         Forward = 21,
+        /// See [`Command::Job`].
+        Job = 22,
     }
 }
 
@@ -113,6 +115,14 @@ pub enum Command {
     Forward,
     /// What the program says to people: the text of the request becomes the message of the status.
     Tell,
+    /// How a planner's job stands; the text of the request says what is being done. To be sent anew at
+    /// least every second: a job of which nothing is heard does not begin.
+    Job {
+        /// A number that no other job has.
+        number: u64,
+        /// How it stands.
+        phase: JobPhase,
+    },
 }
 
 /// Which event: no two have the same.
@@ -155,6 +165,7 @@ impl Command {
             Self::Tell => CommandKind::Tell,
             Self::Reverse => CommandKind::Reverse,
             Self::Forward => CommandKind::Forward,
+            Self::Job { .. } => CommandKind::Job,
         }
     }
 }
@@ -162,14 +173,14 @@ impl Command {
 /// A command on its way.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.CommandRequest.v5")]
+#[type_name("glidepath.CommandRequest.v6")]
 pub struct CommandRequest {
     /// Who asks: any number the client keeps, for the log.
     pub client: u64,
     /// Counts the client's commands; the reply repeats it.
     pub number: u64,
-    /// The command's argument: a ratio, a position, or 1 and 0 for on and off, done and failed; 0 if
-    /// it has none.
+    /// The command's argument: a ratio, a position, 1 and 0 for on and off, done and failed, or the
+    /// code of a [`JobPhase`]; 0 if it has none.
     pub value: f64,
     /// Code of a [`CommandKind`].
     pub kind: u32,
@@ -178,7 +189,10 @@ pub struct CommandRequest {
     pub joints: u32,
     /// Which event is acknowledged, else 0.
     pub event: EventId,
-    /// Why what an event asked for has failed, or what the program says, for people; else empty.
+    /// Which job is told of, else 0.
+    pub job: u64,
+    /// Why what an event asked for has failed, what the program says, or what is being done for a job,
+    /// for people; else empty.
     pub text: Text,
 }
 
@@ -193,6 +207,7 @@ impl CommandRequest {
             kind: command.kind().code(),
             joints: 0,
             event: EventId::default(),
+            job: 0,
             text: Text::default(),
         };
         match command {
@@ -206,6 +221,9 @@ impl CommandRequest {
             Command::Home(joints) | Command::Unhome(joints) => record.joints = joints,
             Command::Acknowledge { event, done } => {
                 (record.event, record.value) = (event, f64::from(u8::from(done)));
+            }
+            Command::Job { number, phase } => {
+                (record.job, record.value) = (number, f64::from(phase.code()));
             }
             Command::Ping
             | Command::Hold
@@ -275,6 +293,10 @@ impl CommandRequest {
                 event: self.event,
                 done: self.switch()?,
             },
+            CommandKind::Job => Command::Job {
+                number: self.job,
+                phase: fields.code("value", fields.whole("value", self.value)?)?,
+            },
             CommandKind::JogOverride => {
                 fields.range("value", self.value, 0.0, 1.0)?;
                 Command::JogOverride(self.value)
@@ -315,7 +337,8 @@ impl CommandRequest {
                 | CommandKind::JogOverride
                 | CommandKind::Tell
                 | CommandKind::Reverse
-                | CommandKind::Forward,
+                | CommandKind::Forward
+                | CommandKind::Job,
             )
             | None => fields.zero("joints", self.joints),
         }
@@ -323,7 +346,7 @@ impl CommandRequest {
 }
 
 impl Record for CommandRequest {
-    const NAME: &'static str = "glidepath.CommandRequest.v5";
+    const NAME: &'static str = "glidepath.CommandRequest.v6";
 
     fn check(&self) -> Result<(), RecordError> {
         self.command()?;

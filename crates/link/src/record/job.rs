@@ -1,4 +1,5 @@
-//! An operator to the planner's service: a line, or a program in a file, to be executed.
+//! An operator to the planner's service: a line, or a program in a file, to be executed. And how the
+//! job of a planner stands at the interpolator.
 
 use super::check::{Fields, RecordError};
 use super::code::coded;
@@ -15,10 +16,23 @@ coded! {
     }
 }
 
-/// Something to execute. Sent again with the same `client` and `number`, it asks how it stands.
+coded! {
+    /// What a client wants of a job.
+    pub enum JobWish {
+        /// It is to be executed. Sent again with the same `client` and `number`, it asks how the job
+        /// stands.
+        Execute = 1,
+        /// How it stands. A service that knows nothing of it does not begin it.
+        Ask = 2,
+        /// It is to end: it does not begin, or the motion comes to rest on the path.
+        Cancel = 3,
+    }
+}
+
+/// Something to execute.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.JobRequest.v1")]
+#[type_name("glidepath.JobRequest.v2")]
 pub struct JobRequest {
     /// Who asks: any number that no other client has.
     pub client: u64,
@@ -32,6 +46,10 @@ pub struct JobRequest {
     pub pass: u32,
     /// 1 if what was told of the beginning is agreed to, 0 if not.
     pub confirmed: u32,
+    /// 1 if the file is to go on where it was left, 0 if not.
+    pub resumes: u32,
+    /// Code of a [`JobWish`].
+    pub wish: u32,
     /// The line, or the name of the file.
     pub text: LongText,
 }
@@ -47,6 +65,8 @@ impl JobRequest {
             from_line: 0,
             pass: 0,
             confirmed: 0,
+            resumes: 0,
+            wish: JobWish::Execute.code(),
             text: LongText::new(text),
         }
     }
@@ -59,15 +79,35 @@ impl JobRequest {
     pub fn kind(&self) -> Result<JobKind, RecordError> {
         Fields(Self::NAME).code("kind", self.kind)
     }
+
+    /// What is wanted of it.
+    ///
+    /// # Errors
+    ///
+    /// An unknown code.
+    pub fn wish(&self) -> Result<JobWish, RecordError> {
+        Fields(Self::NAME).code("wish", self.wish)
+    }
+
+    /// The same job with another wish.
+    #[must_use]
+    pub const fn wishing(self, wish: JobWish) -> Self {
+        Self {
+            wish: wish.code(),
+            ..self
+        }
+    }
 }
 
 impl Record for JobRequest {
-    const NAME: &'static str = "glidepath.JobRequest.v1";
+    const NAME: &'static str = "glidepath.JobRequest.v2";
 
     fn check(&self) -> Result<(), RecordError> {
         let fields = Fields(Self::NAME);
         self.kind()?;
+        self.wish()?;
         fields.flags("confirmed", self.confirmed, 1)?;
+        fields.flags("resumes", self.resumes, 1)?;
         self.text.check(Self::NAME, "text")
     }
 }
@@ -75,13 +115,13 @@ impl Record for JobRequest {
 coded! {
     /// How a job stands.
     pub enum JobState {
-        /// It is being read, planned or executed.
+        /// It waits for the machine, or is read, checked, planned or executed: the text says which.
         Running = 1,
         /// It was executed to its end.
         Done = 2,
         /// It was refused; nothing has changed, and nothing moved.
         Refused = 3,
-        /// It ended before its end: by an abort or a fault.
+        /// It ended before its end: by an abort, a fault or its client.
         Failed = 4,
         /// The service does something else.
         Busy = 5,
@@ -89,13 +129,15 @@ coded! {
         NotReady = 6,
         /// It begins in a way that has to be agreed to: see the text, and send it again, confirmed.
         ToConfirm = 7,
+        /// The service knows nothing of the job: another one was told of it.
+        Unknown = 8,
     }
 }
 
 /// How a job stands.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.JobReply.v1")]
+#[type_name("glidepath.JobReply.v2")]
 pub struct JobReply {
     /// The client of the request.
     pub client: u64,
@@ -133,11 +175,43 @@ impl JobReply {
 }
 
 impl Record for JobReply {
-    const NAME: &'static str = "glidepath.JobReply.v1";
+    const NAME: &'static str = "glidepath.JobReply.v2";
 
     fn check(&self) -> Result<(), RecordError> {
         self.state()?;
         Fields(Self::NAME).zero("reserved", self.reserved)?;
         self.text.check(Self::NAME, "text")
+    }
+}
+
+coded! {
+    /// What a planner tells of its job.
+    pub enum JobPhase {
+        /// It waits for the machine to be ready.
+        Waiting = 1,
+        /// It takes the machine, to be read, checked and planned; from then on it is executed.
+        Preparing = 2,
+        /// It is over, or is given up.
+        Over = 3,
+    }
+}
+
+coded! {
+    /// How the job stands that a planner has told of last.
+    pub enum JobStage {
+        /// None has told of any.
+        None = 0,
+        /// It waits for the machine to be ready.
+        Waiting = 1,
+        /// It has the machine: it is read, checked and planned, and nothing moves.
+        Preparing = 2,
+        /// Its first frame was accepted.
+        Begun = 3,
+        /// Its planner says that it is over, or it has come to its end.
+        Over = 4,
+        /// It was aborted before anything moved.
+        Aborted = 5,
+        /// It does not begin for another reason.
+        Refused = 6,
     }
 }

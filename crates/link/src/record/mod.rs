@@ -42,7 +42,7 @@ pub use event::{EventKind, EventRecord};
 pub use feedback::{DriveState, Feedback, LATCHES, Latch, LatchKind, SpindleFlags};
 pub use frame::{PERIOD_NS_MAX, SetpointFrame};
 pub use glidepath_program::EVENTS_MOST;
-pub use job::{JobKind, JobReply, JobRequest, JobState};
+pub use job::{JobKind, JobPhase, JobReply, JobRequest, JobStage, JobState, JobWish};
 pub use jog::{JogDemand, JogMode};
 pub use joint::ALL_JOINTS;
 pub use segment::{ModeCode, PlaneCode, RequestKind, SegmentRequest, StreamItem};

@@ -36,6 +36,9 @@ coded! {
         Off = 14,
         /// At rest with power, but a joint does not know where it is: no program starts.
         NotHomed = 15,
+        /// At rest for a job that is read, checked and planned: the machine is taken, and nothing
+        /// moves yet. In a status and in answers alone; setpoints say that the machine is idle.
+        Preparing = 16,
     }
 }
 

@@ -2,8 +2,8 @@
 
 use super::check::{Fields, RecordError};
 use super::{
-    ALL_JOINTS, CodeWords, ContactKind, EndOfEpoch, FRAME_REFUSALS, FaultCause, MachineState,
-    MotionMode, OVERRIDE_MAX, Power, Record, Text, event,
+    ALL_JOINTS, CodeWords, ContactKind, EndOfEpoch, FRAME_REFUSALS, FaultCause, JobStage,
+    MachineState, MotionMode, OVERRIDE_MAX, Power, Record, Text, event,
 };
 use glidepath_geometry::{AXES, Axis};
 use glidepath_program::Event;
@@ -61,7 +61,7 @@ pub struct Quantiles {
 /// What the interpolator does and how well. Counts are of this life of it.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.Status.v9")]
+#[type_name("glidepath.Status.v10")]
 pub struct Status {
     /// Identifies one life of the interpolator.
     pub boot_id: u64,
@@ -210,6 +210,15 @@ pub struct Status {
     pub latency: Quantiles,
     /// From the deadline of a tick to its setpoint handed to the thread that publishes it.
     pub response: Quantiles,
+    /// The number of the job that a planner has told of last, 0 for none.
+    pub job_number: u64,
+    /// The number that the next epoch has to have. An abort uses it up, so that nothing begins that
+    /// was under way.
+    pub next_epoch: u64,
+    /// Code of a [`JobStage`].
+    pub job_stage: u32,
+    /// 1 if the job begins held, 0 if not.
+    pub job_held: u32,
     /// The last error, for people.
     pub last_error: Text,
     /// The last thing that happened (a change of state, missed ticks, …), for people.
@@ -217,6 +226,10 @@ pub struct Status {
     /// What the program of the present or last epoch said last to people: `(MSG, …)`, `(DEBUG, …)`,
     /// the comment of a stop. Empty before it said anything.
     pub message: Text,
+    /// The job that a planner has told of last, and what is being done for it, for people.
+    pub job: Text,
+    /// Why that job does not begin, for people; empty if it may.
+    pub job_end: Text,
 }
 
 impl Status {
@@ -299,6 +312,15 @@ impl Status {
         Fields(Self::NAME).code("contact_kind", self.contact_kind)
     }
 
+    /// How the job stands that a planner has told of last.
+    ///
+    /// # Errors
+    ///
+    /// An unknown code.
+    pub fn job_stage(&self) -> Result<JobStage, RecordError> {
+        Fields(Self::NAME).code("job_stage", self.job_stage)
+    }
+
     /// The real-time grants.
     #[must_use]
     pub const fn grants(&self) -> Grants {
@@ -307,7 +329,7 @@ impl Status {
 }
 
 impl Record for Status {
-    const NAME: &'static str = "glidepath.Status.v9";
+    const NAME: &'static str = "glidepath.Status.v10";
 
     fn check(&self) -> Result<(), RecordError> {
         let fields = Fields(Self::NAME);
@@ -370,6 +392,10 @@ impl Record for Status {
         self.fault()?;
         self.last_event.check(Self::NAME, "last_event")?;
         self.message.check(Self::NAME, "message")?;
+        self.job_stage()?;
+        fields.flags("job_held", self.job_held, 1)?;
+        self.job.check(Self::NAME, "job")?;
+        self.job_end.check(Self::NAME, "job_end")?;
         self.last_error.check(Self::NAME, "last_error")
     }
 }

@@ -3,10 +3,10 @@
 /// Why a command is not possible as things are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Objection {
-    /// A hold without a program.
-    NothingToHold,
-    /// An abort without a program.
-    NothingToAbort,
+    /// A hold of joints on their way home.
+    HomingNotHeld,
+    /// What would move the axes while a job is prepared.
+    JobHasMachine,
     /// The way back without a program.
     NoPathBack,
     /// A resume of what is not held.
@@ -72,8 +72,8 @@ pub enum Objection {
 impl Objection {
     /// Every objection.
     pub const ALL: &'static [Self] = &[
-        Self::NothingToHold,
-        Self::NothingToAbort,
+        Self::HomingNotHeld,
+        Self::JobHasMachine,
         Self::NoPathBack,
         Self::NothingHeld,
         Self::NoStep,
@@ -110,8 +110,12 @@ impl Objection {
     #[must_use]
     pub const fn text(self) -> &'static str {
         match self {
-            Self::NothingToHold => "no program runs, so there is nothing to hold",
-            Self::NothingToAbort => "no program runs, so there is nothing to abort",
+            Self::HomingNotHeld => {
+                "joints on their way home are not held; `glidepath abort` ends it"
+            }
+            Self::JobHasMachine => {
+                "a job has the machine, and is being prepared; `glidepath abort` ends it"
+            }
             Self::NoPathBack => "no program runs, so there is no path to go back along",
             Self::NothingHeld => "nothing is held; `glidepath status` says what the machine does",
             Self::NoStep => {

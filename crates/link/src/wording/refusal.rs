@@ -32,6 +32,7 @@ impl CommandKind {
             Self::Tell => "tell",
             Self::Reverse => "reverse",
             Self::Forward => "forward",
+            Self::Job => "job",
         }
     }
 }
@@ -100,15 +101,15 @@ mod tests {
 
     #[test]
     fn a_refusal_is_one_sentence() {
-        let why = Objection::NothingToHold.text();
+        let why = Objection::NoPathBack.text();
         let reply = reply(CommandRefusal::WrongState, why);
         let told = refused(
-            CommandKind::Hold.name(),
+            CommandKind::Reverse.name(),
             &reply.why(CommandRefusal::WrongState),
         );
         assert_eq!(
             told,
-            "hold refused: no program runs, so there is nothing to hold"
+            "reverse refused: no program runs, so there is no path to go back along"
         );
     }
 

@@ -23,6 +23,7 @@ impl MachineState {
             Self::Homing => "homing",
             Self::Off => "off",
             Self::NotHomed => "not-homed",
+            Self::Preparing => "preparing",
         }
     }
 
@@ -55,6 +56,7 @@ impl MachineState {
             Self::Homing => "joints are on their way home",
             Self::Off => "the drives have no power; `glidepath enable` gives it",
             Self::NotHomed => "joints are not homed; `glidepath home` has them find where they are",
+            Self::Preparing => "at rest; a job has the machine, and is read, checked and planned",
         }
     }
 }

@@ -8,7 +8,9 @@ use crate::support::attended;
 use crate::support::interpolator::Interpolator;
 use crate::support::items::{Listed, PERIOD_NS, point, polyline, records, settings, staircase};
 use glidepath_gcode::Options;
-use glidepath_link::{Capacity, EndOfEpoch, FaultCause, InProcess, MachineState, Transport};
+use glidepath_link::{
+    Capacity, EndOfEpoch, FaultCause, InProcess, JobStage, MachineState, Transport,
+};
 use glidepath_planner::{
     Attending, Control, ItemSource, Pace, Pipeline, ProgramSource, Publisher, Refusal, RemarkLog,
     RunError, Statistics, Supply,
@@ -31,7 +33,7 @@ fn run(
     control: &mut Control<'_>,
 ) -> Result<Statistics, RunError> {
     let mut publisher = Publisher::connect(transport, pace)?;
-    let start = publisher.wait_until_ready(control)?;
+    let start = publisher.wait_until_ready("part", control)?;
     publisher.publish(&mut Pipeline::new(source, settings(), start), control)
 }
 
@@ -78,7 +80,7 @@ fn what_a_program_says_is_told_when_the_machine_comes_to_it() {
         },
         |control| {
             let mut publisher = Publisher::connect(&transport, pace())?;
-            let start = publisher.wait_until_ready(control)?;
+            let start = publisher.wait_until_ready("part", control)?;
             let log = RemarkLog::default();
             publisher.attend_remarks(log.clone());
             let source = ProgramSource::new(TEXT.as_bytes(), Options::default());
@@ -353,7 +355,6 @@ fn a_planner_starts_where_a_dead_one_left_the_machine() {
     let transport = InProcess::default();
     let interpolator = RefCell::new(Interpolator::new(&transport, 128));
     interpolator.borrow_mut().position = point(3.0, 4.0);
-    interpolator.borrow_mut().fail(FaultCause::PlannerLost);
     let items = polyline(&[point(3.0, 4.0), point(10.0, 4.0)]);
     let (result, notices) = attended(
         &AtomicBool::new(false),
@@ -364,7 +365,100 @@ fn a_planner_starts_where_a_dead_one_left_the_machine() {
     let interpolator = interpolator.into_inner();
     assert_eq!(interpolator.position, point(10.0, 4.0));
     assert_eq!(interpolator.state(), MachineState::Idle);
-    assert_eq!(notices, ["FaultReset", "Started { epoch: 1 }"]);
+    assert_eq!(interpolator.job_stage(), JobStage::Over);
+    assert_eq!(
+        interpolator.doings,
+        ["part: waits for the machine", "part: planning", "part"]
+    );
+    assert_eq!(notices, ["Started { epoch: 1 }"]);
+}
+
+/// Runs a program whose check takes until `checked_at`; something else happens at `at`, ms.
+fn interfered(
+    (at, checked_at): (u64, u64),
+    interfere: impl Fn(&mut Interpolator),
+) -> (Result<Statistics, RunError>, Interpolator) {
+    let transport = InProcess::default();
+    let interpolator = RefCell::new(Interpolator::new(&transport, 128));
+    let (is_checked, time) = (AtomicBool::new(false), RefCell::new(Duration::ZERO));
+    let [at, checked_at] = [at, checked_at].map(Duration::from_millis);
+    let (result, _) = attended(
+        &AtomicBool::new(false),
+        |waited| {
+            let mut now = time.borrow_mut();
+            let before = *now;
+            *now += waited;
+            if before < at && *now >= at {
+                interfere(&mut interpolator.borrow_mut());
+            }
+            is_checked.store(*now >= checked_at, Ordering::Relaxed);
+            interpolator.borrow_mut().pass(waited);
+        },
+        |control| {
+            let mut publisher = Publisher::connect(&transport, pace())?;
+            let start = publisher.wait_until_ready("part", control)?;
+            let watch = publisher.watch();
+            let check = || {
+                while !is_checked.load(Ordering::Relaxed) && !watch.is_to_end() {
+                    std::thread::sleep(Duration::from_millis(1));
+                }
+            };
+            let nobody = &mut |_: Duration| {};
+            publisher.work("checking", nobody, control, check)?;
+            let source = Listed::new(&staircase(3));
+            publisher.publish(&mut Pipeline::new(source, settings(), start), control)
+        },
+    );
+    (result, interpolator.into_inner())
+}
+
+#[test]
+fn an_abort_before_the_first_frame_ends_the_job_and_nothing_moves() {
+    // While it waits for the machine, and while it is checked.
+    for at in [12, 60, 150, 250] {
+        let (result, interpolator) = interfered((at, 300), Interpolator::abort);
+        assert!(matches!(result, Err(RunError::Aborted)), "{at}: {result:?}");
+        assert_eq!(interpolator.executed.len(), 0, "{at}");
+        assert_eq!(interpolator.job_stage(), JobStage::Aborted, "{at}");
+    }
+}
+
+#[test]
+fn a_first_frame_that_is_refused_ends_the_job_with_its_reason() {
+    let (result, interpolator) = interfered((12, 60), |machine| machine.refuses = true);
+    let why = match result {
+        Err(RunError::NotBegun { why }) => why,
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(why, "it stands elsewhere");
+    assert_eq!(interpolator.executed.len(), 0);
+}
+
+#[test]
+fn a_machine_that_becomes_unfit_ends_the_job_with_its_reason() {
+    let (result, interpolator) = interfered((100, 300), |machine| {
+        machine.end_job(JobStage::Refused, "the drives were switched off");
+    });
+    assert!(
+        matches!(&result, Err(RunError::NotBegun { why }) if why.contains("switched off")),
+        "{result:?}"
+    );
+    assert_eq!(interpolator.executed.len(), 0);
+}
+
+#[test]
+fn no_fault_is_reset_by_a_planner() {
+    let transport = InProcess::default();
+    let interpolator = RefCell::new(Interpolator::new(&transport, 128));
+    interpolator.borrow_mut().fail(FaultCause::PlannerLost);
+    let (result, _) = attended(
+        &AtomicBool::new(false),
+        |time| interpolator.borrow_mut().pass(time),
+        |control| run(&transport, Listed::new(&staircase(2)), pace(), control),
+    );
+    let error = result.unwrap_err();
+    assert!(error.to_string().contains("glidepath reset"), "{error}");
+    assert_eq!(interpolator.into_inner().state(), MachineState::Faulted);
 }
 
 #[test]

@@ -55,7 +55,8 @@ impl Log {
                 | MachineState::Jogging
                 | MachineState::Homing
                 | MachineState::Off
-                | MachineState::NotHomed => "state",
+                | MachineState::NotHomed
+                | MachineState::Preparing => "state",
             };
             // How one goes on is said where the machine is shown, not where its past is.
             let words = state.text().split("; ").next().unwrap_or_default();

@@ -54,6 +54,7 @@ impl<'t> Monitor<'t> {
             self.state(),
             None | Some(
                 MachineState::Idle
+                    | MachineState::Preparing
                     | MachineState::Faulted
                     | MachineState::Off
                     | MachineState::NotHomed
@@ -67,7 +68,7 @@ impl<'t> Monitor<'t> {
             return Ok(false);
         };
         let state = self.state();
-        if state == Some(MachineState::Idle) {
+        if matches!(state, Some(MachineState::Idle | MachineState::Preparing)) {
             return Ok(true);
         }
         let command = if state == Some(MachineState::Off) && status.power() == Ok(Power::Off) {

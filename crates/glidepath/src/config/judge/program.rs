@@ -88,6 +88,7 @@ impl Judge {
             connections,
             extruder: self.choice("program.extruder", raw.extruder, &extruders),
             in_force: None,
+            watch: None,
             may_run_unchecked: false,
         }
     }

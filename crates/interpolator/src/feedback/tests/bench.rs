@@ -296,6 +296,11 @@ impl Bench {
         self.sent = 0;
     }
 
+    /// What is loaded next has this number.
+    pub(super) const fn next_epoch(&mut self, number: u64) {
+        self.epoch = number - 1;
+    }
+
     /// What is awaited, by the status.
     pub(super) fn awaited(&mut self) -> Option<EventId> {
         let status = self.status();

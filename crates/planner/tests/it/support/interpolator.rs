@@ -7,8 +7,8 @@ use std::time::Duration;
 
 use glidepath_geometry::AxisVector;
 use glidepath_link::{
-    Command, CommandReply, CommandRequest, EndOfEpoch, FaultCause, MachineState, Publisher, Server,
-    SetpointFrame, Status, Subscriber, Text, Transport,
+    Command, CommandReply, CommandRequest, EndOfEpoch, FaultCause, JobPhase, JobStage,
+    MachineState, Publisher, Server, SetpointFrame, Status, Subscriber, Text, Transport,
 };
 use glidepath_program::FrameFlags;
 
@@ -39,6 +39,16 @@ pub(crate) struct Interpolator {
     pub(crate) repeated: u64,
     /// What it was told that the program says.
     pub(crate) told: Vec<String>,
+    /// The job told of last, and how it stands.
+    job: (u64, JobStage),
+    /// What was being done for jobs.
+    pub(crate) doings: Vec<String>,
+    /// Why the job does not begin.
+    job_end: &'static str,
+    /// No epoch up to this number begins.
+    barred: u64,
+    /// Refuses the first frame of an epoch.
+    pub(crate) refuses: bool,
 }
 
 impl Interpolator {
@@ -63,7 +73,47 @@ impl Interpolator {
             starved: 0,
             repeated: 0,
             told: Vec::new(),
+            job: (0, JobStage::None),
+            doings: Vec::new(),
+            job_end: "",
+            barred: 0,
+            refuses: false,
         }
+    }
+
+    /// How the job told of last stands.
+    pub(crate) const fn job_stage(&self) -> JobStage {
+        self.job.1
+    }
+
+    /// The number that the next epoch has to have.
+    fn next_epoch(&self) -> u64 {
+        self.epoch.max(self.barred) + 1
+    }
+
+    /// The job that is to come does not begin.
+    pub(crate) fn end_job(&mut self, stage: JobStage, why: &'static str) {
+        if matches!(self.job.1, JobStage::Waiting | JobStage::Preparing) {
+            self.barred = self.next_epoch();
+            (self.job.1, self.job_end) = (stage, why);
+        }
+    }
+
+    fn hear_job(&mut self, number: u64, phase: JobPhase, text: &str) {
+        if self.doings.last().is_none_or(|last| last != text) {
+            self.doings.push(text.to_owned());
+        }
+        if self.job.0 != number {
+            (self.job, self.job_end) = ((number, JobStage::Waiting), "");
+        }
+        self.job.1 = match (self.job.1, phase) {
+            (JobStage::Waiting, JobPhase::Preparing) if self.state == MachineState::Idle => {
+                JobStage::Preparing
+            }
+            (JobStage::Aborted | JobStage::Refused, _) => self.job.1,
+            (_, JobPhase::Over) => JobStage::Over,
+            (stage, _) => stage,
+        };
     }
 
     /// Lets time pass.
@@ -88,6 +138,7 @@ impl Interpolator {
     }
 
     pub(crate) fn abort(&mut self) {
+        self.end_job(JobStage::Aborted, "aborted before anything moved");
         if self.end == EndOfEpoch::Open {
             self.end = EndOfEpoch::Aborted;
         }
@@ -124,6 +175,9 @@ impl Interpolator {
                 Command::Tell => self.told.push(request.text.as_str().to_owned()),
                 Command::Abort => self.abort(),
                 Command::Reset => self.reset(),
+                Command::Job { number, phase } => {
+                    self.hear_job(number, phase, request.text.as_str());
+                }
                 other => panic!("not simulated: {other:?}"),
             }
         }
@@ -137,7 +191,17 @@ impl Interpolator {
             if self.state == MachineState::Faulted {
                 continue;
             }
+            if frame.epoch <= self.barred {
+                continue;
+            }
+            if frame.epoch != self.epoch && self.refuses {
+                self.end_job(JobStage::Refused, "it stands elsewhere");
+                continue;
+            }
             if frame.epoch != self.epoch {
+                if self.job.1 == JobStage::Preparing {
+                    self.job.1 = JobStage::Begun;
+                }
                 assert_eq!(self.state, MachineState::Idle, "a new epoch while one runs");
                 assert!(frame.has(FrameFlags::FIRST), "an epoch without beginning");
                 assert_eq!(
@@ -194,6 +258,12 @@ impl Interpolator {
         status.position = self.position.into();
         status.block = self.executed.last().map_or(0, |frame| frame.block);
         status.last_error = Text::new("");
+        status.next_epoch = self.next_epoch();
+        (status.job_number, status.job_stage) = (self.job.0, self.job.1.code());
+        status.job_end = Text::new(self.job_end);
+        if self.job.1 == JobStage::Preparing && self.state == MachineState::Idle {
+            status.state = MachineState::Preparing.code();
+        }
         status
     }
 }

@@ -1,0 +1,109 @@
+//! The job of a planner at the interpolator: what ends it, and what it is told.
+
+use super::*;
+use crate::message::Report;
+
+const FREE: Result<(), &str> = Ok(());
+
+fn told(jobs: &mut JobBook, number: u64, phase: JobPhase, now_ns: u64) -> Result<Told, String> {
+    jobs.tell((number, phase), Text::new("a.ngc: checking"), now_ns, FREE)
+}
+
+fn in_state(state: MachineState) -> Report {
+    Report {
+        state,
+        ..Report::blank()
+    }
+}
+
+#[test]
+fn a_job_takes_an_idle_machine_and_gives_it_back() {
+    let mut jobs = JobBook::new();
+    let idle = in_state(MachineState::Idle);
+    assert_eq!(told(&mut jobs, 7, JobPhase::Waiting, 1), Ok(Told::Nothing));
+    assert_eq!(jobs.state(&idle), MachineState::Idle);
+    let busy = jobs.tell((7, JobPhase::Preparing), Text::new(""), 2, Err("it moves"));
+    assert_eq!(busy, Err("it moves".to_owned()));
+    assert_eq!(told(&mut jobs, 7, JobPhase::Preparing, 3), Ok(Told::Takes));
+    assert_eq!(jobs.state(&idle), MachineState::Preparing);
+    assert_eq!(
+        told(&mut jobs, 7, JobPhase::Preparing, 4),
+        Ok(Told::Nothing)
+    );
+    assert_eq!(told(&mut jobs, 7, JobPhase::Over, 5), Ok(Told::GivesBack));
+    assert_eq!(jobs.state(&idle), MachineState::Idle);
+    assert!(told(&mut jobs, 7, JobPhase::Preparing, 6).is_err(), "over");
+}
+
+#[test]
+fn an_aborted_job_stays_aborted_in_every_phase() {
+    for phases in [
+        &[JobPhase::Waiting][..],
+        &[JobPhase::Waiting, JobPhase::Preparing],
+    ] {
+        let mut jobs = JobBook::new();
+        for phase in phases {
+            told(&mut jobs, 7, *phase, 1).unwrap();
+        }
+        let had_machine = phases.len() == 2;
+        assert_eq!(jobs.end(JobStage::Aborted, "by hand"), had_machine);
+        for phase in [JobPhase::Waiting, JobPhase::Preparing] {
+            assert_eq!(told(&mut jobs, 7, phase, 2), Err("by hand".to_owned()));
+        }
+        jobs.begin();
+        assert_eq!(jobs.stage, JobStage::Aborted, "no frame makes it begin");
+        // The next one is free of it.
+        assert_eq!(told(&mut jobs, 8, JobPhase::Waiting, 3), Ok(Told::Nothing));
+        assert_eq!(told(&mut jobs, 8, JobPhase::Preparing, 3), Ok(Told::Takes));
+    }
+}
+
+#[test]
+fn a_hold_is_kept_for_the_beginning_and_ends_with_the_job() {
+    let mut jobs = JobBook::new();
+    jobs.hold(true);
+    assert!(!jobs.is_held(), "there is no job");
+    told(&mut jobs, 7, JobPhase::Waiting, 1).unwrap();
+    jobs.hold(true);
+    assert!(jobs.is_held());
+    told(&mut jobs, 7, JobPhase::Preparing, 2).unwrap();
+    assert!(jobs.is_held());
+    jobs.hold(false);
+    assert!(!jobs.is_held());
+    jobs.hold(true);
+    jobs.end(JobStage::Aborted, "");
+    assert!(!jobs.is_held());
+}
+
+#[test]
+fn a_silent_planner_and_an_unfit_machine_end_a_job() {
+    let mut jobs = JobBook::new();
+    told(&mut jobs, 7, JobPhase::Waiting, 0).unwrap();
+    let off = in_state(MachineState::Off);
+    assert!(!jobs.watch(&off, false, SILENCE_NS), "it waits for power");
+    assert!(jobs.is_to_come());
+    assert!(!jobs.watch(&off, false, SILENCE_NS + 1));
+    assert!(!jobs.is_to_come());
+
+    let mut jobs = JobBook::new();
+    told(&mut jobs, 7, JobPhase::Waiting, 0).unwrap();
+    told(&mut jobs, 7, JobPhase::Preparing, 0).unwrap();
+    assert!(!jobs.watch(&in_state(MachineState::Idle), false, 1));
+    assert!(jobs.watch(&off, false, 2), "it had the machine");
+    let refused = told(&mut jobs, 7, JobPhase::Preparing, 3);
+    assert_eq!(refused, Err(MachineState::Off.text().to_owned()));
+}
+
+#[test]
+fn a_planner_that_is_started_anew_ends_the_job_before() {
+    let mut jobs = JobBook::new();
+    told(&mut jobs, 7, JobPhase::Waiting, 0).unwrap();
+    told(&mut jobs, 7, JobPhase::Preparing, 0).unwrap();
+    assert_eq!(
+        told(&mut jobs, 8, JobPhase::Waiting, 1),
+        Ok(Told::GivesBack)
+    );
+    assert!(!jobs.has_machine() && jobs.is_to_come());
+    assert_eq!(told(&mut jobs, 7, JobPhase::Over, 2), Ok(Told::Nothing));
+    assert!(jobs.is_to_come(), "what is over is the other one");
+}

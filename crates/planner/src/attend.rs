@@ -1,0 +1,32 @@
+//! Who is to be attended to while a job is prepared and runs.
+
+use std::time::Duration;
+
+/// What comes of attending.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Attended {
+    /// The job goes on.
+    GoesOn,
+    /// It is to end: nothing begins, or the motion comes to rest on the path. Why, for people.
+    End(String),
+}
+
+/// Attends to others than the interpolator: to clients that ask, and may want the job to end.
+pub trait Attend {
+    /// Called every few milliseconds with the time waited since the last call, and with what is being
+    /// done for the job.
+    fn attend(&mut self, waited: Duration, doing: &str) -> Attended;
+
+    /// Asked when the first frame is ready, until the answer is yes.
+    fn may_begin(&mut self) -> bool {
+        true
+    }
+}
+
+/// Attends to nobody who could end the job.
+impl<F: FnMut(Duration)> Attend for F {
+    fn attend(&mut self, waited: Duration, _doing: &str) -> Attended {
+        self(waited);
+        Attended::GoesOn
+    }
+}
