@@ -177,7 +177,8 @@ fn a_fault_is_reset_by_that_name() {
     wait_for("running");
     planner.0.kill().unwrap();
     let status = wait_for("faulted");
-    assert_eq!(status["fault_is_cleared_by"], "glidepath reset");
+    let reset = format!("glidepath reset --instance {own}");
+    assert_eq!(status["fault_is_cleared_by"], reset.as_str());
     // One that resumes nothing leaves it to whoever looks at it.
     let folder = tempfile::tempdir().unwrap();
     let other = folder.path().join("other.ngc");

@@ -17,10 +17,10 @@ const ARCH: &str = "kind = \"nurbs\"\nfeed = 3000.0\ndegree = 3\n\
 const LINE: &str = "kind = \"parametric\"\nx = \"t\"\ny = \"0*t\"\nz = \"0*t\"\nfrom = 0\nto = 10\n\
     feed = 3000.0\n";
 
-/// Exit code and all that is said, in four minutes and a gigabyte at most.
+/// Exit code and all that is said, in four minutes of a processor and a gigabyte at most.
 fn bounded(folder: &Path, args: &str) -> (i32, String) {
     let command = format!(
-        "ulimit -v 1500000; exec timeout 240 {} {args}",
+        "ulimit -v 1500000; ulimit -t 240; exec timeout 3600 {} {args}",
         env!("CARGO_BIN_EXE_glidepath")
     );
     let output = Command::new("sh")
