@@ -8,8 +8,11 @@
 //!
 //! ```text
 //!   l_k = |p − Δ e_k|,  Δ = base radius − platform radius,  e_k = (cos 60°k, sin 60°k, 0)
-//!   p_xy = −Σ l_k² e_k / (6 Δ)        p_z = √(mean l² − Δ² − |p_xy|²)
+//!   p_xy = −Σ l_k² e_k / (6 Δ)        p_z = ±√(mean l² − Δ² − |p_xy|²)
 //! ```
+//!
+//! Lengths do not tell whether the platform stands above its base or hangs below it: of the two, the
+//! side is taken on which it was last.
 //!
 //! A 6-UPU with joint axes in general position cannot move at all, and one whose nuts may rotate
 //! is a
@@ -91,7 +94,7 @@ impl Kinematics for TranslationalHexapod {
     fn forward(
         &self,
         joints: &JointVector,
-        _near: &AxisVector,
+        near: &AxisVector,
     ) -> Result<AxisVector, KinematicsError> {
         let delta = self.radius_difference_mm;
         let mut xy = Vector2::zeros();
@@ -107,7 +110,7 @@ impl Kinematics for TranslationalHexapod {
         }
         let mut axes = AxisVector::zeros();
         (axes[0], axes[1]) = (xy.x, xy.y);
-        axes[2] = self.base_z_mm + square.sqrt();
+        axes[2] = self.base_z_mm + square.sqrt().copysign(near[2] - self.base_z_mm);
         Ok(axes)
     }
 

@@ -19,6 +19,10 @@ const HARD: u32 = 6;
 const NODE_CHORDS: f64 = 10.0;
 /// Longest chord without proof where surfaces nearly touch, mm.
 const TOUCHING_MM: f64 = 0.01;
+/// How far an end may be off the curve, mm: as far as it is solved for where surfaces nearly touch.
+const END_MM: f64 = 1e-7;
+/// An end that is nearer to the start is the start, mm.
+const AT_START_MM: f64 = 1e-9;
 /// Angle of the surfaces (its sine) below which they nearly touch.
 const TOUCHING_SINE: f64 = 0.01;
 
@@ -261,7 +265,7 @@ impl ImplicitChords {
     fn take(&mut self, step: &ImplicitStep, chord: Chord, wanted: f64) -> Chord {
         self.last_mm = wanted;
         let from = *self.point();
-        if let Some(target) = self.passed(&from, &step.point) {
+        if let Some(target) = self.passed(&from, &chord) {
             self.is_over = true;
             self.place.point = target;
             return Chord {
@@ -286,15 +290,21 @@ impl ImplicitChords {
         chord
     }
 
-    /// The end point, if a chord passes it: it is then inside the sphere over the chord, next to
-    /// it.
-    fn passed(&self, from: &Vector3<f64>, to: &Vector3<f64>) -> Option<Vector3<f64>> {
-        let target = self.target.filter(|_| self.travelled_mm > 0.0)?;
-        let along = to - from;
+    /// The end point, if a chord passes it. The curve of a chord is inside a tube around it as wide
+    /// as its error, and there is no other in it: a point of the curve is the end of a part of the
+    /// chord if it is in that tube, and only then. However large the errors are that the rule
+    /// allows, what is beyond is another part of the curve.
+    fn passed(&self, from: &Vector3<f64>, chord: &Chord) -> Option<Vector3<f64>> {
+        let target = self.target?;
+        let along = chord.point - from;
         let out = target - from;
+        // A closed curve begins at its end.
+        if self.travelled_mm <= 0.0 && out.norm() <= AT_START_MM {
+            return None;
+        }
         let share = out.dot(&along) / along.norm_squared();
         let off = (out - along * share).norm();
-        let near = 2.0 * self.rule.error_mm + 1e-9;
+        let near = chord.error_mm + END_MM;
         let is_home = self
             .branches
             .is_none_or(|[own, other]| own.dot(&along).abs() > other.dot(&along).abs());

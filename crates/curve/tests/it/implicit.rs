@@ -327,6 +327,47 @@ fn ends() {
     ));
 }
 
+/// An error as large as the curve itself is no reason to leave a part of it out.
+#[test]
+fn a_large_error_leaves_nothing_out() {
+    for radius in [0.001, 1.0, 20.0] {
+        let circle = surfaces([&format!("x^2+y^2-{:e}", radius * radius), "z"]);
+        let start = Vector3::new(radius, 0.0, 0.0);
+        // The angle passed on the way to an end, and the longest chord.
+        let turned = |end, errors: f64, longest: f64| {
+            let rule = ChordRule {
+                longest_mm: longest * radius,
+                error_mm: errors * radius,
+            };
+            let chords = ImplicitChords::new(circle.clone(), &start, &Vector3::y(), end, rule);
+            let (mut chords, mut from, mut angle) = (chords.unwrap(), start, 0.0);
+            while let Some(chord) = chords.next_chord().unwrap() {
+                let turn = from.angle(&chord.point);
+                let sagitta = radius * (1.0 - (0.5 * turn).cos());
+                assert!(chord.is_proven && sagitta <= chord.error_mm, "{chord:?}");
+                angle += turn;
+                from = chord.point;
+            }
+            angle
+        };
+        for errors in [0.01, 0.3, 0.5, 0.9, 1.1, 2.0, 5.0, 100.0] {
+            for longest in [0.1, 0.7, 3.0, 100.0] {
+                let what = format!("radius {radius}, {errors} of it, chords {longest}");
+                let lap = turned(End::Closed, errors, longest);
+                assert!((lap - std::f64::consts::TAU).abs() < 1e-6, "{lap}: {what}");
+                for wanted in [0.2, 2.0, 4.0, 6.0_f64] {
+                    let end = Vector3::new(radius * wanted.cos(), radius * wanted.sin(), 0.0);
+                    let angle = turned(End::At(end), errors, longest);
+                    assert!(
+                        (angle - wanted).abs() < 1e-6,
+                        "{angle} for {wanted}: {what}"
+                    );
+                }
+            }
+        }
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 

@@ -82,6 +82,20 @@ fn machines() -> Vec<(Mechanism, [f64; 6], [f64; 6])> {
             [0.0, 0.0, 500.0, 0.0, 0.0, 0.0],
             [150.0, 150.0, 150.0, 0.0, 0.0, 0.0],
         ),
+        // Hanging below its base, and below one that is not at zero.
+        (
+            Mechanism::Translational(translational()),
+            [0.0, 0.0, -420.0, 0.0, 0.0, 0.0],
+            [150.0, 150.0, 150.0, 0.0, 0.0, 0.0],
+        ),
+        (
+            Mechanism::Translational(TranslationalHexapod {
+                base_z_mm: 700.0,
+                ..translational()
+            }),
+            [0.0, 0.0, 200.0, 0.0, 0.0, 0.0],
+            [150.0, 150.0, 150.0, 0.0, 0.0, 0.0],
+        ),
     ]
 }
 
