@@ -1,12 +1,15 @@
 //! Bacterial foraging on the control points, as published.
 //!
-//! The knots are given, the variables are the coordinates of the control points but the two ends,
+//! The knots are given, the variables are the coordinates of the control points but the two ends, in
+//! the plane or on the line of the points if they lie in one: a search that leaves it makes a motion
+//! of an axis that the program leaves alone. As published there are three for each. Else as there,
 //! the value is the sum of the squared distances at the points' parameters, plus the tolerance
 //! squared for each control point (constant here, as their number is). 50 bacteria, 31 · 4 · 4 =
 //! 496 iterations. Least squares solves the same problem exactly, which is what the report
 //! compares with.
 
 use super::colony::{Colony, forage};
+use super::hull::Hull;
 use super::report::Foraging;
 use crate::least_squares;
 use crate::part::{Candidate, Part};
@@ -40,7 +43,7 @@ pub(crate) fn on_control_points(
     let exact = least_squares::solve(&part.points, &part.x, &knots);
     let (least_squares_mm2, least_squares_max_mm) =
         part.residual(exact.as_ref().unwrap_or(&placed.spline));
-    let start = flatten(&start(part, &knots));
+    let start = problem.flatten(&start(part, &knots));
     let step = STEP * (problem.squares_mm2(&start) / part.points.len() as f64).sqrt();
     let colony = Colony { step, ..PUBLISHED };
     let mut value = |at: &[f64]| problem.squares_mm2(at);
@@ -56,9 +59,11 @@ pub(crate) fn on_control_points(
     (part.judge(Spline { knots, control }), Some(search))
 }
 
-/// The sum of squares as a function of the control points between the ends.
+/// The sum of squares as a function of the control points between the ends, in the directions in
+/// which the points of the part spread.
 struct Problem<'a> {
     part: &'a Part,
+    hull: Hull,
     /// For each point the first of its four B-splines, and their values.
     rows: Vec<(usize, [f64; 4])>,
     count: usize,
@@ -73,6 +78,7 @@ impl<'a> Problem<'a> {
         };
         Self {
             part,
+            hull: Hull::of(&part.points),
             rows: part.x.iter().map(row).collect(),
             count: knots.len() - 4,
         }
@@ -81,10 +87,16 @@ impl<'a> Problem<'a> {
     fn control(&self, at: &[f64]) -> Vec<Point> {
         let points = &self.part.points;
         let mut control = vec![points[0]];
-        control.extend(at.chunks_exact(3).map(|c| Point::new(c[0], c[1], c[2])));
+        let inner = at.chunks_exact(self.hull.dimensions());
+        control.extend(inner.map(|at| self.hull.point(at)));
         control.push(points[points.len() - 1]);
         debug_assert_eq!(control.len(), self.count);
         control
+    }
+
+    fn flatten(&self, points: &[Point]) -> Vec<f64> {
+        let places = points.iter().flat_map(|point| self.hull.place(point));
+        places.collect()
     }
 
     fn squares_mm2(&self, at: &[f64]) -> f64 {
@@ -104,8 +116,4 @@ fn start(part: &Part, knots: &[f64]) -> Vec<Point> {
     (1..knots.len() - 5)
         .map(|i| part.at((knots[i + 1] + knots[i + 2] + knots[i + 3]) / 3.0))
         .collect()
-}
-
-fn flatten(points: &[Point]) -> Vec<f64> {
-    points.iter().flat_map(|p| [p.x, p.y, p.z]).collect()
 }

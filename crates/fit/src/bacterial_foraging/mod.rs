@@ -6,6 +6,7 @@
 
 mod colony;
 mod control_points;
+mod hull;
 mod knots;
 mod random;
 mod report;

@@ -107,6 +107,17 @@ pub(super) enum Failure {
         /// How many there are.
         runs: usize,
     },
+    /// A curve is further from its run than was asked for.
+    #[error(
+        "the curve is {error_mm:.6} mm off, more than the tolerance of {tolerance_mm} mm, so it is not \
+         written; give a larger --tolerance, or another --method"
+    )]
+    CurveBeyond {
+        /// How far it is off, mm.
+        error_mm: f64,
+        /// What was asked for, mm.
+        tolerance_mm: f64,
+    },
     /// An event that cannot be written into a program.
     #[error(
         "line {line}: the words of this M code are not known any more, so it cannot be written; take \

@@ -42,6 +42,7 @@ impl Failure {
             | Self::Jitter(JitterError::Cyclictest(CyclictestError::Absent)) => Exit::Usage,
             Self::Rejected { .. }
             | Self::Curve(_)
+            | Self::CurveBeyond { .. }
             | Self::Refused(_)
             | Self::Planner(planner::RunError::Refused(_) | planner::RunError::Resume(_))
             | Self::Feed(FeedError::Refused(_) | FeedError::RefusedByPlanner { .. }) => {

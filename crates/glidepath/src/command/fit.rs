@@ -30,7 +30,8 @@ const STEPS: f64 = 1000.0;
 /// Fits every run and writes what was asked for.
 ///
 /// # Errors
-/// The program is rejected, has no run, or a file cannot be written.
+/// The program is rejected, a file cannot be written, or it would have a curve that is beyond the
+/// tolerance.
 pub(super) fn fit(args: &FitArgs, config: &MachineConfig) -> Result<Exit, Failure> {
     args.file.open()?;
     let config = &for_program(&args.file, config);
@@ -79,7 +80,12 @@ pub(super) fn fit(args: &FitArgs, config: &MachineConfig) -> Result<Exit, Failur
     } else {
         output::result(&report.text());
     }
-    Ok(Exit::Done)
+    // A script must not take for fitted what is not.
+    Ok(if report.beyond() == 0 {
+        Exit::Done
+    } else {
+        Exit::Rejected
+    })
 }
 
 fn read(path: &Path, config: &MachineConfig) -> Result<Vec<ProgramPiece>, Failure> {
@@ -138,6 +144,13 @@ fn written(
         let ([run], [Ok(fit)]) = (runs, results) else {
             return Err(Failure::NotOneCurve { runs: runs.len() });
         };
+        let error_mm = fit.deviation.max_mm();
+        if error_mm > tolerance_mm {
+            return Err(Failure::CurveBeyond {
+                error_mm,
+                tolerance_mm,
+            });
+        }
         return Ok(curve_file::to_toml(
             &title(path),
             Some(run.feed_v * 60.0),

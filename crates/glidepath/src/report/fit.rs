@@ -101,6 +101,13 @@ impl FitReport<'_> {
             .sum()
     }
 
+    /// Runs whose curve is further off than the tolerance.
+    #[must_use]
+    pub fn beyond(&self) -> usize {
+        let is_beyond = |run: &&FittedRun<'_>| run.fit.is_ok() && !run.kept;
+        self.runs.iter().filter(is_beyond).count()
+    }
+
     fn max_error_mm(&self) -> f64 {
         self.fits()
             .map(|fit| fit.deviation.max_mm())
@@ -118,6 +125,7 @@ impl FitReport<'_> {
             "points": self.points(),
             "control_points": self.control_points(),
             "max_error_mm": self.max_error_mm(),
+            "beyond_tolerance": self.beyond(),
             "wall_s": self.wall_s,
             "runs": self.runs.iter().map(FittedRun::object).collect::<Vec<_>>(),
         })
@@ -162,6 +170,16 @@ impl FitReport<'_> {
             self.method,
             seconds(self.wall_s),
         );
+        let beyond = self.beyond();
+        if beyond > 0 {
+            let _ = writeln!(
+                text,
+                "  {beyond} of the curves {} further off than the tolerance of {} mm: a program keeps \
+                 the lines there; give a larger --tolerance, or another --method",
+                if beyond == 1 { "is" } else { "are" },
+                self.tolerance_mm,
+            );
+        }
         text
     }
 }

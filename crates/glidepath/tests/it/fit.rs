@@ -136,7 +136,12 @@ fn searches_repeat_themselves() {
             seed,
             "--json",
         ];
-        let mut report = json(&arguments);
+        let output = glidepath(&arguments);
+        // As published, the search comes to no curve within the tolerance.
+        assert_eq!(output.status.code(), Some(1), "{output:?}");
+        let mut report: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+        let beyond = report["beyond_tolerance"].as_u64().expect("a number");
+        assert!(beyond > 0, "{report}");
         report["wall_s"] = Value::Null;
         report
     };
@@ -144,6 +149,55 @@ fn searches_repeat_themselves() {
     assert_eq!(once, run("5"));
     assert_ne!(once["max_error_mm"], run("6")["max_error_mm"]);
     assert_eq!(once["runs"][0]["parts"][0]["search"]["iterations"], 496);
+}
+
+/// The waves are in the plane: no method leaves it, and no curve file is beyond its tolerance.
+#[test]
+fn a_search_stays_in_the_plane_of_the_program_and_within_the_tolerance_or_says_so() {
+    let folder = tempfile::tempdir().expect("folder");
+    let path = folder.path().join("wave.ngc");
+    let mut text = String::from("G21 G90 G64\nG0 X0 Y0 Z-0.3\nF1200\n");
+    for i in 1..=300 {
+        let x = f64::from(i) * 0.1;
+        writeln!(text, "G1 X{x:.4} Y{:.4}", 5.0 * (x / 4.0).sin()).expect("text");
+    }
+    std::fs::write(&path, text).expect("written");
+    let program = path.to_str().expect("UTF-8");
+    let curve = folder.path().join("wave.toml");
+    let curve = curve.to_str().expect("UTF-8");
+    let fit = |tolerance: &str| {
+        let arguments = ["fit", program, "--tolerance", tolerance];
+        let rest = ["--method", "foraging", "--output", curve];
+        glidepath(&[arguments, rest].concat())
+    };
+    let output = fit("0.0001");
+    assert_eq!(output.status.code(), Some(1), "{output:?}");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(
+        said.contains("more than the tolerance of 0.0001 mm"),
+        "{said}"
+    );
+    assert!(!Path::new(curve).exists());
+    let output = fit("0.5");
+    assert!(output.status.success(), "{output:?}");
+    let csv = folder.path().join("wave.csv");
+    let csv = csv.to_str().expect("UTF-8");
+    let planned = glidepath(&["plan", curve, "--setpoints", csv]);
+    assert!(planned.status.success(), "{planned:?}");
+    let rows = std::fs::read_to_string(csv).expect("rows");
+    let mut rows = rows.lines();
+    let header = rows.next().expect("a header");
+    let z = header.split(',').position(|name| name == "vel_Z");
+    let z = z.expect("a column of Z");
+    let feed = rows.filter(|row| !row.split(',').nth(4).is_some_and(|feed| feed == "0"));
+    // Behind the approach, which goes down to it.
+    let speed = |row: &str| row.split(',').nth(z).and_then(|v| v.parse::<f64>().ok());
+    let cut = feed.skip_while(|row| speed(row) == Some(0.0));
+    let cut = cut.skip_while(|row| speed(row) != Some(0.0));
+    assert!(cut.clone().count() > 100);
+    for row in cut {
+        assert_eq!(speed(row), Some(0.0), "{row}");
+    }
 }
 
 #[test]
