@@ -9,6 +9,7 @@ mod from_line;
 mod joints;
 mod listen;
 mod nurbs;
+mod nurbs_chords;
 mod parallel;
 mod parallel_threads;
 mod pipeline;

@@ -9,7 +9,7 @@ use crate::on_path::junction::{Junction, chord_error_mm, join};
 use crate::on_path::pieces::{CurveRule, Element, Piece, Shape, SpeedRule};
 use crate::programmed_rate::ProgrammedRate;
 use crate::rest::{Rest, RestKind};
-use glidepath_geometry::Segment;
+use glidepath_geometry::{Quintic, Segment, limit_along};
 use glidepath_program::{Event, Limits, Override, PathMode, ProgramLine, Settings};
 
 /// Puts pieces together.
@@ -178,6 +178,26 @@ impl Assembly {
     }
 }
 
+/// The speed on a curve at which the chords of one period reach the tolerance although it changes
+/// there, of that at which they do so at constant speed.
+///
+/// Across the chord there is not only v²k, but also a part of the acceleration along the path: at its
+/// ends the path is turned against it by θ = kvT/2. Before a sharp place the motion brakes and behind
+/// it it speeds up, and both bend it further from the chord. Weighted as its middle sees it, that is
+/// aθ/3, so v²k (1 + aT/6v) has to be what v²k is at constant speed.
+fn changing_chord_v(curve: &Quintic, steady_v: f64, settings: &Settings) -> f64 {
+    /// In a period the speed changes by no more than twice itself.
+    const LEAST_R: f64 = 0.866;
+    let limits = &settings.limits;
+    let along_a = [0.0, 0.5, 1.0]
+        .map(|part| limit_along(&curve.jet(part * curve.length).d1, &limits.acceleration))
+        .into_iter()
+        .fold(0.0, f64::max)
+        .min(limits.path.tangential_a);
+    let half_v = along_a * settings.period_t / 12.0;
+    (half_v.hypot(steady_v) - half_v).max(LEAST_R * steady_v)
+}
+
 /// The speed at which the chords of one period reach the tolerance of an arc or another curve.
 pub(crate) fn chord_speed(segment: &Segment, mode: PathMode, settings: &Settings) -> f64 {
     let arc = match segment {
@@ -186,7 +206,8 @@ pub(crate) fn chord_speed(segment: &Segment, mode: PathMode, settings: &Settings
         Segment::Curve(curve) => {
             let left_mm = mode.tolerance_mm(settings.tolerance_mm) - curve.error_mm;
             let at_unit_mm = chord_error_mm(&curve.bounds(), 1.0, settings.period_t);
-            return (left_mm.max(0.0) / at_unit_mm).sqrt();
+            let steady_v = (left_mm.max(0.0) / at_unit_mm).sqrt();
+            return changing_chord_v(curve, steady_v, settings);
         }
     };
     let radius_mm = arc.start_radius().max(arc.end_radius());
