@@ -2,6 +2,7 @@
 //! differences, its travel, and whether an axis stands still that says it moves.
 
 use super::finding::{Finding, Findings};
+use super::led::Led;
 use crate::config::MachineConfig;
 use glidepath_geometry::{AXES, Axis};
 use glidepath_link::{MachineState, Record as _, Setpoint};
@@ -22,7 +23,9 @@ pub(super) struct Continuity {
     axes: Vec<AxisState>,
     period_ns: u64,
     period_t: f64,
-    last: Option<Setpoint>,
+    /// The last setpoint, and whether it was led by the drives.
+    last: Option<(Setpoint, bool)>,
+    led: Led,
     pub(super) findings: Findings,
     pub(super) setpoints: u64,
     /// The largest velocity, acceleration and jerk over its limit.
@@ -39,12 +42,6 @@ struct AxisState {
     magnitude: f64,
     /// Samples in a row.
     run: u32,
-}
-
-/// Without power, and while drives look for their home by themselves, setpoints repeat what the
-/// drives report: nobody has asked for that motion.
-fn is_led(setpoint: &Setpoint) -> bool {
-    setpoint.home != 0 || setpoint.state() == Ok(MachineState::Off)
 }
 
 impl Continuity {
@@ -66,6 +63,7 @@ impl Continuity {
             period_ns: config.period_ns(),
             period_t: config.period_t(),
             last: None,
+            led: Led::default(),
             findings: Findings::default(),
             setpoints: 0,
             most: [0.0; 3],
@@ -77,13 +75,16 @@ impl Continuity {
         if let Err(error) = setpoint.check() {
             self.find(setpoint, "broken", error.to_string());
         }
-        self.judge_travel(setpoint);
-        let last = self.last.replace(*setpoint);
+        let is_led = self.led.see(setpoint);
+        if !is_led {
+            self.judge_travel(setpoint);
+        }
+        let last = self.last.replace((*setpoint, is_led));
         // Another life of the interpolator, or a position that was taken over from the drives.
-        let continues = |last: &Setpoint| {
+        let continues = |(last, _): &(Setpoint, bool)| {
             (last.boot_id, last.reference) == (setpoint.boot_id, setpoint.reference)
         };
-        let Some(last) = last.filter(continues) else {
+        let Some((last, was_led)) = last.filter(continues) else {
             self.begin();
             return;
         };
@@ -103,7 +104,7 @@ impl Continuity {
             self.begin();
         }
         self.judge_time(&last, setpoint, missing);
-        if is_led(&last) || is_led(setpoint) {
+        if was_led || is_led {
             self.begin();
         } else {
             self.judge_motion(&last, setpoint, missing == 0);
@@ -131,7 +132,7 @@ impl Continuity {
         let by_hand = setpoint.epoch == 0 || setpoint.state() == Ok(MachineState::Jogging);
         // Rows of values say nothing of epochs.
         let is_row = setpoint.boot_id == 0;
-        if is_led(setpoint) || (by_hand && !is_row) {
+        if by_hand && !is_row {
             return;
         }
         let beyond = self.axes.iter().find_map(|state| {
@@ -266,6 +267,13 @@ mod tests {
             0
         );
         assert_eq!(found(&|setpoint| setpoint.home = 1), 0);
+        // A fault takes the power, and keeps its own state.
+        let faulted = |setpoint: &mut Setpoint, has_power: bool| {
+            setpoint.state = MachineState::Faulted.code();
+            setpoint.enable = if has_power { 7 } else { 0 };
+        };
+        assert_eq!(found(&|setpoint| faulted(setpoint, false)), 0);
+        assert!(found(&|setpoint| faulted(setpoint, true)) > 0);
         assert!(found(&|_| {}) > 0, "a step of 3 mm in a period");
     }
 

@@ -1,6 +1,7 @@
 //! Whether a motion follows its program, and whether it is the one that is planned for it today.
 
 use super::finding::{Finding, Findings};
+use super::led::Led;
 use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::plan_steps::PlanSteps;
@@ -27,6 +28,7 @@ pub(super) struct Follows {
     tolerance_mm: f64,
     has_moved: bool,
     is_over: bool,
+    led: Led,
     findings: Findings,
 }
 
@@ -71,6 +73,7 @@ impl Follows {
             tolerance_mm: settings.tolerance_mm,
             has_moved: false,
             is_over: false,
+            led: Led::default(),
             findings: Findings::default(),
         })
     }
@@ -86,6 +89,8 @@ impl Follows {
 
     /// The next setpoint of the program's epoch.
     pub(super) fn take(&mut self, setpoint: &Setpoint) {
+        // Once the drives lead, the motion is over.
+        self.is_over |= self.led.see(setpoint);
         if self.is_over {
             return;
         }

@@ -3,6 +3,7 @@
 mod continuity;
 mod finding;
 mod follows;
+mod led;
 mod trace;
 
 use crate::cli::AuditArgs;
@@ -19,6 +20,7 @@ use follows::Follows;
 use glidepath_geometry::AxisVector;
 use glidepath_link::{EndOfEpoch, MachineState, Setpoint};
 use glidepath_recording::Entry;
+use led::Led;
 use serde_json::json;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -115,6 +117,9 @@ struct Outline {
     goes_back: bool,
     /// The machine came to the end of what it did.
     is_idle: bool,
+    /// The drives lost their power in the motion.
+    is_cut: bool,
+    led: Led,
     end: Option<EndOfEpoch>,
     has_statuses: bool,
     /// Fingerprint of the program that was executed, and where the machine stood when it began.
@@ -125,8 +130,10 @@ impl Outline {
     fn take(&mut self, setpoint: &Setpoint, last: Option<&Setpoint>) {
         let state = setpoint.state();
         self.is_idle = state == Ok(MachineState::Idle);
+        let is_led = self.led.see(setpoint);
+        self.is_cut |= is_led && self.epochs.last() == Some(&setpoint.epoch);
         // Behind a motion the machine rests in its epoch.
-        if setpoint.epoch == 0 || self.is_idle {
+        if setpoint.epoch == 0 || self.is_idle || is_led {
             return;
         }
         let is_new = self.epochs.last() != Some(&setpoint.epoch);
@@ -245,6 +252,7 @@ fn follow(
         }
     }
     let was_stopped = matches!(outline.end, Some(EndOfEpoch::Aborted | EndOfEpoch::Faulted));
+    let was_stopped = was_stopped || outline.is_cut;
     let is_whole = !verdict.is_cut && !was_stopped && (outline.is_idle || !outline.has_statuses);
     if !is_whole {
         verdict.note("the motion ends before the program does");

@@ -228,6 +228,46 @@ fn every_fault_is_found_and_none_where_there_is_none() {
     }
 }
 
+/// The power goes in mid-motion: the drives coast to rest and sag, and setpoints follow them.
+#[test]
+fn an_ordinary_fault_has_no_findings() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut config = config::parse("built-in machine", config::EMBEDDED).unwrap();
+    config.path.effort = Effort::Fast;
+    let path = folder.path().join("program.ngc");
+    let numbers = &mut Numbers(11);
+    std::fs::write(&path, program(numbers)).unwrap();
+    let mut setpoints = played(&path, &config);
+    for setpoint in &mut setpoints {
+        setpoint.enable = 7;
+    }
+    let (at, axis) = moving(&setpoints, numbers);
+    let (mut place, mut step) = (setpoints[at].position, 0.0);
+    for (k, setpoint) in (0_u32..).zip(&mut setpoints[at..]) {
+        setpoint.state = MachineState::Faulted.code();
+        (setpoint.enable, setpoint.epoch, setpoint.reference) = (0, 1, 1);
+        // What encoders say is no motion within limits.
+        step = if k < 20 { 0.9 } else { 0.5 * step };
+        place[axis] += step;
+        place[2] -= if k % 7 == 0 { 0.05 } else { 0.0 };
+        setpoint.position = place;
+        (setpoint.velocity, setpoint.acceleration) = ([0.0; 9], [0.0; 9]);
+    }
+    let recorded = record(folder.path(), "fault.mcap", &setpoints);
+    let verdict = judge(&ProgramFile::named(&recorded), &config, Some(&path)).unwrap();
+    assert_eq!(verdict.findings.listed, [], "{verdict:?}");
+    assert!(
+        verdict.most.iter().all(|most| *most <= 1.0 + 1e-6),
+        "{verdict:?}"
+    );
+    assert!(
+        verdict.max_deviation_mm.is_some_and(|mm| mm < 0.02),
+        "{verdict:?}"
+    );
+    let notes = verdict.notes.join("; ");
+    assert!(notes.contains("ends before the program"), "{notes}");
+}
+
 #[test]
 fn a_deviation_is_found_without_the_plan_too() {
     let folder = tempfile::tempdir().unwrap();
