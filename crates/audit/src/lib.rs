@@ -16,7 +16,7 @@
 //! Memory is bounded by how far the program is fed ahead of the samples; work is linear in both.
 //! Of events that do not stop the motion it tells how far from their places they happen. Beside violations it tells of *tremors* ([`tremor`]): motion inside all limits that the program
 //! does not ask for. What keeps a motion from being faster is told by [`diagnosis`], fed in the same way, and how
-//! smooth it is by [`smoothness`].
+//! smooth it is by [`smoothness`], how true its shape by [`shape`].
 //!
 //! ```
 //! use glidepath_audit::{Audit, AuditSettings, Sample, ViolationKind};
@@ -38,11 +38,13 @@
 //! ```
 
 mod along;
+mod amount;
 mod audit;
 mod column;
 pub mod diagnosis;
 mod event_places;
 mod flatten;
+mod follow;
 mod free_space;
 mod judge;
 mod limits;
@@ -53,6 +55,7 @@ mod program;
 mod report;
 mod sample;
 mod settings;
+pub mod shape;
 pub mod smoothness;
 mod travel;
 pub mod tremor;

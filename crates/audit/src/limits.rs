@@ -161,7 +161,7 @@ impl LimitAudit {
     }
 
     /// Seconds from the first to the last motion.
-    pub(crate) fn cycle_time_s(&self) -> f64 {
+    pub(crate) fn motion_time_s(&self) -> f64 {
         let ticks = self
             .first_motion_tick
             .map_or(0, |first| self.last_motion_tick - first);

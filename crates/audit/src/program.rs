@@ -1,5 +1,6 @@
 //! The programmed path as chords, made when they are needed.
 
+use crate::amount::Amount;
 use crate::flatten::{CURVE_FLATTENING, FLATTENING, chords, inner_point};
 use crate::free_space::Chord;
 use crate::piece::Piece;
@@ -108,9 +109,9 @@ pub(crate) struct DiagramRows {
     end_position: Option<AxisVector>,
     default_tolerance_mm: f64,
     corner_tolerance_mm: f64,
+    /// Larger than any tolerance below which a place of the program may be near, mm.
     max_tolerance_mm: f64,
-    moves: u64,
-    path_length_mm: f64,
+    amount: Amount,
 }
 
 impl DiagramRows {
@@ -127,8 +128,7 @@ impl DiagramRows {
             default_tolerance_mm: tolerance_mm,
             corner_tolerance_mm: 0.0,
             max_tolerance_mm: tolerance_mm,
-            moves: 0,
-            path_length_mm: 0.0,
+            amount: Amount::default(),
         }
     }
 
@@ -137,9 +137,9 @@ impl DiagramRows {
         self.max_tolerance_mm
     }
 
-    /// Moves fed.
-    pub(crate) const fn moves(&self) -> u64 {
-        self.moves
+    /// What has been fed amounts to.
+    pub(crate) const fn amount(&self) -> &Amount {
+        &self.amount
     }
 
     /// Where the program fed so far ends, if it moves at all.
@@ -147,12 +147,8 @@ impl DiagramRows {
         self.end_position
     }
 
-    /// Feed length fed, mm.
-    pub(crate) const fn path_length_mm(&self) -> f64 {
-        self.path_length_mm
-    }
-
     pub(crate) fn feed(&mut self, item: &Item) {
+        self.amount.add(item, self.default_tolerance_mm);
         match &item.kind {
             ItemKind::Move {
                 segment,
@@ -209,7 +205,7 @@ impl DiagramRows {
                 segment,
                 length: segment.length(),
                 chords: 1,
-                piece: Piece::new(self.moves, &segment),
+                piece: Piece::new(self.amount.moves, &segment),
                 exact_end: None,
                 dwell_t: 0.0,
                 is_open: false,
@@ -219,9 +215,7 @@ impl DiagramRows {
     }
 
     fn feed_move(&mut self, line: u32, segment: &Segment, rate: Rate, mode: PathMode) {
-        self.moves += 1;
         let length = segment.length();
-        self.path_length_mm += length;
         let is_stop = mode == PathMode::ExactStop;
         let end_tolerance_mm = match mode {
             PathMode::Continuous {
@@ -263,7 +257,7 @@ impl DiagramRows {
             dwell_t: 0.0,
             is_exact_path: mode == PathMode::ExactPath,
             chords: chords(segment, tolerance_mm),
-            piece: Piece::new(self.moves, segment),
+            piece: Piece::new(self.amount.moves, segment),
             is_open: true,
         });
         self.corner_tolerance_mm = end_tolerance_mm;

@@ -40,19 +40,25 @@ pub struct Report {
     pub max_deviation_tick: u64,
     /// Line where it was met.
     pub max_deviation_line: u32,
-    /// Largest tolerance met in the program, mm.
+    /// The largest tolerance in force for a move of the program that uses it (G64), mm; the
+    /// configured one if there is none.
     pub tolerance_mm: f64,
+    /// The smallest one likewise, mm.
+    pub least_tolerance_mm: f64,
     /// Whether the motion ran through the whole program, in order.
     pub is_complete: bool,
     /// Moves in the program.
     pub segments: u64,
-    /// Feed length of the program, mm.
+    /// Length of the program's path, without the moves of rotary axes alone, mm.
     pub path_length_mm: f64,
+    /// Path of the moves of rotary axes alone, degrees.
+    pub turn_length_deg: f64,
     /// Tick at which motion starts: the last sample at the first position.
     pub first_motion_tick: u64,
     /// Tick at which the last motion ends.
     pub last_motion_tick: u64,
-    /// From the first to the last motion, dwells in between included, s.
+    /// How long the program takes, s: from the first to the last motion, with the dwells in between,
+    /// before the first and, where the motion ran through all of it, behind the last.
     pub cycle_time_s: f64,
     /// Events that do not stop the motion.
     pub events: u64,
@@ -101,6 +107,11 @@ impl Report {
         }
         violations.sort_by_key(|violation| violation.tick);
         violations.truncate(KEPT_VIOLATIONS);
+        let amount = matching.rows.amount();
+        let [least_tolerance_mm, tolerance_mm] =
+            (amount.tolerances_mm).unwrap_or_else(|| [matching.rows.max_tolerance_mm(); 2]);
+        let [before_t, behind_t] = amount.rests_t;
+        let behind_t = if matching.is_complete { behind_t } else { 0.0 };
         Self {
             samples: limits.samples,
             max_velocity_ratio: limits.worst[0],
@@ -115,13 +126,15 @@ impl Report {
             max_deviation_mm: matching.max_deviation.ratio,
             max_deviation_tick: matching.max_deviation.tick,
             max_deviation_line: matching.max_deviation.line,
-            tolerance_mm: matching.rows.max_tolerance_mm(),
+            tolerance_mm,
+            least_tolerance_mm,
             is_complete: matching.is_complete,
-            segments: matching.rows.moves(),
-            path_length_mm: matching.rows.path_length_mm(),
+            segments: amount.moves,
+            path_length_mm: amount.path_length_mm,
+            turn_length_deg: amount.turn_length_deg,
             first_motion_tick: limits.first_motion_tick.unwrap_or(0),
             last_motion_tick: limits.last_motion_tick,
-            cycle_time_s: limits.cycle_time_s(),
+            cycle_time_s: limits.motion_time_s() + before_t + behind_t,
             events: events.count,
             max_event_off_mm: events.most_off.0,
             max_event_off_line: events.most_off.1,

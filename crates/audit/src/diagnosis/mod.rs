@@ -5,23 +5,23 @@
 //! each and the places where most time is lost against the programmed feed. It judges what it
 //! sees, whoever planned it: positions by finite differences, the deviation from the program, the
 //! speed told. Beside that it tells how smooth the motion is, in all and where the feed binds
-//! ([`crate::smoothness`]).
+//! ([`crate::smoothness`]), and how true its shape is ([`crate::shape`]).
 //!
 //! Work is linear in frames and items; memory is bounded by how far the program is fed ahead.
 
 mod binding;
 mod differences;
-mod follow;
 mod places;
 
 pub use binding::Binding;
 pub use places::SlowPlace;
 
 use crate::AuditSettings;
+use crate::follow::{Follow, Nearby};
+use crate::shape::{Shape, ShapeReport};
 use crate::smoothness::{Smoothness, SmoothnessReport};
 use binding::COUNT;
 use differences::Differences;
-use follow::{Follow, Nearby};
 use glidepath_program::{Frame, FrameFlags, Item};
 use places::{Places, Visit};
 
@@ -36,6 +36,7 @@ pub struct Diagnosis {
     counts: [u64; COUNT],
     places: Places,
     smoothness: Smoothness,
+    shape: Shape,
     deviation: Deviation,
     feed_v: f64,
 }
@@ -59,6 +60,8 @@ pub struct Summary {
     pub slowest: Vec<SlowPlace>,
     /// How smooth the motion is, in all and where the feed binds.
     pub smoothness: SmoothnessReport,
+    /// How true the shape of the motion is.
+    pub shape: ShapeReport,
 }
 
 impl Diagnosis {
@@ -71,6 +74,7 @@ impl Diagnosis {
             counts: [0; COUNT],
             places: Places::new(settings.period_t),
             smoothness: Smoothness::new(settings.period_t),
+            shape: Shape::default(),
             deviation: Deviation::default(),
             feed_v: 0.0,
         }
@@ -79,6 +83,7 @@ impl Diagnosis {
     /// The next item of the program.
     pub fn program(&mut self, item: &Item) {
         self.follow.program(item);
+        self.shape.program(item);
     }
 
     /// The next frame is passed again, on a way back or onward again: it is not diagnosed once more.
@@ -94,6 +99,7 @@ impl Diagnosis {
         self.differences.next(&frame.position, is_first);
         let is_at_rest = self.differences.is_at_rest();
         let nearby = self.follow.to(frame);
+        self.shape.next(&frame.position, frame.line, &self.follow);
         let binding = if is_at_rest {
             Binding::Rest
         } else {
@@ -160,6 +166,7 @@ impl Diagnosis {
             shares,
             slowest: self.places.finish(),
             smoothness: self.smoothness.report(),
+            shape: self.shape.report(),
         }
     }
 }

@@ -6,10 +6,11 @@ use crate::violation::{ViolationKind, ViolationList};
 use glidepath_geometry::{AXES, Axis};
 use std::collections::VecDeque;
 
-/// How far an axis that the program leaves alone may be from its coordinate, mm or degrees. Planned
-/// positions are there to the bit; what is evaluated between two frames, under an override or in a
-/// hold, is rounded.
-pub const STILL_MM: f64 = 1e-9;
+/// How far an axis that the program leaves alone may be from its coordinate, mm or degrees: a
+/// hundredth of a micrometre, less than the step of a drive and than anything that shows on a part.
+/// What is evaluated between two frames is rounded, and splines through dense lines fade out without
+/// ever being at the coordinate to the bit.
+pub const STILL_MM: f64 = 1e-5;
 
 /// What is known of the axes.
 #[derive(Debug)]

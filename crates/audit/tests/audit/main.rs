@@ -6,6 +6,7 @@ mod deviation;
 mod limits;
 mod planted;
 mod program;
+mod shape;
 mod timing;
 mod travel;
 mod tremor;

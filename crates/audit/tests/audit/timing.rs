@@ -175,3 +175,69 @@ fn within_tolerance_of_a_vertex_the_last_feed_holds() {
         assert_eq!(found, is_clean, "{hurried_y}");
     }
 }
+
+/// A move of a tenth of a millimetre a period, with items before and behind it.
+fn with_rests(before: &[Item], behind: &[Item]) -> Report {
+    let mut audit = Audit::new(&settings(Limits::UNLIMITED));
+    let moves = polygon(&[point(0.0, 0.0), point(1.0, 0.0)]);
+    for item in before.iter().chain(&moves).chain(behind) {
+        audit.program(item);
+    }
+    // It stands before and behind for longer than the program says: somebody has waited.
+    let way = (0..200_u32).map(|k| f64::from(k.clamp(95, 105) - 95) * 0.1);
+    for (tick, x) in (0..).zip(way) {
+        audit.sample(&sample(tick, point(x, 0.0)));
+    }
+    audit.finish()
+}
+
+#[test]
+fn the_program_takes_as_long_as_its_motion_and_all_its_dwells() {
+    let dwell = |seconds| Item {
+        block: 0,
+        line: 1,
+        kind: ItemKind::Dwell(seconds),
+    };
+    let moving_t = 10.0 * PERIOD;
+    for (before, behind) in [(0.0, 0.0), (0.2, 0.0), (0.0, 0.1), (0.2, 0.1)] {
+        let report = with_rests(
+            &[dwell(before)],
+            &[dwell(0.5 * behind), dwell(0.5 * behind)],
+        );
+        let wanted = moving_t + before + behind;
+        assert!((report.cycle_time_s - wanted).abs() < 1e-12, "{report:?}");
+    }
+}
+
+#[test]
+fn the_tolerance_told_is_that_of_the_moves_and_degrees_are_no_millimetres() {
+    let mut program = polygon(&[point(0.0, 0.0), point(5.0, 0.0), point(10.0, 0.0)]);
+    let turned = {
+        let mut turned = point(10.0, 0.0);
+        turned[3] = 90.0;
+        turned
+    };
+    let turn = glidepath_geometry::Segment::line(point(10.0, 0.0), turned);
+    program.push(crate::item(3, turn));
+    let told = |tolerances: [Option<f64>; 3]| {
+        let mut program = program.clone();
+        for (item, given) in program.iter_mut().zip(tolerances) {
+            if let ItemKind::Move { mode, .. } = &mut item.kind {
+                *mode = glidepath_program::PathMode::Continuous {
+                    tolerance_mm: given,
+                };
+            }
+        }
+        let report = audit(&program, &walk(&[point(0.0, 0.0), point(10.0, 0.0)], 0.1));
+        assert!((report.path_length_mm - 10.0).abs() < 1e-12, "{report:?}");
+        assert!((report.turn_length_deg - 90.0).abs() < 1e-12, "{report:?}");
+        [report.least_tolerance_mm, report.tolerance_mm]
+    };
+    assert_eq!(told([Some(0.005); 3]), [0.005; 2]);
+    assert_eq!(
+        told([None, Some(0.005), Some(0.01)]),
+        [0.005, crate::TOLERANCE]
+    );
+    assert_eq!(told([Some(0.1), Some(0.005), Some(0.01)]), [0.005, 0.1]);
+    assert_eq!(told([None; 3]), [crate::TOLERANCE; 2]);
+}

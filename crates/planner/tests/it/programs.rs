@@ -12,6 +12,7 @@ use std::fs::File;
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
+use glidepath_audit::diagnosis::Diagnosis;
 use glidepath_audit::{Audit, AuditSettings, Report, Sample};
 use glidepath_gcode::{Options, Program};
 use glidepath_geometry::AxisVector;
@@ -86,10 +87,17 @@ fn plan(
 ) -> Result<Report, String> {
     let file = File::open(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
     let mut audit = Audit::new(&AuditSettings::from(&settings));
+    let mut diagnosis = Diagnosis::new(&AuditSettings::from(&settings));
+    let mut shown = (0.0_f64, 0);
     let mut planner = Planner::new(settings, AxisVector::zeros());
-    let mut take = |planner: &mut Planner, audit: &mut Audit| {
+    let mut take = |planner: &mut Planner, audit: &mut Audit, diagnosis: &mut Diagnosis| {
         while let Some(frame) = planner.pop_frame().expect("a motion") {
             audit.sample(&Sample::from(&frame));
+            diagnosis.frame(&frame);
+            let distance_mm = diagnosis.deviation().distance_mm;
+            if distance_mm > shown.0 {
+                shown = (distance_mm, frame.line);
+            }
             each(&frame);
         }
     };
@@ -98,11 +106,22 @@ fn plan(
             item.map_err(|diagnostic| format!("{}: {}", diagnostic.line, diagnostic.message))?;
         planner.push(&item).map_err(|error| error.to_string())?;
         audit.program(&item);
-        take(&mut planner, &mut audit);
+        diagnosis.program(&item);
+        take(&mut planner, &mut audit, &mut diagnosis);
     }
     planner.finish();
-    take(&mut planner, &mut audit);
-    Ok(audit.finish())
+    take(&mut planner, &mut audit, &mut diagnosis);
+    let report = audit.finish();
+    // What plots show is no more than what the auditor finds, whose resolution is a nanometre.
+    assert!(
+        shown.0 <= report.max_deviation_mm + 2e-6,
+        "{}: {} mm shown at line {}, {} mm found",
+        path.display(),
+        shown.0,
+        shown.1,
+        report.max_deviation_mm
+    );
+    Ok(report)
 }
 
 #[test]

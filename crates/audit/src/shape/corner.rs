@@ -1,0 +1,76 @@
+//! Corners between straight moves, and their outer sides.
+
+use crate::follow::Move;
+use glidepath_geometry::{AxisVector, LINEAR_XYZ, Line, Segment};
+
+/// Cosine of the least turn of a corner, 20°: what turns less may be a curve in chords, which bulges
+/// beyond them.
+const LEAST_TURN_COS: f64 = 0.939_692_620_785_908_4;
+/// Cosine beyond which the path comes back on itself, and neither side of it is the outer one.
+const REVERSAL_COS: f64 = -0.999;
+/// Sides shorter than so many tolerances are no figure: the motion may leave them out.
+const SIDE_TOLERANCES: f64 = 8.0;
+
+/// A vertex with the directions of its two sides.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Corner {
+    vertex: AxisVector,
+    /// Unit vectors along the side before and behind.
+    sides: [AxisVector; 2],
+}
+
+/// X, Y and Z of a vector alone.
+fn in_space(vector: &AxisVector) -> AxisVector {
+    let mut part = AxisVector::zeros();
+    for axis in LINEAR_XYZ {
+        part[axis] = vector[axis];
+    }
+    part
+}
+
+fn unit(line: &Line) -> Option<AxisVector> {
+    in_space(&line.displacement()).try_normalize(1e-6)
+}
+
+impl Corner {
+    /// Between two feed moves one after the other; none where they are no corner of a figure.
+    pub(super) fn between(before: &Move, behind: &Move) -> Option<Self> {
+        let (Segment::Line(from), Segment::Line(to)) = (before.programmed, behind.programmed)
+        else {
+            return None;
+        };
+        let least_mm = SIDE_TOLERANCES * before.tolerance_mm.max(behind.tolerance_mm);
+        let is_figure = |side: &Move| !side.is_rapid() && side.length_s >= least_mm;
+        if !is_figure(before) || !is_figure(behind) {
+            return None;
+        }
+        let sides = [unit(&from)?, unit(&to)?];
+        let cos = sides[0].dot(&sides[1]);
+        (REVERSAL_COS..=LEAST_TURN_COS)
+            .contains(&cos)
+            .then_some(Self {
+                vertex: in_space(&to.start),
+                sides,
+            })
+    }
+
+    /// How far a position is on the outer side of the side that it is on, mm; 0 on the inner one.
+    pub(super) fn outside_mm(&self, position: &AxisVector, is_before: bool) -> f64 {
+        let [before, behind] = self.sides;
+        let along = if is_before { before } else { behind };
+        let turn = behind - before;
+        let across = turn - along * turn.dot(&along);
+        let off = in_space(position) - self.vertex;
+        let inner = across.try_normalize(1e-6).unwrap_or_default();
+        (-inner.dot(&off)).max(0.0)
+    }
+}
+
+/// How far a position is beside a line, mm of X, Y and Z.
+pub(super) fn beside_mm(line: &Line, position: &AxisVector) -> f64 {
+    let Some(along) = unit(line) else {
+        return 0.0;
+    };
+    let off = in_space(&(position - line.start));
+    (off - along * off.dot(&along)).norm()
+}

@@ -1,0 +1,170 @@
+//! Figures of shape: overshoot, corners, straightness, reversals, and the deviation that plots show.
+
+use crate::{TOLERANCE, point, polygon, settings, walk};
+use core::f64::consts::PI;
+use glidepath_audit::diagnosis::{Diagnosis, Summary};
+use glidepath_audit::shape::ShapeReport;
+use glidepath_geometry::AxisVector;
+use glidepath_program::{Frame, FrameFlags, ItemKind, Limits, Rate};
+
+/// X, Y, Z.
+fn at(x: f64, y: f64, z: f64) -> AxisVector {
+    let mut at = point(x, y);
+    at[2] = z;
+    at
+}
+
+/// What is told of a motion along a polygon at feed, and the largest deviation shown.
+fn told(program: &[AxisVector], motion: &[AxisVector]) -> (Summary, f64) {
+    let mut diagnosis = Diagnosis::new(&settings(Limits::UNLIMITED));
+    for mut item in polygon(program) {
+        if let ItemKind::Move { rate, .. } = &mut item.kind {
+            *rate = Rate::Feed(25.0);
+        }
+        diagnosis.program(&item);
+    }
+    let mut most_mm = 0.0_f64;
+    for (sequence, position) in (0..).zip(motion) {
+        let mut frame = Frame {
+            sequence,
+            line: u32::try_from(sequence).unwrap(),
+            path_v: 25.0,
+            planned_override: 1.0,
+            ..Frame::blank(*position)
+        };
+        if sequence == 0 {
+            frame.flags = FrameFlags::FIRST;
+        }
+        diagnosis.frame(&frame);
+        most_mm = most_mm.max(diagnosis.deviation().distance_mm);
+    }
+    (diagnosis.finish(), most_mm)
+}
+
+fn shape(program: &[AxisVector], motion: &[AxisVector]) -> ShapeReport {
+    told(program, motion).0.shape
+}
+
+/// Adds a bump of a height to an axis between two samples.
+fn bump(motion: &mut [AxisVector], axis: usize, from: usize, to: usize, height: f64) {
+    for k in from..to {
+        let part = (k - from) as f64 / (to - from) as f64;
+        motion[k][axis] += height * (1.0 - (2.0 * PI * part).cos()) / 2.0;
+    }
+}
+
+const PLUNGE: [[f64; 3]; 4] = [
+    [0.0, 0.0, 5.0],
+    [0.0, 0.0, -1.0],
+    [12.0, 0.0, -1.0],
+    [12.0, 0.0, 5.0],
+];
+
+#[test]
+fn a_plunge_below_the_programmed_depth_is_told() {
+    let program = PLUNGE.map(|[x, y, z]| at(x, y, z));
+    let clean = walk(&program, 0.1);
+    let none = shape(&program, &clean);
+    assert!(
+        none.below
+            .iter()
+            .chain(&none.above)
+            .all(|met| met.distance_mm < 1e-9)
+    );
+    assert_eq!(none.programmed_reversals[..3], [0, 0, 1]);
+    assert_eq!(none.reversals[..3], [0, 0, 1]);
+    // Through the end of the plunge and back, while X sets out.
+    let mut deep = clean.clone();
+    bump(&mut deep, 2, 58, 70, -0.0188);
+    let told = shape(&program, &deep);
+    let below = told.below[2];
+    assert!((below.distance_mm - 0.0188).abs() < 1e-3, "{below:?}");
+    assert!((58..=70).contains(&below.line), "{below:?}");
+    assert!(told.above[2].distance_mm < 1e-9, "{told:?}");
+    // On the way up from the floor it rounds the corner early: that is no overshoot.
+    let mut round = clean;
+    let corner = round.iter().rposition(|p| p[2] == -1.0).unwrap();
+    for k in 0..20_u32 {
+        let part = f64::from(k) / 20.0;
+        round[corner - 20 + k as usize][2] += 0.015 * part * part;
+    }
+    let told = shape(&program, &round);
+    assert!(told.above[2].distance_mm < 1e-9, "{told:?}");
+}
+
+#[test]
+fn the_outer_side_of_a_corner_is_told_and_the_inner_one_is_not() {
+    for turned in [0.0_f64, 0.5, 2.0] {
+        let turn = |[x, y]: [f64; 2]| {
+            let (sin, cos) = turned.sin_cos();
+            point(x * cos - y * sin, x * sin + y * cos)
+        };
+        let program = [[0.0, 0.0], [10.0, 0.0], [10.0, 10.0]].map(turn);
+        // To the left is inside.
+        for (across, outside) in [(0.012, 0.0), (-0.012, 0.012)] {
+            let mut motion = walk(&program, 0.1);
+            let side = turn([0.0, across]);
+            for (k, position) in motion.iter_mut().enumerate().take(95).skip(80) {
+                let part = (k - 80) as f64 / 15.0;
+                *position += side * (1.0 - (2.0 * PI * part).cos()) / 2.0;
+            }
+            let told = shape(&program, &motion);
+            let off = (told.outside.distance_mm - outside).abs();
+            assert!(off < 3e-4, "{turned} {across}: {told:?}");
+        }
+    }
+    // A curve in chords is no corner.
+    let arc: Vec<_> = (0..=40)
+        .map(|k| f64::from(k) * 0.1)
+        .map(|angle| point(10.0 * angle.cos(), 10.0 * angle.sin()))
+        .collect();
+    let wide: Vec<_> = walk(&arc, 0.1).iter().map(|p| p * 1.001).collect();
+    assert!(shape(&arc, &wide).outside.distance_mm < 1e-9);
+}
+
+#[test]
+fn a_straight_cut_beside_its_line_is_told() {
+    let program = [point(0.0, 0.0), point(20.0, 0.0), point(20.0, 3.0)];
+    let mut motion = walk(&program, 0.1);
+    let told = shape(&program, &motion);
+    assert_eq!((told.straight_moves, told.beside.distance_mm), (1, 0.0));
+    // Near its ends it may be off.
+    bump(&mut motion, 1, 5, 40, 0.015);
+    assert!(shape(&program, &motion).beside.distance_mm < 1e-9);
+    bump(&mut motion, 1, 70, 120, 0.006);
+    let beside = shape(&program, &motion).beside;
+    assert!((beside.distance_mm - 0.006).abs() < 1e-4, "{beside:?}");
+}
+
+#[test]
+fn reversals_that_the_program_does_not_ask_for_are_told() {
+    let program = [point(0.0, 0.0), point(20.0, 0.0), point(20.0, 3.0)];
+    let mut motion = walk(&program, 0.1);
+    bump(&mut motion, 1, 60, 90, 0.0015);
+    assert_eq!(shape(&program, &motion).reversals[..2], [0, 0]);
+    bump(&mut motion, 1, 110, 140, 0.005);
+    let told = shape(&program, &motion);
+    assert_eq!(told.programmed_reversals[..2], [0, 0]);
+    assert_eq!(told.reversals[..2], [0, 2]);
+}
+
+/// Where the path comes back beside itself, the nearest place is that of a later move: what is shown
+/// is the distance from the place that the motion is at.
+#[test]
+fn the_deviation_shown_is_not_that_from_a_later_move() {
+    // Out by a spur of two short moves, and back a micrometre beside it.
+    let program = [
+        point(0.0, 0.0),
+        point(1.0, 0.0),
+        point(1.04, 0.0),
+        point(1.04, 0.001),
+        point(0.0, 0.001),
+    ];
+    let mut motion = walk(&program, 0.011);
+    for position in &mut motion {
+        position[1] = 0.001 - position[1];
+    }
+    let (_, most_mm) = told(&program, &motion);
+    assert!(most_mm <= 0.0011, "{most_mm}");
+    assert!(most_mm < TOLERANCE);
+}
