@@ -68,3 +68,4 @@ pub mod service_manager;
 pub mod setpoints;
 mod shown_diagnostic;
 pub mod text_file;
+mod work_zero;

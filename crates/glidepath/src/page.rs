@@ -109,5 +109,6 @@ pub fn report_object(
         "binding": diagnosis.binding,
         "slowest": diagnosis.slowest,
         "smoothness": diagnosis.smoothness,
+        "shape": diagnosis.shape,
     })
 }

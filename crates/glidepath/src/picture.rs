@@ -6,6 +6,7 @@ use crate::page;
 use crate::plot::Plot;
 use crate::report::MotionReport;
 use crate::sample::Sample;
+use crate::work_zero;
 use glidepath_live::Motion;
 use glidepath_program::Item;
 use serde_json::{Value, json};
@@ -19,7 +20,7 @@ const MOST_TEXT: u64 = 8 << 20;
 #[derive(Debug)]
 pub enum Picture {
     /// A drawing.
-    Svg(Box<Plot>),
+    Svg(Box<Plot>, Box<MachineConfig>),
     /// A page, for files that end in `.html` or `.htm`.
     Page(Box<PlanPage>),
 }
@@ -58,15 +59,14 @@ impl Picture {
             }));
         }
         let plot = Plot::new(&config.axis_names(), config.limits(), config.period_t());
-        Self::Svg(Box::new(
-            plot.with_joints(&config.joint_limits, config.joints()),
-        ))
+        let plot = plot.with_joints(&config.joint_limits, config.joints());
+        Self::Svg(Box::new(plot), Box::new(config.clone()))
     }
 
     /// Takes the next item of the program that the motion follows.
     pub fn program(&mut self, item: &Item) {
         match self {
-            Self::Svg(plot) => plot.program(item),
+            Self::Svg(plot, _) => plot.program(item),
             Self::Page(page) => {
                 page::push_item(&mut page.motion, item, !page.has_program);
                 page.has_program = true;
@@ -77,7 +77,7 @@ impl Picture {
     /// Takes the next sample; their ticks ascend.
     pub fn push(&mut self, sample: &Sample) {
         match self {
-            Self::Svg(plot) => plot.push(sample),
+            Self::Svg(plot, _) => plot.push(sample),
             Self::Page(page) => page::push(&mut page.motion, sample),
         }
     }
@@ -88,7 +88,12 @@ impl Picture {
             return;
         };
         match self {
-            Self::Svg(plot) => plot.smoothness(&diagnosis.smoothness),
+            Self::Svg(plot, config) => {
+                plot.told(diagnosis);
+                if let Some(zero) = work_zero::find(program, config) {
+                    plot.work_zero([zero[0], zero[1], zero[2]]);
+                }
+            }
             Self::Page(page) => {
                 let deviation = [report.max_deviation_mm, report.tolerance_mm];
                 page.report = page::report_object(diagnosis, report.path_length_mm, deviation);
@@ -107,7 +112,7 @@ impl Picture {
     #[must_use]
     pub fn render(&self, title: &str, caption: &str) -> String {
         match self {
-            Self::Svg(plot) => plot.render(title, caption),
+            Self::Svg(plot, _) => plot.render(title, caption),
             Self::Page(page) => {
                 let lines = page.text.lines().count();
                 let plan = json!({

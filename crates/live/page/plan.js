@@ -61,12 +61,24 @@ class Track {
     for (let i = 0; i < n; i++) for (let l = level[i]; l < 4; l++) order[l].push(i);
     // A level that is hardly smaller than the next one is none.
     this.levels = order.filter((of, l) => l === 3 || of.length < 0.8 * order[l + 1].length).map(of => Uint32Array.from(of));
-    this.low = [0, 0, 0]; this.high = [0, 0, 0];
-    for (let k = 0; k < 3; k++) {
-      let low = Infinity, high = -Infinity;
-      for (let i = k; i < 3 * n; i += 3) { if (this.xyz[i] < low) low = this.xyz[i]; if (this.xyz[i] > high) high = this.xyz[i]; }
-      this.low[k] = n ? low : 0; this.high[k] = n ? high : 0;
+    this.fit();
+  }
+  /* What the view fits: feed moves with their starts, and rapids no further from them than half of
+     their largest extent. A rapid from where the machine stands is drawn, and sets no scale. */
+  fit() {
+    const n = this.count, rapid = i => this.code[i] & 128, cut = i => (i > 0 && !rapid(i)) || (i + 1 < n && !rapid(i + 1));
+    const extent = shown => {
+      const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+      for (let i = 0; i < n; i++) if (shown(i)) for (let k = 0; k < 3; k++) { const x = this.xyz[3 * i + k]; if (x < low[k]) low[k] = x; if (x > high[k]) high[k] = x; }
+      return [low, high];
+    };
+    let [low, high] = extent(cut);
+    if (low[0] > high[0]) [low, high] = n ? extent(() => true) : [[0, 0, 0], [0, 0, 0]];
+    else {
+      const [from, to] = [low, high], around = 0.5 * Math.max(...to.map((h, k) => h - from[k]));
+      [low, high] = extent(i => [0, 1, 2].every(k => this.xyz[3 * i + k] >= from[k] - around && this.xyz[3 * i + k] <= to[k] + around));
     }
+    this.low = low; this.high = high;
   }
   /* The last point at or before a place, in samples. */
   before(p) {

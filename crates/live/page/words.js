@@ -31,7 +31,14 @@ function fileWords() {
   const r = INFO.report;
   if (!r) return '';
   const verdict = r.violations ? `${grouped(r.violations)} broken rules: see the report` : 'inside every limit';
-  return `${INFO.program ? stem(INFO.program.name) : ''}: ${(r.path_mm / 1000).toFixed(2)} m, ${num(r.max_deviation_mm * 1000, 1)} of ${num(r.tolerance_mm * 1000, 0)} µm deviation, ${verdict}.`;
+  return `${INFO.program ? stem(INFO.program.name) : ''}: ${(r.path_mm / 1000).toFixed(2)} m, ${num(r.max_deviation_mm * 1000, 1)} of ${num(r.tolerance_mm * 1000, 0)} µm deviation, ${verdict}.${shapeWords(r.shape)}`;
+}
+/* How true the shape is: what is worth a word. */
+function shapeWords(shape) {
+  if (!shape) return '';
+  const said = [[shape.below_depth, 'below the depth'], [shape.outside_corners, 'outside of corners'], [shape.beside_straight, 'beside straight cuts']]
+    .filter(([met]) => met && met.mm >= 5e-5).map(([met, where]) => `${num(met.mm * 1000, 1)} µm ${where} (line ${met.line})`);
+  return said.length ? ` At most ${said.join(', ')}.` : '';
 }
 
 /* What stands in place of the text of the program when a person is needed. */

@@ -2,6 +2,7 @@
 
 use super::colour::{INK, LIMIT, QUIET};
 use super::legend;
+use super::part;
 use super::svg::{Anchor, Area, Svg};
 use super::track::{MotionTrace, TrackPoint};
 use super::view::{self, View};
@@ -62,7 +63,7 @@ impl CurvePlot {
             width: WIDTH - 90.0,
             height: HEIGHT - 170.0,
         };
-        let (low, high) = self.track.extent();
+        let (low, high) = part::extent(&part::of(self.track.points()));
         let (x, y, z) = (high[0] - low[0], high[1] - low[1], high[2] - low[2]);
         let seen = if z <= 0.0 {
             View::Top

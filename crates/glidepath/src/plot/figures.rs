@@ -1,9 +1,9 @@
-//! How smooth the motion is, in figures below the strips.
+//! How smooth the motion is, and how true its shape, in figures below the strips.
 
 use super::colour::{INK, QUIET};
 use super::svg::{Anchor, Area, Svg};
 use super::ticks::label;
-use crate::report::{AxisFigures, SmoothnessFigures, grouped};
+use crate::report::{AxisFigures, DiagnosisReport, SmoothnessFigures, grouped};
 use std::collections::BTreeMap;
 
 /// Between two lines of text.
@@ -22,24 +22,70 @@ const PARTS: [(&str, &str); 2] = [
     ("at_feed", "Smoothness where the programmed feed binds"),
 ];
 
-/// Figures that are drawn.
-pub(super) type Parts = BTreeMap<&'static str, SmoothnessFigures>;
+/// From the left edge to what is said of the shape.
+const SHAPE_WORDS: f64 = 90.0;
 
-/// The height that figures take.
-pub(super) fn height(parts: &Parts) -> f64 {
-    let rows = parts.values().map(|figures| moving(figures).count()).max();
-    #[allow(clippy::cast_precision_loss, reason = "at most nine axes")]
-    rows.map_or(0.0, |rows| (rows as f64 + 3.0) * LINE + 18.0)
+/// Figures that are drawn.
+#[derive(Debug, Default)]
+pub(super) struct Figures {
+    smoothness: BTreeMap<&'static str, SmoothnessFigures>,
+    shape: Vec<(&'static str, String)>,
 }
 
-/// Draws them side by side from the top of an area on.
-pub(super) fn draw(svg: &mut Svg, parts: &Parts, area: &Area) {
-    let mut x = area.x;
-    for (part, title) in PARTS {
-        if let Some(figures) = parts.get(part) {
-            draw_part(svg, title, figures, (x, area.y + LINE));
+impl Figures {
+    pub(super) fn new(diagnosis: &DiagnosisReport) -> Self {
+        Self {
+            smoothness: diagnosis.smoothness.clone(),
+            shape: diagnosis.shape.lines(),
         }
-        x += 0.5 * area.width;
+    }
+
+    /// The height of the smoothness.
+    #[allow(clippy::cast_precision_loss, reason = "at most nine axes")]
+    fn smoothness_height(&self) -> f64 {
+        let parts = self.smoothness.values();
+        let rows = parts.map(|figures| moving(figures).count()).max();
+        rows.map_or(0.0, |rows| (rows as f64 + 3.0) * LINE + 18.0)
+    }
+
+    /// The height that figures take.
+    #[allow(clippy::cast_precision_loss, reason = "a few lines")]
+    pub(super) fn height(&self) -> f64 {
+        let shape = match self.shape.len() {
+            0 => 0.0,
+            lines => (lines as f64 + 1.0) * LINE + 12.0,
+        };
+        self.smoothness_height() + shape
+    }
+
+    /// Draws smoothness side by side from the top of an area on, and the shape below.
+    pub(super) fn draw(&self, svg: &mut Svg, area: &Area) {
+        let mut x = area.x;
+        for (part, title) in PARTS {
+            if let Some(figures) = self.smoothness.get(part) {
+                draw_part(svg, title, figures, (x, area.y + LINE));
+            }
+            x += 0.5 * area.width;
+        }
+        if self.shape.is_empty() {
+            return;
+        }
+        let mut y = area.y + self.smoothness_height() + 12.0;
+        let heading = format!("fill=\"{INK}\" font-weight=\"600\"");
+        let quiet = format!("fill=\"{QUIET}\" font-size=\"10\"");
+        let ink = format!("fill=\"{INK}\" font-size=\"10\"");
+        svg.text(
+            area.x,
+            y,
+            Anchor::Start,
+            &heading,
+            "Shape beside that of the program",
+        );
+        for (what, words) in &self.shape {
+            y += LINE;
+            svg.text(area.x, y, Anchor::Start, &quiet, what);
+            svg.text(area.x + SHAPE_WORDS, y, Anchor::Start, &ink, words);
+        }
     }
 }
 

@@ -100,3 +100,9 @@ fn rapid(svg: &mut Svg, x: f64, area: &Area) {
         "rapid",
     );
 }
+
+/// Says whose coordinates the views have.
+pub(super) fn coordinates(svg: &mut Svg, words: &str, x: f64, area: &Area) {
+    let text = format!("fill=\"{QUIET}\" font-size=\"10\"");
+    svg.text(x, area.bottom() - 1.0, Anchor::Start, &text, words);
+}

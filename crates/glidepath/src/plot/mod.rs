@@ -2,7 +2,7 @@
 //! not known; and feed, velocity, acceleration and jerk of each axis, and of each joint where
 //! joints are not axes, against time with their limits, as one SVG file. Under the motion lies the
 //! programmed path; the deviation from it is drawn against time with its tolerance as a band. Below
-//! stands how smooth the motion is.
+//! stands how smooth the motion is, and how true its shape.
 //!
 //! Samples are taken one by one and kept in bounded memory, so that a motion of any length gives a
 //! file of at most about 2 MB. Velocity, acceleration and jerk are finite differences of the
@@ -15,6 +15,7 @@ mod envelope;
 mod figures;
 mod lateness;
 mod legend;
+mod part;
 mod program_trace;
 mod quantities;
 mod strip;
@@ -23,7 +24,7 @@ mod ticks;
 mod track;
 mod view;
 
-use crate::report::SmoothnessFigures;
+use crate::report::DiagnosisReport;
 use crate::sample::Sample;
 use bound::Bound;
 use colour::{DEVIATION, INK, QUIET};
@@ -34,8 +35,7 @@ use glidepath_program::{Item, Limits};
 pub use lateness::{Series, lateness};
 use program_trace::ProgramTrace;
 use quantities::{PositionCurves, Quantities};
-use std::collections::BTreeMap;
-use strip::{Strip, TimeAxis};
+use strip::{Band, Strip, TimeAxis};
 use svg::{Anchor, Area, Svg};
 use track::{MotionTrace, TrackPoint};
 use view::View;
@@ -57,7 +57,14 @@ pub struct Plot {
     feed: Envelope,
     /// Distance from the programmed path and its tolerance, µm.
     deviation: [Envelope; 2],
-    smoothness: figures::Parts,
+    /// The smallest and the largest tolerance in force, µm, and the largest share of it in use.
+    tolerances_um: Option<[f64; 2]>,
+    tolerance_share: f64,
+    /// The program's zero in machine coordinates, where it is known.
+    work_zero: Option<[f64; 3]>,
+    /// The machine has no Y: it is a lathe.
+    is_lathe: bool,
+    figures: figures::Figures,
     first_tick: Option<u64>,
     ticks: u64,
 }
@@ -84,7 +91,11 @@ impl Plot {
             program: ProgramTrace::default(),
             feed: Envelope::new(),
             deviation: [const { Envelope::new() }; 2],
-            smoothness: figures::Parts::new(),
+            tolerances_um: None,
+            tolerance_share: 0.0,
+            work_zero: None,
+            is_lathe: !axes.contains(&Axis::Y),
+            figures: figures::Figures::default(),
             first_tick: None,
             ticks: 0,
         }
@@ -114,9 +125,14 @@ impl Plot {
         self.program.push(item);
     }
 
-    /// Takes how smooth the motion is, by part: `whole`, `at_feed`.
-    pub fn smoothness(&mut self, parts: &BTreeMap<&'static str, SmoothnessFigures>) {
-        self.smoothness.clone_from(parts);
+    /// Takes how smooth the motion is, and how true its shape.
+    pub fn told(&mut self, diagnosis: &DiagnosisReport) {
+        self.figures = figures::Figures::new(diagnosis);
+    }
+
+    /// Takes where the program's zero is in machine coordinates: the views are in the program's.
+    pub const fn work_zero(&mut self, zero: [f64; 3]) {
+        self.work_zero = Some(zero);
     }
 
     /// Takes the next sample; their ticks ascend.
@@ -132,11 +148,17 @@ impl Plot {
         let tick = sample.tick.saturating_sub(first);
         self.ticks = tick + 1;
         self.feed.push(tick, sample.feed_v);
-        if let Some(deviation) = sample.deviation {
-            let both = [deviation.distance_mm, deviation.tolerance_mm];
-            for (envelope, mm) in self.deviation.iter_mut().zip(both) {
-                envelope.push(tick, 1e3 * mm);
+        // Before the first period there is no move, and so no tolerance of one.
+        if let Some(deviation) = sample.deviation.filter(|_| tick > 0) {
+            let both = [deviation.distance_mm, deviation.tolerance_mm].map(|mm| 1e3 * mm);
+            for (envelope, um) in self.deviation.iter_mut().zip(both) {
+                envelope.push(tick, um);
             }
+            let [distance_um, tolerance_um] = both;
+            let [least, most] = self.tolerances_um.unwrap_or([tolerance_um; 2]);
+            self.tolerances_um = Some([least.min(tolerance_um), most.max(tolerance_um)]);
+            let share = distance_um / tolerance_um.max(f64::MIN_POSITIVE);
+            self.tolerance_share = self.tolerance_share.max(share);
         }
         self.axes.push(tick, self.period_t, &sample.position);
         self.joints.push(tick, self.period_t, &sample.joints);
@@ -150,7 +172,7 @@ impl Plot {
         #[allow(clippy::cast_precision_loss, reason = "a few dozen strips")]
         let height = views_bottom + 34.0 + strips.len() as f64 * (STRIP_HEIGHT + STRIP_GAP) + 30.0;
         let figures_y = height;
-        let height = height + figures::height(&self.smoothness);
+        let height = height + self.figures.height();
         let mut svg = Svg::new(WIDTH, height);
         svg.text(
             LEFT,
@@ -183,12 +205,15 @@ impl Plot {
         strip::seconds(&mut svg, &time, &area);
         area.y = figures_y;
         area.width = WIDTH - LEFT;
-        figures::draw(&mut svg, &self.smoothness, &area);
+        self.figures.draw(&mut svg, &area);
         svg.finish()
     }
 
     fn draw_views(&self, svg: &mut Svg, bottom: f64) {
-        let (low, high) = self.track.extent();
+        let zero = self.work_zero.unwrap_or_default();
+        let track = &self.track.seen_from(zero);
+        let program = &self.program.seen_from(zero);
+        let (low, high) = part::extent(&part::of(track.points()));
         let right = WIDTH - 24.0;
         let top = Area {
             x: LEFT,
@@ -197,14 +222,16 @@ impl Plot {
             height: bottom - 84.0 - 56.0,
         };
         let moves = |axis: usize| high[axis] > low[axis];
-        if moves(2) && !moves(1) {
-            view::draw(svg, View::Front, &self.track, self.program.points(), &top);
+        if self.is_lathe && moves(2) {
+            view::draw(svg, View::Turning, track, program.points(), &top);
+        } else if moves(2) && !moves(1) {
+            view::draw(svg, View::Front, track, program.points(), &top);
         } else if moves(2) {
             let half = Area {
                 width: 660.0,
                 ..top
             };
-            view::draw(svg, View::Top, &self.track, self.program.points(), &half);
+            view::draw(svg, View::Top, track, program.points(), &half);
             let side = half.right() + 52.0;
             let front = Area {
                 x: side,
@@ -212,22 +239,16 @@ impl Plot {
                 height: 150.0,
                 ..top
             };
-            view::draw(svg, View::Front, &self.track, self.program.points(), &front);
+            view::draw(svg, View::Front, track, program.points(), &front);
             let y = front.bottom() + 42.0;
             let isometric = Area {
                 y,
                 height: top.bottom() - y,
                 ..front
             };
-            view::draw(
-                svg,
-                View::Isometric,
-                &self.track,
-                self.program.points(),
-                &isometric,
-            );
+            view::draw(svg, View::Isometric, track, program.points(), &isometric);
         } else {
-            view::draw(svg, View::Top, &self.track, self.program.points(), &top);
+            view::draw(svg, View::Top, track, program.points(), &top);
         }
         let area = Area {
             x: LEFT + 62.0,
@@ -235,7 +256,11 @@ impl Plot {
             width: 420.0,
             height: 10.0,
         };
-        if !self.program.points().is_empty() {
+        let coordinates = self
+            .work_zero
+            .map_or("machine coordinates", |_| "work coordinates");
+        legend::coordinates(svg, coordinates, right - 300.0, &area);
+        if !program.points().is_empty() {
             legend::program(svg, right - 130.0, &area);
         }
         if self.track.has_bounds() {
@@ -258,14 +283,18 @@ impl Plot {
         };
         let mut strips = vec![feed];
         let [deviation, tolerance] = &self.deviation;
-        if tolerance.peak() > 0.0 {
+        if let Some([least, most]) = self.tolerances_um.filter(|_| tolerance.peak() > 0.0) {
             strips.push(Strip {
                 title: "deviation".to_owned(),
                 unit: "µm",
                 colour: DEVIATION,
                 curve: deviation,
-                limit: Some(tolerance.peak()),
-                band: Some(tolerance),
+                limit: Some(most),
+                band: Some(Band {
+                    curve: tolerance,
+                    is_constant: least >= most,
+                    share: self.tolerance_share,
+                }),
                 signed: false,
             });
         }

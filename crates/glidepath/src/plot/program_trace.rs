@@ -27,6 +27,11 @@ impl ProgramTrace {
         });
     }
 
+    /// The same path in coordinates with another zero.
+    pub(super) fn seen_from(&self, zero: [f64; 3]) -> Self {
+        Self(self.0.seen_from(zero))
+    }
+
     /// Its points.
     pub(super) fn points(&self) -> &[TrackPoint] {
         self.0.points()

@@ -16,9 +16,19 @@ pub(super) struct Strip<'a> {
     pub(super) limit: Option<f64>,
     /// What the curve may be inside of at each time, drawn as a band; the largest of it is the
     /// limit.
-    pub(super) band: Option<&'a Envelope>,
+    pub(super) band: Option<Band<'a>>,
     /// False for a quantity that is never negative.
     pub(super) signed: bool,
+}
+
+/// What a curve may be inside of at each time.
+#[derive(Debug)]
+pub(super) struct Band<'a> {
+    pub(super) curve: &'a Envelope,
+    /// It is as wide at all times: then its edge is a limit line.
+    pub(super) is_constant: bool,
+    /// The largest share of it that is used at a time.
+    pub(super) share: f64,
 }
 
 /// The time axis all strips share.
@@ -51,9 +61,10 @@ impl Strip<'_> {
         let x = |t: f64| (t / time.end_t).mul_add(area.width, area.x);
         let y = |value: f64| (top - value) / (top - bottom) * area.height + area.y;
 
-        if let Some(band) = self.band {
+        if let Some(band) = &self.band {
             let style = format!("fill=\"{BAND}\" stroke=\"{BAND}\"");
             let ends = band
+                .curve
                 .stretches()
                 .map(|(tick, ends)| (tick, ends.map(|(_, high)| (0.0, high))));
             outline(svg, ends, &|tick| x(tick * time.period_t), &y, &style);
@@ -76,7 +87,8 @@ impl Strip<'_> {
         );
         let at = |tick: f64| x(tick * time.period_t);
         outline(svg, self.curve.stretches(), &at, &y, &style);
-        if let Some(limit) = self.limit.filter(|limit| *limit <= top) {
+        let has_line = self.band.as_ref().is_none_or(|band| band.is_constant);
+        if let Some(limit) = self.limit.filter(|limit| has_line && *limit <= top) {
             let style = format!("stroke=\"{LIMIT}\" stroke-width=\".8\" stroke-dasharray=\"5 3\"");
             let both = if self.signed {
                 vec![limit, -limit]
@@ -108,11 +120,9 @@ impl Strip<'_> {
         let peak = format!("peak {} {}", label(self.curve.peak()), self.unit);
         svg.text(left, middle + 6.0, Anchor::Start, &quiet, &peak);
         if let Some(limit) = self.limit {
-            let share = 100.0 * self.curve.peak() / limit;
-            let what = if self.band.is_some() {
-                "tolerance"
-            } else {
-                "limit"
+            let (share, what) = match &self.band {
+                Some(band) => (100.0 * band.share, "tolerance"),
+                None => (100.0 * self.curve.peak() / limit, "limit"),
             };
             let words = format!("{} % of the {what}", label(share));
             svg.text(left, middle + 19.0, Anchor::Start, &quiet, &words);

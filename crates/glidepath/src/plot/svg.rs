@@ -37,12 +37,17 @@ impl Area {
     pub(super) fn bottom(&self) -> f64 {
         self.y + self.height
     }
+
+    pub(super) fn contains(&self, x: f64, y: f64) -> bool {
+        (self.x..=self.right()).contains(&x) && (self.y..=self.bottom()).contains(&y)
+    }
 }
 
 /// An SVG document as it grows.
 #[derive(Debug)]
 pub(super) struct Svg {
     text: String,
+    clips: usize,
 }
 
 // Writing to a String does not fail, so the results of `write!` carry nothing.
@@ -56,7 +61,21 @@ impl Svg {
              font-family=\"'DejaVu Sans','Segoe UI',Helvetica,Arial,sans-serif\" \
              font-size=\"11\">\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n"
         );
-        Self { text }
+        Self { text, clips: 0 }
+    }
+
+    /// From here on nothing is drawn outside of an area.
+    pub(super) fn begin_clip(&mut self, area: &Area) {
+        let id = self.clips;
+        self.clips += 1;
+        let _ = writeln!(self.text, "<clipPath id=\"clip{id}\">");
+        self.rect(area, "");
+        let _ = writeln!(self.text, "</clipPath>\n<g clip-path=\"url(#clip{id})\">");
+    }
+
+    /// Ends what was begun last.
+    pub(super) fn end_clip(&mut self) {
+        self.text.push_str("</g>\n");
     }
 
     /// A text; `style` is further attributes, for example `fill="#333"`.
@@ -109,11 +128,14 @@ pub(super) struct Path {
     data: String,
     /// Where the pen is, in tenths of a pixel.
     pen: (i32, i32),
+    /// Nothing was drawn since it was put there.
+    is_fresh: bool,
 }
 
 impl Path {
     pub(super) fn move_to(&mut self, x: f64, y: f64) {
         self.pen = (tenths(x), tenths(y));
+        self.is_fresh = true;
         self.data.push('M');
         self.number(self.pen.0);
         self.data.push(' ');
@@ -124,9 +146,13 @@ impl Path {
         let to = (tenths(x), tenths(y));
         let (dx, dy) = (to.0 - self.pen.0, to.1 - self.pen.1);
         if (dx, dy) == (0, 0) {
+            // A hole that is seen from above is a dot.
+            if core::mem::take(&mut self.is_fresh) {
+                self.data.push_str("h0");
+            }
             return;
         }
-        self.pen = to;
+        (self.pen, self.is_fresh) = (to, false);
         self.data.push('l');
         self.number(dx);
         if dy >= 0 {
@@ -191,6 +217,10 @@ mod tests {
         path.line_to(0.0, 30.0);
         assert_eq!(path.data, "M10 20l.5-.1l-10.5 10.1");
         assert!(path.is_at(0.0, 30.0));
+        path.move_to(5.0, 5.0);
+        path.line_to(5.0, 5.0);
+        path.line_to(5.0, 5.0);
+        assert!(path.data.ends_with("M5 5h0"), "{}", path.data);
     }
 
     #[test]

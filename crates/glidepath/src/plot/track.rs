@@ -68,9 +68,15 @@ impl MotionTrace {
         self.points.iter().any(|point| point.bound.is_some())
     }
 
-    /// Smallest and largest X, Y, Z.
-    pub(super) const fn extent(&self) -> ([f64; 3], [f64; 3]) {
-        (self.low, self.high)
+    /// The same track in coordinates with another zero.
+    pub(super) fn seen_from(&self, zero: [f64; 3]) -> Self {
+        let shift = |at: [f64; 3]| core::array::from_fn(|i| at[i] - zero[i]);
+        let mut seen = self.clone();
+        for point in &mut seen.points {
+            point.at = shift(point.at);
+        }
+        (seen.low, seen.high) = (shift(self.low), shift(self.high));
+        seen
     }
 
     fn thin(&mut self) {
@@ -160,7 +166,14 @@ mod tests {
         assert!(track.points().contains(&point(40.0, 0.0)), "the corner");
         assert_eq!(track.points().first(), Some(&point(0.0, 0.0)));
         assert_eq!(track.points().last(), Some(&point(40.0, 40.0)));
-        assert_eq!(track.extent(), ([0.0; 3], [40.0, 40.0, 0.0]));
+        let seen = track.seen_from([10.0, 0.0, 1.0]);
+        assert_eq!(
+            seen.points().last(),
+            Some(&TrackPoint {
+                at: [30.0, 40.0, -1.0],
+                ..point(0.0, 0.0)
+            })
+        );
     }
 
     #[test]

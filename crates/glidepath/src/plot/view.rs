@@ -2,6 +2,7 @@
 
 use super::bound::Bound;
 use super::colour::{self, FRAME, GRID, INK, PROGRAM, QUIET, RAPID};
+use super::part;
 use super::svg::{Anchor, Area, Path, Svg};
 use super::ticks::{label, ticks};
 use super::track::{MotionTrace, TrackPoint};
@@ -13,6 +14,8 @@ pub(super) enum View {
     Top,
     /// From the front: X to the right, Z upwards.
     Front,
+    /// As at a lathe: Z to the right, X upwards.
+    Turning,
     /// From the right, front and above, all three axes equally foreshortened.
     Isometric,
 }
@@ -22,6 +25,7 @@ impl View {
         match self {
             Self::Top => "top: X → Y ↑ mm",
             Self::Front => "front: X → Z ↑ mm",
+            Self::Turning => "from above: Z → X ↑ mm",
             Self::Isometric => "isometric",
         }
     }
@@ -31,6 +35,7 @@ impl View {
         match self {
             Self::Top => (x, y),
             Self::Front => (x, z),
+            Self::Turning => (z, x),
             Self::Isometric => {
                 let (cos, sin) = (3.0_f64.sqrt() / 2.0, 0.5);
                 ((x + y) * cos, (y - x).mul_add(sin, z))
@@ -38,10 +43,11 @@ impl View {
         }
     }
 
-    /// Smallest and largest right and up of a track.
+    /// Smallest and largest right and up of a track's part.
     fn extent(self, track: &MotionTrace) -> ((f64, f64), (f64, f64)) {
         const NOTHING: (f64, f64) = (f64::INFINITY, f64::NEG_INFINITY);
-        let points = track.points().iter().map(|point| self.project(point.at));
+        let points = part::of(track.points()).into_iter();
+        let points = points.map(|at| self.project(at));
         let (x, y) = points.fold((NOTHING, NOTHING), |(x, y), (px, py)| {
             ((x.0.min(px), x.1.max(px)), (y.0.min(py), y.1.max(py)))
         });
@@ -124,6 +130,8 @@ pub(super) fn draw(
         }
     }
     let style = "fill=\"none\" stroke-linejoin=\"round\" stroke-linecap=\"round\"";
+    // Rapids may go far beyond.
+    svg.begin_clip(area);
     svg.path(
         &programmed,
         &format!("{style} stroke=\"{PROGRAM}\" stroke-width=\"5\""),
@@ -160,8 +168,20 @@ pub(super) fn draw(
             &format!("{style} stroke=\"{colour}\" stroke-width=\"2\""),
         );
     }
+    svg.end_clip();
     if let Some(first) = track.points().first() {
         let (x, y) = at(first);
+        if !area.contains(x, y) {
+            let [x, y, z] = first.at.map(label);
+            svg.text(
+                area.x + 6.0,
+                area.y + 13.0,
+                Anchor::Start,
+                &format!("fill=\"{QUIET}\" font-size=\"10\""),
+                &format!("begins outside, at X {x} Y {y} Z {z}"),
+            );
+            return;
+        }
         let dot = Area {
             x: x - 3.0,
             y: y - 3.0,

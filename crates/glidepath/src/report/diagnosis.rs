@@ -1,6 +1,7 @@
 //! What keeps a motion from being faster, in reports.
 
 use super::quantity::seconds;
+use super::shape::ShapeFigures;
 use super::smoothness::SmoothnessFigures;
 use crate::config::MachineConfig;
 use core::fmt::Write as _;
@@ -23,6 +24,8 @@ pub struct DiagnosisReport {
     pub slowest: Vec<PlaceReport>,
     /// How smooth the motion is: `whole`, and `at_feed`, where the programmed feed binds.
     pub smoothness: BTreeMap<&'static str, SmoothnessFigures>,
+    /// How true its shape is.
+    pub shape: ShapeFigures,
 }
 
 /// A place where time is lost.
@@ -82,6 +85,7 @@ impl DiagnosisReport {
             smoothness: smoothness
                 .map(|(part, figures)| (part, SmoothnessFigures::new(figures, &axes)))
                 .into(),
+            shape: ShapeFigures::new(&summary.shape, &axes),
         }
     }
 
@@ -113,6 +117,7 @@ impl DiagnosisReport {
                 text.push_str(&figures.text(title));
             }
         }
+        text.push_str(&self.shape.text());
         text
     }
 }

@@ -9,6 +9,7 @@ mod memory;
 mod motion;
 mod quantity;
 mod run;
+mod shape;
 mod smoothness;
 mod status;
 mod view;
@@ -22,6 +23,7 @@ pub use memory::peak_rss_bytes;
 pub use motion::{MotionReport, Planning};
 pub use quantity::{counted, grouped, seconds};
 pub use run::RunReport;
+pub use shape::{AxisShape, Distance, ShapeFigures};
 pub use smoothness::{AxisFigures, SmoothnessFigures};
 pub use status::{
     quantiles_object, quantiles_text, realtime_object, realtime_text, status_object, status_text,

@@ -41,12 +41,17 @@ pub struct MotionReport {
     pub samples: u64,
     /// Interpolation period, s.
     pub period_s: f64,
-    /// From the first motion to the last, dwells included, s.
+    /// How long the program takes, s: from the first motion to the last, with all dwells, those
+    /// before and behind included.
     pub cycle_time_s: f64,
-    /// Length of the programmed path, mm.
+    /// Length of the programmed path, without moves of rotary axes alone, mm.
     pub path_length_mm: f64,
-    /// Configured tolerance, mm.
+    /// Path of the moves of rotary axes alone, degrees.
+    pub turn_length_deg: f64,
+    /// The largest tolerance in force for a move, mm: that of G64 P, else the configured one.
     pub tolerance_mm: f64,
+    /// The smallest one likewise, mm.
+    pub least_tolerance_mm: f64,
     /// Largest distance between programmed path and motion, either way, mm.
     pub max_deviation_mm: f64,
     /// How far an axis was beyond an end of its travel at most, mm or degrees; 0 if none was.
@@ -121,7 +126,9 @@ impl MotionReport {
             period_s: config.period_t(),
             cycle_time_s: audit.cycle_time_s,
             path_length_mm: audit.path_length_mm,
+            turn_length_deg: audit.turn_length_deg,
             tolerance_mm: audit.tolerance_mm,
+            least_tolerance_mm: audit.least_tolerance_mm,
             max_deviation_mm: audit.max_deviation_mm,
             max_beyond_travel_mm: audit.max_beyond_travel_mm,
             max_velocity_ratio: audit.max_velocity_ratio.ratio,
@@ -187,11 +194,12 @@ impl MotionReport {
             (self.period_s * 1e6).round() / 1e3
         )?;
         writeln!(text, "  cycle time    {}", seconds(self.cycle_time_s))?;
-        writeln!(text, "  path length   {:.3} mm", self.path_length_mm)?;
+        writeln!(text, "  path length   {}", self.path_length(3))?;
         writeln!(
             text,
             "  deviation     {:.4} mm of {} mm allowed",
-            self.max_deviation_mm, self.tolerance_mm
+            self.max_deviation_mm,
+            self.tolerances()
         )?;
         writeln!(
             text,
@@ -258,6 +266,24 @@ impl MotionReport {
         Ok(())
     }
 
+    /// The length of the path, and how far rotary axes turn where nothing else moves.
+    fn path_length(&self, decimals: usize) -> String {
+        let mut text = format!("{:.decimals$} mm", self.path_length_mm);
+        if self.turn_length_deg > 0.0 {
+            let _ = write!(text, " and {:.decimals$}°", self.turn_length_deg);
+        }
+        text
+    }
+
+    /// The tolerance in force, or from which to which it goes.
+    fn tolerances(&self) -> String {
+        if self.least_tolerance_mm < self.tolerance_mm {
+            format!("{} to {}", self.least_tolerance_mm, self.tolerance_mm)
+        } else {
+            self.tolerance_mm.to_string()
+        }
+    }
+
     fn peak_memory(&self) -> String {
         #[allow(clippy::cast_precision_loss, reason = "for display")]
         let megabytes = |bytes: u64| bytes as f64 / 1e6;
@@ -282,12 +308,12 @@ impl MotionReport {
     #[must_use]
     pub fn caption(&self) -> String {
         format!(
-            "cycle time {} · path {:.1} mm · deviation {:.4} of {} mm · largest share of the \
+            "cycle time {} · path {} · deviation {:.4} of {} mm · largest share of the \
              limits: velocity {}, acceleration {}, jerk {}",
             seconds(self.cycle_time_s),
-            self.path_length_mm,
+            self.path_length(1),
             self.max_deviation_mm,
-            self.tolerance_mm,
+            self.tolerances(),
             percent(self.max_velocity_ratio),
             percent(self.max_acceleration_ratio),
             percent(self.max_jerk_ratio)

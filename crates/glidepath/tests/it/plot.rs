@@ -1,8 +1,9 @@
 //! The picture of a motion: well-formed, complete, and bounded in size.
 
-use glidepath::report::{AxisFigures, SmoothnessFigures};
+use glidepath::report::{AxisFigures, DiagnosisReport, ShapeFigures, SmoothnessFigures};
 use glidepath::{plot::Plot, sample::Sample};
 use glidepath_audit::diagnosis::Deviation;
+use glidepath_audit::shape::ShapeReport;
 use glidepath_geometry::{Axis, AxisVector, Segment};
 use glidepath_program::{Item, ItemKind, Limits, PathMode, Rate};
 use std::collections::BTreeMap;
@@ -105,8 +106,11 @@ fn a_program_in_the_xz_plane_is_seen_from_the_front() {
         sample.position[1] = 0.0;
         sample
     };
-    let svg = plot(&[Axis::X, Axis::Z], (0..400).map(lathe));
+    let svg = plot(&Axis::ALL[..3], (0..400).map(lathe));
     assert!(svg.contains(">front: ") && !svg.contains(">top: "));
+    // A machine without Y is a lathe, whose work turns about Z.
+    let svg = plot(&[Axis::X, Axis::Z], (0..400).map(lathe));
+    assert!(svg.contains(">from above: Z → X"));
 }
 
 #[test]
@@ -203,7 +207,15 @@ fn line(count: u32) -> String {
         periods: 0,
         ..figures.clone()
     };
-    plot.smoothness(&BTreeMap::from([("whole", figures), ("at_feed", nowhere)]));
+    let mut below = ShapeReport::default();
+    below.below[0].distance_mm = 0.0188;
+    below.below[0].line = 7;
+    plot.told(&DiagnosisReport {
+        binding: BTreeMap::new(),
+        slowest: Vec::new(),
+        smoothness: BTreeMap::from([("whole", figures), ("at_feed", nowhere)]),
+        shape: ShapeFigures::new(&below, &[Axis::X, Axis::Y]),
+    });
     plot.render("line", "")
 }
 
@@ -225,6 +237,45 @@ fn the_programmed_path_lies_under_the_motion() {
     // Without a program there is none.
     let svg = plot(&[Axis::X], (0..400).map(wander));
     assert!(!svg.contains("programmed path") && !svg.contains("stroke-width=\"5\""));
+}
+
+/// A square far from machine zero, with a rapid there, at a tolerance that is tightened on the way.
+#[test]
+fn the_views_fit_the_part_in_its_own_coordinates() {
+    let axes = [Axis::X, Axis::Y];
+    let mut plot = Plot::new(&axes, Limits::uniform(200.0, 2000.0, 40000.0), PERIOD_T);
+    let mut tick = 0;
+    let mut go = |x: f64, y: f64, rapid, tolerance_mm: f64| {
+        let mut sample = wander(tick);
+        sample.position = AxisVector::zeros();
+        (sample.position[0], sample.position[1], sample.rapid) = (x, y, rapid);
+        sample.deviation = Some(Deviation {
+            distance_mm: 0.8 * tolerance_mm,
+            tolerance_mm,
+        });
+        tick += 1;
+        plot.push(&sample);
+    };
+    go(0.0, 0.0, true, 0.02);
+    go(300.0, -250.0, true, 0.02);
+    for (x, y) in [(20.0, 0.0), (20.0, 15.0), (0.0, 15.0), (0.0, 0.0)] {
+        go(300.0 + x, -250.0 + y, false, 0.005);
+    }
+    plot.work_zero([300.0, -250.0, -120.0]);
+    let svg = plot.render("far", "");
+    assert!(is_well_formed(&svg));
+    for words in [
+        ">work coordinates<",
+        "begins outside, at X −300 Y 250 Z 120",
+        ">80 % of the tolerance<",
+    ] {
+        assert!(svg.contains(words), "{words}: {svg}");
+    }
+    // Labels of the grid are those of the part: from 0 to 20, and nothing near 300.
+    assert!(
+        svg.contains(">20</text>") && !svg.contains(">300</text>"),
+        "{svg}"
+    );
 }
 
 #[test]
@@ -255,6 +306,8 @@ fn the_figures_of_smoothness_stand_below() {
         ">7<",
         ">Smoothness where the programmed feed binds<",
         ">it binds nowhere<",
+        ">Shape beside that of the program<",
+        ">X 0.0188 mm below (line 7)<",
     ] {
         assert!(svg.contains(words), "{words}");
     }

@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use glidepath_geometry::AxisVector;
+
 use crate::execute::parameters::Parameters;
 use crate::execute::state::offsets::Offsets;
 use crate::execute::state::program_state::State;
@@ -32,6 +34,12 @@ impl InForce {
     #[must_use]
     pub fn work_offsets(&self) -> WorkOffsets {
         self.0.offsets.set_up()
+    }
+
+    /// Where the program's zero is in machine coordinates, with all offsets, that of the tool, too.
+    #[must_use]
+    pub fn zero(&self) -> AxisVector {
+        self.0.offsets.to_machine(AxisVector::zeros())
     }
 
     /// The tool table with what G10 has made of it.
