@@ -170,29 +170,33 @@ pub(super) fn draw(
     }
     svg.end_clip();
     if let Some(first) = track.points().first() {
-        let (x, y) = at(first);
-        if !area.contains(x, y) {
-            let [x, y, z] = first.at.map(label);
-            svg.text(
-                area.x + 6.0,
-                area.y + 13.0,
-                Anchor::Start,
-                &format!("fill=\"{QUIET}\" font-size=\"10\""),
-                &format!("begins outside, at X {x} Y {y} Z {z}"),
-            );
-            return;
-        }
-        let dot = Area {
-            x: x - 3.0,
-            y: y - 3.0,
-            width: 6.0,
-            height: 6.0,
-        };
-        svg.rect(
-            &dot,
-            &format!("rx=\"3\" fill=\"#ffffff\" stroke=\"{INK}\" stroke-width=\"1.4\""),
-        );
+        begin(svg, first, at(first), area);
     }
+}
+
+/// Marks where the track begins, or says where that is, out of view.
+fn begin(svg: &mut Svg, first: &TrackPoint, (x, y): (f64, f64), area: &Area) {
+    if !area.contains(x, y) {
+        let [x, y, z] = first.at.map(label);
+        svg.text(
+            area.x + 6.0,
+            area.y + 13.0,
+            Anchor::Start,
+            &format!("fill=\"{QUIET}\" font-size=\"10\""),
+            &format!("begins outside, at X {x} Y {y} Z {z}"),
+        );
+        return;
+    }
+    let dot = Area {
+        x: x - 3.0,
+        y: y - 3.0,
+        width: 6.0,
+        height: 6.0,
+    };
+    svg.rect(
+        &dot,
+        &format!("rx=\"3\" fill=\"#ffffff\" stroke=\"{INK}\" stroke-width=\"1.4\""),
+    );
 }
 
 /// Draws a line on a path, whose pen may be elsewhere.
