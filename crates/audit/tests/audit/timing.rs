@@ -231,13 +231,17 @@ fn the_tolerance_told_is_that_of_the_moves_and_degrees_are_no_millimetres() {
         let report = audit(&program, &walk(&[point(0.0, 0.0), point(10.0, 0.0)], 0.1));
         assert!((report.path_length_mm - 10.0).abs() < 1e-12, "{report:?}");
         assert!((report.turn_length_deg - 90.0).abs() < 1e-12, "{report:?}");
-        [report.least_tolerance_mm, report.tolerance_mm]
+        [report.least_tolerance_mm, report.tolerance_mm].map(f64::to_bits)
     };
-    assert_eq!(told([Some(0.005); 3]), [0.005; 2]);
+    let are = |tolerances: [f64; 2]| tolerances.map(f64::to_bits);
+    assert_eq!(told([Some(0.005); 3]), are([0.005; 2]));
     assert_eq!(
         told([None, Some(0.005), Some(0.01)]),
-        [0.005, crate::TOLERANCE]
+        are([0.005, crate::TOLERANCE])
     );
-    assert_eq!(told([Some(0.1), Some(0.005), Some(0.01)]), [0.005, 0.1]);
-    assert_eq!(told([None; 3]), [crate::TOLERANCE; 2]);
+    assert_eq!(
+        told([Some(0.1), Some(0.005), Some(0.01)]),
+        are([0.005, 0.1])
+    );
+    assert_eq!(told([None; 3]), are([crate::TOLERANCE; 2]));
 }

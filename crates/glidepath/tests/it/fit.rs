@@ -189,7 +189,7 @@ fn a_search_stays_in_the_plane_of_the_program_and_within_the_tolerance_or_says_s
     let header = rows.next().expect("a header");
     let z = header.split(',').position(|name| name == "vel_Z");
     let z = z.expect("a column of Z");
-    let feed = rows.filter(|row| !row.split(',').nth(4).is_some_and(|feed| feed == "0"));
+    let feed = rows.filter(|row| row.split(',').nth(4).is_none_or(|feed| feed != "0"));
     // Behind the approach, which goes down to it.
     let speed = |row: &str| row.split(',').nth(z).and_then(|v| v.parse::<f64>().ok());
     let cut = feed.skip_while(|row| speed(row) == Some(0.0));
