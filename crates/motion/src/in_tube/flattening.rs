@@ -27,10 +27,10 @@ const FLATTENING_R: f64 = 0.05;
 const MERGING_R: f64 = 0.1;
 /// Distance up to which a vertex counts as being on a line.
 const STRAIGHT_MM: f64 = 1e-9;
-/// From this length on a line is seen to be straight, mm: it is turned by no more than a vertex so far
-/// off makes of it, mm.
-const LONG_MM: f64 = 4.0;
-const TURNED_MM: f64 = 2.5e-4;
+/// From so many tolerances of length on a line is seen to be straight: it is turned by no more than a
+/// vertex makes of it that is off by such a share of the tolerance.
+const LONG_R: f64 = 200.0;
+const TURNED_R: f64 = 0.0125;
 /// Largest turn from one chord of an arc to the next, rad.
 const LARGEST_TURN_RAD: f64 = 0.5;
 
@@ -216,8 +216,8 @@ impl OpenChord {
         let longest_mm = self.longest_mm.max(next.length_mm());
         let allowed_mm = if chord.rate.is_rapid() {
             STRAIGHT_MM
-        } else if longest_mm >= LONG_MM {
-            TURNED_MM.min(MERGING_R * chord.tolerance_mm)
+        } else if longest_mm >= LONG_R * chord.tolerance_mm {
+            TURNED_R * chord.tolerance_mm
         } else {
             MERGING_R * chord.tolerance_mm
         };

@@ -18,10 +18,10 @@ use glidepath_program::ProgramLine;
 
 /// Most vertices held back, the last one included.
 const MOST_HELD: usize = 32;
-/// From this length on a chord is seen to be straight, mm: it is turned by no more than a vertex so far
-/// off makes of it, mm.
-const LONG_MM: f64 = 4.0;
-const TURNED_MM: f64 = 2.5e-4;
+/// From so many times the distance allowed on a chord is seen to be straight: it is turned by no more
+/// than a vertex makes of it that is off by such a share of that distance.
+const LONG_R: f64 = 4000.0;
+const TURNED_R: f64 = 0.25;
 
 /// A vertex, and the line of the block that ends in it.
 #[derive(Debug, Clone, Copy)]
@@ -70,7 +70,8 @@ impl<const D: usize> Thinning<D> {
     pub(super) fn push(&mut self, next: Vertex<D>, apart: bool) -> Option<MergedChord<D>> {
         let last = self.held.last().map_or(&self.anchor, |last| &last.point);
         let step = minus(&next.point, last);
-        let is_long = dot(&step, &step) >= LONG_MM * LONG_MM;
+        let long_mm = LONG_R * self.allowed_mm;
+        let is_long = dot(&step, &step) >= long_mm * long_mm;
         let done = if apart || !self.reaches(&next.point, self.is_long || is_long) {
             self.flush()
         } else {
@@ -119,7 +120,7 @@ impl<const D: usize> Thinning<D> {
         let chord = minus(point, &self.anchor);
         let per_square = 1.0 / dot(&chord, &chord);
         let allowed_mm = if is_long {
-            self.allowed_mm.min(TURNED_MM)
+            TURNED_R * self.allowed_mm
         } else {
             self.allowed_mm
         };
