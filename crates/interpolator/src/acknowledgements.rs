@@ -3,7 +3,6 @@
 
 use crate::gates::{Answer, Gates};
 use crate::message::Report;
-use crate::wait::kind_and_value;
 use glidepath_link::{EndOfEpoch, EventId, Objection};
 
 /// Most events that are told and not yet awaited. Of more the oldest is answered at its gate alone.
@@ -49,7 +48,7 @@ impl Acknowledgements {
                 epoch: setpoint.epoch,
                 sequence: setpoint.sequence,
             },
-            code: kind_and_value(setpoint.rest_event()).1,
+            code: setpoint.rest_event().map_or(0.0, |event| event.value),
             by_feedback: gate.answer != Answer::Acknowledgement,
         });
     }
