@@ -114,6 +114,11 @@ impl Read for ReadAhead {
     }
 }
 
+/// Bytes that are told of why the servo stopped, at most: with all of them escaped they are fewer than
+/// those of a setpoint.
+const MOST_SAID: usize = 160;
+const _: () = assert!(6 * MOST_SAID + 64 < size_of::<Setpoint>());
+
 /// What the servo says behind its last setpoint.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -125,9 +130,15 @@ pub(in crate::command) struct Farewell {
 }
 
 impl Farewell {
-    /// As it goes through the pipe: a text that is shorter than a setpoint.
+    /// As it goes through the pipe: a text that is shorter than a setpoint, or it would be taken for one.
+    /// Of a reason that is too long the beginning is told.
     pub(in crate::command) fn to_bytes(&self) -> Vec<u8> {
-        serde_json::to_vec(self).unwrap_or_default()
+        let mut told = self.clone();
+        if let Some(why) = &mut told.first_stop {
+            let end = (0..=MOST_SAID).rev().find(|end| why.is_char_boundary(*end));
+            why.truncate(end.unwrap_or(0));
+        }
+        serde_json::to_vec(&told).unwrap_or_default()
     }
 
     /// What is left at the end of the pipe; `None` for part of a setpoint.
@@ -228,7 +239,17 @@ mod tests {
         let (mut pipe, farewell) = Pipe::new(bytes.as_slice());
         assert!(pipe.take().unwrap().is_some());
         assert!(pipe.take().unwrap().is_none());
-        assert_eq!(farewell.get(), Some(&said));
+        let told = farewell.get().unwrap();
+        assert_eq!(told.own_stops, 2);
+        // The numbers are longer than any that a machine has.
+        let (all, some) = (said.first_stop.unwrap(), told.first_stop.clone().unwrap());
+        assert!(all.len() > MOST_SAID && all.starts_with(&some));
+        assert_eq!(some.len(), MOST_SAID);
+        let short = Farewell {
+            own_stops: 1,
+            first_stop: Some("setpoints stayed away".to_owned()),
+        };
+        assert_eq!(Farewell::from_bytes(&short.to_bytes()), Some(short));
     }
 
     #[test]
