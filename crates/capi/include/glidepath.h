@@ -49,7 +49,7 @@ extern "C" {
 /* The version of the ABI: functions and structures. */
 #define GP_ABI 4u
 /* What the structures of this header are, as one number. */
-#define GP_LAYOUT UINT64_C(0x94b7a3391cbd1c05)
+#define GP_LAYOUT UINT64_C(0x33e93fdeef351674)
 /* Axes X Y Z A B C U V W, and joints J0 to J8. */
 #define GP_AXES 9
 

@@ -7,7 +7,7 @@ import ctypes
 import enum
 
 ABI = 4
-LAYOUT = 0x94b7a3391cbd1c05
+LAYOUT = 0x33e93fdeef351674
 AXES = 9
 
 
