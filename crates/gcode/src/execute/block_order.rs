@@ -68,12 +68,14 @@ impl Interpreter {
         let changes_offsets = changes_offsets || ends;
         let offsets = changes_offsets.then(|| (self.offsets.clone(), self.tools.clone()));
         let compensation = self.compensation.clone();
+        let corner = self.corner.clone();
         let mark = OpenSpline::mark(self.open_spline.as_ref());
         let result = self.run(block, out);
         if result.is_err() {
             out.clear();
             self.state = state;
             self.compensation = compensation;
+            self.corner = corner;
             OpenSpline::rewind(&mut self.open_spline, mark);
             if let Some(saved_states) = saved_states {
                 self.saved_states = saved_states;
@@ -113,7 +115,7 @@ impl Interpreter {
         self.check_axes(block)?;
         self.check_compensated(block)?;
         self.feed(block, motion)?;
-        if !block.is_plain() || block.has_any(Letters::of(b"STD")) {
+        if block.says_modes || block.has_any(Letters::of(b"STD")) {
             self.auxiliary(block, out)?;
             self.modes(block, out)?;
             if block.dialect != Dialect::LinuxCnc {
@@ -253,7 +255,7 @@ impl Interpreter {
     }
 
     const fn has_corners(&self, block: &Block) -> bool {
-        self.state.corner.is_some() || block.corner.is_some() || self.state.rounds_mm > 0.0
+        self.corner.is_some() || block.corner.is_some() || self.state.rounds_mm > 0.0
     }
 
     /// Makes the motion of a block.

@@ -171,7 +171,7 @@ const fn taken_by_move(motion: Option<Motion>, dialect: Dialect) -> Option<Lette
 
 /// Refuses words that nothing in the block uses, and words that two codes want.
 pub(crate) fn check_words(block: &Block, motion: Option<Motion>) -> Outcome<()> {
-    if block.is_plain()
+    if !block.says_modes
         && let Some(taken) = taken_by_move(motion, block.dialect)
         && block.unused(taken).is_none()
     {

@@ -61,7 +61,7 @@ impl<R: BufRead> Program<R> {
         interpreter.state.fanuc = FanucModal::default();
         interpreter.state.edge = None;
         interpreter.state.tip_follows = false;
-        (interpreter.state.corner, interpreter.state.rounds_mm) = (None, 0.0);
+        interpreter.state.rounds_mm = 0.0;
         (interpreter.state.position, interpreter.state.path_end) = (start, start);
         interpreter.offsets.tool = offsets.tool;
         interpreter.offsets.active = offsets.active;

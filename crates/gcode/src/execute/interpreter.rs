@@ -12,6 +12,7 @@ use crate::execute::state::course::Course;
 use crate::execute::state::fanuc_modal::FanucModal;
 use crate::execute::state::modal::Modal;
 use crate::execute::state::offsets::Offsets;
+use crate::execute::state::open_corner::OpenCorner;
 use crate::execute::state::open_spline::OpenSpline;
 use crate::execute::state::probe_result::{ProbeResult, Search};
 use crate::execute::state::program_state::State;
@@ -42,6 +43,8 @@ pub(crate) struct Interpreter {
     /// Where moves may end.
     pub(crate) soft_limits: SoftLimits,
     pub(crate) compensation: Option<Compensation>,
+    /// The move to a corner that is to be broken.
+    pub(crate) corner: Option<Box<OpenCorner>>,
     /// The NURBS whose control points are being read.
     pub(crate) open_spline: Option<OpenSpline>,
     /// The tool table, with what G10 has made of it.
@@ -95,7 +98,6 @@ impl Interpreter {
                 leaving_contour: false,
                 cubic_tail: None,
                 thread_end: None,
-                corner: None,
                 rounds_mm: 0.0,
                 edge: None,
                 fanuc: FanucModal::default(),
@@ -108,6 +110,7 @@ impl Interpreter {
             lacking,
             soft_limits,
             compensation: None,
+            corner: None,
             tools,
             saved_states: SavedStates::default(),
             zero_length: ZeroLength::default(),

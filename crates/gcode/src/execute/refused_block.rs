@@ -89,7 +89,7 @@ impl<R: BufRead> Program<R> {
             self.read_words(text.get(..length).unwrap_or_default());
         }
         // The corner in front of it is no finding of its own.
-        if self.interpreter.state.corner.take().is_some() {
+        if self.interpreter.corner.take().is_some() {
             self.interpreter.state.path_end = self.interpreter.state.position;
         }
         self.interpreter.adopt_modes(&self.block);

@@ -45,6 +45,8 @@ pub(crate) struct Block {
     pub(crate) speed_limit: Option<f64>,
     /// `,C` and `,R` of FANUC.
     pub(crate) corner: Option<CornerWord>,
+    /// It has another code than G0 to G3, or LIMS.
+    pub(crate) says_modes: bool,
     /// `@` and `^`.
     pub(crate) polar: [Option<PolarWord>; 2],
     /// Parameters to assign after the block, in order.
@@ -193,6 +195,7 @@ impl Block {
             self.comment.clear();
             self.polar = [None, None];
             self.corner = None;
+            self.says_modes = false;
             self.speed_limit = None;
             self.pointless = Letters::default();
             self.codes = Codes::default();

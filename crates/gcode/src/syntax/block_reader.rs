@@ -219,7 +219,7 @@ impl Block {
             }
             _ => {}
         }
-        if self.names_an_axis(*cursor, letter) {
+        if self.dialect == Dialect::Marlin && self.names_an_axis(*cursor, letter) {
             return self.flag(letter, SourceSpan::new(start, start + 1));
         }
         let value = match self.dialect {
@@ -227,11 +227,13 @@ impl Block {
             _ => value(cursor, start, scope)?,
         };
         let span = SourceSpan::new(start, cursor.end_of_word());
-        if is_vacant(value) {
+        if self.dialect == Dialect::Fanuc && is_vacant(value) {
             // The word counts as not written.
             return Ok(());
         }
         self.any = true;
+        let is_move = letter == b'G' && (0.0..=3.0).contains(&value);
+        self.says_modes |= matches!(letter, b'G' | b'M') && !is_move;
         match letter {
             b'G' if self.dialect == Dialect::Fanuc => {
                 self.codes.add_fanuc_g(value, self.is_lathe, span)

@@ -54,8 +54,7 @@ impl Block {
                 ..
             })
         );
-        self.dialect == Dialect::Marlin
-            && goes_home
+        goes_home
             && (AXIS_WORDS.has(letter) || letter == b'E')
             && !matches!(
                 cursor.next_visible(),
@@ -118,7 +117,7 @@ impl Block {
         if is_siemens && letter == Some(b'S') {
             cursor.advance();
             self.speed_limit = Some(word_value(cursor, start, false, scope)?);
-            self.any = true;
+            (self.any, self.says_modes) = (true, true);
             return Ok(());
         }
         let kind = match letter {

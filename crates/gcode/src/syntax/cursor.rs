@@ -183,7 +183,9 @@ impl<'a> Cursor<'a> {
             return Err(self.no_number(word, start));
         }
         let exponent = self.at == end && matches!(self.peek(), Some(b'e' | b'E'));
-        if exponent || self.peek() == Some(b'.') || self.has_decimal_comma() {
+        let next = self.peek();
+        let is_comma = next == Some(b',') && self.is_decimal_comma();
+        if exponent || next == Some(b'.') || is_comma {
             self.refuse_tail(start)?;
         }
         let value = match POWERS.get(decimals) {
@@ -203,15 +205,13 @@ impl<'a> Cursor<'a> {
         Ok(if negative { -value } else { value })
     }
 
-    /// True for a comma with no letter behind it: `X1,5`, but not `X20,R5`.
-    fn has_decimal_comma(&self) -> bool {
+    /// True for the comma that comes next if no letter is behind it: `X1,5`, but not `X20,R5`.
+    #[cold]
+    fn is_decimal_comma(&self) -> bool {
         let mut behind = *self;
         behind.advance();
-        self.peek() == Some(b',')
-            && !self.is_in_list
-            && !behind
-                .next_visible()
-                .is_some_and(|byte| byte.is_ascii_alphabetic())
+        let next = behind.next_visible();
+        !self.is_in_list && !next.is_some_and(|byte| byte.is_ascii_alphabetic())
     }
 
     /// Value of digits that do not fit the short way; the sign is not looked at.

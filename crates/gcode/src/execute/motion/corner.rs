@@ -50,7 +50,7 @@ impl Interpreter {
         {
             self.state.rounds_mm = word.value * self.state.modal.units.mm();
         }
-        let Some(corner) = self.state.corner else {
+        let Some(corner) = &self.corner else {
             return Ok(());
         };
         let goes_on = motion == Some(Motion::Linear) && block.codes.non_modal.is_none();
@@ -65,7 +65,7 @@ impl Interpreter {
 
     /// Makes the move to a corner that stays as it is.
     fn leave_corner(&mut self, block: &Block, out: &mut Vec<Item>) -> Outcome<()> {
-        let Some(corner) = self.state.corner.take() else {
+        let Some(corner) = self.corner.take() else {
             return Ok(());
         };
         self.make_held(block, &corner, corner.at, out)
@@ -73,7 +73,7 @@ impl Interpreter {
 
     /// The end of the program: a corner has to have its second move.
     pub(crate) fn end_corner(&mut self, block: &Block, out: &mut Vec<Item>) -> Outcome<()> {
-        match self.state.corner {
+        match &self.corner {
             Some(corner) if !corner.may_stay => Err(no_second_move(SourceSpan::default())),
             _ => self.leave_corner(block, out),
         }
@@ -87,7 +87,7 @@ impl Interpreter {
         target: AxisVector,
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
-        if let Some(corner) = self.state.corner.take() {
+        if let Some(corner) = self.corner.take() {
             self.break_corner(block, &corner, target, out)?;
         }
         let word = self.corner_word(block);
@@ -99,7 +99,7 @@ impl Interpreter {
         } else {
             self.state.path_end
         };
-        self.state.corner = Some(OpenCorner {
+        self.corner = Some(Box::new(OpenCorner {
             from,
             at: target,
             kind,
@@ -107,7 +107,7 @@ impl Interpreter {
             feed: self.state.modal.feed,
             line: self.line,
             may_stay,
-        });
+        }));
         self.state.position = target;
         Ok(())
     }

@@ -5,7 +5,6 @@ use glidepath_geometry::AxisVector;
 use crate::execute::state::coolant::Coolant;
 use crate::execute::state::fanuc_modal::FanucModal;
 use crate::execute::state::modal::Modal;
-use crate::execute::state::open_corner::OpenCorner;
 use crate::execute::state::probe_result::ProbeResult;
 use crate::execute::state::spindle::Spindle;
 use crate::execute::state::sticky_words::CycleSeries;
@@ -47,8 +46,6 @@ pub(crate) struct State {
     pub(crate) cubic_tail: Option<[f64; 2]>,
     /// Where the last pass of a thread ended.
     pub(crate) thread_end: Option<AxisVector>,
-    /// The move to a corner that is to be broken.
-    pub(crate) corner: Option<OpenCorner>,
     /// The radius of all corners (RNDM), mm; 0: they stay.
     pub(crate) rounds_mm: f64,
     /// The edge of the tool in force (D of SINUMERIK); `None`: none was chosen.
