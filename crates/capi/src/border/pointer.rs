@@ -48,7 +48,7 @@ impl Room<c_char> {
     /// `size` is what the caller says of the room: it is that of so many bytes. Who knows that there is room enough
     /// may say more than an object can have, and no more of it is looked at than the text takes.
     pub(super) fn put_text(&self, text: &[u8], size: usize) {
-        let taken = size;
+        let taken = size.min(text.len().saturating_add(1));
         let Some(longest) = taken.checked_sub(1).filter(|_| !self.is_null()) else {
             return;
         };
