@@ -81,12 +81,15 @@ struct ShownSource {
     line: usize,
     column: usize,
     lines: usize,
+    /// Line and column of what is meant itself, for which miette asks without context.
+    place: (usize, usize),
 }
 
 impl ShownSource {
     fn read(source: &dyn SourceCode, span: &SourceSpan) -> Option<Self> {
         let read = source.read_span(span, CONTEXT, CONTEXT).ok()?;
         let text = str::from_utf8(read.data()).ok()?;
+        let meant = source.read_span(span, 0, 0).ok()?;
         Some(Self {
             name: printable(read.name().unwrap_or_default()).into_owned(),
             language: read.language().map(str::to_owned),
@@ -95,6 +98,7 @@ impl ShownSource {
             line: read.line(),
             column: read.column(),
             lines: read.line_count(),
+            place: (meant.line(), meant.column()),
         })
     }
 }
@@ -103,15 +107,20 @@ impl SourceCode for ShownSource {
     fn read_span<'b>(
         &'b self,
         _span: &SourceSpan,
-        _lines_before: usize,
-        _lines_after: usize,
+        lines_before: usize,
+        lines_after: usize,
     ) -> Result<Box<dyn SpanContents<'b> + 'b>, MietteError> {
+        let (line, column) = if lines_before == 0 && lines_after == 0 {
+            self.place
+        } else {
+            (self.line, self.column)
+        };
         let contents = MietteSpanContents::new_named(
             self.name.clone(),
             self.text.as_bytes(),
             self.span,
-            self.line,
-            self.column,
+            line,
+            column,
             self.lines,
         );
         Ok(Box::new(match &self.language {
