@@ -122,6 +122,12 @@ message!(Status, "glidepath.Status", {
     71 reserved,
     72 awaited_words,
     73 adaptive_feed,
+    74 job_number,
+    75 next_epoch,
+    76 job_stage,
+    77 job_held,
+    78 job,
+    79 job_end,
 });
 
 #[cfg(test)]
@@ -159,9 +165,11 @@ mod tests {
                 last_error,
                 last_event,
                 message,
+                job,
+                job_end,
                 ..
             } = status;
-            for text in [last_error, last_event, message] {
+            for text in [last_error, last_event, message, job, job_end] {
                 *text = glidepath_link::Text::default();
             }
         });
