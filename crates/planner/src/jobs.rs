@@ -20,7 +20,10 @@ use glidepath_link::{
 };
 
 use crate::attend::{Attend, Attended};
-use crate::{CLIENT_SILENCE, Control, Publisher, StartLine};
+use crate::{Control, Publisher, StartLine};
+
+/// A client from which nothing was heard for so long is taken for dead.
+pub const CLIENT_SILENCE: Duration = Duration::from_secs(2);
 
 /// Requests served between two looks at the motion.
 const REQUESTS_PER_TURN: u32 = 32;

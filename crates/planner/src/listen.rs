@@ -18,16 +18,13 @@ use glidepath_link::{LinkError, SegmentRefusal, SegmentReply, SegmentRequest, Se
 use glidepath_motion::PlanError;
 use glidepath_program::Settings;
 
-use crate::jobs::{BUSY, Job, JobAttendant, JobDesk, JobEnd, JobRunner, NEWS};
+use crate::jobs::{BUSY, CLIENT_SILENCE, Job, JobAttendant, JobDesk, JobEnd, JobRunner, NEWS};
 use crate::machine::POLL;
 use crate::stream::refuse;
 use crate::{
     Control, ItemSource, Notice, Pace, Pipeline, Publisher, Refusal, RunError, SILENCE, SoftLimits,
     Statistics, Stream, Supply,
 };
-
-/// A client from which nothing was heard for so long is taken for dead.
-pub const CLIENT_SILENCE: Duration = Duration::from_secs(2);
 
 /// Requests served between two looks at the motion.
 const REQUESTS_PER_TURN: u32 = 256;
