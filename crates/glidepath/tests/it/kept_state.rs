@@ -9,7 +9,7 @@
 
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
 
 struct Machine {
     folder: tempfile::TempDir,
@@ -51,6 +51,34 @@ impl Machine {
         serde_json::from_slice(&output.stdout).expect("one object")
     }
 
+    /// Has a program executed by a planner and an interpolator, as on a machine: `run` keeps nothing.
+    fn execute(&self, args: &[&str]) {
+        let instance = format!("k{}", self.folder.path().display());
+        let instance: String = instance
+            .chars()
+            .filter(|c| c.is_ascii_alphanumeric() || *c == '_')
+            .collect();
+        let mut interpolator = Command::new(env!("CARGO_BIN_EXE_glidepath"))
+            .args([
+                "interpolator",
+                "--best-effort",
+                "--instance",
+                &instance,
+                "--config",
+            ])
+            .arg(self.path("mill.toml"))
+            .current_dir(self.folder.path())
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        let output = self.glidepath(&[&["planner"], args, &["--instance", &instance]].concat());
+        interpolator.kill().unwrap();
+        interpolator.wait().unwrap();
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(0), "{told}");
+    }
+
     fn refused(&self, args: &[&str], exit: i32) -> String {
         let output = self.glidepath(args);
         let told = String::from_utf8_lossy(&output.stderr).into_owned();
@@ -84,6 +112,13 @@ fn programs_begin_with_what_was_set_and_leave_what_was_run() {
 
     let ran = machine.object(&["run", &part, "--best-effort"]);
     assert!(ran["cycle_time_s"].as_f64().unwrap() > 0.1);
+    assert_eq!(
+        machine.object(&["offsets", "show"]),
+        set,
+        "run keeps nothing"
+    );
+
+    machine.execute(&[&part]);
     let left = machine.object(&["offsets", "show"]);
     assert_eq!(axes(&left, "G54"), axes(&set, "G54"));
     assert_eq!(axes(&left, "G55")[0].to_bits(), 5.0_f64.to_bits());
@@ -116,7 +151,7 @@ fn tools_that_g10_changed_are_kept_until_the_table_is_edited() {
     let table = machine.file("tools.tbl", "T1 P1 Z10 D6\nT2 P2 Z20 D8\n");
     let text = "G21 G90\nG10 L1 P2 Z33.5 R5\nG43 H2\nG0 Z1\nM2\n";
     let part = machine.file("part.ngc", text);
-    machine.object(&["run", &part, "--best-effort", "--tool-table", &table]);
+    machine.execute(&[&part, "--tool-table", &table]);
     let left = machine.object(&["offsets", "show"]);
     assert_eq!(left["tools_changed"][0]["number"], 2);
     assert_eq!(left["tools_changed"][0]["diameter_mm"], 10.0);
@@ -144,7 +179,10 @@ fn damage_and_another_machine_need_the_operator() {
         told.contains("kept.0 is damaged: its checksum is another"),
         "{told}"
     );
-    assert!(told.contains("`glidepath offsets recover`"), "{told}");
+    assert!(
+        told.contains("`glidepath offsets recover --config "),
+        "{told}"
+    );
     let recovered = machine.object(&["offsets", "recover"]);
     assert_eq!(axes(&recovered, "G54")[0].to_bits(), 1.0_f64.to_bits());
     machine.object(&["check", &part]);
