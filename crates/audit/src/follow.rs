@@ -286,7 +286,14 @@ impl Move {
                 let from_rad = start_angle_rad + per_s * from_s;
                 let turn = core::f64::consts::TAU;
                 let step_rad = (angle_rad - from_rad + 0.5 * turn).rem_euclid(turn) - 0.5 * turn;
-                from_s + step_rad / per_s
+                // The angle alone is right on circles; the nearest place on a helix is beside it.
+                let mut s = from_s + step_rad / per_s;
+                for _ in 0..2 {
+                    let jet = self.segment.jet(s.max(0.0).min(self.length_s));
+                    let gap = position - jet.position;
+                    s += gap.dot(&jet.d1) / (jet.d1.norm_squared() - gap.dot(&jet.d2)).max(0.5);
+                }
+                s
             }
             Prepared::Curve(curve) => {
                 // A piece turns little: from the place on its chord, Newton's method.
