@@ -5,9 +5,13 @@ use std::collections::VecDeque;
 use std::net::{Shutdown, TcpStream};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
 
 /// Connections that have not shown the token.
 const STRANGERS: usize = 64;
+/// How long each of them may stay at least: long enough to have its request read on a busy host. While all are
+/// newer, nobody else is let in, and whoever opens connections without end waits as all do.
+const STAY: Duration = Duration::from_millis(50);
 /// Open pages that have shown it.
 const PAGES: usize = 24;
 /// Other requests that have shown it.
@@ -17,9 +21,16 @@ const REQUESTS: usize = 32;
 #[derive(Debug, Default)]
 pub(crate) struct Places {
     /// The one that came first is in front.
-    strangers: Mutex<VecDeque<Arc<TcpStream>>>,
+    strangers: Mutex<VecDeque<Stranger>>,
     pages: AtomicUsize,
     requests: AtomicUsize,
+}
+
+/// One who has not shown the token, and since when.
+#[derive(Debug)]
+struct Stranger {
+    stream: Arc<TcpStream>,
+    since: Instant,
 }
 
 /// The place of one who has shown the token, until it is dropped.
@@ -33,18 +44,34 @@ impl Drop for Place<'_> {
 }
 
 impl Places {
-    /// Lets in one who has shown nothing yet. Where there is no room, the one that came first has to go.
+    /// Lets in one who has shown nothing yet. Where there is no room, the one that came first has to go,
+    /// as soon as it has had its time: until then this waits.
     pub(crate) fn enter(&self, stream: &Arc<TcpStream>) {
-        let mut strangers = self.strangers();
-        while strangers.len() >= STRANGERS {
-            show_out(strangers.pop_front());
+        loop {
+            let mut strangers = self.strangers();
+            let first = strangers.front().filter(|_| strangers.len() >= STRANGERS);
+            let left = first.map_or(Duration::ZERO, |first| {
+                STAY.saturating_sub(first.since.elapsed())
+            });
+            if left.is_zero() {
+                if strangers.len() >= STRANGERS {
+                    show_out(strangers.pop_front());
+                }
+                strangers.push_back(Stranger {
+                    stream: Arc::clone(stream),
+                    since: Instant::now(),
+                });
+                return;
+            }
+            drop(strangers);
+            std::thread::sleep(left);
         }
-        strangers.push_back(Arc::clone(stream));
     }
 
     /// It is no stranger any more, or has gone.
     pub(crate) fn leave(&self, stream: &Arc<TcpStream>) {
-        self.strangers().retain(|other| !Arc::ptr_eq(other, stream));
+        self.strangers()
+            .retain(|other| !Arc::ptr_eq(&other.stream, stream));
     }
 
     /// A place for a page that stays; `None` if all are taken.
@@ -57,7 +84,7 @@ impl Places {
         take(&self.requests, REQUESTS)
     }
 
-    fn strangers(&self) -> MutexGuard<'_, VecDeque<Arc<TcpStream>>> {
+    fn strangers(&self) -> MutexGuard<'_, VecDeque<Stranger>> {
         // The list is whole, whoever panicked.
         self.strangers
             .lock()
@@ -72,9 +99,9 @@ fn take(taken: &AtomicUsize, most: usize) -> Option<Place<'_>> {
 }
 
 /// Its thread, which waits for it, is told that it has ended.
-fn show_out(stranger: Option<Arc<TcpStream>>) {
+fn show_out(stranger: Option<Stranger>) {
     // One that has gone by itself need not be shown out.
-    let _gone = stranger.map(|stream| stream.shutdown(Shutdown::Both));
+    let _gone = stranger.map(|stranger| stranger.stream.shutdown(Shutdown::Both));
 }
 
 #[cfg(test)]
