@@ -195,7 +195,7 @@ fn hold_resume_override_and_abort_by_command() {
         let mut again = trajectory(3, 300, 2, here);
         peer.until(&mut again, "second", has_ended(2, EndOfEpoch::Completed));
     });
-    assert_eq!(status.commands_refused, 2);
+    assert_eq!(status.commands_refused, 1);
     assert_eq!(status.feed_override, 0.5);
     let positions: Vec<_> = setpoints
         .iter()

@@ -128,5 +128,5 @@ fn no_job_takes_the_service_away() {
     kill_process(planner, Signal::CONT).unwrap();
     let said = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(130), "{said}");
-    assert!(said.contains("the planner does not answer"), "{said}");
+    assert!(said.contains("has not said yet that it has"), "{said}");
 }

@@ -184,7 +184,7 @@ fn a_fault_is_reset_by_that_name() {
     let other = folder.path().join("other.ngc");
     std::fs::write(&other, "G21 G90 F600\nG1 X1\nM2\n").unwrap();
     let refused = ask(&["planner", other.to_str().unwrap(), "--resume"]);
-    assert_eq!(refused.0, Some(1), "{}", refused.1);
+    assert_eq!(refused.0, Some(5), "{}", refused.1);
     assert_eq!(ask(&["status"]).1["state"], "faulted");
     assert_eq!(ask(&["reset"]).0, Some(0));
     let status = wait_for("idle");

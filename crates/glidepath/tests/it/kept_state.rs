@@ -10,6 +10,7 @@
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
+use std::sync::atomic::{AtomicU32, Ordering};
 
 struct Machine {
     folder: tempfile::TempDir,
@@ -53,11 +54,9 @@ impl Machine {
 
     /// Has a program executed by a planner and an interpolator, as on a machine: `run` keeps nothing.
     fn execute(&self, args: &[&str]) {
-        let instance = format!("k{}", self.folder.path().display());
-        let instance: String = instance
-            .chars()
-            .filter(|c| c.is_ascii_alphanumeric() || *c == '_')
-            .collect();
+        static STARTED: AtomicU32 = AtomicU32::new(0);
+        let number = STARTED.fetch_add(1, Ordering::Relaxed);
+        let instance = format!("kept-{}-{number}", std::process::id());
         let mut interpolator = Command::new(env!("CARGO_BIN_EXE_glidepath"))
             .args([
                 "interpolator",
