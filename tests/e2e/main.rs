@@ -5,9 +5,11 @@
     reason = "test code, which clippy does not see as such"
 )]
 
+mod attack;
 mod chain;
 mod faults;
 mod hal;
+mod jobs;
 mod jog;
 mod libraries;
 mod life;
