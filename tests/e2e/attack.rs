@@ -97,6 +97,7 @@ impl<'a> Attack<'a> {
         self.log.push(format!("{what} ({state:?})"));
     }
 
+    #[allow(clippy::panic, reason = "a test that fails panics")]
     fn fail(&self, what: &str) -> ! {
         panic!("{what}\nafter:\n{}", self.log.join("\n"));
     }

@@ -92,6 +92,8 @@ fn a_planner_that_dies_leaves_the_machine_on_the_path_and_the_next_goes_on_from_
             assert_eq!(status.fault(), Ok(Some(FaultCause::PlannerLost)));
             assert_eq!(status.end_of_epoch(), Ok(EndOfEpoch::Faulted));
             rest = AxisVector::from(status.position);
+            machine.command(Command::Reset);
+            let _idle = machine.wait_for_state(MachineState::Idle);
             machine
                 .publish(&stop, |start| program_from(HOME, start), || {})
                 .unwrap();

@@ -40,10 +40,12 @@ fn a_killed_planner_is_replaced_in_the_middle_of_the_program() {
     );
 
     let mut planner = Process::join(&instance, &["planner", &program]);
-    // In the first lap, and in the rest of it again.
-    for (epoch, executed) in [(1, 230), (2, 330)] {
-        let _moving =
-            services.wait(|status| status.epoch == epoch && status.frames_executed > executed);
+    // In the first lap, and in the rest of it again. What was refused has used numbers of epochs up.
+    let mut epoch = 0;
+    for executed in [230, 330] {
+        let moving =
+            services.wait(|status| status.epoch > epoch && status.frames_executed > executed);
+        epoch = moving.epoch;
         planner.signal(Signal::KILL);
         let _killed = planner.wait();
         let left = services.wait_for(MachineState::Faulted);
@@ -63,10 +65,8 @@ fn a_killed_planner_is_replaced_in_the_middle_of_the_program() {
     }
     let _output = planner.wait().expect(0);
     let status = services.wait_for(MachineState::Idle);
-    assert_eq!(
-        (status.end_of_epoch(), status.epoch),
-        (Ok(EndOfEpoch::Completed), 3)
-    );
+    assert_eq!(status.end_of_epoch(), Ok(EndOfEpoch::Completed));
+    assert!(status.epoch > epoch, "{status:#?}");
     assert_eq!(status.position.map(f64::abs).map(f64::to_bits), [0; 9]);
     let refused = resume(&program).expect(1);
     assert!(refused.stderr.contains("came to its end"), "{refused:#?}");

@@ -104,6 +104,11 @@ fn a_killed_planner_leaves_the_machine_at_rest_and_a_new_one_goes_on() {
         "the cause is not told: {shown:#}"
     );
     let home = instance.file("home.ngc", "G21 G90 F6000\nG1 X0 Y0\n");
+    // Nothing but a reset clears a fault.
+    let _refused = Process::join(&instance, &["planner", &home])
+        .wait()
+        .expect(5);
+    let _reset = Process::join(&instance, &["reset"]).wait().expect(0);
     let _output = Process::join(&instance, &["planner", &home])
         .wait()
         .expect(0);

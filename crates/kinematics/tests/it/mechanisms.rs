@@ -7,6 +7,7 @@ use nalgebra::Vector3;
 use proptest::prelude::*;
 
 /// A mechanism with the middle and the half widths of a box inside its workspace (X Y Z A B C).
+#[allow(clippy::too_many_lines, reason = "a list")]
 fn machines() -> Vec<(Mechanism, [f64; 6], [f64; 6])> {
     let tilted_tool = Hexapod {
         tool: Vector3::new(10.0, -5.0, 60.0),
