@@ -1,5 +1,5 @@
 //! Orders of several clients in every phase of a job, and processes that are killed or hang, as a seed
-//! decides: a service with drives that answer, and every setpoint of it judged.
+//! decides: a service with drives that answer, and every setpoint of it judged. The wall clock jumps all the time.
 //!
 //! What must hold: a command that is to be answered is answered, or ends on a signal; after an abort that
 //! was accepted nothing moves until it is told to; what `status` names clears every fault; nothing wedges:
@@ -267,7 +267,7 @@ fn whatever_clients_do_a_machine_obeys_and_nothing_wedges() {
     let number = |name: &str| std::env::var(name).ok().map(|text| text.parse().unwrap());
     let steps = number("GLIDEPATH_ATTACK").unwrap_or(SAMPLE);
     let seed = number("GLIDEPATH_ATTACK_SEED").unwrap_or(1);
-    let instance = Instance::for_processes();
+    let instance = Instance::for_processes().with_a_wall_clock_that_jumps();
     let _watchdog = Watchdog::new(Duration::from_secs(240 + 10 * steps));
     let mut attack = Attack::begin(&instance, seed);
     attack.bring_back();

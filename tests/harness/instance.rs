@@ -1,14 +1,14 @@
 //! Shared memory for one test.
 
 use std::fs::File;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, Instant};
 
 use glidepath_link::{Ipc, LinkConfig, Status, Transport, remove_leftovers};
 use tempfile::TempDir;
 
-use crate::{glidepath, seats};
+use crate::{glidepath, seats, wall_clock};
 
 /// How long a status is waited for: far longer than it ever takes.
 const PATIENCE: Duration = Duration::from_secs(60);
@@ -20,6 +20,7 @@ const PATIENCE: Duration = Duration::from_secs(60);
 pub struct Instance {
     config: LinkConfig,
     root: TempDir,
+    wall_clock: Option<PathBuf>,
     _seats: Vec<File>,
 }
 
@@ -52,6 +53,7 @@ impl Instance {
         Self {
             config,
             root,
+            wall_clock: None,
             _seats: seats,
         }
     }
@@ -63,6 +65,18 @@ impl Instance {
         let instance = Self::new();
         let _binary = glidepath();
         instance
+    }
+
+    /// From now on processes start with a wall clock that jumps.
+    #[must_use]
+    pub fn with_a_wall_clock_that_jumps(mut self) -> Self {
+        self.wall_clock = Some(wall_clock::make(self.directory()));
+        self
+    }
+
+    /// What processes load first, for their wall clock to jump.
+    pub(crate) fn wall_clock(&self) -> Option<&Path> {
+        self.wall_clock.as_deref()
     }
 
     /// How processes find each other.

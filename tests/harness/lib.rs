@@ -32,6 +32,7 @@ mod services;
 mod setpoint_file;
 mod stack;
 mod tape;
+mod wall_clock;
 mod watchdog;
 
 pub use binary::glidepath;

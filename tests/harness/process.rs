@@ -65,6 +65,7 @@ impl Process {
             .env("XDG_RUNTIME_DIR", instance.directory())
             .env("TMPDIR", instance.directory())
             .env("NO_COLOR", "1")
+            .envs(instance.wall_clock().map(|clock| ("LD_PRELOAD", clock)))
             .current_dir(instance.directory())
             .stdin(input)
             .stdout(Stdio::piped())

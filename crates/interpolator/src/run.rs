@@ -176,6 +176,7 @@ fn validate(config: &Config) -> Result<(), RunError> {
 }
 
 /// A number that no other life of an interpolator has.
+#[expect(clippy::disallowed_methods, reason = "a number that need not grow")]
 fn boot_id() -> u64 {
     let since = SystemTime::now()
         .duration_since(UNIX_EPOCH)

@@ -121,6 +121,10 @@ fn origin(args: &RecordArgs, config: &MachineConfig, instance: &str) -> Result<O
         program,
         ..Origin::default()
     };
+    #[expect(
+        clippy::disallowed_methods,
+        reason = "what joins the steady clock to the calendar"
+    )]
     let now = SystemTime::now().duration_since(UNIX_EPOCH);
     let realtime_ns = now.map_or(0, |now| u64::try_from(now.as_nanos()).unwrap_or(0));
     origin.tell_clocks(realtime_ns, Monotonic.now_ns());
@@ -341,6 +345,7 @@ fn black_box(
 }
 
 /// The name of a file with the time in it, as `box-1732345678901.mcap`: ms since 1970.
+#[expect(clippy::disallowed_methods, reason = "a name for people")]
 fn timed(file: &Path) -> PathBuf {
     let now = SystemTime::now().duration_since(UNIX_EPOCH);
     let mut name = file.file_stem().unwrap_or_default().to_owned();

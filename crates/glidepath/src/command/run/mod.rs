@@ -141,6 +141,7 @@ fn plot_path(args: &RunArgs, guard: &Guard) -> Option<PathBuf> {
 }
 
 /// A name for the shared memory that no other run has.
+#[expect(clippy::disallowed_methods, reason = "a name")]
 fn own_instance() -> String {
     let since = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH);
     let nanos = since.unwrap_or_default().subsec_nanos();
