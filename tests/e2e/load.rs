@@ -27,12 +27,14 @@ fn program(seconds: u32, form: u32) -> String {
     format!("T1 M6\nS1000 M3\n{}", pocket(seconds, form))
 }
 
-/// Spins on every core until it is dropped.
+/// Spins on every core meanwhile: once, unless `GLIDEPATH_LOAD_BUSY` says otherwise. Eight a core are a host that
+/// compiles something large, and leave ordinary planning too little.
 fn beside_load<R>(work: impl FnOnce() -> R) -> R {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let busy = cores * number("GLIDEPATH_LOAD_BUSY", 1) as usize;
     let stop = AtomicBool::new(false);
     std::thread::scope(|scope| {
-        for _ in 0..cores {
+        for _ in 0..busy {
             scope.spawn(|| {
                 while !stop.load(Ordering::Relaxed) {
                     std::hint::spin_loop();

@@ -8,6 +8,7 @@
 //!   prefaulted memory, processor idle states) and reads every setting back; [`Mode::Strict`]
 //!   refuses to go on without any of it, [`Mode::BestEffort`] says what was granted;
 //! * [`DeadlineTimer`] wakes the thread on an absolute grid that never moves;
+//! * [`take_precedence`] puts a thread that plans before what need not be in time;
 //! * [`doctor`] says beforehand whether the host is fit for that, and how to mend it;
 //! * [`event_ring`] and [`Histogram`] carry what happened to a thread that may write logs;
 //! * [`forbid_system_calls`] and [`CountingAllocator`] prove, in tests, that the thread makes no
@@ -47,6 +48,7 @@ pub mod doctor;
 mod event_ring;
 mod histogram;
 mod host;
+mod precedence;
 mod processor_time;
 mod setup;
 mod sys;
@@ -56,6 +58,7 @@ pub use deadline::{DeadlineTimer, Rise, Wake};
 pub use event_ring::{EventReader, EventWriter, Events, event_ring};
 pub use histogram::{Histogram, Quantiles};
 pub use host::Host;
+pub use precedence::{PLANNING_NICE, take_precedence};
 pub use processor_time::ProcessorTime;
 pub use setup::{Entered, Grants, Item, Mode, NotRealTime, Outcome, Refusal, Request, enter};
 pub use sys::alloc::CountingAllocator;

@@ -31,6 +31,8 @@ use std::time::Duration;
 pub(super) fn planner(args: &PlannerArgs, config: &MachineConfig) -> Result<Exit, Failure> {
     let interrupt = Interrupt::install().map_err(Failure::Signals)?;
     end_with(args.end_with).map_err(Failure::Signals)?;
+    // Where that is not allowed, `glidepath doctor` says so; planning goes on as an ordinary process.
+    let _may_not = glidepath_realtime::take_precedence();
     let transport = session::join(&args.instance, config)?;
     let quiet = args.end_with.is_some();
     let Some(file) = &args.file else {

@@ -48,6 +48,7 @@ pub fn examine(host: &Host, demand: Demand) -> Vec<Check> {
     let mut checks = vec![
         kernel::preemption(host),
         privileges::scheduling(host, demand.priority),
+        privileges::precedence(host),
         privileges::memory_lock(host),
         privileges::group_budget(host),
         privileges::idle_latency(host),

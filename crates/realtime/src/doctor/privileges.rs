@@ -1,8 +1,8 @@
 //! What this process may do.
 
 use super::check::Check;
-use crate::Host;
 use crate::host::{field, field_kib};
+use crate::{Host, PLANNING_NICE};
 use rustix::fs::{Access, access};
 
 /// Bits of the capabilities in `/proc/self/status`, of capability.h.
@@ -54,6 +54,35 @@ pub(super) fn scheduling(host: &Host, priority: i32) -> Check {
         "systemd: AmbientCapabilities=CAP_SYS_NICE; at the shell: sudo setcap \
          cap_sys_nice,cap_ipc_lock+ep $(command -v glidepath), or `@realtime - rtprio 99` in \
          /etc/security/limits.d and a new login",
+    )
+}
+
+/// May a thread that plans take precedence over ordinary ones?
+pub(super) fn precedence(host: &Host) -> Check {
+    let name = "planning";
+    let status = host.text("proc/self/status").unwrap_or_default();
+    if is_capable(&status, CAP_SYS_NICE) {
+        return Check::ok(name, "CAP_SYS_NICE: precedence over ordinary processes");
+    }
+    // The limit counts from the other end: 20 less the nice value.
+    let highest = match soft_limit(host, "Max nice priority") {
+        Some(SoftLimit::Unlimited) => u64::MAX,
+        Some(SoftLimit::At(highest)) => highest,
+        None => 0,
+    };
+    let needed = 20_u64.saturating_add_signed(-i64::from(PLANNING_NICE));
+    if highest >= needed {
+        return Check::ok(name, "precedence over ordinary processes (nice)");
+    }
+    Check::warning(
+        name,
+        format!(
+            "no CAP_SYS_NICE, and no limit that allows nice {PLANNING_NICE}: beside a busy host plans may come late"
+        ),
+        format!(
+            "systemd: Nice={PLANNING_NICE}; at the shell: `@realtime - nice {PLANNING_NICE}` in \
+             /etc/security/limits.d and a new login"
+        ),
     )
 }
 

@@ -74,7 +74,7 @@ fn with(name: &str, path: &str, text: &str) -> Check {
 fn a_good_host_has_nothing_to_mend() {
     let (_folder, host) = host(GOOD);
     let checks = examine(&host, DEMAND);
-    assert_eq!(checks.len(), 15);
+    assert_eq!(checks.len(), 16);
     for check in checks {
         assert_eq!(
             (check.verdict, check.remedy),
@@ -121,6 +121,13 @@ const DEFECTS: &[(&str, &str, &str, Verdict, &str)] = &[
         "CapEff:\t0000000000000000\n",
         Verdict::Missing,
         "CAP_SYS_NICE",
+    ),
+    (
+        "planning",
+        "proc/self/status",
+        "CapEff:\t0000000000000000\n",
+        Verdict::Warning,
+        "Nice=-15",
     ),
     (
         "memory lock",
@@ -213,15 +220,21 @@ fn every_defect_is_found_and_has_a_remedy() {
 #[test]
 fn limits_stand_in_for_capabilities() {
     let limits = "Max locked memory         unlimited   unlimited   bytes\n\
+                  Max nice priority         35          35\n\
                   Max realtime priority     95          95\n";
-    let files = [
-        ("proc/self/status", "CapEff:\t0000000000000000\n"),
-        ("proc/self/limits", limits),
-    ];
-    let (_folder, host) = host(&files);
+    let with_limit = |limits| {
+        host(&[
+            ("proc/self/status", "CapEff:\t0000000000000000\n"),
+            ("proc/self/limits", limits),
+        ])
+    };
+    let (_folder, host) = with_limit(limits);
     assert_eq!(privileges::scheduling(&host, 80).verdict, Verdict::Ok);
     assert_eq!(privileges::scheduling(&host, 96).verdict, Verdict::Missing);
     assert_eq!(privileges::memory_lock(&host).verdict, Verdict::Ok);
+    assert_eq!(privileges::precedence(&host).verdict, Verdict::Ok);
+    let (_folder, host) = with_limit("Max nice priority         34          34\n");
+    assert_eq!(privileges::precedence(&host).verdict, Verdict::Warning);
 }
 
 #[test]
