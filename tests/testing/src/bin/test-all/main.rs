@@ -5,6 +5,9 @@
 //! cargo test-all [--allowed-skips FILE] [arguments of cargo test]
 //! ```
 //!
+//! Without a package among the arguments all that tests start, and the library that programs in other languages link to,
+//! are built at once before: built by the tests themselves, most of it is compiled a second time.
+//!
 //! With a list of allowed skips, one that is not in it is a failure. Skips are collected in the file that
 //! `GLIDEPATH_SKIPPED` names, with those that are there already; without it in one that is made for them.
 #![allow(
@@ -46,7 +49,14 @@ fn run(mut arguments: Vec<String>) -> Result<bool, String> {
         }
     };
     let mut summary = Summary::default();
-    let is_success = test(&arguments, &skips, &mut summary).map_err(|error| error.to_string())?;
+    let is_whole = !arguments.iter().any(|word| is_package(word));
+    if is_whole && !build(&arguments).map_err(|error| error.to_string())? {
+        summary.fail("cargo build".to_owned());
+        print!("\n{summary}");
+        return Ok(false);
+    }
+    let is_success = test(&arguments, is_whole, &skips, &mut summary);
+    let is_success = is_success.map_err(|error| error.to_string())?;
     let told = std::fs::read_to_string(&skips).unwrap_or_default();
     if is_own {
         // There is none where nothing was skipped.
@@ -78,15 +88,47 @@ fn allowed(arguments: &mut Vec<String>) -> Result<Option<Allowed>, String> {
     Ok(Some(allowed))
 }
 
+fn is_package(word: &str) -> bool {
+    word == "-p" || word.starts_with("--package")
+}
+
+fn cargo() -> Command {
+    Command::new(std::env::var_os("CARGO").unwrap_or_else(|| OsString::from("cargo")))
+}
+
+/// Builds everything, in the profile that is tested.
+fn build(arguments: &[String]) -> io::Result<bool> {
+    let mut command = cargo();
+    command.args([
+        "build",
+        "--workspace",
+        "--lib",
+        "--bins",
+        "--examples",
+        "--tests",
+    ]);
+    let release = ["--release", "-r"];
+    if arguments
+        .iter()
+        .any(|word| release.contains(&word.as_str()))
+    {
+        command.arg("--release");
+    }
+    Ok(command.status()?.success())
+}
+
 /// Runs them, and shows what they say. Both outputs of cargo are one: what a program says follows its name.
-fn test(arguments: &[String], skips: &PathBuf, summary: &mut Summary) -> io::Result<bool> {
-    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| OsString::from("cargo"));
+fn test(
+    arguments: &[String],
+    is_whole: bool,
+    skips: &PathBuf,
+    summary: &mut Summary,
+) -> io::Result<bool> {
     let (said, says) = io::pipe()?;
-    let mut command = Command::new(cargo);
+    let mut command = cargo();
     command.args(["test", "--no-fail-fast"]);
-    let has_package = |word: &String| word == "-p" || word.starts_with("--package");
-    if !arguments.iter().any(has_package) {
-        command.arg("--workspace");
+    if is_whole {
+        command.arg("--workspace").env("GLIDEPATH_BUILT", "1");
     }
     command
         .args(arguments)
