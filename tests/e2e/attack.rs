@@ -145,8 +145,10 @@ impl<'a> Attack<'a> {
         }
     }
 
-    /// An abort: if it is accepted, nothing moves any more, whatever is under way.
+    /// An abort: if it is accepted, nothing moves any more, whatever is under way. A client that is starting may be
+    /// accepted behind it; its job has a number of its own.
     fn abort(&mut self) {
+        let before = self.operated.wait(|_| true).job_number;
         let output = self.type_in(&["abort"]);
         if output.status.code() != Some(0) {
             self.fail(&format!("an abort was refused: {output:#?}"));
@@ -173,6 +175,7 @@ impl<'a> Attack<'a> {
             && !led.all(|s| {
                 s.joint_position.map(f64::to_bits) == first.joint_position.map(f64::to_bits)
             })
+            && self.operated.wait(|_| true).job_number == before
         {
             self.fail("it moves behind an abort");
         }
@@ -193,9 +196,12 @@ impl<'a> Attack<'a> {
     fn kill_service(&mut self) {
         self.note("the service is killed");
         self.service.signal(Signal::KILL);
-        let next = self.operated.process(&["planner", "--listen"]);
-        let killed = std::mem::replace(&mut self.service, next);
-        let _ended = killed.wait();
+        // One that starts while the killed one is not gone is refused.
+        while self.service.runs() {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        self.service = self.operated.process(&["planner", "--listen"]);
+        std::thread::sleep(self.chance.millis(0, 300));
         if !self.service.runs() {
             self.fail("no other service starts");
         }
