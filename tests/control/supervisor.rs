@@ -56,6 +56,7 @@ fn on_the_mill(effort: Effort) -> Settings {
     Settings {
         effort,
         smoothing: Smoothing::Auto,
+        corners: glidepath_program::Corners::default(),
         ..settings()
     }
 }

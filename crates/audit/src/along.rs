@@ -119,6 +119,7 @@ mod tests {
             limits,
             period_t: 0.01,
             tolerance_mm: 0.01,
+            corners: glidepath_program::Corners::default(),
         };
         // A circle of radius 2 at a speed, with jerk along it.
         let found = |speed_v: f64, accel_a: f64, jerk_j: f64| {

@@ -124,6 +124,7 @@ mod tests {
             limits,
             period_t: 0.004,
             tolerance_mm: 0.02,
+            corners: glidepath_program::Corners::default(),
         }
     }
 

@@ -126,20 +126,22 @@ impl Follow {
         self.count += 1;
     }
 
-    /// Goes on to a frame.
-    pub(crate) fn to(&mut self, frame: &Frame) -> Nearby {
-        let step_s = feed_length(&(frame.position - self.position));
-        self.position = frame.position;
+    /// Goes on to a position.
+    pub(crate) fn go(&mut self, position: &AxisVector) {
+        let step_s = feed_length(&(position - self.position));
+        self.position = *position;
         let Some(here) = self.moves.get(self.here) else {
             (self.distance_mm, self.least_mm) = (0.0, 0.0);
-            return Nearby {
-                feed_v: f64::INFINITY,
-                tolerance_mm: self.tolerance_mm,
-            };
+            return;
         };
         let reach_s = self.here_s + 2.0 * step_s + 4.0 * here.tolerance_mm;
-        self.choose(&frame.position, reach_s);
-        self.leave(&frame.position);
+        self.choose(position, reach_s);
+        self.leave(position);
+    }
+
+    /// Goes on to a frame.
+    pub(crate) fn to(&mut self, frame: &Frame) -> Nearby {
+        self.go(&frame.position);
         let here = self.moves.get(self.here);
         Nearby {
             feed_v: here.map_or(f64::INFINITY, |here| self.feed_v(here, self.here_s, frame)),

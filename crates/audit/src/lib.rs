@@ -27,6 +27,7 @@
 //!     limits: Limits::uniform(200.0, 2000.0, 40_000.0), // mm/s, mm/s², mm/s³
 //!     period_t: 0.004,
 //!     tolerance_mm: 0.02,
+//!     corners: glidepath_program::Corners::default(),
 //! });
 //! for (tick, x_mm) in [0.0, 0.0, 1.0, 1.0].into_iter().enumerate() {
 //!     let mut position = AxisVector::zeros();

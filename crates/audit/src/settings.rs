@@ -1,6 +1,6 @@
 //! What a motion is judged by.
 
-use glidepath_program::{Limits, Settings};
+use glidepath_program::{Corners, Limits, Settings};
 
 /// What a motion is judged by.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -12,6 +12,8 @@ pub struct AuditSettings {
     /// Tolerance in mm where the program gives none (G64 P), > 0: for XYZ together, for UVW
     /// together, and in degrees for each rotary axis.
     pub tolerance_mm: f64,
+    /// On which side of the program's corners the motion is to be.
+    pub corners: Corners,
 }
 
 /// What a motion that was planned with these settings is judged by.
@@ -21,6 +23,7 @@ impl From<&Settings> for AuditSettings {
             limits: planned.limits,
             period_t: planned.period_t,
             tolerance_mm: planned.tolerance_mm,
+            corners: planned.corners,
         }
     }
 }

@@ -124,6 +124,7 @@ fn planned() -> Vec<Frame> {
         limits: mill(),
         tolerance_mm: 0.02,
         smoothing: Smoothing::Sextic,
+        corners: glidepath_program::Corners::default(),
         period_t: 0.004,
         effort: Effort::Fast,
     };

@@ -69,6 +69,7 @@ pub(crate) fn planned(
         limits,
         tolerance_mm: 0.02,
         smoothing: Smoothing::Auto,
+        corners: glidepath_program::Corners::default(),
         period_t: 0.004,
         effort,
     };

@@ -90,6 +90,7 @@ fn plans(name: &str, path: &NurbsPath) {
             limits,
             tolerance_mm,
             smoothing: Smoothing::Auto,
+            corners: glidepath_program::Corners::default(),
             period_t: 0.004,
             effort: Effort::Fast,
         };

@@ -88,6 +88,7 @@ fn settings(effort: Effort, smoothing: Smoothing) -> Settings {
         limits: Limits::uniform(200.0, 2000.0, JERK_J),
         tolerance_mm: 0.02,
         smoothing,
+        corners: glidepath_program::Corners::default(),
         period_t: PERIOD_T,
         effort,
     }
@@ -157,6 +158,7 @@ fn plan(beginning: &Beginning, settings: Settings) -> Result<Plan, PlanError> {
         limits: settings.limits,
         period_t: settings.period_t,
         tolerance_mm: settings.tolerance_mm,
+        corners: glidepath_program::Corners::default(),
     };
     let (mut audit, mut diagnosis) = (Audit::new(&judged), Diagnosis::new(&judged));
     let mut planner = Planner::new(settings, AxisVector::zeros());

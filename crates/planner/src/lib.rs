@@ -42,6 +42,7 @@
 //!     limits: Limits::uniform(200.0, 2000.0, 40_000.0), // mm/s, mm/s², mm/s³
 //!     tolerance_mm: 0.02,
 //!     smoothing: Smoothing::Auto,
+//!     corners: glidepath_program::Corners::default(),
 //!     period_t: 0.004,
 //!     effort: Effort::Fast,
 //! };

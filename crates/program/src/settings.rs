@@ -18,6 +18,17 @@ pub enum Smoothing {
     ExactStop,
 }
 
+/// On which side of the program the motion may be, within the tolerance.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Corners {
+    /// On either side: the motion may swing out of corners, and axes may pass the places where they stop.
+    #[default]
+    Either,
+    /// On the inner side of corners between straight feed moves, as a rounded corner is; and an axis
+    /// that comes to a rest, sets out from one or turns round does not pass that place.
+    Inner,
+}
+
 /// How much work planning may cost.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Effort {
@@ -40,6 +51,8 @@ pub struct Settings {
     pub tolerance_mm: f64,
     /// How corners are passed; what names a curve is planned with [`Effort::Fast`].
     pub smoothing: Smoothing,
+    /// On which side of them [`Effort::Optimal`] may be. [`Effort::Fast`] rounds them, on the inner one.
+    pub corners: Corners,
     /// Interpolation period in seconds, > 0.
     pub period_t: f64,
     /// Planning effort.

@@ -74,7 +74,7 @@ impl Diagnosis {
             counts: [0; COUNT],
             places: Places::new(settings.period_t),
             smoothness: Smoothness::new(settings.period_t),
-            shape: Shape::default(),
+            shape: Shape::new(settings.corners),
             deviation: Deviation::default(),
             feed_v: 0.0,
         }
@@ -151,7 +151,7 @@ impl Diagnosis {
 
     /// The summary, after the last frame.
     #[must_use]
-    pub fn finish(self) -> Summary {
+    pub fn finish(mut self) -> Summary {
         let total: u64 = self.counts.iter().sum();
         #[allow(clippy::cast_precision_loss, reason = "shares, for people")]
         let share = |count: u64| count as f64 / total.max(1) as f64;

@@ -32,6 +32,16 @@ fn unit(line: &Line) -> Option<AxisVector> {
     in_space(&line.displacement()).try_normalize(1e-6)
 }
 
+/// Cosine of the turn from one move to the next, in X, Y and Z; none where either does not move there.
+pub(super) fn turn_cos(before: &Move, behind: &Move) -> Option<f64> {
+    let ends = [
+        before.programmed.jet(before.length_s).d1,
+        behind.programmed.jet(0.0).d1,
+    ];
+    let [from, to] = ends.map(|along| in_space(&along).try_normalize(1e-6));
+    Some(from?.dot(&to?))
+}
+
 impl Corner {
     /// Between two feed moves one after the other; none where they are no corner of a figure.
     pub(super) fn between(before: &Move, behind: &Move) -> Option<Self> {

@@ -16,22 +16,30 @@
 //! * *Reversals* of each axis, in the motion and in the program: each is a passage through the
 //!   backlash of its drive.
 //!
-//! They are told and judge nothing: all of it may be inside the tolerance. Work is linear in frames
-//! and items, memory that of the moves at hand.
+//! They are told; all of it may be inside the tolerance. Two of them are judged, with [`BEYOND_MM`],
+//! where the motion is to be on the inner side ([`Corners::Inner`]): a motion outside of a corner, and an
+//! axis beyond the place where it comes to a rest, sets out from one or turns round ([`ShapeFinding`]).
+//! Work is linear in frames and items, memory that of the moves at hand.
 
 mod corner;
+mod finding;
 mod met;
 mod overshoot;
 mod reversals;
+mod stop;
 
+use crate::AuditSettings;
 use crate::follow::Follow;
 use corner::Corner;
-use glidepath_geometry::{AXES, AxisVector, Segment};
-use glidepath_program::{Item, ItemKind};
+use finding::Findings;
+pub use finding::{BEYOND_MM, KEPT, ShapeFinding};
+use glidepath_geometry::{AXES, Axis, AxisVector, Segment};
+use glidepath_program::{Corners, Item, ItemKind};
 pub use met::Met;
 use overshoot::Overshoots;
 pub use reversals::HYSTERESIS_MM;
 use reversals::{Reversals, waypoints};
+use stop::Stops;
 
 /// A straight feed move has a middle half from this length on, mm.
 pub const STRAIGHT_MM: f64 = 5.0;
@@ -53,6 +61,10 @@ pub struct ShapeReport {
     pub reversals: [u64; AXES],
     /// Reversals of each axis that the program asks for.
     pub programmed_reversals: [u64; AXES],
+    /// Vertices of the program at which the motion is on the outer side.
+    pub finding_count: u64,
+    /// The first of them.
+    pub findings: [Option<ShapeFinding>; KEPT],
 }
 
 /// The figures of a motion as it goes by.
@@ -63,12 +75,58 @@ pub(crate) struct Shape {
     motion: Reversals,
     outside: Met,
     beside: Met,
+    corners: Corners,
+    findings: Findings,
     straight_moves: u64,
     /// The straight move whose middle half was met last.
     straight: Option<u64>,
 }
 
+/// The shape of a motion by itself, without all else that is told of it.
+#[derive(Debug)]
+pub struct ShapeAudit {
+    follow: Follow,
+    shape: Shape,
+}
+
+impl ShapeAudit {
+    /// With nothing seen yet.
+    #[must_use]
+    pub fn new(settings: &AuditSettings) -> Self {
+        Self {
+            follow: Follow::new(settings),
+            shape: Shape::new(settings.corners),
+        }
+    }
+
+    /// The next item of the program.
+    pub fn program(&mut self, item: &Item) {
+        self.follow.program(item);
+        self.shape.program(item);
+    }
+
+    /// The next position, and the source line of the motion there. The program must have been fed as far.
+    pub fn next(&mut self, position: &AxisVector, line: u32) {
+        self.follow.go(position);
+        self.shape.next(position, line, &self.follow);
+    }
+
+    /// What there is to tell, after the last position.
+    #[must_use]
+    pub fn finish(mut self) -> ShapeReport {
+        self.shape.report()
+    }
+}
+
 impl Shape {
+    /// Nothing seen yet; corners are to be passed on these sides.
+    pub(crate) fn new(corners: Corners) -> Self {
+        Self {
+            corners,
+            ..Self::default()
+        }
+    }
+
     /// The next item of the program.
     pub(crate) fn program(&mut self, item: &Item) {
         if let ItemKind::Move { segment, .. } = &item.kind {
@@ -83,6 +141,9 @@ impl Shape {
         let Some(here) = follow.here() else {
             return;
         };
+        if self.corners == Corners::Inner {
+            self.judge_stops(position, line, follow);
+        }
         let Segment::Line(chord) = here.programmed else {
             return;
         };
@@ -101,6 +162,14 @@ impl Shape {
         if let Some(corner) = corner {
             let outside_mm = corner.outside_mm(position, is_late);
             self.outside.see(outside_mm, line);
+            if self.corners == Corners::Inner {
+                let finding = ShapeFinding {
+                    axis: None,
+                    distance_mm: outside_mm,
+                    line,
+                };
+                self.findings.see(here.number + u64::from(is_late), finding);
+            }
         }
         let is_middle = (0.25 * length..=0.75 * length).contains(&follow.here_s());
         if length >= STRAIGHT_MM && is_middle {
@@ -111,7 +180,33 @@ impl Shape {
         }
     }
 
-    pub(crate) fn report(&self) -> ShapeReport {
+    /// Whether axes are beyond the stops of the nearer end of the move at hand.
+    fn judge_stops(&mut self, position: &AxisVector, line: u32, follow: &Follow) {
+        let Some(here) = follow.here() else {
+            return;
+        };
+        let is_late = follow.here_s() > 0.5 * here.length_s;
+        let stops = if is_late {
+            follow.next().and_then(|next| Stops::between(here, next))
+        } else {
+            let last = follow.previous();
+            last.and_then(|last| Stops::between(last, here))
+        };
+        let Some(stops) = stops else {
+            return;
+        };
+        for axis in Axis::ALL {
+            let finding = ShapeFinding {
+                axis: Some(axis),
+                distance_mm: stops.beyond_mm(position, axis.index()),
+                line,
+            };
+            self.findings.see(here.number + u64::from(is_late), finding);
+        }
+    }
+
+    pub(crate) fn report(&mut self) -> ShapeReport {
+        self.findings.settle();
         let [below, above] = self.overshoots.report();
         ShapeReport {
             below,
@@ -121,6 +216,8 @@ impl Shape {
             straight_moves: self.straight_moves,
             reversals: self.motion.counts,
             programmed_reversals: self.program.counts,
+            finding_count: self.findings.count,
+            findings: self.findings.kept,
         }
     }
 }

@@ -25,6 +25,8 @@ struct Beyond {
 struct Side {
     beyond: Option<Beyond>,
     worst: Met,
+    /// The last coordinate, if there was one.
+    last: Option<f64>,
 }
 
 /// All axes, below and above.
@@ -36,8 +38,10 @@ pub(super) struct Overshoots {
 impl Side {
     /// The next coordinate and the largest that is asked for, both with the sign of the side.
     fn next(&mut self, at: f64, asked: f64, line: u32) {
+        // What has not come yet to where it is asked for is not beyond it: a rounded corner.
+        let goes_out = self.last.replace(at).is_none_or(|last| at > last);
         match &mut self.beyond {
-            None if at - asked > LEAST_MM => {
+            None if goes_out && at - asked > LEAST_MM => {
                 let mut most = Met::default();
                 most.see(at - asked, line);
                 self.beyond = Some(Beyond { asked, most });

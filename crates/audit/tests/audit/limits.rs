@@ -48,6 +48,7 @@ fn judge(limits: Limits, samples: &[Sample]) -> Report {
         limits,
         period_t: PERIOD,
         tolerance_mm: TOLERANCE,
+        corners: glidepath_program::Corners::default(),
     };
     let mut audit = Audit::new(&settings);
     let end = samples[samples.len() - 1].position;
@@ -210,6 +211,7 @@ fn rounding_far_from_the_origin_is_no_jerk() {
         limits,
         period_t,
         tolerance_mm: TOLERANCE,
+        corners: glidepath_program::Corners::default(),
     });
     // At rest, but for the last bit of the coordinate.
     let at = 8000.0_f64;

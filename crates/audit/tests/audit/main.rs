@@ -30,6 +30,7 @@ fn settings(limit: f64) -> AuditSettings {
         limits: Limits::uniform(limit, limit, limit),
         period_t: PERIOD,
         tolerance_mm: TOLERANCE,
+        corners: glidepath_program::Corners::default(),
     }
 }
 

@@ -8,10 +8,11 @@
 
 use crate::{TOLERANCE, point, polygon, settings, walk};
 use core::f64::consts::PI;
+use glidepath_audit::AuditSettings;
 use glidepath_audit::diagnosis::{Diagnosis, Summary};
-use glidepath_audit::shape::ShapeReport;
+use glidepath_audit::shape::{ShapeAudit, ShapeReport};
 use glidepath_geometry::AxisVector;
-use glidepath_program::{Frame, FrameFlags, ItemKind, Limits, Rate};
+use glidepath_program::{Corners, Frame, FrameFlags, ItemKind, Limits, Rate};
 
 /// X, Y, Z.
 fn at(x: f64, y: f64, z: f64) -> AxisVector {
@@ -22,7 +23,7 @@ fn at(x: f64, y: f64, z: f64) -> AxisVector {
 
 /// What is told of a motion along a polygon at feed, and the largest deviation shown.
 fn told(program: &[AxisVector], motion: &[AxisVector]) -> (Summary, f64) {
-    let mut diagnosis = Diagnosis::new(&settings(Limits::UNLIMITED));
+    let mut diagnosis = Diagnosis::new(&inside());
     for mut item in polygon(program) {
         if let ItemKind::Move { rate, .. } = &mut item.kind {
             *rate = Rate::Feed(25.0);
@@ -45,6 +46,14 @@ fn told(program: &[AxisVector], motion: &[AxisVector]) -> (Summary, f64) {
         most_mm = most_mm.max(diagnosis.deviation().distance_mm);
     }
     (diagnosis.finish(), most_mm)
+}
+
+/// Corners on their inner side.
+fn inside() -> AuditSettings {
+    AuditSettings {
+        corners: Corners::Inner,
+        ..settings(Limits::UNLIMITED)
+    }
 }
 
 fn shape(program: &[AxisVector], motion: &[AxisVector]) -> ShapeReport {
@@ -173,4 +182,64 @@ fn the_deviation_shown_is_not_that_from_a_later_move() {
     let (_, most_mm) = told(&program, &motion);
     assert!(most_mm <= 0.0011, "{most_mm}");
     assert!(most_mm < TOLERANCE);
+}
+
+/// What comes to its place late, on the inner side of a rounded corner, is not beyond it.
+#[test]
+fn what_has_not_come_yet_is_not_beyond() {
+    let program = PLUNGE.map(|[x, y, z]| at(x, y, z));
+    let mut motion = walk(&program, 0.1);
+    let corner = motion.iter().position(|p| p[2] <= -1.0).unwrap();
+    for (k, position) in motion.iter_mut().skip(corner).take(30).enumerate() {
+        position[2] += 0.015 * (1.0 - k as f64 / 30.0);
+    }
+    let told = shape(&program, &motion);
+    assert!(told.above[2].distance_mm < 1e-9, "{told:?}");
+    assert_eq!(told.finding_count, 0, "{told:?}");
+    // Once there, it may not leave again.
+    bump(&mut motion, 2, corner + 40, corner + 60, 0.005);
+    let above = shape(&program, &motion).above[2];
+    assert!((above.distance_mm - 0.005).abs() < 2e-4, "{above:?}");
+}
+
+#[test]
+fn what_is_beyond_a_stop_or_outside_of_a_corner_is_a_finding() {
+    let program = PLUNGE.map(|[x, y, z]| at(x, y, z));
+    let clean = walk(&program, 0.1);
+    assert_eq!(shape(&program, &clean).finding_count, 0);
+    // Down to the depth, and up to the clearance plane, where X sets out and where it stops.
+    for (axis, from, height, sign) in [(2, 58, -0.0188, -1.0), (0, 175, 0.012, 1.0)] {
+        for (height, count) in [(height, 1), (sign * 5e-4, 0), (-height, 0)] {
+            let mut motion = clean.clone();
+            bump(&mut motion, axis, from, from + 12, height);
+            let told = shape(&program, &motion);
+            let findings: Vec<_> = told.findings.iter().flatten().collect();
+            let of_axis = findings
+                .iter()
+                .filter(|found| found.axis.is_some_and(|found| found.index() == axis));
+            assert_eq!(of_axis.count(), count, "{axis} {height}: {findings:?}");
+        }
+    }
+}
+
+#[test]
+fn on_either_side_nothing_is_a_finding() {
+    let program = PLUNGE.map(|[x, y, z]| at(x, y, z));
+    let mut deep = walk(&program, 0.1);
+    bump(&mut deep, 2, 58, 70, -0.0188);
+    for (corners, count) in [(Corners::Either, 0), (Corners::Inner, 1)] {
+        let mut audit = ShapeAudit::new(&AuditSettings {
+            corners,
+            ..inside()
+        });
+        for item in polygon(&program) {
+            audit.program(&item);
+        }
+        for (line, position) in (0..).zip(&deep) {
+            audit.next(position, line);
+        }
+        let told = audit.finish();
+        assert_eq!(told.finding_count, count, "{told:?}");
+        assert!(told.below[2].distance_mm > 0.018, "{told:?}");
+    }
 }

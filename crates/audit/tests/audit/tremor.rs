@@ -44,6 +44,7 @@ fn settings(limits: Limits) -> AuditSettings {
         limits,
         period_t: PERIOD,
         tolerance_mm: TOLERANCE,
+        corners: glidepath_program::Corners::default(),
     }
 }
 

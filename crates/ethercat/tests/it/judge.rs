@@ -11,6 +11,7 @@ pub(crate) fn audited(setup: &Setup, records: &[Vec<SyncRecord>]) -> Report {
         limits: limits(),
         period_t: setup.bus.period_ns as f64 * 1e-9,
         tolerance_mm: 0.02,
+        corners: glidepath_program::Corners::default(),
     });
     let count = records.iter().map(Vec::len).min().unwrap_or(0);
     let mut last = AxisVector::zeros();

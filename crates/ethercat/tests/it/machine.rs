@@ -156,6 +156,7 @@ pub(crate) fn plan(text: &str, start: AxisVector, epoch: u64) -> Vec<SetpointFra
         limits: limits(),
         tolerance_mm: 0.02,
         smoothing: Smoothing::Auto,
+        corners: glidepath_program::Corners::default(),
         period_t: 0.004,
         effort: Effort::Optimal,
     };

@@ -12,7 +12,7 @@ use glidepath_kinematics::{
     AxisRates, AxisShare, JOINTS, JointLimits, JointWatch, Kinematics as _, Mechanism, PathCaps,
 };
 use glidepath_motion::preview::AdvanceRetreat;
-use glidepath_program::{Effort, Limits, PathBounds, Settings, Smoothing};
+use glidepath_program::{Corners, Effort, Limits, PathBounds, Settings, Smoothing};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -38,6 +38,8 @@ pub struct PathConfig {
     pub tolerance_mm: f64,
     /// The curve at corners.
     pub smoothing: Smoothing,
+    /// The side of corners.
+    pub corners: Corners,
     /// Planning effort.
     pub effort: Effort,
     /// mm/min where the program has no F; `None` refuses such a program.
@@ -284,6 +286,7 @@ impl MachineConfig {
             limits: self.limits(),
             tolerance_mm: self.path.tolerance_mm,
             smoothing: self.path.smoothing,
+            corners: self.path.corners,
             period_t: self.period_t(),
             effort: self.path.effort,
         }

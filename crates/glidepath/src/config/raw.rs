@@ -115,6 +115,7 @@ pub(super) struct RawAxis {
 pub(super) struct RawPath {
     pub(super) tolerance: Optional<f64>,
     pub(super) smoothing: Optional<String>,
+    pub(super) corners: Optional<String>,
     pub(super) effort: Optional<String>,
     pub(super) default_feed: Optional<f64>,
     pub(super) max_tangential_acceleration: Optional<f64>,

@@ -24,6 +24,11 @@ pub struct ShapeFigures {
     pub beside_straight: Distance,
     /// Straight feed moves that long.
     pub straight_moves: u64,
+    /// Places at which the motion is on the outer side of the program by more than 1 µm, where it is to
+    /// be on the inner one: an axis beyond its stop, or the motion outside of a corner.
+    pub finding_count: u64,
+    /// The first of them.
+    pub findings: Vec<String>,
 }
 
 /// The shape of an axis.
@@ -82,11 +87,19 @@ impl ShapeFigures {
             outside_corners: shape.outside.into(),
             beside_straight: shape.beside.into(),
             straight_moves: shape.straight_moves,
+            finding_count: shape.finding_count,
+            findings: shape
+                .findings
+                .iter()
+                .flatten()
+                .map(ToString::to_string)
+                .collect(),
         }
     }
 
     /// The figures for people.
-    pub(super) fn text(&self) -> String {
+    #[must_use]
+    pub fn text(&self) -> String {
         let lines = self.lines();
         let mut text = String::new();
         for (index, (what, words)) in lines.into_iter().enumerate() {
@@ -147,6 +160,13 @@ impl ShapeFigures {
             ));
         }
         lines.push(("reversals", or_none(reversals)));
+        if let Some(first) = self.findings.first() {
+            let count = grouped(self.finding_count);
+            lines.push((
+                "not inside",
+                format!("{count} findings, the first: {first}"),
+            ));
+        }
         lines
     }
 }

@@ -198,11 +198,15 @@ impl InTubeEngine {
     fn extend(&mut self, entry: LedgerEntry, mut reference: Reference) {
         if !matches!(self.drive, Drive::Window(_)) {
             let Settings {
-                limits, period_t, ..
+                limits,
+                period_t,
+                corners,
+                ..
             } = &self.settings;
             self.drive = Drive::Window(Stretch {
                 planner: TubePlanner::new(limits, *period_t, self.position, self.bias)
-                    .with_joints(self.joints.clone()),
+                    .with_joints(self.joints.clone())
+                    .with_corners(*corners),
                 ledger: Ledger::new(self.wanted),
                 length_s: 0.0,
                 end: self.position,

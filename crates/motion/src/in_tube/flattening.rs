@@ -166,6 +166,7 @@ impl Flattener {
             tolerance_mm: left_mm,
             tolerance_deg: left_mm,
             bow: chord.bow,
+            is_rapid: chord.rate.is_rapid(),
             tag: 0,
         };
         let entry = LedgerEntry {

@@ -29,6 +29,7 @@ fn sheet(period_t: f64) -> Settings {
         limits,
         tolerance_mm: 0.001,
         smoothing: Smoothing::Auto,
+        corners: glidepath_program::Corners::default(),
         period_t,
         effort: Effort::Fast,
     }

@@ -46,6 +46,7 @@ fn settings(limits: Limits, tolerance_mm: f64, smoothing: Smoothing, period_t: f
         limits,
         tolerance_mm,
         smoothing,
+        corners: glidepath_program::Corners::default(),
         period_t,
         effort: Effort::Fast,
     }

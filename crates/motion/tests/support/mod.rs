@@ -15,6 +15,7 @@ pub(crate) fn mill() -> Settings {
         limits: Limits::uniform(200.0, 2000.0, 40_000.0),
         tolerance_mm: 0.02,
         smoothing: Smoothing::Sextic,
+        corners: glidepath_program::Corners::default(),
         period_t: 0.004,
         effort: Effort::Fast,
     }
@@ -29,6 +30,7 @@ pub(crate) fn efforts() -> [Settings; 2] {
 pub(crate) fn optimal() -> Settings {
     Settings {
         smoothing: Smoothing::Auto,
+        corners: glidepath_program::Corners::default(),
         effort: Effort::Optimal,
         ..mill()
     }

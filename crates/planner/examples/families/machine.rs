@@ -45,6 +45,7 @@ impl Machine {
             limits: Limits::uniform(self.velocity_v, self.acceleration_a, self.jerk_j),
             tolerance_mm,
             smoothing: Smoothing::Auto,
+            corners: glidepath_program::Corners::default(),
             period_t,
             effort,
         }

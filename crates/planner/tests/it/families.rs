@@ -48,6 +48,7 @@ fn settings((velocity, acceleration, jerk): (f64, f64, f64), period_t: f64) -> S
         limits: Limits::uniform(velocity, acceleration, jerk),
         tolerance_mm: 0.02,
         smoothing: Smoothing::Auto,
+        corners: glidepath_program::Corners::default(),
         period_t,
         effort: Effort::Fast,
     }

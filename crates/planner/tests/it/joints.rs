@@ -206,6 +206,7 @@ fn used(machine: &Machine, effort: Effort, text: &str, feed_r: f64) -> [f64; 3] 
         },
         tolerance_mm: 0.02,
         smoothing: Smoothing::Auto,
+        corners: glidepath_program::Corners::default(),
         period_t: PERIOD_T,
         effort,
     };

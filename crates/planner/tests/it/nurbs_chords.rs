@@ -57,6 +57,7 @@ fn no_chord_is_beyond_the_tolerance() {
                                 limits,
                                 tolerance_mm,
                                 smoothing: Smoothing::Auto,
+                                corners: glidepath_program::Corners::default(),
                                 period_t,
                                 effort,
                             },

@@ -65,6 +65,7 @@ impl Profile {
             limits: Limits::uniform(velocity, acceleration, jerk),
             tolerance_mm: self.tolerance_mm,
             smoothing,
+            corners: glidepath_program::Corners::default(),
             period_t: PERIOD_T,
             effort: Effort::Optimal,
         }

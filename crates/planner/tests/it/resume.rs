@@ -111,6 +111,7 @@ fn deviation(items: &[Item], positions: impl Iterator<Item = AxisVector>) -> f64
         limits: Limits::uniform(1e6, 1e9, 1e12),
         period_t: 0.004,
         tolerance_mm: 0.02,
+        corners: glidepath_program::Corners::default(),
     });
     for item in items {
         audit.program(item);

@@ -56,6 +56,7 @@ fn settings() -> Settings {
         limits: Limits::uniform(200.0, 2000.0, JERK_J),
         tolerance_mm: 0.02,
         smoothing: Smoothing::Auto,
+        corners: glidepath_program::Corners::default(),
         period_t: PERIOD_T,
         effort: Effort::Optimal,
     }

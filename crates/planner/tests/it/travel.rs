@@ -90,6 +90,7 @@ impl Box3 {
             limits,
             tolerance_mm,
             smoothing: Smoothing::Auto,
+            corners: glidepath_program::Corners::default(),
             period_t,
             effort,
         }

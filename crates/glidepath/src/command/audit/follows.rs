@@ -5,6 +5,7 @@ use super::led::Led;
 use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::plan_steps::PlanSteps;
+use glidepath_audit::shape::{ShapeAudit, ShapeReport};
 use glidepath_audit::{Audit, AuditSettings, Passed, Sample, ViolationKind};
 use glidepath_geometry::AxisVector;
 use glidepath_link::{MachineState, Setpoint};
@@ -20,6 +21,7 @@ const SAME_MM: f64 = 1e-9;
 /// The judge of a motion by its program.
 pub(super) struct Follows {
     audit: Audit,
+    shape: ShapeAudit,
     program: FileSource,
     told_s: f64,
     /// The positions of the plan, by sequence; none where they need not be those.
@@ -65,6 +67,7 @@ impl Follows {
         };
         Ok(Self {
             audit: Audit::new(&settings).with_override(most.max(1.0)),
+            shape: ShapeAudit::new(&settings),
             // After a pass over all of it, which identifies it.
             program: FileSource::open(path, config.program_options(stands), &config.settings())?,
             told_s: 0.0,
@@ -118,6 +121,7 @@ impl Follows {
             }
         } else {
             self.audit.sample(&sample);
+            self.shape.next(&sample.position, sample.line);
         }
         // What is done behind the program, by hand, is none of its business.
         self.is_over = is_idle && self.has_moved;
@@ -153,12 +157,13 @@ impl Follows {
             self.told_s += segment.length();
         }
         self.audit.program(&item);
+        self.shape.program(&item);
         true
     }
 
     /// The verdict; `is_whole` if the motion went on to the end of the program. Gives the largest
-    /// deviation, mm, too.
-    pub(super) fn finish(mut self, is_whole: bool) -> (Findings, f64) {
+    /// deviation, mm, too, and what there is to tell of the shape.
+    pub(super) fn finish(mut self, is_whole: bool) -> (Findings, f64, ShapeReport) {
         while self.tell() {}
         let report = self.audit.finish();
         let mut findings = Findings::default();
@@ -213,6 +218,6 @@ impl Follows {
         // Those that are not listed are told as if they were of the program.
         findings.count +=
             report.violation_count.saturating_sub(listed) * u64::from(others < listed);
-        (findings, report.max_deviation_mm)
+        (findings, report.max_deviation_mm, self.shape.finish())
     }
 }

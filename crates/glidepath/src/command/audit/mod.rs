@@ -13,7 +13,7 @@ use crate::exit::Exit;
 use crate::file_error::FileError;
 use crate::output;
 use crate::program_file::ProgramFile;
-use crate::report::grouped;
+use crate::report::{ShapeFigures, grouped};
 use continuity::Continuity;
 use finding::Findings;
 use follows::Follows;
@@ -99,6 +99,7 @@ struct Verdict {
     is_cut: bool,
     most: [f64; 3],
     max_deviation_mm: Option<f64>,
+    shape: Option<ShapeFigures>,
     was_replanned: bool,
     findings: Findings,
     notes: Vec<String>,
@@ -257,9 +258,10 @@ fn follow(
     if !is_whole {
         verdict.note("the motion ends before the program does");
     }
-    let (findings, max_deviation_mm) = follows.finish(is_whole);
+    let (findings, max_deviation_mm, shape) = follows.finish(is_whole);
     verdict.findings.join(findings);
     verdict.max_deviation_mm = Some(max_deviation_mm);
+    verdict.shape = Some(ShapeFigures::new(&shape, &config.axis_names()));
     Ok(())
 }
 
@@ -289,6 +291,7 @@ impl Verdict {
                 "max_acceleration_ratio": acceleration,
                 "max_jerk_ratio": jerk,
                 "max_deviation_mm": self.max_deviation_mm,
+                "shape": self.shape,
                 "was_replanned": self.was_replanned,
                 "notes": self.notes,
                 "finding_count": self.findings.count,
@@ -313,6 +316,9 @@ impl Verdict {
                 ""
             };
             text.push_str(&format!("  deviation     {deviation_mm:.4} mm{plan}\n"));
+        }
+        if let Some(shape) = &self.shape {
+            text.push_str(&shape.text());
         }
         for note in &self.notes {
             text.push_str(&format!("  note          {note}\n"));

@@ -156,6 +156,7 @@ impl Judge {
             limits: config.limits(),
             period_t: config.period_t(),
             tolerance_mm: config.path.tolerance_mm,
+            corners: config.path.corners,
         };
         Ok(Self {
             audit: Audit::new(&judged),

@@ -4,7 +4,7 @@
 use super::values::{Judge, Range};
 use crate::config::machine::PathConfig;
 use crate::config::raw::{Optional, RawPath};
-use glidepath_program::{Effort, Limits, PathBounds, Smoothing};
+use glidepath_program::{Corners, Effort, Limits, PathBounds, Smoothing};
 
 pub(super) const TOLERANCE: Range = Range {
     min: 1e-5,
@@ -15,6 +15,9 @@ pub(super) const TOLERANCE: Range = Range {
 
 pub(super) const EFFORTS: [(&str, Effort); 2] =
     [("optimal", Effort::Optimal), ("fast", Effort::Fast)];
+
+pub(super) const CORNERS: [(&str, Corners); 2] =
+    [("either", Corners::Either), ("inner", Corners::Inner)];
 
 impl Judge {
     pub(super) fn path(&mut self, raw: RawPath) -> PathConfig {
@@ -37,6 +40,7 @@ impl Judge {
                     ("exact-stop", Smoothing::ExactStop),
                 ],
             ),
+            corners: self.choice("path.corners", raw.corners, &CORNERS),
             effort: self.choice("path.effort", raw.effort, &EFFORTS),
             default_feed: raw
                 .default_feed

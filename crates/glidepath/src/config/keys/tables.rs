@@ -221,6 +221,16 @@ pub(super) const PATH: &[Key] = &[
          effort \"fast\"",
     ),
     key(
+        "path.corners",
+        Takes::Choice {
+            of: &["either", "inner"],
+        },
+        LeftOut::Value("\"either\""),
+        "on which side of the program effort \"optimal\" may be, within the tolerance. \"either\": corners \
+         may be swung out of; \"inner\": on the inner side of corners, and no axis passes the place where \
+         it stops or turns round",
+    ),
+    key(
         "path.effort",
         Takes::Choice {
             of: &["optimal", "fast"],

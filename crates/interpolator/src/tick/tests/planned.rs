@@ -97,6 +97,7 @@ fn a_short_period_gets_under_way() {
         limits: mill(),
         tolerance_mm: 0.02,
         smoothing: Smoothing::Sextic,
+        corners: glidepath_program::Corners::default(),
         period_t: 0.000_9,
         effort: Effort::Fast,
     };

@@ -12,8 +12,9 @@
 //! ```
 
 use super::reference::Reference;
+use super::sense::{Course, Sense};
 use crate::feed_axes::counted_axes;
-use glidepath_geometry::{AxisVector, LINEAR_XYZ, ROTARY_ABC, UVW, feed_length};
+use glidepath_geometry::{AXES, AxisVector, LINEAR_XYZ, ROTARY_ABC, UVW, feed_length};
 use std::collections::VecDeque;
 
 /// Radius of the ball, in tolerances, inside which vertices are drawn together.
@@ -38,6 +39,12 @@ pub(crate) struct TubePiece {
     pub(crate) tolerance_deg: f64,
     /// From its middle to the program.
     pub(crate) bow: AxisVector,
+    /// It has no feed.
+    pub(crate) is_rapid: bool,
+    /// What every axis does along it.
+    pub(crate) senses: [Sense; AXES],
+    /// The displacement of the piece before, if both are straight cuts.
+    pub(crate) cut_before: Option<AxisVector>,
     pub(crate) tag: u64,
 }
 
@@ -85,6 +92,30 @@ impl TubePiece {
 }
 
 impl TubePiece {
+    /// The tolerance of an axis.
+    pub(crate) fn tolerance(&self, axis: usize) -> f64 {
+        if ROTARY_ABC.contains(&axis) {
+            self.tolerance_deg
+        } else {
+            self.tolerance_mm
+        }
+    }
+
+    fn course(&self) -> Course<'_> {
+        Course {
+            start: &self.start,
+            end: &self.end,
+            bow: &self.bow,
+            start_s: self.start_s,
+            tolerances: core::array::from_fn(|axis| self.tolerance(axis)),
+        }
+    }
+
+    /// True if it is a straight feed move of the program.
+    pub(crate) fn is_cut(&self) -> bool {
+        !self.is_rapid && self.bow.amax() <= 0.0
+    }
+
     /// Speed along the path in the sense of the feed.
     pub(crate) fn path_v(&self, velocity: &AxisVector) -> f64 {
         let counted = counted_axes(&(self.end - self.start));
@@ -104,6 +135,8 @@ pub(crate) struct ReferencePath {
     /// The last vertex kept, and feed length up to it.
     corner: AxisVector,
     corner_s: f64,
+    /// The piece that ends there.
+    last: Option<TubePiece>,
     /// A piece that has not left the ball round the last vertex.
     held: Option<Reference>,
     is_finished: bool,
@@ -116,6 +149,7 @@ impl ReferencePath {
             base: 0,
             corner: start,
             corner_s: 0.0,
+            last: None,
             held: None,
             is_finished: false,
         }
@@ -147,6 +181,9 @@ impl ReferencePath {
             tolerance_mm: piece.tolerance_mm * keep_r,
             tolerance_deg: piece.tolerance_deg * keep_r,
             bow: piece.bow,
+            is_rapid: piece.is_rapid,
+            senses: core::array::from_fn(|axis| Sense::at_rest(self.corner[axis])),
+            cut_before: None,
             tag: piece.tag,
         }
     }
@@ -155,8 +192,14 @@ impl ReferencePath {
         let Some(reference) = self.held.take() else {
             return;
         };
-        let piece = self.as_piece(&reference);
+        let mut piece = self.as_piece(&reference);
         if piece.length_s > 0.0 {
+            let before = self.last.map(|last| last.end - last.start);
+            let senses = self.last.map_or(piece.senses, |last| last.senses);
+            piece.senses = piece.course().senses(&senses, before.as_ref());
+            let is_cut = |last: &TubePiece| last.is_cut() && piece.is_cut();
+            piece.cut_before = before.filter(|_| self.last.as_ref().is_some_and(is_cut));
+            self.last = Some(piece);
             self.corner = piece.end;
             self.corner_s += piece.length_s;
             self.pieces.push_back(piece);

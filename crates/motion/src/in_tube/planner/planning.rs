@@ -203,6 +203,7 @@ impl PlannerState {
             limits: &self.limits,
             period_t: self.period_t,
             joints: &self.joints,
+            corners: self.corners,
             grid,
             reference_path: &self.reference_path,
             history: &self.history,

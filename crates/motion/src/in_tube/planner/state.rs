@@ -6,7 +6,7 @@ use crate::in_tube::verify::{Follower, History, Reachable};
 use crate::in_tube::window::{Grid, Optimisers, SearchBias};
 use crate::joints::SharedJoints;
 use glidepath_geometry::AxisVector;
-use glidepath_program::Limits;
+use glidepath_program::{Corners, Limits};
 
 /// Most legs from vertex to vertex before windows are tried again.
 pub(crate) const MOST_LEGS: usize = 8;
@@ -39,6 +39,7 @@ pub(crate) struct PlannerState {
     pub(crate) limits: Limits,
     pub(crate) period_t: f64,
     pub(crate) joints: SharedJoints,
+    pub(crate) corners: Corners,
     pub(crate) reference_path: ReferencePath,
     /// Positions handed out last, and where on the path the last one is.
     pub(crate) history: History,
@@ -64,6 +65,7 @@ impl PlannerState {
             limits: *limits,
             period_t,
             joints: None,
+            corners: Corners::default(),
             reference_path: ReferencePath::new(start),
             history: History::new(start),
             follower: Follower::new(Reachable::start_of(0), 0),

@@ -9,6 +9,7 @@
 mod bench;
 mod calls;
 mod extremes;
+mod inner;
 
 use super::state::ActiveMotion;
 use super::*;
@@ -18,7 +19,7 @@ use crate::in_tube::period::Period;
 use crate::in_tube::window::PLAN_WORK;
 use glidepath_audit::{Audit, AuditSettings, Report, Sample};
 use glidepath_geometry::{AxisVector, Segment};
-use glidepath_program::{Item, ItemKind, Limits, PathMode, Rate};
+use glidepath_program::{Corners, Item, ItemKind, Limits, PathMode, Rate};
 use proptest::prelude::{ProptestConfig, proptest};
 
 /// A path with everything needed to plan and to judge it.
@@ -28,6 +29,7 @@ struct Case {
     period_t: f64,
     tolerance_mm: f64,
     feed_v: f64,
+    corners: Corners,
     points: Vec<AxisVector>,
 }
 
@@ -38,6 +40,7 @@ impl Case {
             period_t: 0.004,
             tolerance_mm: 0.02,
             feed_v: 100.0,
+            corners: Corners::default(),
             points,
         }
     }
@@ -53,6 +56,7 @@ impl Case {
                     tolerance_mm: self.tolerance_mm,
                     tolerance_deg: self.tolerance_mm,
                     bow: AxisVector::zeros(),
+                    is_rapid: false,
                     tag: k as u64,
                 }
             })
@@ -66,6 +70,7 @@ impl Case {
             self.points[0],
             SearchBias::USUAL,
         )
+        .with_corners(self.corners)
     }
 
     fn plan(&self) -> Vec<Period> {
@@ -90,22 +95,28 @@ impl Case {
         periods
     }
 
+    fn items(&self) -> impl Iterator<Item = Item> {
+        let moves = (1..).zip(self.points.windows(2));
+        moves.map(|(line, ends)| Item {
+            block: 0,
+            line,
+            kind: ItemKind::Move {
+                segment: Segment::line(ends[0], ends[1]),
+                rate: Rate::Feed(self.feed_v),
+                mode: PathMode::Continuous { tolerance_mm: None },
+            },
+        })
+    }
+
     fn audit(&self, periods: &[Period]) -> Report {
         let mut audit = Audit::new(&AuditSettings {
             limits: self.limits,
             period_t: self.period_t,
             tolerance_mm: self.tolerance_mm,
+            corners: self.corners,
         });
-        for (line, ends) in (1..).zip(self.points.windows(2)) {
-            audit.program(&Item {
-                block: 0,
-                line,
-                kind: ItemKind::Move {
-                    segment: Segment::line(ends[0], ends[1]),
-                    rate: Rate::Feed(self.feed_v),
-                    mode: PathMode::Continuous { tolerance_mm: None },
-                },
-            });
+        for item in self.items() {
+            audit.program(&item);
         }
         let zero = AxisVector::zeros();
         let start = (self.points[0], 1, [zero, zero]);
@@ -222,6 +233,7 @@ fn random_case(seed: u64, is_light: bool) -> Case {
         limits,
         period_t: 0.004,
         tolerance_mm: if is_light { 0.03 } else { 0.02 },
+        corners: Corners::default(),
         feed_v: if is_light { 83.333 } else { 100.0 },
         points,
     }

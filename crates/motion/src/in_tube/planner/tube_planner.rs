@@ -7,7 +7,7 @@ use crate::in_tube::verify::FEED_SLACK;
 use crate::in_tube::window::SearchBias;
 use crate::joints::SharedJoints;
 use glidepath_geometry::AxisVector;
-use glidepath_program::Limits;
+use glidepath_program::{Corners, Limits};
 
 /// Plans one stretch of motion between two rests.
 #[derive(Debug, Clone)]
@@ -30,6 +30,12 @@ impl TubePlanner {
     /// The same planner, before its first piece, for joints that are not the axes.
     pub(crate) fn with_joints(mut self, joints: SharedJoints) -> Self {
         self.state.joints = joints;
+        self
+    }
+
+    /// The same planner, before its first piece, on other sides of corners than the usual ones.
+    pub(crate) const fn with_corners(mut self, corners: Corners) -> Self {
+        self.state.corners = corners;
         self
     }
 

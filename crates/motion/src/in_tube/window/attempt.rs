@@ -9,7 +9,7 @@ use crate::in_tube::path::{ReferencePath, directional};
 use crate::in_tube::verify::{Follower, History};
 use crate::joints::SharedJoints;
 use glidepath_geometry::{AXES, AxisVector};
-use glidepath_program::Limits;
+use glidepath_program::{Corners, Limits};
 
 /// Most pieces a window looks at.
 const MOST_PIECES: usize = 4096;
@@ -91,6 +91,7 @@ pub(crate) struct WindowContext<'a> {
     pub(crate) limits: &'a Limits,
     pub(crate) period_t: f64,
     pub(crate) joints: &'a SharedJoints,
+    pub(crate) corners: Corners,
     pub(crate) grid: &'a Grid,
     pub(crate) reference_path: &'a ReferencePath,
     pub(crate) history: &'a History,
@@ -188,6 +189,7 @@ fn attempt<const D: usize>(
     )
     .with_joints(context.joints);
     path.is_final |= view.is_halt;
+    path = path.with_sides(context.reference_path, context.corners);
     let motion = attempt_along(optimiser, &path, (context, view, tail));
     optimiser.segments = path.segments;
     optimiser.segments.clear();
@@ -219,7 +221,7 @@ fn attempt_along<const D: usize>(
     };
     let mut judge = |points: &[[f64; D]], question| {
         let points: Vec<_> = points.iter().map(|point| path.outside(point)).collect();
-        passes(context, &points, question)
+        passes((context, path), &points, question)
     };
     let solution = match context.search {
         Search::Whole(most_work) => {
@@ -248,13 +250,18 @@ fn end_exactly(context: &WindowContext<'_>, points: &mut [AxisVector]) {
 }
 
 /// Follows a motion to its rest.
-fn passes(context: &WindowContext<'_>, points: &[AxisVector], question: Question) -> bool {
+fn passes<const D: usize>(
+    (context, path): (&WindowContext<'_>, &ScaledPath<D>),
+    points: &[AxisVector],
+    question: Question,
+) -> bool {
     let mut points = points.to_vec();
     if question == Question::IsEnd {
         end_exactly(context, &mut points);
     }
     let mut history = context.history.clone();
     let mut follower = context.follower.to(context.end);
+    let mut place = context.progress;
     let periods = context.grid.periods_in(points.len() - 3);
     for period in 1..=periods + 3 {
         let next = context.grid.state(&points, period);
@@ -265,8 +272,16 @@ fn passes(context: &WindowContext<'_>, points: &[AxisVector], question: Question
                 return false;
             }
         }
+        let before = history.last();
         if !history.follow(context.limits, context.period_t, way, &next) {
             return false;
+        }
+        if context.corners == Corners::Inner {
+            let reachable = &follower.reachable;
+            place = reachable.nearest(context.reference_path, &next.position, place);
+            if !path.is_on_its_sides(place, [&before, &next.position]) {
+                return false;
+            }
         }
     }
     // A chord that has missed a vertex could not be led on from the rest.

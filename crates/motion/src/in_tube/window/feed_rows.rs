@@ -16,6 +16,7 @@
 
 use super::cuts::{WORTH_OF_FEED, piece_at, pieces_at, sample_at, slowest_feed};
 use super::scaled_path::SHARP;
+use super::sense_rows;
 use super::solver::{FAR, Problem};
 use super::speed::velocity_over_feed;
 use super::tube::Layout;
@@ -57,6 +58,7 @@ pub(crate) fn add<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, 
             let normal = core::array::from_fn(|a| direction[a] * slowest[a] / h);
             problem.add_feed_row(normal, [-FAR, style.feed_r], style.is_feed_firm);
         }
+        sense_rows::add(problem, layout, k);
     }
 }
 

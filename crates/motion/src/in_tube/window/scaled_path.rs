@@ -5,6 +5,7 @@
 //! groups allow: a point within the radius in this space is within tolerance in every group. It
 //! also makes millimetres and degrees, and millimetres and micrometres, the same problem.
 
+use super::sides::Sides;
 use super::solver::dot;
 use crate::feed_axes::counted_axes;
 use crate::in_tube::path::{ReferencePath, TubePiece, directional};
@@ -48,6 +49,8 @@ pub(crate) struct ScaledSegment<const D: usize> {
     pub(crate) level: [Option<f64>; D],
     /// Across: first in the plane of the corner at its end, then whatever completes the base.
     pub(crate) normals: [[f64; D]; D],
+    /// On which the motion is to stay.
+    pub(crate) sides: Sides<D>,
 }
 
 impl<const D: usize> ScaledSegment<D> {
@@ -68,10 +71,10 @@ pub(crate) struct ScaledPath<const D: usize> {
     /// The path ends with the last piece.
     pub(crate) is_final: bool,
     /// The moving axes, and how many they are: the rest of the `D` stays at zero.
-    axes: [usize; D],
-    moving: usize,
-    unit: [f64; D],
-    origin: AxisVector,
+    pub(super) axes: [usize; D],
+    pub(super) moving: usize,
+    pub(super) unit: [f64; D],
+    pub(super) origin: AxisVector,
     /// Coordinates at which pieces leave an axis alone, in the space of the window and as programmed,
     /// by rising order.
     levels: [Vec<(f64, f64)>; D],
@@ -232,6 +235,7 @@ impl<const D: usize> ScaledPath<D> {
             bow,
             level,
             normals: [[0.0; D]; D],
+            sides: Sides::none(),
         });
     }
 

@@ -49,7 +49,6 @@ fn add_wall<const D: usize>(
     points: &[[f64; D]],
     (axis, wall, outwards): (usize, f64, f64),
 ) {
-    let free = problem.free();
     let mut normal = [0.0; D];
     normal[axis] = outwards;
     let mut center = [0.0; D];
@@ -62,8 +61,7 @@ fn add_wall<const D: usize>(
         }
         for weights in POINTS {
             // What is given or pinned is where it is.
-            let is_given = |k: usize| !free.contains(&k) || problem.pins[k][axis];
-            if (0..4).all(|k| weights[k] <= 0.0 || is_given(first + k)) {
+            if problem.is_given((first, &weights), axis) {
                 continue;
             }
             problem.add_site(first, weights);

@@ -20,6 +20,7 @@
 //! The round parts are bounded by planes ([`super::cuts`]).
 
 use super::cuts::{CLOSE_R, Cuts, HALF_WAY, Passing, Plane, nearest_to_corner};
+use super::one_sided;
 use super::samples::Samples;
 use super::scaled_path::{SHARP, ScaledPath};
 use super::solver::{FAR, Problem, dot};
@@ -262,6 +263,8 @@ fn add_tube<const D: usize>(
         let normal = plane.normal.map(|n| n / radius);
         problem.add_row(normal, &plane.center, [-FAR, 1.0]);
     }
+    let progress = layout.samples.progress[k];
+    one_sided::keep(problem, layout.path, (piece, progress), radius);
     if layout.samples.has_middle(k) {
         add_middle(problem, layout, k, radius);
     }
@@ -287,6 +290,8 @@ fn add_middle<const D: usize>(
         let normal = plane.normal.map(|n| n / radius);
         problem.add_row(normal, &plane.center, [-FAR, 1.0]);
     }
+    let progress = 0.5 * (layout.samples.progress[k - 1] + layout.samples.progress[k]);
+    one_sided::keep(problem, layout.path, (piece, progress), radius);
 }
 
 /// The line from the sample before `k` to sample `k` comes near the corners between.

@@ -23,6 +23,9 @@ pub(in crate::in_tube::window) const FIRM_PRICE: f64 = 1000.0;
 /// A bound that does not bind.
 pub(in crate::in_tube::window) const FAR: f64 = 1e3;
 
+/// Cosine from which two directions are the same.
+const SAME_COS: f64 = 1.0 - 1e-12;
+
 /// Most control points in a row.
 pub(in crate::in_tube::window) const SPAN: usize = 4;
 
@@ -176,6 +179,33 @@ impl<const D: usize> Problem<D> {
         }
     }
 
+    /// Keeps the last site where `normal · y ≥ least`, for a unit vector: a row of it that is across the
+    /// same way ends there; if there is none, there is another one, with violations in a measure.
+    pub(in crate::in_tube::window) fn keep_beyond(
+        &mut self,
+        normal: &[f64; D],
+        least: f64,
+        measure: f64,
+    ) {
+        let Some(site) = self.sites.last() else {
+            return;
+        };
+        for row in &mut self.rows[site.rows.clone()] {
+            let size = dot(&row.normal, &row.normal).sqrt();
+            let cos = dot(&row.normal, normal) / size;
+            if cos > SAME_COS {
+                row.low = row.low.max(size * least);
+                return;
+            }
+            if cos < -SAME_COS {
+                row.high = row.high.min(-size * least);
+                return;
+            }
+        }
+        let center = normal.map(|n| n * least);
+        self.add_row(normal.map(|n| n / measure), &center, [0.0, FAR]);
+    }
+
     /// How many differences of an order the start alone does not give, if any has a bound.
     pub(in crate::in_tube::window) fn differences(&self, order: usize) -> usize {
         let is_bounded = self.bounds[order].iter().any(|bound| bound.is_finite());
@@ -184,6 +214,17 @@ impl<const D: usize> Problem<D> {
         } else {
             0
         }
+    }
+
+    /// True if an axis of a weighted sum of control points is not to be found, but given.
+    pub(in crate::in_tube::window) fn is_given(
+        &self,
+        (first, weights): (usize, &[f64; SPAN]),
+        axis: usize,
+    ) -> bool {
+        let free = self.free();
+        let is_given = |k: usize| !free.contains(&k) || self.pins[k][axis];
+        (0..SPAN).all(|k| weights[k].abs() <= 0.0 || is_given(first + k))
     }
 
     /// Control points that are unknown.

@@ -1,0 +1,221 @@
+//! Which side of the program a motion may be on.
+//!
+//! Within the tube the fastest motion swings out before a corner and beyond an end, as a car takes a
+//! bend. What is left on the inner side can be taken away by a finishing cut; what is gone on the outer
+//! side cannot. So, if the motion is to stay on the inner side ([`Corners::Inner`]), the tube is one-sided
+//! where that is the question:
+//!
+//! ```text
+//!        V ────────▶        An axis that comes to a rest, or sets out from one, stays on the side
+//!        │ ╲                that it comes from or goes to: no plunge goes below its depth.
+//!        │   motion         At a corner V the motion stays between the two sides, in the wedge that
+//!        │                  they make, each side for its half that is nearer to the corner.
+//! ```
+//!
+//! All of that are half-spaces by place: where on which piece a sample is. Most are a side of the tube
+//! already, which only moves; the others become rows near their borders. And where an axis is not to
+//! turn round, its control points rise or fall with the program ([`super::sense_rows`]): else the motion would
+//! dip into the inner side behind each corner, and come back.
+
+use super::scaled_path::{SHARP, ScaledPath};
+use super::sides::{AxisSides, Corner, HalfSpace, Stop};
+use super::solver::{Problem, dot};
+use crate::in_tube::path::{Origin, ReferencePath, TubePiece, WORTH_R, Way};
+use glidepath_geometry::AxisVector;
+use glidepath_program::Corners;
+
+/// Pieces shorter than so many radii are no figure with corners: the motion may leave them out.
+const FIGURE_R: f64 = 8.0;
+/// How near to a border the path is where a row is needed, in radii.
+const NEAR_R: f64 = 8.0;
+/// What a motion may be beyond a border, in radii: a fifth of a micrometre of the usual tolerance.
+const BEYOND_R: f64 = 0.01;
+
+impl<const D: usize> ScaledPath<D> {
+    /// The same path with the sides on which the motion is to stay; the pieces are those it was made of.
+    pub(crate) fn with_sides(mut self, reference_path: &ReferencePath, corners: Corners) -> Self {
+        if corners == Corners::Either {
+            return self;
+        }
+        for i in (0..self.segments.len()).rev() {
+            let Some(piece) = reference_path.get(self.first + i) else {
+                continue;
+            };
+            for k in 0..self.moving {
+                self.segments[i].sides.axes[k] = self.axis_sides(piece, (i, k));
+            }
+            self.add_corner(piece, i);
+        }
+        self
+    }
+
+    fn axis_sides(&self, piece: &TubePiece, (i, k): (usize, usize)) -> AxisSides {
+        let segment = &self.segments[i];
+        let sense = &piece.senses[self.axes[k]];
+        let from = (sense.from - self.origin[self.axes[k]]) / self.unit[k];
+        let before = Stop {
+            sign: match (sense.way, sense.origin) {
+                (Way::Rest, _) => sense.came,
+                (Way::Bent, _) | (_, Origin::Motion) => 0.0,
+                _ => sense.way.sign(),
+            },
+            at: from,
+            s: segment.s - (piece.start_s - sense.from_s) / self.unit[k],
+            is_turn: sense.origin == Origin::Turn,
+        };
+        let next = self.segments.get(i + 1).map(|next| next.sides.axes[k]);
+        let mut sides = AxisSides {
+            way: sense.way.sign(),
+            is_rest: sense.way == Way::Rest,
+            from,
+            to: self.vertex(i)[k],
+            before,
+            behind: Stop::default(),
+        };
+        if let Some(next) = next.filter(|next| sides.goes_on_as(next)) {
+            sides.to = next.to;
+        }
+        let is_worth =
+            |sides: &AxisSides| (sides.to - sides.from).abs() >= WORTH_R * segment.radius;
+        sides.behind = self.stop_behind((i, k), &sides, is_worth);
+        if !sides.is_rest && !is_worth(&sides) {
+            (sides.before, sides.behind) = (Stop::default(), Stop::default());
+        }
+        sides
+    }
+
+    /// Where axis `k` stops next behind piece `i`.
+    fn stop_behind(
+        &self,
+        (i, k): (usize, usize),
+        sides: &AxisSides,
+        is_worth: impl Fn(&AxisSides) -> bool,
+    ) -> Stop {
+        let stop = Stop {
+            sign: sides.way,
+            at: sides.to,
+            s: self.segments[i].s + self.segments[i].length,
+            is_turn: false,
+        };
+        let Some(next) = self.segments.get(i + 1).map(|next| &next.sides.axes[k]) else {
+            return if self.is_final { stop } else { Stop::default() };
+        };
+        if sides.goes_on_as(next) {
+            return next.behind;
+        }
+        if sides.is_rest {
+            // What follows sets out from here.
+            let sign = if is_worth(next) { next.way } else { 0.0 };
+            return Stop { sign, ..stop };
+        }
+        let is_turn = next.way * sides.way < 0.0 && self.turn(i, i + 1) > SHARP;
+        if next.is_rest || is_turn {
+            Stop { is_turn, ..stop }
+        } else {
+            Stop::default()
+        }
+    }
+
+    fn add_corner(&mut self, piece: &TubePiece, i: usize) {
+        let is_figure =
+            |path: &Self, i: usize| path.segments[i].length >= FIGURE_R * path.segments[i].radius;
+        let Some(before) = piece.cut_before.filter(|_| is_figure(self, i)) else {
+            return;
+        };
+        let before = self.direction(&before);
+        let length = dot(&before, &before).sqrt();
+        let segment = &self.segments[i];
+        if length < FIGURE_R * segment.radius {
+            return;
+        }
+        let along = before.map(|value| value / length);
+        let corner = Corner::between(segment.start, [&along, &segment.tangent], SHARP);
+        self.segments[i].sides.corners[0] = corner;
+        if let Some(before) = i.checked_sub(1) {
+            self.segments[before].sides.corners[1] = corner;
+        }
+    }
+
+    /// A displacement in the space of the window.
+    fn direction(&self, displacement: &AxisVector) -> [f64; D] {
+        let mut along = [0.0; D];
+        for k in 0..self.moving {
+            along[k] = displacement[self.axes[k]] / self.unit[k];
+        }
+        along
+    }
+
+    /// Gives every half-space in which a sample on piece `i` is to be, at a progress.
+    pub(crate) fn half_spaces(&self, i: usize, progress: f64, mut give: impl FnMut(HalfSpace<D>)) {
+        let segment = &self.segments[i];
+        for (k, axis) in segment.sides.axes.iter().enumerate() {
+            for (sign, at) in axis.borders(progress).into_iter().flatten() {
+                let mut normal = [0.0; D];
+                normal[k] = sign;
+                give(HalfSpace {
+                    normal,
+                    least: sign * at,
+                    axis: Some(k),
+                });
+            }
+        }
+        let is_late = progress - segment.s > 0.5 * segment.length;
+        if let Some(corner) = &segment.sides.corners[usize::from(is_late)] {
+            for normal in corner.inner {
+                give(HalfSpace {
+                    normal,
+                    least: dot(&normal, &corner.vertex),
+                    axis: None,
+                });
+            }
+        }
+    }
+
+    /// True if the end of a period is on the sides on which the motion is to stay at a parameter of a
+    /// piece, by its number on the whole path; give or take the way of the period.
+    pub(crate) fn is_on_its_sides(
+        &self,
+        (index, u): (usize, f64),
+        [from, to]: [&AxisVector; 2],
+    ) -> bool {
+        let i = index - self.first;
+        let Some(segment) = self.segments.get(i) else {
+            return true;
+        };
+        let (place, progress) = (self.inside(to), segment.s + u * segment.length);
+        let step = self.direction(&(to - from));
+        let way = dot(&step, &step).sqrt();
+        let allowed = BEYOND_R * segment.radius;
+        let ends = [segment.s, segment.s + segment.length];
+        [0.0, -way, way].into_iter().any(|shift| {
+            let mut is_inside = true;
+            let at = (progress + shift).max(ends[0]).min(ends[1]);
+            self.half_spaces(i, at, |side| {
+                is_inside &= dot(&side.normal, &place) >= side.least - allowed;
+            });
+            is_inside
+        })
+    }
+}
+
+/// Keeps the last site, which belongs to a sample on piece `i` at a progress, on its sides.
+pub(super) fn keep<const D: usize>(
+    problem: &mut Problem<D>,
+    path: &ScaledPath<D>,
+    (i, progress): (usize, f64),
+    radius: f64,
+) {
+    let Some(site) = problem.sites.last() else {
+        return;
+    };
+    let (first, weights) = (site.first, site.weights);
+    let here = path.position(i, progress);
+    path.half_spaces(i, progress, |side| {
+        let is_given = side
+            .axis
+            .is_some_and(|axis| problem.is_given((first, &weights), axis));
+        if !is_given && dot(&side.normal, &here) - side.least < NEAR_R * radius {
+            problem.keep_beyond(&side.normal, side.least, radius);
+        }
+    });
+}

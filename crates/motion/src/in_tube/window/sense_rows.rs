@@ -1,0 +1,34 @@
+//! Rows that keep axes from turning round where the program does not.
+//!
+//! Where an axis rests next to a stop, or is slow, its control points rise or fall with the program. Else
+//! the motion would dip into the inner side behind each corner and come back, each time through the
+//! backlash of the drive.
+
+use super::cuts::sample_at;
+use super::solver::{FAR, Problem};
+use super::tube::Layout;
+
+/// How slow an axis is, in radii a knot, where it might turn round.
+const SLOW_R: f64 = 0.25;
+/// What a row counts as one, in radii.
+const BACK_R: f64 = 0.1;
+
+/// Adds rows to the last site, which is first difference `k` of the control points.
+pub(super) fn add<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, D>, k: usize) {
+    let (path, points) = (layout.path, layout.points);
+    let sample = sample_at(layout.samples, &layout.style.grid, 2 * k - 1);
+    let progress = layout.samples.progress[sample];
+    let segment = &path.segments[layout.samples.piece[sample]];
+    let radius = segment.radius;
+    for (axis, sides) in segment.sides.axes.iter().enumerate() {
+        let sense = sides.sense(progress, radius);
+        let step = sense * (points[k + 1][axis] - points[k][axis]);
+        let is_slow = sides.is_rest || step < SLOW_R * radius;
+        if sense == 0.0 || !is_slow || problem.is_given((k, &[1.0, 1.0, 0.0, 0.0]), axis) {
+            continue;
+        }
+        let mut normal = [0.0; D];
+        normal[axis] = sense / (BACK_R * radius);
+        problem.add_row(normal, &[0.0; D], [0.0, FAR]);
+    }
+}

@@ -1,0 +1,151 @@
+//! The sides of a piece on which a motion is to stay, and where an axis stops next to it.
+//!
+//! ```text
+//!   before ●━━━━━━━━━━━●  at rest         An axis stops where it comes to a rest, sets out from one, or
+//!         ╱   borders   ╲                 turns round at a corner. There its coordinate has a border,
+//!        ╱               ╲  behind        of a rest at the stop that is nearer.
+//! ```
+
+use super::solver::dot;
+
+/// Cosine beyond which the path comes back on itself, and neither side of it is the outer one.
+const REVERSAL_COS: f64 = -0.999;
+/// How far from a corner at which an axis turns round it may go either way, in radii.
+const TURNING_R: f64 = 4.0;
+
+/// Where an axis stops, next to a piece.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Stop {
+    /// The sign with which it comes to it, or sets out from it; 0 if there is none.
+    pub(super) sign: f64,
+    /// Coordinate.
+    pub(super) at: f64,
+    /// Progress.
+    pub(super) s: f64,
+    /// It turns round there.
+    pub(super) is_turn: bool,
+}
+
+/// An axis along a piece.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct AxisSides {
+    /// The sign of its motion; 0 at rest, and where it goes there and back.
+    pub(super) way: f64,
+    pub(super) is_rest: bool,
+    /// Coordinates at which its run of pieces with the same way begins, and ends as far as is seen.
+    pub(super) from: f64,
+    pub(super) to: f64,
+    /// The stops before and behind.
+    pub(super) before: Stop,
+    pub(super) behind: Stop,
+}
+
+/// A corner of the figure: its place, and directions to the inner sides of the pieces before and behind.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Corner<const D: usize> {
+    pub(super) vertex: [f64; D],
+    pub(super) inner: [[f64; D]; 2],
+}
+
+/// The sides of a piece.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Sides<const D: usize> {
+    pub(super) axes: [AxisSides; D],
+    /// At its start and at its end.
+    pub(super) corners: [Option<Corner<D>>; 2],
+}
+
+impl<const D: usize> Sides<D> {
+    pub(crate) fn none() -> Self {
+        Self {
+            axes: [AxisSides::default(); D],
+            corners: [None; 2],
+        }
+    }
+}
+
+/// `normal · p ≥ least`
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct HalfSpace<const D: usize> {
+    pub(crate) normal: [f64; D],
+    pub(crate) least: f64,
+    /// The axis whose coordinate alone counts.
+    pub(crate) axis: Option<usize>,
+}
+
+impl<const D: usize> Corner<D> {
+    /// Between two directions; none where they are no corner of a figure: one that turns by more than so
+    /// much, 2·sin(turn/2).
+    pub(super) fn between(
+        vertex: [f64; D],
+        [before, behind]: [&[f64; D]; 2],
+        sharp: f64,
+    ) -> Option<Self> {
+        let cos = dot(before, behind);
+        let turn = (2.0 - 2.0 * cos).max(0.0).sqrt();
+        if turn <= sharp || cos < REVERSAL_COS {
+            return None;
+        }
+        let inner = [before, behind].map(|along| {
+            let turned: [f64; D] = core::array::from_fn(|k| behind[k] - before[k]);
+            let part = dot(&turned, along);
+            let across: [f64; D] = core::array::from_fn(|k| turned[k] - part * along[k]);
+            let size = dot(&across, &across).sqrt();
+            across.map(|value| value / size)
+        });
+        Some(Self { vertex, inner })
+    }
+}
+
+impl AxisSides {
+    /// True if it goes on the same way along the next piece.
+    pub(super) fn goes_on_as(&self, next: &Self) -> bool {
+        let is_bent = !self.is_rest && self.way.abs() <= 0.0;
+        !is_bent && self.is_rest == next.is_rest && self.way.total_cmp(&next.way).is_eq()
+    }
+
+    /// The sides of a coordinate at a progress: the sign of what is inside, and the border.
+    pub(super) fn borders(&self, progress: f64) -> [Option<(f64, f64)>; 2] {
+        let (before, behind) = (self.before, self.behind);
+        if !self.is_rest {
+            let after = (before.sign != 0.0).then_some((self.way, before.at));
+            let until = (behind.sign != 0.0).then_some((-self.way, behind.at));
+            return [after, until];
+        }
+        match self.nearer_stop(progress) {
+            Some((stop, sign)) => [Some((sign * stop.sign, self.from)), None],
+            None => [None; 2],
+        }
+    }
+
+    /// Of a rest: the stop that is nearer, and on which side of it the motion is, seen along its sign.
+    fn nearer_stop(&self, progress: f64) -> Option<(Stop, f64)> {
+        let (before, behind) = (self.before, self.behind);
+        let is_before = before.sign != 0.0
+            && (behind.sign == 0.0 || progress - before.s <= behind.s - progress);
+        if is_before {
+            Some((before, -1.0))
+        } else if behind.sign != 0.0 {
+            Some((behind, 1.0))
+        } else {
+            None
+        }
+    }
+
+    /// The direction in which it may go at a progress; 0 if it may go either way.
+    pub(super) fn sense(&self, progress: f64, radius: f64) -> f64 {
+        if self.is_rest {
+            return self
+                .nearer_stop(progress)
+                .map_or(0.0, |(stop, _)| stop.sign);
+        }
+        let is_turning = |stop: &Stop| {
+            stop.sign != 0.0 && stop.is_turn && (progress - stop.s).abs() < TURNING_R * radius
+        };
+        if is_turning(&self.before) || is_turning(&self.behind) {
+            0.0
+        } else {
+            self.way
+        }
+    }
+}
