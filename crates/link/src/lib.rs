@@ -15,6 +15,7 @@
 //! * [`Transport`] makes the ports of an instance: [`Ipc`] between processes, over shared memory,
 //!   and [`InProcess`] between the threads of one, with the same order, back-pressure and loss;
 //! * [`Operator`] commands an interpolator by a way that needs no shared memory;
+//! * [`ActiveProgram`] is a planner's note of what it has begun;
 //! * the ports are [`Publisher`] and [`Subscriber`], [`FrameSink`] (which is told when nobody takes
 //!   its frames), [`Client`] and [`Server`];
 //! * the records: [`SetpointFrame`], [`Setpoint`], [`Status`], [`CommandRequest`],
@@ -61,7 +62,7 @@ mod wording;
 
 pub use error::{BoxedError, LinkError};
 pub use in_process::InProcess;
-pub use ipc::{InterpolatorProcess, Ipc, LinkConfig, Operator, remove_leftovers};
+pub use ipc::{ActiveProgram, InterpolatorProcess, Ipc, LinkConfig, Operator, remove_leftovers};
 pub use port::{
     Client, Delivery, FrameSink, MAX_UNANSWERED, Publisher, Server, Subscriber, Transport,
 };

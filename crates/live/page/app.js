@@ -22,22 +22,27 @@ async function command(kind, value) {
   } catch { S.refusal = `${kind} was not sent: the page's server does not answer`; }
   paintState();
 }
-let version = -1, fetching = false;
-async function fetchPlan(newer) {
+/* What came of a program. It is used as long as the machine executes that program, or none. */
+let version = -1, fetching = false, COME = { plan: null, motion: null, program: null };
+async function fetchPlan() {
   if (fetching) return;
   fetching = true;
   const info = await api('/api/plan', 'json');
   if (info) {
-    setInfo(info);
-    if (info.program_path) { const bytes = await api('/api/program.bin'); if (bytes) PROGRAM = new Track(bytes); }
-    if (info.report) {
-      const [columnBytes, pathBytes] = await Promise.all([api('/api/columns.bin'), api('/api/path.bin')]);
-      if (columnBytes && pathBytes) { PLAN = new Plan(columnBytes); MOTION = new Track(pathBytes); }
-    } else { PLAN = null; MOTION = null; }
-    version = newer === undefined ? info.version : newer;
-    SPACE.stale = true; paintLegend(); paintTune(); redraw();
+    const of = `?of=${info.generation}`, get = async (is, path) => is ? api(path + of) : null;
+    const [program, columns, path] = await Promise.all([get(info.program_path, '/api/program.bin'), get(info.report, '/api/columns.bin'), get(info.report, '/api/path.bin')]);
+    const whole = columns && path;
+    COME = { plan: whole ? new Plan(columns) : null, motion: whole ? new Track(path) : null, program: program ? new Track(program) : null };
+    if (info.generation !== INFO.generation) LINES.forget();
+    version = info.version;
+    setInfo(info); usePlan();
   }
   fetching = false;
+}
+function usePlan() {
+  PLAN = S.shows ? COME.plan : null; MOTION = S.shows ? COME.motion : null; PROGRAM = S.shows ? COME.program : null;
+  RIBBON.key = ''; SPACE.stale = true;
+  paintLegend(); paintTune(); redraw();
 }
 /* Messages: four bytes of length, one of kind, payload. */
 async function listen() {
@@ -72,8 +77,11 @@ function heard(kind, payload) {
     const status = JSON.parse(new TextDecoder().decode(payload));
     S.status = status; S.heard = performance.now();
     S.state = status.state; S.commands = status.commands; S.rate = status.effective_override || 1;
-    if (status.place !== null) S.p = status.place;
-    if (status.version !== version) fetchPlan(status.version);
+    S.p = status.place === null ? 0 : status.place;
+    // Nothing of another program is shown while one runs.
+    const shows = status.program_is_shown || status.end_of_epoch !== 'open';
+    if (shows !== S.shows) { S.shows = shows; usePlan(); }
+    if (status.version !== version) fetchPlan();
   } else if (kind === 2 && RINGED && S.status) {
     const errors = Object.values(S.status.following_error || {}).map(v => Math.abs(v || 0));
     RINGED.take(payload, S.p, Math.max(0, ...errors) * 1000, (S.status.queue_depth || 0) * DT());
@@ -229,7 +237,7 @@ function feedDigits(v, moving) {
   put($('#feedof'), !PLAN ? '' : rapid ? (moving ? 'rapid' : 'a rapid comes') : !moving ? `programmed ${grouped(programmed)}` : `of ${grouped(programmed)}${['feed', 'none', 'rest'].includes(limitOf(code)) ? '' : `, ${limitText(code)}`}`);
 }
 function blocks(line) {
-  if (!INFO.program || !line) { fill($('#blocks'), '<div></div><div></div><div class="cur"></div><div></div><div></div>'); return; }
+  if (!INFO.program || !line || !S.status.program_is_shown) { fill($('#blocks'), '<div></div><div></div><div class="cur"></div><div></div><div></div>'); return; }
   fill($('#blocks'), [-2, -1, 0, 1, 2].map(k => { const text = LINES.get(line + k); return `<div class="${k ? '' : 'cur'}"><span class="k">${text === undefined ? '' : line + k}</span><span>${text ? safe(text.trim()) : ' '}</span></div>`; }).join(''));
 }
 

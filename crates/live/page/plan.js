@@ -99,13 +99,15 @@ const LINES = {
     if (!S.file && line > 0 && INFO.program) this.ask(line);
     return undefined;
   },
+  forget() { this.some.clear(); this.asked.clear(); },
   async ask(line) {
-    const from = Math.max(1, line - line % 64);
+    const from = Math.max(1, line - line % 64), of = INFO.generation;
     if (this.asked.has(from)) return;
     this.asked.add(from);
-    const lines = await api(`/api/lines?from=${from}&count=80`, 'json');
+    const lines = await api(`/api/lines?of=${of}&from=${from}&count=80`, 'json');
+    if (of !== INFO.generation) return;
     if (!lines) { this.asked.delete(from); return; }
-    if (this.some.size > 20000) { this.some.clear(); this.asked.clear(); }
+    if (this.some.size > 20000) this.forget();
     lines.forEach((text, k) => this.some.set(from + k, text));
     dirty.path = true;
   },

@@ -59,10 +59,17 @@ function ribbon() {
   if (S.view !== 'glance') c.fillText(S.file ? `   ${way.toFixed(2)} m` : `   ${Math.floor(p / Math.max(1, PLAN.samples - 1) * 100)} % of the time, ${(PLAN.way[PLAN.bin(p)] / 1000).toFixed(2)} of ${way.toFixed(2)} m`, left + wide, y);
   c.textAlign = 'right'; c.fillText(`${span(PLAN.seconds)} at 100 %`, w - left, y);
 }
+/* Why there is no plan to be seen. */
 function emptyRibbon() {
-  if (!INFO.program) return 'This page was not told which program runs: glidepath live part.ngc shows path, time left and limits.';
+  const s = S.status, runs = programName();
+  if (s && !S.shows) {
+    if (!s.active_program) return `${runs || 'A stream'} runs. It is no file, so there is neither its text nor its path.`;
+    if (INFO.failed) return `${runs} runs. Its path cannot be shown: ${INFO.failed}`;
+    return `${runs} runs. Its text is read, or has been changed since it began: no other is shown in its place.`;
+  }
+  if (!INFO.program) return 'No program has run yet. The one that runs will be shown here, whoever begins it.';
   if (INFO.failed) return `${stem(INFO.program.name)} cannot be planned here: ${INFO.failed}`;
-  return `${stem(INFO.program.name)} is being planned: ${span(S.status ? S.status.planned_so_far_s || 0 : 0)} of motion so far. The machine does not wait for this.`;
+  return `${stem(INFO.program.name)} is being planned: ${span(s ? s.planned_so_far_s || 0 : 0)} of motion so far. The machine does not wait for this.`;
 }
 function ribbonHands(onhover) {
   const element = $('#ribbon'), place = e => { const f = (e.offsetX - RIBBON.left) / RIBBON.width; return PLAN && f >= 0 && f <= 1 ? f * (PLAN.samples - 1) : null; };

@@ -9,16 +9,25 @@ const WORDS = {
   homing: ['running', 'Homing', 1, 'held'], off: ['idle', 'Off', 0, 'idle'], 'not-homed': ['idle', 'Not homed', 0, 'idle'], preparing: ['running', 'Preparing', 0, 'idle'],
   stale: ['stale', 'No data', 3, 'stale'], none: ['stale', 'No machine', 0, 'stale'], file: ['plot', 'Plan', 0, 'running'],
 };
-const line = status => status.line ? `line ${status.line}${INFO.program && INFO.program.lines ? ` of ${grouped(INFO.program.lines)}` : ''}` : 'before its first line';
+const line = status => status.line ? `line ${status.line}${status.program_is_shown && INFO.program && INFO.program.lines ? ` of ${grouped(INFO.program.lines)}` : ''}` : 'before its first line';
+/* What the machine executes, or has executed last, whoever began it. */
+function programName() {
+  const s = S.status;
+  if (!s) return '';
+  return s.active_program ? s.active_program.name : s.job ? s.job.text.split(': ')[0] : '';
+}
 
 function cause() {
   const s = S.status;
   if (S.file) return fileWords();
   if (S.state === 'none') return `Nothing runs as “${INFO.machine.instance}”: glidepath interpolator starts it.`;
   if (S.state === 'stale') return S.heard ? `Last heard ${Math.round((performance.now() - S.heard) / 1000)} s ago. All below is old; the machine may be moving.` : 'The page has not heard anything yet.';
-  const program = s.program ? `${stem(s.program)}, ` : '';
+  const name = programName(), program = name ? `${name}, ` : '';
   if (S.state === 'faulted') return `${sentence(s.fault || 'a fault')}.`;
+  if (S.state === 'preparing' && s.job) return `${s.job.text}${s.job.begins_held ? '; it begins held' : ''}.`;
+  if (S.state === 'awaiting' && s.asked) return `${program}line ${s.asked.line}: ${askedWords(s)}`;
   if (S.state === 'awaiting' && s.awaited) return `${program}${line(s)}: ${s.awaited.event} of line ${s.awaited.line} is awaited, for ${span(s.awaited.waited_s)}.`;
+  if (S.state === 'program-stop' && s.asked && s.asked.says) return `${program}${line(s)}: “${s.asked.says}”`;
   // In these nothing of a program is under way.
   const alone = ['idle', 'preparing', 'off', 'not-homed', 'homing', 'jogging'].includes(S.state);
   return `${sentence(`${alone ? '' : `${program}${line(s)}: `}${plain(s.state_text || S.state)}`)}.`;
@@ -41,13 +50,36 @@ function shapeWords(shape) {
   return said.length ? ` At most ${said.join(', ')}.` : '';
 }
 
+/* A tool as people know it: its number, what the table calls it, diameter and length. */
+const toolWords = tool => `T${tool.number}${tool.name ? ` ${tool.name}` : ''}`;
+const toolSizes = tool => [tool.diameter_mm ? `Ø ${num(tool.diameter_mm, 2)}` : '', tool.length_mm ? `length ${num(tool.length_mm, 3)}` : ''].filter(Boolean).join(', ');
+function askedWords(s) {
+  const asked = s.asked, tool = asked.tools && asked.tools.wanted;
+  if (!tool) return `${asked.code} waits for you.`;
+  return tool.number ? `put ${toolWords(tool)} in the spindle.` : 'take the tool out of the spindle.';
+}
+
 /* What stands in place of the text of the program when a person is needed. */
 function attention() {
   const s = S.status;
   if (S.state === 'faulted') return `<h2>${safe(sentence(s.fault || 'a fault'))}</h2><p>${marked(sentence(s.state_text || ''))}.</p><ol><li><span>Look at the tool and the part.</span></li><li><span>At the machine: ${marked(s.fault_remedy || '`glidepath reset`')}.</span></li></ol>`;
-  if (S.state === 'awaiting' && s.awaited) return `<h2>${safe(sentence(s.awaited.event))} of line ${s.awaited.line}</h2><p>The program waits until what it asked for is done${s.tool ? `; tool T${s.tool} is selected` : ''}. When it is:</p><ol><li><span>${marked(s.awaited.done_by)}</span></li><li><span>or, if it cannot be done: ${marked(s.awaited.failed_by)}</span></li></ol>`;
-  if (S.state === 'program-stop') return `<h2>The program stopped at ${line(s)}</h2><p>${safe(s.last_event || '')}</p><ol><li><span>Do what the program stopped for.</span></li><li><span>Press Resume, here or at the machine.</span></li></ol>`;
+  if (S.state === 'awaiting' && s.awaited) {
+    const says = s.asked && s.asked.says ? `<p class="says">${safe(s.asked.says)}</p>` : '';
+    const title = s.asked ? sentence(askedWords(s)) : `${sentence(s.awaited.event)} of line ${s.awaited.line} is awaited.`;
+    return `<h2>${safe(title)}</h2>${exchange(s.asked)}${says}<ol><li><span>When that is done: ${marked(s.awaited.done_by)}</span></li><li><span>If it cannot be done: ${marked(s.awaited.failed_by)}</span></li></ol>`;
+  }
+  if (S.state === 'program-stop') {
+    const says = s.asked && s.asked.says;
+    return `<h2>The program stopped at ${line(s)}.</h2>${says ? `<p class="says">${safe(says)}</p>` : ''}<ol><li><span>Do what the program stopped for.</span></li><li><span>Press Resume, here or at the machine.</span></li></ol>`;
+  }
   return '';
+}
+/* The tool that comes out, and the one that goes in. */
+function exchange(asked) {
+  if (!asked || !asked.tools) return '';
+  const box = (title, tool) => `<div><span class="lab">${title}</span><b>${tool && tool.number ? `T${tool.number}` : 'none'}</b><span>${tool ? safe(tool.name || '') : ''}</span><span>${tool ? toolSizes(tool) : ''}</span></div>`;
+  const { before, wanted } = asked.tools;
+  return `<div class="exchange">${before ? box('comes out', before) : ''}${wanted ? box('put in', wanted) : ''}</div>`;
 }
 
 /* The band on top, and which commands there are. */

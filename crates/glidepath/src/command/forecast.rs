@@ -5,7 +5,7 @@ use super::fitting::{is_all_that_is_wrong, without_travel};
 use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::file_error::FileError;
-use crate::kept::read::{read, set_up};
+use crate::kept::read::{read, set_up, set_up_as_begun};
 use crate::plan_steps::PlanSteps;
 use crate::report::Place;
 use glidepath_link::Status;
@@ -75,10 +75,12 @@ pub(super) struct Forecast {
 }
 
 impl Forecast {
-    /// Begins to plan a program before a spectator.
+    /// Begins to plan a program before a spectator. `begun` is its fingerprint, if the machine executes it:
+    /// then it is planned with what it began with.
     pub(super) fn start(
         path: &Path,
         config: &MachineConfig,
+        begun: Option<u64>,
         mut spectator: impl Spectator + 'static,
     ) -> Result<Self, Failure> {
         let size = std::fs::metadata(path)
@@ -94,6 +96,8 @@ impl Forecast {
         let mut machine = config.clone();
         if let Ok(Some(kept)) = read(config) {
             set_up(&mut machine, &kept);
+            // Of one that is not under way any more, what is kept now is all that is known.
+            let _known = begun.map(|program| set_up_as_begun(&mut machine, &kept, program));
         }
         let (plan, over) = (Arc::<Mutex<Plan>>::default(), Arc::<AtomicBool>::default());
         let planner = {
@@ -122,6 +126,12 @@ impl Forecast {
     pub(super) fn frames(&self) -> u64 {
         let plan = self.plan.lock().unwrap_or_else(PoisonError::into_inner);
         plan.frames
+    }
+
+    /// Whether a machine executes this program, or has executed it last.
+    pub(super) fn is_of(&self, status: &Status) -> bool {
+        let plan = self.plan.lock().unwrap_or_else(PoisonError::into_inner);
+        status.program != 0 && plan.fingerprint == Some(status.program)
     }
 
     /// Where a machine is in the program; `None` if it executes another one.

@@ -1,6 +1,7 @@
 //! The subcommands, one file each.
 
 mod acknowledge;
+mod active_program;
 mod attendant;
 mod attention;
 mod audit;
@@ -32,6 +33,7 @@ mod plan;
 mod planner;
 mod preview;
 mod program_diagnostics;
+mod program_note;
 mod reading;
 mod record;
 mod replay;
@@ -40,6 +42,7 @@ mod servo;
 mod session;
 mod subroutines;
 mod telemetry;
+mod tool_names;
 mod watch;
 mod workshop;
 

@@ -2,6 +2,7 @@
 //! `reverse`, `forward`, `override`, `abort` and `status`, talking to a running interpolator by its panel, and
 //! `abort --signal`, which reaches the process itself.
 
+use super::active_program::active_program;
 use super::jog::lift;
 use super::other_users::OtherUsers;
 use super::session;
@@ -10,7 +11,7 @@ use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::exit::Exit;
 use crate::output;
-use crate::report::{status_object, status_text};
+use crate::report::{active_object, active_text, status_object, status_text};
 use glidepath_link::{
     Command, CommandReply, CommandRequest, EndOfEpoch, InterpolatorProcess, LinkConfig, LinkError,
     Operator, Power, Status,
@@ -257,10 +258,14 @@ pub(super) fn status(args: &OperatorArgs, config: &MachineConfig) -> Result<Exit
     let link = session::link(&instance, config);
     let operator = reach(&link)?;
     let status = read_status(&operator, &link)?;
+    let active = active_program(&link, &status);
     if args.basic.json {
-        output::object(&status_object(&instance, &status));
+        let mut object = status_object(&instance, &status);
+        object["active_program"] = active_object(active.as_ref());
+        output::object(&object);
     } else {
-        output::result(&status_text(&instance, &status));
+        let active = active.as_ref().map(active_text).unwrap_or_default();
+        output::result(&(status_text(&instance, &status) + &active));
     }
     Ok(Exit::Done)
 }

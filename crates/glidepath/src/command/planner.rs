@@ -1,6 +1,7 @@
 //! `glidepath planner`: programs, or segments of other processes, to frames.
 
 use super::attendant::{Attendant, tell};
+use super::program_note::ProgramNote;
 use super::session;
 use super::workshop::Workshop;
 use crate::cli::PlannerArgs;
@@ -16,7 +17,7 @@ use crate::output;
 use crate::program_file::ProgramFile;
 use crate::report::{counted, peak_rss_bytes, seconds};
 use glidepath_geometry::AxisVector;
-use glidepath_link::Transport;
+use glidepath_link::{Ipc, LinkConfig, Transport};
 use glidepath_planner::{
     Control, FileSource, ItemSource, Listening, Notice, PipeSource, Pipeline, Publisher, Remainder,
     RunError, SoftLimits, Statistics, serve as serve_jobs,
@@ -33,7 +34,8 @@ pub(super) fn planner(args: &PlannerArgs, config: &MachineConfig) -> Result<Exit
     end_with(args.end_with).map_err(Failure::Signals)?;
     // Where that is not allowed, `glidepath doctor` says so; planning goes on as an ordinary process.
     let _may_not = glidepath_realtime::take_precedence();
-    let transport = session::join(&args.instance, config)?;
+    let link = session::link(&session::instance(&args.instance, config), config);
+    let transport = Ipc::connect(&link)?;
     let quiet = args.end_with.is_some();
     let Some(file) = &args.file else {
         let mut notify = |notice: &Notice<'_>| tell(notice, quiet);
@@ -42,7 +44,7 @@ pub(super) fn planner(args: &PlannerArgs, config: &MachineConfig) -> Result<Exit
             pause: &mut std::thread::sleep,
             notify: &mut notify,
         };
-        let exit = serve(&transport, config, &mut control, &interrupt)?;
+        let exit = serve((&transport, &link), config, &mut control, &interrupt)?;
         if args.basic.json {
             output::object(&json!({ "listened": true, "exit_code": exit as u8 }));
         }
@@ -76,6 +78,7 @@ pub(super) fn planner(args: &PlannerArgs, config: &MachineConfig) -> Result<Exit
         config: &config,
         attendant: &attendant,
         file,
+        note: ProgramNote::of_file(&link, file.name()),
     };
     let executed = match (file.is_standard_input(), args.resume) {
         (true, _) => job.pipe(&mut control),
@@ -110,6 +113,7 @@ struct Job<'a> {
     config: &'a MachineConfig,
     attendant: &'a Attendant,
     file: &'a ProgramFile,
+    note: ProgramNote<'a>,
 }
 
 impl Job<'_> {
@@ -199,6 +203,7 @@ impl Job<'_> {
             .with_clock(clock::elapsed);
         let fingerprint = pipeline.source().fingerprint();
         self.attendant.begin(fingerprint, &start)?;
+        self.note.leave(fingerprint);
         let published = self.publisher.publish(&mut pipeline, control);
         let kept = self.attendant.end(&published, &self.publisher, self.config);
         let statistics = published.map_err(|error| match error {
@@ -232,7 +237,7 @@ impl Job<'_> {
 
 /// Streams, lines and files, until asked to end.
 fn serve(
-    transport: &dyn Transport,
+    (transport, link): (&dyn Transport, &LinkConfig),
     config: &MachineConfig,
     control: &mut Control<'_>,
     interrupt: &Interrupt,
@@ -250,7 +255,7 @@ fn serve(
              directory of [state]",
         );
     }
-    let mut workshop = Workshop::new(config);
+    let mut workshop = Workshop::new(config, link.clone());
     match serve_jobs(transport, &listening, Some(&mut workshop), control) {
         Ok(()) | Err(RunError::Interrupted) => Ok(interrupt.exit()),
         Err(error) => Err(error.into()),

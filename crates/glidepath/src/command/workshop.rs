@@ -3,6 +3,7 @@
 use super::attendant::{Attendant, recalling};
 use super::differences::{agreement, approach};
 use super::failure::Failure;
+use super::program_note::ProgramNote;
 use super::reading::for_program;
 use crate::clock;
 use crate::config::MachineConfig;
@@ -12,7 +13,7 @@ use crate::program_file::ProgramFile;
 use crate::report::counted;
 use glidepath_gcode::{InForce, Program};
 use glidepath_geometry::AxisVector;
-use glidepath_link::refused;
+use glidepath_link::{LinkConfig, refused};
 use glidepath_planner::{
     Attend, Control, FileSource, ItemSource, Job, JobEnd, JobRunner, LineStart, Notice, Pipeline,
     ProgramSource, Publisher, Refusal, Remainder, ResumePoint, RunError, StartLine, Statistics,
@@ -29,6 +30,7 @@ type LineSource = ProgramSource<Cursor<Vec<u8>>>;
 #[derive(Debug)]
 pub(super) struct Workshop<'c> {
     config: &'c MachineConfig,
+    link: LinkConfig,
     /// What the job before has left in force.
     in_force: Option<InForce>,
     /// The program begun last, and what it began with.
@@ -40,6 +42,7 @@ struct Bench<'b, 't, 'c> {
     publisher: &'b mut Publisher<'t>,
     attend: &'b mut dyn Attend,
     control: &'b mut Control<'c>,
+    note: ProgramNote<'b>,
 }
 
 impl Bench<'_, '_, '_> {
@@ -53,9 +56,10 @@ impl Bench<'_, '_, '_> {
 }
 
 impl<'c> Workshop<'c> {
-    pub(super) const fn new(config: &'c MachineConfig) -> Self {
+    pub(super) const fn new(config: &'c MachineConfig, link: LinkConfig) -> Self {
         Self {
             config,
+            link,
             in_force: None,
             begun: None,
         }
@@ -219,12 +223,14 @@ impl<'c> Workshop<'c> {
         let mut pipeline = pipeline
             .with_joints(config.path_caps())
             .with_clock(clock::elapsed);
+        let fingerprint = pipeline.source().fingerprint();
         let begun = attendant
             .engage(bench.publisher, config)
-            .and_then(|()| attendant.begin(pipeline.source().fingerprint(), &start));
+            .and_then(|()| attendant.begin(fingerprint, &start));
         if let Err(failure) = begun {
             return (Err(failure.into()), None);
         }
+        bench.note.leave(fingerprint);
         let published = {
             let control = &mut *bench.control;
             let mut notify = |notice: &Notice<'_>| {
@@ -312,10 +318,12 @@ impl JobRunner for Workshop<'_> {
         attend: &mut dyn Attend,
         control: &mut Control<'_>,
     ) -> JobEnd {
+        let link = self.link.clone();
         let mut bench = Bench {
             publisher,
             attend,
             control,
+            note: ProgramNote::of_job(&link, job),
         };
         let end = match job {
             Job::Line(text) => self.line(text, start, &mut bench),

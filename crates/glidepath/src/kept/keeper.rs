@@ -9,10 +9,10 @@
 
 use crate::config::MachineConfig;
 use crate::kept::answers::Journal;
-use crate::kept::convert::{begun_with, left_with, merge, merge_tools, with_tools};
+use crate::kept::convert::{left_with, merge, merge_tools};
 use crate::kept::error::StateError;
 use crate::kept::machine::fingerprint;
-use crate::kept::read::{of_machine, set_up, table, table_fingerprint};
+use crate::kept::read::{of_machine, set_up, set_up_as_begun, table, table_fingerprint};
 use glidepath_gcode::ToolTable;
 use glidepath_geometry::AxisVector;
 use glidepath_kept::{Directory, DirectoryLock, Kept, Offsets, Rest, Store, UnderWay};
@@ -109,14 +109,9 @@ impl Keeper {
     /// Puts what the program began with that is to be resumed into the configuration; false if that
     /// is not known.
     pub(crate) fn resume(&mut self, program: u64, config: &mut MachineConfig) -> bool {
-        let begun = self.kept.under_way.as_ref();
-        let Some(begun) = begun.filter(|begun| begun.program == program) else {
+        let Some(begun) = set_up_as_begun(config, &self.kept, program) else {
             return false;
         };
-        config.program.offsets = begun_with(&begun.offsets);
-        if let Some(table) = &config.program.tools {
-            config.program.tools = Some(with_tools(table, &begun.tools));
-        }
         self.before = (begun.offsets.clone(), table(config));
         self.is_resumed = true;
         true

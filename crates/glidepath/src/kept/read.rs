@@ -5,7 +5,7 @@ use crate::kept::convert::{axis_words, begun_with, system_name, with_tools};
 use crate::kept::error::StateError;
 use crate::kept::machine::{fingerprint, fingerprint_of};
 use crate::text_file;
-use glidepath_kept::{Directory, Kept, Store};
+use glidepath_kept::{Directory, Kept, Store, UnderWay};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -75,6 +75,21 @@ pub(crate) fn set_up(config: &mut MachineConfig, kept: &Kept) -> Vec<String> {
         config.program.tools = Some(with_tools(table, &kept.tools));
     }
     notes
+}
+
+/// Puts what a program began with into a configuration; `None` if that is not known. Behind [`set_up`].
+pub(crate) fn set_up_as_begun<'k>(
+    config: &mut MachineConfig,
+    kept: &'k Kept,
+    program: u64,
+) -> Option<&'k UnderWay> {
+    let begun = kept.under_way.as_ref();
+    let begun = begun.filter(|begun| begun.program == program)?;
+    config.program.offsets = begun_with(&begun.offsets);
+    if let Some(table) = &config.program.tools {
+        config.program.tools = Some(with_tools(table, &begun.tools));
+    }
+    Some(begun)
 }
 
 /// The fingerprint of the tool table's file; 0 if there is none.

@@ -1,5 +1,6 @@
 //! What commands report, as text and as JSON.
 
+mod active_program;
 mod auxiliary;
 mod diagnosis;
 mod diagnostic;
@@ -14,6 +15,7 @@ mod smoothness;
 mod status;
 mod view;
 
+pub use active_program::{active_object, active_text};
 pub use auxiliary::{coolant_words, spindle_words};
 pub use diagnosis::{DiagnosisReport, PlaceReport};
 pub use diagnostic::{ProgramDiagnostic, diagnostic_object};

@@ -12,6 +12,7 @@
 //! * a peer that was killed is noticed by whoever waits for it, by everybody that joins, and by
 //!   [`Transport::clean_up_dead_peers`].
 
+mod active_program;
 mod config;
 mod directory;
 mod interpolator_lock;
@@ -28,6 +29,7 @@ mod storage;
 mod topic;
 mod trouble;
 
+pub use active_program::ActiveProgram;
 pub use config::LinkConfig;
 pub use interpolator_lock::InterpolatorProcess;
 pub use operator::Operator;

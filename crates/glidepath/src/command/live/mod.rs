@@ -2,21 +2,22 @@
 //!
 //! ```text
 //!   interpolator ── setpoints, status ──► this thread ── Feed ──► every page that is open
-//!   program ── planned beside the machine ──► Shown ──► whoever asks the server for it
+//!   note of the planner ── Following: its program, planned beside the machine ──► Shown ──► whoever asks for it
 //!   page ── POST /api/command ──► Pages ── the operator's panel ──► interpolator
 //! ```
 //!
 //! The page holds, resumes, steps, aborts and sets overrides if that is allowed, and never jogs,
 //! homes or enables: whoever moves axes by hand stands beside the machine.
 
+mod asked;
 mod batch;
+mod following;
 mod lateness;
 mod log;
 mod pages;
 mod planned;
 mod shown;
 
-use super::forecast::Forecast;
 use super::kept_offsets::KeptOffsets;
 use super::session;
 use crate::cli::LiveArgs;
@@ -26,8 +27,10 @@ use crate::exit::Exit;
 use crate::interrupt::Interrupt;
 use crate::output;
 use crate::page::machine_object;
-use crate::report::{View, status_object, view_object};
+use crate::report::{View, active_object, status_object, view_object};
+use asked::Asked;
 use batch::Batch;
+use following::Following;
 use glidepath_link::{
     Auxiliary, Coolant, InterpolatorProcess, Ipc, LinkConfig, Record as _, Setpoint, SpindleState,
     Status, Subscriber, Transport as _,
@@ -37,7 +40,6 @@ use glidepath_realtime::{Clock as _, Monotonic};
 use lateness::Histogram;
 use log::Log;
 use pages::Pages;
-use planned::Planned;
 use serde_json::{Value, json};
 use shown::Shown;
 use std::sync::Arc;
@@ -66,22 +68,9 @@ pub(super) fn live(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Fail
     let instance = session::instance(&args.operator.instance, config);
     let link = session::link(&instance, config);
     let transport = Ipc::connect(&link)?;
-    let name = args.file.as_ref().map(|file| file.name().display());
-    let name = name.map(|name| name.to_string());
-    let shown = Arc::new(Shown::new(machine_object(config, &instance), name));
-    let forecast = match &args.file {
-        Some(file) => {
-            let planned = Planned::new(config, Arc::clone(&shown));
-            let forecast = Forecast::start(file.path(), config, planned)?;
-            shown.text(forecast.lines());
-            Some(forecast)
-        }
-        None => None,
-    };
-    let reading = args
-        .file
-        .as_ref()
-        .map(|file| planned::read(file.path(), config, &shown));
+    let shown = Arc::new(Shown::new(machine_object(config, &instance)));
+    let given = args.file.as_ref().map(|file| (file.path(), file.name()));
+    let following = Following::new((config, &link), Arc::clone(&shown), given)?;
     let (server, feed) = (Server::bind(args.port)?, Feed::default());
     let (url, port) = (server.url(), server.port());
     let pages = Pages::new(Arc::clone(&shown), link.clone(), args.commands);
@@ -96,7 +85,8 @@ pub(super) fn live(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Fail
         auxiliaries: transport.auxiliary_source()?,
         transport,
         shown,
-        forecast,
+        following,
+        asked: Asked::new(config),
         offsets: KeptOffsets::new(config),
         feed,
         commands: args.commands,
@@ -109,7 +99,6 @@ pub(super) fn live(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Fail
     };
     machine.follow(&interrupt)?;
     drop(running);
-    drop(reading);
     Ok(interrupt.exit())
 }
 
@@ -145,7 +134,8 @@ struct Machine<'a> {
     auxiliaries: Box<dyn Subscriber<Auxiliary>>,
     transport: Ipc,
     shown: Arc<Shown>,
-    forecast: Option<Forecast>,
+    following: Following,
+    asked: Asked,
     offsets: KeptOffsets,
     feed: Feed,
     commands: bool,
@@ -191,6 +181,7 @@ impl Machine<'_> {
             while let Some(told) = self.auxiliaries.take()? {
                 // What cannot be understood is not shown.
                 self.auxiliary = told.check().is_ok().then_some(told);
+                self.asked.take(self.auxiliary.as_ref());
             }
             if is_due(0, LOOK_EVERY) {
                 self.transport.clean_up_dead_peers()?;
@@ -242,12 +233,10 @@ impl Machine<'_> {
                 })
             }));
         };
-        let place = self
-            .forecast
-            .as_ref()
-            .and_then(|forecast| forecast.place(&status));
+        self.following.look(&status);
+        let place = self.following.place(&status);
         let in_plan = place.as_ref().and_then(|place| place.elapsed_t);
-        let planned = self.forecast.as_ref().map_or(0, Forecast::frames);
+        let planned = self.following.frames();
         let view = View {
             instance: &self.instance,
             status: &status,
@@ -274,6 +263,11 @@ impl Machine<'_> {
             object.insert("lateness_histogram".to_owned(), self.histogram.object());
             object.insert("receivers".to_owned(), self.receivers.clone());
             object.insert("log".to_owned(), self.log.object());
+            let active = active_object(self.following.active());
+            object.insert("active_program".to_owned(), active);
+            let is_shown = self.following.is_of(&status);
+            object.insert("program_is_shown".to_owned(), is_shown.into());
+            object.insert("asked".to_owned(), self.asked.object(&status));
         }
         Ok(Some(object))
     }

@@ -92,19 +92,17 @@ impl Pages {
 impl Site for Pages {
     fn document(&self, path: &str, query: &str) -> Option<Answer> {
         let numbers = |bytes| Answer::new(ContentType::Binary, bytes);
+        let number = |name: &str| parameter(query, name)?.parse::<u64>().ok();
         match path {
             "/api/plan" => Some(object(&self.shown.object())),
-            "/api/program.bin" => self.shown.program_path().map(numbers),
-            "/api/columns.bin" => self.shown.columns().map(numbers),
-            "/api/path.bin" => self.shown.path().map(numbers),
+            "/api/program.bin" => self.shown.program_path(number("of")?).map(numbers),
+            "/api/columns.bin" => self.shown.columns(number("of")?).map(numbers),
+            "/api/path.bin" => self.shown.path(number("of")?).map(numbers),
             "/api/lines" => {
-                let of = |name: &str| {
-                    let mut pairs = query.split('&').filter_map(|pair| pair.split_once('='));
-                    let (_, value) = pairs.find(|(key, _)| *key == name)?;
-                    value.parse::<usize>().ok()
-                };
-                let (from, count) = (of("from")?, of("count")?.min(MOST_LINES));
-                Some(object(&self.shown.lines(from, count)))
+                let count = |name| usize::try_from(number(name)?).ok();
+                let (from, count) = (count("from")?, count("count")?.min(MOST_LINES));
+                let lines = self.shown.lines(number("of")?, from, count)?;
+                Some(object(&lines))
             }
             _ => None,
         }
@@ -131,6 +129,12 @@ impl Site for Pages {
             }
         }
     }
+}
+
+/// A parameter of a query.
+fn parameter<'q>(query: &'q str, name: &str) -> Option<&'q str> {
+    let mut pairs = query.split('&').filter_map(|pair| pair.split_once('='));
+    pairs.find(|(key, _)| *key == name).map(|(_, value)| value)
 }
 
 fn object(value: &Value) -> Answer {

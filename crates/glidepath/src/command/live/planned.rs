@@ -1,6 +1,6 @@
 //! The plan for the page, made beside the machine.
 
-use super::shown::{Shown, WholePlan};
+use super::shown::{Board, WholePlan};
 use crate::command::forecast::Spectator;
 use crate::config::MachineConfig;
 use crate::page;
@@ -20,7 +20,7 @@ use std::thread::JoinHandle;
 /// Collects the plan for the page.
 pub(super) struct Planned {
     config: MachineConfig,
-    shown: Arc<Shown>,
+    board: Board,
     diagnosis: Diagnosis,
     motion: Motion,
     path_mm: f64,
@@ -29,12 +29,12 @@ pub(super) struct Planned {
 }
 
 impl Planned {
-    pub(super) fn new(config: &MachineConfig, shown: Arc<Shown>) -> Self {
+    pub(super) fn new(config: &MachineConfig, board: Board) -> Self {
         Self {
             diagnosis: Diagnosis::new(&AuditSettings::from(&config.settings())),
             motion: page::motion(config),
             config: config.clone(),
-            shown,
+            board,
             path_mm: 0.0,
             most: [0.0; 2],
         }
@@ -63,13 +63,13 @@ impl Spectator for Planned {
 
     fn end(&mut self, trouble: Option<&str>) {
         if let Some(trouble) = trouble {
-            self.shown.trouble(trouble);
+            self.board.trouble(trouble);
             return;
         }
         let settings = AuditSettings::from(&self.config.settings());
         let diagnosis = core::mem::replace(&mut self.diagnosis, Diagnosis::new(&settings));
         let diagnosis = DiagnosisReport::new(&diagnosis.finish(), &self.config);
-        self.shown.plan(WholePlan {
+        self.board.plan(WholePlan {
             columns: self.motion.columns(),
             path: self.motion.path(),
             report: page::report_object(&diagnosis, self.path_mm, self.most),
@@ -92,9 +92,9 @@ impl Drop for Reading {
 }
 
 /// Reads a program for its path.
-pub(super) fn read(path: &Path, config: &MachineConfig, shown: &Arc<Shown>) -> Reading {
+pub(super) fn read(path: &Path, config: &MachineConfig, board: Board) -> Reading {
     let over = Arc::<AtomicBool>::default();
-    let (path, config, shown) = (path.to_owned(), config.clone(), Arc::clone(shown));
+    let (path, config) = (path.to_owned(), config.clone());
     let flag = Arc::clone(&over);
     let thread = std::thread::spawn(move || {
         let options = config.program_options(config.home());
@@ -112,7 +112,7 @@ pub(super) fn read(path: &Path, config: &MachineConfig, shown: &Arc<Shown>) -> R
                 }
                 Supply::Pending | Supply::Probe => {}
                 Supply::End | Supply::Refused(_) => {
-                    shown.program(motion.programmed_path());
+                    board.program(motion.programmed_path());
                     return;
                 }
             }

@@ -1,4 +1,4 @@
-//! What the page can ask for, as far as it is known.
+//! What the page can ask for, as far as it is known: of one program at a time.
 
 use serde_json::{Value, json};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -10,6 +10,9 @@ pub(super) type Numbers = Arc<[u8]>;
 struct Known {
     /// Counts what became known.
     version: u64,
+    /// Which program of those that were shown it is.
+    generation: u64,
+    name: Option<String>,
     lines: u64,
     text: Vec<String>,
     program_path: Option<Numbers>,
@@ -23,7 +26,6 @@ struct Known {
 #[derive(Debug)]
 pub(super) struct Shown {
     machine: Value,
-    name: Option<String>,
     known: Mutex<Known>,
 }
 
@@ -35,10 +37,9 @@ pub(super) struct WholePlan {
 }
 
 impl Shown {
-    pub(super) fn new(machine: Value, name: Option<String>) -> Self {
+    pub(super) fn new(machine: Value) -> Self {
         Self {
             machine,
-            name,
             known: Mutex::default(),
         }
     }
@@ -47,71 +48,137 @@ impl Shown {
         self.known.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
+    /// Forgets the program before, and shows another one, or none. What is still found out of the one
+    /// before is dropped.
+    pub(super) fn begin(self: &Arc<Self>, name: Option<&str>) -> Board {
+        let mut known = self.known();
+        *known = Known {
+            version: known.version + 1,
+            generation: known.generation + 1,
+            name: name.map(str::to_owned),
+            ..Known::default()
+        };
+        let generation = known.generation;
+        drop(known);
+        let shown = Arc::clone(self);
+        Board { shown, generation }
+    }
+
     pub(super) fn version(&self) -> u64 {
         self.known().version
-    }
-
-    /// The text of the program.
-    pub(super) fn text(&self, lines: &[String]) {
-        let mut known = self.known();
-        known.text = lines.to_vec();
-        known.lines = lines.len() as u64;
-        known.version += 1;
-    }
-
-    /// The programmed path.
-    pub(super) fn program(&self, path: Vec<u8>) {
-        let mut known = self.known();
-        known.program_path = Some(path.into());
-        known.version += 1;
-    }
-
-    /// The plan.
-    pub(super) fn plan(&self, plan: WholePlan) {
-        let mut known = self.known();
-        known.columns = Some(plan.columns.into());
-        known.path = Some(plan.path.into());
-        known.report = Some(plan.report);
-        known.version += 1;
-    }
-
-    /// There will be no plan.
-    pub(super) fn trouble(&self, why: &str) {
-        let mut known = self.known();
-        known.trouble = Some(why.to_owned());
-        known.version += 1;
     }
 
     /// What is known, as `/api/plan` tells.
     pub(super) fn object(&self) -> Value {
         let known = self.known();
-        let program = self.name.as_ref();
+        let program = known.name.as_ref();
         json!({
             "machine": self.machine,
             "program": program.map(|name| json!({ "name": name, "lines": known.lines })),
             "program_path": known.program_path.is_some(),
             "report": known.report,
             "failed": known.trouble,
+            "generation": known.generation,
             "version": known.version,
         })
     }
 
-    /// Some lines of the text.
-    pub(super) fn lines(&self, from: usize, count: usize) -> Value {
-        let known = self.known();
+    /// Some lines of the text of a program; `None` if another one is shown by now.
+    pub(super) fn lines(&self, of: u64, from: usize, count: usize) -> Option<Value> {
         let first = from.saturating_sub(1);
-        known.text.iter().skip(first).take(count).cloned().collect()
+        self.of(of, |known| {
+            Some(known.text.iter().skip(first).take(count).cloned().collect())
+        })
     }
 
-    pub(super) fn program_path(&self) -> Option<Numbers> {
-        self.known().program_path.clone()
+    pub(super) fn program_path(&self, of: u64) -> Option<Numbers> {
+        self.of(of, |known| known.program_path.clone())
     }
 
-    pub(super) fn columns(&self) -> Option<Numbers> {
-        self.known().columns.clone()
+    pub(super) fn columns(&self, of: u64) -> Option<Numbers> {
+        self.of(of, |known| known.columns.clone())
     }
 
-    pub(super) fn path(&self) -> Option<Numbers> {
-        self.known().path.clone()
+    pub(super) fn path(&self, of: u64) -> Option<Numbers> {
+        self.of(of, |known| known.path.clone())
+    }
+
+    /// What is known of one program, and of no other.
+    fn of<T>(&self, generation: u64, get: impl FnOnce(&Known) -> Option<T>) -> Option<T> {
+        let known = self.known();
+        (known.generation == generation)
+            .then(|| get(&known))
+            .flatten()
+    }
+}
+
+/// Where what is found out of one program is put, as long as it is the one that is shown.
+#[derive(Debug, Clone)]
+pub(super) struct Board {
+    shown: Arc<Shown>,
+    generation: u64,
+}
+
+impl Board {
+    fn put(&self, put: impl FnOnce(&mut Known)) {
+        let mut known = self.shown.known();
+        if known.generation == self.generation {
+            put(&mut known);
+            known.version += 1;
+        }
+    }
+
+    /// The text of the program.
+    pub(super) fn text(&self, lines: &[String]) {
+        self.put(|known| {
+            known.text = lines.to_vec();
+            known.lines = lines.len() as u64;
+        });
+    }
+
+    /// The programmed path.
+    pub(super) fn program(&self, path: Vec<u8>) {
+        self.put(|known| known.program_path = Some(path.into()));
+    }
+
+    /// The plan.
+    pub(super) fn plan(&self, plan: WholePlan) {
+        self.put(|known| {
+            known.columns = Some(plan.columns.into());
+            known.path = Some(plan.path.into());
+            known.report = Some(plan.report);
+        });
+    }
+
+    /// There will be no plan.
+    pub(super) fn trouble(&self, why: &str) {
+        self.put(|known| known.trouble = Some(why.to_owned()));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_found_out_of_another_program_is_dropped() {
+        let shown = Arc::new(Shown::new(Value::Null));
+        let first = shown.begin(Some("first.ngc"));
+        first.text(&["G0 X1".to_owned()]);
+        let second = shown.begin(Some("second.ngc"));
+        let before = shown.object();
+        first.text(&["G0 X2".to_owned()]);
+        first.program(vec![1]);
+        first.trouble("it is no more");
+        assert_eq!(shown.object(), before);
+        assert_eq!(shown.lines(1, 1, 9), None);
+        assert_eq!(shown.lines(2, 1, 9), Some(json!([])));
+        assert!(shown.program_path(2).is_none());
+        second.text(&["G0 X3".to_owned(), "M2".to_owned()]);
+        assert_eq!(shown.object()["program"]["lines"], 2);
+        assert_eq!(shown.lines(2, 2, 9), Some(json!(["M2"])));
+        assert!(shown.version() > before["version"].as_u64().unwrap());
+        let _none = shown.begin(None);
+        assert_eq!(shown.object()["program"], Value::Null);
     }
 }

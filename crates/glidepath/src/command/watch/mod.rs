@@ -2,6 +2,7 @@
 
 mod history;
 
+use super::active_program::active_program;
 use super::forecast::Forecast;
 use super::kept_offsets::KeptOffsets;
 use super::operator::{of_link, reach};
@@ -12,7 +13,7 @@ use crate::config::MachineConfig;
 use crate::exit::Exit;
 use crate::interrupt::Interrupt;
 use crate::output;
-use crate::report::{View, status_object, view_object, view_text};
+use crate::report::{View, active_object, status_object, view_object, view_text};
 use glidepath_link::{LinkConfig, LinkError, Operator, Record as _, Status, Transport as _};
 use history::History;
 use serde_json::{Value, json};
@@ -42,7 +43,7 @@ pub(super) fn watch(args: &StatusArgs, config: &MachineConfig) -> Result<Exit, F
     let link = session::link(&instance, config);
     let operator = reach(&link)?;
     let forecast = match &args.program {
-        Some(path) => Some(Forecast::start(path, config, ())?),
+        Some(path) => Some(Forecast::start(path, config, None, ())?),
         None => None,
     };
     let transport = session::join(&args.operator.instance, config)?;
@@ -83,6 +84,8 @@ pub(super) fn watch(args: &StatusArgs, config: &MachineConfig) -> Result<Exit, F
             let mut object = status_object(&instance, &status);
             if let Value::Object(object) = &mut object {
                 object.extend(view_object(&view));
+                let active = active_program(&link, &status);
+                object.insert("active_program".to_owned(), active_object(active.as_ref()));
             }
             output::object_line(&object);
         } else {

@@ -1,5 +1,7 @@
 //! The page of a machine, in a browser: it loads, it moves, and it holds the machine if it may.
 
+mod following;
+
 use std::io::{BufRead as _, BufReader, Read as _, Write as _};
 use std::net::TcpStream;
 use std::process::{Child, Command, Stdio};
@@ -64,6 +66,46 @@ impl Live {
         let (head, body) = answer.split_once("\r\n\r\n").unwrap();
         let status = head.split(' ').nth(1).unwrap().parse().unwrap();
         (status, body.to_owned())
+    }
+
+    /// What is at a path, as a page asks for it.
+    fn get(&self, path: &str) -> Value {
+        let mut stream = TcpStream::connect(("127.0.0.1", self.port)).unwrap();
+        let (port, token) = (self.port, self.token());
+        let head = format!("GET {path} HTTP/1.1\r\nHost: localhost:{port}\r\n{token}\r\n");
+        stream.write_all(head.as_bytes()).unwrap();
+        let mut answer = String::new();
+        stream.read_to_string(&mut answer).unwrap();
+        let (head, body) = answer.split_once("\r\n\r\n").unwrap();
+        assert!(head.starts_with("HTTP/1.1 200"), "{path}: {answer}");
+        serde_json::from_str(body).unwrap()
+    }
+
+    /// Listens as a page does, from what is remembered on, until a status pleases.
+    fn told(&self, wanted: impl Fn(&Value) -> bool) -> Value {
+        let mut stream = TcpStream::connect(("127.0.0.1", self.port)).unwrap();
+        let (port, token) = (self.port, self.token());
+        let head = format!("GET /api/stream HTTP/1.1\r\nHost: localhost:{port}\r\n{token}\r\n");
+        stream.write_all(head.as_bytes()).unwrap();
+        let mut stream = BufReader::new(stream);
+        let mut line = String::new();
+        while line != "\r\n" {
+            line.clear();
+            stream.read_line(&mut line).unwrap();
+        }
+        loop {
+            let mut length = [0; 4];
+            stream.read_exact(&mut length).unwrap();
+            let mut message = vec![0; u32::from_le_bytes(length) as usize];
+            stream.read_exact(&mut message).unwrap();
+            if message[0] != 1 {
+                continue;
+            }
+            let status = serde_json::from_slice(&message[1..]).unwrap();
+            if wanted(&status) {
+                return status;
+            }
+        }
     }
 
     /// The header that lets a request in.
