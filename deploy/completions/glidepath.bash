@@ -1894,7 +1894,7 @@ _glidepath() {
             return 0
             ;;
         glidepath__subcmd__live)
-            opts="-c -h --port --commands --tool-table --subroutine-path --dialect --allow-unchecked --effort --tolerance --config --json --instance --help"
+            opts="-c -h --port --may --programs --tool-table --subroutine-path --dialect --allow-unchecked --effort --tolerance --config --json --instance --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -1902,6 +1902,17 @@ _glidepath() {
             case "${prev}" in
                 --port)
                     COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --may)
+                    COMPREPLY=($(compgen -W "look hold operate" -- "${cur}"))
+                    return 0
+                    ;;
+                --programs)
+                    COMPREPLY=()
+                    if [[ "${BASH_VERSINFO[0]}" -ge 4 ]]; then
+                        compopt -o plusdirs
+                    fi
                     return 0
                     ;;
                 --tool-table)

@@ -2,6 +2,7 @@
 
 use std::io::{Read as _, Write as _};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
+use std::time::Duration;
 
 use glidepath_testing::skip;
 use serde_json::{Value, json};
@@ -119,23 +120,44 @@ impl Browser {
     /// Waits until an expression is true on the page.
     pub fn wait(&mut self, expression: &str) {
         while self.evaluate(&format!("!!({expression})")) != true {
-            std::thread::sleep(std::time::Duration::from_millis(50));
+            std::thread::sleep(Duration::from_millis(50));
         }
     }
 
     /// Presses the middle of an element, and lets it go.
     pub fn press(&mut self, selector: &str) {
+        self.press_for(selector, Duration::ZERO);
+    }
+
+    /// Presses the middle of an element, and lets it go after a while.
+    pub fn press_for(&mut self, selector: &str, long: Duration) {
+        let place = self.finger_down(selector);
+        std::thread::sleep(long);
+        self.finger_up(&place);
+    }
+
+    /// Puts a finger down in the middle of an element. Returns where that is: the element may be gone when
+    /// the finger comes up.
+    pub fn finger_down(&mut self, selector: &str) -> Value {
         let place = format!(
             "(() => {{ const r = document.querySelector('{selector}').getBoundingClientRect(); \
              return [r.x + r.width / 2, r.y + r.height / 2]; }})()"
         );
         let place = self.evaluate(&place);
-        for kind in ["mousePressed", "mouseReleased"] {
-            let event = json!({
-                "type": kind, "x": place[0], "y": place[1], "button": "left", "clickCount": 1,
-            });
-            let _pressed = self.call("Input.dispatchMouseEvent", &event);
-        }
+        self.mouse("mousePressed", &place);
+        place
+    }
+
+    /// Takes a finger up.
+    pub fn finger_up(&mut self, place: &Value) {
+        self.mouse("mouseReleased", place);
+    }
+
+    fn mouse(&mut self, kind: &str, place: &Value) {
+        let event = json!({
+            "type": kind, "x": place[0], "y": place[1], "button": "left", "clickCount": 1,
+        });
+        let _done = self.call("Input.dispatchMouseEvent", &event);
     }
 }
 

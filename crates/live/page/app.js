@@ -12,16 +12,6 @@ async function api(path, kind) {
     return kind === 'json' ? await answer.json() : await answer.arrayBuffer();
   } catch { return null; }
 }
-async function command(kind, value) {
-  if (!S.commands) return;
-  S.refusal = '';
-  try {
-    const answer = await fetch('/api/command', { method: 'POST', headers: { 'X-Glidepath-Token': TOKEN, 'Content-Type': 'application/json' }, body: JSON.stringify({ kind, value }) });
-    const said = await answer.json();
-    if (!said.accepted) S.refusal = `${kind} refused: ${said.reason}`;
-  } catch { S.refusal = `${kind} was not sent: the page's server does not answer`; }
-  paintState();
-}
 /* What came of a program. It is used as long as the machine executes that program, or none. */
 let version = -1, fetching = false, COME = { plan: null, motion: null, program: null };
 async function fetchPlan() {
@@ -40,7 +30,9 @@ async function fetchPlan() {
   fetching = false;
 }
 function usePlan() {
-  PLAN = S.shows ? COME.plan : null; MOTION = S.shows ? COME.motion : null; PROGRAM = S.shows ? COME.program : null;
+  // Before a program runs, the one that was chosen is looked at.
+  const from = S.view === 'programs' ? LOOK : S.shows ? COME : {};
+  PLAN = from.plan || null; MOTION = from.motion || null; PROGRAM = from.program || null;
   RIBBON.key = ''; SPACE.stale = true;
   paintLegend(); paintTune(); redraw();
 }
@@ -76,12 +68,13 @@ function heard(kind, payload) {
   if (kind === 1) {
     const status = JSON.parse(new TextDecoder().decode(payload));
     S.status = status; S.heard = performance.now();
-    S.state = status.state; S.commands = status.commands; S.rate = status.effective_override || 1;
+    S.state = status.state; S.rate = status.effective_override || 1;
     S.p = status.place === null ? 0 : status.place;
     // Nothing of another program is shown while one runs.
     const shows = status.program_is_shown || status.end_of_epoch !== 'open';
     if (shows !== S.shows) { S.shows = shows; usePlan(); }
     if (status.version !== version) fetchPlan();
+    if (S.may === 'operate' && status.set_up !== undefined) fetchSetUp(status.set_up);
   } else if (kind === 2 && RINGED && S.status) {
     const errors = Object.values(S.status.following_error || {}).map(v => Math.abs(v || 0));
     RINGED.take(payload, S.p, Math.max(0, ...errors) * 1000, (S.status.queue_depth || 0) * DT());
@@ -100,6 +93,7 @@ function setInfo(info) {
   info.machine.axes.forEach((axis, k) => { S.axes[axis.name] = k < 3; });
   if (!S.file) RINGED = new Ring(info.machine.axes.length, info.machine.period_s);
   layDigits(); paintTools();
+  if (!S.file) laySetUp();
 }
 function layDigits() {
   const axes = AXES();
@@ -110,11 +104,14 @@ function layDigits() {
 function setView(view) {
   // Who operates sees all of the path, whatever somebody looked at before.
   if (view === 'operate' && S.view !== view) { SPACE.view('iso'); S.hover = null; }
+  const other = S.view !== view;
   S.view = view; $('#app').dataset.view = view;
+  if (!S.file && other) { endJog(); usePlan(); if (view === 'programs') { fetchPrograms(); lookAtChosen(); } if (view === 'setup') paintTables(); }
   $$('#tabs button').forEach(b => b.setAttribute('aria-current', b.dataset.v === view));
   const box = $(`#${view} [data-path]`);
   if (box) box.append(SPACE.box, overMode, overView, legend);
   paintLegend(); paintTools(); paintTune(); paintState(); redraw();
+  if (!S.file) { paintSetUp(); paintPrograms(); }
 }
 const made = (name, html) => { const e = document.createElement('div'); e.className = name; e.innerHTML = html; return e; };
 const overMode = made('over chips at-left', '<button data-m="limit">limit</button><button data-m="feed">feed</button><button data-prog>program</button>');
@@ -221,8 +218,11 @@ function digits() {
     $('.bar i', tile).style.width = `${Math.min(100, Math.abs(ratio) * 50)}%`; $('.bar u', tile).style.left = '50%';
   }
   put($('#spin'), s.spindle && s.spindle.turns !== 'off' ? grouped(s.spindle.speed) : s.spindle ? '0' : '–'); put($('#spinof'), s.spindle ? s.spindle.turns + (s.spindle.coolant ? `, ${s.spindle.coolant}` : '') : 'not known here');
-  put($('#tool'), !s.tool ? '–' : `T${s.tool}`); put($('#toolof'), !s.tool ? 'none, or not told' : 'in the spindle');
-  const known = s.left_s !== null && s.left_s !== undefined, ends = known && S.state === 'running' ? clock(Date.now() + s.left_s * 1000) : null;
+  // While a tool is asked for, the one that is told is not in the spindle yet.
+  const asked = s.asked && s.asked.tools, now = asked ? asked.before && asked.before.number : s.tool;
+  put($('#tool'), now ? `T${now}` : '–'); put($('#toolof'), asked ? `T${asked.wanted ? asked.wanted.number : 0} is wanted` : now ? 'told to be in' : 'none, or not told');
+  // Of a program that is over nothing is left.
+  const known = s.left_s !== null && s.left_s !== undefined && s.end_of_epoch === 'open', ends = known && S.state === 'running' ? clock(Date.now() + s.left_s * 1000) : null;
   put($('#left'), S.state === 'stale' || !known ? '–:––.–' : span(s.left_s)); put($('#g-left'), $('#left').textContent);
   put($('#ends'), S.state === 'stale' ? 'not known' : ends ? `ends ${ends}` : known ? 'after resume' : ''); put($('#g-end'), ends || '––:––:––');
   put($('#g-line'), String(s.line)); put($('#g-ov'), `${Math.round(s.feed_override * 100)} %`); put($('#g-feed'), grouped(speed * 60));
@@ -241,42 +241,6 @@ function blocks(line) {
   fill($('#blocks'), [-2, -1, 0, 1, 2].map(k => { const text = LINES.get(line + k); return `<div class="${k ? '' : 'cur'}"><span class="k">${text === undefined ? '' : line + k}</span><span>${text ? safe(text.trim()) : ' '}</span></div>`; }).join(''));
 }
 
-/* ---- commands */
-$('#cmd').addEventListener('pointerdown', e => { const b = e.target.closest('button'); if (b && !b.disabled && b.dataset.c === 'hold') { b.dataset.sent = 1; command('hold'); } });
-$('#cmd').addEventListener('click', e => {
-  const b = e.target.closest('button');
-  if (!b || b.disabled) return;
-  const kind = b.dataset.c;
-  if (kind === 'abort') return sure(true);
-  // Hold was sent when the finger came down; from the keyboard it comes here alone.
-  if (kind === 'hold' && b.dataset.sent) { delete b.dataset.sent; return; }
-  command(kind);
-});
-$$('.ov').forEach(tile => {
-  const [less, more] = $$('button', tile);
-  less.innerHTML = icon('minus'); more.innerHTML = icon('plus');
-  const kind = tile.dataset.ov, most = kind === 'feed-override' ? 2 : 1;
-  const now = () => S.status ? S.status[kind.replace('-', '_')] : 1;
-  // Whichever way the motion goes, more is faster.
-  const way = () => now() < 0 || Object.is(now(), -0) ? -1 : 1;
-  for (const b of [less, more]) b.onclick = () => command(kind, way() * Math.round(Math.max(0, Math.min(most, Math.abs(now()) + +b.dataset.d)) * 100) / 100);
-  $('.mid', tile).ondblclick = () => command(kind, 1);
-});
-function sure(on) {
-  $('#sure').classList.toggle('on', on);
-  if (!on) return;
-  put($('#sureof'), `The machine comes to rest on the path and drops what is left of the program${S.status && S.status.left_s ? `, ${span(S.status.left_s)}` : ''}. This is not an emergency stop.`);
-  $('#sure .no').focus();
-}
-$('#sure .no').onclick = () => sure(false);
-{
-  const b = $('#sure .do');
-  let timer;
-  const up = () => { clearTimeout(timer); b.classList.remove('down'); };
-  b.onpointerdown = () => { b.classList.add('down'); timer = setTimeout(() => { up(); sure(false); command('abort'); }, 1000); };
-  b.onpointerup = up; b.onpointerleave = up;
-}
-
 /* ---- the loop */
 let lastDigits = 0, lastHealth = 0, lastSpectrum = 0;
 const FRAMES = { count: 0, since: 0, rate: 0 };
@@ -284,7 +248,11 @@ function frame(t) {
   FRAMES.count++;
   if (t - FRAMES.since > 1000) { FRAMES.rate = FRAMES.count * 1000 / (t - FRAMES.since); FRAMES.count = 0; FRAMES.since = t; }
   if (!S.file && S.heard && performance.now() - S.heard > 1500 && S.state !== 'stale') { S.state = 'stale'; paintState(); redraw(); }
-  if (t - lastDigits > 66) { lastDigits = t; digits(); paintState(); }
+  if (t - lastDigits > 66) {
+    lastDigits = t; digits(); paintState();
+    if (S.view === 'setup') { setUpDigits(); paintSetUp(); }
+    if (S.view === 'programs') { paintChosen(); paintDay(); }
+  }
   if (dirty.path && $(`#${S.view} [data-path]`)) { SPACE.draw(S.p); dirty.path = false; }
   if (dirty.strips && S.view === 'tune') { strips(); dirty.strips = false; }
   if (dirty.ribbon) { ribbon(); dirty.ribbon = false; }
@@ -293,9 +261,14 @@ function frame(t) {
   if (S.view === 'glance') eventLog();
   requestAnimationFrame(frame);
 }
+const VIEWS = { setup: 'Set up', programs: 'Programs', operate: 'Run', tune: 'Tune', health: 'Health' };
+function paintTabs() {
+  const views = S.file ? ['tune'] : S.may === 'operate' ? Object.keys(VIEWS) : ['operate', 'tune', 'health'];
+  fill($('#tabs'), views.map(v => `<button data-v="${v}">${S.file ? 'Plan' : VIEWS[v]}</button>`).join(''));
+  $$('#tabs button').forEach(b => { b.onclick = () => setView(b.dataset.v); b.setAttribute('aria-current', b.dataset.v === S.view); });
+}
 function start() {
-  $('#tabs').innerHTML = (S.file ? ['tune'] : ['operate', 'tune', 'health']).map(v => `<button data-v="${v}">${S.file ? 'Plan' : v[0].toUpperCase() + v.slice(1)}</button>`).join('');
-  $$('#tabs button').forEach(b => { b.onclick = () => setView(b.dataset.v); });
+  paintTabs();
   $('#themer').innerHTML = icon('theme');
   const recolour = name => { theme(name); SPACE.stale = true; paintLegend(); redraw(); };
   $('#themer').onclick = () => recolour(T.dark ? 'light' : 'dark');
@@ -305,7 +278,6 @@ function start() {
   SPACE.onhover = p => { if (S.view === 'tune') hover(p); };
   SPACE.onclick = p => { if (p !== null && PLAN && S.view === 'tune') { const t = timeOf(p); if (t !== null) lookAt(t); } };
   stripHands(hover); ribbonHands(hover);
-  fill($('#g-foot'), `${icon('lock')}<span>A phone only looks; it sends no commands.</span>`);
   let kept = null;
   try { kept = localStorage.getItem('glidepath-theme'); } catch { /* none */ }
   recolour(hash.get('theme') || kept || (matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light'));
@@ -328,7 +300,9 @@ function startLive() {
   try { if (TOKEN) sessionStorage.setItem('glidepath-token', TOKEN); else TOKEN = sessionStorage.getItem('glidepath-token') || ''; } catch { /* none */ }
   // The token leaves the address, so that it is in no picture of the screen.
   if (hash.get('token')) { hash.delete('token'); history.replaceState(null, '', hash.toString() ? `#${hash}` : location.pathname); }
+  layBar(); layOverrides(); layLine(); layPrograms();
   setView(hash.get('view') || (innerWidth < 600 ? 'glance' : 'operate'));
+  startHands();
   fetchPlan().then(listen);
 }
 start();

@@ -8,7 +8,7 @@ const hash = new URLSearchParams(location.hash.slice(1));
 /* The page: `file` if it is one of `plan --plot`. `hover` and `p` are places in the plan, in samples. */
 const S = {
   file: !!window.GLIDEPATH_FILE, view: 'operate', state: 'stale', hover: null, p: 0,
-  shows: true, follow: true, span: 6, end: 0, commands: false, status: null, heard: 0, refusal: '',
+  shows: true, follow: true, span: 6, end: 0, status: null, heard: 0, refusal: '',
   axes: {}, parts: { p: true, v: true, a: true, j: true }, box: 'slow',
 };
 /* The machine and its program, as `/api/plan` tells. */
@@ -47,6 +47,7 @@ const ICONS = {
   lock: 'M6 10V7a6 6 0 0 1 12 0v3h2v12H4V10zm3 0h6V7a3 3 0 0 0-6 0z',
   minus: 'M3 10.4h18v3.2H3z', plus: 'M10.4 3h3.2v7.4H21v3.2h-7.4V21h-3.2v-7.4H3v-3.2h7.4z',
   theme: 'M12 1a11 11 0 0 1 0 22zm0 0a11 11 0 0 0 0 22V20a8 8 0 0 1 0-16z', dot: 'M12 8a4 4 0 1 1 0 8 4 4 0 0 1 0-8z',
+  back: 'M18 3v18L3 12z', home: 'M12 2 23 12h-3v9h-6v-6h-4v6H4v-9H1z', power: 'M10.4 1h3.2v11h-3.2zM7 4.2l1.6 2.7a7 7 0 1 0 6.8 0L17 4.2a10.2 10.2 0 1 1-10 0z',
   plot: 'M2 2h3v17h17v3H2zM7 16l4-8 4 4 4-9 2.7 1.2L16 17l-4-4-2.3 4.6z',
 };
 ICONS.bad = ICONS.fault;

@@ -3,12 +3,22 @@
 
 /* state of the machine → icon, word, how much it concerns a person, colour */
 const WORDS = {
-  idle: ['idle', 'Ready', 0, 'idle'], running: ['running', 'Running', 0, 'running'], holding: ['hold', 'Holding', 1, 'held'], held: ['hold', 'Held', 1, 'held'],
-  starving: ['warn', 'Slowing', 1, 'held'], starved: ['warn', 'Waiting', 1, 'held'], 'program-stop': ['hold', 'Program stop', 2, 'await'], stopping: ['hold', 'Stopping', 1, 'held'],
-  faulted: ['fault', 'Fault', 3, 'fault'], waiting: ['hold', 'Waiting', 0, 'idle'], awaiting: ['await', 'Waiting', 2, 'await'], jogging: ['running', 'By hand', 1, 'held'],
-  homing: ['running', 'Homing', 1, 'held'], off: ['idle', 'Off', 0, 'idle'], 'not-homed': ['idle', 'Not homed', 0, 'idle'], preparing: ['running', 'Preparing', 0, 'idle'],
-  stale: ['stale', 'No data', 3, 'stale'], none: ['stale', 'No machine', 0, 'stale'], file: ['plot', 'Plan', 0, 'running'],
+  idle: ['idle', 'Ready', 0, 'idle'], running: ['running', 'Running', 0, 'running'], holding: ['hold', 'Slowing down', 1, 'held'], held: ['hold', 'Held', 1, 'held'],
+  starving: ['warn', 'Slowing down', 1, 'held'], starved: ['warn', 'Out of plan', 1, 'held'], 'program-stop': ['await', 'Program stop', 2, 'await'], stopping: ['abort', 'Ending', 1, 'held'],
+  faulted: ['fault', 'Fault', 3, 'fault'], waiting: ['stale', 'Sender paused', 0, 'idle'], awaiting: ['await', 'Needs you', 2, 'await'], jogging: ['running', 'By hand', 1, 'held'],
+  homing: ['home', 'Homing', 1, 'held'], off: ['power', 'Off', 0, 'idle'], 'not-homed': ['home', 'Not homed', 0, 'idle'], preparing: ['running', 'Preparing', 0, 'idle'],
+  stale: ['stale', 'No contact', 3, 'stale'], none: ['stale', 'No machine', 0, 'stale'], file: ['plot', 'Plan', 0, 'running'],
 };
+/* The same, where the state alone does not tell. */
+function wordsNow() {
+  const s = S.status;
+  if (S.state === 'running' && s.mode === 'backwards') return ['back', 'Going back', 1, 'held'];
+  if (S.state === 'held' && s && isAway(s)) return ['hold', 'Held, off the path', 1, 'held'];
+  if (S.state === 'awaiting' && !s.asked) return ['stale', 'Machine busy', 0, 'idle'];
+  if (S.state === 'program-stop' && s.single_block && !(s.asked && s.asked.says)) return ['step', 'Block done', 1, 'held'];
+  return WORDS[S.state] || WORDS.stale;
+}
+const isAway = s => Object.values(s.away || {}).some(x => Math.abs(x) > 1e-9);
 const line = status => status.line ? `line ${status.line}${status.program_is_shown && INFO.program && INFO.program.lines ? ` of ${grouped(INFO.program.lines)}` : ''}` : 'before its first line';
 /* What the machine executes, or has executed last, whoever began it. */
 function programName() {
@@ -30,10 +40,16 @@ function cause() {
   if (S.state === 'program-stop' && s.asked && s.asked.says) return `${program}${line(s)}: “${s.asked.says}”`;
   // In these nothing of a program is under way.
   const alone = ['idle', 'preparing', 'off', 'not-homed', 'homing', 'jogging'].includes(S.state);
-  return `${sentence(`${alone ? '' : `${program}${line(s)}: `}${plain(s.state_text || S.state)}`)}.`;
+  const text = told(s.state_text || S.state);
+  if (alone) return `${sentence(text)}.`;
+  // Nothing goes on before the axes are back.
+  if (S.state === 'held' && isAway(s)) return `${program}${line(s)}: held at rest off the path, after a jog; Return goes back to it.`;
+  return program ? `${program}${line(s)}: ${text}.` : `${sentence(`${line(s)}: ${text}`)}.`;
 }
 /* Texts come from the machine: commands in backticks, no capital, no full stop. */
 const plain = text => text.replaceAll('`', '');
+/* A page that operates names its buttons. */
+const told = text => S.file ? plain(text) : buttonWords(text);
 const sentence = text => text.charAt(0).toUpperCase() + text.slice(1);
 const marked = text => safe(text).replace(/`([^`]*)`/g, '<code>$1</code>');
 function fileWords() {
@@ -61,16 +77,20 @@ function askedWords(s) {
 
 /* What stands in place of the text of the program when a person is needed. */
 function attention() {
-  const s = S.status;
-  if (S.state === 'faulted') return `<h2>${safe(sentence(s.fault || 'a fault'))}</h2><p>${marked(sentence(s.state_text || ''))}.</p><ol><li><span>Look at the tool and the part.</span></li><li><span>At the machine: ${marked(s.fault_remedy || '`glidepath reset`')}.</span></li></ol>`;
+  const s = S.status, hands = S.may === 'operate', steps = list => hands ? '' : `<ol>${list.map(text => `<li><span>${marked(text)}</span></li>`).join('')}</ol>`;
+  if (S.state === 'faulted') return `<h2>${safe(sentence(s.fault || 'a fault'))}.</h2><p>${hands ? safe(sentence(told(s.fault_remedy || ''))) : marked(sentence(s.state_text || ''))}.</p>${steps(['Look at the tool and the part.', `At the machine: ${s.fault_remedy || '`glidepath reset`'}.`])}`;
   if (S.state === 'awaiting' && s.awaited) {
     const says = s.asked && s.asked.says ? `<p class="says">${safe(s.asked.says)}</p>` : '';
     const title = s.asked ? sentence(askedWords(s)) : `${sentence(s.awaited.event)} of line ${s.awaited.line} is awaited.`;
-    return `<h2>${safe(title)}</h2>${exchange(s.asked)}${says}<ol><li><span>When that is done: ${marked(s.awaited.done_by)}</span></li><li><span>If it cannot be done: ${marked(s.awaited.failed_by)}</span></li></ol>`;
+    return `<h2>${safe(title)}</h2>${exchange(s.asked)}${says}${s.asked ? steps([`When that is done: ${s.awaited.done_by}`, `If it cannot be done: ${s.awaited.failed_by}`]) : ''}`;
   }
-  if (S.state === 'program-stop') {
+  if (S.state === 'program-stop' && !(s.single_block && !(s.asked && s.asked.says))) {
     const says = s.asked && s.asked.says;
-    return `<h2>The program stopped at ${line(s)}.</h2>${says ? `<p class="says">${safe(says)}</p>` : ''}<ol><li><span>Do what the program stopped for.</span></li><li><span>Press Resume, here or at the machine.</span></li></ol>`;
+    return `<h2>The program stopped at ${line(s)}.</h2>${says ? `<p class="says">${safe(says)}</p>` : ''}${steps(['Do what the program stopped for.', 'Press Resume, here or at the machine.'])}`;
+  }
+  if (S.state === 'held' && isAway(s)) {
+    const way = Object.entries(s.away).filter(([, x]) => Math.abs(x) > 1e-9).map(([name, x]) => `${name} ${num(x, 3)}`).join(', ');
+    return `<h2>The axes are off the path: ${way}.</h2><p>They go back to where the program was held before it goes on.</p>`;
   }
   return '';
 }
@@ -84,19 +104,14 @@ function exchange(asked) {
 
 /* The band on top, and which commands there are. */
 function paintState() {
-  const [sign, word, level, colour] = WORDS[S.state] || WORDS.stale, app = $('#app');
-  app.dataset.state = colour; app.dataset.level = level; app.dataset.cmd = S.commands ? 1 : 0; app.dataset.machine = S.state;
+  const [sign, word, level, colour] = wordsNow(), app = $('#app'), panel = S.file ? '' : attention();
+  app.dataset.state = colour; app.dataset.level = level; app.dataset.machine = S.state; app.dataset.attn = panel ? 1 : 0;
   fill($('#sym'), icon(sign).replace('class="i "', ''));
   fill($('#word'), `${word}<span id="mach">${safe(INFO.machine.instance)}</span>`);
   put($('#why'), cause());
-  fill($('#attn'), attention());
   if (S.file) return;
-  const can = {
-    hold: ['running', 'starving', 'starved', 'preparing'].includes(S.state), resume: ['held', 'program-stop'].includes(S.state),
-    step: ['held', 'program-stop'].includes(S.state), abort: !['idle', 'stale', 'none', 'off', 'not-homed', 'faulted', 'stopping'].includes(S.state),
-  };
-  const names = { hold: 'Hold', resume: 'Resume', step: 'Step', abort: 'Abort' }, icons = { hold: 'hold', resume: 'running', step: 'step', abort: 'abort' };
-  fill($('#cmd'), Object.keys(names).map(name => `<button data-c="${name}" ${S.commands && can[name] ? '' : 'disabled'} class="${can[name] && (name === 'hold' || name === 'resume') ? 'main' : ''}">${icon(icons[name])}${names[name]}</button>`).join(''));
-  fill($('#mode'), S.refusal ? `${icon('warn', 'warn')}<span>${safe(S.refusal)}</span>`
-    : S.commands ? '<span>Commands are on.<br>Not for emergencies.</span>' : `<span class="big">${icon('lock')}</span><span>Read only.<br>Commands are off.</span>`);
+  const keys = panel ? attentionKeys() : '';
+  fill($('#attn'), panel + (keys ? `<div class="row keysrow">${keys}</div>` : ''));
+  document.title = `${level > 1 ? `${word} · ` : ''}${INFO.machine.instance} · Glidepath`;
+  paintBar();
 }

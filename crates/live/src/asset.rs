@@ -6,9 +6,11 @@ use crate::response::{Answer, ContentType};
 pub(crate) const INDEX: &str = include_str!("../page/index.html");
 /// How it looks.
 pub(crate) const STYLE: &str = include_str!("../page/style.css");
+/// How what is operated looks.
+const HANDS_STYLE: &str = include_str!("../page/hands.css");
 
-/// What it does, in the order in which the page names it.
-pub(crate) const SCRIPTS: [(&str, &str); 10] = [
+/// What shows a motion, in the order in which the page names it.
+const SHOWING: [(&str, &str); 9] = [
     ("/base.js", include_str!("../page/base.js")),
     ("/plan.js", include_str!("../page/plan.js")),
     ("/ring.js", include_str!("../page/ring.js")),
@@ -18,8 +20,29 @@ pub(crate) const SCRIPTS: [(&str, &str); 10] = [
     ("/spectrum.js", include_str!("../page/spectrum.js")),
     ("/words.js", include_str!("../page/words.js")),
     ("/health.js", include_str!("../page/health.js")),
-    ("/app.js", include_str!("../page/app.js")),
 ];
+
+/// What operates a machine, behind that.
+const HANDS: [(&str, &str); 5] = [
+    ("/orders.js", include_str!("../page/orders.js")),
+    ("/bar.js", include_str!("../page/bar.js")),
+    ("/jog.js", include_str!("../page/jog.js")),
+    ("/setup.js", include_str!("../page/setup.js")),
+    ("/programs.js", include_str!("../page/programs.js")),
+];
+
+/// The page as a whole.
+const WHOLE: (&str, &str) = ("/app.js", include_str!("../page/app.js"));
+
+/// What the page does, in the order in which it names it.
+fn scripts() -> impl Iterator<Item = (&'static str, &'static str)> {
+    SHOWING.into_iter().chain(HANDS).chain([WHOLE])
+}
+
+/// The same for a page without a machine.
+pub(crate) fn scripts_of_file() -> impl Iterator<Item = &'static str> {
+    SHOWING.into_iter().chain([WHOLE]).map(|(_, script)| script)
+}
 
 /// Its typeface: B612, made for cockpits.
 pub(crate) const FONTS: [(&str, &[u8]); 4] = [
@@ -50,9 +73,10 @@ pub(crate) fn find(path: &str) -> Option<Answer> {
     match path {
         "/" => text(ContentType::Html, INDEX),
         "/style.css" => text(ContentType::Css, STYLE),
+        "/hands.css" => text(ContentType::Css, HANDS_STYLE),
         "/fonts/LICENSE-OFL.txt" => text(ContentType::Text, FONT_LICENCE),
         path => {
-            let script = SCRIPTS.iter().find(|(at, _)| *at == path);
+            let script = scripts().find(|(at, _)| *at == path);
             if let Some((_, script)) = script {
                 return text(ContentType::Script, script);
             }
@@ -73,15 +97,19 @@ mod tests {
             .skip(1)
             .filter_map(|rest| rest.split('"').next())
             .collect();
-        let own: Vec<&str> = SCRIPTS.iter().map(|(path, _)| &path[1..]).collect();
+        let own: Vec<&str> = scripts().map(|(path, _)| &path[1..]).collect();
         assert_eq!(named, own);
-        for text in SCRIPTS.iter().map(|(_, text)| *text).chain([INDEX, STYLE]) {
+        let texts = [INDEX, STYLE, HANDS_STYLE];
+        for text in scripts().map(|(_, text)| text).chain(texts) {
             assert!(!text.contains("://"), "nothing is loaded from elsewhere");
         }
         for (path, _) in FONTS {
             assert!(STYLE.contains(&path[1..]), "{path}");
             assert!(find(path).is_some());
         }
-        assert!(find("/style.css").is_some() && find("/nothing").is_none());
+        for path in ["/style.css", "/hands.css"] {
+            assert!(find(path).is_some() && INDEX.contains(&path[1..]));
+        }
+        assert!(find("/nothing").is_none());
     }
 }

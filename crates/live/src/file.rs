@@ -1,6 +1,6 @@
 //! The page as one file, with all that it shows: it needs neither server nor network.
 
-use crate::asset::{FONT_LICENCE, FONTS, INDEX, SCRIPTS, STYLE};
+use crate::asset::{FONT_LICENCE, FONTS, INDEX, STYLE, scripts_of_file};
 use crate::motion::Motion;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
@@ -24,12 +24,17 @@ pub fn page(plan: &str, lines: &str, motion: &Motion) -> String {
     let (_, body) = body.split_once("<!--end of files-->").unwrap_or(("", body));
     let (body, end) = body.split_once("<!--scripts-->").unwrap_or((body, ""));
     let (_, end) = end.split_once("<!--end of scripts-->").unwrap_or(("", end));
+    // There is no machine to be operated.
+    let (before, hands) = body.split_once("<!--hands-->").unwrap_or((body, ""));
+    let (_, behind) = hands
+        .split_once("<!--end of hands-->")
+        .unwrap_or(("", hands));
     let (first, head) = head.split_once("<head>").unwrap_or(("", head));
     let mut page = format!("{first}<head>{GENERATOR}{POLICY}{head}");
     // Writing to a String does not fail.
     let _ = write!(page, "<!--\n{}\n-->\n<style>", without_dashes(FONT_LICENCE));
     page.push_str(&style());
-    let _ = write!(page, "</style>{body}");
+    let _ = write!(page, "</style>{before}{behind}");
     let parts = [
         ("columns", motion.columns()),
         ("path", motion.path()),
@@ -42,7 +47,7 @@ pub fn page(plan: &str, lines: &str, motion: &Motion) -> String {
     let _ = write!(page, "lines:\"{}\",", STANDARD.encode(lines));
     // As a text in base 64, nothing in it can end the script.
     let _ = write!(page, "plan:\"{}\"}};</script>", STANDARD.encode(plan));
-    for (_, script) in SCRIPTS {
+    for script in scripts_of_file() {
         let _ = write!(page, "<script>{script}</script>");
     }
     page.push_str(end);

@@ -9,16 +9,21 @@
 //!   `Origin` would be no defence, since a page of a foreign name sends both alike;
 //! * an `Origin`, if there is one, is one of the same names, and so it is with
 //!   `Sec-Fetch-Site`, by which browsers say where a request comes from;
-//! * whatever is told or done takes the token, in a header field that no foreign page can set, and
-//!   that is compared in constant time;
-//! * commands are `POST` with `application/json`, which a foreign page cannot send without being
-//!   asked for leave, and leave is never given.
+//! * whatever is told or done takes a token, in a header field that no foreign page can set, and
+//!   that is compared in constant time; which of the tokens it is says what its page may;
+//! * commands are `POST` with `application/json`, and pieces of programs `application/octet-stream`,
+//!   which a foreign page cannot send without being asked for leave, and leave is never given.
 
 use crate::request::Request;
+use crate::role::{Caller, Role};
 use crate::token::Token;
 
 /// The header field that has the token, in lower case.
 pub const TOKEN_FIELD: &str = "x-glidepath-token";
+/// The header field that has the number of the page, sixteen hexadecimal digits, in lower case.
+pub const PAGE_FIELD: &str = "x-glidepath-page";
+/// Where pieces of programs go.
+pub const UPLOAD: &str = "/api/upload";
 /// What is told or done is below this path.
 pub const API: &str = "/api/";
 
@@ -40,8 +45,8 @@ pub enum Refusal {
     /// The method does not go with the path.
     #[error("this path does not take that method")]
     Method,
-    /// A command that is no JSON.
-    #[error("a command is `application/json`")]
+    /// A command that is no JSON, or a piece of a program that is no bytes.
+    #[error("a command is `application/json`, a piece of a program `application/octet-stream`")]
     ContentType,
 }
 
@@ -62,27 +67,27 @@ impl Refusal {
 #[derive(Debug, Clone)]
 pub struct Guard {
     hosts: Vec<String>,
-    token: Token,
+    tokens: Vec<(Role, Token)>,
 }
 
 impl Guard {
-    /// The judge of a server on this port.
+    /// The judge of a server on this port, with a token for each role that there is.
     #[must_use]
-    pub fn new(port: u16, token: Token) -> Self {
+    pub fn new(port: u16, tokens: Vec<(Role, Token)>) -> Self {
         let names = ["127.0.0.1", "localhost", "[::1]"];
         let mut hosts: Vec<String> = names.iter().map(|name| format!("{name}:{port}")).collect();
         if port == 80 {
             hosts.extend(names.map(str::to_owned));
         }
-        Self { hosts, token }
+        Self { hosts, tokens }
     }
 
-    /// Judges a request.
+    /// Judges a request. Returns who asks; nobody where no token is wanted.
     ///
     /// # Errors
     ///
     /// It is refused.
-    pub fn judge(&self, request: &Request) -> Result<(), Refusal> {
+    pub fn judge(&self, request: &Request) -> Result<Option<Caller>, Refusal> {
         let (path, _) = request.path();
         if !path.starts_with('/') || path.starts_with("//") || !path.is_ascii() {
             return Err(Refusal::Target);
@@ -93,25 +98,41 @@ impl Guard {
         }
         self.judge_origin(request)?;
         let is_api = path.starts_with(API);
-        if is_api {
-            let token = request.only(TOKEN_FIELD).ok_or(Refusal::Token)?;
-            if !self.token.is(token) {
-                return Err(Refusal::Token);
-            }
-        }
+        let caller = if is_api {
+            Some(self.caller(request)?)
+        } else {
+            None
+        };
         match request.method.as_str() {
-            "GET" => Ok(()),
+            "GET" => Ok(caller),
             "POST" if is_api => {
                 let kind = request.only("content-type").ok_or(Refusal::ContentType)?;
                 let kind = kind.split(|byte| *byte == b';').next().unwrap_or_default();
-                if kind.trim_ascii().eq_ignore_ascii_case(b"application/json") {
-                    Ok(())
+                let wanted: &[u8] = match path {
+                    UPLOAD => b"application/octet-stream",
+                    _ => b"application/json",
+                };
+                if kind.trim_ascii().eq_ignore_ascii_case(wanted) {
+                    Ok(caller)
                 } else {
                     Err(Refusal::ContentType)
                 }
             }
             _ => Err(Refusal::Method),
         }
+    }
+
+    /// Who asks, by its token.
+    fn caller(&self, request: &Request) -> Result<Caller, Refusal> {
+        let shown = request.only(TOKEN_FIELD).ok_or(Refusal::Token)?;
+        // All are compared, whichever it is.
+        let roles = self.tokens.iter().filter(|(_, token)| token.is(shown));
+        let role = roles.map(|(role, _)| *role).max().ok_or(Refusal::Token)?;
+        let page = request.only(PAGE_FIELD).filter(|page| page.len() == 16);
+        let page = page.and_then(|page| str::from_utf8(page).ok());
+        let page = page.and_then(|page| u64::from_str_radix(page, 16).ok());
+        let page = page.unwrap_or(0);
+        Ok(Caller { role, page })
     }
 
     fn judge_origin(&self, request: &Request) -> Result<(), Refusal> {

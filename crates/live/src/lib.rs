@@ -3,6 +3,7 @@
 //! * [`Server`] gives the page out on loopback, and nothing that is not asked for with the token:
 //!   what may be asked is [`guard`]'s to judge, before anybody else sees the request. What there is
 //!   to show and to command is the [`Site`]'s, which its user writes.
+//! * There is a token for each [`Role`]; of the pages that may operate one has the [`Seat`].
 //! * [`Feed`] hands what happens to every page that is open. A page that is too slow loses the
 //!   oldest; nobody waits for it.
 //! * [`Motion`] collects a motion of any length in bounded memory, as the page wants it: columns
@@ -22,12 +23,16 @@ mod motion;
 mod places;
 mod request;
 mod response;
+mod role;
+mod seat;
 mod server;
 mod token;
 
 pub use feed::{Feed, Message};
 pub use motion::{AxisScale, LimitKind, Motion, MotionSample};
-pub use request::Request;
+pub use request::{Head, MOST_PIECE, Request};
 pub use response::{Answer, ContentType, Status};
+pub use role::{Caller, Role};
+pub use seat::{SILENCE, Seat};
 pub use server::{Running, Server, ServerError, Site};
 pub use token::Token;

@@ -5,7 +5,9 @@ use std::io::{self, Read};
 /// Longest head of a request, bytes.
 const MOST_HEAD: usize = 16 << 10;
 /// Longest body, bytes: a command.
-const MOST_BODY: usize = 4 << 10;
+pub(crate) const MOST_BODY: usize = 4 << 10;
+/// Longest body of a piece of a program, bytes.
+pub const MOST_PIECE: usize = 1 << 20;
 /// Most header fields.
 const MOST_FIELDS: usize = 64;
 
@@ -23,37 +25,14 @@ pub struct Request {
 }
 
 impl Request {
-    /// Reads a request.
+    /// Reads a request with the body of a command.
     ///
     /// # Errors
     ///
     /// [`io::ErrorKind::InvalidData`] if it is none, or longer than any that is meant; the reader's
     /// errors.
     pub fn read(from: &mut impl Read) -> io::Result<Self> {
-        let mut bytes = Vec::new();
-        loop {
-            if let Some((mut request, head)) = parse(&bytes)? {
-                let length = request.length()?;
-                let rest = bytes.split_off(head);
-                request.body = rest;
-                let missing = length
-                    .checked_sub(request.body.len())
-                    .ok_or_else(|| invalid("more than one request"))?;
-                let at = request.body.len();
-                request.body.resize(at + missing, 0);
-                from.read_exact(request.body.get_mut(at..).unwrap_or_default())?;
-                return Ok(request);
-            }
-            if bytes.len() >= MOST_HEAD {
-                return Err(invalid("its head is too long"));
-            }
-            let mut more = [0; 2048];
-            let got = from.read(&mut more)?;
-            if got == 0 {
-                return Err(io::ErrorKind::UnexpectedEof.into());
-            }
-            bytes.extend_from_slice(more.get(..got).unwrap_or_default());
-        }
+        Head::read(from)?.body(from, MOST_BODY)
     }
 
     /// The values of a header field, whose name is in lower case.
@@ -89,9 +68,61 @@ impl Request {
             .and_then(|value| str::from_utf8(value).ok())
             .filter(|text| text.bytes().all(|byte| byte.is_ascii_digit()))
             .and_then(|text| text.parse().ok());
-        length
-            .filter(|length| *length <= MOST_BODY)
-            .ok_or_else(|| invalid("the length of its body"))
+        length.ok_or_else(|| invalid("the length of its body"))
+    }
+}
+
+/// The head of a request, before its body is read: whoever may send nothing long is not listened to.
+#[derive(Debug)]
+pub struct Head {
+    /// The request, with what of its body has come along.
+    pub request: Request,
+    length: usize,
+}
+
+impl Head {
+    /// Reads a head.
+    ///
+    /// # Errors
+    ///
+    /// As [`Request::read`].
+    pub fn read(from: &mut impl Read) -> io::Result<Self> {
+        let mut bytes = Vec::new();
+        loop {
+            if let Some((mut request, head)) = parse(&bytes)? {
+                let length = request.length()?;
+                request.body = bytes.split_off(head);
+                return Ok(Self { request, length });
+            }
+            if bytes.len() >= MOST_HEAD {
+                return Err(invalid("its head is too long"));
+            }
+            let mut more = [0; 2048];
+            let got = from.read(&mut more)?;
+            if got == 0 {
+                return Err(io::ErrorKind::UnexpectedEof.into());
+            }
+            bytes.extend_from_slice(more.get(..got).unwrap_or_default());
+        }
+    }
+
+    /// Reads the body, of at most so many bytes.
+    ///
+    /// # Errors
+    ///
+    /// As [`Request::read`].
+    pub fn body(self, from: &mut impl Read, most: usize) -> io::Result<Request> {
+        let (mut request, length) = (self.request, self.length);
+        if length > most {
+            return Err(invalid("the length of its body"));
+        }
+        let missing = length
+            .checked_sub(request.body.len())
+            .ok_or_else(|| invalid("more than one request"))?;
+        let at = request.body.len();
+        request.body.resize(at + missing, 0);
+        from.read_exact(request.body.get_mut(at..).unwrap_or_default())?;
+        Ok(request)
     }
 }
 

@@ -2,10 +2,11 @@
 
 use crate::asset;
 use crate::feed::{Feed, Message};
-use crate::guard::{API, Guard};
+use crate::guard::{Guard, UPLOAD};
 use crate::places::Places;
-use crate::request::Request;
+use crate::request::{Head, MOST_BODY, MOST_PIECE, Request};
 use crate::response::{Answer, ContentType, Status, begin_stream};
+use crate::role::{Caller, Role};
 use crate::token::Token;
 use core::time::Duration;
 use std::io::{self, Read, Write};
@@ -28,13 +29,17 @@ const SILENCE: Duration = Duration::from_secs(1);
 const STREAM: &str = "/api/stream";
 /// Where commands go.
 const COMMAND: &str = "/api/command";
+/// What a page may.
+const MAY: &str = "/api/may";
 
 /// What there is to show and to command. Requests come from several threads, all of them judged.
 pub trait Site: Send + Sync {
     /// What is at a path below `/api/`, with its query; `None` if there is nothing.
     fn document(&self, path: &str, query: &str) -> Option<Answer>;
-    /// Does what the body asks for.
-    fn command(&self, body: &[u8]) -> Answer;
+    /// Does what the body asks for, if the caller may.
+    fn command(&self, caller: Caller, body: &[u8]) -> Answer;
+    /// Takes a piece of a program, which the query tells more about, if the caller may.
+    fn upload(&self, caller: Caller, query: &str, piece: &[u8]) -> Answer;
 }
 
 /// Why there is no server.
@@ -61,31 +66,37 @@ pub enum ServerError {
 pub struct Server {
     listener: TcpListener,
     address: SocketAddr,
-    token: Token,
+    tokens: Vec<(Role, Token)>,
 }
 
 impl Server {
-    /// Takes a port of 127.0.0.1, any free one for 0, and makes a token.
+    /// Takes a port of 127.0.0.1, any free one for 0, and makes a token for each role up to `most`.
     ///
     /// # Errors
     ///
     /// The port cannot be had, or the system has no random numbers.
-    pub fn bind(port: u16) -> Result<Self, ServerError> {
+    pub fn bind(port: u16, most: Role) -> Result<Self, ServerError> {
         let failed = |cause| ServerError::Port { port, cause };
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port)).map_err(failed)?;
         let address = listener.local_addr().map_err(failed)?;
-        let token = Token::new().map_err(ServerError::Token)?;
+        let roles = Role::ALL.into_iter().filter(|role| *role <= most);
+        let tokens = roles.map(|role| Token::new().map(|token| (role, token)));
+        let tokens: io::Result<_> = tokens.collect();
         Ok(Self {
             listener,
             address,
-            token,
+            tokens: tokens.map_err(ServerError::Token)?,
         })
     }
 
-    /// The address to open, with the token behind `#`, which browsers do not send.
-    #[must_use]
-    pub fn url(&self) -> String {
-        format!("http://{}/#token={}", self.address, self.token.as_str())
+    /// The address to open for each role, the least first, with the token behind `#`, which browsers do
+    /// not send.
+    pub fn urls(&self) -> impl Iterator<Item = (Role, String)> {
+        let address = self.address;
+        let tokens = self.tokens.iter();
+        tokens.map(move |(role, token)| {
+            (*role, format!("http://{address}/#token={}", token.as_str()))
+        })
     }
 
     /// The port.
@@ -102,7 +113,7 @@ impl Server {
     pub fn start(self, site: Arc<dyn Site>, feed: &Feed) -> Result<Running, ServerError> {
         let over = Arc::new(AtomicBool::new(false));
         let work = Work {
-            guard: Guard::new(self.address.port(), self.token),
+            guard: Guard::new(self.address.port(), self.tokens),
             site,
             feed: feed.clone(),
             over: Arc::clone(&over),
@@ -219,23 +230,31 @@ fn hurried(stream: &TcpStream) -> Hurried<'_> {
 
 fn answer(stream: &Arc<TcpStream>, work: &Work) -> io::Result<()> {
     stream.set_nodelay(true)?;
-    let request = match Request::read(&mut hurried(stream)) {
-        Ok(request) => request,
-        Err(error) if error.kind() == io::ErrorKind::InvalidData => {
-            return text(Status::BadRequest, &error.to_string()).write(&mut hurried(stream));
-        }
-        Err(error) => return Err(error),
+    let mut asking = hurried(stream);
+    let head = match Head::read(&mut asking) {
+        Ok(head) => head,
+        Err(error) => return refuse(stream, error),
     };
-    if let Err(refusal) = work.guard.judge(&request) {
-        let status = Status::Other(refusal.code());
-        return text(status, &refusal.to_string()).write(&mut hurried(stream));
-    }
+    let judged = work.guard.judge(&head.request);
+    let is_piece = judged.is_ok() && head.request.path().0 == UPLOAD;
+    let most = if is_piece { MOST_PIECE } else { MOST_BODY };
+    let request = match head.body(&mut asking, most) {
+        Ok(request) => request,
+        Err(error) => return refuse(stream, error),
+    };
+    let caller = match judged {
+        Ok(caller) => caller,
+        Err(refusal) => {
+            let status = Status::Other(refusal.code());
+            return text(status, &refusal.to_string()).write(&mut hurried(stream));
+        }
+    };
     let (path, _) = request.path();
-    if path.starts_with(API) {
+    if let Some(caller) = caller {
         // The guard has seen the token.
         work.places.leave(stream);
         stream.set_write_timeout(Some(PATIENCE_WITH_PAGE))?;
-        return answer_page(stream, &request, work);
+        return answer_page(stream, &request, caller, work);
     }
     let found = match request.method.as_str() {
         "GET" => asset::find(path),
@@ -244,8 +263,21 @@ fn answer(stream: &Arc<TcpStream>, work: &Work) -> io::Result<()> {
     found.unwrap_or_else(not_found).write(&mut hurried(stream))
 }
 
-/// Answers one who has shown the token.
-fn answer_page(mut stream: &TcpStream, request: &Request, work: &Work) -> io::Result<()> {
+/// Says what is wrong with a request that is none.
+fn refuse(stream: &TcpStream, error: io::Error) -> io::Result<()> {
+    if error.kind() != io::ErrorKind::InvalidData {
+        return Err(error);
+    }
+    text(Status::BadRequest, &error.to_string()).write(&mut hurried(stream))
+}
+
+/// Answers one who has shown a token.
+fn answer_page(
+    mut stream: &TcpStream,
+    request: &Request,
+    caller: Caller,
+    work: &Work,
+) -> io::Result<()> {
     let (path, query) = request.path();
     let is_stream = (request.method.as_str(), path) == ("GET", STREAM);
     let place = if is_stream {
@@ -259,7 +291,9 @@ fn answer_page(mut stream: &TcpStream, request: &Request, work: &Work) -> io::Re
     };
     let answer = match (request.method.as_str(), path) {
         ("GET", STREAM) => return tell(stream, work),
-        ("POST", COMMAND) => work.site.command(&request.body),
+        ("GET", MAY) => Answer::new(ContentType::Text, caller.role.name().as_bytes()),
+        ("POST", COMMAND) => work.site.command(caller, &request.body),
+        ("POST", UPLOAD) => work.site.upload(caller, query, &request.body),
         ("GET", path) => {
             let found = work.site.document(path, query);
             found.unwrap_or_else(not_found)

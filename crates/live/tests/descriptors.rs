@@ -3,7 +3,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that fails may panic")]
 
-use glidepath_live::{Answer, Feed, Server, Site};
+use glidepath_live::{Answer, Caller, Feed, Role, Server, Site};
 use rustix::process::{Resource, Rlimit, getrlimit, setrlimit};
 use std::fs::File;
 use std::io::{Read as _, Write as _};
@@ -18,14 +18,18 @@ impl Site for Nothing {
         None
     }
 
-    fn command(&self, _body: &[u8]) -> Answer {
+    fn command(&self, _caller: Caller, _body: &[u8]) -> Answer {
+        unreachable!()
+    }
+
+    fn upload(&self, _caller: Caller, _query: &str, _piece: &[u8]) -> Answer {
         unreachable!()
     }
 }
 
 #[test]
 fn a_server_without_descriptors_answers_when_it_has_some() {
-    let server = Server::bind(0).unwrap();
+    let server = Server::bind(0, Role::Look).unwrap();
     let port = server.port();
     let running = server.start(Arc::new(Nothing), &Feed::default()).unwrap();
     let before = getrlimit(Resource::Nofile);

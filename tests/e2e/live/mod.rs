@@ -1,6 +1,8 @@
 //! The page of a machine, in a browser: it loads, it moves, and it holds the machine if it may.
 
 mod following;
+mod hands;
+mod life;
 
 use std::io::{BufRead as _, BufReader, Read as _, Write as _};
 use std::net::TcpStream;
@@ -22,6 +24,8 @@ const PATIENCE: Duration = Duration::from_secs(240);
 pub(crate) struct Live {
     child: Child,
     url: String,
+    /// The addresses of all roles.
+    urls: Value,
     pub(crate) port: u16,
 }
 
@@ -48,19 +52,31 @@ impl Live {
         Self {
             child,
             url: told["url"].as_str().unwrap().to_owned(),
+            urls: told["urls"].clone(),
             port: told["port"].as_u64().unwrap().try_into().unwrap(),
         }
     }
 
     /// Commands as a page does; gives the status and the body of the answer.
     fn command(&self, token: &str, body: &str) -> (u16, String) {
+        let json = "application/json";
+        self.post(
+            "/api/command",
+            json,
+            &format!("{token}{}", of_page(1)),
+            body.as_bytes(),
+        )
+    }
+
+    fn post(&self, path: &str, kind: &str, fields: &str, body: &[u8]) -> (u16, String) {
         let mut stream = TcpStream::connect(("127.0.0.1", self.port)).unwrap();
         let (port, length) = (self.port, body.len());
         let head = format!(
-            "POST /api/command HTTP/1.1\r\nHost: localhost:{port}\r\nContent-Type: \
-             application/json\r\n{token}Content-Length: {length}\r\n\r\n{body}"
+            "POST {path} HTTP/1.1\r\nHost: localhost:{port}\r\nContent-Type: {kind}\r\n\
+             {fields}Content-Length: {length}\r\n\r\n"
         );
         stream.write_all(head.as_bytes()).unwrap();
+        stream.write_all(body).unwrap();
         let mut answer = String::new();
         stream.read_to_string(&mut answer).unwrap();
         let (head, body) = answer.split_once("\r\n\r\n").unwrap();
@@ -110,14 +126,28 @@ impl Live {
 
     /// The header that lets a request in.
     pub(crate) fn token(&self) -> String {
-        let (_, token) = self.url.split_once("#token=").unwrap();
-        format!("X-Glidepath-Token: {token}\r\n")
+        token_of(&self.url)
+    }
+
+    /// That of a page that may no more than this.
+    fn token_for(&self, role: &str) -> String {
+        token_of(self.urls[role].as_str().unwrap())
     }
 
     /// Its process number.
     pub(crate) fn id(&self) -> u32 {
         self.child.id()
     }
+}
+
+fn token_of(url: &str) -> String {
+    let (_, token) = url.split_once("#token=").unwrap();
+    format!("X-Glidepath-Token: {token}\r\n")
+}
+
+/// The header by which a page says which one it is.
+fn of_page(number: u64) -> String {
+    format!("X-Glidepath-Page: {number:016x}\r\n")
 }
 
 impl Drop for Live {
@@ -141,18 +171,16 @@ fn commands_take_the_token_and_leave() {
     let showing = Live::start(&instance, &[]);
     let (status, said) = showing.command(&showing.token(), hold);
     assert_eq!(status, 403, "{said}");
-    assert!(said.contains("--commands"), "{said}");
+    assert!(said.contains("this page may look"), "{said}");
 
-    let live = Live::start(&instance, &["--commands"]);
+    let live = Live::start(&instance, &["--may", "operate"]);
     assert_eq!(live.command("", hold).0, 403);
     assert_eq!(live.command(&showing.token(), hold).0, 403);
-    // What a page must never do, and what is no command.
+    // What is no command.
     for body in [
-        "{\"kind\":\"enable\"}",
         "{\"kind\":\"jog\",\"value\":1}",
-        "{\"kind\":\"home\"}",
-        "{\"kind\":\"reset\"}",
-        "{\"kind\":\"set-position\",\"value\":0}",
+        "{\"kind\":\"set-position\",\"joint\":0,\"position\":0}",
+        "{\"kind\":\"unhome\"}",
         "{\"kind\":\"feed-override\",\"value\":3}",
         "{\"kind\":\"feed-override\",\"value\":-3}",
         "{\"kind\":\"feed-override\"}",
@@ -201,7 +229,7 @@ fn a_page_holds_and_aborts_while_others_keep_connections_open() {
     let services = Services::start(&instance);
     let planner = Process::join(&instance, &["planner", &program]);
     let _moving = services.wait_for(MachineState::Running);
-    let live = Live::start(&instance, &["--commands"]);
+    let live = Live::start(&instance, &["--may", "operate"]);
     let (port, over) = (live.port, Arc::<AtomicBool>::default());
     let flooding = {
         let over = Arc::clone(&over);
@@ -236,7 +264,7 @@ fn a_browser_shows_the_machine_and_holds_it() {
     let services = Services::start(&instance);
     let planner = Process::join(&instance, &["planner", &program]);
     let _moving = services.wait_for(MachineState::Running);
-    let live = Live::start(&instance, &[&program, "--commands"]);
+    let live = Live::start(&instance, &["--may", "operate"]);
 
     // Without the token the page is there, and shows nothing.
     browser.open(&format!("http://127.0.0.1:{}/", live.port));
@@ -292,7 +320,11 @@ fn a_browser_shows_the_machine_and_holds_it() {
     browser.wait(
         "S.state === 'held' && document.querySelector('#word').textContent.startsWith('Held')",
     );
-    browser.press("[data-c=resume]");
+    // What begins motion is pressed for half a second.
+    browser.press("[data-c=go]");
+    std::thread::sleep(Duration::from_millis(700));
+    let _still_held = services.wait_for(MachineState::Held);
+    browser.press_for("[data-c=go]", Duration::from_millis(700));
     let _moving = services.wait_for(MachineState::Running);
     browser.wait("S.state === 'running'");
     drop((live, planner));

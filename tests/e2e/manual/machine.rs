@@ -57,6 +57,7 @@ impl<'a> Machine<'a> {
         std::fs::create_dir(&folder).unwrap();
         std::fs::copy(configured.config(), folder.join("mill.toml")).unwrap();
         std::fs::write(folder.join("part.ngc"), super::part()).unwrap();
+        std::fs::create_dir(folder.join("programs")).unwrap();
         Self {
             shell,
             folder,

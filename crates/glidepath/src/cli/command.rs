@@ -68,9 +68,9 @@ pub enum Command {
     /// Show the state of a running interpolator
     #[command(after_help = "Examples: glidepath status --json · glidepath status --watch part.ngc")]
     Status(StatusArgs),
-    /// Show the machine in a browser of this host: path, time left, plots, health
+    /// Show the machine in a browser of this host, and operate it there if that is allowed
     #[command(
-        after_help = "Examples: glidepath live part.ngc · glidepath live part.ngc --commands --port 0"
+        after_help = "Examples: glidepath live · glidepath live --may operate --programs programs"
     )]
     Live(LiveArgs),
     /// Record every setpoint and status in a file that others can open (MCAP), or be a black box

@@ -23,7 +23,7 @@ pub use curves::{FitArgs, FitMethod, PreviewArgs, PreviewMethod};
 pub use ethercat::{EthercatAction, EthercatArgs, ScanArgs};
 pub use host::{BenchArgs, DoctorArgs, JitterArgs};
 pub use jog::{JogArgs, Step};
-pub use live::LiveArgs;
+pub use live::{LiveArgs, May};
 pub use motion::{
     CheckArgs, FeedArgs, HalArgs, InterpolatorArgs, PlanArgs, PlannerArgs, RunArgs, RunDrives,
     ServoArgs,

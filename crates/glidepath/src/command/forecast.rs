@@ -2,6 +2,7 @@
 //! time is run time.
 
 use super::fitting::{is_all_that_is_wrong, without_travel};
+use super::program_diagnostics::refusal_text;
 use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::file_error::FileError;
@@ -128,6 +129,22 @@ impl Forecast {
         plan.frames
     }
 
+    /// How long it takes, s; `None` while that is not known.
+    pub(super) fn planned_t(&self) -> Option<f64> {
+        let plan = self.plan.lock().unwrap_or_else(PoisonError::into_inner);
+        plan.is_whole.then(|| self.time(plan.frames))
+    }
+
+    /// How much of it is planned, s.
+    pub(super) fn so_far_t(&self) -> f64 {
+        self.time(self.frames())
+    }
+
+    #[allow(clippy::cast_precision_loss, reason = "counts of frames are exact")]
+    fn time(&self, frames: u64) -> f64 {
+        frames as f64 * self.period_t
+    }
+
     /// Whether a machine executes this program, or has executed it last.
     pub(super) fn is_of(&self, status: &Status) -> bool {
         let plan = self.plan.lock().unwrap_or_else(PoisonError::into_inner);
@@ -144,8 +161,7 @@ impl Forecast {
         }
         let now = plan.sequence(status);
         let whole = plan.is_whole.then_some(plan.frames);
-        #[allow(clippy::cast_precision_loss, reason = "counts of frames are exact")]
-        let time = |frames: u64| frames as f64 * self.period_t;
+        let time = |frames: u64| self.time(frames);
         Some(Place {
             program: self.name.clone(),
             text: text.unwrap_or_default(),
@@ -180,11 +196,11 @@ fn work(
         Ok(source) => (source, config, None),
         // Where it goes is to be seen also while its offset is not set yet.
         Err(refusal) if is_of_the_travel(&refusal) => match open(&wide) {
-            Ok(source) => (source, &wide, Some(refusal.to_string())),
-            Err(refusal) => return Some(refusal.to_string()),
+            Ok(source) => (source, &wide, Some(refusal_text(&refusal))),
+            Err(refusal) => return Some(refusal_text(&refusal)),
         },
         // The planner said what is wrong with it.
-        Err(refusal) => return Some(refusal.to_string()),
+        Err(refusal) => return Some(refusal_text(&refusal)),
     };
     {
         let mut plan = plan.lock().unwrap_or_else(PoisonError::into_inner);
@@ -207,7 +223,7 @@ fn work(
             }
             Err(refusal) => {
                 plan.has_failed = true;
-                return Some(refusal.to_string());
+                return Some(refusal_text(&refusal));
             }
         }
         if plan.has_failed {

@@ -70,7 +70,7 @@ pub(super) fn run_file(args: &RunFileArgs, config: &MachineConfig) -> Result<Exi
 }
 
 /// A number that no other client has.
-fn client() -> u64 {
+pub(super) fn client() -> u64 {
     use std::hash::{BuildHasher as _, Hasher as _, RandomState};
     RandomState::new().build_hasher().finish()
 }

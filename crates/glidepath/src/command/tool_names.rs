@@ -3,6 +3,7 @@
 use crate::config::MachineConfig;
 use crate::kept::read::MOST_TABLE_BYTES;
 use crate::text_file;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// The comments of a tool table, read anew whenever one is wanted.
@@ -20,37 +21,41 @@ impl ToolNames {
 
     /// What the table calls a tool; `None` if it has no words for it.
     pub(super) fn of(&self, tool: u32) -> Option<String> {
-        let bytes = text_file::bytes(self.table.as_deref()?, MOST_TABLE_BYTES).ok()?;
-        comment(&String::from_utf8_lossy(&bytes), tool)
+        self.all().remove(&tool)
+    }
+
+    /// What the table calls its tools.
+    pub(super) fn all(&self) -> BTreeMap<u32, String> {
+        let table = self.table.as_deref();
+        // A table that cannot be read was told of when the configuration was.
+        let bytes = table.and_then(|table| text_file::bytes(table, MOST_TABLE_BYTES).ok());
+        comments(&String::from_utf8_lossy(&bytes.unwrap_or_default()))
     }
 }
 
-/// What stands behind the semicolon in the line of a tool.
-fn comment(table: &str, tool: u32) -> Option<String> {
+/// What stands behind the semicolon in the line of each tool.
+fn comments(table: &str) -> BTreeMap<u32, String> {
     let rows = table.lines().filter_map(|line| line.split_once(';'));
-    let is_of = |words: &str| {
-        words.split_whitespace().any(|word| {
-            let number = word.strip_prefix(['T', 't']);
-            number.and_then(|number| number.parse().ok()) == Some(tool)
-        })
-    };
-    let mut comments = rows.filter(|(words, _)| is_of(words));
-    let (_, comment) = comments.next()?;
-    Some(comment.trim().to_owned()).filter(|comment| !comment.is_empty())
+    let comments = rows.filter_map(|(words, comment)| {
+        let mut words = words.split_whitespace();
+        let tool = words.find_map(|word| word.strip_prefix(['T', 't'])?.parse().ok());
+        let comment = comment.trim();
+        (!comment.is_empty()).then_some((tool?, comment.to_owned()))
+    });
+    comments.collect()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::comment;
+    use super::comments;
 
     #[test]
     fn the_comment_of_a_tool_is_that_of_its_line() {
         let table = "; tools\nT1 P1 Z10 D6 ; 6 mm end mill\nT12 P2 ;\nt2 Z3; drill\nT3 Z1\n";
-        let of = |tool| comment(table, tool);
-        assert_eq!(of(1).as_deref(), Some("6 mm end mill"));
-        assert_eq!(of(2).as_deref(), Some("drill"));
-        for tool in [3, 4, 12] {
-            assert_eq!(of(tool), None);
-        }
+        let all: Vec<(u32, String)> = comments(table).into_iter().collect();
+        assert_eq!(
+            all,
+            [(1, "6 mm end mill".to_owned()), (2, "drill".to_owned())]
+        );
     }
 }

@@ -3,6 +3,7 @@
 use super::attendant::{Attendant, recalling};
 use super::differences::{agreement, approach};
 use super::failure::Failure;
+use super::program_diagnostics::refusal_text;
 use super::program_note::ProgramNote;
 use super::reading::for_program;
 use crate::clock;
@@ -414,28 +415,5 @@ fn must_be_a_file(path: &Path) -> Result<(), Stop> {
 
 /// A refusal in a few lines.
 fn refusal(refusal: &Refusal) -> Stop {
-    const MOST: usize = 5;
-    let Refusal::Program {
-        diagnostics,
-        unlisted,
-    } = refusal
-    else {
-        return Stop::Refused(refusal.to_string());
-    };
-    let mut lines: Vec<String> = diagnostics
-        .iter()
-        .take(MOST)
-        .map(|found| {
-            let help = &found.help;
-            format!(
-                "line {}, column {}: {}; {help}",
-                found.line, found.column, found.message
-            )
-        })
-        .collect();
-    let more = diagnostics.len().saturating_sub(MOST) as u64 + u64::from(*unlisted);
-    if more > 0 {
-        lines.push(format!("and {more} more"));
-    }
-    Stop::Refused(lines.join("\n"))
+    Stop::Refused(refusal_text(refusal))
 }

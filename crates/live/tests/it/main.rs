@@ -11,11 +11,11 @@
 mod flood;
 
 use flood::Flood;
-use glidepath_live::{Answer, ContentType, Feed, Message, Running, Server, Site};
+use glidepath_live::{Answer, Caller, ContentType, Feed, Message, Role, Running, Server, Site};
 use std::io::{Read as _, Write as _};
 use std::net::TcpStream;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 /// Counts what reached it.
@@ -23,6 +23,7 @@ use std::time::{Duration, Instant};
 struct Counted {
     commands: AtomicUsize,
     documents: AtomicUsize,
+    callers: Mutex<Vec<Caller>>,
 }
 
 struct Shared(Arc<Counted>);
@@ -34,15 +35,25 @@ impl Site for Shared {
         (path == "/api/plan").then(|| Answer::new(ContentType::Json, text))
     }
 
-    fn command(&self, body: &[u8]) -> Answer {
+    fn command(&self, caller: Caller, body: &[u8]) -> Answer {
         self.0.commands.fetch_add(1, Ordering::Relaxed);
+        self.0.callers.lock().unwrap().push(caller);
         Answer::new(ContentType::Json, body)
+    }
+
+    fn upload(&self, caller: Caller, query: &str, piece: &[u8]) -> Answer {
+        self.0.commands.fetch_add(1, Ordering::Relaxed);
+        self.0.callers.lock().unwrap().push(caller);
+        let text = format!("{query} {}", piece.len()).into_bytes();
+        Answer::new(ContentType::Text, text)
     }
 }
 
 struct Page {
     port: u16,
+    /// That of who may operate, and those of all roles.
     token: String,
+    tokens: Vec<String>,
     reached: Arc<Counted>,
     feed: Feed,
     _running: Running,
@@ -50,12 +61,12 @@ struct Page {
 
 impl Page {
     fn serve() -> Self {
-        let (server, feed) = (Server::bind(0).unwrap(), Feed::default());
-        let (_, token) = server
-            .url()
-            .split_once("#token=")
-            .map(|(a, b)| (a.to_owned(), b.to_owned()))
-            .unwrap();
+        let server = Server::bind(0, Role::Operate).unwrap();
+        let feed = Feed::default();
+        let tokens: Vec<String> = server
+            .urls()
+            .map(|(_, url)| url.split_once("#token=").unwrap().1.to_owned())
+            .collect();
         let port = server.port();
         let reached = Arc::<Counted>::default();
         let running = server
@@ -63,7 +74,8 @@ impl Page {
             .unwrap();
         Self {
             port,
-            token,
+            token: tokens[2].clone(),
+            tokens,
             reached,
             feed,
             _running: running,
@@ -381,6 +393,53 @@ fn open_pages_take_no_place_from_commands() {
     }
 }
 
+#[test]
+fn a_token_says_what_its_page_may() {
+    let page = Page::serve();
+    let ask = |token: &str, line: &str, number: &str| {
+        let token = format!("X-Glidepath-Token: {token}");
+        let number = format!("X-Glidepath-Page: {number}");
+        page.ask(&[line, HOST, &token, JSON, &number], "")
+    };
+    for (token, role) in page.tokens.iter().zip(Role::ALL) {
+        assert_eq!(ask(token, "GET /api/may HTTP/1.1", "").2, role.name());
+        for (number, known) in [
+            ("00000000000000ff", 255),
+            ("ff", 0),
+            ("zzzzzzzzzzzzzzzz", 0),
+        ] {
+            assert_eq!(ask(token, "POST /api/command HTTP/1.1", number).0, 200);
+            let caller = page.reached.callers.lock().unwrap().pop().unwrap();
+            assert_eq!((caller.role, caller.page), (role, known));
+        }
+    }
+    // What was not asked for there is no token for.
+    let server = Server::bind(0, Role::Hold).unwrap();
+    let roles: Vec<Role> = server.urls().map(|(role, _)| role).collect();
+    assert_eq!(roles, [Role::Look, Role::Hold]);
+}
+
+#[test]
+fn pieces_of_programs_are_long_for_who_has_a_token_and_for_nobody_else() {
+    let page = Page::serve();
+    let bytes = "Content-Type: application/octet-stream";
+    let line = "POST /api/upload?name=a.ngc HTTP/1.1";
+    let body = "x".repeat(1 << 20);
+    let length = format!("Content-Length: {}", body.len());
+    let (status, _, said) = page.ask(&[line, HOST, TOKEN, bytes, &length], &body);
+    assert_eq!((status, said.as_str()), (200, "name=a.ngc 1048576"));
+    let longer = format!("Content-Length: {}", body.len() + 1);
+    assert_eq!(page.ask(&[line, HOST, TOKEN, bytes, &longer], "").0, 400);
+    assert_eq!(page.ask(&[line, HOST, bytes, &length], "").0, 400);
+    let short = "Content-Length: 1";
+    assert_eq!(page.ask(&[line, HOST, bytes, short], "x").0, 403);
+    assert_eq!(page.ask(&[line, HOST, TOKEN, JSON, short], "x").0, 415);
+    let command = "POST /api/command HTTP/1.1";
+    assert_eq!(page.ask(&[command, HOST, TOKEN, JSON, &length], "").0, 400);
+    assert_eq!(page.ask(&[command, HOST, TOKEN, bytes, short], "x").0, 415);
+    assert_eq!(page.reached.commands.load(Ordering::Relaxed), 1);
+}
+
 /// However often a byte of it comes.
 #[test]
 fn a_request_that_does_not_come_to_its_end_is_given_up() {
@@ -423,4 +482,8 @@ fn a_page_as_a_file_has_everything_in_it() {
     let scripts = text.matches("<script>").count();
     assert_eq!(text.matches("</script>").count(), scripts);
     assert_eq!(scripts, 11);
+    assert!(
+        !text.contains("/api/command"),
+        "nothing of a file operates a machine"
+    );
 }

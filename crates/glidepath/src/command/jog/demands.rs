@@ -5,14 +5,14 @@ use glidepath_link::{JogDemand, JogMode, LinkError, Publisher};
 use glidepath_realtime::{Clock as _, Monotonic};
 
 /// What a client demands, and its way to the interpolator.
-pub(super) struct Demands {
+pub(in crate::command) struct Demands {
     port: Box<dyn Publisher<JogDemand>>,
     demand: JogDemand,
 }
 
 impl Demands {
     /// A client that demands nothing yet.
-    pub(super) fn new(port: Box<dyn Publisher<JogDemand>>) -> Self {
+    pub(in crate::command) fn new(port: Box<dyn Publisher<JogDemand>>) -> Self {
         // No two processes live at the same time with the same number, and none begins with the
         // number of one before at the same nanosecond.
         let client = (u64::from(std::process::id()) << 40) ^ Monotonic.now_ns();
@@ -24,7 +24,7 @@ impl Demands {
     }
 
     /// Demands something new.
-    pub(super) fn ask(
+    pub(in crate::command) fn ask(
         &mut self,
         mode: JogMode,
         value: [f64; AXES],
@@ -42,13 +42,13 @@ impl Demands {
     }
 
     /// Says that the client lives, and wants what it wanted.
-    pub(super) fn again(&mut self) -> Result<(), LinkError> {
+    pub(in crate::command) fn again(&mut self) -> Result<(), LinkError> {
         self.demand.sent_ns = Monotonic.now_ns();
         self.port.publish(&self.demand)
     }
 
     /// Lets go.
-    pub(super) fn let_go(&mut self) -> Result<(), LinkError> {
+    pub(in crate::command) fn let_go(&mut self) -> Result<(), LinkError> {
         self.ask(JogMode::None, [0.0; AXES], 0.0, false)
     }
 }

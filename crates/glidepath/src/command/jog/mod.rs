@@ -13,6 +13,7 @@ use super::session;
 use crate::cli::JogArgs;
 use crate::config::MachineConfig;
 use crate::exit::Exit;
+pub(super) use demands::Demands;
 pub(super) use lift::lift;
 use panel::Panel;
 

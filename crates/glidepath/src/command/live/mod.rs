@@ -6,16 +6,24 @@
 //!   page ── POST /api/command ──► Pages ── the operator's panel ──► interpolator
 //! ```
 //!
-//! The page holds, resumes, steps, aborts and sets overrides if that is allowed, and never jogs,
-//! homes or enables: whoever moves axes by hand stands beside the machine.
+//! A page does what its token allows: it looks, holds, or operates. What it orders goes the ways of the
+//! command line: commands to the panel, lines and programs to the planner's service, jogs as demands.
 
 mod asked;
 mod batch;
+mod day;
+mod folder;
 mod following;
+mod gesture;
+mod job_desk;
+mod jogger;
 mod lateness;
 mod log;
+mod order;
 mod pages;
 mod planned;
+mod preview;
+mod set_up;
 mod shown;
 
 use super::kept_offsets::KeptOffsets;
@@ -24,25 +32,33 @@ use crate::cli::LiveArgs;
 use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::exit::Exit;
+use crate::file_error::FileError;
 use crate::interrupt::Interrupt;
 use crate::output;
 use crate::page::machine_object;
 use crate::report::{View, active_object, status_object, view_object};
 use asked::Asked;
 use batch::Batch;
+use day::{Day, now_ms};
+use folder::Folder;
 use following::Following;
 use glidepath_link::{
-    Auxiliary, Coolant, InterpolatorProcess, Ipc, LinkConfig, Record as _, Setpoint, SpindleState,
-    Status, Subscriber, Transport as _,
+    ActiveProgram, Auxiliary, Coolant, InterpolatorProcess, Ipc, LinkConfig, Record as _, Setpoint,
+    SpindleState, Status, Subscriber, Transport as _,
 };
-use glidepath_live::{Feed, Message, Server};
+use glidepath_live::{Feed, Message, Role, Seat, Server, ServerError};
 use glidepath_realtime::{Clock as _, Monotonic};
+use job_desk::JobDesk;
+use jogger::Jogger;
 use lateness::Histogram;
 use log::Log;
 use pages::Pages;
-use serde_json::{Value, json};
+use preview::Preview;
+use serde_json::{Map, Value, json};
+use set_up::SetUp;
 use shown::Shown;
-use std::sync::Arc;
+use std::sync::atomic::AtomicU64;
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Between two looks for setpoints.
@@ -71,11 +87,33 @@ pub(super) fn live(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Fail
     let shown = Arc::new(Shown::new(machine_object(config, &instance)));
     let given = args.file.as_ref().map(|file| (file.path(), file.name()));
     let following = Following::new((config, &link), Arc::clone(&shown), given)?;
-    let (server, feed) = (Server::bind(args.port)?, Feed::default());
-    let (url, port) = (server.url(), server.port());
-    let pages = Pages::new(Arc::clone(&shown), link.clone(), args.commands);
+    let role = args.may.role();
+    let (server, feed) = (Server::bind(args.port, role)?, Feed::default());
+    let urls: Vec<(Role, String)> = server.urls().collect();
+    let port = server.port();
+    let folder = args
+        .programs
+        .as_deref()
+        .map(|path| Folder::at(path).map_err(FileError::open(path)));
+    let operates = role == Role::Operate;
+    let jobs = operates.then(|| JobDesk::start(&link)).transpose();
+    let jobs = jobs.map_err(ServerError::Thread)?.map(Arc::new);
+    let jogger = operates.then(|| Jogger::start(&link)).transpose();
+    let pages = Pages {
+        config: config.clone(),
+        link: link.clone(),
+        shown: Arc::clone(&shown),
+        set_up: Arc::new(SetUp::new(config)),
+        seat: Arc::default(),
+        folder: folder.transpose()?,
+        preview: Preview::new(config),
+        jogger: jogger.map_err(ServerError::Thread)?,
+        jobs: jobs.clone(),
+        number: AtomicU64::new(0),
+    };
+    let (set_up, seat) = (Arc::clone(&pages.set_up), Arc::clone(&pages.seat));
     let running = server.start(Arc::new(pages), &feed)?;
-    tell(args, &instance, &url, port);
+    tell(args, &instance, &urls, port);
     let mut machine = Machine {
         config,
         instance,
@@ -89,7 +127,10 @@ pub(super) fn live(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Fail
         asked: Asked::new(config),
         offsets: KeptOffsets::new(config),
         feed,
-        commands: args.commands,
+        set_up,
+        seat,
+        jobs,
+        day: Day::default(),
         batch: Batch::new(config),
         histogram: Histogram::default(),
         log: Log::default(),
@@ -103,23 +144,37 @@ pub(super) fn live(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Fail
 }
 
 /// Where the page is.
-fn tell(args: &LiveArgs, instance: &str, url: &str, port: u16) {
+fn tell(args: &LiveArgs, instance: &str, urls: &[(Role, String)], port: u16) {
+    let own = urls.last().map_or("", |(_, url)| url);
     if args.operator.basic.json {
+        let urls: Map<String, Value> = urls
+            .iter()
+            .map(|(role, url)| (role.name().to_owned(), url.as_str().into()))
+            .collect();
         output::object(&json!({
             "instance": instance,
-            "url": url,
+            "url": own,
+            "urls": urls,
             "port": port,
-            "commands": args.commands,
+            "may": args.may.role().name(),
         }));
         return;
     }
-    let may = if args.commands {
-        "The page may hold, resume, step, abort and set overrides."
-    } else {
-        "The page only shows; --commands lets it hold, resume, step, abort and set overrides."
+    let may = match args.may.role() {
+        Role::Look => {
+            "The page only shows; --may hold lets it bring the machine to rest, --may operate do all."
+        }
+        Role::Hold => "The page may hold and abort.",
+        Role::Operate => "The page operates the machine: whoever has this address moves it.",
     };
+    let less: String = urls
+        .iter()
+        .rev()
+        .skip(1)
+        .map(|(role, url)| format!("For a page that may only {}:\n  {url}\n", role.name()))
+        .collect();
     output::result(&format!(
-        "live: open this in a browser of this host, and keep it to yourself:\n  {url}\n{may}\n\
+        "live: open this in a browser of this host, and keep it to yourself:\n  {own}\n{may}\n{less}\
          Ctrl-C ends the page; the machine goes on.\n"
     ));
 }
@@ -138,7 +193,10 @@ struct Machine<'a> {
     asked: Asked,
     offsets: KeptOffsets,
     feed: Feed,
-    commands: bool,
+    set_up: Arc<SetUp>,
+    seat: Arc<Mutex<Seat>>,
+    jobs: Option<Arc<JobDesk>>,
+    day: Day,
     batch: Batch,
     histogram: Histogram,
     log: Log,
@@ -226,7 +284,6 @@ impl Machine<'_> {
                 self.log.ended();
                 json!({
                     "state": "none",
-                    "commands": self.commands,
                     "version": self.shown.version(),
                     "place": Value::Null,
                     "log": self.log.object(),
@@ -253,7 +310,15 @@ impl Machine<'_> {
         if let Value::Object(object) = &mut object {
             object.extend(view_object(&view));
             object.remove("events");
-            object.insert("commands".to_owned(), self.commands.into());
+            let boot = format!("{:016x}", status.boot_id);
+            object.insert("boot".to_owned(), boot.into());
+            object.insert("seat".to_owned(), self.seat_object());
+            object.insert("set_up".to_owned(), self.set_up.version().into());
+            let jobs = self.jobs.as_ref().map(|jobs| jobs.object());
+            object.insert("page_jobs".to_owned(), jobs.unwrap_or_default());
+            let name = self.following.active().map(ActiveProgram::name);
+            self.day.take(&status, name.as_deref(), now_ms());
+            object.insert("day".to_owned(), self.day.object());
             object.insert("version".to_owned(), self.shown.version().into());
             let place = in_plan.map(|elapsed_t| elapsed_t / period_t);
             object.insert("place".to_owned(), place.into());
@@ -270,6 +335,15 @@ impl Machine<'_> {
             object.insert("asked".to_owned(), self.asked.object(&status));
         }
         Ok(Some(object))
+    }
+}
+
+impl Machine<'_> {
+    /// Whether a page operates, and whether another one wants to. Which ones is nobody else's business.
+    fn seat_object(&self) -> Value {
+        let mut seat = self.seat.lock().unwrap_or_else(PoisonError::into_inner);
+        let [holder, asking] = seat.who(Instant::now());
+        json!({ "is_taken": holder.is_some(), "is_asked_for": asking.is_some() })
     }
 }
 

@@ -1,74 +1,139 @@
-//! What pages ask for, and what they command.
+//! What pages ask for, and what they order.
 
+use super::folder::{Folder, FolderError, Piece};
+use super::job_desk::{Handed, JobDesk, Wanted};
+use super::jogger::{Hand, Jogger};
+use super::order::{Order, by_axis};
+use super::preview::Preview;
+use super::set_up::SetUp;
 use super::shown::Shown;
 use crate::command::operator::PATIENCE;
+use crate::config::MachineConfig;
 use crate::machine_options::complete;
 use glidepath_link::{Command, CommandRequest, LinkConfig, LinkError, Operator, refused};
-use glidepath_live::{Answer, ContentType, Site, Status};
-use serde::Deserialize;
+use glidepath_live::{Answer, Caller, ContentType, Role, Seat, Site, Status};
 use serde_json::{Value, json};
-use std::sync::Arc;
+use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Instant;
 
 /// Lines that are given out at once.
 const MOST_LINES: usize = 500;
 
-/// What the server gives out.
+/// What the server gives out, and has done.
 pub(super) struct Pages {
-    shown: Arc<Shown>,
-    link: LinkConfig,
-    commands: bool,
-    number: AtomicU64,
+    pub(super) config: MachineConfig,
+    pub(super) link: LinkConfig,
+    pub(super) shown: Arc<Shown>,
+    pub(super) set_up: Arc<SetUp>,
+    pub(super) seat: Arc<Mutex<Seat>>,
+    pub(super) folder: Option<Folder>,
+    pub(super) preview: Preview,
+    /// Whoever jogs and hands jobs in, where pages may operate.
+    pub(super) jogger: Option<Jogger>,
+    pub(super) jobs: Option<Arc<JobDesk>>,
+    pub(super) number: AtomicU64,
 }
 
-/// A command as a page sends it. There is no kind that moves axes by hand, brings them home, or gives
-/// power.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Asked {
-    kind: Kind,
-    value: Option<f64>,
+/// What came of an order: what a page is told besides that it was accepted, or why it was not.
+type Done = Result<Value, (Status, String)>;
+
+fn not_now(text: impl Into<String>) -> (Status, String) {
+    (Status::Conflict, complete(&text.into()))
 }
 
-#[derive(Debug, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-enum Kind {
-    Hold,
-    Resume,
-    Step,
-    Abort,
-    FeedOverride,
-    RapidOverride,
-}
-
-impl Asked {
-    fn command(&self) -> Option<Command> {
-        Some(match (&self.kind, self.value) {
-            (Kind::Hold, None) => Command::Hold,
-            (Kind::Resume, None) => Command::Resume,
-            (Kind::Step, None) => Command::Step,
-            (Kind::Abort, None) => Command::Abort,
-            (Kind::FeedOverride, Some(ratio @ -2.0..=2.0)) => Command::FeedOverride(ratio),
-            (Kind::RapidOverride, Some(ratio @ 0.0..=1.0)) => Command::RapidOverride(ratio),
-            _ => return None,
-        })
-    }
+fn malformed() -> (Status, String) {
+    let text = "no such command, or its value is out of range";
+    (Status::BadRequest, text.to_owned())
 }
 
 impl Pages {
-    pub(super) const fn new(shown: Arc<Shown>, link: LinkConfig, commands: bool) -> Self {
-        Self {
-            shown,
-            link,
-            commands,
-            number: AtomicU64::new(0),
+    fn seat(&self) -> MutexGuard<'_, Seat> {
+        // Who has it is one word.
+        self.seat.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Does what is ordered, if the caller may.
+    fn order(&self, caller: Caller, body: &[u8]) -> Done {
+        let order = Order::of(body).ok_or_else(malformed)?;
+        if caller.role < order.role() {
+            let (may, wants) = (caller.role.name(), order.role().name());
+            let text = format!("this page may {may}; that takes a page that may {wants}");
+            return Err((Status::Forbidden, text));
+        }
+        if order.role() == Role::Operate && caller.page == 0 {
+            let text = "a page that operates says which one it is".to_owned();
+            return Err((Status::BadRequest, text));
+        }
+        if order.takes_the_seat() && !self.seat().here(caller.page, Instant::now()) {
+            return Err(not_now("another page operates; ask it for the seat"));
+        }
+        match order {
+            Order::Here {} | Order::AskSeat {} | Order::AnswerSeat { .. } | Order::LeaveSeat {} => {
+                Ok(self.sit(caller, &order))
+            }
+            Order::Jog { .. } | Order::JogEnd { .. } | Order::JogStep { .. } => self.jog(&order),
+            Order::Mdi { line } => self.hand_in(Wanted::Line(line)),
+            Order::Run {
+                name,
+                from_line,
+                pass,
+                agreed,
+                resume,
+            } => self.hand_in(Wanted::File {
+                path: self.program(&name)?,
+                from_line: from_line.unwrap_or(0),
+                pass: pass.unwrap_or(0),
+                agreed,
+                resumes: resume,
+            }),
+            order => self.command(&order),
         }
     }
 
-    /// The state in which the command was accepted, or why it was not.
-    fn send(&self, command: Command) -> Result<&'static str, (Status, String)> {
+    fn sit(&self, caller: Caller, order: &Order) -> Value {
+        let (mut seat, now) = (self.seat(), Instant::now());
+        match order {
+            Order::AskSeat {} => {
+                let _has_it = seat.ask(caller.page, now);
+            }
+            Order::AnswerSeat { give } => {
+                let _was_asked = seat.answer(caller.page, *give, now);
+            }
+            Order::LeaveSeat {} => seat.leave(caller.page),
+            _ => {
+                let _has_it = seat.here(caller.page, now);
+            }
+        }
+        let [holder, asking] = seat.who(now);
+        json!({
+            "operates": holder == Some(caller.page),
+            "asked": asking.is_some_and(|asking| asking != caller.page),
+            "asks": asking == Some(caller.page),
+        })
+    }
+
+    fn command(&self, order: &Order) -> Done {
+        let joints = (1 << self.config.drives()) - 1;
+        let (command, text) = order.command(joints).ok_or_else(malformed)?;
+        if matches!(command, Command::Hold | Command::Abort) {
+            // What moves by a page rests, whatever the interpolator says to it.
+            self.jogger.as_ref().map(|jogger| jogger.hand(Hand::LetGo));
+        }
+        if command == Command::Abort {
+            // One that has not begun is known to nobody but its service.
+            self.jobs.iter().for_each(|jobs| jobs.cancel());
+        }
+        let state = self.send(command, text)?;
+        Ok(json!({ "state": state }))
+    }
+
+    /// The state in which a command was accepted, or why it was not.
+    fn send(&self, command: Command, text: &str) -> Result<&'static str, (Status, String)> {
         let number = self.number.fetch_add(1, Ordering::Relaxed);
         let request = CommandRequest::new(u64::from(std::process::id()), number, command);
+        let request = request.saying(text);
         let unavailable = |error: LinkError| (Status::Unavailable, error.to_string());
         let operator = Operator::find(&self.link).map_err(unavailable)?;
         let reply = operator.call(&request, PATIENCE).map_err(unavailable)?;
@@ -81,54 +146,178 @@ impl Pages {
         let state = reply.state().map_err(broken)?.name();
         match reply.outcome().map_err(broken)? {
             Ok(()) => Ok(state),
-            Err(refusal) => {
-                let told = refused(command.kind().name(), &reply.why(refusal));
-                Err((Status::Conflict, complete(&told)))
-            }
+            Err(refusal) => Err(not_now(refused(command.kind().name(), &reply.why(refusal)))),
         }
+    }
+
+    fn jog(&self, order: &Order) -> Done {
+        let axes = self.config.axis_names();
+        let vector = |values: &BTreeMap<String, f64>| by_axis(values, &axes).ok_or_else(malformed);
+        let hand = match order {
+            Order::Jog {
+                gesture,
+                number,
+                at_ms,
+                axes,
+            } => Hand::Down {
+                gesture: *gesture,
+                number: *number,
+                at_ms: *at_ms,
+                velocity: vector(axes)?.map(|v| v / 60.0),
+            },
+            Order::JogStep { axes, feed } if *feed > 0.0 && feed.is_finite() => Hand::Step {
+                by: vector(axes)?,
+                most_v: feed / 60.0,
+            },
+            Order::JogEnd { gesture } => Hand::Up { gesture: *gesture },
+            _ => return Err(malformed()),
+        };
+        let is_served = self.jogger.as_ref().is_some_and(|it| it.hand(hand));
+        if is_served {
+            Ok(json!({}))
+        } else {
+            Err(not_now("nobody jogs for this page any more: start it anew"))
+        }
+    }
+
+    fn hand_in(&self, wanted: Wanted) -> Done {
+        let Some(jobs) = &self.jobs else {
+            return Err(malformed());
+        };
+        match jobs.hand_in(wanted) {
+            Handed::Running => Ok(json!({ "runs": true })),
+            Handed::Done(text) => Ok(json!({ "text": text })),
+            Handed::ToConfirm(text) => Ok(json!({ "to_confirm": text })),
+            Handed::Not(text) => Err(not_now(text)),
+        }
+    }
+
+    /// The file of a program of the folder.
+    fn program(&self, name: &str) -> Result<String, (Status, String)> {
+        let file = self
+            .folder()?
+            .file(name)
+            .map_err(|error| not_now(error.to_string()))?;
+        Ok(file.display().to_string())
+    }
+
+    fn folder(&self) -> Result<&Folder, (Status, String)> {
+        let none = || {
+            let text = "this page has no folder of programs: `glidepath live --programs FOLDER`";
+            not_now(text)
+        };
+        self.folder.as_ref().ok_or_else(none)
+    }
+
+    fn preview(&self, query: &str) -> Option<Answer> {
+        let name = decoded(parameter(query, "name")?)?;
+        let found = self.folder().map(|folder| folder.file(&name));
+        Some(match found {
+            Ok(Ok(file)) => {
+                let version = self.set_up.version();
+                object(&self.preview.object(&file, &name, version))
+            }
+            Ok(Err(error)) => refusal(&not_now(error.to_string())),
+            Err(refused) => refusal(&refused),
+        })
+    }
+
+    fn programs(&self) -> Answer {
+        let listed = self.folder().map(Folder::object);
+        match listed {
+            Ok(Ok(listed)) => object(&listed),
+            Ok(Err(error)) => refusal(&not_now(error.to_string())),
+            Err(refused) => refusal(&refused),
+        }
+    }
+
+    fn take(&self, caller: Caller, query: &str, bytes: &[u8]) -> Done {
+        if caller.role < Role::Operate {
+            let text = "a program takes a page that may operate";
+            return Err((Status::Forbidden, text.to_owned()));
+        }
+        let folder = self.folder()?;
+        let number = |name| parameter(query, name)?.parse::<u64>().ok();
+        let piece = || {
+            Some((
+                decoded(parameter(query, "name")?)?,
+                number("at")?,
+                number("size")?,
+            ))
+        };
+        let (name, at, size) = piece().ok_or_else(malformed)?;
+        let replaces = number("replaces") == Some(1);
+        let taken = folder.take(&Piece {
+            name: &name,
+            at,
+            size,
+            replaces,
+            bytes,
+        });
+        match taken {
+            Ok(is_whole) => Ok(json!({ "whole": is_whole })),
+            Err(error @ FolderError::There(_)) => {
+                let text = error.to_string();
+                Err((Status::Other(412), text))
+            }
+            Err(error) => Err(not_now(error.to_string())),
+        }
+    }
+}
+
+/// Numbers and lines of a program.
+fn part(shown: &Shown, what: &str, query: &str) -> Option<Answer> {
+    let number = |name: &str| parameter(query, name)?.parse::<u64>().ok();
+    let of = number("of")?;
+    let numbers = |bytes| Answer::new(ContentType::Binary, bytes);
+    match what {
+        "program.bin" => shown.program_path(of).map(numbers),
+        "columns.bin" => shown.columns(of).map(numbers),
+        "path.bin" => shown.path(of).map(numbers),
+        "lines" => {
+            let count = |name| usize::try_from(number(name)?).ok();
+            let (from, count) = (count("from")?, count("count")?.min(MOST_LINES));
+            Some(object(&shown.lines(of, from, count)?))
+        }
+        _ => None,
     }
 }
 
 impl Site for Pages {
     fn document(&self, path: &str, query: &str) -> Option<Answer> {
-        let numbers = |bytes| Answer::new(ContentType::Binary, bytes);
-        let number = |name: &str| parameter(query, name)?.parse::<u64>().ok();
-        match path {
-            "/api/plan" => Some(object(&self.shown.object())),
-            "/api/program.bin" => self.shown.program_path(number("of")?).map(numbers),
-            "/api/columns.bin" => self.shown.columns(number("of")?).map(numbers),
-            "/api/path.bin" => self.shown.path(number("of")?).map(numbers),
-            "/api/lines" => {
-                let count = |name| usize::try_from(number(name)?).ok();
-                let (from, count) = (count("from")?, count("count")?.min(MOST_LINES));
-                let lines = self.shown.lines(number("of")?, from, count)?;
-                Some(object(&lines))
-            }
-            _ => None,
+        match path.strip_prefix("/api/")? {
+            "plan" => Some(object(&self.shown.object())),
+            "set-up" => Some(object(&self.set_up.object())),
+            "programs" => Some(self.programs()),
+            "preview" => self.preview(query),
+            what => match what.strip_prefix("preview/") {
+                Some(what) => part(self.preview.shown(), what, query),
+                None => part(&self.shown, what, query),
+            },
         }
     }
 
-    fn command(&self, body: &[u8]) -> Answer {
-        let done = if self.commands {
-            let asked = serde_json::from_slice::<Asked>(body).ok();
-            match asked.and_then(|asked| asked.command()) {
-                Some(command) => self.send(command),
-                None => Err((
-                    Status::BadRequest,
-                    "no such command, or its value is out of range".to_owned(),
-                )),
-            }
-        } else {
-            let text = "this page only shows: it was started without --commands".to_owned();
-            Err((Status::Forbidden, text))
-        };
-        match done {
-            Ok(state) => object(&json!({ "accepted": true, "state": state })),
-            Err((status, reason)) => {
-                object(&json!({ "accepted": false, "reason": reason })).with(status)
-            }
-        }
+    fn command(&self, caller: Caller, body: &[u8]) -> Answer {
+        answer(self.order(caller, body))
     }
+
+    fn upload(&self, caller: Caller, query: &str, piece: &[u8]) -> Answer {
+        answer(self.take(caller, query, piece))
+    }
+}
+
+fn answer(done: Done) -> Answer {
+    match done {
+        Ok(mut told) => {
+            told["accepted"] = true.into();
+            object(&told)
+        }
+        Err(refused) => refusal(&refused),
+    }
+}
+
+fn refusal((status, reason): &(Status, String)) -> Answer {
+    object(&json!({ "accepted": false, "reason": reason })).with(*status)
 }
 
 /// A parameter of a query.
@@ -137,6 +326,41 @@ fn parameter<'q>(query: &'q str, name: &str) -> Option<&'q str> {
     pairs.find(|(key, _)| *key == name).map(|(_, value)| value)
 }
 
+/// A parameter as it was before it was put into an address.
+fn decoded(text: &str) -> Option<String> {
+    let (mut bytes, mut rest) = (Vec::new(), text.as_bytes());
+    while let Some((first, after)) = rest.split_first() {
+        rest = after;
+        if *first != b'%' {
+            bytes.push(*first);
+            continue;
+        }
+        let (digits, after) = rest.split_at_checked(2)?;
+        rest = after;
+        bytes.push(u8::from_str_radix(str::from_utf8(digits).ok()?, 16).ok()?);
+    }
+    String::from_utf8(bytes).ok()
+}
+
 fn object(value: &Value) -> Answer {
     Answer::new(ContentType::Json, value.to_string().into_bytes())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_parameter_is_read_as_it_was_written() {
+        let query = "name=a%20b%C3%A4.ngc&at=12";
+        assert_eq!(
+            decoded(parameter(query, "name").unwrap()).unwrap(),
+            "a bä.ngc"
+        );
+        assert_eq!(parameter(query, "at"), Some("12"));
+        assert_eq!(parameter(query, "size"), None);
+        for broken in ["%", "%2", "%zz", "%ff"] {
+            assert_eq!(decoded(broken), None, "{broken}");
+        }
+    }
 }

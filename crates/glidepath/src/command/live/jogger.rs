@@ -1,0 +1,216 @@
+//! Who jogs for the pages: a thread with a port for demands, as `glidepath jog` has one.
+//!
+//! ```text
+//!  page ── every 50 ms ──► gesture: does it count? ──► demand, stamped now ──► interpolator
+//!                          └─ silent, late, up ──► let go        └─ silent for dead_man ──► stops by itself
+//! ```
+//!
+//! A demand is stamped for a message that came, and for nothing else: whatever dies between the finger and
+//! here, the interpolator hears no more and brings the axes to rest.
+
+use super::gesture::{Gesture, Heard};
+use crate::command::jog::Demands;
+use glidepath_geometry::AXES;
+use glidepath_link::{Ipc, JogMode, LinkConfig, LinkError, Transport as _};
+use std::collections::VecDeque;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::time::{Duration, Instant};
+
+/// Between two looks whether the gesture is over.
+const LOOK: Duration = Duration::from_millis(10);
+/// How long a step is said again: the interpolator may just have learnt of this client.
+const STEP_SAID: Duration = Duration::from_millis(200);
+/// Between two of that.
+const STEP_EVERY: Duration = Duration::from_millis(30);
+/// Gestures that are over, and are remembered.
+const REMEMBERED: usize = 64;
+
+/// How axes are to be moved.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Hand {
+    /// A message of a finger that is down: mm/s or °/s by axis.
+    Down {
+        gesture: u64,
+        number: u64,
+        at_ms: f64,
+        velocity: [f64; AXES],
+    },
+    /// The finger is up.
+    Up { gesture: u64 },
+    /// One step, mm or degrees by axis, at most so many mm/s.
+    Step { by: [f64; AXES], most_v: f64 },
+    /// Whatever moves by a page is let go.
+    LetGo,
+}
+
+/// The way to the thread that jogs.
+#[derive(Debug)]
+pub(super) struct Jogger(Sender<(Hand, Instant)>);
+
+impl Jogger {
+    /// Starts the thread, which ends with this.
+    pub(super) fn start(link: &LinkConfig) -> Result<Self, std::io::Error> {
+        let (sender, receiver) = channel();
+        let link = link.clone();
+        let thread = std::thread::Builder::new().name("live-jog".to_owned());
+        thread.spawn(move || serve(&link, &receiver))?;
+        Ok(Self(sender))
+    }
+
+    /// Has axes moved. Returns whether there is anybody to do it.
+    pub(super) fn hand(&self, hand: Hand) -> bool {
+        self.0.send((hand, Instant::now())).is_ok()
+    }
+}
+
+/// Serves until nobody can ask any more. A port that fails is made anew for the next gesture.
+fn serve(link: &LinkConfig, hands: &Receiver<(Hand, Instant)>) {
+    let mut next = None;
+    loop {
+        let served = Ipc::connect(link)
+            .and_then(|transport| Ok((transport.jog_sink()?, transport)))
+            .and_then(|(sink, _transport)| {
+                Hands::new(Demands::new(sink)).follow(hands, next.take())
+            });
+        match served {
+            Ok(()) => return,
+            Err(_) => match hands.recv() {
+                // What was asked of a port that failed is not done later.
+                Ok((Hand::Up { .. } | Hand::LetGo, _)) => {}
+                Ok(hand) => next = Some(hand),
+                Err(_) => return,
+            },
+        }
+    }
+}
+
+/// What moves, and by whom.
+struct Hands {
+    demands: Demands,
+    gesture: Option<Gesture>,
+    /// What the gesture asks for.
+    velocity: [f64; AXES],
+    over: VecDeque<u64>,
+    /// A step: until when it is said again, and when it was said last.
+    step: Option<(Instant, Instant)>,
+}
+
+impl Hands {
+    fn new(demands: Demands) -> Self {
+        Self {
+            demands,
+            gesture: None,
+            velocity: [0.0; AXES],
+            over: VecDeque::new(),
+            step: None,
+        }
+    }
+
+    fn follow(
+        &mut self,
+        hands: &Receiver<(Hand, Instant)>,
+        first: Option<(Hand, Instant)>,
+    ) -> Result<(), LinkError> {
+        if let Some((hand, at)) = first {
+            self.take(hand, at)?;
+        }
+        loop {
+            match hands.recv_timeout(LOOK) {
+                Ok((hand, at)) => self.take(hand, at)?,
+                Err(RecvTimeoutError::Timeout) => {}
+                Err(RecvTimeoutError::Disconnected) => return self.release(),
+            }
+            self.look()?;
+        }
+    }
+
+    fn take(&mut self, hand: Hand, at: Instant) -> Result<(), LinkError> {
+        match hand {
+            Hand::Down {
+                gesture,
+                number,
+                at_ms,
+                velocity,
+            } => self.down((gesture, number, at_ms), velocity, at),
+            Hand::Up { gesture } => {
+                self.forget(gesture);
+                if self.gesture.as_ref().map(Gesture::id) == Some(gesture) {
+                    return self.release();
+                }
+                Ok(())
+            }
+            Hand::LetGo => self.release(),
+            Hand::Step { by, most_v } => {
+                if self.gesture.is_some() || at.elapsed() > super::gesture::SILENCE {
+                    return Ok(());
+                }
+                self.step = Some((at + STEP_SAID, Instant::now()));
+                self.demands.ask(JogMode::Incremental, by, most_v, false)
+            }
+        }
+    }
+
+    fn down(
+        &mut self,
+        (id, number, at_ms): (u64, u64, f64),
+        velocity: [f64; AXES],
+        at: Instant,
+    ) -> Result<(), LinkError> {
+        if self.over.contains(&id) || at.elapsed() > super::gesture::SILENCE {
+            return Ok(());
+        }
+        let is_new = match &mut self.gesture {
+            Some(gesture) if gesture.id() == id => match gesture.hear(number, at_ms, at) {
+                Heard::Fresh => false,
+                Heard::Late => return Ok(()),
+                Heard::Over => return self.release(),
+            },
+            // One hand at a time: another finger waits until the first is up.
+            Some(_) => return Ok(()),
+            None => {
+                self.gesture = Some(Gesture::begin(id, number, at_ms, at));
+                true
+            }
+        };
+        self.step = None;
+        if is_new || velocity.map(f64::to_bits) != self.velocity.map(f64::to_bits) {
+            self.velocity = velocity;
+            return self.demands.ask(JogMode::Continuous, velocity, 0.0, false);
+        }
+        self.demands.again()
+    }
+
+    /// Lets go where the gesture is over, and says a step again.
+    fn look(&mut self) -> Result<(), LinkError> {
+        let now = Instant::now();
+        let is_over = self.gesture.as_mut().is_some_and(|it| it.is_over(now));
+        if is_over {
+            return self.release();
+        }
+        match &mut self.step {
+            Some((until, _)) if now >= *until => self.step = None,
+            Some((_, said)) if now.saturating_duration_since(*said) >= STEP_EVERY => {
+                *said = now;
+                return self.demands.again();
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn release(&mut self) -> Result<(), LinkError> {
+        if let Some(gesture) = self.gesture.take() {
+            self.forget(gesture.id());
+        }
+        self.step = None;
+        self.demands.let_go()
+    }
+
+    /// A gesture that is over does not begin again.
+    fn forget(&mut self, gesture: u64) {
+        if self.over.len() == REMEMBERED {
+            self.over.pop_front();
+        }
+        self.over.push_back(gesture);
+    }
+}

@@ -1,0 +1,86 @@
+'use strict';
+// The bar: abort, single block, what goes on, and hold, which is always there and never covered.
+
+const BAR = {};
+function layBar() {
+  fill($('#cmd'), ['abort', 'single', 'go', 'hold'].map(name => `<button class="key" data-c="${name}" data-do="${name}" data-press="0"><i class="fill"></i><span></span><small></small></button>`).join(''));
+  for (const name of ['abort', 'single', 'go', 'hold']) BAR[name] = $(`#cmd [data-c=${name}]`);
+  layDeeds();
+}
+function layDeeds() {
+  DEEDS.hold = () => { endJog(); order('hold'); };
+  DEEDS.abort = () => { endJog(); order('abort'); };
+  DEEDS.single = () => order('single-block', { on: !(S.status && S.status.single_block) });
+  DEEDS.go = () => order(S.status && S.status.mode === 'backwards' ? 'forward' : 'resume');
+  DEEDS.reset = () => order('reset');
+  DEEDS.return = () => order('return');
+  DEEDS.done = b => order('acknowledge', JSON.parse(b.dataset.event));
+  DEEDS.cannot = b => { const reason = $('#attn [name=why]:checked'); order('acknowledge', { ...JSON.parse(b.dataset.event), fail: reason ? reason.value : 'it cannot be done' }); };
+  DEEDS['show-reasons'] = () => { S.reasons = !S.reasons; paintState(); };
+}
+/* Why nothing goes on; nothing if it can. */
+function whyNoGo(s) {
+  if (S.state === 'awaiting') return s.asked ? 'answer first' : 'the machine is busy';
+  if (S.state === 'faulted') return 'reset first';
+  if (isAway(s) && ['held', 'program-stop'].includes(S.state)) return 'return first';
+  if (['held', 'program-stop'].includes(S.state)) return '';
+  if (S.state === 'preparing' && s.job && s.job.begins_held) return '';
+  return S.state === 'running' ? 'it runs' : 'nothing is held';
+}
+function paintBar() {
+  const s = S.status || {}, not = notOperating(), moves = !['idle', 'stale', 'none', 'off', 'not-homed', 'faulted'].includes(S.state);
+  setKey(BAR.hold, `${icon('hold')}Hold`, { why: may('hold') ? '' : `this page may only ${S.may}`, sub: moves ? 'at once' : 'nothing moves', kind: 'hold' });
+  setKey(BAR.abort, `${icon('abort')}Abort`, { press: LONG, why: may('hold') ? moves || S.state === 'preparing' ? '' : 'nothing runs' : `this page may only ${S.may}`, sub: 'press 1 s' });
+  const why = not || whyNoGo(s), single = s.single_block;
+  setKey(BAR.go, `${icon('running')}${single && S.state === 'program-stop' && !(s.asked && s.asked.says) ? 'Next block' : 'Resume'}`, { press: SHORT, why, sub: 'press ½ s', kind: why ? '' : 'main' });
+  setKey(BAR.single, `${icon('step')}Single`, { why: not, sub: single ? 'block: on' : 'block: off', kind: single ? 'on' : '' });
+  paintWho();
+}
+function paintWho() {
+  const old = S.refusal && performance.now() - S.refused_at > 12000;
+  if (old) S.refusal = '';
+  let html;
+  if (S.refusal) html = `${icon('warn', 'warn')}<span>${safe(S.refusal)}</span>`;
+  else if (S.asked_for) html = `<span><b>Another page wants to operate.</b></span>${key('give-seat', 'Give', { press: SHORT })}${key('keep-seat', 'Keep')}`;
+  else if (S.may === 'operate' && !S.operates) html = `<span><b>Another page operates.</b><br>${S.asks ? 'It is asked.' : 'This one holds and aborts.'}</span>${S.asks ? '' : key('ask-seat', 'Ask for it')}`;
+  else if (S.may === 'operate') html = '<span><b>You operate.</b><br>Not for emergencies.</span>';
+  else if (S.may === 'hold') html = '<span><b>Hold and abort.</b><br>Not for emergencies.</span>';
+  else html = `<span class="big">${icon('lock')}</span><span>This page<br>only looks.</span>`;
+  $('#app').dataset.says = S.refusal || S.asked_for ? 1 : 0;
+  fill($('#mode'), html);
+}
+/* The panel in place of the text: what a person has to do, with the buttons for it. */
+const REASONS = ['the tool is not there', 'the tool does not fit', 'the program asks for the wrong one', 'it cannot be done now'];
+function attentionKeys() {
+  const s = S.status, not = notOperating();
+  if (S.state === 'faulted') return key('reset', 'Reset', { press: LONG, why: not, kind: 'main', sub: 'press 1 s' });
+  if (S.state === 'awaiting' && s.asked && s.awaited) {
+    const event = `data-event='${safe(JSON.stringify({ boot: s.boot, epoch: s.awaited.epoch, sequence: s.awaited.sequence }))}'`, tool = s.asked.tools && s.asked.tools.wanted;
+    const done = tool ? tool.number ? `Done: T${tool.number} is in` : 'Done: it is out' : 'Done';
+    const reasons = S.reasons ? `<div class="reasons">${REASONS.map((text, k) => `<label><input type="radio" name="why" value="${text}" ${k ? '' : 'checked'}>${text}</label>`).join('')}</div>${key('cannot', 'It cannot be done', { press: LONG, why: not, sub: 'press 1 s: the machine stops with a fault', data: event })}` : '';
+    return `${reasons}${key('done', done, { press: SHORT, why: not, kind: 'main', sub: 'press ½ s', data: event })}${key('show-reasons', S.reasons ? 'Back' : 'Cannot…', { why: not })}`;
+  }
+  if (['held', 'program-stop'].includes(S.state) && isAway(s)) return key('return', 'Return to the path', { press: SHORT, why: not, kind: 'main', sub: 'press ½ s' });
+  return '';
+}
+/* ---- overrides, in steps of 5 % */
+function layOverrides() {
+  $$('.ov').forEach(tile => {
+    const kind = tile.dataset.ov, most = kind === 'feed-override' ? 2 : 1, [less, full, more] = $$('button', tile);
+    const now = () => S.status ? S.status[kind.replace('-', '_')] : 1;
+    // Whichever way the motion goes, more is faster.
+    const way = () => now() < 0 || Object.is(now(), -0) ? -1 : 1;
+    const step = d => order(kind, { value: way() * Math.max(0, Math.min(most, Math.round((Math.abs(now()) + d) * 20) / 20)) });
+    less.innerHTML = '−5'; more.innerHTML = '+5';
+    less.dataset.do = `${kind}-less`; more.dataset.do = `${kind}-more`; full.dataset.do = `${kind}-full`;
+    DEEDS[`${kind}-less`] = () => step(-0.05); DEEDS[`${kind}-more`] = () => step(0.05); DEEDS[`${kind}-full`] = () => order(kind, { value: way() });
+  });
+}
+/* All that depends on who may what. */
+function paintHands() {
+  const app = $('#app');
+  app.dataset.may = S.may; app.dataset.operates = S.operates ? 1 : 0;
+  $$('.ov [data-do]').forEach(b => { if (notOperating()) b.setAttribute('aria-disabled', 'true'); else b.removeAttribute('aria-disabled'); });
+  fill($('#g-foot'), S.may === 'look' ? `${icon('lock')}<span>This page only looks; it sends no commands.</span>` : '<span>Not for emergencies.</span>');
+  paintBar(); paintSetUp();
+}

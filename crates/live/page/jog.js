@@ -1,0 +1,99 @@
+'use strict';
+// Moving axes by hand: as long as a finger is down. Every 50 ms the server is told that it still is; whatever
+// dies in between, the axes come to rest.
+
+const SIGN = 50, STALL = 150;
+const JOG = { gesture: null, step: 0, part: 0.2, timer: 0 };
+const jogVelocity = name => (SETUP.jog && SETUP.jog.velocity[name] || 0) * JOG.part;
+const canJog = () => ['idle', 'held', 'program-stop', 'jogging', 'not-homed'].includes(S.state);
+function whyNoJog() { return notOperating() || (canJog() ? '' : 'not now'); }
+
+/* `ways` is how each axis goes: −1 or 1. */
+function beginJog(ways, button) {
+  if (JOG.gesture || whyNoJog()) return;
+  const names = Object.keys(ways), slower = Math.sqrt(names.length);
+  if (JOG.step) {
+    const axes = {};
+    for (const name of names) axes[name] = ways[name] * JOG.step;
+    order('jog-step', { axes, feed: Math.max(1, Math.min(...names.map(jogVelocity))) });
+    return;
+  }
+  const axes = {};
+  for (const name of names) axes[name] = ways[name] * jogVelocity(name) / slower;
+  JOG.gesture = { id: Math.floor(Math.random() * 2 ** 48), number: 0, axes, button, told: performance.now(), under_way: 0 };
+  if (button) button.classList.add('down');
+  tellJog();
+  JOG.timer = setInterval(tellJog, SIGN);
+}
+async function tellJog() {
+  const gesture = JOG.gesture;
+  if (!gesture) return;
+  const now = performance.now();
+  // A page that did not run for a while does not know whether the finger is still down.
+  if (now - gesture.told > STALL) { endJog(); return; }
+  gesture.told = now;
+  // A browser has six connections to a server: hold needs one.
+  if (gesture.under_way > 1) return;
+  gesture.under_way++;
+  const said = await order('jog', { gesture: gesture.id, number: ++gesture.number, at_ms: now, axes: gesture.axes }, true);
+  gesture.under_way--;
+  if (!said.accepted && JOG.gesture === gesture) { endJog(); S.refusal = buttonWords(said.reason); S.refused_at = performance.now(); paintBar(); }
+}
+function endJog() {
+  const gesture = JOG.gesture;
+  if (!gesture) return;
+  JOG.gesture = null;
+  clearInterval(JOG.timer);
+  if (gesture.button) gesture.button.classList.remove('down');
+  order('jog-end', { gesture: gesture.id }, true);
+}
+for (const end of ['pointerup', 'pointercancel', 'blur', 'pagehide']) addEventListener(end, endJog);
+document.addEventListener('visibilitychange', endJog);
+addEventListener('pointerdown', e => {
+  const button = e.target.closest('.jog');
+  if (!button || e.button || button.getAttribute('aria-disabled') === 'true') return;
+  e.preventDefault();
+  // Also when the finger leaves the button.
+  try { button.setPointerCapture(e.pointerId); } catch { /* a pointer that is gone */ }
+  beginJog(JSON.parse(button.dataset.ways), button);
+});
+const ARROWS = { ArrowLeft: { X: -1 }, ArrowRight: { X: 1 }, ArrowDown: { Y: -1 }, ArrowUp: { Y: 1 }, PageDown: { Z: -1 }, PageUp: { Z: 1 } };
+addEventListener('keydown', e => {
+  const ways = ARROWS[e.key];
+  if (!ways || S.view !== 'setup' || e.target.closest('input,select,[role=tab]') || !AXES().some(a => a.name in ways)) return;
+  e.preventDefault();
+  if (!e.repeat) { beginJog(ways, null); if (JOG.gesture) JOG.gesture.key = e.key; }
+});
+addEventListener('keyup', e => { if (JOG.gesture && JOG.gesture.key === e.key) endJog(); });
+
+/* ---- the pad */
+const ways = of => safe(JSON.stringify(of));
+const jogKey = (of, sign, label, place = '') => `<button class="jog ${place}" data-ways="${ways(of)}" aria-label="move ${label}"><b>${sign}</b><span>${label}</span></button>`;
+function layPad() {
+  const names = AXES().map(a => a.name), has = name => names.includes(name);
+  let html = '';
+  if (has('X') && has('Y')) {
+    const d = (x, y, sign) => jogKey({ X: x, Y: y }, sign, '', 'diagonal');
+    html += `<div class="cross">${d(-1, 1, '◤')}${jogKey({ Y: 1 }, '▲', 'Y+')}${d(1, 1, '◥')}${jogKey({ X: -1 }, '◀', 'X−')}<span class="hint">press and keep pressed</span>${jogKey({ X: 1 }, '▶', 'X+')}${d(-1, -1, '◣')}${jogKey({ Y: -1 }, '▼', 'Y−')}${d(1, -1, '◢')}</div>`;
+  }
+  const rest = names.filter(name => !(has('X') && has('Y') && 'XY'.includes(name)));
+  html += `<div class="columns">${rest.map(name => `<div>${jogKey({ [name]: 1 }, '▲', `${name}+`)}${jogKey({ [name]: -1 }, '▼', `${name}−`)}</div>`).join('')}</div>`;
+  html += `<div class="speed"><label><span class="lab">Jog speed</span><b id="jogpart"></b><input type="range" id="jogspeed" min="1" max="100" aria-label="jog speed, percent"></label><span id="jogmm"></span><p id="jogslip" class="lab-text"></p></div>`;
+  html += '<div class="steps" id="steps" role="radiogroup" aria-label="how far"></div>';
+  fill($('#pad'), html);
+  const slider = $('#jogspeed');
+  slider.value = JOG.part * 100;
+  slider.oninput = () => { endJog(); JOG.part = slider.value / 100; paintPad(); };
+  paintPad();
+}
+function paintPad() {
+  if (!$('#steps')) return;
+  const steps = [0, ...(SETUP.jog ? [...SETUP.jog.increments].sort((a, b) => b - a) : [])];
+  fill($('#steps'), steps.map(step => `<button role="radio" aria-checked="${JOG.step === step}" data-step="${step}">${step || 'while pressed'}</button>`).join(''));
+  $$('#steps button').forEach(b => { b.onclick = () => { JOG.step = +b.dataset.step; paintPad(); }; });
+  const v = AXES().length ? jogVelocity(AXES()[0].name) : 0, dead = SETUP.jog ? SETUP.jog.dead_man_ms : 150;
+  put($('#jogpart'), `${Math.round(JOG.part * 100)} %`); put($('#jogmm'), `${grouped(v)} mm/min`);
+  put($('#jogslip'), `Contact lost: the axes begin to stop within ${num(v / 60 * dead / 1000, 1)} mm.`);
+  const why = whyNoJog();
+  $$('.jog').forEach(b => { if (why) b.setAttribute('aria-disabled', 'true'); else b.removeAttribute('aria-disabled'); });
+}

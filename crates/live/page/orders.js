@@ -1,0 +1,108 @@
+'use strict';
+// What the page orders, and how fingers give orders: what stops acts when the finger comes down, what begins
+// motion is pressed for half a second, what loses work for one.
+
+const SHORT = 500, LONG = 1000;
+/* A number of this page, which outlasts its being loaded again, so that its seat does. */
+const PAGE = (() => {
+  const fresh = () => [...crypto.getRandomValues(new Uint8Array(8))].map(b => b.toString(16).padStart(2, '0')).join('');
+  try {
+    const kept = sessionStorage.getItem('glidepath-page') || fresh();
+    sessionStorage.setItem('glidepath-page', kept);
+    return kept;
+  } catch { return fresh(); }
+})();
+const headers = kind => ({ 'X-Glidepath-Token': TOKEN, 'X-Glidepath-Page': PAGE, 'Content-Type': kind });
+
+/* Gives an order; gives back what was answered. What is refused is told beside the buttons. */
+async function order(kind, more = {}, quietly = false) {
+  let said;
+  try {
+    const answer = await fetch('/api/command', { method: 'POST', headers: headers('application/json'), body: JSON.stringify({ kind, ...more }), keepalive: true });
+    said = await answer.json();
+  } catch { said = { accepted: false, reason: `${kind} was not sent: the page's server does not answer` }; }
+  if (!quietly) { S.refusal = said.accepted ? '' : buttonWords(said.reason); S.refused_at = performance.now(); paintState(); }
+  return said;
+}
+/* A line for the planner's service. The page speaks in mm, whatever unit was in force. */
+const mdi = line => order('mdi', { line });
+const mm = x => String(+x.toFixed(6));
+
+/* ---- buttons. `data-press` is how long they are pressed, ms; `data-do` what they do. */
+const DEEDS = {};
+const PRESSED = { button: null, timer: 0, key: null };
+function press(button) {
+  if (PRESSED.button || button.getAttribute('aria-disabled') === 'true') return;
+  const wait = +(button.dataset.press || 0), deed = DEEDS[button.dataset.do];
+  if (!deed) return;
+  if (!wait) { deed(button); return; }
+  PRESSED.button = button;
+  button.style.setProperty('--press', `${wait}ms`);
+  button.classList.add('down');
+  // One that was painted anew meanwhile may mean something else.
+  PRESSED.timer = setTimeout(() => { letGo(); if (button.isConnected && button.getAttribute('aria-disabled') !== 'true') deed(button); }, wait);
+}
+function letGo() {
+  clearTimeout(PRESSED.timer);
+  if (PRESSED.button) PRESSED.button.classList.remove('down');
+  PRESSED.button = PRESSED.key = null;
+}
+addEventListener('pointerdown', e => {
+  const button = e.target.closest('[data-do]');
+  if (!button || e.button) return;
+  press(button);
+});
+for (const end of ['pointerup', 'pointercancel', 'blur']) addEventListener(end, letGo);
+document.addEventListener('visibilitychange', letGo);
+addEventListener('pointermove', e => {
+  if (PRESSED.button && !PRESSED.key && e.isPrimary && !PRESSED.button.contains(document.elementFromPoint(e.clientX, e.clientY))) letGo();
+});
+addEventListener('keydown', e => {
+  if (e.key !== 'Enter' && e.key !== ' ') return;
+  const button = e.target.closest && e.target.closest('[data-do]');
+  if (!button) return;
+  e.preventDefault();
+  if (!e.repeat) { press(button); PRESSED.key = e.key; }
+});
+addEventListener('keyup', e => { if (e.key === PRESSED.key) letGo(); });
+addEventListener('contextmenu', e => { if (e.target.closest('[data-do],.jog')) e.preventDefault(); });
+
+/* A button in its place: what it does, how long it is pressed, and why it cannot be, if it cannot. */
+const key = (deed, text, { press = 0, why = '', kind = '', sub = '', data = '' } = {}) =>
+  `<button class="key ${kind}" data-do="${deed}" data-press="${press}" ${data} ${why ? 'aria-disabled="true"' : ''}><i class="fill"></i><span>${text}</span>${why || sub ? `<small>${safe(why || sub)}</small>` : ''}</button>`;
+/* Sets what changed of a button that stays where it is, so that a finger on it is not lost. */
+function setKey(button, text, { press = 0, why = '', sub = '', kind = '' } = {}) {
+  fill($('span', button), text); put($('small', button), why || sub);
+  const now = `${press} ${kind} ${!!why}`;
+  if (button.now === now) return;
+  button.now = now;
+  button.dataset.press = press; button.className = `key ${kind}${button.classList.contains('down') ? ' down' : ''}`;
+  if (why) button.setAttribute('aria-disabled', 'true'); else button.removeAttribute('aria-disabled');
+}
+
+/* ---- who operates */
+S.may = 'look'; S.operates = false; S.asks = false; S.asked_for = false;
+const may = role => S.may === 'operate' || S.may === role;
+/* Why this page does not operate now; nothing if it does. */
+const notOperating = () => S.may !== 'operate' ? `this page may only ${S.may}` : !S.operates ? 'another page operates' : '';
+async function here(kind = 'here', more = {}) {
+  const said = await order(kind, more, true);
+  if (said.accepted) { S.operates = said.operates; S.asks = said.asks; S.asked_for = said.operates && said.asked; paintHands(); }
+}
+DEEDS['ask-seat'] = () => here('ask-seat');
+DEEDS['give-seat'] = () => here('answer-seat', { give: true });
+DEEDS['keep-seat'] = () => here('answer-seat', { give: false });
+async function startHands() {
+  try {
+    const answer = await fetch('/api/may', { headers: { 'X-Glidepath-Token': TOKEN } });
+    if (answer.ok) S.may = await answer.text();
+  } catch { /* told by the age of what is shown */ }
+  paintTabs(); paintHands();
+  if (S.may !== 'operate') return;
+  here();
+  setInterval(() => here(S.asks ? 'ask-seat' : 'here'), 1000);
+  addEventListener('pagehide', () => { if (S.operates) order('leave-seat', {}, true); });
+}
+/* The commands of texts, as the buttons of this page. */
+const BUTTONS = { resume: 'Resume', hold: 'Hold', abort: 'Abort', reset: 'Reset', enable: 'Power', home: 'Home', return: 'Return', acknowledge: 'the answer below' };
+const buttonWords = text => S.may === 'operate' ? String(text).replace(/`glidepath ([a-z-]+)[^`]*`/g, (whole, name) => BUTTONS[name] || whole.replaceAll('`', '')) : plain(String(text));

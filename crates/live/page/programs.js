@@ -1,0 +1,124 @@
+'use strict';
+// Programs: the folder of the service, programs that are dropped there, a look at one before it runs, Run and From
+// line, and the jobs that the machine has had.
+
+const FOLDER = { list: [], folder: '', trouble: '', chosen: null, search: '', sending: '' };
+const LOOK = { info: null, timer: 0, plan: null, motion: null, program: null, lines: [], key: '' };
+S.agree = null;
+async function fetchPrograms() {
+  try {
+    const answer = await fetch('/api/programs', { headers: headers('application/json') }), said = await answer.json();
+    FOLDER.trouble = answer.ok ? '' : said.reason;
+    if (answer.ok) { FOLDER.list = said.programs; FOLDER.folder = said.folder; }
+  } catch { FOLDER.trouble = 'the page’s server does not answer'; }
+  paintPrograms();
+}
+const size = bytes => bytes < 1000 ? `${bytes} bytes` : bytes < 1e6 ? `${(bytes / 1e3).toFixed(1)} kB` : `${(bytes / 1e6).toFixed(1)} MB`;
+function paintPrograms() {
+  if (S.view !== 'programs') return;
+  const words = FOLDER.search.toLowerCase(), list = FOLDER.list.filter(p => p.name.toLowerCase().includes(words));
+  put($('#folder'), FOLDER.folder);
+  fill($('#list'), FOLDER.trouble ? `<p class="lab-text">${safe(plain(FOLDER.trouble))}</p>` : list.map(p => `<button class="program" data-do="choose" data-name="${safe(p.name)}" aria-current="${p.name === FOLDER.chosen}"><b>${safe(p.name)}</b><span class="lab">${size(p.bytes)}, ${new Date(p.changed_ms).toLocaleString()}</span></button>`).join('') || '<p class="lab-text">There are no programs in the folder. Drop some here.</p>');
+  put($('#dropof'), FOLDER.sending || (notOperating() ? 'Programs are put here by the page that operates.' : 'Drop programs here, or choose some.'));
+  paintChosen(); paintDay();
+}
+/* Nothing of the program before is shown with the name of this one. */
+function choose(name) {
+  FOLDER.chosen = name; S.agree = null;
+  Object.assign(LOOK, { info: null, plan: null, motion: null, program: null, lines: [], key: '' });
+  usePlan(); lookAtChosen(); paintPrograms();
+}
+DEEDS.choose = b => choose(b.dataset.name);
+async function lookAtChosen() {
+  clearTimeout(LOOK.timer);
+  const name = FOLDER.chosen;
+  if (!name || S.view !== 'programs') return;
+  const info = await api(`/api/preview?name=${encodeURIComponent(name)}`, 'json');
+  if (name !== FOLDER.chosen) return;
+  LOOK.info = info;
+  if (info) {
+    const wants = `${info.generation} ${!!info.program_path} ${!!info.report}`;
+    if (wants !== LOOK.key) {
+      LOOK.key = wants;
+      const of = `?of=${info.generation}`, get = async (is, path) => is ? api(path + of) : null;
+      const [program, columns, path, lines] = await Promise.all([get(info.program_path, '/api/preview/program.bin'), get(info.report, '/api/preview/columns.bin'), get(info.report, '/api/preview/path.bin'), api(`/api/preview/lines${of}&from=1&count=40`, 'json')]);
+      const whole = columns && path;
+      LOOK.plan = whole ? new Plan(columns) : null; LOOK.motion = whole ? new Track(path) : null; LOOK.program = program ? new Track(program) : null;
+      LOOK.lines = lines || [];
+      usePlan();
+    }
+    if (!info.report && !info.failed) LOOK.timer = setTimeout(lookAtChosen, 400);
+  }
+  paintChosen();
+}
+const whyNoRun = () => notOperating() || (S.state === 'idle' ? '' : S.state === 'off' ? 'power first' : S.state === 'not-homed' ? 'home first' : S.state === 'faulted' ? 'reset first' : 'not now');
+function paintChosen() {
+  const name = FOLDER.chosen, info = LOOK.info, why = whyNoRun();
+  $('#programs').dataset.chosen = name ? 1 : 0;
+  if (!name) { fill($('#title'), '<span class="lab-text">Choose a program.</span>'); fill($('#runkeys'), ''); fill($('#found'), ''); return; }
+  // What changes while it is planned stands by itself, so that a finger on a key is not lost.
+  fill($('#title'), `<b>${safe(name)}</b><span class="lab">${info && info.program ? `${grouped(info.program.lines)} lines` : ''}${info && info.seconds ? `, ${span(info.seconds)} of motion at 100 %` : info && !info.failed ? `, is planned: ${span(info.planned_so_far_s || 0)} so far` : ''}</span>`);
+  fill($('#runkeys'), `${key('from-line', 'From line…', { why: notOperating() })}${key('run', 'Run', { press: SHORT, why, sub: 'press ½ s', kind: why ? '' : 'main' })}`);
+  const failed = info && info.failed;
+  fill($('#found'), S.agree ? agreement() : failed ? `<div class="h"><b>${icon('warn', 'warn')} What was found</b></div><p class="lines">${safe(failed)}</p>` : `<div class="h"><b>${info && info.report ? `${icon('ok', 'ok')} Nothing was found` : 'It is read'}</b></div><pre class="lines">${safe((LOOK.lines || []).slice(0, 6).join('\n'))}</pre>`);
+}
+DEEDS.run = () => runChosen({});
+async function runChosen(more) {
+  const said = await order('run', { name: FOLDER.chosen, ...more });
+  if (said.to_confirm) { S.agree = { ...more, text: said.to_confirm }; paintChosen(); return; }
+  if (said.accepted) { S.agree = null; setView('operate'); }
+}
+/* ---- from a line: what is different there, and what happens, before anything does */
+DEEDS['from-line'] = () => { S.agree = S.agree ? null : { asks: true }; paintChosen(); const input = $('#fromline'); if (input) input.focus(); };
+function agreement() {
+  const a = S.agree, why = whyNoRun();
+  if (a.asks) return `<div class="h"><b>From which line?</b></div><div class="row"><label class="field"><span class="lab">Line</span><input id="fromline" inputmode="numeric"></label><label class="field"><span class="lab">Pass</span><input id="pass" inputmode="numeric" value="1"></label>${key('compare', 'Compare', { why })}</div><p class="lab-text">The program is read up to there. What is different from now is shown before anything moves.</p>`;
+  return `<div class="h"><b>Begin at line ${a.from_line}</b></div><pre class="lines">${safe(plain(a.text))}</pre><div class="row">${key('begin-there', `Begin at line ${a.from_line}`, { press: LONG, why, sub: 'press 1 s', kind: 'main' })}${key('from-line', 'Leave it')}</div>`;
+}
+DEEDS.compare = () => { const from_line = Math.round(+$('#fromline').value), pass = Math.max(1, Math.round(+$('#pass').value || 1)); if (from_line > 0) runChosen({ from_line, pass }); else $('#fromline').focus(); };
+DEEDS['begin-there'] = () => { const { from_line, pass } = S.agree; runChosen({ from_line, pass, agreed: true }); };
+
+/* ---- programs that are dropped */
+const PIECE = 1 << 19;
+async function send(file, replaces = false) {
+  let at = 0;
+  do {
+    const piece = file.slice(at, at + PIECE), where = `/api/upload?name=${encodeURIComponent(file.name)}&at=${at}&size=${file.size}${replaces ? '&replaces=1' : ''}`;
+    let answer, said;
+    try {
+      answer = await fetch(where, { method: 'POST', headers: headers('application/octet-stream'), body: piece });
+      said = await answer.json();
+    } catch { said = { accepted: false, reason: 'it was not sent: the page’s server does not answer' }; }
+    if (!said.accepted) {
+      FOLDER.sending = '';
+      if (answer && answer.status === 412 && !replaces) { FOLDER.wanted = file; fill($('#replace'), `<span>${safe(said.reason)}.</span>${key('replace', 'Replace it', { press: LONG, sub: 'press 1 s' })}${key('keep-old', 'Keep it')}`); } else { S.refusal = `${file.name}: ${plain(said.reason)}`; S.refused_at = performance.now(); paintBar(); }
+      paintPrograms();
+      return;
+    }
+    at += piece.size;
+    FOLDER.sending = at < file.size ? `${file.name}: ${Math.round(at / file.size * 100)} %` : '';
+    paintPrograms();
+  } while (at < file.size);
+  await fetchPrograms();
+  choose(file.name);
+}
+DEEDS.replace = async () => { const file = FOLDER.wanted; DEEDS['keep-old'](); if (file) await send(file, true); };
+DEEDS['keep-old'] = () => { FOLDER.wanted = null; fill($('#replace'), ''); };
+async function sendAll(files) { for (const file of files) await send(file); }
+function layPrograms() {
+  $('#search').oninput = e => { FOLDER.search = e.target.value; paintPrograms(); };
+  $('#files').onchange = e => { if (!notOperating()) sendAll([...e.target.files]); e.target.value = ''; };
+  const drop = $('#programs');
+  drop.addEventListener('dragover', e => { e.preventDefault(); drop.classList.add('over'); });
+  drop.addEventListener('dragleave', () => drop.classList.remove('over'));
+  drop.addEventListener('drop', e => { e.preventDefault(); drop.classList.remove('over'); if (!notOperating()) sendAll([...e.dataTransfer.files]); });
+  // A file that is dropped beside it would take the place of the page.
+  for (const kind of ['dragover', 'drop']) addEventListener(kind, e => e.preventDefault());
+}
+
+/* ---- the jobs that the machine has had */
+const ENDS = { done: ['ok', 'ok'], aborted: ['abort', ''], fault: ['fault', 'bad'], over: ['dot', ''] };
+function paintDay() {
+  const jobs = S.status && S.status.day || [];
+  fill($('#day'), `<div class="h"><b>Jobs</b><span>since this page is served</span></div>${jobs.slice(0, 30).map(job => { const [sign, kind] = ENDS[job.end] || ['running', '']; return `<div class="job"><span class="n lab">${clock(job.begun_ms)}</span>${icon(sign, kind)}<span>${safe(job.name)}</span><span class="lab">${job.end === 'done' ? `done in ${span((job.ended_ms - job.begun_ms) / 1000)}` : job.end ? `${job.end}${job.line ? ` at line ${job.line}` : ''}` : 'runs'}</span></div>`; }).join('') || '<p class="lab-text">None yet.</p>'}`);
+}

@@ -1,0 +1,160 @@
+'use strict';
+// Set up: power, home, part zero and tool in their order; positions that are set by touching them; offsets and
+// tools, edited in place; spindle and coolant; a line to type.
+
+let SETUP = {};
+let setUpVersion = null;
+S.sheet = null; S.table = 'offsets'; S.editing = null;
+async function fetchSetUp(version) {
+  if (setUpVersion === version) return;
+  setUpVersion = version;
+  const info = await api('/api/set-up', 'json');
+  if (!info) { setUpVersion = null; return; }
+  const first = !SETUP.jog;
+  SETUP = info;
+  if (first) layPad();
+  paintPad(); paintTables(); paintSetUp();
+}
+const active = () => SETUP.systems && SETUP.systems.find(system => system.name === SETUP.active);
+const whyNoLine = () => notOperating() || (S.state === 'idle' ? '' : S.state === 'off' ? 'power first' : S.state === 'not-homed' ? 'home first' : 'not now');
+
+/* ---- the rail: what is next is marked */
+function paintSetUp() {
+  const s = S.status;
+  if (!s || !SETUP.jog || S.view !== 'setup') return;
+  const not = notOperating(), simulated = s.power === 'simulated', on = simulated || s.power === 'on', homed = !(s.not_homed || []).length;
+  const zero = active(), hasZero = !!zero && Object.values(zero.origin).some(x => x !== 0), rests = ['idle', 'off', 'not-homed', 'faulted'].includes(S.state);
+  const step = (deed, title, done, now, why, next) => `<button class="key rail ${done ? 'done' : next ? 'next' : ''}" data-do="${deed}" data-press="${SHORT}" ${why ? 'aria-disabled="true"' : ''}><i class="fill"></i><span>${icon(done ? 'ok' : 'dot')}${title}</span><small>${safe(why && !done ? why : now)}</small></button>`;
+  const fault = S.state === 'faulted' ? 'reset first' : '';
+  fill($('#rail'),
+    (on ? step('power-off', 'Power', true, simulated ? 'simulated' : 'on', not || (simulated ? 'simulated' : rests ? '' : 'it moves'), false) : step('power', 'Power', false, s.power === 'enabling' ? 'coming on' : 'press ½ s', not || fault, true))
+    + step('home', 'Home', homed, homed ? 'all axes' : `${(s.not_homed || []).join(' ')}: press ½ s`, not || fault || (on ? S.state === 'homing' ? 'under way' : rests ? '' : 'not now' : 'power first'), on && !homed)
+    + step('show-zero', 'Part zero', hasZero, SETUP.keeps ? zero ? `${zero.name}${hasZero ? '' : ' is at 0'}` : 'none is kept yet' : 'not kept', '', on && homed && !hasZero)
+    + step('show-tools', 'Tool', !!s.tool, s.tool ? `T${s.tool}` : 'none told', '', false));
+  paintSheet(); paintPad(); paintLines();
+}
+DEEDS.power = () => order('enable');
+DEEDS['power-off'] = () => order('disable');
+DEEDS.home = b => order('home', b.dataset.joint ? { joints: [+b.dataset.joint] } : {});
+DEEDS['show-zero'] = () => showTable('offsets');
+DEEDS['show-tools'] = () => showTable('tools');
+
+/* ---- a number that was touched */
+function laySetUp() {
+  const axes = AXES();
+  fill($('#setdro'), `<div class="top"><b id="s-system"></b><span>press a number to set it</span><span>machine</span></div>${axes.map((a, k) => `<div class="ax"><b>${a.name}<svg class="i" viewBox="0 0 24 24" id="h${a.name}" aria-hidden="true"></svg></b><button class="w n" id="s${a.name}" data-do="touch" data-axis="${k}" aria-label="set ${a.name}"></button><div class="m"><div class="n" id="sm${a.name}"></div><div class="travel"><i id="st${a.name}"></i></div></div></div>`).join('')}`);
+  layPad();
+}
+DEEDS.touch = b => { S.sheet = S.sheet === +b.dataset.axis ? null : +b.dataset.axis; paintSheet(); if (S.sheet !== null) $('#number').focus(); };
+DEEDS['close-sheet'] = () => { S.sheet = null; paintSheet(); };
+function paintSheet() {
+  const axis = S.sheet === null ? null : AXES()[S.sheet];
+  $('#sheet').hidden = !axis; $('#sheet').classList.toggle('on', !!axis); $('#setup').classList.toggle('sheet', !!axis);
+  if (!axis) return;
+  const why = whyNoLine(), s = S.status, joint = (SETUP.joints || []).indexOf(axis.name), notHomed = (s.not_homed || []).includes(`J${joint}`);
+  const system = SETUP.active || 'the work offset';
+  fill($('#sheetkeys'), `<div class="row">${key('zero', `Zero ${axis.name}`, { why, kind: 'main' })}${key('half', 'Half', { why })}${key('value', 'Set to value', { why })}</div><div class="row">${key('go-to', `Go to value`, { press: SHORT, why, sub: 'rapid: press ½ s' })}${joint >= 0 && SETUP.homing !== 'none' ? key('home', `Home ${axis.name}`, { press: SHORT, why: notOperating(), sub: notHomed ? 'not homed' : 'again: press ½ s', data: `data-joint="${joint}"` }) : ''}${key('close-sheet', 'Close')}</div>`);
+  put($('#sheethead'), `${axis.name} in ${system}, ${axis.unit}`);
+}
+const touched = () => AXES()[S.sheet];
+const entered = () => { const text = $('#number').value.trim().replace(',', '.').replace('−', '-'); return text !== '' && isFinite(+text) ? +text : null; };
+async function setWork(value) {
+  const said = await mdi(`G21 G10 L20 P0 ${touched().name}${mm(value)}`);
+  if (said.accepted) { S.sheet = null; paintSheet(); }
+}
+DEEDS.zero = () => setWork(0);
+DEEDS.half = () => setWork(work(machineNow())[S.sheet] / 2);
+DEEDS.value = () => { const v = entered(); if (v !== null) setWork(v); else $('#number').focus(); };
+DEEDS['go-to'] = async () => { const v = entered(); if (v === null) { $('#number').focus(); return; } const said = await mdi(`G21 G90 G0 ${touched().name}${mm(v)}`); if (said.accepted) { S.sheet = null; paintSheet(); } };
+const machineNow = () => AXES().map((a, k) => RINGED && RINGED.count ? RINGED.last_position(k) : S.status.position[a.name]);
+function setUpDigits() {
+  const s = S.status;
+  if (!s || !s.position || !$(`#s${AXES()[0] ? AXES()[0].name : ''}`)) return;
+  const machine = machineNow(), shown = work(machine);
+  put($('#s-system'), s.offset ? s.offset.system : '');
+  AXES().forEach((axis, k) => {
+    put($(`#s${axis.name}`), num(shown[k], 3)); put($(`#sm${axis.name}`), num(machine[k], 3));
+    const joint = (SETUP.joints || []).indexOf(axis.name), homed = joint < 0 || !(s.not_homed || []).includes(`J${joint}`);
+    fill($(`#h${axis.name}`), `<path d="${ICONS.home}"/>`); $(`#h${axis.name}`).classList.toggle('ok', homed); $(`#h${axis.name}`).classList.toggle('warn', !homed);
+    const rail = $(`#st${axis.name}`);
+    rail.parentElement.hidden = !axis.travel;
+    if (axis.travel) rail.style.left = `${Math.max(0, Math.min(100, (machine[k] - axis.travel[0]) / (axis.travel[1] - axis.travel[0]) * 100)).toFixed(2)}%`;
+  });
+}
+
+/* ---- tables that are edited in place */
+function showTable(name) { S.table = name; S.editing = null; paintTables(); }
+for (const name of ['move', 'offsets', 'tools', 'spindle']) DEEDS[`table-${name}`] = () => showTable(name);
+function paintTables() {
+  const tabs = [['move', 'Move'], ['offsets', 'Offsets'], ['tools', 'Tools'], ['spindle', 'Spindle']];
+  fill($('#tables-tabs'), tabs.map(([name, title]) => `<button role="tab" class="t-${name}" aria-selected="${S.table === name}" data-do="table-${name}">${title}</button>`).join(''));
+  $('#setup').dataset.table = S.table;
+  if (S.editing) return;
+  fill($('#table'), S.table === 'tools' ? toolTable() : S.table === 'spindle' ? spindleKeys() : offsetTable());
+}
+const cell = (edit, value, digits) => `<td><button class="cell n" data-do="edit" data-edit="${safe(edit)}" data-value="${value}">${num(value, digits)}</button></td>`;
+function offsetTable() {
+  if (!SETUP.keeps) return '<p class="lab-text">Nothing is kept over a restart, so there is no table. Name a folder: directory of [state] of the configuration.</p>';
+  if (SETUP.trouble) return `<p class="lab-text">${safe(plain(SETUP.trouble))}</p>`;
+  if (!SETUP.systems) return '<p class="lab-text">Nothing is kept yet. Press a position and set it: that is the first entry.</p>';
+  const axes = AXES().map(a => a.name);
+  return `<table class="edit"><tr><th>system</th>${axes.map(a => `<th>${a}</th>`).join('')}<th>turned</th><th></th></tr>${SETUP.systems.map(system => `<tr class="${system.name === SETUP.active ? 'on' : ''}"><td><b>${system.name}</b></td>${axes.map(a => cell(`G21 G10 L2 P${system.number} ${a}`, system.origin[a], 3)).join('')}${cell(`G21 G10 L2 P${system.number} R`, system.rotation_deg, 2)}<td>${system.name === SETUP.active ? '<span class="chip">in use</span>' : key('use', 'Use', { why: whyNoLine(), data: `data-line="${system.name}"` })}</td></tr>`).join('')}</table>`;
+}
+function toolTable() {
+  if (!(SETUP.tools || []).length) return '<p class="lab-text">There are no tools. Name a table: tool_table of [program] of the configuration.</p>';
+  const axes = AXES().map(a => a.name).filter(a => a === 'Z' || SETUP.tools.some(tool => tool.offset[a]));
+  return `<table class="edit"><tr><th>tool</th><th class="l">name</th>${axes.map(a => `<th>${a === 'Z' ? 'length Z' : a}</th>`).join('')}<th>Ø</th></tr>${SETUP.tools.map(tool => `<tr class="${S.status && tool.number === S.status.tool ? 'on' : ''}"><td><b>T${tool.number}</b></td><td class="l">${safe(tool.name || '')}</td>${axes.map(a => cell(`G21 G10 L1 P${tool.number} ${a}`, tool.offset[a], 3)).join('')}${cell(`G21 G10 L1 P${tool.number} R`, tool.diameter_mm, 3)}</tr>`).join('')}</table>${SETUP.keeps ? '' : '<p class="lab-text">Changes last as long as the planner’s service: name a folder, directory of [state].</p>'}`;
+}
+function spindleKeys() {
+  const why = whyNoLine(), s = S.status || {}, told = s.spindle;
+  return `<div class="spindle"><label class="field"><span class="lab">Speed, rev/min</span><input id="speed" inputmode="numeric" value="${told && told.speed ? told.speed : 1000}"></label><div class="row">${key('spindle-cw', 'Clockwise', { press: SHORT, why, sub: 'M3: press ½ s' })}${key('spindle-ccw', 'Counterclockwise', { press: SHORT, why, sub: 'M4: press ½ s' })}${key('line', 'Stop', { why, sub: 'M5', data: 'data-line="M5"' })}</div><div class="row">${key('line', 'Mist', { why, sub: 'M7', data: 'data-line="M7"' })}${key('line', 'Flood', { why, sub: 'M8', data: 'data-line="M8"' })}${key('line', 'Coolant off', { why, sub: 'M9', data: 'data-line="M9"' })}</div></div>`;
+}
+const turn = code => { const speed = +$('#speed').value; if (speed > 0) mdi(`S${speed} ${code}`); else $('#speed').focus(); };
+DEEDS['spindle-cw'] = () => turn('M3');
+DEEDS['spindle-ccw'] = () => turn('M4');
+DEEDS.line = b => mdi(b.dataset.line);
+DEEDS.use = b => mdi(b.dataset.line);
+DEEDS.edit = b => {
+  if (notOperating() || S.editing) return;
+  const input = document.createElement('input');
+  input.className = 'cell n'; input.inputMode = 'decimal'; input.value = mm(+b.dataset.value); input.setAttribute('aria-label', 'new value; Enter sets it, Esc leaves it');
+  S.editing = input; b.replaceWith(input); input.focus(); input.select();
+  const leave = () => { if (S.editing === input) { S.editing = null; $('#table').kept = ''; paintTables(); } };
+  input.onblur = leave;
+  input.onkeydown = async e => {
+    if (e.key === 'Escape') leave();
+    if (e.key !== 'Enter') return;
+    const value = +input.value.trim().replace(',', '.').replace('−', '-');
+    if (input.value.trim() === '' || !isFinite(value)) return;
+    // R of a tool is a radius.
+    const edit = b.dataset.edit, isTool = edit.includes(' L1 ');
+    const said = await mdi(edit + mm(isTool && edit.endsWith('R') ? value / 2 : value));
+    if (said.accepted) leave();
+  };
+};
+
+/* ---- a line to type */
+const TYPED = { at: -1 };
+function paintLines() {
+  const s = S.status, lines = (s && s.page_jobs || []).filter(job => job.is_line);
+  fill($('#typed'), lines.slice(0, 6).reverse().map(job => `<div class="${job.state}"><span class="n lab">${clock(job.at_ms)}</span><code>${safe(job.name)}</code><span>${job.state === 'running' ? 'runs' : job.state === 'done' ? 'done' : safe(buttonWords(job.text))}</span></div>`).join(''));
+  const why = whyNoLine(), button = $('#runline');
+  setKey(button, 'Run line', { press: SHORT, why, sub: 'press ½ s', kind: why ? '' : 'main' });
+}
+DEEDS['run-line'] = async () => {
+  const input = $('#mdi'), line = input.value.trim();
+  if (!line) { input.focus(); return; }
+  const said = await mdi(line);
+  if (said.accepted) { input.value = ''; TYPED.at = -1; }
+};
+function layLine() {
+  const input = $('#mdi'), button = $('#runline');
+  input.addEventListener('keydown', e => {
+    if (e.key === 'Enter') { e.preventDefault(); if (!e.repeat) { press(button); PRESSED.key = 'Enter'; } return; }
+    if (e.key !== 'ArrowUp' && e.key !== 'ArrowDown') return;
+    e.preventDefault();
+    const lines = (S.status && S.status.page_jobs || []).filter(job => job.is_line);
+    TYPED.at = Math.max(-1, Math.min(lines.length - 1, TYPED.at + (e.key === 'ArrowUp' ? 1 : -1)));
+    input.value = TYPED.at < 0 ? '' : lines[TYPED.at].name;
+  });
+}

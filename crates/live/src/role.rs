@@ -1,0 +1,36 @@
+//! What one may who has shown a token.
+
+/// What a page may, each with all that the one before may.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Role {
+    /// See the machine.
+    Look,
+    /// Bring it to rest: hold and abort.
+    Hold,
+    /// Do whatever an operator does.
+    Operate,
+}
+
+impl Role {
+    /// All of them, the least first.
+    pub const ALL: [Self; 3] = [Self::Look, Self::Hold, Self::Operate];
+
+    /// Its name.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Look => "look",
+            Self::Hold => "hold",
+            Self::Operate => "operate",
+        }
+    }
+}
+
+/// Who asks: what the token allows, and which page it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Caller {
+    /// What it may.
+    pub role: Role,
+    /// The number that the page has given itself; 0 if it has none.
+    pub page: u64,
+}

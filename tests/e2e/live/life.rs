@@ -1,0 +1,139 @@
+//! A whole life with the mouse alone: off, home, jog, zero, upload, run, tool change, hold, abort.
+
+use std::time::Duration;
+
+use glidepath_link::MachineState;
+use glidepath_tests::{Browser, Instance, Operated, Watchdog};
+
+use super::{Live, PATIENCE};
+
+const HALF: Duration = Duration::from_millis(800);
+const WHOLE: Duration = Duration::from_millis(1400);
+
+/// Presses a key for long enough, as soon as it can be pressed.
+fn press(browser: &mut Browser, selector: &str, long: Duration) {
+    browser.wait(&format!(
+        "document.querySelector('{selector}:not([aria-disabled=true])')"
+    ));
+    browser.press_for(selector, long);
+}
+
+/// A program that asks for a tool, and then goes on for long.
+fn program() -> String {
+    let mut text = "G21 G90 F3000\nT2 M6\n".to_owned();
+    for _ in 0..200 {
+        text.push_str("G1 X20 Y10\nX0 Y0\n");
+    }
+    text
+}
+
+#[test]
+fn a_machine_is_run_with_the_mouse_alone() {
+    let (instance, _watchdog) = (Instance::alone(), Watchdog::new(PATIENCE));
+    let Some(mut browser) = Browser::start(1440, 900) else {
+        return;
+    };
+    let state = instance.path("state");
+    std::fs::create_dir(&state).unwrap();
+    let folder = instance.path("programs");
+    std::fs::create_dir(&folder).unwrap();
+    let kept = format!("directory = \"{state}\"");
+    let changes = [
+        ("homing = \"none\"", "homing = \"drive\""),
+        ("# directory = \"state\"", kept.as_str()),
+    ];
+    let operated = Operated::new(&instance, &changes, "\n[m_codes.M6]\ntimeout_s = 120\n");
+    let _interpolator = operated.process(&["interpolator", "--best-effort"]);
+    let _servo = operated.process(&["servo"]);
+    let _service = operated.process(&["planner", "--listen"]);
+    let off = operated.wait_for_drives();
+    assert!(off.homed & off.joints != off.joints, "nothing is homed yet");
+    let config = ["--config", operated.config(), "--programs", &folder];
+    let live = Live::start(&instance, &[&["--may", "operate"], &config[..]].concat());
+    browser.open(&live.url);
+    browser.wait("typeof S !== 'undefined' && S.operates && S.state === 'off' && SETUP.jog");
+
+    // Power and home.
+    browser.evaluate("setView('setup')");
+    press(&mut browser, "#rail [data-do=power]", Duration::ZERO);
+    std::thread::sleep(HALF);
+    let _still_off = operated.wait_for(MachineState::Off);
+    press(&mut browser, "#rail [data-do=power]", HALF);
+    let _on = operated.wait_for(MachineState::NotHomed);
+    browser.wait("S.state === 'not-homed'");
+    press(&mut browser, "#rail [data-do=home]", HALF);
+    let _idle = operated.wait_for(MachineState::Idle);
+    browser.wait("S.state === 'idle' && !document.querySelector('.jog[aria-disabled]')");
+
+    // A finger on X+, for as long as it is down. On a busy host the page may lose it: then it comes down anew.
+    let before = operated.position()[0];
+    let key = ".jog[aria-label=\"move X+\"]";
+    while operated.position()[0] < before + 2.0 {
+        let place = browser.finger_down(key);
+        std::thread::sleep(HALF);
+        browser.finger_up(&place);
+        std::thread::sleep(HALF);
+    }
+    let after = operated.position()[0];
+    std::thread::sleep(Duration::from_millis(300));
+    assert_eq!(operated.position()[0].to_bits(), after.to_bits());
+
+    // Zero by touching the number.
+    browser.press("#sX");
+    press(&mut browser, "#sheet [data-do=zero]", Duration::ZERO);
+    browser.wait("S.status.offset && document.querySelector('#sX').textContent === '0.000'");
+    browser.wait("SETUP.systems && Math.abs(SETUP.systems[0].origin.X) > 2");
+
+    // A program is dropped, looked at, and run.
+    browser.evaluate("setView('programs')");
+    let dropped = format!(
+        "(() => {{ const d = new DataTransfer(); d.items.add(new File([{:?}], 'life.ngc')); \
+         document.querySelector('#list').dispatchEvent(new DragEvent('drop', \
+         {{ dataTransfer: d, bubbles: true, cancelable: true }})); }})()",
+        program()
+    );
+    browser.evaluate(&dropped);
+    browser.wait("FOLDER.chosen === 'life.ngc' && LOOK.info && LOOK.info.report");
+    press(&mut browser, "#chosen [data-do=run]", HALF);
+
+    // The tool is asked for, and answered.
+    let _asked = operated.wait_for(MachineState::Awaiting);
+    browser.wait(
+        "S.view === 'operate' && S.state === 'awaiting' && \
+         document.querySelector('#attn').textContent.includes('put T2 in the spindle'.replace('put', 'Put'))",
+    );
+    press(&mut browser, "#attn [data-do=done]", HALF);
+    let _moving = operated.wait_for(MachineState::Running);
+    browser.wait("S.state === 'running' && S.status.program_is_shown && PLAN");
+    browser.wait("document.querySelector('#blocks .cur').textContent.includes('X')");
+    browser.press("[data-ov=feed-override] button:last-child");
+    let _faster = operated.wait(|status| (status.feed_override - 1.05).abs() < 1e-9);
+
+    // Hold, jog away, return, and on.
+    browser.press("[data-c=hold]");
+    let _held = operated.wait_for(MachineState::Held);
+    browser.evaluate("setView('setup')");
+    browser.wait("S.state === 'held' && !document.querySelector('.jog[aria-disabled]')");
+    let key = ".jog[aria-label=\"move Z+\"]";
+    browser.press_for(key, HALF);
+    let _away = operated
+        .wait(|status| status.state == MachineState::Held.code() && status.away[2].abs() > 0.1);
+    browser.evaluate("setView('operate')");
+    browser.wait("document.querySelector('[data-c=go] small').textContent === 'return first'");
+    press(&mut browser, "#attn [data-do=return]", HALF);
+    let _back = operated
+        .wait(|status| status.state == MachineState::Held.code() && status.away[2].abs() < 1e-9);
+    browser.wait("document.querySelector('[data-c=go]').getAttribute('aria-disabled') === null");
+    press(&mut browser, "[data-c=go]", HALF);
+    let _moving = operated.wait_for(MachineState::Running);
+
+    // Abort is pressed for a second.
+    browser.wait("S.state === 'running'");
+    press(&mut browser, "[data-c=abort]", HALF);
+    std::thread::sleep(HALF);
+    let _still_moving = operated.wait_for(MachineState::Running);
+    press(&mut browser, "[data-c=abort]", WHOLE);
+    let _idle = operated.wait_for(MachineState::Idle);
+    browser.wait("S.status.day.some(job => job.name === 'life.ngc' && job.end === 'aborted')");
+    drop(live);
+}
