@@ -75,3 +75,5 @@
 //! | M72, M73 with G43.1, G43.2 or G64 P saved | G43 of the tool in the spindle; P in the units in force | as they were |
 //! | G98 or G99 where a program says neither | G99: to the R plane | G98, which goes higher |
 //! | lines above 252 characters | refused | up to [`MAX_LINE_BYTES`](crate::MAX_LINE_BYTES) |
+
+pub use crate::syntax::dialect::words::listing::{Treatment, Word, lathe_words, words};

@@ -72,6 +72,7 @@ pub use execute::state::in_force::InForce;
 pub use execute::state::modal::{Feed, Modal};
 pub use execute::state::probe_result::Probed;
 pub use setup::fanuc::{Arctangent, FanucControl, FanucParameters, OffsetMemory, PointInput};
+pub use setup::firmware::Firmware;
 pub use setup::m_codes::{MCodes, WaitsAt};
 pub use setup::machine::{Machine, Travel};
 pub use setup::options::{AdaptiveFeed, Connections, LoopLimits, Options};

@@ -76,7 +76,9 @@ pub struct FiveAxis {
 }
 
 impl FiveAxis {
-    const fn tilt_axis(&self) -> Axis {
+    /// The axis that tilts.
+    #[must_use]
+    pub const fn tilt_axis(&self) -> Axis {
         match self.tilt {
             Tilt::A => Axis::A,
             Tilt::B => Axis::B,
@@ -170,11 +172,25 @@ impl FiveAxis {
     /// next to `near_deg`, with C unwrapped to it. Along the rotary axis C stays as it is.
     #[must_use]
     pub fn angles_deg(&self, tool_axis: &Vector3<f64>, near_deg: (f64, f64)) -> (f64, f64) {
+        let branches = self.branches_deg(tool_axis, near_deg.1);
+        let far =
+            |(tilt, rotary): (f64, f64)| (tilt - near_deg.0).abs().max((rotary - near_deg.1).abs());
+        if far(branches[1]) < far(branches[0]) {
+            branches[1]
+        } else {
+            branches[0]
+        }
+    }
+
+    /// Both ways (tilt, C) to give the tool a direction, with C unwrapped to `near_rotary_deg`. Along
+    /// the rotary axis, where every C will do, C stays as it is.
+    #[must_use]
+    pub fn branches_deg(&self, tool_axis: &Vector3<f64>, near_rotary_deg: f64) -> [(f64, f64); 2] {
         let (t, r) = self.signs();
         let flat = tool_axis.x.hypot(tool_axis.y);
         let tilt = flat.atan2(tool_axis.z).to_degrees();
         if flat < 1e-9 * tool_axis.norm() {
-            return (t * tilt, near_deg.1);
+            return [(t * tilt, near_rotary_deg); 2];
         }
         // Where a small positive tilt leans the tool at C = 0, and which way C then takes it.
         let lean = Self {
@@ -188,18 +204,11 @@ impl FiveAxis {
         };
         let heading = tool_axis.y.atan2(tool_axis.x) - lean.y.atan2(lean.x);
         let rotary = sense * heading.to_degrees();
-        let unwrapped = |angle: f64| angle + 360.0 * ((near_deg.1 - angle) / 360.0).round();
-        let branches = [
+        let unwrapped = |angle: f64| angle + 360.0 * ((near_rotary_deg - angle) / 360.0).round();
+        [
             (t * tilt, unwrapped(r * rotary)),
             (-t * tilt, unwrapped(r * (rotary + 180.0))),
-        ];
-        let far =
-            |(tilt, rotary): (f64, f64)| (tilt - near_deg.0).abs().max((rotary - near_deg.1).abs());
-        if far(branches[1]) < far(branches[0]) {
-            branches[1]
-        } else {
-            branches[0]
-        }
+        ]
     }
 }
 

@@ -12,7 +12,7 @@ use std::sync::Arc;
 use glidepath_program::{Event, Item, ItemKind, PathMode};
 
 use crate::diagnostic::fault::Outcome;
-use crate::execute::block_words::{check_words, path_mode};
+use crate::execute::block_words::{check_named_words, check_words, path_mode};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::speed::Pace;
 use crate::execute::state::fanuc_offsets::FanucFrames;
@@ -43,6 +43,7 @@ impl Interpreter {
         out: &mut Vec<Item>,
     ) -> Outcome<AfterBlock> {
         self.begin(line);
+        self.mapped_items = out.len();
         if block.is_plain() {
             let code = block.codes.motion.and_then(|motion| motion.code);
             if self.go(code, &block.words, false, out) {
@@ -57,6 +58,7 @@ impl Interpreter {
             || codes.tool_length.is_some()
             || codes.saved_state.is_some()
             || codes.frame.is_some()
+            || codes.kept_place.is_some()
             || codes.extended_system.is_some();
         let ends = matches!(
             codes.stop,
@@ -65,17 +67,24 @@ impl Interpreter {
                 ..
             })
         );
-        let changes_offsets = changes_offsets || ends;
+        let changes_offsets = changes_offsets || ends || self.is_mapped || codes.tilt.is_some();
         let offsets = changes_offsets.then(|| (self.offsets.clone(), self.tools.clone()));
         let compensation = self.compensation.clone();
         let corner = self.corner.clone();
+        let (open_line, open_tap) = (self.open_line.clone(), self.open_tap);
+        let (axes_end, is_mapped) = (self.axes_end, self.is_mapped);
         let mark = OpenSpline::mark(self.open_spline.as_ref());
-        let result = self.run(block, out);
+        let result = self.run(block, out).and_then(|after| {
+            self.map_moves(block, out)?;
+            Ok(after)
+        });
         if result.is_err() {
             out.clear();
             self.state = state;
+            (self.axes_end, self.is_mapped) = (axes_end, is_mapped);
             self.compensation = compensation;
             self.corner = corner;
+            (self.open_line, self.open_tap) = (open_line, open_tap);
             OpenSpline::rewind(&mut self.open_spline, mark);
             if let Some(saved_states) = saved_states {
                 self.saved_states = saved_states;
@@ -110,7 +119,7 @@ impl Interpreter {
             self.open_spline = None;
             return Err(fault);
         }
-        self.settle_corner(block, motion, out)?;
+        self.settle_held(block, motion, out)?;
         check_words(block, motion)?;
         self.check_axes(block)?;
         self.check_compensated(block)?;
@@ -125,6 +134,7 @@ impl Interpreter {
         if let Some(non_modal) = block.codes.non_modal {
             self.act_non_modal(block, non_modal, motion, out)?;
         }
+        self.act_once(block, out)?;
         if let Some(Coded { code, .. }) = block.codes.motion
             && !block.codes.is_once
         {
@@ -141,6 +151,7 @@ impl Interpreter {
         }
         if let Some(motion) = motion {
             self.take_polar_words(block);
+            self.take_pole_words(block);
             let mode = self.state.modal.path_mode;
             if block.codes.exact_stop.is_some() {
                 self.state.modal.path_mode = PathMode::ExactStop;
@@ -155,6 +166,8 @@ impl Interpreter {
                 // As LinuxCNC does: the next program begins in G54.
                 self.offsets.active = 0;
                 self.offsets.frame = Frame::default();
+                self.offsets.tilted = Frame::default();
+                self.offsets.fanuc.dynamic = None;
                 self.offsets.fanuc.active = None;
                 self.offsets.fanuc.frames = FanucFrames::default();
                 AfterBlock::End
@@ -171,6 +184,43 @@ impl Interpreter {
         })
     }
 
+    /// Codes of other dialects that act once, and move by themselves.
+    fn act_once(&mut self, block: &Block, out: &mut Vec<Item>) -> Outcome<()> {
+        if let Some(coded) = block.codes.kept_place {
+            self.kept_place(block, coded, out)?;
+        }
+        if block.codes.tilt.is_some() {
+            self.fanuc_tilt(block)?;
+            self.fanuc_align(block, out)?;
+        }
+        Ok(())
+    }
+
+    /// What the blocks before have left open, and what in force forbids the block.
+    fn settle_held(
+        &mut self,
+        block: &Block,
+        motion: Option<Motion>,
+        out: &mut Vec<Item>,
+    ) -> Outcome<()> {
+        if block.dialect != Dialect::LinuxCnc {
+            self.check_open_tap(block, motion)?;
+            check_named_words(block, motion)?;
+            self.settle_line(block, motion, out)?;
+        }
+        self.settle_corner(block, motion, out)?;
+        if self.is_mapped {
+            // They were made with what was in force.
+            self.map_moves(block, out)?;
+        }
+        if motion.is_some() {
+            self.check_tilt(block)?;
+            self.check_dynamic_offset(block)?;
+        }
+        self.check_machine_place(block)?;
+        Ok(())
+    }
+
     /// Plane, units, diameter mode, cutter radius, tool length, coordinate system, path mode,
     /// distance modes, retract mode.
     fn modes(&mut self, block: &Block, out: &mut Vec<Item>) -> Outcome<()> {
@@ -180,6 +230,7 @@ impl Interpreter {
         }
         if let Some(Coded { code, .. }) = codes.units {
             modal.units = code;
+            self.state.feeds_in_mm = codes.feeds_in_mm;
         }
         if let Some(Coded { code, .. }) = codes.diameter {
             modal.diameter = code;
@@ -199,10 +250,10 @@ impl Interpreter {
         }
         if let Some(Coded { code, .. }) = codes.distance {
             modal.distance = code;
-            self.state.extruder_relative = code == Distance::Incremental;
+            self.state.extruder.distance(code == Distance::Incremental);
         }
         if let Some(Coded { code, .. }) = codes.extruder {
-            self.state.extruder_relative = code;
+            self.state.extruder.code(code);
         }
         if let Some(Coded { code, .. }) = codes.arc_distance {
             modal.arc_distance = code;
@@ -254,7 +305,7 @@ impl Interpreter {
         code
     }
 
-    const fn has_corners(&self, block: &Block) -> bool {
+    pub(crate) const fn has_corners(&self, block: &Block) -> bool {
         self.corner.is_some() || block.corner.is_some() || self.state.rounds_mm > 0.0
     }
 
@@ -265,7 +316,10 @@ impl Interpreter {
         motion: Motion,
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
-        if !matches!(motion, Motion::RigidTap | Motion::Cycle(_)) {
+        if !matches!(
+            motion,
+            Motion::RigidTap | Motion::TapIn | Motion::TapOut | Motion::Cycle(_)
+        ) {
             self.spindle_from_taps(out);
         }
         match motion {
@@ -278,6 +332,9 @@ impl Interpreter {
                 } else {
                     Pace::Feed
                 };
+                if motion == Motion::Linear && self.hold_line(block)? {
+                    return Ok(());
+                }
                 if self.has_corners(block) && motion == Motion::Linear {
                     self.straight_between_corners(block, target, out)?;
                 } else {
@@ -287,10 +344,17 @@ impl Interpreter {
             Motion::ArcClockwise | Motion::ArcCounterclockwise => self.arc(block, motion, out)?,
             Motion::Cycle(cycle) => self.cycle(block, cycle, out)?,
             Motion::Lathe(cycle) => self.begin_lathe_cycle(block, cycle, out)?,
-            Motion::Probe(probe) => self.probe(probe, block, out)?,
+            Motion::Probe(probe) => {
+                self.check_probe_map(block)?;
+                self.probe(probe, block, out)?;
+            }
             Motion::Spline(spline) => self.spline(block, spline, out)?,
             Motion::Thread => self.thread(block, out)?,
             Motion::RigidTap => self.rigid_tap(block, out)?,
+            Motion::ArcThrough => self.arc_through(block, out)?,
+            Motion::ArcTangent => self.tangent_arc(block, out)?,
+            Motion::TapIn => self.tap_in(block)?,
+            Motion::TapOut => self.tap_out(block, out)?,
             Motion::ThreadCycle if block.dialect == Dialect::Fanuc => {
                 self.fanuc_thread(block, out)?;
             }

@@ -12,6 +12,7 @@ use crate::syntax::letters::{AXIS_WORDS, Letters};
 use crate::syntax::modes::{
     CannedCycle, CutterRadius, LatheCycle, Motion, NonModal, SpindleMode, Spline, ToolLength,
 };
+use crate::syntax::named_word::{Named, no_use};
 use crate::syntax::word_check::{missing, negative, unused};
 
 /// The words each code of a block takes besides F, S and T.
@@ -79,7 +80,7 @@ fn taken(block: &Block, motion: Option<Motion>) -> [Letters; 13] {
             Some(_) => Letters::of(b"PQ"),
             None => none,
         },
-        taken_by_fanuc_modes(block),
+        taken_by_modes_of_dialects(block),
         match codes.extended_system {
             Some(_) => Letters::of(b"P"),
             None => none,
@@ -96,10 +97,12 @@ fn taken(block: &Block, motion: Option<Motion>) -> [Letters; 13] {
     ]
 }
 
-/// The words of FANUC's frames, and of codes that are read over.
-fn taken_by_fanuc_modes(block: &Block) -> Letters {
+/// The words of FANUC's frames, of codes that are read over, and of printers' places.
+fn taken_by_modes_of_dialects(block: &Block) -> Letters {
     let codes = &block.codes;
     match (codes.read_over, codes.frame.map(|frame| frame.code)) {
+        _ if codes.kept_place.is_some() => AXIS_WORDS.and(Letters::of(b"E")),
+        _ if codes.tilt.is_some() => AXIS_WORDS.and(Letters::of(b"PIJK")),
         (Some(_), _) => Letters::of(b"PQRE"),
         (_, Some(FrameCode::Scale(true))) => AXIS_WORDS.and(Letters::of(b"PIJK")),
         (_, Some(FrameCode::Turn(true))) => AXIS_WORDS.and(Letters::of(b"R")),
@@ -117,6 +120,7 @@ fn taken_by_motion(block: &Block, motion: Option<Motion>) -> Letters {
         },
         Some(Motion::Cycle(_)) if block.dialect == Dialect::Fanuc => Letters::of(b"RLPQK"),
         Some(Motion::Turning(_)) => Letters::of(b"R"),
+        Some(Motion::TapIn | Motion::TapOut) => Letters::of(b"IJK"),
         Some(Motion::Groove(_)) => Letters::of(b"RPQ"),
         Some(Motion::Thread) => Letters::of(b"KQ"),
         Some(Motion::RigidTap) => Letters::of(b"KIPQR"),
@@ -204,6 +208,28 @@ pub(crate) fn check_words(block: &Block, motion: Option<Motion>) -> Outcome<()> 
         }
     }
     Ok(())
+}
+
+/// Refuses a word with a longer name than a letter that nothing in its block uses.
+pub(crate) fn check_named_words(block: &Block, motion: Option<Motion>) -> Outcome<()> {
+    let sets_pole = block
+        .codes
+        .non_modal
+        .is_some_and(|code| matches!(code.code, NonModal::SetPole(_)));
+    let is_arc = motion.is_some_and(Motion::is_arc);
+    let is_straight = matches!(motion, Some(Motion::Rapid | Motion::Linear));
+    let takes = |word: Named| match word {
+        Named::SpeedLimit | Named::SpindleAngle => true,
+        Named::PolarRadius | Named::PolarAngle => is_arc || is_straight || sets_pole,
+        Named::ArcAngle => is_arc,
+        Named::LineAngle => motion == Some(Motion::Linear),
+        Named::Via(_) => motion == Some(Motion::ArcThrough),
+        Named::Vector(_) => is_straight,
+    };
+    match block.named.untaken(takes) {
+        None => Ok(()),
+        Some(word) => Err(no_use(word)),
+    }
 }
 
 pub(crate) fn require_axes(block: &Block, span: SourceSpan, code: &str) -> Outcome<()> {

@@ -9,6 +9,7 @@ use crate::execute::program::Program;
 use crate::execute::state::coolant::Coolant;
 use crate::execute::state::fanuc_modal::FanucModal;
 use crate::execute::state::in_force::{InForce, InForceParts};
+use crate::execute::state::pole::Pole;
 use crate::execute::state::spindle::Spindle;
 use crate::syntax::modes::{Distance, FeedMode, Motion};
 
@@ -60,9 +61,15 @@ impl<R: BufRead> Program<R> {
         interpreter.state = *state;
         interpreter.state.fanuc = FanucModal::default();
         interpreter.state.edge = None;
-        interpreter.state.tip_follows = false;
+        interpreter.state.tip = interpreter.options.first_tip();
+        interpreter.state.tilted = None;
         interpreter.state.rounds_mm = 0.0;
-        (interpreter.state.position, interpreter.state.path_end) = (start, start);
+        interpreter.state.pole = Pole::default();
+        interpreter.state.feeds_in_mm = false;
+        let map = interpreter.tip_map();
+        let place = map.map_or(start, |map| map.place(&start));
+        (interpreter.state.position, interpreter.state.path_end) = (place, place);
+        (interpreter.axes_end, interpreter.is_mapped) = (start, map.is_some());
         interpreter.offsets.tool = offsets.tool;
         interpreter.offsets.active = offsets.active;
         interpreter.offsets.shift = offsets.shift;

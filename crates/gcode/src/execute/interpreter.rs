@@ -2,18 +2,25 @@
 
 use std::sync::Arc;
 
+use glidepath_geometry::AxisVector;
 use glidepath_program::{Item, ItemKind};
 
 use crate::execute::auxiliary::input_wait::InputWait;
 use crate::execute::compensation::path::Compensation;
 use crate::execute::motion::speed::Pace;
+use crate::execute::motion::tip_map::TipMap;
 use crate::execute::state::coolant::Coolant;
 use crate::execute::state::course::Course;
+use crate::execute::state::extruder::ExtruderMode;
 use crate::execute::state::fanuc_modal::FanucModal;
 use crate::execute::state::modal::Modal;
 use crate::execute::state::offsets::Offsets;
 use crate::execute::state::open_corner::OpenCorner;
+use crate::execute::state::open_line::OpenLine;
 use crate::execute::state::open_spline::OpenSpline;
+use crate::execute::state::open_tap::OpenTap;
+use crate::execute::state::pole::Pole;
+use crate::execute::state::printer::KeptByPrinter;
 use crate::execute::state::probe_result::{ProbeResult, Search};
 use crate::execute::state::program_state::State;
 use crate::execute::state::saved_states::SavedStates;
@@ -45,6 +52,12 @@ pub(crate) struct Interpreter {
     pub(crate) compensation: Option<Compensation>,
     /// The move to a corner that is to be broken.
     pub(crate) corner: Option<Box<OpenCorner>>,
+    /// The line of which the direction alone is known.
+    pub(crate) open_line: Option<Box<OpenLine>>,
+    /// The tap that is in its hole.
+    pub(crate) open_tap: Option<OpenTap>,
+    /// The direction in which the last move ended, for a block with CT.
+    pub(crate) tangent: Option<AxisVector>,
     /// The NURBS whose control points are being read.
     pub(crate) open_spline: Option<OpenSpline>,
     /// The tool table, with what G10 has made of it.
@@ -52,6 +65,8 @@ pub(crate) struct Interpreter {
     /// Blocks that changed coordinate systems, reference positions, the offset of G92 or tools.
     pub(crate) changes: u64,
     pub(crate) saved_states: SavedStates,
+    /// Places and states that a printer's program keeps.
+    pub(crate) kept_by_printer: KeptByPrinter,
     /// What the block executed last has left out.
     pub(crate) zero_length: ZeroLength,
     /// Straight moves of plain lines are judged, and not given out.
@@ -61,6 +76,12 @@ pub(crate) struct Interpreter {
     /// What the straight move of a plain line made last was made with; it holds as long as nothing
     /// else is executed.
     pub(crate) course: Course,
+    /// Where the axes stand behind the last move, where places of the program are not the axes.
+    pub(crate) axes_end: AxisVector,
+    /// They are not.
+    pub(crate) is_mapped: bool,
+    /// Items of the block whose moves are those of the axes already.
+    pub(crate) mapped_items: usize,
     /// Line of the block being executed.
     pub(crate) line: u32,
     /// What the M66 executed last waits for.
@@ -71,7 +92,10 @@ pub(crate) struct Interpreter {
 
 impl Interpreter {
     pub(crate) fn new(options: Options) -> Self {
-        let start = options.start;
+        let axes_end = options.start;
+        let tip = options.first_tip();
+        let map = TipMap::new(options.five_axis, tip);
+        let start = map.map_or(axes_end, |map| map.place(&axes_end));
         let soft_limits = SoftLimits::of(&options.machine);
         let spindle = options.spindle_axis.map(|spindle| spindle.axis);
         let lacking = Letters::of_axes(|axis| !options.machine.has(axis) || spindle == Some(axis));
@@ -92,16 +116,20 @@ impl Interpreter {
                 cycles: CycleSeries::default(),
                 probe: ProbeResult::default(),
                 input: 0.0,
-                extruder_relative: false,
+                extruder: ExtruderMode::default(),
+                gcode_offset: [0.0; 3],
                 on_contour: false,
                 contour_side: Side::Left,
                 leaving_contour: false,
                 cubic_tail: None,
                 thread_end: None,
                 rounds_mm: 0.0,
+                pole: Pole::default(),
+                feeds_in_mm: false,
                 edge: None,
                 fanuc: FanucModal::default(),
-                tip_follows: false,
+                tip,
+                tilted: None,
                 thread_setup: None,
             },
             open_spline: None,
@@ -111,12 +139,19 @@ impl Interpreter {
             soft_limits,
             compensation: None,
             corner: None,
+            open_line: None,
+            open_tap: None,
+            tangent: None,
             tools,
             saved_states: SavedStates::default(),
+            kept_by_printer: KeptByPrinter::default(),
             zero_length: ZeroLength::default(),
             only_judges: false,
             has_judged: false,
             course: Course::new(),
+            axes_end,
+            is_mapped: map.is_some(),
+            mapped_items: 0,
             line: 0,
             input_wait: None,
             search: None,

@@ -150,8 +150,9 @@ impl<R: BufRead> Program<R> {
     }
 
     /// The same program to be judged alone: its items and totals leave out most moves.
-    pub(crate) const fn only_judged(mut self) -> Self {
-        self.interpreter.only_judges = true;
+    pub(crate) fn only_judged(mut self) -> Self {
+        // CT of SINUMERIK goes on in the direction of the move before it.
+        self.interpreter.only_judges = self.block.dialect != Dialect::Siemens;
         self
     }
 
@@ -170,7 +171,7 @@ impl<R: BufRead> Program<R> {
     /// Machine position after the last block read.
     #[must_use]
     pub const fn position(&self) -> &AxisVector {
-        &self.interpreter.state.position
+        self.interpreter.axes_place()
     }
 
     /// How many blocks have changed coordinate systems, reference positions, the offset of G92 or
@@ -300,6 +301,8 @@ impl<R: BufRead> Program<R> {
         match self.flow.recorder.take() {
             None => {
                 self.interpreter.check_spline_complete()?;
+                self.interpreter.check_line_complete()?;
+                self.interpreter.check_tap_complete()?;
                 self.interpreter.end_corner(&self.block, &mut self.items)?;
                 self.interpreter.end_compensation(&mut self.items)?;
                 self.count();

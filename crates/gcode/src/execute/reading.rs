@@ -10,6 +10,7 @@ use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::line_origin::LineOrigin;
+use crate::execute::motion::tangent_arc::direction_behind;
 use crate::execute::program::Program;
 use crate::syntax::dialect::Dialect;
 
@@ -20,6 +21,11 @@ impl<R: BufRead> Program<R> {
     /// can be read, unless what follows depends on it: a diagnostic that is fatal, or in an O word,
     /// a subroutine or a loop ends the program.
     pub(crate) fn next_line(&mut self) -> Option<Result<(), Diagnostic>> {
+        if self.block.dialect == Dialect::Siemens
+            && let Some(direction) = direction_behind(&self.items)
+        {
+            self.interpreter.tangent = Some(direction);
+        }
         self.items.clear();
         self.given = 0;
         if self.ended {

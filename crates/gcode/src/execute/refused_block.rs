@@ -73,6 +73,7 @@ impl Interpreter {
             if let Ok(target) = self.target(block) {
                 self.state.position = target;
                 self.state.path_end = target;
+                self.axes_follow_place();
             }
         }
     }
@@ -92,6 +93,8 @@ impl<R: BufRead> Program<R> {
         if self.interpreter.corner.take().is_some() {
             self.interpreter.state.path_end = self.interpreter.state.position;
         }
+        self.interpreter.open_line = None;
+        self.interpreter.open_tap = None;
         self.interpreter.adopt_modes(&self.block);
         self.interpreter.adopt_place(&self.block, diagnostic.code);
     }

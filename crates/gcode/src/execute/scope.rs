@@ -212,7 +212,8 @@ const fn motion_code(motion: Option<Motion>) -> u16 {
         Some(Motion::ArcClockwise) => 20,
         Some(Motion::ArcCounterclockwise) => 30,
         Some(Motion::Thread) => 330,
-        Some(Motion::RigidTap) => 331,
+        Some(Motion::RigidTap | Motion::TapIn | Motion::TapOut) => 331,
+        Some(Motion::ArcThrough | Motion::ArcTangent) => 20,
         Some(Motion::ThreadCycle | Motion::Turning(_) | Motion::Groove(_)) => 760,
         Some(Motion::Spline(spline)) => match spline {
             Spline::Cubic => 50,

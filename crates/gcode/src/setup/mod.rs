@@ -1,6 +1,7 @@
 //! What a program is read for: the machine, its tools, and how the operator set it up.
 
 pub(crate) mod fanuc;
+pub(crate) mod firmware;
 pub(crate) mod m_codes;
 pub(crate) mod machine;
 pub(crate) mod options;

@@ -3,9 +3,12 @@
 use std::sync::Arc;
 
 use glidepath_geometry::{Axis, AxisVector};
+use glidepath_kinematics::FiveAxis;
 
 use crate::execute::state::in_force::InForce;
+use crate::execute::state::tip::Tip;
 use crate::setup::fanuc::{FanucControl, FanucParameters};
+use crate::setup::firmware::Firmware;
 use crate::setup::m_codes::MCodes;
 use crate::setup::machine::Machine;
 use crate::setup::reading_watch::ReadingWatch;
@@ -38,12 +41,15 @@ pub struct Options {
     pub dialect: Dialect,
     /// What the parameters of a FANUC control say, for [`Dialect::Fanuc`].
     pub fanuc: FanucParameters,
-    /// The kinematics keep the tip of the tool where the program says while rotary axes turn: a
-    /// machine with five axes. Other controls than LinuxCNC do so between G43.4 and G49, or behind
-    /// TRAORI, and elsewhere their programs are refused where that makes a difference.
-    pub keeps_tip: bool,
+    /// A machine with five axes, whose kinematics keep the tip of the tool where the program says while
+    /// rotary axes turn. Other controls than LinuxCNC do so between G43.4 and G49, in a tilted plane, or
+    /// behind TRAORI; elsewhere their programs move the machine's own axes. `None`: another machine.
+    pub five_axis: Option<FiveAxis>,
     /// The axis that E words of [`Dialect::Marlin`] move. `None`: they are errors.
     pub extruder: Option<Axis>,
+    /// The firmware of the printer that programs in [`Dialect::Marlin`] are for. `None`: not known, and
+    /// where it matters they are refused.
+    pub firmware: Option<Firmware>,
     /// What inputs, outputs and the probe are.
     pub connections: Connections,
     /// The highest feed at which a probe may be used, mm/s or °/s: above it the machine could not
@@ -121,6 +127,14 @@ impl Default for LoopLimits {
 }
 
 impl Options {
+    /// What the coordinates of a program are of at its beginning.
+    pub(crate) const fn first_tip(&self) -> Tip {
+        match self.dialect {
+            Dialect::Fanuc | Dialect::Siemens if self.five_axis.is_some() => Tip::Stands,
+            _ => Tip::PLAIN,
+        }
+    }
+
     /// True for a program of a FANUC lathe.
     pub(crate) fn is_fanuc_lathe(&self) -> bool {
         let machine = &self.machine;
@@ -148,8 +162,9 @@ impl Default for Options {
             subroutines: None,
             dialect: Dialect::LinuxCnc,
             fanuc: FanucParameters::default(),
-            keeps_tip: false,
+            five_axis: None,
             extruder: None,
+            firmware: None,
             connections: Connections::None,
             probing_v: None,
             threading: None,

@@ -15,6 +15,7 @@ use crate::syntax::dialect::Dialect;
 use crate::syntax::expression::scope::Parameter;
 use crate::syntax::letters::{AXIS_LETTERS, AXIS_WORDS, Letters, Slot, WordValues};
 use crate::syntax::modes::Motion;
+use crate::syntax::named_word::NamedWords;
 use crate::syntax::plain_line::{WordSink, read_plain};
 
 /// What a line is, besides its words.
@@ -41,8 +42,8 @@ pub(crate) struct Block {
     pub(super) is_plain: bool,
     /// Letters of FANUC's words whose numbers have no decimal point.
     pub(crate) pointless: Letters,
-    /// LIMS of SINUMERIK: the highest speed of G96.
-    pub(crate) speed_limit: Option<f64>,
+    /// Words with longer names than a letter.
+    pub(crate) named: NamedWords,
     /// `,C` and `,R` of FANUC.
     pub(crate) corner: Option<CornerWord>,
     /// It has another code than G0 to G3, or LIMS.
@@ -134,7 +135,11 @@ impl Block {
     /// True if the block has an axis word or a polar one.
     pub(crate) const fn has_axes(&self) -> bool {
         let extruder = matches!(self.dialect, Dialect::Marlin) && self.get(b'E').is_some();
-        extruder || self.has_any(AXIS_WORDS) || self.polar[0].is_some() || self.polar[1].is_some()
+        extruder
+            || self.has_any(AXIS_WORDS)
+            || self.polar[0].is_some()
+            || self.polar[1].is_some()
+            || self.named.are_places()
     }
 
     /// True if the block has any of these words.
@@ -196,7 +201,7 @@ impl Block {
             self.polar = [None, None];
             self.corner = None;
             self.says_modes = false;
-            self.speed_limit = None;
+            self.named = NamedWords::default();
             self.pointless = Letters::default();
             self.codes = Codes::default();
             self.kind = LineKind::Block;

@@ -14,6 +14,7 @@ use crate::syntax::expression::vacant::is_vacant;
 use crate::syntax::expression::value::word_value;
 use crate::syntax::letters::{AXIS_WORDS, Letters, Slot};
 use crate::syntax::modes::NonModal;
+use crate::syntax::named_word::Named;
 use crate::syntax::plain_line::WordSink;
 use crate::syntax::word_check::duplicate;
 
@@ -104,7 +105,7 @@ impl Block {
         }
     }
 
-    /// `,C` and `,R`; what SINUMERIK's RND, CHR, CHF and RNDM were rewritten into.
+    /// `,C`, `,R` and `,A`; what SINUMERIK's words with longer names were rewritten into.
     pub(super) fn corner_word(
         &mut self,
         cursor: &mut Cursor<'_>,
@@ -114,11 +115,19 @@ impl Block {
         cursor.advance();
         let letter = cursor.next_visible().map(|byte| byte.to_ascii_uppercase());
         let is_siemens = self.dialect == Dialect::Siemens;
-        if is_siemens && letter == Some(b'S') {
+        let named = letter
+            .and_then(Named::of_letter)
+            .filter(|word| is_siemens || *word == Named::LineAngle);
+        if let Some(word) = named {
             cursor.advance();
-            self.speed_limit = Some(word_value(cursor, start, false, scope)?);
-            (self.any, self.says_modes) = (true, true);
-            return Ok(());
+            let value = word_value(cursor, start, false, scope)?;
+            let span = SourceSpan::new(start, cursor.end_of_word());
+            if is_vacant(value) {
+                return Ok(());
+            }
+            self.any = true;
+            self.says_modes |= matches!(word, Named::SpeedLimit | Named::SpindleAngle);
+            return self.named.add(word, value, span);
         }
         let kind = match letter {
             Some(b'C') => CornerKind::Chamfer,
@@ -129,7 +138,7 @@ impl Block {
                 let span = SourceSpan::new(start, cursor.at() + 1);
                 return Err(refused(
                     "a word behind a comma",
-                    "an angle, or what is not known here",
+                    "none that is known here",
                     "write the end of the move",
                     span,
                 ));

@@ -36,6 +36,15 @@ pub(crate) enum FrameCode {
     Turn(bool),
 }
 
+/// What FANUC makes of a tilted plane.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum TiltCode {
+    /// G68.2.
+    Plane,
+    /// G53.1.
+    Align,
+}
+
 /// The codes of one block, by modal group.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Codes {
@@ -47,6 +56,8 @@ pub(crate) struct Codes {
     pub(crate) arc_distance: Option<Coded<Distance>>,
     pub(crate) feed_mode: Option<Coded<FeedMode>>,
     pub(crate) units: Option<Coded<Units>>,
+    /// F counts millimetres whatever the unit is (G70, G71 of SINUMERIK).
+    pub(crate) feeds_in_mm: bool,
     pub(crate) cutter_radius: Option<Coded<CutterRadius>>,
     pub(crate) tool_length: Option<Coded<ToolLength>>,
     pub(crate) retract: Option<Coded<Retract>>,
@@ -70,6 +81,8 @@ pub(crate) struct Codes {
     pub(crate) input_output: Option<Coded<u32>>,
     /// M82 and M83 of printers; true: E words are relative.
     pub(crate) extruder: Option<Coded<bool>>,
+    /// G60 and G61 of printers: true where the place is kept.
+    pub(crate) kept_place: Option<Coded<bool>>,
     /// An M code that the machine's builder declared.
     pub(crate) user: Option<Coded<u32>>,
     /// An M code of printers that takes the words of its block.
@@ -88,6 +101,10 @@ pub(crate) struct Codes {
     pub(crate) frame: Option<Coded<FrameCode>>,
     /// True for G43.4 of FANUC and TRAORI: the axes follow the tip of the tool; false for TRAFOOF.
     pub(crate) tip: Option<Coded<bool>>,
+    /// G68.2 and G53.1 of FANUC.
+    pub(crate) tilt: Option<Coded<TiltCode>>,
+    /// G254 and G255 of Haas: true where the zero goes with the table.
+    pub(crate) dynamic: Option<Coded<bool>>,
     /// G54.1 of FANUC, G154 of Haas.
     pub(crate) extended_system: Option<Coded<()>>,
 }
@@ -188,6 +205,9 @@ impl Codes {
             || self.polar_mode.is_some()
             || self.frame.is_some()
             || self.tip.is_some()
+            || self.tilt.is_some()
+            || self.kept_place.is_some()
+            || self.dynamic.is_some()
             || self.extended_system.is_some()
     }
 

@@ -24,6 +24,7 @@ mod foreign;
 pub(crate) mod letters;
 pub(crate) mod line_source;
 pub(crate) mod modes;
+pub(crate) mod named_word;
 pub(crate) mod o_word;
 pub(crate) mod plain_line;
 pub(crate) mod refused;

@@ -23,6 +23,14 @@ pub enum Motion {
     Thread,
     /// G33.1.
     RigidTap,
+    /// CIP of SINUMERIK: an arc through a point.
+    ArcThrough,
+    /// CT of SINUMERIK: an arc that goes on in the direction of the move before.
+    ArcTangent,
+    /// G331 of SINUMERIK: a tap into its hole.
+    TapIn,
+    /// G332 of SINUMERIK: the tap out of it.
+    TapOut,
     /// G76.
     ThreadCycle,
     /// G90, G92 and G94 of FANUC's lathes.
@@ -142,6 +150,8 @@ pub(crate) enum NonModal {
     LatheSetting,
     /// G53.
     MachineCoordinates,
+    /// G110, G111 and G112 of SINUMERIK.
+    SetPole(PoleFrom),
     /// G92.
     SetOffset,
     /// G92.1.
@@ -162,8 +172,20 @@ impl NonModal {
                 | Self::LocalOffset
                 | Self::LatheSetting
                 | Self::SetOffset
+                | Self::SetPole(_)
         )
     }
+}
+
+/// From where the place of a pole counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum PoleFrom {
+    /// G110: where the program went last.
+    Place,
+    /// G111: the program's zero.
+    Zero,
+    /// G112: the last pole.
+    Pole,
 }
 
 /// Meaning of axis words (group 3) or of I, J, K (group 4).

@@ -12,7 +12,7 @@ use std::fs;
 use std::sync::Arc;
 
 use crate::support::listed;
-use glidepath_gcode::{Connections, Dialect, MCodes, Options, Program, Report, check};
+use glidepath_gcode::{Connections, Dialect, Firmware, MCodes, Options, Program, Report, check};
 use glidepath_geometry::Axis;
 use glidepath_program::{Event, ItemKind, PathMode, Rate};
 use glidepath_testing::corpus;
@@ -54,12 +54,35 @@ fn finds(dialect: Dialect, text: &str, expected: &[&str]) {
 
 #[test]
 fn the_extruder_is_an_axis_with_modes_of_its_own() {
-    let text =
-        "M82\nG92 E0\nG1 X1 E2 F600\nG1 X2 E3\nM83\nX3 E1\nG92 E0\nG1 E0.5\nG91\nX1 E1\nM82\nX1 E9";
+    let text = "M82\nG92 E0\nG1 X1 E2 F600\nG1 X2 E3\nM83\nX3 E1\nG92 E0\nG1 E0.5\nG91\nX1 E1";
     assert_eq!(
         path(Dialect::Marlin, text),
-        ["1/2", "2/3", "3/4", "3/4.5", "4/5.5", "5/13"]
+        ["1/2", "2/3", "3/4", "3/4.5", "4/5.5"]
     );
+    // Behind M83 G90 means one thing to Marlin and another to Klipper.
+    let text = "M83\nG90\nG1 X1 E2 F600\nG1 X2 E3";
+    finds(
+        Dialect::Marlin,
+        text,
+        &["3:7 ambiguous-word", "4:7 ambiguous-word"],
+    );
+    let extruded = |firmware: Option<Firmware>, text: &str| {
+        let options = Options {
+            firmware,
+            ..options(Dialect::Marlin)
+        };
+        let items = Program::new(text.as_bytes(), options);
+        let ends = items.filter_map(|item| match item.expect("a sound program").kind {
+            ItemKind::Move { segment, .. } => Some(segment.end()[6]),
+            _ => None,
+        });
+        ends.last()
+    };
+    assert_eq!(extruded(Some(Firmware::Marlin), text), Some(3.0));
+    assert_eq!(extruded(Some(Firmware::Klipper), text), Some(5.0));
+    // Whoever has commands with names is Klipper.
+    let named = format!("SET_FAN_SPEED FAN=a SPEED=1\n{text}");
+    assert_eq!(extruded(None, &named), Some(5.0));
     finds(Dialect::LinuxCnc, "G1 X1 E1", &["1:7 unknown-word"]);
     let none = Options {
         extruder: None,
@@ -206,7 +229,7 @@ fn r_parameters_and_tolerances() {
     finds(
         Dialect::Siemens,
         "G0 X1\nN10 G1 X=DC(5)",
-        &["2:10 not-supported"],
+        &["2:10 invalid-value"],
     );
     finds(Dialect::Siemens, "G0 X=R1+5 X2", &["1:11 duplicate-word"]);
     finds(
@@ -259,13 +282,13 @@ fn programs_of_other_controls_are_read_or_refused_by_name() {
             "siemens/sinumerik840d.nc",
             Dialect::Siemens,
             24,
-            "not-supported",
+            "unknown-subroutine",
         ),
         (
             "siemens/sinumerik-synact.mpf",
             Dialect::Siemens,
             1,
-            "not-supported",
+            "flow-structure",
         ),
     ] {
         let (found, report) = judge(&directory, name);

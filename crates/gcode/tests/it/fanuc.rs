@@ -327,28 +327,8 @@ fn a_program_begins_in_g0_and_g80_leaves_the_code_from_before_the_cycles() {
 }
 
 #[test]
-fn on_five_axes_the_tip_follows_where_the_program_says_so() {
-    let five = |text: &str| {
-        let options = Options {
-            keeps_tip: true,
-            ..options()
-        };
-        listed(&check(text.as_bytes(), options))
-    };
-    assert_eq!(five("G43.4 H0\nG1 X1 A30\nG49"), [""; 0]);
-    assert_eq!(five("G43 H1\nG1 X1 Z5"), [""; 0]);
-    assert_eq!(five("G1 X1 A30"), ["1:7 not-supported"]);
-    assert_eq!(five("G43.4 H0\nG1 A30\nG49\nX1"), ["4:1 not-supported"]);
-    assert_eq!(five("G43.4 H1"), ["1:1 not-supported"]);
-    let siemens = |text: &str| {
-        let options = Options {
-            keeps_tip: true,
-            dialect: Dialect::Siemens,
-            ..options()
-        };
-        listed(&check(text.as_bytes(), options))
-    };
-    assert_eq!(siemens("TRAORI\nG1 X1 A30 F100"), [""; 0]);
-    assert_eq!(siemens("G1 X1 A30 F100"), ["1:7 not-supported"]);
+fn the_tip_is_followed_on_machines_with_five_axes_alone() {
     finds("G43.4 H1", &["1:1 not-supported"]);
+    finds("G68.2 X1 J30", &["1:1 not-supported"]);
+    finds("G254", &["1:1 not-supported"]);
 }

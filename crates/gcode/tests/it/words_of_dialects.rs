@@ -1,8 +1,14 @@
 //! Every code of every other dialect: what is read, and that nothing is read in LinuxCNC's meaning
 //! that its control does not have.
 
+use glidepath_gcode::language::{Treatment, words};
 use glidepath_gcode::{Dialect, Machine, Options, check};
 use glidepath_geometry::Axis;
+
+/// Words that only a machine with five axes has, and one that is of M29 alone.
+const NEEDS_FIVE_AXES: [&str; 8] = [
+    "G43.4", "G234", "G68.2", "G53.1", "G254", "TRAORI", "CYCLE800", "M29",
+];
 
 /// The codes of the first finding, of a line alone.
 fn code(dialect: Dialect, text: &str) -> Option<&'static str> {
@@ -51,7 +57,7 @@ fn no_g_code_is_read_that_the_control_does_not_have() {
     assert_eq!(
         marlin,
         [
-            0, 10, 20, 30, 40, 50, 170, 180, 190, 200, 210, 280, 900, 910, 920
+            0, 10, 20, 30, 40, 50, 170, 180, 190, 200, 210, 280, 600, 610, 900, 910, 920
         ]
     );
     let siemens = read(Dialect::Siemens, 'G', 3_000);
@@ -59,6 +65,52 @@ fn no_g_code_is_read_that_the_control_does_not_have() {
         80, 100, 200, 210, 280, 430, 490, 520, 580, 590, 730, 810, 920, 980,
     ] {
         assert!(!siemens.contains(&code), "G{}", code / 10);
+    }
+}
+
+/// Every word of the tables does what its table says: what is refused is refused as not made, and
+/// what is read is known.
+#[test]
+fn words_do_what_their_tables_say() {
+    for dialect in [Dialect::Fanuc, Dialect::Siemens, Dialect::Marlin] {
+        let all = words(dialect);
+        assert!(all.len() > 40, "{dialect}");
+        for word in all {
+            // A name may want a value.
+            let texts = [format!("{}\n", word.name), format!("{}=1\n", word.name)];
+            let codes = texts.map(|text| code(dialect, &text));
+            let is_unknown = |code: Option<&str>| {
+                matches!(
+                    code,
+                    Some(
+                        "not-supported"
+                            | "unknown-g-code"
+                            | "unknown-m-code"
+                            | "unknown-subroutine"
+                    )
+                )
+            };
+            if ["M97", "M98", "M99"].contains(&word.name.as_str()) {
+                // Calls in lines of their own.
+                continue;
+            }
+            match word.treatment {
+                Treatment::Refused(what, help) => {
+                    assert!(
+                        !what.is_empty() && !help.is_empty(),
+                        "{dialect} {}",
+                        word.name
+                    );
+                    assert!(is_unknown(codes[0]), "{dialect} {}: {codes:?}", word.name);
+                }
+                // On this machine.
+                _ if NEEDS_FIVE_AXES.contains(&word.name.as_str()) => {}
+                _ => {
+                    let is_read = !codes.iter().all(|code| is_unknown(*code));
+                    assert!(is_read, "{dialect} {}: {codes:?}", word.name);
+                }
+            }
+        }
     }
 }
 

@@ -326,8 +326,12 @@ impl MachineConfig {
             subroutines: self.program.subroutines.clone(),
             dialect: self.program.dialect.unwrap_or_default(),
             fanuc: self.program.fanuc,
-            keeps_tip: matches!(self.mechanism, Mechanism::FiveAxis(_)),
+            five_axis: match self.mechanism {
+                Mechanism::FiveAxis(machine) => Some(machine),
+                _ => None,
+            },
             extruder: self.program.extruder,
+            firmware: self.program.firmware,
             connections: self.program.connections,
             probing_v: self.probing_v(),
             threading: self

@@ -1,7 +1,7 @@
 //! How programs are read.
 
 use glidepath_gcode::{
-    Connections, Dialect, FanucParameters, InForce, ReadingWatch, Subroutines, ToolTable,
+    Connections, Dialect, FanucParameters, Firmware, InForce, ReadingWatch, Subroutines, ToolTable,
     WorkOffsets,
 };
 use glidepath_geometry::Axis;
@@ -30,6 +30,8 @@ pub struct ProgramConfig {
     pub connections: Connections,
     /// The axis E words move.
     pub extruder: Option<Axis>,
+    /// The firmware of the printer.
+    pub firmware: Option<Firmware>,
     /// What is in force when the program begins, behind others of the same service.
     pub in_force: Option<InForce>,
     /// Who watches the reading, and may end it.

@@ -73,6 +73,7 @@ pub(super) struct RawProgram {
     pub(super) subroutine_path: Vec<String>,
     pub(super) inputs_outputs: Optional<String>,
     pub(super) extruder: Optional<String>,
+    pub(super) firmware: Optional<String>,
 }
 
 #[derive(Debug, Default, Deserialize)]

@@ -27,7 +27,9 @@ impl Interpreter {
                 motion,
                 Some(Motion::Thread | Motion::ThreadCycle | Motion::Turning(Turning::Thread))
             );
-        let Some(feed) = block.get(b'F').filter(|_| !is_pitch) else {
+        // On a printer the F of G61 is that of its move alone.
+        let is_own = is_pitch || block.codes.kept_place.is_some();
+        let Some(feed) = block.get(b'F').filter(|_| !is_own) else {
             return Ok(());
         };
         if self.state.fanuc.is_feed_unsaid && block.is_lathe {
@@ -46,8 +48,18 @@ impl Interpreter {
             FeedMode::PerRevolution => 1.0,
             FeedMode::InverseTime => return Ok(()),
         };
+        // On other controls than LinuxCNC the unit in the block counts for its F, too.
+        let written = block
+            .codes
+            .units
+            .filter(|_| block.dialect != Dialect::LinuxCnc);
+        let (units, in_mm) = match written {
+            Some(coded) => (coded.code, block.codes.feeds_in_mm),
+            None => (modal.units, self.state.feeds_in_mm),
+        };
+        let unit_mm = if in_mm { 1.0 } else { units.mm() };
         modal.feed = Some(Feed {
-            linear_v: feed * modal.units.mm() / per_second,
+            linear_v: feed * unit_mm / per_second,
             rotary_v: feed / per_second,
         });
         Ok(())

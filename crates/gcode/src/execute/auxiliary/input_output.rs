@@ -22,6 +22,7 @@ use crate::execute::interpreter::Interpreter;
 use crate::setup::options::Connections;
 use crate::syntax::block::Block;
 use crate::syntax::codes::Coded;
+use crate::syntax::named_word::{Named, NamedValue};
 use crate::syntax::word_check::{missing, whole};
 
 /// Largest number of an input or output.
@@ -34,6 +35,10 @@ impl Interpreter {
             self.require_connection(span, "spindle that stops in a known position")?;
             self.state.spindle.turning = None;
             self.push(out, ItemKind::Event(Event::MCode(code)));
+        }
+        if let Some(word) = block.named.find(Named::SpindleAngle) {
+            self.stop_at_angle(word)?;
+            self.push(out, ItemKind::Event(Event::MCode(19)));
         }
         if let Some(Coded { code, .. }) = block.codes.user {
             for (letter, word) in [(b'P', CodeWord::P), (b'Q', CodeWord::Q)] {
@@ -72,6 +77,21 @@ impl Interpreter {
             }
         };
         self.push(out, ItemKind::Event(event));
+        Ok(())
+    }
+
+    /// SPOS, of a spindle whose angle is known.
+    fn stop_at_angle(&mut self, word: NamedValue) -> Outcome<()> {
+        if self.options.threading.is_none() && self.options.spindle_axis.is_none() {
+            let message = "SPOS of a spindle whose angle nobody knows";
+            return Err(Fault::new(DiagnosticCode::NotConnected, word.span, message)
+                .because(
+                    "the spindle has to stop at an angle, and the machine has no encoder on it",
+                )
+                .help("set `encoder = true` in [spindle] if it has one, or write M19"));
+        }
+        self.require_connection(word.span, "spindle that stops in a known position")?;
+        self.turn_spindle(None);
         Ok(())
     }
 

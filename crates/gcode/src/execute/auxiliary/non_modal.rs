@@ -47,6 +47,7 @@ impl Interpreter {
                     *reference = position;
                 }
             }
+            NonModal::SetPole(from) => self.set_pole(block, from, non_modal.span)?,
             NonModal::LocalOffset => {
                 let values = self.axis_values(block)?;
                 require_axes(block, non_modal.span, "G52")?;

@@ -50,14 +50,38 @@ impl Interpreter {
             span,
         }) = codes.non_modal
         {
-            let seconds =
-                dwell_seconds(block).ok_or_else(|| missing(span, "G4", "P", "how long"))?;
+            let seconds = self
+                .dwell_seconds(block)
+                .ok_or_else(|| missing(span, "G4", "P", "how long"))?;
             if seconds < 0.0 {
                 return Err(negative(block, b'P', "the dwell"));
             }
             self.push(out, ItemKind::Dwell(seconds));
         }
         Ok(())
+    }
+
+    /// Seconds of a G4: milliseconds in the P word of printers and FANUC, seconds in their S, X and
+    /// U, and in a P with a decimal point, which is Haas'; turns of the spindle in SINUMERIK's S.
+    fn dwell_seconds(&self, block: &Block) -> Option<f64> {
+        let milliseconds = || block.get(b'P').map(|p| 1e-3 * p);
+        match block.dialect {
+            Dialect::LinuxCnc => block.get(b'P'),
+            Dialect::Siemens => block.get(b'P').or_else(|| self.seconds_of_turns(block)),
+            Dialect::Marlin => block.get(b'S').or_else(milliseconds),
+            Dialect::Fanuc => {
+                let seconds = block.get(b'X').or_else(|| block.get(b'U'));
+                seconds.or_else(|| fanuc_dwell(block))
+            }
+        }
+    }
+
+    /// How long the spindle takes for the turns of S; `None` where it stands.
+    fn seconds_of_turns(&self, block: &Block) -> Option<f64> {
+        let spindle = &self.state.spindle;
+        let turns = spindle.turning.is_some() && spindle.speed > 0.0;
+        let turns = block.get(b'S').filter(|_| turns)?;
+        Some(turns * 60.0 / spindle.speed)
     }
 
     /// An M code that needs no rest, unless the machine says where it is waited for.
@@ -68,20 +92,6 @@ impl Interpreter {
             Event::PassingCode(code)
         };
         self.push(out, ItemKind::Event(event));
-    }
-}
-
-/// Seconds of a G4: milliseconds in the P word of printers and FANUC, seconds in their S, X and U,
-/// and in a P with a decimal point, which is Haas'.
-fn dwell_seconds(block: &Block) -> Option<f64> {
-    let milliseconds = || block.get(b'P').map(|p| 1e-3 * p);
-    match block.dialect {
-        Dialect::LinuxCnc | Dialect::Siemens => block.get(b'P'),
-        Dialect::Marlin => block.get(b'S').or_else(milliseconds),
-        Dialect::Fanuc => {
-            let seconds = block.get(b'X').or_else(|| block.get(b'U'));
-            seconds.or_else(|| fanuc_dwell(block))
-        }
     }
 }
 

@@ -19,6 +19,7 @@ use crate::syntax::codes::Coded;
 use crate::syntax::cursor::MAX_NUMBER;
 use crate::syntax::dialect::Dialect;
 use crate::syntax::modes::{NonModal, SpindleMode, Units};
+use crate::syntax::named_word::Named;
 use crate::syntax::word_check::{missing, negative};
 
 /// Relative change of the speed of G96 that is worth an event.
@@ -37,7 +38,8 @@ fn is_limit(block: &Block) -> bool {
 impl Interpreter {
     /// G96, G97 and S.
     pub(crate) fn spindle_speed(&mut self, block: &Block, out: &mut Vec<Item>) -> Outcome<()> {
-        if let Some(limit) = block.speed_limit.filter(|limit| *limit > 0.0) {
+        let limit = block.named.get(Named::SpeedLimit);
+        if let Some(limit) = limit.filter(|limit| *limit > 0.0) {
             self.state.spindle.most = Some(limit);
         }
         if let Some(Coded { code, span }) = block.codes.spindle_mode {
@@ -73,8 +75,10 @@ impl Interpreter {
             .codes
             .non_modal
             .is_some_and(|non_modal| non_modal.code == NonModal::Dwell);
-        if dwell && block.dialect == Dialect::Marlin {
-            // The seconds of the dwell.
+        if block.codes.kept_place.is_some()
+            || dwell && matches!(block.dialect, Dialect::Marlin | Dialect::Siemens)
+        {
+            // The seconds of the dwell, or its turns.
             return Ok(());
         }
         if speed < 0.0 {

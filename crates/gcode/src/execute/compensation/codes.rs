@@ -163,7 +163,10 @@ impl Interpreter {
         }
         let codes = &block.codes;
         let non_modal = codes.non_modal.filter(|non_modal| {
-            !matches!(non_modal.code, NonModal::Dwell | NonModal::SetReference(_))
+            !matches!(
+                non_modal.code,
+                NonModal::Dwell | NonModal::SetReference(_) | NonModal::SetPole(_)
+            )
         });
         let motion = codes.motion.filter(|motion| match motion.code {
             Some(Motion::Lathe(cycle)) => cycle != LatheCycle::Finish,
@@ -174,6 +177,8 @@ impl Interpreter {
                         | Motion::Probe(_)
                         | Motion::Thread
                         | Motion::RigidTap
+                        | Motion::TapIn
+                        | Motion::TapOut
                         | Motion::ThreadCycle
                 )
             ),

@@ -11,9 +11,17 @@ use crate::execute::interpreter::Interpreter;
 use crate::execute::line_origin::LineOrigin;
 use crate::execute::program::Program;
 use crate::execute::scope::ProgramScope;
+use crate::setup::firmware::Firmware;
 use crate::setup::options::Connections;
 use crate::syntax::block::Block;
 use crate::syntax::dialect::marlin::{NamedCommand, named_command, shows_text, verified};
+
+/// Commands of Klipper that give places other names, or keep and bring back what is in force.
+const STATES: [&[u8]; 3] = [
+    b"SET_GCODE_OFFSET",
+    b"SAVE_GCODE_STATE",
+    b"RESTORE_GCODE_STATE",
+];
 
 /// True for an M code behind which a printer goes on only when something is as hot as it should be.
 const fn waits(number: u32) -> bool {
@@ -48,12 +56,19 @@ impl<R: BufRead> Program<R> {
     /// A command of Klipper with a name: read over where it moves nothing.
     fn klipper_command(&mut self, command: NamedCommand) -> Outcome<bool> {
         self.begun = true;
+        // Whoever has such commands is Klipper.
+        let firmware = &mut self.interpreter.options.firmware;
+        *firmware = firmware.or(Some(Firmware::Klipper));
         if command.is_silent {
             return Ok(true);
         }
         let name = self.source.text().get(command.span.start..);
         let name = name.and_then(|name| name.get(..command.span.length));
-        let name = String::from_utf8_lossy(name.unwrap_or_default()).into_owned();
+        let name = name.unwrap_or_default().to_ascii_uppercase();
+        if STATES.contains(&name.as_slice()) {
+            return self.klipper_state(&name, command.span);
+        }
+        let name = String::from_utf8_lossy(&name).into_owned();
         let message = format!("{name} (a command or macro of Klipper) is not supported");
         Err(
             Fault::new(DiagnosticCode::NotSupported, command.span, message)

@@ -67,6 +67,8 @@ pub(crate) struct Repetition {
     pub(crate) back: usize,
     /// How many more times it runs.
     pub(crate) again: u32,
+    /// How deep in calls it is.
+    pub(crate) depth: usize,
 }
 
 /// The program, or the file of a subprogram.
@@ -98,6 +100,8 @@ pub(crate) struct Tape {
     jumps: BTreeMap<(TapePlace, u32), usize>,
     /// Where programs begin, by the text that calls them and their number.
     programs: BTreeMap<(usize, u32), TapePlace>,
+    /// The same of programs with names.
+    named: BTreeMap<Vec<u8>, TapePlace>,
 }
 
 impl Default for Tape {
@@ -113,6 +117,7 @@ impl Default for Tape {
             is_again: false,
             jumps: BTreeMap::new(),
             programs: BTreeMap::new(),
+            named: BTreeMap::new(),
         }
     }
 }
@@ -173,6 +178,15 @@ impl Tape {
         self.programs.insert((self.text, number), place);
     }
 
+    /// Where a program of that name begins that was called before.
+    pub(crate) fn known_name(&self, name: &[u8]) -> Option<TapePlace> {
+        self.named.get(name).copied()
+    }
+
+    pub(crate) fn remember_name(&mut self, name: Vec<u8>, place: TapePlace) {
+        self.named.insert(name, place);
+    }
+
     /// Makes sure that the line is kept, reading on if need be; false behind the end.
     pub(crate) fn reach<R: BufRead>(
         &mut self,
@@ -210,6 +224,7 @@ impl Tape {
             program.lines.clear();
             self.jumps.clear();
             self.programs.clear();
+            self.named.clear();
             self.bytes = 0;
             self.next = 0;
             self.unseen = 0;

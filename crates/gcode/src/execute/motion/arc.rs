@@ -17,6 +17,7 @@ use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::arc_ends::{Ends, center_from_radius, check_radii, sweep};
+use crate::execute::motion::pole::is_polar;
 use crate::execute::motion::settled::settled;
 use crate::execute::motion::speed::Pace;
 use crate::execute::state::frame::PlaneImage;
@@ -25,6 +26,7 @@ use crate::syntax::block::Block;
 use crate::syntax::dialect::Dialect;
 use crate::syntax::letters::Letters;
 use crate::syntax::modes::{Distance, Motion};
+use crate::syntax::named_word::Named;
 use crate::syntax::word_check::whole;
 
 /// Most turns of one arc.
@@ -38,40 +40,50 @@ impl Interpreter {
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
         let named = self.state.modal.plane;
-        let PlaneImage {
-            plane,
-            scale,
-            is_mirrored,
-        } = self
-            .offsets
-            .plane(named)
-            .ok_or_else(|| tilted(block.motion_span()))?;
-        let (first, second) = plane.axes();
         if self.state.leaving_contour {
             return Err(arc_off_contour(block.motion_span()));
         }
+        check_center_words(block, named)?;
+        let Some(PlaneImage {
+            plane,
+            scale,
+            is_mirrored,
+        }) = self.offsets.plane(named)
+        else {
+            return self.tilted_arc(block, motion, named, out);
+        };
+        let (first, second) = plane.axes();
         let compensated = self.compensation.is_some();
         let start = if compensated {
             self.state.position
         } else {
             self.state.path_end
         };
-        let target = self.target(block)?;
+        let mut target = self.target(block)?;
+        let counterclockwise = (motion == Motion::ArcCounterclockwise) != is_mirrored;
+        let flat = |place: &AxisVector| [place[first.index()], place[second.index()]];
+        if let Some(angle_rad) = angle_without_end(block, named)? {
+            let center = self.center_point(block, named, plane)?;
+            let end = turned_about(center, flat(&start), angle_rad, counterclockwise);
+            (target[first.index()], target[second.index()]) = (end[0], end[1]);
+        }
         let end = settled(start, target, [Some(first), Some(second)]);
         self.check_plane(block, plane, &start, &end)?;
-        check_center_words(block, named)?;
-
         let ends = Ends {
-            start: [start[first.index()], start[second.index()]],
-            end: [end[first.index()], end[second.index()]],
+            start: flat(&start),
+            end: flat(&end),
         };
-        let counterclockwise = (motion == Motion::ArcCounterclockwise) != is_mirrored;
-        let center = match block.get(b'R') {
-            Some(radius) => {
+        let center = match radius_word(block, ends)? {
+            Some(radius) if block.get(b'R').is_some() => {
                 let radius = radius * self.state.modal.units.mm() * scale;
                 center_from_radius(block, ends, radius, counterclockwise)?
             }
-            None => self.center_from_words(block, named, plane, ends)?,
+            Some(radius_mm) => center_from_radius(block, ends, radius_mm, counterclockwise)?,
+            None => {
+                let center = self.center_point(block, named, plane)?;
+                check_radii(block, ends, center)?;
+                center
+            }
         };
         let turns = turns(block, ends.is_closed())?;
         let sweep_rad = sweep(ends, center, counterclockwise, turns);
@@ -124,20 +136,102 @@ impl Interpreter {
         Ok(())
     }
 
-    /// The centre in `plane` of the machine, from the words of the plane that the program names.
-    fn center_from_words(
-        &self,
+    /// An arc whose plane is none of the machine: in program coordinates, which a frame then tilts.
+    fn tilted_arc(
+        &mut self,
         block: &Block,
-        named: Plane,
+        motion: Motion,
         plane: Plane,
-        ends: Ends,
-    ) -> Outcome<[f64; 2]> {
+        out: &mut Vec<Item>,
+    ) -> Outcome<()> {
+        if !self.offsets.keeps_circles(plane) {
+            return Err(stretched(block.motion_span()));
+        }
+        let (first, second) = plane.axes();
+        let start = self.offsets.to_program(self.state.path_end);
+        let mut target = self.target(block)?;
+        let mut end = self.offsets.to_program(target);
+        let counterclockwise = motion == Motion::ArcCounterclockwise;
+        let flat = |place: &AxisVector| [place[first.index()], place[second.index()]];
+        if let Some(angle_rad) = angle_without_end(block, plane)? {
+            let center = self.program_center(block, plane)?;
+            let to = turned_about(center, flat(&start), angle_rad, counterclockwise);
+            (end[first.index()], end[second.index()]) = (to[0], to[1]);
+            target = self.offsets.to_machine(end);
+        }
+        let ends = Ends {
+            start: flat(&start),
+            end: flat(&end),
+        };
+        let center = match radius_word(block, ends)? {
+            Some(radius) if block.get(b'R').is_some() => {
+                let radius_mm = radius * self.state.modal.units.mm();
+                center_from_radius(block, ends, radius_mm, counterclockwise)?
+            }
+            Some(radius_mm) => center_from_radius(block, ends, radius_mm, counterclockwise)?,
+            None => {
+                let center = self.program_center(block, plane)?;
+                check_radii(block, ends, center)?;
+                center
+            }
+        };
+        let turns = turns(block, ends.is_closed())?;
+        let sweep_rad = sweep(ends, center, counterclockwise, turns);
+        self.arc_in_tilted_frame(block, plane, (start, end), (center, sweep_rad), out)?;
+        self.state.position = target;
+        Ok(())
+    }
+
+    /// The centre in program coordinates, in the two axes of the plane.
+    fn program_center(&self, block: &Block, plane: Plane) -> Outcome<[f64; 2]> {
+        let (first, second) = plane.axes();
+        let here = self.offsets.to_program(self.state.path_end);
+        Ok(match self.center_words(block, plane)? {
+            Center::Pole => [first, second].map(|axis| self.state.pole.at[axis.index()]),
+            Center::Way(way) => [here[first.index()] + way[0], here[second.index()] + way[1]],
+            Center::Place(place) => place,
+        })
+    }
+
+    /// The centre in `plane` of the machine, from the words of the plane that the program names.
+    fn center_point(&self, block: &Block, named: Plane, plane: Plane) -> Outcome<[f64; 2]> {
+        let axes = |plane: Plane| {
+            let (first, second) = plane.axes();
+            [first, second]
+        };
+        let put = |values: [f64; 2]| {
+            let mut point = AxisVector::zeros();
+            for (axis, value) in axes(named).into_iter().zip(values) {
+                point[axis.index()] = value;
+            }
+            point
+        };
+        Ok(match self.center_words(block, named)? {
+            Center::Way(way) => {
+                let turned = self.offsets.turn(put(way));
+                let position = &self.state.position;
+                axes(plane).map(|axis| position[axis.index()] + turned[axis.index()])
+            }
+            Center::Place(place) => machine_point(&self.offsets, put(place), axes(plane)),
+            Center::Pole => {
+                let mut point = self.offsets.to_program(self.state.position);
+                for (axis, value) in self.state.pole.at.into_iter().enumerate() {
+                    point[axis] = value;
+                }
+                machine_point(&self.offsets, point, axes(plane))
+            }
+        })
+    }
+
+    /// What a block says of the centre of its arc.
+    fn center_words(&self, block: &Block, named: Plane) -> Outcome<Center> {
         let (first, second) = named.axes();
         let letters = [center_letter(first), center_letter(second)];
         let scale = self.state.modal.units.mm();
         let words = letters.map(|letter| block.get(letter).map(|value| value * scale));
         let names = letters.map(char::from);
-        let [a, b] = match (words, self.state.modal.arc_distance) {
+        Ok(match (words, self.state.modal.arc_distance) {
+            ([None, None], _) if is_polar(block) => Center::Pole,
             ([None, None], _) => {
                 let message = "an arc without centre or radius";
                 return Err(Fault::new(
@@ -148,8 +242,8 @@ impl Interpreter {
                 .because("the end point alone leaves every radius possible")
                 .help(format!("add {} and {}, or R", names[0], names[1])));
             }
-            ([a, b], Distance::Incremental) => [a.unwrap_or(0.0), b.unwrap_or(0.0)],
-            ([Some(a), Some(b)], Distance::Absolute) => [a, b],
+            ([a, b], Distance::Incremental) => Center::Way([a.unwrap_or(0.0), b.unwrap_or(0.0)]),
+            ([Some(a), Some(b)], Distance::Absolute) => Center::Place([a, b]),
             ([a, _], Distance::Absolute) => {
                 let absent = if a.is_none() { names[0] } else { names[1] };
                 let message = format!("an absolute arc centre without {absent}");
@@ -161,22 +255,100 @@ impl Interpreter {
                 .because("with G90.1 both coordinates of the centre must be given")
                 .help(format!("add {absent}, or use G91.1")));
             }
-        };
-        let mut point = AxisVector::zeros();
-        point[first.index()] = a;
-        point[second.index()] = b;
-        let (first, second) = plane.axes();
-        let center = match self.state.modal.arc_distance {
-            Distance::Incremental => {
-                let turned = self.offsets.turn(point);
-                let position = &self.state.position;
-                [first, second].map(|axis| position[axis.index()] + turned[axis.index()])
-            }
-            Distance::Absolute => machine_point(&self.offsets, point, first, second),
-        };
-        check_radii(block, ends, center)?;
-        Ok(center)
+        })
     }
+}
+
+/// What a block says of the centre of its arc, in the two axes of the plane.
+enum Center {
+    /// The way to it from the start, mm.
+    Way([f64; 2]),
+    /// Its program coordinates, mm.
+    Place([f64; 2]),
+    /// It is the pole of polar coordinates.
+    Pole,
+}
+
+/// AR where the block has no end in the plane: the end follows from the centre, radians.
+fn angle_without_end(block: &Block, plane: Plane) -> Outcome<Option<f64>> {
+    let Some(word) = block.named.find(Named::ArcAngle) else {
+        return Ok(None);
+    };
+    let (first, second) = plane.axes();
+    let has_end = block
+        .axes()
+        .any(|(axis, _)| axis == first || axis == second)
+        || is_polar(block);
+    let has_center = block.has_any(Letters::of(b"IJK"));
+    let refuse = |message: &str, reason: &str, help: &str| {
+        Err(
+            Fault::new(DiagnosticCode::ArcOverdetermined, word.span, message)
+                .because(reason)
+                .help(help),
+        )
+    };
+    if !(word.value > 0.0 && word.value < 360.0) {
+        return refuse(
+            "AR is not above 0 and below 360",
+            "it is the angle in degrees that the arc goes through",
+            "write an angle between them; whole circles have I, J and K",
+        );
+    }
+    if has_end == has_center || block.get(b'R').is_some() {
+        return refuse(
+            "AR with both the end and the centre of an arc, or with neither",
+            "an arc is given by the angle and one of them",
+            "write the end, or I and J, and no CR",
+        );
+    }
+    Ok(has_center.then_some(word.value.to_radians()))
+}
+
+/// The radius of an arc that is given by it and the end: R as it is written, or what AR says, mm. Below
+/// zero it is of the longer arc.
+fn radius_word(block: &Block, ends: Ends) -> Outcome<Option<f64>> {
+    if let Some(radius) = block.get(b'R') {
+        return Ok(Some(radius));
+    }
+    if block.has_any(Letters::of(b"IJK")) {
+        return Ok(None);
+    }
+    let Some(word) = block.named.find(Named::ArcAngle) else {
+        return Ok(None);
+    };
+    if ends.is_closed() {
+        let message = "an angle, and an end point that is the start point";
+        return Err(
+            Fault::new(DiagnosticCode::ArcFullCircleWithRadius, word.span, message)
+                .because("every circle through the point would do")
+                .help("give the centre by I, J or K"),
+        );
+    }
+    let half = 0.5 * word.value.to_radians();
+    let radius_mm = 0.5 * ends.chord() / half.sin();
+    // A half circle is as long either way.
+    Ok(Some(if word.value > 180.0 {
+        -radius_mm
+    } else {
+        radius_mm
+    }))
+}
+
+/// A point turned about another one.
+fn turned_about(
+    center: [f64; 2],
+    point: [f64; 2],
+    angle_rad: f64,
+    counterclockwise: bool,
+) -> [f64; 2] {
+    let (sin, cos) = if counterclockwise {
+        angle_rad
+    } else {
+        -angle_rad
+    }
+    .sin_cos();
+    let (u, v) = (point[0] - center[0], point[1] - center[1]);
+    [center[0] + u * cos - v * sin, center[1] + u * sin + v * cos]
 }
 
 /// Turns of an arc: P.
@@ -204,14 +376,11 @@ fn turns(block: &Block, is_closed: bool) -> Outcome<f64> {
 }
 
 #[cold]
-fn tilted(span: SourceSpan) -> Box<Fault> {
-    let message = "an arc in a frame that leaves it in no plane of the machine";
+fn stretched(span: SourceSpan) -> Box<Fault> {
+    let message = "an arc in a frame that makes an ellipse of it";
     Fault::new(DiagnosticCode::ArcPlane, span, message)
-        .because(
-            "arcs are made in the XY, ZX or YZ plane of the machine, and as circles: a frame that \
-             tilts their plane, or scales its axes differently, leaves none",
-        )
-        .help("turn about the axis normal to the plane, scale both of its axes alike, or write short lines")
+        .because("the frame scales the axes of the plane differently, and circles do not stay ones")
+        .help("scale both axes of the plane alike, or write short lines")
 }
 
 #[cold]
@@ -223,9 +392,9 @@ fn arc_off_contour(span: SourceSpan) -> Box<Fault> {
 }
 
 /// In-plane machine coordinates of a program point.
-fn machine_point(offsets: &Offsets, point: AxisVector, first: Axis, second: Axis) -> [f64; 2] {
+fn machine_point(offsets: &Offsets, point: AxisVector, axes: [Axis; 2]) -> [f64; 2] {
     let machine = offsets.to_machine(point);
-    [machine[first.index()], machine[second.index()]]
+    axes.map(|axis| machine[axis.index()])
 }
 
 const fn center_letter(axis: Axis) -> u8 {

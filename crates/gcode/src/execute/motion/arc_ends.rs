@@ -29,7 +29,12 @@ pub(crate) struct Ends {
 impl Ends {
     /// True where an arc ends where it begins.
     pub(crate) fn is_closed(self) -> bool {
-        distance(self.start, self.end) <= SAME_POINT_MM
+        self.chord() <= SAME_POINT_MM
+    }
+
+    /// How far the ends are from each other.
+    pub(crate) fn chord(self) -> f64 {
+        distance(self.start, self.end)
     }
 }
 

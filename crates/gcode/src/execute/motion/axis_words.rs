@@ -26,18 +26,8 @@ impl Interpreter {
             ToolLength::Add => block.get(b'H').is_none(),
             _ => false,
         });
-        // On a FANUC X may be the time of a dwell, and a motion code beside G28 is only the next
-        // mode.
         let fanuc = block.dialect == Dialect::Fanuc;
-        let code = block.codes.non_modal.map(|non_modal| non_modal.code);
-        if fanuc && matches!(code, Some(NonModal::Dwell | NonModal::GoToReference(_))) {
-            return Ok(None);
-        }
-        // Their axes say about what coordinates are turned, scaled or mirrored.
-        if matches!(
-            block.codes.frame.map(|frame| frame.code),
-            Some(FrameCode::Scale(true) | FrameCode::Turn(true) | FrameCode::Mirror(_))
-        ) {
+        if has_other_axes(block) {
             return Ok(None);
         }
         if let Some(read_over) = block.codes.read_over.filter(|_| block.has_axes()) {
@@ -81,6 +71,10 @@ impl Interpreter {
                         | Motion::Probe(_)
                         | Motion::Thread
                         | Motion::RigidTap
+                        | Motion::ArcThrough
+                        | Motion::ArcTangent
+                        | Motion::TapIn
+                        | Motion::TapOut
                         | Motion::ThreadCycle
                         | Motion::Turning(_)
                 ) && !is_setup;
@@ -153,6 +147,22 @@ impl Interpreter {
     /// Axis words in mm and degrees, X and Y in the place of polar words, X halved in diameter
     /// mode.
     pub(crate) fn axis_values(&self, block: &Block) -> Outcome<[Option<f64>; AXES]> {
+        let mut values = self.written_values(block)?;
+        if block.named.are_places() {
+            self.resolve_pole(block, &mut values)?;
+            self.resolve_line_angle(block, &mut values)?;
+            self.resolve_vector(block, &mut values)?;
+        }
+        self.resolve_polar(block, &mut values)?;
+        self.resolve_fanuc_polar(block, &mut values)?;
+        if block.dialect == Dialect::Marlin {
+            self.extruder_value(block, &mut values)?;
+        }
+        Ok(values)
+    }
+
+    /// Axis words as they are written, in mm and degrees.
+    pub(crate) fn written_values(&self, block: &Block) -> Outcome<[Option<f64>; AXES]> {
         let scale = self.state.modal.units.mm();
         let mut values = [None; AXES];
         for (axis, value) in block.axes() {
@@ -163,11 +173,6 @@ impl Interpreter {
         }
         if block.is_lathe {
             self.resolve_increments(block, &mut values)?;
-        }
-        self.resolve_polar(block, &mut values)?;
-        self.resolve_fanuc_polar(block, &mut values)?;
-        if block.dialect == Dialect::Marlin {
-            self.extruder_value(block, &mut values)?;
         }
         Ok(values)
     }
@@ -189,7 +194,10 @@ impl Interpreter {
         let program = self.offsets.to_program(self.state.position)[axis.index()];
         let incremental = self.state.modal.distance == Distance::Incremental;
         let names = block.codes.non_modal.is_some();
-        values[axis.index()] = Some(match (self.state.extruder_relative, incremental) {
+        let Some(relative) = self.state.extruder.is_relative(self.options.firmware) else {
+            return Err(extruder_in_doubt(block.span(b'E')));
+        };
+        values[axis.index()] = Some(match (relative, incremental) {
             _ if names => value,
             (true, false) => program + value,
             (false, true) => value - program,
@@ -199,9 +207,35 @@ impl Interpreter {
     }
 }
 
+/// True where the axis words of a block are none of a motion, and none of another code that moves.
+fn has_other_axes(block: &Block) -> bool {
+    let codes = &block.codes;
+    // On a FANUC X may be the time of a dwell, and a motion code beside G28 is only the next mode.
+    let fanuc = block.dialect == Dialect::Fanuc;
+    let code = codes.non_modal.map(|non_modal| non_modal.code);
+    if fanuc && matches!(code, Some(NonModal::Dwell | NonModal::GoToReference(_))) {
+        return true;
+    }
+    // They are the zero of a plane, or say about what coordinates are turned, scaled or mirrored.
+    codes.tilt.is_some()
+        || codes.kept_place.is_some()
+        || matches!(
+            codes.frame.map(|frame| frame.code),
+            Some(FrameCode::Scale(true) | FrameCode::Turn(true) | FrameCode::Mirror(_))
+        )
+}
+
 /// An axis word in mm or degrees; `scale` is the unit of length in mm.
 pub(crate) fn axis_value(axis: Axis, word: f64, scale: f64) -> f64 {
     if axis.is_rotary() { word } else { word * scale }
+}
+
+#[cold]
+fn extruder_in_doubt(span: SourceSpan) -> Box<Fault> {
+    let message = "whether E is relative depends on the printer's firmware";
+    Fault::new(DiagnosticCode::AmbiguousWord, span, message)
+        .because("behind M83 G90 makes E absolute to Marlin, and leaves it relative to Klipper; M82 within G91 differs likewise")
+        .help("write M82 or M83 behind G90 or G91, or say which it is: `firmware` of [program] in the configuration")
 }
 
 #[cold]

@@ -12,6 +12,16 @@ use crate::syntax::block::Block;
 const PIECE_R: f64 = 1e-3;
 
 impl Interpreter {
+    /// How far the pieces of a curve may be away from it, mm.
+    pub(super) const fn piece_error_mm(&self) -> f64 {
+        match self.state.modal.path_mode {
+            PathMode::Continuous {
+                tolerance_mm: Some(tolerance_mm),
+            } => PIECE_R * tolerance_mm,
+            _ => self.options.spline_tolerance_mm,
+        }
+    }
+
     /// Gives out a curve, piece by piece, at the feedrate. It starts where the last move ended.
     pub(super) fn push_curve(
         &mut self,
@@ -19,12 +29,7 @@ impl Interpreter {
         curve: Nurbs,
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
-        let error_mm = match self.state.modal.path_mode {
-            PathMode::Continuous {
-                tolerance_mm: Some(tolerance_mm),
-            } => PIECE_R * tolerance_mm,
-            _ => self.options.spline_tolerance_mm,
-        };
+        let error_mm = self.piece_error_mm();
         let path = NurbsPath::new(curve);
         let start = self.state.path_end;
         let segments = path.segments(error_mm);

@@ -18,14 +18,30 @@ impl Interpreter {
         what: &str,
     ) -> Outcome<()> {
         self.check_spindle_axis(block, low, high)?;
-        self.check_tip(block, low, high)?;
+        if self.is_mapped {
+            // The places of the axes are judged when they are known.
+            return Ok(());
+        }
+        self.check_travel(block, low, high, &self.state.path_end, what)
+    }
+
+    /// Refuses a move of the axes whose box leaves the travel of one that moves; `start` is where they
+    /// stand.
+    pub(crate) fn check_travel(
+        &self,
+        block: &Block,
+        low: &AxisVector,
+        high: &AxisVector,
+        start: &AxisVector,
+        what: &str,
+    ) -> Outcome<()> {
         for axis in Axis::ALL {
             let i = axis.index();
             let Some(travel) = self.options.machine.travel(axis) else {
                 continue;
             };
             // A machine that stands outside may come back, and may move its other axes.
-            let start = self.state.path_end[i];
+            let start = start[i];
             if high[i] > self.soft_limits.high[i] && high[i] > start {
                 return Err(beyond_limit(block, axis, high[i], travel.max, what));
             }

@@ -137,7 +137,8 @@ impl Interpreter {
         let is_plain = modal.distance == Distance::Absolute
             && modal.feed_mode == FeedMode::PerMinute
             && !modal.diameter
-            && !self.is_tip_in_doubt()
+            && !self.is_mapped
+            && state.tilted.is_none()
             && state.fanuc.polar.is_none()
             && self.options.dialect != Dialect::Marlin
             && !self.offsets.is_turned()

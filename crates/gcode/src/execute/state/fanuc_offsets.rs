@@ -24,6 +24,8 @@ pub(crate) struct FanucOffsets {
     /// The one of them in force.
     pub(crate) active: Option<u32>,
     pub(crate) wear: BTreeMap<u32, Wear>,
+    /// Where the table has taken the zero of the program from (G254 of Haas).
+    pub(crate) dynamic: Option<AxisVector>,
     /// What G51, G51.1 and G68 have begun.
     pub(crate) frames: FanucFrames,
 }
@@ -32,6 +34,14 @@ impl FanucOffsets {
     /// The system in force that is none of G54 to G59. What was not set is the machine's own.
     pub(crate) fn system(&self) -> Option<&CoordinateSystem> {
         self.extended.get(&self.active?)
+    }
+
+    /// What is added to the origin of every coordinate system.
+    pub(crate) fn added(&self) -> AxisVector {
+        match self.dynamic {
+            Some(dynamic) => self.external + dynamic,
+            None => self.external,
+        }
     }
 
     pub(crate) fn wear(&self, number: u32) -> Wear {

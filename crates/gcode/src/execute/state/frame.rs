@@ -157,6 +157,18 @@ impl Frame {
         way
     }
 
+    /// True where circles of a plane stay circles.
+    pub(crate) fn keeps_circles(&self, plane: Plane) -> bool {
+        let (first, second) = plane.axes();
+        let (i, j) = (first.index(), second.index());
+        if i >= 3 || j >= 3 {
+            return true;
+        }
+        let (u, v) = (column(&self.matrix, i), column(&self.matrix, j));
+        let rounding = ROUNDING * length(u);
+        (length(v) - length(u)).abs() <= rounding && dot(u, v).abs() <= rounding * length(u)
+    }
+
     /// Where arcs of a plane are; `outer` is a rotation about Z in degrees that follows. `None` if
     /// they are no arcs of a plane of the machine any more.
     pub(crate) fn plane(&self, plane: Plane, outer_deg: f64) -> Option<PlaneImage> {

@@ -31,6 +31,8 @@ pub(crate) struct Offsets {
     pub(crate) reference: [AxisVector; 2],
     /// What the program has made of its coordinates.
     pub(crate) frame: Frame,
+    /// The part of it that is a tilted plane, in which the others count.
+    pub(crate) tilted: Frame,
     /// What FANUC's offsets have besides.
     pub(crate) fanuc: FanucOffsets,
 }
@@ -53,6 +55,7 @@ impl Offsets {
             saved_shift,
             reference,
             frame: Frame::default(),
+            tilted: Frame::default(),
             fanuc: FanucOffsets::default(),
         }
     }
@@ -118,11 +121,17 @@ impl Offsets {
         self.frame.plane(plane, self.system().rotation_deg)
     }
 
+    /// True where circles of a plane of the program stay circles, wherever they are.
+    pub(crate) fn keeps_circles(&self, plane: Plane) -> bool {
+        self.frame.keeps_circles(plane)
+    }
+
     /// Machine coordinate of the program's zero on an axis, where nothing is turned.
     pub(crate) fn origin(&self, axis: usize) -> f64 {
         self.shift[axis]
             + self.system().origin[axis]
             + self.fanuc.external[axis]
+            + self.fanuc.dynamic.map_or(0.0, |dynamic| dynamic[axis])
             + self.tool[axis]
             + self.frame.shift[axis]
     }
@@ -130,7 +139,7 @@ impl Offsets {
     pub(crate) fn to_machine(&self, program: AxisVector) -> AxisVector {
         let system = self.system();
         system.rotate(self.frame.apply(program) + self.shift, 1.0)
-            + (system.origin + self.fanuc.external + self.tool)
+            + (system.origin + self.fanuc.added() + self.tool)
     }
 
     pub(crate) fn to_program(&self, machine: AxisVector) -> AxisVector {
@@ -144,7 +153,7 @@ impl Offsets {
     }
 
     fn to_program_in(&self, system: &CoordinateSystem, machine: AxisVector) -> AxisVector {
-        let origin = system.origin + self.fanuc.external + self.tool;
+        let origin = system.origin + self.fanuc.added() + self.tool;
         let place = system.rotate(machine - origin, -1.0) - self.shift;
         self.frame.undo(place)
     }

@@ -3,12 +3,15 @@
 use glidepath_geometry::AxisVector;
 
 use crate::execute::state::coolant::Coolant;
+use crate::execute::state::extruder::ExtruderMode;
 use crate::execute::state::fanuc_modal::FanucModal;
 use crate::execute::state::modal::Modal;
+use crate::execute::state::pole::Pole;
 use crate::execute::state::probe_result::ProbeResult;
 use crate::execute::state::spindle::Spindle;
 use crate::execute::state::sticky_words::CycleSeries;
 use crate::execute::state::thread_setup::ThreadSetup;
+use crate::execute::state::tip::{Tilt, Tip};
 use crate::syntax::modes::Side;
 
 /// The part of the state a block may change, offsets apart.
@@ -33,8 +36,10 @@ pub(crate) struct State {
     pub(crate) probe: ProbeResult,
     /// Value of the input M66 read last.
     pub(crate) input: f64,
-    /// E words of printers are relative.
-    pub(crate) extruder_relative: bool,
+    /// Whether E words of printers are relative.
+    pub(crate) extruder: ExtruderMode,
+    /// What SET_GCODE_OFFSET of Klipper has set, mm.
+    pub(crate) gcode_offset: [f64; 3],
     /// G41 or G42 is in force, be it with a radius of zero.
     pub(crate) on_contour: bool,
     /// Which of the two, the last time.
@@ -48,12 +53,18 @@ pub(crate) struct State {
     pub(crate) thread_end: Option<AxisVector>,
     /// The radius of all corners (RNDM), mm; 0: they stay.
     pub(crate) rounds_mm: f64,
+    /// The pole of polar coordinates (G110 to G112 of SINUMERIK).
+    pub(crate) pole: Pole,
+    /// F counts millimetres whatever the unit of lengths is (G70 and G71 of SINUMERIK).
+    pub(crate) feeds_in_mm: bool,
     /// The edge of the tool in force (D of SINUMERIK); `None`: none was chosen.
     pub(crate) edge: Option<u32>,
     /// Modes of FANUC alone.
     pub(crate) fanuc: FanucModal,
-    /// The program says that the axes follow the tip of the tool (G43.4, TRAORI).
-    pub(crate) tip_follows: bool,
+    /// What X, Y and Z are of, on a machine with five axes.
+    pub(crate) tip: Tip,
+    /// The program has tilted the plane.
+    pub(crate) tilted: Option<Tilt>,
     /// What the first block of FANUC's G76 said.
     pub(crate) thread_setup: Option<ThreadSetup>,
 }

@@ -3,12 +3,12 @@
 use crate::diagnostic::fault::Outcome;
 use crate::diagnostic::span::SourceSpan;
 use crate::setup::m_codes::MCodes;
-use crate::syntax::codes::{Codes, FrameCode, NO_SYSTEM, code_number, set};
+use crate::syntax::codes::{Codes, FrameCode, NO_SYSTEM, TiltCode, code_number, set};
 use crate::syntax::dialect::Dialect;
 use crate::syntax::dialect::marlin::is_function;
 use crate::syntax::dialect::words::{Meaning, fanuc, fanuc_lathe, marlin, no_g, no_m, refused};
 use crate::syntax::modes::{
-    FeedMode, LatheCycle, Motion, NonModal, Pockets, Probe, ToolLength, Turning,
+    FeedMode, LatheCycle, Motion, NonModal, Pockets, PoleFrom, Probe, ToolLength, Turning, Units,
 };
 use glidepath_program::PathMode;
 
@@ -80,7 +80,16 @@ impl Codes {
             100 => set(&mut self.non_modal, NonModal::SetData, span),
             150 | 160 => set(&mut self.polar_mode, tenths == 160, span),
             300 => set(&mut self.non_modal, NonModal::GoToReference(1), span),
-            434 => {
+            531 | 682 => {
+                let code = if tenths == 682 {
+                    TiltCode::Plane
+                } else {
+                    TiltCode::Align
+                };
+                set(&mut self.tilt, code, span)
+            }
+            2540 | 2550 => set(&mut self.dynamic, tenths == 2540, span),
+            434 | 2340 => {
                 set(&mut self.tip, true, span)?;
                 set(&mut self.tool_length, ToolLength::FromTable, span)
             }
@@ -124,6 +133,28 @@ impl Codes {
     pub(crate) fn add_rewritten_g(&mut self, value: f64, span: SourceSpan) -> Outcome<()> {
         match code_number(value * 10.0) {
             Some(90) => set(&mut self.exact_stop, (), span),
+            Some(25) => self.set_motion(Some(Motion::ArcThrough), span),
+            Some(26) => self.set_motion(Some(Motion::ArcTangent), span),
+            Some(3310) => self.set_motion(Some(Motion::TapIn), span),
+            Some(3320) => self.set_motion(Some(Motion::TapOut), span),
+            Some(code @ (1100 | 1110 | 1120)) => {
+                let from = match code {
+                    1100 => PoleFrom::Place,
+                    1110 => PoleFrom::Zero,
+                    _ => PoleFrom::Pole,
+                };
+                set(&mut self.non_modal, NonModal::SetPole(from), span)
+            }
+            // Lengths are inches or millimetres, feeds stay millimetres.
+            Some(code @ (700 | 710)) => {
+                self.feeds_in_mm = true;
+                let units = if code == 700 {
+                    Units::Inch
+                } else {
+                    Units::Millimetre
+                };
+                set(&mut self.units, units, span)
+            }
             Some(5000) => set(&mut self.system, NO_SYSTEM, span),
             Some(code @ (434 | 435)) => set(&mut self.tip, code == 434, span),
             _ => self.add_g(value, span),
@@ -148,6 +179,9 @@ impl Codes {
         match code_number(value * 10.0).and_then(marlin::g) {
             Some(Meaning::Refused(what, help)) => {
                 Err(refused(&format!("G{value}"), what, help, span))
+            }
+            Some(Meaning::Own) if matches!(code_number(value), Some(60 | 61)) => {
+                set(&mut self.kept_place, code_number(value) == Some(60), span)
             }
             Some(_) => self.add_g(value, span),
             None => Err(no_g(Dialect::Marlin, value, span)),

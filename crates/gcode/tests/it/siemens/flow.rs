@@ -53,7 +53,7 @@ fn variables_hold_what_they_are_declared_for() {
                 G0 X=A_A+B_B\nC_C=2.4\nX=C_C";
     assert_eq!(xs(text), [211.5, 2.0]);
     finds("DEF STRING[5] A_A", &["1:5 not-supported"]);
-    finds("DEF REAL A_A[3]", &["1:10 not-supported"]);
+    finds("DEF REAL A_A[3]", &[]);
     finds("DEF REAL X1=3", &["1:10 parameter"]);
     finds("DEF REAL A_A=1/0", &["1:15 arithmetic"]);
     finds("G0 X=A_A", &["1:6 not-supported"]);
@@ -73,8 +73,8 @@ fn what_does_not_fit_together_is_refused() {
     finds("WHILE\nENDWHILE", &["1:5 expression"]);
     finds("GOTOF", &["1:5 missing-word"]);
     finds("GOTOF A_A G0 X1\nA_A:", &["1:11 flow-structure"]);
-    finds("CASE R1 OF 1 GOTOF A_A", &["1:1 not-supported"]);
-    finds("N5 L54", &["1:4 not-supported"]);
+    finds("CASE R1+1 OF 1 GOTOF A_A", &["1:22 flow-structure"]);
+    finds("N5 L54", &["1:4 unknown-subroutine"]);
     finds("GOTOS", &["1:1 not-supported"]);
 }
 

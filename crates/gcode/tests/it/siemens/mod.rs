@@ -3,7 +3,9 @@
 mod cycles;
 mod flow;
 mod frames;
+mod motion;
 mod programs;
+mod subprograms;
 
 use std::sync::Arc;
 

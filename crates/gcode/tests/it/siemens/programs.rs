@@ -52,7 +52,7 @@ fn an_edge_is_length_and_radius() {
 fn headers_are_read_over() {
     let text = "WORKPIECE(,\"\",,\"BOX\",112,0,-51)\nG601 FNORM\nBRISK\nDYNFINISH\nTRAFOOF\nCYCLE800()\nG500\nM41\nG0 X1";
     assert_eq!(ends(text), [[1.0, 0.0, 0.0]]);
-    finds("CYCLE800(1,\"TC1\")", &["1:1 not-supported"]);
+    finds("CYCLE800(1,\"TC1\")", &["1:1 canned-cycle"]);
     assert_eq!(ends("R1='H0A' R2='B101'\nG0 X=R1 Y=R2"), [[10.0, 5.0, 0.0]]);
     assert_eq!(
         ends("DIAMON\nG0 X20\nDIAMOF X3"),
@@ -133,6 +133,5 @@ fn a_slicer_and_klipper_are_read() {
     let silent = "EXCLUDE_OBJECT_DEFINE NAME=a CENTER=10,10\nSET_FAN_SPEED FAN=aux SPEED=0.5\nTIMELAPSE_TAKE_FRAME\nG1 X1 F600";
     assert_eq!(marlin(silent), [""; 0]);
     assert_eq!(marlin("START_PRINT BED=60"), ["1:1 not-supported"]);
-    assert_eq!(marlin("SET_GCODE_OFFSET Z=0.2"), ["1:1 not-supported"]);
     assert_eq!(marlin("G1 X5 F600\nG28 X Y\nG3 X5 I2.5 P0"), [""; 0]);
 }

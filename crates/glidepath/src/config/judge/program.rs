@@ -5,12 +5,27 @@ use crate::config::diagnostic::ConfigDiagnostic;
 use crate::config::program::ProgramConfig;
 use crate::config::raw::RawProgram;
 use glidepath_gcode::{
-    Arctangent, Connections, Dialect, FanucControl, FanucParameters, OffsetMemory, PointInput,
-    WorkOffsets,
+    Arctangent, Connections, Dialect, FanucControl, FanucParameters, Firmware, OffsetMemory,
+    PointInput, WorkOffsets,
 };
 use glidepath_geometry::Axis;
 use std::path::PathBuf;
 use toml::Spanned;
+
+/// The axes that E words may move.
+const EXTRUDERS: [(&str, Option<Axis>); 4] = [
+    ("none", None),
+    ("U", Some(Axis::U)),
+    ("V", Some(Axis::V)),
+    ("W", Some(Axis::W)),
+];
+
+/// The firmwares of printers.
+const FIRMWARES: [(&str, Option<Firmware>); 3] = [
+    ("auto", None),
+    ("marlin", Some(Firmware::Marlin)),
+    ("klipper", Some(Firmware::Klipper)),
+];
 
 impl Judge {
     pub(super) fn program(&mut self, raw: RawProgram, expects_feedback: bool) -> ProgramConfig {
@@ -36,12 +51,6 @@ impl Judge {
                 span,
             });
         }
-        let extruders = [
-            ("none", None),
-            ("U", Some(Axis::U)),
-            ("V", Some(Axis::V)),
-            ("W", Some(Axis::W)),
-        ];
         let fanuc = FanucParameters {
             control: self.choice(
                 "program.fanuc",
@@ -86,7 +95,8 @@ impl Judge {
             subroutine_path: raw.subroutine_path.into_iter().map(PathBuf::from).collect(),
             subroutines: None,
             connections,
-            extruder: self.choice("program.extruder", raw.extruder, &extruders),
+            extruder: self.choice("program.extruder", raw.extruder, &EXTRUDERS),
+            firmware: self.choice("program.firmware", raw.firmware, &FIRMWARES),
             in_force: None,
             watch: None,
             may_run_unchecked: false,

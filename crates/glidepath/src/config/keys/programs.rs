@@ -91,6 +91,15 @@ pub(super) const PROGRAM: &[Key] = &[
         LeftOut::Value("\"none\""),
         "the axis that E words of printers move",
     ),
+    key(
+        "program.firmware",
+        Takes::Choice {
+            of: &["auto", "marlin", "klipper"],
+        },
+        LeftOut::Value("\"auto\""),
+        "the firmware of the printer: whether G90 makes E absolute behind M83 (Marlin) or not (Klipper); \
+         \"auto\": Klipper where a program has commands with names, else E is refused there",
+    ),
 ];
 
 pub(super) const M_CODES: &[Key] = &[

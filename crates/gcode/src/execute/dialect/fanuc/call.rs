@@ -322,7 +322,7 @@ pub(super) fn not_returned(text: &[u8]) -> Box<Fault> {
 }
 
 /// The lines of a file, from percent sign to percent sign.
-fn lines_of(file: &SubroutineFile) -> Result<Vec<TapeLine>, (Box<Fault>, SourceLine)> {
+pub(crate) fn lines_of(file: &SubroutineFile) -> Result<Vec<TapeLine>, (Box<Fault>, SourceLine)> {
     let mut source = LineSource::new(&*file.text);
     let mut lines = Vec::new();
     loop {

@@ -22,7 +22,6 @@ impl Interpreter {
         let Some(coded) = block.codes.frame else {
             return Ok(());
         };
-        let state = &self.state;
         let before = self.offsets.fanuc.frames;
         let frames = self.offsets.fanuc.frames;
         let ends = !matches!(
@@ -37,19 +36,22 @@ impl Interpreter {
                 self.mirror_words(block, coded, begins, &mut frames.mirror)?;
             }
             FrameCode::Turn(true) => frames.turn = Some(self.turn_words(block, coded)?),
-            FrameCode::Turn(false) => frames.turn = None,
+            FrameCode::Turn(false) => {
+                frames.turn = None;
+                self.end_tilt();
+            }
         }
         if frames == before && ends {
             return Ok(());
         }
-        if state.on_contour || state.leaving_contour {
+        if self.state.on_contour || self.state.leaving_contour {
             let message = "coordinates that change with cutter radius compensation on";
             return Err(Fault::new(DiagnosticCode::CutterRadius, coded.span, message)
                 .because("the tool stands beside the programmed point, at a place that depends on the next move")
                 .help("write G40 and a move before it"));
         }
         self.offsets.fanuc.frames = frames;
-        self.offsets.frame = frames.frame();
+        self.offsets.frame = self.offsets.tilted.with(&frames.frame());
         Ok(())
     }
 

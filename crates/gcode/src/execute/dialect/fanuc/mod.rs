@@ -8,7 +8,7 @@
 
 mod arguments;
 mod assign;
-mod call;
+pub(crate) mod call;
 mod frames;
 mod groove;
 mod increments;
@@ -17,6 +17,7 @@ mod modal_macro;
 mod offsets;
 mod polar;
 mod statement;
+mod tilted_plane;
 mod tip;
 mod tool_length;
 mod turning;
@@ -33,6 +34,9 @@ use crate::syntax::word_check::whole;
 impl Interpreter {
     /// The modes that are FANUC's alone.
     pub(crate) fn fanuc_modes(&mut self, block: &Block) -> Outcome<()> {
+        if let Some(coded) = block.codes.dynamic {
+            self.dynamic_offset(coded)?;
+        }
         if block.codes.cutter_radius.is_some()
             && let Some(number) = whole(block, b'D', MAX_TOOL)?
         {

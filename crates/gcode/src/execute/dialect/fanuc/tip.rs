@@ -1,11 +1,4 @@
-//! Where the axes of a machine with five axes follow the tip of the tool, and where other controls
-//! would not.
-//!
-//! The kinematics of such a machine keep the tip where the program says, always. FANUC's programs
-//! expect that from G43.4 to G49, SINUMERIK's from TRAORI to TRAFOOF; elsewhere their X, Y and Z are
-//! the machine's own axes. Both are the same as long as the rotary axes stand at zero.
-
-use glidepath_geometry::{Axis, AxisVector};
+//! TRAORI and TRAFOOF of SINUMERIK, and what is not possible while the tip of the tool is followed.
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
@@ -13,21 +6,15 @@ use crate::execute::interpreter::Interpreter;
 use crate::syntax::block::Block;
 use crate::syntax::codes::Coded;
 use crate::syntax::dialect::Dialect;
+use crate::syntax::modes::NonModal;
 
 /// Angles below this are zero, degrees.
 const ZERO_DEG: f64 = 1e-9;
 
 impl Interpreter {
-    /// Whether rotary axes away from zero make another motion than the program's control would.
-    pub(crate) fn is_tip_in_doubt(&self) -> bool {
-        self.options.keeps_tip
-            && !self.state.tip_follows
-            && matches!(self.options.dialect, Dialect::Fanuc | Dialect::Siemens)
-    }
-
     /// TRAORI and TRAFOOF.
     pub(crate) fn follow_tip(&mut self, coded: Coded<bool>) -> Outcome<()> {
-        if coded.code && !self.options.keeps_tip {
+        if coded.code && self.options.five_axis.is_none() {
             let message = "TRAORI (tool orientation) is not supported by this machine";
             return Err(
                 Fault::new(DiagnosticCode::NotSupported, coded.span, message)
@@ -38,57 +25,60 @@ impl Interpreter {
                     ),
             );
         }
-        let is_longer = self.offsets.tool.iter().any(|length| *length != 0.0);
-        if coded.code && is_longer {
-            let message = "TRAORI with a tool that has a length";
+        if self.state.tilted.is_some() {
+            let message = "TRAORI or TRAFOOF in a swivelled plane";
             return Err(
                 Fault::new(DiagnosticCode::NotSupported, coded.span, message)
-                    .because(
-                        "the kinematics know the length of one tool: what is added to it would not \
-                         count along the tool",
-                    )
-                    .help("write D0 before it, with the whole length in `tool` of [machine.five-axis]"),
+                    .because("the tip is followed there until the plane ends")
+                    .help("write CYCLE800() before it"),
             );
         }
-        self.state.tip_follows = coded.code;
+        if coded.code {
+            self.check_straight_tool(coded)?;
+        }
+        self.let_tip_follow(coded.code);
         Ok(())
     }
 
-    /// Refuses a move with the rotary axes away from zero, where the tip of the tool would follow
-    /// them and the program does not say so.
-    pub(crate) fn check_tip(
-        &self,
-        block: &Block,
-        low: &AxisVector,
-        high: &AxisVector,
-    ) -> Outcome<()> {
-        if !self.is_tip_in_doubt() {
+    /// Refuses a tool that is beside the spindle's axis where the tip is followed.
+    pub(crate) fn check_straight_tool<T>(&self, coded: Coded<T>) -> Outcome<()> {
+        let tool = &self.offsets.tool;
+        if tool[0] == 0.0 && tool[1] == 0.0 {
             return Ok(());
         }
-        let start = &self.state.path_end;
-        let turned = Axis::ALL.into_iter().find(|axis| {
-            let i = axis.index();
-            let angles = [low[i], high[i], start[i]];
-            axis.is_rotary() && angles.iter().any(|angle| angle.abs() > ZERO_DEG)
-        });
-        let Some(axis) = turned else {
+        let message = "a tool with an offset in X or Y where the tip is followed";
+        Err(
+            Fault::new(DiagnosticCode::NotSupported, coded.span, message)
+                .because("the tip is followed along the axis of the spindle")
+                .help("write the length alone into the tool table"),
+        )
+    }
+
+    /// Refuses to go to places of the machine while the tip of the tool is followed: with the rotary
+    /// axes away from zero X, Y and Z are not the machine's.
+    pub(crate) fn check_machine_place(&self, block: &Block) -> Outcome<()> {
+        let Some(non_modal) = block.codes.non_modal else {
             return Ok(());
         };
-        let on = match self.options.dialect {
-            Dialect::Siemens => "TRAORI",
-            _ => "G43.4",
-        };
-        let span = Some(block.axis_span(axis)).filter(|span| span.length > 0);
-        let message = format!("{axis} is not at zero, and {on} is not in force");
-        Err(Fault::new(
-            DiagnosticCode::NotSupported,
-            span.unwrap_or_else(|| block.motion_span()),
-            message,
+        let goes = matches!(
+            non_modal.code,
+            NonModal::MachineCoordinates | NonModal::GoToReference(_)
+        );
+        let is_other = matches!(block.dialect, Dialect::Fanuc | Dialect::Siemens)
+            && self.options.five_axis.is_some()
+            && self.state.tip.follows();
+        let axes = self.axes_place();
+        let turned = (3..6).any(|axis| axes[axis].abs() > ZERO_DEG);
+        if !goes || !is_other || !turned {
+            return Ok(());
+        }
+        let message = "a place of the machine while the tip of the tool is followed";
+        Err(
+            Fault::new(DiagnosticCode::MachineCoordinates, non_modal.span, message)
+                .because(
+                    "with the rotary axes away from zero the coordinates are those of the work",
+                )
+                .help("write G49, G69, TRAFOOF or CYCLE800() before it"),
         )
-        .because(
-            "the axes of this machine follow the tip of the tool at all times; on that control they \
-             would not, and X, Y and Z would go elsewhere",
-        )
-        .help(format!("write {on} before it, if that is what is meant")))
     }
 }

@@ -5,14 +5,12 @@ use glidepath_geometry::AxisVector;
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::execute::interpreter::Interpreter;
+use crate::execute::state::tip::{Tilt, Tip};
 use crate::setup::tool_table::MAX_TOOL;
 use crate::syntax::block::Block;
 use crate::syntax::codes::Coded;
 use crate::syntax::modes::ToolLength;
 use crate::syntax::word_check::{missing, whole};
-
-/// Lengths below this are none, mm.
-const NO_LENGTH_MM: f64 = 1e-9;
 
 impl Interpreter {
     /// G43, G44, G49: the length of H along Z. H counts until another one is written.
@@ -27,13 +25,13 @@ impl Interpreter {
             ToolLength::Subtract => Some(-1.0),
             _ => Some(1.0),
         };
-        if follows && !self.options.keeps_tip {
+        if follows && self.options.five_axis.is_none() {
             return Err(keeps_no_tip(coded));
         }
         self.state.fanuc.length_sign = sign;
         let Some(sign) = sign else {
             self.offsets.tool = AxisVector::zeros();
-            self.state.tip_follows = false;
+            self.set_length_in_force(0.0, false);
             return Ok(());
         };
         let number = whole(block, b'H', MAX_TOOL)?
@@ -49,30 +47,38 @@ impl Interpreter {
             length_mm = self.tool_of(number, span)?.offset[2];
             length_mm += self.offsets.fanuc.wear(number).length_mm;
         }
-        if follows {
-            self.check_tip_length(coded, length_mm)?;
-        }
-        self.state.tip_follows = follows;
-        self.state.fanuc.length_offset = Some(number);
-        self.offsets.tool = AxisVector::zeros();
-        self.offsets.tool[2] = sign * length_mm;
-        Ok(())
-    }
-
-    /// Refuses tool centre point control with a length that the kinematics do not know.
-    fn check_tip_length(&self, coded: Coded<ToolLength>, length_mm: f64) -> Outcome<()> {
-        if length_mm.abs() > NO_LENGTH_MM {
-            let message = format!("tool centre point control with a tool {length_mm} mm longer");
+        if follows && self.state.tilted.is_some() {
+            let message = "G43.4 in a tilted plane";
             return Err(
                 Fault::new(DiagnosticCode::NotSupported, coded.span, message)
                     .because(
-                        "the kinematics know the length of one tool, and what is added to it would \
-                         count along Z and not along the tool",
+                        "the tip is followed there already, and the tool stands along its normal",
                     )
-                    .help("write H0, with the whole length in `tool` of [machine.five-axis]"),
+                    .help(
+                        "write G43 H, whose length counts along the tool there, or G69 before it",
+                    ),
             );
         }
+        self.state.fanuc.length_offset = Some(number);
+        self.offsets.tool = AxisVector::zeros();
+        self.set_length_in_force(sign * length_mm, follows);
         Ok(())
+    }
+
+    /// Puts a length in force: along Z, or along the tool where the tip is followed.
+    fn set_length_in_force(&mut self, length_mm: f64, follows: bool) {
+        if self.options.five_axis.is_none() {
+            self.offsets.tool[2] = length_mm;
+            return;
+        }
+        if follows || self.state.tilted == Some(Tilt::Stands) {
+            self.set_tip(Tip::Follows {
+                longer_mm: length_mm,
+            });
+        } else {
+            self.offsets.tool[2] = length_mm;
+            self.set_tip(Tip::Stands);
+        }
     }
 }
 

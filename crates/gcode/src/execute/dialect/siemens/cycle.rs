@@ -26,7 +26,6 @@ use crate::diagnostic::span::SourceSpan;
 use crate::execute::dialect::siemens::steps::{CycleCall, Step};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::program::Program;
-use crate::syntax::dialect::siemens::statement::{Statement, name_at, statement};
 use crate::syntax::modes::FeedMode;
 use crate::syntax::word_check::missing;
 
@@ -318,42 +317,8 @@ impl<R: BufRead> Program<R> {
         self.siemens_begin(&call, span)
     }
 
-    /// MCALL: the cycle behind it is made at the end of every move from now on, or none.
-    pub(super) fn siemens_modal_call(&mut self, text: &[u8], at: usize) -> Outcome<()> {
-        let scope = self.scope();
-        let mut input = self.evaluator(&scope, text, at);
-        if input.is_at_end() {
-            self.siemens.modal_call = None;
-            return Ok(());
-        }
-        let start = input.at;
-        let tail = text.get(start..).unwrap_or_default();
-        if statement(tail) != (Statement::Cycle, 0) {
-            let name = name_at(text, start);
-            let span = SourceSpan::new(start, start + name.len().max(1));
-            let shown = String::from_utf8_lossy(name).into_owned();
-            let message = format!("MCALL of {shown} is not supported");
-            return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
-                .because("CYCLE81 to 86, POCKET3 and POCKET4 can be called at every move")
-                .help("use one of these"));
-        }
-        let (call, span) = self.siemens_call(text, start)?;
-        // What is wrong with it is said here, not at the next move.
-        self.cycle_lines(Arguments { call: &call, span })?;
-        self.siemens.modal_call = Some(call);
-        Ok(())
-    }
-
-    /// Makes the cycle of MCALL at the end of a move.
-    pub(super) fn siemens_call_again(&mut self, span: SourceSpan) -> Outcome<()> {
-        match self.siemens.modal_call.clone() {
-            Some(call) => self.siemens_begin(&call, span),
-            None => Ok(()),
-        }
-    }
-
     /// The name of a cycle and the values of its arguments.
-    fn siemens_call(&self, text: &[u8], at: usize) -> Outcome<(CycleCall, SourceSpan)> {
+    pub(super) fn siemens_call(&self, text: &[u8], at: usize) -> Outcome<(CycleCall, SourceSpan)> {
         let scope = self.scope();
         let mut input = self.evaluator(&scope, text, at);
         let name = input.name_ahead();
@@ -381,7 +346,7 @@ impl<R: BufRead> Program<R> {
         Ok((CycleCall { name, arguments }, span))
     }
 
-    fn siemens_begin(&mut self, call: &CycleCall, span: SourceSpan) -> Outcome<()> {
+    pub(super) fn siemens_begin(&mut self, call: &CycleCall, span: SourceSpan) -> Outcome<()> {
         let lines = self.cycle_lines(Arguments { call, span })?;
         let modal = Box::new(self.interpreter.state.modal);
         self.siemens.steps.extend(lines.steps);
@@ -389,7 +354,7 @@ impl<R: BufRead> Program<R> {
         Ok(())
     }
 
-    fn cycle_lines(&self, arguments: Arguments<'_>) -> Outcome<Lines> {
+    pub(super) fn cycle_lines(&self, arguments: Arguments<'_>) -> Outcome<Lines> {
         let interpreter = &self.interpreter;
         let state = &interpreter.state;
         if state.on_contour || state.leaving_contour {

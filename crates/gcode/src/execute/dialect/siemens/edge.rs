@@ -8,8 +8,10 @@ use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
+use crate::execute::state::tip::Tip;
 use crate::setup::tool_table::Tool;
 use crate::syntax::block::Block;
+use crate::syntax::codes::Coded;
 use crate::syntax::word_check::whole;
 
 impl Interpreter {
@@ -30,18 +32,16 @@ impl Interpreter {
         } else {
             self.tool_of(self.state.tool, span)?
         };
-        let is_longer = tool.offset.iter().any(|length| *length != 0.0);
-        if is_longer && self.options.keeps_tip && self.state.tip_follows {
-            let message = "a tool with a length behind TRAORI";
-            return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
-                .because("the kinematics know the length of one tool: what is added to it would not count along the tool")
-                .help("write the whole length into `tool` of [machine.five-axis], and none into the table"));
-        }
         self.offsets.tool = if edge == 0 {
             AxisVector::zeros()
         } else {
             tool.offset
         };
+        if self.options.five_axis.is_some() && self.state.tip.follows() {
+            self.check_straight_tool(Coded { code: (), span })?;
+            let longer_mm = core::mem::take(&mut self.offsets.tool[2]);
+            self.set_tip(Tip::Follows { longer_mm });
+        }
         self.state.edge = Some(edge);
         Ok(())
     }

@@ -1,4 +1,4 @@
-//! Structures, jumps and declarations.
+//! Structures and jumps.
 
 use std::io::BufRead;
 
@@ -6,22 +6,21 @@ use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::program::Program;
-use crate::execute::scope::ProgramScope;
 use crate::syntax::dialect::siemens::expression::Evaluator;
 use crate::syntax::dialect::siemens::statement::{
-    Direction, Statement, direction, is_target, jump_in, name_at, statement,
+    Direction, Statement, direction, is_header, is_target, jump_in, name_at, statement,
 };
 use crate::syntax::dialect::siemens::variables::Kind;
 use crate::syntax::expression::scope::{Parameter, Scope};
 use crate::syntax::word_check::missing;
 
-fn fault(span: SourceSpan, message: impl Into<String>) -> Box<Fault> {
+pub(super) fn fault(span: SourceSpan, message: impl Into<String>) -> Box<Fault> {
     Fault::new(DiagnosticCode::FlowStructure, span, message)
         .because("structures nest, each with its own end, and each statement has a line of its own")
 }
 
 /// Refuses text behind a statement.
-fn check_end(input: &mut Evaluator<'_>) -> Outcome<()> {
+pub(super) fn check_end(input: &mut Evaluator<'_>) -> Outcome<()> {
     if input.is_at_end() {
         return Ok(());
     }
@@ -79,6 +78,7 @@ impl<R: BufRead> Program<R> {
             Statement::RepeatBlock => self.siemens_repeat_part(index, text, at, true)?,
             Statement::Goto(way) => self.siemens_go_to(way, index, text, at)?,
             Statement::Define => self.siemens_define(text, at)?,
+            Statement::Case => self.siemens_case(index, text, at)?,
             _ => {}
         }
         Ok(())
@@ -238,12 +238,12 @@ impl<R: BufRead> Program<R> {
         if way != Direction::Back {
             let ahead = self
                 .tape
-                .search(index + 1, &mut self.source, wanted, |_| false)?;
+                .search(index + 1, &mut self.source, wanted, is_header)?;
             if ahead.is_some() || way == Direction::Forward {
                 return Ok(ahead);
             }
         }
-        Ok(self.tape.search_back(index + 1, wanted, |_| false))
+        Ok(self.tape.search_back(index + 1, wanted, is_header))
     }
 
     fn siemens_go_to(
@@ -272,72 +272,27 @@ impl<R: BufRead> Program<R> {
             ));
         }
         check_end(&mut input)?;
-        if let Some(line) = self.tape.known_jump(index, 1) {
+        self.siemens_jump(way, index, &target, (1, start))
+    }
+
+    /// Jumps; `number` tells the jumps of a line apart, and `at` is where its target stands.
+    pub(super) fn siemens_jump(
+        &mut self,
+        way: Direction,
+        index: usize,
+        target: &[u8],
+        (number, at): (u32, usize),
+    ) -> Outcome<()> {
+        if let Some(line) = self.tape.known_jump(index, number) {
             self.tape.next = line;
             return Ok(());
         }
-        match self.siemens_find(way, index, &target)? {
-            Some(line) => self.tape.jump(index, 1, line),
-            None if way == Direction::IfAny => self.tape.jump(index, 1, index + 1),
-            None => return Err(no_target(&target, start)),
+        match self.siemens_find(way, index, target)? {
+            Some(line) => self.tape.jump(index, number, line),
+            None if way == Direction::IfAny => self.tape.jump(index, number, index + 1),
+            None => return Err(no_target(target, at)),
         }
         Ok(())
-    }
-
-    /// `DEF REAL A, B=5`.
-    fn siemens_define(&mut self, text: &[u8], at: usize) -> Outcome<()> {
-        let mut at = at;
-        let kind = {
-            let scope = self.scope();
-            let mut input = self.evaluator(&scope, text, at);
-            input.next_visible();
-            let start = input.at;
-            let name = input.name_ahead();
-            at = start + name.len();
-            match name.as_slice() {
-                b"REAL" => Kind::Real,
-                b"INT" => Kind::Integer,
-                b"BOOL" => Kind::Truth,
-                _ => {
-                    let shown = String::from_utf8_lossy(&name).into_owned();
-                    let span = SourceSpan::new(start, at.max(start + 1));
-                    let message = format!("DEF {shown} is not supported");
-                    return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
-                        .because("variables are REAL, INT or BOOL, and of this program")
-                        .help("use one of these"));
-                }
-            }
-        };
-        loop {
-            let scope = ProgramScope {
-                parameters: &self.parameters,
-                interpreter: &self.interpreter,
-            };
-            let mut input = self.evaluator(&scope, text, at);
-            input.next_visible();
-            let start = input.at;
-            let name = input.name_ahead();
-            input.at += name.len();
-            let span = SourceSpan::new(start, input.at.max(start + 1));
-            if input.next_visible() == Some(b'[') {
-                let message = "an array of variables is not supported";
-                return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
-                    .because("a variable has one value; R parameters can be counted through")
-                    .help("use R[index]"));
-            }
-            let value = if input.eat(b'=') { input.value()? } else { 0.0 };
-            let goes_on = input.eat(b',');
-            if !goes_on {
-                check_end(&mut input)?;
-            }
-            at = input.at;
-            let parameter = self.siemens.variables.declare(&name, kind, span)?;
-            self.parameters.check_assignable(&parameter, span)?;
-            self.parameters.assign(&parameter, kind.of(value));
-            if !goes_on {
-                return Ok(());
-            }
-        }
     }
 }
 

@@ -80,7 +80,7 @@ impl<R: BufRead> Program<R> {
         let frame = if word.adds {
             offsets.frame.with(&frame)
         } else {
-            frame
+            offsets.tilted.with(&frame)
         };
         if frame.least_scale() * MAX_SCALE < 1.0 || frame.greatest_scale() > MAX_SCALE {
             let message = "the scales together are beyond what is possible";

@@ -3,23 +3,30 @@
 //! ```text
 //! IF … ELSE … ENDIF · IF … GOTOF A · WHILE … ENDWHILE · FOR R1=1 TO 5 … ENDFOR · LOOP … ENDLOOP
 //! REPEAT … UNTIL · REPEAT A P=3 · REPEAT A B · REPEATB A · GOTO, GOTOF, GOTOB, GOTOC A · A: · N100
-//! DEF REAL, INT, BOOL · TRANS, ROT, MIRROR, SCALE · ATRANS, AROT, AMIRROR, ASCALE
-//! CYCLE81 to 86 · POCKET3, POCKET4 · MCALL · HOLES1, HOLES2, CYCLE801
+//! CASE … OF … · L1 P2 · NAME(5) · PROC, EXTERN, RET, M17
+//! DEF REAL, INT, BOOL, arrays · TRANS, ROT, MIRROR, SCALE · ATRANS, AROT, AMIRROR, ASCALE
+//! CYCLE81 to 86 · POCKET3, POCKET4 · MCALL · HOLES1, HOLES2, CYCLE801 · CYCLE800
 //! ```
 //!
 //! A line of a cycle becomes several ones in RS274/NGC's words, which are executed one after the
 //! other ([`steps`]), so that a long cycle takes no more memory at a time than its words.
 
+mod case;
 mod circular_pocket;
 mod cycle;
+mod define;
 mod drilling;
 mod edge;
 mod flow;
 mod frames;
+mod modal_call;
 mod pocket;
 mod positions;
+mod procedure;
 mod read_line;
 mod rectangular_pocket;
 mod repetition;
 pub(crate) mod steps;
+pub(crate) mod subprogram;
+mod swivel;
 mod tapping;

@@ -8,8 +8,9 @@ use crate::execute::dialect::siemens::steps::Step;
 use crate::execute::program::Program;
 use crate::execute::scope::ProgramScope;
 use crate::syntax::dialect::line_body::body;
+use crate::syntax::dialect::siemens::callee::callee;
 use crate::syntax::dialect::siemens::expression::{Evaluator, Names};
-use crate::syntax::dialect::siemens::statement::{Statement, label, statement};
+use crate::syntax::dialect::siemens::statement::{Statement, is_header, label, statement};
 use crate::syntax::dialect::siemens::writer::rewrite;
 use crate::syntax::modes::Distance;
 
@@ -31,7 +32,11 @@ impl<R: BufRead> Program<R> {
         }
         self.siemens_repeat();
         if !self.tape.advance(&mut self.source)? {
-            return self.end_of_input();
+            return if self.siemens_return() {
+                Ok(true)
+            } else {
+                self.end_of_input()
+            };
         }
         let index = self.tape.next - 1;
         let Some((number, text)) = self.tape.get(index).cloned() else {
@@ -44,11 +49,33 @@ impl<R: BufRead> Program<R> {
         if self.interpreter.options.block_delete && text.trim_ascii_start().starts_with(b"/") {
             return Ok(true);
         }
+        // Behind the program itself stand its subprograms, each behind its name.
+        if is_header(&text) && (self.begun || !self.tape.calls.is_empty()) {
+            return if self.siemens_return() {
+                Ok(true)
+            } else {
+                self.end_of_input()
+            };
+        }
         let (statement, at) = statement(&text);
         match statement {
-            Statement::Block => self.siemens_block(number, &text),
+            Statement::Block => {
+                if let Some(callee) = callee(&text) {
+                    let called = self.siemens_call_line(&text, &callee);
+                    if called.inspect_err(|_| self.end())? {
+                        return Ok(true);
+                    }
+                }
+                self.siemens_block(number, &text)
+            }
+            Statement::Extern => Ok(true),
+            Statement::Procedure => {
+                let done = self.siemens_procedure(&text, at);
+                done.inspect_err(|_| self.end()).map(|()| true)
+            }
             Statement::Frame(word) => self.siemens_frame(word, &text, at).map(|()| true),
             Statement::Cycle => self.siemens_cycle(&text, at).map(|()| true),
+            Statement::Swivel => self.siemens_swivel(&text, at).map(|()| true),
             Statement::Positions => self.siemens_positions(&text, at).map(|()| true),
             Statement::ModalCall => self.siemens_modal_call(&text, at).map(|()| true),
             // What follows depends on it, so a diagnostic ends the program.
@@ -69,6 +96,7 @@ impl<R: BufRead> Program<R> {
         let names = Names {
             variables: &self.siemens.variables,
             scope,
+            in_subprogram: !self.tape.calls.is_empty(),
         };
         Evaluator::new(text, at, names)
     }
@@ -82,6 +110,7 @@ impl<R: BufRead> Program<R> {
         let names = Names {
             variables: &self.siemens.variables,
             scope: &scope,
+            in_subprogram: !self.tape.calls.is_empty(),
         };
         let line = rewrite(&text, names)?;
         let parsed = self.block.parse(&line.text, &scope);
@@ -93,6 +122,9 @@ impl<R: BufRead> Program<R> {
         if moves && !self.ended && self.siemens.modal_call.is_some() {
             let span = SourceSpan::new(body(&text), text.len());
             self.siemens_call_again(span)?;
+        }
+        if line.ends_subprogram {
+            self.siemens_return();
         }
         Ok(goes_on)
     }
@@ -112,8 +144,13 @@ impl<R: BufRead> Program<R> {
         self.interpreter.state.modal = *modal;
         let here = self.here();
         let span = SourceSpan::new(label(&here.text).1, here.text.trim_ascii_end().len());
+        let depth = self.siemens.calls.len();
         self.siemens_call_again(span)?;
-        self.siemens.steps.extend(rest);
+        // Those of a subprogram come before what is left of the pattern.
+        match self.siemens.calls.get_mut(depth) {
+            Some(call) => call.steps.extend(rest),
+            None => self.siemens.steps.extend(rest),
+        }
         Ok(true)
     }
 

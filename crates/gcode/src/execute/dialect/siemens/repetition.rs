@@ -30,7 +30,7 @@ impl<R: BufRead> Program<R> {
     /// Begins a part again that is to be repeated, or goes on behind it.
     pub(super) fn siemens_repeat(&mut self) {
         while let Some(part) = self.tape.repetitions.last_mut() {
-            if self.tape.next != part.end {
+            if self.tape.calls.len() != part.depth || self.tape.next != part.end {
                 return;
             }
             if part.again > 0 {
@@ -79,6 +79,7 @@ impl<R: BufRead> Program<R> {
             end,
             back: index + 1,
             again,
+            depth: self.tape.calls.len(),
         });
         self.tape.next = start;
         Ok(())

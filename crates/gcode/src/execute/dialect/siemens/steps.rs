@@ -2,6 +2,8 @@
 
 use std::collections::VecDeque;
 
+use crate::execute::dialect::siemens::subprogram::CallState;
+use crate::execute::dialect::tape::TapePlace;
 use crate::execute::state::modal::Modal;
 use crate::syntax::dialect::siemens::variables::Variables;
 
@@ -24,6 +26,14 @@ pub(crate) struct CycleCall {
     pub(crate) arguments: Vec<Option<f64>>,
 }
 
+/// What is made behind every move (MCALL).
+#[derive(Debug, Clone)]
+pub(crate) enum ModalCall {
+    Cycle(CycleCall),
+    /// A subprogram, from its first line, with the values of its arguments.
+    Subprogram(TapePlace, Vec<Option<f64>>),
+}
+
 /// What a SINUMERIK program has besides the state of the interpreter.
 #[derive(Debug, Default)]
 pub(crate) struct SiemensState {
@@ -31,5 +41,7 @@ pub(crate) struct SiemensState {
     /// What is left of the cycle in progress.
     pub(crate) steps: VecDeque<Step>,
     /// The cycle that is made behind every move (MCALL).
-    pub(crate) modal_call: Option<CycleCall>,
+    pub(crate) modal_call: Option<ModalCall>,
+    /// The subprograms in progress.
+    pub(crate) calls: Vec<CallState>,
 }

@@ -22,25 +22,25 @@ use crate::syntax::dialect::siemens::function::{FUNCTIONS, Function};
 use crate::syntax::dialect::siemens::operator::{
     Compare, LOGIC, OPERATORS, apply, comparison, finite,
 };
-use crate::syntax::dialect::siemens::variables::{Kind, Variables, r_parameter};
+use crate::syntax::dialect::siemens::variables::Variables;
 use crate::syntax::expression::scope::{Parameter, Scope};
 
 /// Deepest nesting of parentheses and signs.
 const MAX_DEPTH: u32 = 64;
-/// Most arguments of a call.
-const MAX_ARGUMENTS: usize = 40;
 /// Where values come from.
 #[derive(Clone, Copy)]
 pub(crate) struct Names<'a> {
     pub(crate) variables: &'a Variables,
     pub(crate) scope: &'a dyn Scope,
+    /// The line is of a subprogram, which M2, M17, M30 and RET end.
+    pub(crate) in_subprogram: bool,
 }
 
 /// Reads a line from left to right and computes what is in it.
 pub(crate) struct Evaluator<'a> {
     pub(crate) text: &'a [u8],
     pub(crate) at: usize,
-    names: Names<'a>,
+    pub(super) names: Names<'a>,
     /// What the line has assigned so far: what it is from when on cannot be seen.
     pub(crate) assigned: Vec<Parameter>,
     depth: u32,
@@ -104,32 +104,6 @@ impl<'a> Evaluator<'a> {
         matches!(self.next_visible(), None | Some(b';'))
     }
 
-    /// A variable that can be assigned, and what it holds.
-    pub(crate) fn assignable(&mut self) -> Outcome<Option<(Kind, Parameter)>> {
-        let start = self.at;
-        let name = self.name_ahead();
-        if let [b'R', digits @ ..] = name.as_slice()
-            && digits.iter().all(u8::is_ascii_digit)
-        {
-            self.at += name.len();
-            let number = match (digits.is_empty(), self.peek(0)) {
-                (true, Some(b'[')) => self.index()?,
-                (true, _) => {
-                    self.at = start;
-                    return Ok(None);
-                }
-                _ => parsed(digits),
-            };
-            let parameter = r_parameter(number, SourceSpan::new(start, self.at))?;
-            return Ok(Some((Kind::Real, parameter)));
-        }
-        let variable = self.names.variables.get(&name);
-        if variable.is_some() {
-            self.at += name.len();
-        }
-        Ok(variable)
-    }
-
     /// The value of the expression that begins here.
     pub(crate) fn value(&mut self) -> Outcome<f64> {
         self.next_visible();
@@ -170,33 +144,6 @@ impl<'a> Evaluator<'a> {
         Ok(if negative { -value } else { value })
     }
 
-    /// What is in the parentheses that begin here; `None` where an argument is left out.
-    pub(crate) fn arguments(&mut self) -> Outcome<Vec<Option<f64>>> {
-        let start = self.at;
-        let mut arguments = Vec::new();
-        if !self.eat(b'(') {
-            return Ok(arguments);
-        }
-        loop {
-            let value = match self.next_visible() {
-                Some(b',' | b')') => None,
-                _ => Some(self.value()?),
-            };
-            arguments.push(value);
-            let ends = self.next_visible() == Some(b')');
-            if ends || arguments.len() >= MAX_ARGUMENTS || self.peek(0) != Some(b',') {
-                if self.eat(b')') {
-                    return Ok(arguments);
-                }
-                return Err(unclosed(
-                    SourceSpan::new(start, self.at.max(start + 1)),
-                    ")",
-                ));
-            }
-            self.at += 1;
-        }
-    }
-
     fn deeper(&mut self) -> Outcome<()> {
         self.depth += 1;
         if self.depth <= MAX_DEPTH {
@@ -209,7 +156,7 @@ impl<'a> Evaluator<'a> {
             .help("compute parts of it into R parameters first"))
     }
 
-    fn comparison(&mut self) -> Outcome<f64> {
+    pub(super) fn comparison(&mut self) -> Outcome<f64> {
         self.deeper()?;
         let outer = self.logic.take();
         let start = self.at;
@@ -314,7 +261,6 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    /// Digits, with a point and `EX` and an exponent.
     /// `'H1F'` or `'B101'`.
     fn bits(&mut self) -> Outcome<f64> {
         let start = self.at;
@@ -344,6 +290,7 @@ impl<'a> Evaluator<'a> {
         })
     }
 
+    /// Digits, with a point and `EX` and an exponent.
     fn number(&mut self) -> Outcome<f64> {
         let start = self.at;
         while matches!(self.peek(0), Some(b'0'..=b'9' | b'.')) {
@@ -372,20 +319,6 @@ impl<'a> Evaluator<'a> {
                     .help("write one number"))
             }
         }
-    }
-
-    /// `[value]` behind R.
-    fn index(&mut self) -> Outcome<f64> {
-        let start = self.at;
-        self.at += 1;
-        let value = self.comparison()?;
-        if self.eat(b']') {
-            return Ok(value);
-        }
-        Err(unclosed(
-            SourceSpan::new(start, self.at.max(start + 1)),
-            "]",
-        ))
     }
 
     /// A parameter, a variable, a constant or a function.
@@ -458,14 +391,9 @@ impl<'a> Evaluator<'a> {
     }
 }
 
-fn unclosed(span: SourceSpan, with: &str) -> Box<Fault> {
+pub(super) fn unclosed(span: SourceSpan, with: &str) -> Box<Fault> {
     let message = "the parenthesis is not closed";
     Fault::new(DiagnosticCode::Expression, span, message)
         .because("an expression ends in its own line")
         .help(format!("add `{with}`, or an operator between two values"))
-}
-
-fn parsed(digits: &[u8]) -> f64 {
-    let text = core::str::from_utf8(digits).unwrap_or_default();
-    text.parse().unwrap_or(f64::MAX)
 }

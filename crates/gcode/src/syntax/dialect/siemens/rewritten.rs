@@ -7,6 +7,8 @@ use crate::diagnostic::span::SourceSpan;
 pub(crate) struct Rewritten {
     pub(crate) text: Vec<u8>,
     origin: Vec<usize>,
+    /// It ends the subprogram it is of.
+    pub(crate) ends_subprogram: bool,
 }
 
 impl Rewritten {

@@ -41,12 +41,20 @@ pub(crate) enum Statement {
     Goto(Direction),
     /// DEF.
     Define,
+    /// CASE … OF …: jumps by a value.
+    Case,
+    /// EXTERN: what a subprogram takes, which the subprogram says itself.
+    Extern,
+    /// PROC: the first line of a subprogram.
+    Procedure,
     /// TRANS and the like.
     Frame(FrameWord),
     /// A call of a cycle by name.
     Cycle,
     /// HOLES1, HOLES2, CYCLE801.
     Positions,
+    /// CYCLE800.
+    Swivel,
     /// MCALL.
     ModalCall,
 }
@@ -143,6 +151,21 @@ pub(crate) fn jump_in(text: &[u8], from: usize) -> Option<usize> {
     None
 }
 
+/// True for the line in front of a program among several of a file: `%_N_NAME_SPF`.
+pub(crate) fn is_header(text: &[u8]) -> bool {
+    text.trim_ascii_start().starts_with(b"%_N_")
+}
+
+/// The name of a program in the line in front of it, and whether it is that of `%_N_NAME_SPF`.
+pub(crate) fn is_header_of(text: &[u8], name: &[u8]) -> bool {
+    let text = text.trim_ascii();
+    let rest = text.strip_prefix(b"%_N_").unwrap_or_default();
+    let stem = rest.get(..rest.len().saturating_sub(4)).unwrap_or_default();
+    let kind = rest.get(stem.len()..).unwrap_or_default();
+    stem.eq_ignore_ascii_case(name)
+        && (kind.eq_ignore_ascii_case(b"_SPF") || kind.eq_ignore_ascii_case(b"_MPF"))
+}
+
 /// The jump of that name.
 pub(crate) fn direction(name: &[u8]) -> Option<Direction> {
     let is = |word: &[u8]| name.eq_ignore_ascii_case(word);
@@ -172,6 +195,9 @@ pub(crate) fn statement(text: &[u8]) -> (Statement, usize) {
     if [&b"HOLES1"[..], b"HOLES2", b"CYCLE801"].contains(&name.as_slice()) {
         return (Statement::Positions, at);
     }
+    if name == b"CYCLE800" {
+        return (Statement::Swivel, at);
+    }
     let statement = match name.as_slice() {
         b"IF" if jump_in(text, behind).is_some() => Statement::IfJump,
         b"IF" => Statement::If,
@@ -190,6 +216,9 @@ pub(crate) fn statement(text: &[u8]) -> (Statement, usize) {
         b"REPEAT" => Statement::RepeatPart,
         b"UNTIL" => Statement::Until,
         b"DEF" => Statement::Define,
+        b"CASE" => Statement::Case,
+        b"EXTERN" => Statement::Extern,
+        b"PROC" => Statement::Procedure,
         b"MCALL" => Statement::ModalCall,
         _ => return (Statement::Block, at),
     };

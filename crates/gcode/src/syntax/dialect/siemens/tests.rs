@@ -31,7 +31,7 @@ fn variables() -> Variables {
         (b"_ON", Kind::Truth),
     ] {
         variables
-            .declare(name, kind, SourceSpan::default())
+            .declare(name, kind, Vec::new(), SourceSpan::default())
             .expect("a name");
     }
     variables
@@ -42,6 +42,7 @@ fn rewritten(text: &str) -> Outcome<Rewritten> {
     let names = Names {
         variables: &variables,
         scope: &scope,
+        in_subprogram: false,
     };
     rewrite(text.as_bytes(), names)
 }
@@ -51,6 +52,7 @@ fn value(text: &str) -> Result<f64, DiagnosticCode> {
     let names = Names {
         variables: &variables,
         scope: &scope,
+        in_subprogram: false,
     };
     let mut evaluator = Evaluator::new(text.as_bytes(), 0, names);
     let value = evaluator.value().map_err(|fault| fault.code)?;
@@ -85,7 +87,7 @@ fn words_are_rewritten() {
     becomes("G641 ADIS=0.5", "G64 P[0.5]");
     becomes("G642 SOFT FFWON", "G64");
     becomes("N5 G4 F2.5", "N5 G4 P2.5");
-    becomes("G60 G71 G1 X1", "G61.1 G21 G1 X1");
+    becomes("G60 G71 G1 X1", "G61.1 G71 G1 X1");
     becomes("MSG(\"X1 Y2\")", "");
     becomes("%_N_PART_MPF", "");
     becomes("M17", "M2");
@@ -158,7 +160,6 @@ fn what_has_no_value_is_refused() {
 #[test]
 fn what_is_not_read_is_refused_with_the_word() {
     for (text, start, length) in [
-        ("G1 X=DC(5)", 5, 2),
         ("N10 TRACYL", 4, 6),
         ("G1 X1 G505", 6, 4),
         ("N5 HOLES2(1,2)", 3, 6),

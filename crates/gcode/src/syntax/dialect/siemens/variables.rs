@@ -1,4 +1,4 @@
-//! Variables of a program: R parameters, and those it declares.
+//! Variables of a program: R parameters, those it declares, and arrays of them.
 
 use std::collections::BTreeMap;
 
@@ -11,10 +11,12 @@ use crate::syntax::expression::scope::Parameter;
 const R_BASE: u32 = 1000;
 /// R parameters there are.
 const R_COUNT: u32 = 1000;
-/// Most variables a program declares.
-const MAX_VARIABLES: usize = 1000;
+/// Most variables a program declares; every element of an array is one.
+const MAX_VARIABLES: usize = 10_000;
 /// Longest name, bytes.
 const MAX_NAME: usize = 31;
+/// Most dimensions of an array.
+pub(crate) const MAX_DIMENSIONS: usize = 3;
 
 /// What a variable holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -27,6 +29,16 @@ pub(crate) enum Kind {
 }
 
 impl Kind {
+    /// The kind of that name, in capitals.
+    pub(crate) fn named(name: &[u8]) -> Option<Self> {
+        Some(match name {
+            b"REAL" => Self::Real,
+            b"INT" => Self::Integer,
+            b"BOOL" => Self::Truth,
+            _ => return None,
+        })
+    }
+
     /// What a variable of the kind holds when the value is assigned.
     pub(crate) fn of(self, value: f64) -> f64 {
         match self {
@@ -37,18 +49,59 @@ impl Kind {
     }
 }
 
-/// The variables a program has declared, by name in capitals.
+/// A variable, or an array of them.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Declared {
+    pub(crate) kind: Kind,
+    /// How many elements along each dimension; none: it is no array.
+    pub(crate) sizes: Vec<usize>,
+    /// The beginning of the names under which the values are kept.
+    place: String,
+}
+
+impl Declared {
+    /// Elements of the array; 1 of a variable.
+    pub(crate) fn count(&self) -> usize {
+        self.sizes.iter().product()
+    }
+
+    /// Where an element is kept, counted with the last index fastest; a variable has one.
+    pub(crate) fn element(&self, index: usize) -> Parameter {
+        let place = &self.place;
+        Parameter::Named(if self.sizes.is_empty() {
+            place.clone()
+        } else {
+            format!("{place}.{index}")
+        })
+    }
+}
+
+/// The variables a program, or a subprogram, has declared, by name in capitals.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Variables(BTreeMap<Vec<u8>, Kind>);
+pub(crate) struct Variables {
+    by_name: BTreeMap<Vec<u8>, Declared>,
+    count: usize,
+    /// How deep in calls the subprogram is whose variables they are.
+    level: usize,
+}
 
 impl Variables {
-    /// Declares a variable; where its value is kept.
+    /// Those of a subprogram that is that deep in calls.
+    pub(crate) fn at_level(level: usize) -> Self {
+        Self {
+            level,
+            ..Self::default()
+        }
+    }
+
+    /// Declares a variable, or an array of that size.
     pub(crate) fn declare(
         &mut self,
         name: &[u8],
         kind: Kind,
+        sizes: Vec<usize>,
         span: SourceSpan,
-    ) -> Outcome<Parameter> {
+    ) -> Outcome<Declared> {
         let shown = String::from_utf8_lossy(name).into_owned();
         let letter =
             |byte: Option<&u8>| byte.is_some_and(|b| b.is_ascii_alphabetic() || *b == b'_');
@@ -61,26 +114,66 @@ impl Variables {
                 ))
                 .help("use another name"));
         }
-        if self.0.len() >= MAX_VARIABLES && !self.0.contains_key(name) {
+        let place = match self.level {
+            0 => format!("def.{}", shown.to_ascii_lowercase()),
+            level => format!("def.{level}.{}", shown.to_ascii_lowercase()),
+        };
+        let declared = Declared { kind, sizes, place };
+        let before = self.by_name.get(name).map_or(0, Declared::count);
+        let count = (self.count - before).saturating_add(declared.count());
+        if count > MAX_VARIABLES {
             let message = format!("more than {MAX_VARIABLES} variables");
             return Err(Fault::new(DiagnosticCode::Parameter, span, message)
-                .because("the memory of a program is bounded")
-                .help("use R parameters"));
+                .because("the memory of a program is bounded; every element of an array counts")
+                .help("use R parameters, or a smaller array"));
         }
-        self.0.insert(name.to_vec(), kind);
-        Ok(place(name))
+        self.count = count;
+        self.by_name.insert(name.to_vec(), declared.clone());
+        Ok(declared)
     }
 
-    /// A variable by its name in capitals: what it holds, and where.
-    pub(crate) fn get(&self, name: &[u8]) -> Option<(Kind, Parameter)> {
-        self.0.get(name).map(|kind| (*kind, place(name)))
+    /// A variable by its name in capitals.
+    pub(crate) fn get(&self, name: &[u8]) -> Option<&Declared> {
+        self.by_name.get(name)
     }
 }
 
-/// Where the value of a variable is kept: apart from the names that the machine has.
-fn place(name: &[u8]) -> Parameter {
-    let name = String::from_utf8_lossy(name).to_ascii_lowercase();
-    Parameter::Named(format!("def.{name}"))
+/// Which element the indices of an array name, the last one fastest.
+pub(crate) fn element_at(sizes: &[usize], indices: &[f64], span: SourceSpan) -> Outcome<usize> {
+    let refuse = |message: String, help: &str| {
+        Err(Fault::new(DiagnosticCode::Parameter, span, message)
+            .because("an index counts from 0, one for each dimension of DEF")
+            .help(help))
+    };
+    if sizes.len() != indices.len() {
+        let (given, wanted) = (indices.len(), sizes.len());
+        let message = format!("{given} indices of an array that has {wanted}");
+        return refuse(
+            message,
+            "write one for each dimension, with commas between them",
+        );
+    }
+    let mut element = 0;
+    for (size, index) in sizes.iter().zip(indices) {
+        let nearest = index.round();
+        let last = size.saturating_sub(1);
+        let most = f64::from(u32::try_from(last).unwrap_or(u32::MAX));
+        if (index - nearest).abs() > 1e-4 || !(0.0..=most).contains(&nearest) {
+            let message = format!("the index {index} is not one of 0 to {last}");
+            return refuse(
+                message,
+                "check how the index is computed, or make the array larger",
+            );
+        }
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "range checked"
+        )]
+        let index = nearest as usize;
+        element = element * size + index;
+    }
+    Ok(element)
 }
 
 /// Where the R parameter of that number is kept.
@@ -102,4 +195,22 @@ pub(crate) fn r_parameter(number: f64, span: SourceSpan) -> Outcome<Parameter> {
         reason = "range checked"
     )]
     Ok(Parameter::Numbered(R_BASE + nearest as u32))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn elements_count_with_the_last_index_fastest() {
+        let span = SourceSpan::default();
+        let at = |indices: &[f64]| element_at(&[2, 3], indices, span).ok();
+        assert_eq!(at(&[0.0, 0.0]), Some(0));
+        assert_eq!(at(&[0.0, 2.0]), Some(2));
+        assert_eq!(at(&[1.0, 0.0]), Some(3));
+        assert_eq!(at(&[2.0, 0.0]), None);
+        assert_eq!(at(&[0.5, 0.0]), None);
+        assert_eq!(at(&[-1.0, 0.0]), None);
+        assert_eq!(at(&[1.0]), None);
+    }
 }

@@ -3,54 +3,15 @@
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
-use crate::syntax::dialect::Dialect;
 use crate::syntax::dialect::line_body::body;
 use crate::syntax::dialect::siemens::expression::{Evaluator, Names};
 use crate::syntax::dialect::siemens::refused_word::unknown;
 use crate::syntax::dialect::siemens::rewritten::Rewritten;
-use crate::syntax::dialect::siemens::variables::Kind;
-use crate::syntax::dialect::words::siemens::{self as words, ADDRESSES};
-use crate::syntax::dialect::words::{Meaning, no_g, no_m, refused};
+use crate::syntax::dialect::siemens::variables::{Declared, Kind};
+use crate::syntax::dialect::words::{Meaning, refused, siemens_names};
 use crate::syntax::expression::scope::Parameter;
-use crate::syntax::letters::AXIS_LETTERS;
+use crate::syntax::named_word::Named;
 use crate::syntax::word_check::missing;
-
-/// Words without effect on where and how fast the tool goes here: look-ahead and feed forward are
-/// always on, every acceleration is limited in jerk, and dense chords are merged within the
-/// tolerance.
-const NO_EFFECT: [&[u8]; 28] = [
-    b"BRISK",
-    b"FNORM",
-    b"CFC",
-    b"CFIN",
-    b"CFTCP",
-    b"CPRECON",
-    b"CPRECOF",
-    b"NORM",
-    b"DYNNORM",
-    b"DYNPOS",
-    b"DYNROUGH",
-    b"DYNSEMIFIN",
-    b"DYNFINISH",
-    b"WALIMON",
-    b"STARTFIFO",
-    b"STOPFIFO",
-    b"SOFT",
-    b"FFWON",
-    b"FFWOF",
-    b"COMPON",
-    b"COMPCAD",
-    b"COMPCURV",
-    b"COMPSURF",
-    b"COMPOF",
-    b"UPATH",
-    b"SPATH",
-    b"STOPRE",
-    b"FIFOCTRL",
-];
-
-/// The parameter that shows the program coordinate of X; those of the other axes follow.
-const COORDINATES: u32 = 5420;
 
 /// Rewrites a line; the values of its expressions take their place.
 pub(crate) fn rewrite(text: &[u8], names: Names<'_>) -> Outcome<Rewritten> {
@@ -64,11 +25,6 @@ pub(crate) fn rewrite(text: &[u8], names: Names<'_>) -> Outcome<Rewritten> {
     }
     writer.line()?;
     Ok(writer.out)
-}
-
-/// The number that digits write.
-fn number_of(digits: &[u8]) -> Option<u32> {
-    core::str::from_utf8(digits).ok()?.parse().ok()
 }
 
 #[cold]
@@ -90,22 +46,28 @@ fn foreign(byte: u8, at: usize) -> Box<Fault> {
         .help(help)
 }
 
-#[cold]
-fn no_address(letter: char, span: SourceSpan) -> Box<Fault> {
-    let message = format!("{letter} is no address of SINUMERIK's language");
-    Fault::new(DiagnosticCode::UnknownWord, span, message)
-        .because("on other controls it has several meanings, and here none")
-        .help("remove it; a radius is CR=, a dwell G4 F")
+/// The code that stands for a name.
+const fn code_named(name: &[u8]) -> Option<&'static [u8]> {
+    Some(match name {
+        b"TRAFOOF" => b"G43.5",
+        b"CIP" => b"G2.5",
+        b"CT" => b"G2.6",
+        b"DIAMON" => b"G7",
+        b"DIAMOF" => b"G8",
+        b"SUPA" => b"G53",
+        _ => return None,
+    })
 }
 
-struct Writer<'a> {
-    input: Evaluator<'a>,
-    names: Names<'a>,
-    out: Rewritten,
+/// A line being rewritten.
+pub(super) struct Writer<'a> {
+    pub(super) input: Evaluator<'a>,
+    pub(super) names: Names<'a>,
+    pub(super) out: Rewritten,
 }
 
 impl Writer<'_> {
-    fn copy(&mut self) {
+    pub(super) fn copy(&mut self) {
         if let Some(byte) = self.input.text.get(self.input.at) {
             self.out.push(&[*byte], self.input.at);
             self.input.at += 1;
@@ -133,7 +95,7 @@ impl Writer<'_> {
     }
 
     /// True if the line has that G code.
-    fn has_code(&self, number: u32) -> bool {
+    pub(super) fn has_code(&self, number: u32) -> bool {
         let upper = self.input.text.to_ascii_uppercase();
         let code = upper.split(|byte| *byte == b';').next().unwrap_or_default();
         (0..code.len()).any(|at| {
@@ -154,11 +116,27 @@ impl Writer<'_> {
         let start = self.input.at;
         let name = self.input.name_ahead();
         let length = name.len();
-        if NO_EFFECT.contains(&name.as_slice()) {
-            self.input.at += length;
-            return Ok(());
-        }
         let is_assigned = self.is_assigned(length);
+        let is_name = name.get(1).is_some_and(u8::is_ascii_alphabetic);
+        match is_name.then(|| siemens_names::meaning(&name)).flatten() {
+            Some(Meaning::ReadOver) => return self.read_over(length, is_assigned),
+            Some(Meaning::Refused(what, help)) => {
+                let shown = String::from_utf8_lossy(&name).into_owned();
+                return Err(refused(
+                    &shown,
+                    what,
+                    help,
+                    SourceSpan::new(start, start + length),
+                ));
+            }
+            _ => {}
+        }
+        if let Some(word) = Named::of_name(&name).filter(|_| is_assigned) {
+            return self.value_of(start, length, &[b',', word.letter()], 0.0);
+        }
+        if let Some((array, first)) = self.input.array_to_fill()? {
+            return self.fill(start, array, first);
+        }
         if let Some((kind, parameter)) = self.input.assignable()? {
             if self.is_assigned(0) {
                 return self.assignment(start, kind, parameter);
@@ -172,68 +150,43 @@ impl Writer<'_> {
             .count();
         // `G0X=R1` has no blanks: the number of the address ends where the next letter is.
         let is_address = digits > 0 && (digits + 1 < length || !is_assigned);
+        if let Some(code) = code_named(&name).filter(|_| !is_assigned) {
+            self.replace(start, length, code);
+            return Ok(());
+        }
         match (name.as_slice(), is_assigned) {
             _ if is_address => {
                 let end = digits + 1;
                 self.address(start, end, name.get(..end).unwrap_or_default(), dwell)
             }
             (b"CYCLE832", _) => self.tolerance_cycle(start, length),
-            (b"MSG", _) => {
-                self.input.at = self.input.text.len();
-                Ok(())
-            }
             (b"TRAORI", false) => self.orientation(start, length),
-            (b"TRAFOOF", false) => {
-                self.replace(start, length, b"G43.5");
-                Ok(())
-            }
             (b"RET", false) => {
-                self.replace(start, length, b"M2");
+                let span = SourceSpan::new(start, start + length);
+                if self
+                    .input
+                    .text
+                    .get(start + length..)
+                    .is_some_and(|rest| rest.trim_ascii_start().starts_with(b"("))
+                {
+                    let help = "write RET alone";
+                    return Err(refused("RET( )", "a return to another place", help, span));
+                }
+                self.end_program(span, b"M2");
                 Ok(())
             }
-            (b"WORKPIECE" | b"GROUP_BEGIN" | b"GROUP_END" | b"GROUP_ADDEND", false) => {
-                self.input.at = self.input.text.len();
-                Ok(())
-            }
-            (b"CYCLE800", false) => self.swivel(start, length),
-            (b"DIAMON", false) => {
-                self.replace(start, length, b"G7");
-                Ok(())
-            }
-            (b"DIAMOF", false) => {
-                self.replace(start, length, b"G8");
-                Ok(())
-            }
-            (b"SUPA", false) => {
-                self.replace(start, length, b"G53");
-                Ok(())
-            }
-            (b"LIMS", true) => self.value_of(start, length, b",S", 0.0),
             (b"RND", true) => self.value_of(start, length, b",R", 0.0),
             (b"RNDM", true) => self.value_of(start, length, b",M", 0.0),
             (b"CHR", true) => self.value_of(start, length, b",C", 0.0),
             (b"CHF", true) => self.value_of(start, length, b",L", 0.0),
             (b"ADIS", true) => self.value_of(start, length, b"P", 0.0),
+            (b"CTOL", true) => self.contour_tolerance(start, length),
             (b"CR", true) => self.value_of(start, length, b"R", 0.0),
             (b"TURN", true) => self.value_of(start, length, b"P", 1.0),
             ([letter], true) => self.coordinate(start, *letter),
             ([_], false) => self.address(start, length, &name, dwell),
             _ => Err(unknown(&name, SourceSpan::new(start, start + length))),
         }
-    }
-
-    /// `CYCLE800()`, which ends a swivelled plane: there was none.
-    fn swivel(&mut self, start: usize, length: usize) -> Outcome<()> {
-        let rest = self.input.text.get(start + length..).unwrap_or_default();
-        let end = rest.iter().position(|byte| *byte == b')');
-        let inside = rest.get(..end.unwrap_or(rest.len())).unwrap_or_default();
-        self.input.at = start + length + end.map_or(rest.len(), |end| end + 1);
-        if inside.iter().all(|byte| b"( ,\t".contains(byte)) {
-            return Ok(());
-        }
-        let span = SourceSpan::new(start, self.input.at);
-        let help = "let the CAM system write the positions of the axes";
-        Err(refused("CYCLE800", "a swivelled plane", help, span))
     }
 
     /// `TRAORI`, `TRAORI(1)`.
@@ -280,102 +233,84 @@ impl Writer<'_> {
         Ok(())
     }
 
+    /// `NAME=SET(…)` and `NAME=REP(…)`: one assignment for each element.
+    fn fill(&mut self, start: usize, array: &Declared, first: usize) -> Outcome<()> {
+        let values = self.input.filling(array.count() - first)?;
+        for (index, value) in values.into_iter().enumerate() {
+            let parameter = array.element(first + index);
+            if let Parameter::Named(name) = &parameter {
+                let head = format!("#<{name}>=[");
+                self.put(start, head.as_bytes(), array.kind.of(value));
+            }
+            self.input.assigned.push(parameter);
+        }
+        Ok(())
+    }
+
     /// Writes what stands for a word that begins at `start` and ends here.
-    fn put(&mut self, start: usize, head: &[u8], value: f64) {
+    pub(super) fn put(&mut self, start: usize, head: &[u8], value: f64) {
         let last = self.input.at.saturating_sub(1).max(start);
         self.out.push(head, start);
         self.out.push(value.to_string().as_bytes(), start);
         self.out.push(b"] ", last);
     }
 
-    fn replace(&mut self, start: usize, length: usize, with: &[u8]) {
+    pub(super) fn replace(&mut self, start: usize, length: usize, with: &[u8]) {
         self.out.push(with, start);
         self.input.at = start + length;
     }
 
-    /// A letter and its number: a code of the tables, or an address that this language has.
-    fn address(&mut self, start: usize, length: usize, name: &[u8], dwell: bool) -> Outcome<()> {
-        let span = SourceSpan::new(start, start + length);
-        let number = name.get(1..).and_then(number_of);
-        match (name, number) {
-            ([b'G', ..], Some(number)) => return self.g_code(span, number),
-            ([b'M', ..], Some(number)) => return self.m_code(span, number),
-            ([b'F', ..], _) if dwell => self.replace(start, 1, b"P"),
-            ([b'L', _, ..], _) => {
-                return Err(refused(
-                    &String::from_utf8_lossy(name),
-                    "a subprogram",
-                    "copy its blocks to where it is called",
-                    span,
-                ));
-            }
-            ([letter, ..], _) if !ADDRESSES.contains(letter) => {
-                return Err(no_address(char::from(*letter), span));
-            }
-            _ => self.copy(),
+    /// Skips a word that is read over, with what belongs to it.
+    fn read_over(&mut self, length: usize, is_assigned: bool) -> Outcome<()> {
+        self.input.at += length;
+        // `FGREF[A]=10`
+        let has_index = self.input.next_visible() == Some(b'[');
+        if has_index {
+            let rest = self.input.text.get(self.input.at..).unwrap_or_default();
+            let end = rest.iter().position(|byte| *byte == b']');
+            self.input.at += end.map_or(rest.len(), |end| end + 1);
         }
-        // The number is copied as it is: it may go on with a point.
-        while matches!(self.input.peek(0), Some(b'0'..=b'9' | b'.' | b'-' | b'+')) {
-            self.copy();
+        if is_assigned || has_index && self.is_assigned(0) {
+            self.input.eat(b'=');
+            self.input.value()?;
+        } else if self.input.next_visible() == Some(b'(') {
+            self.skip_parentheses();
         }
         Ok(())
     }
 
-    fn g_code(&mut self, span: SourceSpan, number: u32) -> Outcome<()> {
-        let length = span.length;
-        let has_point = self.input.peek(length) == Some(b'.');
-        let meaning = words::g(number).filter(|_| !has_point);
-        let with: &[u8] = match (meaning, number) {
-            (Some(Meaning::Own), 641..=645) => b"G64",
-            (Some(Meaning::Own), 9) => b"G9",
-            (Some(Meaning::Own), 60) => b"G61.1",
-            (Some(Meaning::Own), 153) => b"G53",
-            (Some(Meaning::Own), 500) => b"G500",
-            (Some(Meaning::Own), 71 | 710) => b"G21",
-            (Some(Meaning::Own), 700) => b"G20",
-            (Some(Meaning::Own), _) => {
-                let what = "inches for lengths, millimetres for feeds";
-                return Err(refused(&format!("G{number}"), what, "write G700", span));
+    /// Skips what is in the parentheses that come next: texts in quotes may have anything in them.
+    fn skip_parentheses(&mut self) {
+        let (mut depth, mut is_text) = (0_u32, false);
+        while let Some(byte) = self.input.peek(0) {
+            self.input.at += 1;
+            match byte {
+                b'"' => is_text = !is_text,
+                b'(' if !is_text => depth += 1,
+                b')' if !is_text => depth -= 1,
+                _ => {}
             }
-            (Some(Meaning::ReadOver), _) => b"",
-            (Some(Meaning::Shared), _) => {
-                self.replace(span.start, 0, format!("G{number}").as_bytes());
-                self.input.at = span.start + length;
-                return Ok(());
-            }
-            (Some(Meaning::Refused(what, help)), _) => {
-                return Err(refused(&format!("G{number}"), what, help, span));
-            }
-            (None, _) => return Err(no_g(Dialect::Siemens, f64::from(number), span)),
-        };
-        self.replace(span.start, length, with);
-        Ok(())
-    }
-
-    fn m_code(&mut self, span: SourceSpan, number: u32) -> Outcome<()> {
-        let meaning = words::m(number);
-        let is_declared = self.names.scope.declares_m(number);
-        match meaning {
-            Some(Meaning::Own) => self.replace(span.start, span.length, b"M2"),
-            Some(Meaning::ReadOver) if !is_declared => {
-                self.replace(span.start, span.length, b"");
-            }
-            Some(Meaning::Refused(what, help)) if !is_declared => {
-                return Err(refused(&format!("M{number}"), what, help, span));
-            }
-            None if !is_declared => {
-                return Err(no_m(Dialect::Siemens, f64::from(number), span));
-            }
-            _ => {
-                self.replace(span.start, 0, format!("M{number}").as_bytes());
-                self.input.at = span.start + span.length;
+            if depth == 0 {
+                return;
             }
         }
-        Ok(())
+    }
+
+    /// The end of a program, or of a subprogram, whose caller goes on.
+    pub(super) fn end_program(&mut self, span: SourceSpan, code: &[u8]) {
+        self.out.ends_subprogram = self.names.in_subprogram;
+        let code = if self.names.in_subprogram { b"" } else { code };
+        self.replace(span.start, span.length, code);
     }
 
     /// `NAME=expression` as `with[value]`, `plus` added to it; `length` is that of the name.
-    fn value_of(&mut self, start: usize, length: usize, with: &[u8], plus: f64) -> Outcome<()> {
+    pub(super) fn value_of(
+        &mut self,
+        start: usize,
+        length: usize,
+        with: &[u8],
+        plus: f64,
+    ) -> Outcome<()> {
         self.input.at = start + length;
         self.input.eat(b'=');
         let value = self.input.value()? + plus;
@@ -383,54 +318,18 @@ impl Writer<'_> {
         Ok(())
     }
 
-    /// `X=expression`, `X=AC(expression)` or `X=IC(expression)`.
-    ///
-    /// What AC and IC say holds for that word alone, whatever G90 and G91 say for the others: the
-    /// value is changed by where the axis stands, so that it means the same in the mode in force.
-    fn coordinate(&mut self, start: usize, letter: u8) -> Outcome<()> {
-        self.input.at = start + 1;
+    /// `CTOL=tolerance`, alone or beside G641 and the like; below zero it is the configured one.
+    fn contour_tolerance(&mut self, start: usize, length: usize) -> Outcome<()> {
+        let has_mode = self.has_code(64) || (641..=645).any(|number| self.has_code(number));
+        self.input.at = start + length;
         self.input.eat(b'=');
-        self.input.next_visible();
-        let absolute = match self.input.name_ahead().as_slice() {
-            b"AC" => true,
-            b"IC" => false,
-            _ => return self.value_of(start, 1, &[letter], 0.0),
-        };
-        let word = SourceSpan::new(self.input.at, self.input.at + 2);
-        self.input.at += 2;
-        let centre = matches!(letter, b'I' | b'J' | b'K');
-        let of_axis = if centre {
-            b'X' + (letter - b'I')
-        } else {
-            letter
-        };
-        let axis = AXIS_LETTERS.iter().position(|axis| *axis == of_axis);
-        let Some(axis) = axis else {
-            let message = "AC( ) or IC( ) of what is no coordinate";
-            return Err(Fault::new(DiagnosticCode::NotSupported, word, message)
-                .because("they say from where a coordinate counts")
-                .help("write the value alone"));
-        };
-        let arguments = self.input.arguments()?;
-        let [Some(value)] = arguments.as_slice() else {
-            return Err(missing(word, "AC or IC", "( )", "one value in parentheses"));
-        };
-        let scope = self.names.scope;
-        let here = u32::try_from(axis)
-            .ok()
-            .and_then(|axis| scope.numbered(COORDINATES + axis));
-        let here = here.unwrap_or(0.0);
-        let incremental = match (self.has_code(90), self.has_code(91)) {
-            (true, _) => false,
-            (_, true) => true,
-            _ => scope.named("_incremental") == Some(1.0),
-        };
-        let value = match (absolute, centre || incremental) {
-            (true, true) => value - here,
-            (false, false) => value + here,
-            _ => *value,
-        };
-        self.put(start, &[letter, b'['], value);
+        let value = self.input.value()?;
+        if !has_mode {
+            self.out.push(b"G64 ", start);
+        }
+        if value >= 0.0 {
+            self.put(start, b"P[", value);
+        }
         Ok(())
     }
 

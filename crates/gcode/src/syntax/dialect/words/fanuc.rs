@@ -14,13 +14,13 @@ pub(crate) const fn g(tenths: u32) -> Option<Meaning> {
         | 800 | 810 | 820 | 830 | 840 | 850 | 860 | 890 | 900 | 910 | 920 | 930 | 940 | 950
         | 960 | 970 | 980 | 990 => Shared,
         // G9, G10, G15, G16, G30, G31, G44, G43.4, G50, G51, G50.1, G51.1, G54.1, G60, G62, G63,
-        // G68, G69, G76, G154.
-        90 | 100 | 150 | 160 | 300 | 310 | 434 | 440 | 500 | 501 | 510 | 511 | 541 | 600 | 620
-        | 630 | 680 | 690 | 760 | 1540 => Own,
+        // G53.1, G68, G68.2, G69, G76, G154, G234, G254, G255.
+        90 | 100 | 150 | 160 | 300 | 310 | 434 | 440 | 500 | 501 | 510 | 511 | 531 | 541 | 600
+        | 620 | 630 | 680 | 682 | 690 | 760 | 1540 | 2340 | 2540 | 2550 => Own,
         // Look-ahead and smoothness (G5 P, G5.1 Q, G8 P, G103 P, G187 P E), the end of G10 L50,
         // no stroke check (G23), no watch on the spindle's speed (G25), the end of what is refused
-        // (G13.1, G113, G255, G54.2 P0 apart).
-        50 | 51 | 80 | 110 | 131 | 230 | 250 | 1030 | 1130 | 1870 | 2550 => ReadOver,
+        // (G13.1, G113, G54.2 P0 apart).
+        50 | 51 | 80 | 110 | 131 | 230 | 250 | 1030 | 1130 | 1870 => ReadOver,
         71 | 1070 => Refused("cylindrical interpolation", PLAIN_BLOCKS),
 
         120 | 130 => Refused("a circular pocket", "write the circles as G2 and G3"),
@@ -50,8 +50,8 @@ pub(crate) const fn g(tenths: u32) -> Option<Meaning> {
             "a tool offset that makes moves longer or shorter",
             "write G41 or G42 with D",
         ),
-        531 | 682 | 683 | 684 | 2680 | 2690 => Refused("a tilted work plane", AXES_OF_THE_CAM),
-        542 | 2540 => Refused("a work offset that goes with the table", AXES_OF_THE_CAM),
+        683 | 684 | 2680 | 2690 => Refused("a tilted work plane", AXES_OF_THE_CAM),
+        542 => Refused("a work offset that goes with the table", AXES_OF_THE_CAM),
         700 | 710 | 720 => Refused("holes along a pattern", "write the position of each hole"),
         770 | 1560 => Refused("broaching, or a back-side cycle", PLAIN_BLOCKS),
         842 | 843 => Refused("rigid tapping in another form", "write M29 S, and G84"),
@@ -74,9 +74,7 @@ pub(crate) const fn g(tenths: u32) -> Option<Meaning> {
         1100..=1290 if tenths.is_multiple_of(10) => {
             Refused("a work offset", "write G154 P1 to P20")
         }
-        1360 | 1430 | 1500 | 1530 | 1740 | 1840 | 2340 => {
-            Refused("a function of Haas", PLAIN_BLOCKS)
-        }
+        1360 | 1430 | 1500 | 1530 | 1740 | 1840 => Refused("a function of Haas", PLAIN_BLOCKS),
         _ => return None,
     })
 }

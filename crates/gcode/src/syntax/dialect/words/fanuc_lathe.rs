@@ -18,9 +18,8 @@ pub(crate) const fn g(tenths: u32) -> Option<Meaning> {
             "write the codes of system A: U and W for G91, G98 and G99 for G94 and G95",
         ),
         870 | 880 | 890 => Refused("a cycle on the side of the part", PLAIN_BLOCKS),
-        150 | 160 | 434 | 440 | 501 | 510 | 511 | 541 | 1540 | 680 | 690 => {
-            Refused("a code of mills", PLAIN_BLOCKS)
-        }
+        150 | 160 | 434 | 440 | 531 | 682 | 2340 | 2540 | 2550 | 501 | 510 | 511 | 541 | 1540
+        | 680 | 690 => Refused("a code of mills", PLAIN_BLOCKS),
         430 | 490 | 810 | 820 | 860 => Refused("a code of mills", "write T0101, or G83"),
         _ => return fanuc::g(tenths),
     })

@@ -8,7 +8,7 @@ pub(crate) const fn g(tenths: u32) -> Option<Meaning> {
     const FIRMWARE: &str = "the firmware moves the machine by itself: write the moves out";
     Some(match tenths {
         0 | 10 | 20 | 30 | 40 | 50 | 170 | 180 | 190 | 200 | 210 | 900 | 910 | 920 => Shared,
-        280 => Own,
+        280 | 600 | 610 => Own,
         60 => Refused("a move of the motors", FIRMWARE),
         100 | 110 => Refused(
             "retraction by the firmware",
@@ -19,10 +19,6 @@ pub(crate) const fn g(tenths: u32) -> Option<Meaning> {
             Refused("probing and levelling", FIRMWARE)
         }
         530..=599 => Refused("a workspace of the firmware", "write G92"),
-        600 | 610 => Refused(
-            "a place that is kept and gone back to",
-            "write the place out",
-        ),
         800..=890 => Refused("a cycle of the firmware", FIRMWARE),
         921 => Refused(
             "offsets of G92 taken back",

@@ -5,8 +5,10 @@
 
 pub(crate) mod fanuc;
 pub(crate) mod fanuc_lathe;
+pub(crate) mod listing;
 pub(crate) mod marlin;
 pub(crate) mod siemens;
+pub(crate) mod siemens_names;
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::Fault;

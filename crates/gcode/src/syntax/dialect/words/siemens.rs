@@ -7,7 +7,7 @@ pub(crate) const fn g(number: u32) -> Option<Meaning> {
     const PLAIN: &str = "let the CAM system write plain blocks";
     Some(match number {
         0..=4 | 17..=19 | 33 | 40..=42 | 53..=57 | 64 | 90 | 91 | 93..=97 => Shared,
-        9 | 60 | 70 | 71 | 153 | 500 | 641..=645 | 700 | 710 => Own,
+        9 | 60 | 70 | 71 | 110..=112 | 153 | 331 | 332 | 500 | 641..=645 | 700 | 710 => Own,
         // Windows of exact stops, and how corners of G41 and G42 are gone round: see the manual.
         450 | 601..=603 => ReadOver,
         5 | 7 => Refused("an inclined axis", PLAIN),
@@ -22,7 +22,6 @@ pub(crate) const fn g(number: u32) -> Option<Meaning> {
         ),
         63 => Refused("tapping with a compensating chuck", "write CYCLE84"),
         74 | 75 => Refused("a reference or fixed point", "write G53 and the place"),
-        110..=112 => Refused("the pole of polar coordinates", "write X and Y"),
         140..=143 | 147 | 148 | 247 | 248 | 340 | 341 | 347 | 348 => Refused(
             "a smooth way to and from the contour",
             "write it as G1 and G2",
@@ -31,7 +30,6 @@ pub(crate) const fn g(number: u32) -> Option<Meaning> {
             "the language of another control",
             "read the program with --dialect fanuc",
         ),
-        331 | 332 => Refused("rigid tapping", "write CYCLE84"),
         451 => Refused("a corner cut at the crossing of its sides", "write G450"),
         460..=462 => Refused("a way to and from the contour", "write it out"),
         505..=599 => Refused("a coordinate system", "write G54 to G57"),

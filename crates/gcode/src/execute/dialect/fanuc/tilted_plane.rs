@@ -1,0 +1,140 @@
+//! G68.2, G53.1, G69; Haas' G254 and G255.
+//!
+//! | | |
+//! |---|---|
+//! | `G68.2 X Y Z I J K` | a plane whose zero is X, Y, Z: turned by I about Z, by J about the new X, by K about the new Z |
+//! | `G68.2 P1 …` | turned by I about X, by J about Y, by K about Z, each of the work |
+//! | `G53.1` | the rotary axes turn until the tool stands along the normal |
+//! | `G254` | the zero of the program goes with the table to where the rotary axes have brought it; the directions stay the machine's |
+
+use glidepath_geometry::AxisVector;
+use glidepath_program::Item;
+
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::{Fault, Outcome};
+use crate::execute::interpreter::Interpreter;
+use crate::execute::motion::tilted_plane::Branch;
+use crate::execute::state::frame::Frame;
+use crate::syntax::block::Block;
+use crate::syntax::codes::{Coded, TiltCode};
+use crate::syntax::word_check::whole;
+
+impl Interpreter {
+    /// G68.2.
+    pub(crate) fn fanuc_tilt(&mut self, block: &Block) -> Outcome<()> {
+        let Some(Coded {
+            code: TiltCode::Plane,
+            span,
+        }) = block.codes.tilt
+        else {
+            return Ok(());
+        };
+        let form = whole(block, b'P', 9)?.unwrap_or(0);
+        let words = self.axis_values(block)?;
+        if let Some((axis, _)) = block.axes().find(|(axis, _)| axis.index() >= 3) {
+            let message = format!("{axis} in G68.2");
+            let fault = Fault::new(DiagnosticCode::UnusedWord, block.axis_span(axis), message);
+            return Err(fault
+                .because("X, Y and Z are the zero of the plane, I, J and K its angles")
+                .help("move the axis in a block before it"));
+        }
+        let [i, j, k] = [b'I', b'J', b'K'].map(|letter| block.get(letter).unwrap_or(0.0));
+        let about = |axis: usize, angle: f64| {
+            let mut degrees = [0.0; 3];
+            degrees[axis] = angle;
+            Frame::turned(degrees)
+        };
+        let turned = match form {
+            0 => about(2, i).with(&about(0, j)).with(&about(2, k)),
+            1 => about(2, k).with(&about(1, j)).with(&about(0, i)),
+            _ => {
+                let message = format!("G68.2 P{form} is not supported");
+                let fault = Fault::new(DiagnosticCode::NotSupported, block.span(b'P'), message);
+                return Err(fault
+                    .because("a plane by points, by vectors or by projected angles is not made")
+                    .help("write its zero and the angles I, J and K"));
+            }
+        };
+        let mut zero = AxisVector::zeros();
+        for axis in 0..3 {
+            zero[axis] = words[axis].unwrap_or(0.0);
+        }
+        self.begin_tilt(Frame::shifted(zero).with(&turned), span)
+    }
+
+    /// G53.1.
+    pub(crate) fn fanuc_align(&mut self, block: &Block, out: &mut Vec<Item>) -> Outcome<()> {
+        let Some(Coded {
+            code: TiltCode::Align,
+            span,
+        }) = block.codes.tilt
+        else {
+            return Ok(());
+        };
+        if whole(block, b'P', 9)?.is_some_and(|which| which != 0) {
+            let message = "G53.1 with P other than 0 is not supported";
+            let fault = Fault::new(DiagnosticCode::NotSupported, block.span(b'P'), message);
+            return Err(fault
+                .because("of the two ways to turn the axes the one with the smaller turns is taken")
+                .help("leave P out, or turn the axes near to where they are wanted before G68.2"));
+        }
+        self.align_tool(block, (Branch::Nearest, span), out)
+    }
+
+    /// G254 and G255.
+    pub(crate) fn dynamic_offset(&mut self, coded: Coded<bool>) -> Outcome<()> {
+        self.offsets.fanuc.dynamic = None;
+        if !coded.code {
+            return Ok(());
+        }
+        let refuse = |message: &str, reason: &str, help: &str| {
+            Err(
+                Fault::new(DiagnosticCode::NotSupported, coded.span, message)
+                    .because(reason)
+                    .help(help),
+            )
+        };
+        if self.options.five_axis.is_none() {
+            return refuse(
+                "G254 is not supported by this machine",
+                "its kinematics have no rotary axes that turn the table",
+                "configure `kinematics = \"five-axis\"`",
+            );
+        }
+        if self.state.tip.follows() || self.offsets.frame.is_in_force() {
+            return refuse(
+                "G254 with the tip of the tool followed, or within a frame",
+                "it counts in the directions of the machine's own axes",
+                "end what is in force before it: G49 behind G234, G69",
+            );
+        }
+        let Some(map) = self.tip_map() else {
+            return Ok(());
+        };
+        let mut zero = *self.axes_place();
+        for axis in 0..3 {
+            zero[axis] = self.offsets.origin(axis) - self.offsets.tool[axis];
+        }
+        let mut way = map.place(&zero) - zero;
+        for axis in 3..way.len() {
+            way[axis] = 0.0;
+        }
+        self.offsets.fanuc.dynamic = Some(way);
+        Ok(())
+    }
+
+    /// Refuses rotary words while the zero of the program stands for one position of the table.
+    pub(crate) fn check_dynamic_offset(&self, block: &Block) -> Outcome<()> {
+        if self.offsets.fanuc.dynamic.is_none() {
+            return Ok(());
+        }
+        let Some((axis, _)) = block.axes().find(|(axis, _)| axis.is_rotary()) else {
+            return Ok(());
+        };
+        let message = format!("{axis} moves while G254 is in force");
+        let fault = Fault::new(DiagnosticCode::NotSupported, block.axis_span(axis), message);
+        Err(fault
+            .because("the zero of the program is that of the table where G254 stood")
+            .help("write G255 before the move, and G254 behind it"))
+    }
+}

@@ -1,0 +1,177 @@
+//! CYCLE800: a plane that is swivelled.
+//!
+//! `CYCLE800(FR, TC, ST, MODE, X0, Y0, Z0, A, B, C, X1, Y1, Z1, DIR, FR_I, DMODE)`: the zero goes to X0,
+//! Y0, Z0, the axes turn by A, B and C one after the other, about those that MODE names, and in the new
+//! axes the zero goes on by X1, Y1, Z1. Then the rotary axes turn until the tool stands along the
+//! normal: DIR says by which of the two ways.
+
+use std::io::BufRead;
+
+use glidepath_geometry::AxisVector;
+
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::{Fault, Outcome};
+use crate::diagnostic::span::SourceSpan;
+use crate::execute::dialect::siemens::flow::check_end;
+use crate::execute::motion::tilted_plane::Branch;
+use crate::execute::program::Program;
+use crate::execute::state::frame::Frame;
+use crate::syntax::block::Block;
+
+/// Arguments there are.
+const COUNT: usize = 16;
+/// The argument that is a name.
+const TC: usize = 1;
+/// Angles below this are none, degrees.
+const NO_ANGLE: f64 = 1e-12;
+
+impl<R: BufRead> Program<R> {
+    /// A line with CYCLE800.
+    pub(super) fn siemens_swivel(&mut self, text: &[u8], at: usize) -> Outcome<()> {
+        let (numbers, is_off, span) = {
+            let scope = self.scope();
+            let mut input = self.evaluator(&scope, text, at);
+            input.at += input.name_ahead().len();
+            let (numbers, texts) = input.arguments_and_texts()?;
+            check_end(&mut input)?;
+            let name = texts.get(TC).cloned().flatten();
+            // "0" takes the data set off.
+            let is_off = numbers.iter().all(Option::is_none) && name.is_none()
+                || name.as_deref() == Some(b"0");
+            (numbers, is_off, SourceSpan::new(at, input.at))
+        };
+        let interpreter = &mut self.interpreter;
+        if is_off {
+            interpreter.end_tilt();
+            return Ok(());
+        }
+        let value = |index: usize| numbers.get(index).copied().flatten().unwrap_or(0.0);
+        let frame = frame(&value, span)?;
+        let frame = Frame::shifted(frame.0)
+            .with(&frame.1)
+            .with(&Frame::shifted(frame.2));
+        let branch = branch(&value, span)?;
+        check_rest(&numbers, &value, span)?;
+        let number = self.line_of_program();
+        let interpreter = &mut self.interpreter;
+        let turns = (7..10).any(|index| value(index).abs() > NO_ANGLE);
+        if interpreter.options.five_axis.is_none() && !turns {
+            // Nothing turns: the zero is another one.
+            interpreter.offsets.tilted = frame;
+            interpreter.offsets.frame = frame;
+            return Ok(());
+        }
+        let (state, offsets, axes_end) = (
+            interpreter.state,
+            interpreter.offsets.clone(),
+            interpreter.axes_end,
+        );
+        interpreter.begin(number);
+        interpreter.mapped_items = 0;
+        // A plane comes in the place of the one before.
+        interpreter.end_tilt();
+        let block = Block::of(self.block.dialect, &interpreter.options.m_codes);
+        let done = interpreter
+            .begin_tilt(frame, span)
+            .and_then(|()| interpreter.align_tool(&block, (branch, span), &mut self.items));
+        if let Err(mut fault) = done {
+            interpreter.state = state;
+            interpreter.offsets = offsets;
+            interpreter.axes_end = axes_end;
+            self.items.clear();
+            fault.span = span;
+            return Err(fault);
+        }
+        self.end_of_line();
+        Ok(())
+    }
+}
+
+/// The zero before the turn, the turn, and the zero behind it.
+fn frame(
+    value: &impl Fn(usize) -> f64,
+    span: SourceSpan,
+) -> Outcome<(AxisVector, Frame, AxisVector)> {
+    let mode = value(3);
+    let order: Option<[usize; 3]> = [
+        (57.0, [0, 1, 2]),
+        (54.0, [1, 0, 2]),
+        (45.0, [0, 2, 1]),
+        (30.0, [1, 2, 0]),
+        (39.0, [2, 0, 1]),
+        (27.0, [2, 1, 0]),
+    ]
+    .into_iter()
+    .find(|(known, _): &(f64, _)| (known - mode).abs() < 1e-9)
+    .map(|(_, order)| order);
+    let Some(order) = order else {
+        let message = format!("CYCLE800 with MODE {mode} is not supported");
+        return Err(Fault::new(DiagnosticCode::CannedCycle, span, message)
+            .because("the angles are about the axes one after the other; solid angles, projections and positions of the rotary axes are not made")
+            .help("write MODE 57 (X, Y, Z), 54, 45, 30, 39 or 27"));
+    };
+    let place = |first: usize| {
+        let mut place = AxisVector::zeros();
+        for axis in 0..3 {
+            place[axis] = value(first + axis);
+        }
+        place
+    };
+    let mut turned = Frame::default();
+    for (index, axis) in order.into_iter().enumerate() {
+        let mut degrees = [0.0; 3];
+        degrees[axis] = value(7 + index);
+        turned = turned.with(&Frame::turned(degrees));
+    }
+    Ok((place(4), turned, place(10)))
+}
+
+/// DIR: which of the two ways.
+fn branch(value: &impl Fn(usize) -> f64, span: SourceSpan) -> Outcome<Branch> {
+    let direction = value(13);
+    if (direction + 1.0).abs() < 1e-9 {
+        Ok(Branch::LowTilt)
+    } else if (direction - 1.0).abs() < 1e-9 {
+        Ok(Branch::HighTilt)
+    } else {
+        let message = "CYCLE800 with a DIR other than -1 and 1 is not supported";
+        Err(Fault::new(DiagnosticCode::CannedCycle, span, message)
+            .because("with 0 the rotary axes would stay, and the tool would not stand along the plane's normal")
+            .help("write -1 (the smaller angle of the tilting axis) or 1"))
+    }
+}
+
+/// Refuses what the other arguments would do.
+fn check_rest(
+    numbers: &[Option<f64>],
+    value: &impl Fn(usize) -> f64,
+    span: SourceSpan,
+) -> Outcome<()> {
+    let refuse = |message: &str, reason: &str, help: &str| {
+        Err(Fault::new(DiagnosticCode::CannedCycle, span, message)
+            .because(reason)
+            .help(help))
+    };
+    if value(0).abs() > 0.0 {
+        return refuse(
+            "CYCLE800 with a retraction (FR) is not supported",
+            "where the tool goes before it swivels is machine data",
+            "write the way out as a block before it (SUPA Z), and FR 0",
+        );
+    }
+    if (value(2) % 10.0).abs() > 0.0 {
+        return refuse(
+            "CYCLE800 that is added to a swivelled plane is not supported",
+            "its words would count in a plane that is swivelled already",
+            "write the plane as a whole, with ST 0",
+        );
+    }
+    if numbers.len() > COUNT {
+        return refuse(
+            "CYCLE800 with more arguments than it has",
+            "what the others mean depends on the version of the control",
+            "leave them out",
+        );
+    }
+    Ok(())
+}

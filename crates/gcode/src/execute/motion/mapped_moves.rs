@@ -1,0 +1,272 @@
+//! Moves of a program made those of the axes, on a machine with five axes.
+
+use glidepath_geometry::{Arc, AxisVector, NurbsPath, Segment};
+use glidepath_program::{Event, Item, ItemKind, Rate};
+
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::{Fault, Outcome};
+use crate::execute::interpreter::Interpreter;
+use crate::execute::motion::arc_in_space::SpaceArc;
+use crate::execute::motion::tip_map::TipMap;
+use crate::execute::state::tip::Tip;
+use crate::syntax::block::Block;
+
+/// How far a chord may be from the curve it stands for, mm.
+const CHORD_MM: f64 = 1e-4;
+/// Most that a rotary axis turns in a chord, degrees.
+const MOST_TURN_DEG: f64 = 30.0;
+/// Most times a move is halved.
+const MOST_HALVES: u32 = 16;
+
+/// A piece of a mapped move: where it ends, and which part of the move's path it is of.
+type Chord = (AxisVector, f64);
+
+impl Interpreter {
+    /// The map in force; `None` where places of the program are the axes.
+    pub(crate) fn tip_map(&self) -> Option<TipMap> {
+        TipMap::new(self.options.five_axis, self.state.tip)
+    }
+
+    /// Where the axes stand.
+    pub(crate) const fn axes_place(&self) -> &AxisVector {
+        if self.is_mapped {
+            &self.axes_end
+        } else {
+            &self.state.position
+        }
+    }
+
+    /// Another meaning of the coordinates: the machine stays where it is.
+    pub(crate) fn set_tip(&mut self, tip: Tip) {
+        let axes = *self.axes_place();
+        self.state.tip = tip;
+        let map = self.tip_map();
+        let place = map.map_or(axes, |map| map.place(&axes));
+        (self.state.position, self.state.path_end) = (place, place);
+        (self.axes_end, self.is_mapped) = (axes, map.is_some());
+    }
+
+    /// Follows a place that was set, and not moved to.
+    pub(crate) fn axes_follow_place(&mut self) {
+        let map = self.tip_map();
+        self.is_mapped = map.is_some();
+        self.axes_end = map.map_or(self.state.path_end, |map| map.axes(&self.state.path_end));
+    }
+
+    /// From here on the tip is followed, or not: the length of the tool in force counts along the
+    /// tool, or along Z.
+    pub(crate) fn let_tip_follow(&mut self, follows: bool) {
+        if self.options.five_axis.is_none() {
+            return;
+        }
+        let length_mm = match self.state.tip {
+            Tip::Follows { longer_mm } => longer_mm,
+            Tip::Stands => self.offsets.tool[2],
+        };
+        self.offsets.tool[2] = if follows { 0.0 } else { length_mm };
+        self.set_tip(if follows {
+            Tip::Follows {
+                longer_mm: length_mm,
+            }
+        } else {
+            Tip::Stands
+        });
+    }
+
+    /// Makes the moves of a block, from the item of that index on, those of the axes.
+    pub(crate) fn map_moves(&mut self, block: &Block, out: &mut Vec<Item>) -> Outcome<()> {
+        let from = self.mapped_items.min(out.len());
+        let Some(map) = self.tip_map() else {
+            self.mapped_items = out.len();
+            return Ok(());
+        };
+        let items = out.split_off(from);
+        for item in items {
+            match item.kind {
+                ItemKind::Move {
+                    segment,
+                    rate,
+                    mode,
+                } => {
+                    let pieces =
+                        map_move(&map, &segment, rate, self.axes_end, self.piece_error_mm());
+                    for (segment, rate) in pieces {
+                        let (low, high) = segment.bounding_box();
+                        self.check_travel(block, &low, &high, &self.axes_end, "a point")?;
+                        self.axes_end = segment.end();
+                        let kind = ItemKind::Move {
+                            segment,
+                            rate,
+                            mode,
+                        };
+                        out.push(Item { kind, ..item });
+                    }
+                }
+                ItemKind::Event(Event::Tap { .. } | Event::Synchronise { .. })
+                    if !map.is_plain_at(&self.state.path_end) =>
+                {
+                    return Err(behind_spindle(block));
+                }
+                _ => out.push(item),
+            }
+        }
+        self.mapped_items = out.len();
+        Ok(())
+    }
+
+    /// Refuses probing where a contact would be at another place than the program's.
+    pub(crate) fn check_probe_map(&self, block: &Block) -> Outcome<()> {
+        let map = self.tip_map();
+        if map.is_none_or(|map| map.is_plain_at(&self.state.path_end)) {
+            return Ok(());
+        }
+        let message = "a probing move with the rotary axes away from zero";
+        Err(
+            Fault::new(DiagnosticCode::NotSupported, block.motion_span(), message)
+                .because("the place of the contact is that of the tip on the work, and this program counts the machine's axes")
+                .help("probe behind G43.4 or TRAORI, with a tool of the length that the kinematics know"),
+        )
+    }
+}
+
+#[cold]
+fn behind_spindle(block: &Block) -> Box<Fault> {
+    let message = "a thread or a tap with the rotary axes away from zero";
+    Fault::new(DiagnosticCode::NotSupported, block.motion_span(), message)
+        .because(
+            "one axis follows the spindle, and along a tool that leans it is none of the machine's",
+        )
+        .help("tap with the rotary axes at zero, or by a spindle that is an axis")
+}
+
+/// The pieces of a move, and how fast each is.
+fn map_move(
+    map: &TipMap,
+    segment: &Segment,
+    rate: Rate,
+    start: AxisVector,
+    error_mm: f64,
+) -> Vec<(Segment, Rate)> {
+    let (from, to) = (segment.start(), segment.end());
+    let turns = map.angles(&from).into_iter().zip(map.angles(&to));
+    let is_turning = turns.into_iter().any(|(from, to)| (to - from).abs() > 0.0);
+    let end = map.axes(&to);
+    if !is_turning {
+        match segment {
+            _ if map.is_plain_at(&from) => return vec![(restarted(segment, start), rate)],
+            Segment::Line(_) => return vec![(Segment::line(start, end), rate)],
+            Segment::Arc(arc) => {
+                if let Some(segments) = map_arc(map, arc, (start, end), error_mm) {
+                    return segments
+                        .into_iter()
+                        .map(|segment| (segment, rate))
+                        .collect();
+                }
+            }
+            Segment::Curve(_) => {}
+        }
+    }
+    let length = segment.length();
+    let mut chords = Vec::new();
+    halve(map, segment, (start, 0.0), (end, length), 0, &mut chords);
+    let mut pieces = Vec::with_capacity(chords.len());
+    let (mut at, mut path) = (start, 0.0);
+    for (place, s) in chords {
+        let piece = Segment::line(at, place);
+        pieces.push((piece, scaled(rate, piece.length() / (s - path))));
+        (at, path) = (place, s);
+    }
+    pieces
+}
+
+/// The same piece, which begins where the last one ended.
+fn restarted(segment: &Segment, start: AxisVector) -> Segment {
+    match segment {
+        Segment::Line(line) => Segment::line(start, line.end),
+        Segment::Arc(arc) => Segment::Arc(Arc { start, ..*arc }),
+        curve @ Segment::Curve(_) => *curve,
+    }
+}
+
+/// An arc with the rotary axes at rest: an arc in space.
+fn map_arc(
+    map: &TipMap,
+    arc: &Arc,
+    (start, end): (AxisVector, AxisVector),
+    error_mm: f64,
+) -> Option<Vec<Segment>> {
+    let (first, second) = arc.plane.axes();
+    if first.index() >= 3 || second.index() >= 3 {
+        return None;
+    }
+    let flat = SpaceArc::in_plane(arc.plane, (arc.start, arc.end), arc.center, arc.sweep_rad);
+    let curve = flat.curve(|place| map.axes(&place)).ok()?;
+    let mut segments = NurbsPath::new(curve).segments(error_mm);
+    if let Some(first) = segments.first_mut() {
+        *first = with_ends(first, start, first.end());
+    }
+    if let Some(last) = segments.last_mut() {
+        *last = with_ends(last, last.start(), end);
+    }
+    Some(segments)
+}
+
+/// A segment whose ends are put right by what rounding has made of them.
+fn with_ends(segment: &Segment, start: AxisVector, end: AxisVector) -> Segment {
+    match *segment {
+        Segment::Line(_) => Segment::line(start, end),
+        Segment::Arc(arc) => Segment::Arc(Arc { start, end, ..arc }),
+        Segment::Curve(mut curve) => {
+            curve.start = start;
+            curve.end = end;
+            Segment::Curve(curve)
+        }
+    }
+}
+
+/// Halves a part of a move until its chords are as near to the curve as they have to be.
+fn halve(
+    map: &TipMap,
+    segment: &Segment,
+    (from, from_s): Chord,
+    (to, to_s): Chord,
+    depth: u32,
+    chords: &mut Vec<Chord>,
+) {
+    let at = |share: f64| map.axes(&segment.jet(from_s + share * (to_s - from_s)).position);
+    let off = |share: f64| {
+        let place = at(share) - (from + (to - from) * share);
+        place.fixed_rows::<3>(0).norm()
+    };
+    // A turn by whole rounds is back where it began.
+    let turn = (0..3)
+        .map(|i| (to[3 + i] - from[3 + i]).abs())
+        .fold(0.0, f64::max);
+    let is_near = turn <= MOST_TURN_DEG
+        && [0.25, 0.5, 0.75]
+            .into_iter()
+            .all(|share| off(share) <= CHORD_MM);
+    if is_near || depth >= MOST_HALVES {
+        chords.push((to, to_s));
+        return;
+    }
+    let middle = (at(0.5), 0.5 * (from_s + to_s));
+    halve(map, segment, (from, from_s), middle, depth + 1, chords);
+    halve(map, segment, middle, (to, to_s), depth + 1, chords);
+}
+
+/// A rate of a piece whose path is that many times as long as the move's was.
+fn scaled(rate: Rate, by: f64) -> Rate {
+    match rate {
+        Rate::Feed(feed_v) => Rate::Feed(feed_v * by),
+        Rate::PerRevolution { feed_v, most_v } => Rate::PerRevolution {
+            feed_v: feed_v * by,
+            most_v: most_v * by,
+        },
+        Rate::FeedUpTo { feed_v, most_v } => Rate::FeedUpTo {
+            feed_v: feed_v * by,
+            most_v: most_v * by,
+        },
+        rate => rate,
+    }
+}

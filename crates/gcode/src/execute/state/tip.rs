@@ -1,0 +1,37 @@
+//! What X, Y and Z of a program are on a machine with five axes.
+
+/// What the coordinates X, Y and Z are of.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Tip {
+    /// Of the tip of the tool, on the work: the machine follows its rotary axes (G43.4, TRAORI, a tilted
+    /// plane; LinuxCNC's programs at all times). The tool is that much longer, mm, than the one the
+    /// kinematics know.
+    Follows { longer_mm: f64 },
+    /// Of the machine's linear axes, counted so that they are those of the tip while the rotary axes
+    /// stand at zero.
+    Stands,
+}
+
+impl Tip {
+    /// The tip of the tool that the kinematics know.
+    pub(crate) const PLAIN: Self = Self::Follows { longer_mm: 0.0 };
+
+    /// True where the coordinates are the axes themselves.
+    pub(crate) fn is_plain(self) -> bool {
+        self == Self::PLAIN
+    }
+
+    /// True where the machine follows its rotary axes.
+    pub(crate) const fn follows(self) -> bool {
+        matches!(self, Self::Follows { .. })
+    }
+}
+
+/// A plane that the program has tilted (G68.2, CYCLE800).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Tilt {
+    /// The tool does not stand along its normal yet (before G53.1).
+    Waits,
+    /// The tool stands along it.
+    Stands,
+}

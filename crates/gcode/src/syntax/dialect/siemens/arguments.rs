@@ -1,0 +1,85 @@
+//! What stands in parentheses: numbers, places that are left out, texts in quotes.
+
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::{Fault, Outcome};
+use crate::diagnostic::span::SourceSpan;
+use crate::syntax::dialect::siemens::expression::{Evaluator, unclosed};
+
+/// Most arguments of a call.
+const MAX_ARGUMENTS: usize = 40;
+
+/// Numbers, and texts in their places; `None` where an argument is another kind or left out.
+type Arguments = (Vec<Option<f64>>, Vec<Option<Vec<u8>>>);
+
+impl Evaluator<'_> {
+    /// What is in the parentheses that begin here; `None` where an argument is left out.
+    pub(crate) fn arguments(&mut self) -> Outcome<Vec<Option<f64>>> {
+        let start = self.at;
+        let mut arguments = Vec::new();
+        if !self.eat(b'(') {
+            return Ok(arguments);
+        }
+        loop {
+            let value = match self.next_visible() {
+                Some(b',' | b')') => None,
+                _ => Some(self.value()?),
+            };
+            arguments.push(value);
+            let ends = self.next_visible() == Some(b')');
+            if ends || arguments.len() >= MAX_ARGUMENTS || self.peek(0) != Some(b',') {
+                if self.eat(b')') {
+                    return Ok(arguments);
+                }
+                return Err(unclosed(
+                    SourceSpan::new(start, self.at.max(start + 1)),
+                    ")",
+                ));
+            }
+            self.at += 1;
+        }
+    }
+
+    /// The same where some of them are texts in quotes: the numbers, and the texts in their places.
+    pub(crate) fn arguments_and_texts(&mut self) -> Outcome<Arguments> {
+        let start = self.at;
+        let (mut numbers, mut texts) = (Vec::new(), Vec::new());
+        if !self.eat(b'(') {
+            return Ok((numbers, texts));
+        }
+        loop {
+            let (mut number, mut text) = (None, None);
+            match self.next_visible() {
+                Some(b',' | b')') => {}
+                Some(b'"') => text = Some(self.text_in_quotes()?),
+                _ => number = Some(self.value()?),
+            }
+            numbers.push(number);
+            texts.push(text);
+            if self.eat(b')') {
+                return Ok((numbers, texts));
+            }
+            if numbers.len() >= MAX_ARGUMENTS || !self.eat(b',') {
+                return Err(unclosed(
+                    SourceSpan::new(start, self.at.max(start + 1)),
+                    ")",
+                ));
+            }
+        }
+    }
+
+    /// A text whose first quote comes next, without its quotes.
+    pub(crate) fn text_in_quotes(&mut self) -> Outcome<Vec<u8>> {
+        let start = self.at;
+        let rest = self.text.get(start + 1..).unwrap_or_default();
+        let Some(length) = rest.iter().position(|byte| *byte == b'"') else {
+            let span = SourceSpan::new(start, self.text.len().max(start + 1));
+            return Err(
+                Fault::new(DiagnosticCode::Expression, span, "the text is not closed")
+                    .because("a text stands between two quotes")
+                    .help("add `\"`"),
+            );
+        };
+        self.at = start + length + 2;
+        Ok(rest.get(..length).unwrap_or_default().to_vec())
+    }
+}

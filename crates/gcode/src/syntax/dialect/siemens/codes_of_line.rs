@@ -1,0 +1,109 @@
+//! Letters with numbers: the G and M codes of the tables, and the addresses that this language has.
+
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::{Fault, Outcome};
+use crate::diagnostic::span::SourceSpan;
+use crate::syntax::dialect::Dialect;
+use crate::syntax::dialect::siemens::writer::Writer;
+use crate::syntax::dialect::words::siemens::{self as words, ADDRESSES};
+use crate::syntax::dialect::words::{Meaning, no_g, no_m, refused};
+
+/// The number that digits write.
+fn number_of(digits: &[u8]) -> Option<u32> {
+    core::str::from_utf8(digits).ok()?.parse().ok()
+}
+
+#[cold]
+fn no_address(letter: char, span: SourceSpan) -> Box<Fault> {
+    let message = format!("{letter} is no address of SINUMERIK's language");
+    Fault::new(DiagnosticCode::UnknownWord, span, message)
+        .because("on other controls it has several meanings, and here none")
+        .help("remove it; a radius is CR=, a dwell G4 F")
+}
+
+impl Writer<'_> {
+    /// A letter and its number: a code of the tables, or an address that this language has.
+    pub(super) fn address(
+        &mut self,
+        start: usize,
+        length: usize,
+        name: &[u8],
+        dwell: bool,
+    ) -> Outcome<()> {
+        let span = SourceSpan::new(start, start + length);
+        let number = name.get(1..).and_then(number_of);
+        match (name, number) {
+            ([b'G', ..], Some(number)) => return self.g_code(span, number),
+            ([b'M', ..], Some(number)) => return self.m_code(span, number),
+            ([b'F', ..], _) if dwell => self.replace(start, 1, b"P"),
+            ([b'L', _, ..], _) => {
+                return Err(refused(
+                    &String::from_utf8_lossy(name),
+                    "a subprogram",
+                    "copy its blocks to where it is called",
+                    span,
+                ));
+            }
+            ([letter, ..], _) if !ADDRESSES.contains(letter) => {
+                return Err(no_address(char::from(*letter), span));
+            }
+            _ => self.copy(),
+        }
+        // The number is copied as it is: it may go on with a point.
+        while matches!(self.input.peek(0), Some(b'0'..=b'9' | b'.' | b'-' | b'+')) {
+            self.copy();
+        }
+        Ok(())
+    }
+
+    fn g_code(&mut self, span: SourceSpan, number: u32) -> Outcome<()> {
+        let length = span.length;
+        let has_point = self.input.peek(length) == Some(b'.');
+        let meaning = words::g(number).filter(|_| !has_point);
+        let with: &[u8] = match (meaning, number) {
+            (Some(Meaning::Own), 641..=645) => b"G64",
+            (Some(Meaning::Own), 9) => b"G9",
+            (Some(Meaning::Own), 60) => b"G61.1",
+            (Some(Meaning::Own), 153) => b"G53",
+            (Some(Meaning::Own), 500) => b"G500",
+            (Some(Meaning::Own), 710) => b"G21",
+            (Some(Meaning::Own), 700) => b"G20",
+            (Some(Meaning::ReadOver), _) => b"",
+            (Some(Meaning::Shared | Meaning::Own), _) => {
+                self.replace(span.start, 0, format!("G{number}").as_bytes());
+                self.input.at = span.start + length;
+                return Ok(());
+            }
+            (Some(Meaning::Refused(what, help)), _) => {
+                return Err(refused(&format!("G{number}"), what, help, span));
+            }
+            (None, _) => return Err(no_g(Dialect::Siemens, f64::from(number), span)),
+        };
+        self.replace(span.start, length, with);
+        Ok(())
+    }
+
+    fn m_code(&mut self, span: SourceSpan, number: u32) -> Outcome<()> {
+        let meaning = words::m(number);
+        let is_declared = self.names.scope.declares_m(number);
+        match meaning {
+            _ if matches!(number, 2 | 17 | 30) => {
+                self.end_program(span, if number == 30 { b"M30" } else { b"M2" });
+            }
+            Some(Meaning::ReadOver) if !is_declared => {
+                self.replace(span.start, span.length, b"");
+            }
+            Some(Meaning::Refused(what, help)) if !is_declared => {
+                return Err(refused(&format!("M{number}"), what, help, span));
+            }
+            None if !is_declared => {
+                return Err(no_m(Dialect::Siemens, f64::from(number), span));
+            }
+            _ => {
+                self.replace(span.start, 0, format!("M{number}").as_bytes());
+                self.input.at = span.start + span.length;
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,117 @@
+//! Coordinates with their own way of counting: `X=AC(5)`, `X=IC(5)`, `C=DC(5)`, `C=ACP(5)`, `C=ACN(5)`.
+
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::{Fault, Outcome};
+use crate::diagnostic::span::SourceSpan;
+use crate::syntax::dialect::siemens::writer::Writer;
+use crate::syntax::letters::AXIS_LETTERS;
+use crate::syntax::word_check::missing;
+
+/// Parts of a turn below this are rounding.
+const NO_TURN: f64 = 1e-12;
+
+/// The parameter that shows the program coordinate of X; those of the other axes follow.
+const COORDINATES: u32 = 5420;
+
+/// How a coordinate is gone to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Way {
+    /// AC.
+    Absolute,
+    /// IC.
+    Increment,
+    /// DC: a place of a turn, the short way.
+    Shortest,
+    /// ACP: with rising angles.
+    Upwards,
+    /// ACN: with falling ones.
+    Downwards,
+}
+
+impl Way {
+    const fn is_of_a_turn(self) -> bool {
+        matches!(self, Self::Shortest | Self::Upwards | Self::Downwards)
+    }
+
+    /// Where the axis goes from a place, degrees for the ways of a turn.
+    fn place(self, value: f64, here: f64) -> f64 {
+        // Less than rounding leads to where the axis is, and not once round.
+        let turns = (here - value) / 360.0;
+        let whole = match self {
+            Self::Shortest => turns.round(),
+            Self::Upwards => (turns - NO_TURN).ceil(),
+            Self::Downwards => (turns + NO_TURN).floor(),
+            Self::Absolute | Self::Increment => 0.0,
+        };
+        value + 360.0 * whole
+    }
+}
+
+#[cold]
+fn no_turn(letter: char, span: SourceSpan) -> Box<Fault> {
+    let message = format!("DC, ACP or ACN of {letter}, which does not turn");
+    Fault::new(DiagnosticCode::InvalidValue, span, message)
+        .because("they say which way round a rotary axis goes to its place")
+        .help("write the value alone")
+}
+
+impl Writer<'_> {
+    /// `X=expression`, `X=AC(expression)`, `X=IC(expression)`; `C=DC(…)`, `C=ACP(…)`, `C=ACN(…)`.
+    ///
+    /// What these say holds for that word alone, whatever G90 and G91 say for the others: the
+    /// value is changed by where the axis stands, so that it means the same in the mode in force.
+    pub(super) fn coordinate(&mut self, start: usize, letter: u8) -> Outcome<()> {
+        self.input.at = start + 1;
+        self.input.eat(b'=');
+        self.input.next_visible();
+        let way = match self.input.name_ahead().as_slice() {
+            b"AC" => Way::Absolute,
+            b"IC" => Way::Increment,
+            b"DC" => Way::Shortest,
+            b"ACP" => Way::Upwards,
+            b"ACN" => Way::Downwards,
+            _ => return self.value_of(start, 1, &[letter], 0.0),
+        };
+        let word = SourceSpan::new(self.input.at, self.input.at + self.input.name_ahead().len());
+        self.input.at += word.length;
+        let centre = matches!(letter, b'I' | b'J' | b'K');
+        let of_axis = if centre {
+            b'X' + (letter - b'I')
+        } else {
+            letter
+        };
+        let axis = AXIS_LETTERS.iter().position(|axis| *axis == of_axis);
+        let Some(axis) = axis else {
+            let message = "AC( ), IC( ) or the like of what is no coordinate";
+            return Err(Fault::new(DiagnosticCode::NotSupported, word, message)
+                .because("they say from where a coordinate counts")
+                .help("write the value alone"));
+        };
+        let arguments = self.input.arguments()?;
+        let [Some(value)] = arguments.as_slice() else {
+            return Err(missing(word, "AC or IC", "( )", "one value in parentheses"));
+        };
+        if way.is_of_a_turn() && !(3..6).contains(&axis) {
+            return Err(no_turn(char::from(letter), word));
+        }
+        let scope = self.names.scope;
+        let here = u32::try_from(axis)
+            .ok()
+            .and_then(|axis| scope.numbered(COORDINATES + axis));
+        let here = here.unwrap_or(0.0);
+        let incremental = match (self.has_code(90), self.has_code(91)) {
+            (true, _) => false,
+            (_, true) => true,
+            _ => scope.named("_incremental") == Some(1.0),
+        };
+        let counts_from_here = centre || incremental;
+        let value = match way {
+            Way::Increment if counts_from_here => *value,
+            Way::Increment => value + here,
+            _ if counts_from_here => way.place(*value, here) - here,
+            _ => way.place(*value, here),
+        };
+        self.put(start, &[letter, b'['], value);
+        Ok(())
+    }
+}

@@ -1,0 +1,95 @@
+//! Places and states that printers' programs keep, and offsets of Klipper.
+
+use glidepath_gcode::{Connections, Dialect, Options, Program, check};
+use glidepath_geometry::Axis;
+use glidepath_program::{ItemKind, Rate};
+
+use crate::support::listed;
+
+fn options() -> Options {
+    Options {
+        dialect: Dialect::Marlin,
+        extruder: Some(Axis::U),
+        connections: Connections::Simulated,
+        default_feed_mm_min: Some(600.0),
+        ..Options::default()
+    }
+}
+
+/// X, Y, Z and the extruder at the end of every move, and its feed, mm/min.
+fn moves(text: &str) -> Vec<([f64; 4], f64)> {
+    Program::new(text.as_bytes(), options())
+        .map(|item| item.unwrap_or_else(|d| panic!("{text}\n{d}")))
+        .filter_map(|item| match item.kind {
+            ItemKind::Move { segment, rate, .. } => {
+                let end = segment.end();
+                let feed = match rate {
+                    Rate::Feed(feed_v) => (feed_v * 60.0).round(),
+                    _ => 0.0,
+                };
+                Some(([end[0], end[1], end[2], end[6]], feed))
+            }
+            _ => None,
+        })
+        .collect()
+}
+
+fn last(text: &str) -> [f64; 4] {
+    moves(text).last().expect("a move").0
+}
+
+#[track_caller]
+fn finds(text: &str, expected: &[&str]) {
+    assert_eq!(
+        listed(&check(text.as_bytes(), options())),
+        expected,
+        "{text}"
+    );
+}
+
+#[test]
+fn a_place_is_kept_and_gone_back_to() {
+    let text = "G1 X10 Y5 Z1 E2 F1200\nG60 S0\nG1 X50 E3\nG61 S0 F1800\nG1 X11 E4";
+    let all = moves(text);
+    // The extruder does not move back: it has the coordinate from before.
+    assert_eq!(all[2], ([10.0, 5.0, 1.0, 3.0], 1800.0));
+    // F was that of the move alone, and E goes on from 2.
+    assert_eq!(all[3], ([11.0, 5.0, 1.0, 5.0], 1200.0));
+    // Some axes, beside the place; other places.
+    let text = "G1 X10 Y5 Z1\nG60 S3\nG1 X50 Y50 Z50\nG60\nG1 X0 Y0 Z0\nG61 S3 X1 Z0";
+    assert_eq!(last(text), [11.0, 0.0, 1.0, 0.0]);
+    assert_eq!(last(&format!("{text}\nG61")), [50.0, 50.0, 50.0, 0.0]);
+    finds("G61 S1", &["1:1 parameter"]);
+    finds("G60 S-1", &["1:5 invalid-value"]);
+}
+
+#[test]
+fn offsets_of_klipper_count_from_the_next_move_on() {
+    assert_eq!(
+        last("G1 X1 Z1\nSET_GCODE_OFFSET Z=0.2\nG1 X2 Z1"),
+        [2.0, 0.0, 1.2, 0.0]
+    );
+    // It is set, or added; with MOVE the tool goes there.
+    let text = "SET_GCODE_OFFSET Z=0.2\nSET_GCODE_OFFSET Z_ADJUST=0.1\nG1 Z1\nSET_GCODE_OFFSET Z=0\nG1 Z1 X1";
+    let zs: Vec<f64> = moves(text).into_iter().map(|(end, _)| end[2]).collect();
+    assert!((zs[0] - 1.3).abs() < 1e-12 && (zs[1] - 1.0).abs() < 1e-12);
+    let all = moves("G1 Z1\nSET_GCODE_OFFSET Z=0.5 MOVE=1 MOVE_SPEED=10\nG1 X5");
+    assert_eq!(all[1], ([0.0, 0.0, 1.5, 0.0], 600.0));
+    assert_eq!(all[2].0, [5.0, 0.0, 1.5, 0.0]);
+    finds("SET_GCODE_OFFSET Z=abc", &["1:18 malformed-number"]);
+    finds("SET_GCODE_OFFSET Z", &["1:18 missing-number"]);
+    finds("SET_GCODE_OFFSET E=1", &["1:18 unused-word"]);
+    finds("SET_GCODE_OFFSET Z=1 MOVE_SPEED=0", &["1:22 bad-feed"]);
+}
+
+#[test]
+fn states_are_kept_and_brought_back() {
+    let text = "G90\nM82\nG1 X10 Y5 Z1 E2 F1200\nSAVE_GCODE_STATE NAME=pause\nG91\nG1 Z10 E-1 F600\nG1 X-5\nRESTORE_GCODE_STATE NAME=pause MOVE=1 MOVE_SPEED=50\nG1 X11 E3";
+    let all = moves(text);
+    // X, Y and Z go back at 50 mm/s; what was extruded stays.
+    assert_eq!(all[3], ([10.0, 5.0, 1.0, 1.0], 3000.0));
+    // G90, M82 and F are those from before; E counts from 2 where the extruder is.
+    assert_eq!(all[4], ([11.0, 5.0, 1.0, 2.0], 1200.0));
+    finds("RESTORE_GCODE_STATE NAME=a", &["1:1 parameter"]);
+    finds("SAVE_GCODE_STATE NAME=", &["1:1 missing-word"]);
+}
