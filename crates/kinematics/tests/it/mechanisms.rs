@@ -7,48 +7,39 @@ use nalgebra::Vector3;
 use proptest::prelude::*;
 
 /// A mechanism with the middle and the half widths of a box inside its workspace (X Y Z A B C).
-#[allow(clippy::too_many_lines, reason = "a list")]
-fn machines() -> Vec<(Mechanism, [f64; 6], [f64; 6])> {
-    let tilted_tool = Hexapod {
-        tool: Vector3::new(10.0, -5.0, 60.0),
-        ..Hexapod::paired(400.0, 150.0, 15.0)
-    };
-    let offsets = FiveAxis {
-        rotaries: Rotaries::HeadHead {
-            rotary_to_tilt: Vector3::new(10.0, 0.0, 5.0),
-            tilt_to_spindle: Vector3::new(-6.0, 2.0, 0.0),
-        },
-        ..head_head(Tilt::A, (true, false))
-    };
-    let table_head = FiveAxis {
-        rotaries: Rotaries::TableHead {
-            rotary_point: Vector3::new(5.0, -7.0, 0.0),
-        },
-        ..head_head(Tilt::B, (false, true))
-    };
-    let five = (
-        [0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
-        [300.0, 300.0, 200.0, 100.0, 100.0, 400.0],
-    );
-    let pose = (
-        [0.0, 0.0, 520.0, 0.0, 0.0, 0.0],
-        [80.0, 80.0, 80.0, 12.0, 12.0, 12.0],
-    );
+type Boxed = (Mechanism, [f64; 6], [f64; 6]);
+
+const ZERO: [f64; 6] = [0.0; 6];
+
+/// All of them.
+fn machines() -> Vec<Boxed> {
+    let mut all = cartesian();
+    all.extend(arms());
+    all.extend(five_axes());
+    all.extend(hexapods());
+    all
+}
+
+fn cartesian() -> Vec<Boxed> {
     let all = [Axis::X, Axis::Y, Axis::Z, Axis::A, Axis::B, Axis::C];
+    let half = [300.0, 300.0, 200.0, 100.0, 100.0, 400.0];
+    let trivial = Trivial {
+        axes: AxisList::new(&all),
+    };
+    vec![
+        (Mechanism::Trivial(trivial), ZERO, half),
+        (Mechanism::CoreXy(CoreXy::new(&all)), ZERO, half),
+    ]
+}
+
+fn arms() -> Vec<Boxed> {
+    let turning = LinearDelta {
+        others: AxisList::new(&[Axis::C]),
+        ..delta()
+    };
     vec![
         (
-            Mechanism::Trivial(Trivial {
-                axes: AxisList::new(&all),
-            }),
-            five.0,
-            five.1,
-        ),
-        (Mechanism::CoreXy(CoreXy::new(&all)), five.0, five.1),
-        (
-            Mechanism::LinearDelta(LinearDelta {
-                others: AxisList::new(&[Axis::C]),
-                ..delta()
-            }),
+            Mechanism::LinearDelta(turning),
             [0.0, 0.0, 50.0, 0.0, 0.0, 0.0],
             [80.0, 80.0, 100.0, 0.0, 0.0, 90.0],
         ),
@@ -62,41 +53,52 @@ fn machines() -> Vec<(Mechanism, [f64; 6], [f64; 6])> {
             [350.0, 0.0, 100.0, 0.0, 0.0, 0.0],
             [100.0, 150.0, 90.0, 0.0, 0.0, 80.0],
         ),
-        (
-            Mechanism::FiveAxis(offsets),
-            five.0,
-            [300.0, 300.0, 200.0, 100.0, 0.0, 400.0],
-        ),
-        (
-            Mechanism::FiveAxis(table_head),
-            five.0,
-            [300.0, 300.0, 200.0, 0.0, 100.0, 400.0],
-        ),
-        (
-            Mechanism::FiveAxis(table_table(Tilt::A, true)),
-            five.0,
-            [300.0, 300.0, 200.0, 100.0, 0.0, 400.0],
-        ),
-        (Mechanism::Hexapod(tilted_tool), pose.0, pose.1),
-        (
-            Mechanism::Translational(translational()),
-            [0.0, 0.0, 500.0, 0.0, 0.0, 0.0],
-            [150.0, 150.0, 150.0, 0.0, 0.0, 0.0],
-        ),
+    ]
+}
+
+fn five_axes() -> Vec<Boxed> {
+    let offsets = FiveAxis {
+        rotaries: Rotaries::HeadHead {
+            rotary_to_tilt: Vector3::new(10.0, 0.0, 5.0),
+            tilt_to_spindle: Vector3::new(-6.0, 2.0, 0.0),
+        },
+        ..head_head(Tilt::A, (true, false))
+    };
+    let table_head = FiveAxis {
+        rotaries: Rotaries::TableHead {
+            rotary_point: Vector3::new(5.0, -7.0, 0.0),
+        },
+        ..head_head(Tilt::B, (false, true))
+    };
+    let tilting_a = [300.0, 300.0, 200.0, 100.0, 0.0, 400.0];
+    let tilting_b = [300.0, 300.0, 200.0, 0.0, 100.0, 400.0];
+    let tables = table_table(Tilt::A, true);
+    vec![
+        (Mechanism::FiveAxis(offsets), ZERO, tilting_a),
+        (Mechanism::FiveAxis(table_head), ZERO, tilting_b),
+        (Mechanism::FiveAxis(tables), ZERO, tilting_a),
+    ]
+}
+
+fn hexapods() -> Vec<Boxed> {
+    let tilted_tool = Hexapod {
+        tool: Vector3::new(10.0, -5.0, 60.0),
+        ..Hexapod::paired(400.0, 150.0, 15.0)
+    };
+    let raised = TranslationalHexapod {
+        base_z_mm: 700.0,
+        ..translational()
+    };
+    let at_height = |z| [0.0, 0.0, z, 0.0, 0.0, 0.0];
+    let moved = [150.0, 150.0, 150.0, 0.0, 0.0, 0.0];
+    let turned = [80.0, 80.0, 80.0, 12.0, 12.0, 12.0];
+    let plain = Mechanism::Translational(translational());
+    vec![
+        (Mechanism::Hexapod(tilted_tool), at_height(520.0), turned),
+        (plain, at_height(500.0), moved),
         // Hanging below its base, and below one that is not at zero.
-        (
-            Mechanism::Translational(translational()),
-            [0.0, 0.0, -420.0, 0.0, 0.0, 0.0],
-            [150.0, 150.0, 150.0, 0.0, 0.0, 0.0],
-        ),
-        (
-            Mechanism::Translational(TranslationalHexapod {
-                base_z_mm: 700.0,
-                ..translational()
-            }),
-            [0.0, 0.0, 200.0, 0.0, 0.0, 0.0],
-            [150.0, 150.0, 150.0, 0.0, 0.0, 0.0],
-        ),
+        (plain, at_height(-420.0), moved),
+        (Mechanism::Translational(raised), at_height(200.0), moved),
     ]
 }
 

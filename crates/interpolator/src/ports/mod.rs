@@ -5,28 +5,28 @@
 //! and the leftovers of dead processes. It may allocate, log and wait; the real-time thread does
 //! not notice.
 
+mod frames;
+mod links;
+
 use crate::acknowledgements::Acknowledgements;
-use crate::admission::{Admission, Machine, Verdict};
+use crate::admission::Admission;
 use crate::auxiliary::AuxiliaryBook;
 use crate::commands::{Desk, is_refusal};
 use crate::config::Config;
 use crate::fault::Fault;
 use crate::feedback::DriveBook;
-use crate::job::{JobBook, unfit};
+use crate::job::JobBook;
 use crate::jog::DemandReader;
 use crate::message::{Happening, Order, PortsEnds, Report};
 use crate::status::{StatusBook, grants_of};
 use crate::stops::StopCause;
-use glidepath_geometry::AxisVector;
 use glidepath_link::{
-    Auxiliary, Command, CommandReply, CommandRequest, EndOfEpoch, FaultCause, Feedback, JobStage,
-    JogDemand, LinkError, MachineState, Publisher, Server, Setpoint, SetpointFrame, Status,
-    Subscriber, Transport,
+    Command, EndOfEpoch, FaultCause, LinkError, MachineState, Setpoint, SetpointFrame, Status,
+    Transport,
 };
 use glidepath_realtime::{EventReader, Grants, Mode};
+use links::Links;
 
-/// Frames moved in one turn.
-const FRAMES_PER_TURN: usize = 64;
 /// Records of feedback taken in one turn: those of nine stacks at 2 kHz and 4 ms.
 const FEEDBACK_PER_TURN: usize = 72;
 /// Commands served in one turn.
@@ -37,35 +37,6 @@ const DEMANDS_PER_TURN: usize = 16;
 const STATUS_NS: u64 = 20_000_000;
 /// Between two looks for dead processes.
 const CLEAN_UP_NS: u64 = 200_000_000;
-
-/// The ports of the interpolator.
-struct Links {
-    transport: Box<dyn Transport>,
-    frames: Box<dyn Subscriber<SetpointFrame>>,
-    setpoints: Box<dyn Publisher<Setpoint>>,
-    status: Box<dyn Publisher<Status>>,
-    auxiliary: Box<dyn Publisher<Auxiliary>>,
-    commands: Box<dyn Server<CommandRequest, CommandReply>>,
-    demands: Box<dyn Subscriber<JogDemand>>,
-    feedback: Option<Box<dyn Subscriber<Feedback>>>,
-}
-
-impl Links {
-    fn new(transport: Box<dyn Transport>, has_feedback: bool) -> Result<Self, LinkError> {
-        Ok(Self {
-            frames: transport.frame_source()?,
-            setpoints: transport.setpoint_sink()?,
-            status: transport.status_sink()?,
-            auxiliary: transport.auxiliary_sink()?,
-            commands: transport.command_server()?,
-            demands: transport.jog_source()?,
-            feedback: has_feedback
-                .then(|| transport.feedback_source())
-                .transpose()?,
-            transport,
-        })
-    }
-}
 
 /// The state of the ports thread.
 pub(crate) struct Ports<'a> {
@@ -347,100 +318,6 @@ impl<'a> Ports<'a> {
             }
         }
         Ok(())
-    }
-
-    fn move_frames(&mut self) -> Result<(), LinkError> {
-        let Some(report) = self.report else {
-            return Ok(());
-        };
-        let machine = Machine {
-            state: report.state,
-            position: AxisVector::from(report.setpoint.position),
-            epoch: report.setpoint.epoch,
-            is_open: report.end_of_epoch == EndOfEpoch::Open,
-        };
-        self.admission.note(&machine);
-        for _ in 0..FRAMES_PER_TURN {
-            if !self.ends.frames.ready() {
-                return Ok(());
-            }
-            // Whether a jog begins is known with the next report; a program waits for that.
-            let may_jog = self.demanded_after == Some(report.setpoint.number);
-            let Some(frame) = (match self.pending.take() {
-                Some(frame) => Some(frame),
-                None => self.links.frames.take()?,
-            }) else {
-                return Ok(());
-            };
-            if may_jog && !machine.is_open {
-                self.pending = Some(frame);
-                return Ok(());
-            }
-            match self.admission.judge(&frame, &machine) {
-                Verdict::Pass => {
-                    if frame.sequence == 0 {
-                        self.jobs.begin();
-                    }
-                    self.book.passed(&frame);
-                    self.ends.frames.enqueue(frame).ok(); // There is room: it was ready.
-                }
-                Verdict::Known => {
-                    self.ends.orders.enqueue(Order::PlannerLives).ok();
-                }
-                Verdict::Later => {
-                    self.pending = Some(frame);
-                    return Ok(());
-                }
-                Verdict::Refused(refusal) => {
-                    let cause = FaultCause::Frame(refusal);
-                    let text = Fault::new(cause, frame.line, frame.sequence).to_string();
-                    if self.jobs.end(JobStage::Refused, &text) {
-                        self.give_machine_back();
-                    }
-                    if self.book.refused(refusal) {
-                        self.tell(&format!("epoch {}: {text}", frame.epoch));
-                    }
-                }
-                Verdict::Fault(fault) => {
-                    if let FaultCause::Frame(refusal) = fault.cause {
-                        self.book.refused(refusal);
-                    }
-                    self.fault(fault);
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// Ends a job that cannot begin any more.
-    fn watch_job(&mut self, now_ns: u64) -> Result<(), LinkError> {
-        let Some(report) = self.report else {
-            return Ok(());
-        };
-        let machine_epoch = report.setpoint.epoch;
-        if let Some(epoch) = self.admission.opening(machine_epoch)
-            && epoch <= report.barred
-        {
-            let why = unfit(report.state).unwrap_or("the machine was given another order");
-            self.jobs.does_not_begin(JobStage::Refused, why);
-        }
-        self.admission.bar(report.barred);
-        let is_opening = self.admission.opening(machine_epoch).is_some();
-        if self.jobs.watch(&report, is_opening, now_ns) {
-            self.give_machine_back();
-        }
-        Ok(())
-    }
-
-    /// No job has the machine any more, and the epoch that would have come does not begin.
-    fn give_machine_back(&mut self) {
-        let machine_epoch = self.report.map_or(0, |report| report.setpoint.epoch);
-        let epoch = self.admission.next_epoch(machine_epoch);
-        self.admission.bar(epoch);
-        // The ring has room for many more orders than there are commands in a turn.
-        self.ends.orders.enqueue(Order::Bar(epoch)).ok();
-        self.ends.orders.enqueue(Order::Prepare(false)).ok();
-        self.status_due_ns = 0;
     }
 
     fn publish_status(&mut self, now_ns: u64) -> Result<(), LinkError> {

@@ -1,0 +1,109 @@
+//! Frames on their way to the real-time thread, and the job that they are of.
+
+use super::Ports;
+use crate::admission::{Machine, Verdict};
+use crate::fault::Fault;
+use crate::job::unfit;
+use crate::message::Order;
+use glidepath_geometry::AxisVector;
+use glidepath_link::{EndOfEpoch, FaultCause, JobStage, LinkError};
+
+/// Frames moved in one turn.
+const FRAMES_PER_TURN: usize = 64;
+
+impl Ports<'_> {
+    /// Passes on what may be played.
+    pub(super) fn move_frames(&mut self) -> Result<(), LinkError> {
+        let Some(report) = self.report else {
+            return Ok(());
+        };
+        let machine = Machine {
+            state: report.state,
+            position: AxisVector::from(report.setpoint.position),
+            epoch: report.setpoint.epoch,
+            is_open: report.end_of_epoch == EndOfEpoch::Open,
+        };
+        self.admission.note(&machine);
+        for _ in 0..FRAMES_PER_TURN {
+            if !self.ends.frames.ready() {
+                return Ok(());
+            }
+            // Whether a jog begins is known with the next report; a program waits for that.
+            let may_jog = self.demanded_after == Some(report.setpoint.number);
+            let Some(frame) = (match self.pending.take() {
+                Some(frame) => Some(frame),
+                None => self.links.frames.take()?,
+            }) else {
+                return Ok(());
+            };
+            if may_jog && !machine.is_open {
+                self.pending = Some(frame);
+                return Ok(());
+            }
+            match self.admission.judge(&frame, &machine) {
+                Verdict::Pass => {
+                    if frame.sequence == 0 {
+                        self.jobs.begin();
+                    }
+                    self.book.passed(&frame);
+                    self.ends.frames.enqueue(frame).ok(); // There is room: it was ready.
+                }
+                Verdict::Known => {
+                    self.ends.orders.enqueue(Order::PlannerLives).ok();
+                }
+                Verdict::Later => {
+                    self.pending = Some(frame);
+                    return Ok(());
+                }
+                Verdict::Refused(refusal) => {
+                    let cause = FaultCause::Frame(refusal);
+                    let text = Fault::new(cause, frame.line, frame.sequence).to_string();
+                    if self.jobs.end(JobStage::Refused, &text) {
+                        self.give_machine_back();
+                    }
+                    if self.book.refused(refusal) {
+                        self.tell(&format!("epoch {}: {text}", frame.epoch));
+                    }
+                }
+                Verdict::Fault(fault) => {
+                    if let FaultCause::Frame(refusal) = fault.cause {
+                        self.book.refused(refusal);
+                    }
+                    self.fault(fault);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Ends a job that cannot begin any more.
+    pub(super) fn watch_job(&mut self, now_ns: u64) -> Result<(), LinkError> {
+        let Some(report) = self.report else {
+            return Ok(());
+        };
+        let machine_epoch = report.setpoint.epoch;
+        if let Some(epoch) = self.admission.opening(machine_epoch)
+            && epoch <= report.barred
+        {
+            let why = unfit(report.state).unwrap_or("the machine was given another order");
+            self.jobs.does_not_begin(JobStage::Refused, why);
+        }
+        self.admission.bar(report.barred);
+        let is_opening = self.admission.opening(machine_epoch).is_some();
+        if self.jobs.watch(&report, is_opening, now_ns) {
+            self.give_machine_back();
+        }
+        Ok(())
+    }
+
+    /// No job has the machine any more, and the epoch that would have come does not begin.
+    fn give_machine_back(&mut self) {
+        let machine_epoch = self.report.map_or(0, |report| report.setpoint.epoch);
+        let epoch = self.admission.next_epoch(machine_epoch);
+        self.admission.bar(epoch);
+        // The ring has room for many more orders than there are commands in a turn.
+        self.ends.orders.enqueue(Order::Bar(epoch)).ok();
+        self.ends.orders.enqueue(Order::Prepare(false)).ok();
+        self.status_due_ns = 0;
+    }
+}
