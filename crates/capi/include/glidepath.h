@@ -1186,6 +1186,22 @@ uint64_t gp_now_ns(void);
  * Returns the length of all of it, without the zero; at most 512. NULL asks for the length alone. */
 size_t gp_last_error(char *text, size_t size);
 
+/* ---- what states and faults are called ----
+ *
+ * The texts that `glidepath status` shows, in UTF-8 and safe for a terminal: cut to the room there is, and ended
+ * with a zero. Each returns the length of all of it, without the zero; NULL for text asks for the length alone.
+ * Commands in them, such as `glidepath reset`, are to be given the instance. */
+
+/* What the machine does in a GP_STATE_. GP_E_ARGUMENT: there is no such state. */
+int gp_state_text(uint32_t state, char *text, size_t size);
+
+/* The latched fault of a status in one clause, with its axis or joint, numbers and line; "" where there is none.
+ * GP_E_RECORD: status is none of this version. */
+int gp_fault_text(const gp_status *status, size_t status_size, char *text, size_t size);
+
+/* What to do about it: what clears it comes last. "" where there is no fault. As gp_fault_text. */
+int gp_fault_remedy(const gp_status *status, size_t status_size, char *text, size_t size);
+
 /* ---- an instance ---- */
 
 /* A thread's part in an instance. */

@@ -35,7 +35,7 @@ from ._layout import (
     SetpointRecord,
     StatusRecord,
 )
-from ._library import Error, Refused, call, plain
+from ._library import Error, Refused, call, plain, text_of
 
 Numbers = ctypes.c_double * AXES
 Joints = JointRecord * AXES
@@ -49,6 +49,21 @@ def now_ns():
 def version():
     """The version of the library."""
     return plain("gp_version").decode()
+
+
+def state_text(state):
+    """What the machine does in a `State`."""
+    return text_of("gp_state_text", int(state))
+
+
+def fault_text(status):
+    """The latched fault of a status in one clause; "" where there is none."""
+    return text_of("gp_fault_text", ctypes.byref(status), ctypes.sizeof(status))
+
+
+def fault_remedy(status):
+    """What to do about it; what clears it comes last. "" where there is no fault."""
+    return text_of("gp_fault_remedy", ctypes.byref(status), ctypes.sizeof(status))
 
 
 class _Handle:

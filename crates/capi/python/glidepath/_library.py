@@ -53,6 +53,9 @@ _FUNCTIONS = {
     "gp_version": (ctypes.c_char_p, []),
     "gp_now_ns": (_u64, []),
     "gp_last_error": (_size, [ctypes.c_char_p, _size]),
+    "gp_state_text": (ctypes.c_int, [_u32, ctypes.c_char_p, _size]),
+    "gp_fault_text": (ctypes.c_int, [_pointer, _size, ctypes.c_char_p, _size]),
+    "gp_fault_remedy": (ctypes.c_int, [_pointer, _size, ctypes.c_char_p, _size]),
     "gp_open_as": (ctypes.c_int, [ctypes.c_char_p, _u32, _u64, _handle]),
     "gp_close": (ctypes.c_int, [_pointer]),
     "gp_read_status": (ctypes.c_int, [_pointer, _pointer, _size, _u32]),
@@ -129,6 +132,14 @@ def call(name, *arguments):
         kind = Refused if code == _layout.ErrorCode.REFUSED else Error
         raise kind(code, text.value.decode("utf-8", "replace"))
     return result
+
+
+def text_of(name, *arguments):
+    """Calls a function that gives a text."""
+    size = call(name, *arguments, None, 0) + 1
+    text = ctypes.create_string_buffer(size)
+    call(name, *arguments, text, size)
+    return text.value.decode()
 
 
 def plain(name, *arguments):

@@ -56,6 +56,21 @@ class Instance(unittest.TestCase):
         self.assertEqual(status.last_event.decode(), "held by the operator")
         self.assertEqual(status.message.decode(), "turn the part over")
 
+    def test_texts_of_states_and_faults(self):
+        for state in glidepath.State:
+            self.assertGreater(len(glidepath.state_text(state)), 8)
+        held = "held at rest on the path; `glidepath resume` goes on"
+        self.assertEqual(glidepath.state_text(glidepath.State.HELD), held)
+        self.fails(glidepath.ErrorCode.ARGUMENT, glidepath.state_text, 99)
+        status = self.link.status()
+        self.assertEqual((glidepath.fault_text(status), glidepath.fault_remedy(status)), ("", ""))
+        status.fault = glidepath.Fault.MISSED_TICKS
+        status.fault_line = 12
+        self.assertEqual(glidepath.fault_text(status), "too many ticks were missed, line 12")
+        self.assertTrue(glidepath.fault_remedy(status).endswith("`glidepath reset`"))
+        status.fault = 4711
+        self.fails(glidepath.ErrorCode.RECORD, glidepath.fault_remedy, status)
+
     def test_commands(self):
         self.assertEqual(self.link.hold().refusal, 0)
         for kind in ("ABORT", "RESET", "STEP", "ENABLE", "DISABLE", "RETURN", "PING"):

@@ -20,3 +20,4 @@ mod servo;
 mod setpoints;
 mod text;
 mod thread;
+mod wording;

@@ -118,6 +118,27 @@ pub(super) const fn check_size<T>(structure: &'static str, caller: usize) -> Res
 }
 
 #[cfg(test)]
+impl Room<c_char> {
+    /// NULL.
+    pub(super) const fn nowhere() -> Self {
+        Self(core::ptr::null_mut())
+    }
+
+    /// Room for as many bytes as there are.
+    pub(super) const fn at(bytes: &mut [u8]) -> Self {
+        Self(bytes.as_mut_ptr().cast())
+    }
+}
+
+#[cfg(test)]
+impl<T> Given<T> {
+    /// Where a value is.
+    pub(super) const fn of(value: &T) -> Self {
+        Self(value)
+    }
+}
+
+#[cfg(test)]
 mod tests {
     use super::*;
 
