@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use glidepath_link::{MachineState, MotionMode, Setpoint};
-use glidepath_recording::{Entry, Reader};
+use glidepath_recording::{Entry, Reader, Recorder};
 use glidepath_testing::Pulse;
 use glidepath_tests::{Instance, Process, Services, Watchdog};
 use rustix::process::Signal;
@@ -100,6 +100,116 @@ fn a_recording_of_what_an_operator_did_is_judged_and_played_again() {
         (&0.into(), &0.into()),
         "{report}"
     );
+}
+
+/// The same recording, with each setpoint changed by its number behind the first.
+fn falsified(path: &Path, to: &str, change: impl Fn(usize, &mut Setpoint)) {
+    let mut reader = Reader::new(BufReader::new(File::open(path).unwrap())).unwrap();
+    let mut recorder = Recorder::new(File::create(to).unwrap(), reader.origin()).unwrap();
+    let (mut count, mut is_told) = (0, false);
+    while let Some(entry) = reader.next_entry().unwrap() {
+        if let Some(begun) = reader.begun().filter(|_| !is_told) {
+            recorder.begun(begun).unwrap();
+            is_told = true;
+        }
+        match entry {
+            Entry::Setpoint(mut setpoint) => {
+                change(count, &mut setpoint);
+                count += 1;
+                recorder.setpoint(&setpoint).unwrap();
+            }
+            Entry::Status(status) => recorder.status(&status).unwrap(),
+        }
+    }
+    recorder.finish().unwrap();
+}
+
+/// Tools, work offsets, parameters, modes, a subroutine in a file and the configuration are those of the machine,
+/// and are not there any more when it is judged.
+#[test]
+fn a_recording_is_judged_by_what_it_carries() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let printed = Process::start(&instance, &["config", "--default"]).wait();
+    let slower = printed
+        .expect(0)
+        .stdout
+        .replace("max_velocity = 200.0", "max_velocity = 90.0");
+    let config = instance.file("own.toml", &slower);
+    let tools = instance.file("tools.tbl", "T3 P3 Z-12.5 D6\n");
+    let groove = "o<groove> sub\nG1 X[#1 / 25.4] F[#100]\nG91 Y#<_width>\nG90\no<groove> endsub\n";
+    let groove = instance.file("groove.ngc", groove);
+    let part = "G55 G43 H3\nG0 X0.1 Y0.1\no<groove> call [20]\nG1 X0 Y0\nM2\n";
+    let part = instance.file("part.ngc", part);
+    let services = Services::start(&instance);
+    let service = [
+        "planner",
+        "--listen",
+        "--config",
+        &config,
+        "--tool-table",
+        &tools,
+    ];
+    let service = Process::join(&instance, &[&service[..], &["--effort", "fast"]].concat());
+    let operate = |command: &[&str]| drop(Process::join(&instance, command).wait().expect(0));
+    let lines = ["G20 #100=40", "#<_width>=0.25", "G10 L2 P2 X0.4 Y-0.2 Z0.6"];
+    for line in lines {
+        operate(&["mdi", line]);
+    }
+    let file = instance.path("run.mcap");
+    // It is told neither configuration nor program.
+    let record = Process::join(&instance, &["record", &file, "--json"]);
+    while !Path::new(&format!("{file}.part")).exists() {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    operate(&["run-file", &part]);
+    let _report = record.end().expect(0);
+    drop((service.end(), services.end()));
+    for gone in [&config, &tools, &groove, &part] {
+        std::fs::remove_file(gone).unwrap();
+    }
+    let audit = |file: &str, exit| {
+        let verdict = Process::start(&instance, &["audit", file, "--json"]).wait();
+        verdict.expect(exit).json()
+    };
+    let verdict = audit(&file, 0);
+    assert_eq!(verdict["notes"], serde_json::json!([]), "{verdict:#}");
+    assert_eq!(verdict["finding_count"], 0, "{verdict:#}");
+    assert_eq!(verdict["was_replanned"], true, "{verdict:#}");
+    let (setpoints, _) = read(Path::new(&file));
+    let end = setpoints.last().unwrap().position;
+    let places = [0.4 * 25.4, -0.2 * 25.4];
+    let mut axes = end.iter().zip(places);
+    assert!(
+        axes.all(|(axis, place)| (axis - place).abs() < 1e-9),
+        "{end:?}"
+    );
+
+    // A micrometre in the middle of it is found.
+    let falsehood = instance.path("falsified.mcap");
+    let middle = setpoints
+        .iter()
+        .position(|setpoint| setpoint.feed_v > 10.0)
+        .unwrap()
+        + 5;
+    falsified(Path::new(&file), &falsehood, |at, setpoint| {
+        setpoint.position[0] += if at == middle { 0.001 } else { 0.0 };
+    });
+    let verdict = audit(&falsehood, 5);
+    let findings = verdict["findings"].as_array().unwrap();
+    let is_found = |found: &serde_json::Value| {
+        found["kind"] == "deviation" && found["tick"] == setpoints[middle].tick
+    };
+    assert!(findings.iter().any(is_found), "{verdict:#}");
+    // And the limits are those of the machine.
+    let too_fast = instance.path("too-fast.mcap");
+    falsified(Path::new(&file), &too_fast, |_, setpoint| {
+        for position in &mut setpoint.position {
+            *position *= 3.0;
+        }
+    });
+    let verdict = audit(&too_fast, 5);
+    let ratio = verdict["max_velocity_ratio"].as_f64().unwrap();
+    assert!(ratio > 2.9 && ratio < 3.1, "{verdict:#}");
 }
 
 /// One in CI; all of them: `GLIDEPATH_KILLS=50`.

@@ -1,9 +1,11 @@
 //! Circular arcs and helices in one of the coordinate planes.
 
+use serde::{Deserialize, Serialize};
+
 use crate::{Axis, AxisVector};
 
 /// The plane of an arc: two axes, the first turning towards the second for a positive sweep.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Plane {
     /// G17.
     Xy,

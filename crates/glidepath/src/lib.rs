@@ -35,6 +35,7 @@
 //! # Ok::<(), config::ConfigError>(())
 //! ```
 
+mod begun;
 pub mod bench;
 mod chords;
 pub mod cli;

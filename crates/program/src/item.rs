@@ -1,6 +1,7 @@
 //! What a planner is fed: segments, dwells and events, in program order.
 
 use glidepath_geometry::Segment;
+use serde::{Deserialize, Serialize};
 
 /// How a segment's speed is given.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -89,7 +90,7 @@ impl Rate {
 }
 
 /// How the path goes through the corner at the *end* of a segment (G61, G61.1, G64).
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum PathMode {
     /// Comes to rest at the corner (G61.1).
     ExactStop,

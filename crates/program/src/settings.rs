@@ -1,5 +1,7 @@
 //! What a plan is made with.
 
+use serde::{Deserialize, Serialize};
+
 use crate::Limits;
 
 /// How corners are passed.
@@ -30,7 +32,8 @@ pub enum Corners {
 }
 
 /// How much work planning may cost.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Effort {
     /// Geometry and time are optimised together, in the tube that the tolerance makes around the
     /// path: near the least time that the limits and the tolerance allow.
@@ -39,6 +42,17 @@ pub enum Effort {
     /// The path is settled first, with transitions at corners, and its time is optimised along it
     /// by closed-form S-curves: some hundred times less work.
     Fast,
+}
+
+impl Effort {
+    /// Its name in configurations.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Optimal => "optimal",
+            Self::Fast => "fast",
+        }
+    }
 }
 
 /// Everything a plan depends on besides the program.

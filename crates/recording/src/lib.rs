@@ -9,7 +9,8 @@
 //! | `/status` | `glidepath.Status` | every status, several a second |
 //!
 //! In front of the first message are, as attachments, the configuration and the program, and, as the
-//! metadata record `glidepath`, what else belongs to it ([`Origin`]). What is in memory is written as
+//! metadata record `glidepath`, what else belongs to it ([`Origin`]). Where a program begins, the metadata record
+//! `begun` says what it began with, and attachments have its texts ([`Begun`]). What is in memory is written as
 //! a chunk whenever [`Recorder::flush`] is called: of a recorder that was killed all is there up to
 //! then, and [`Reader`] reads it.
 //!
@@ -17,6 +18,7 @@
 //! 1970 by the host's clock at the beginning of the recording; the times in the messages are those of
 //! the monotonic clock, as they were.
 
+mod begun;
 mod origin;
 mod proto;
 mod protobuf;
@@ -25,6 +27,7 @@ mod recorder;
 mod records;
 mod table;
 
+pub use begun::Begun;
 pub use origin::Origin;
 pub use proto::proto;
 pub use protobuf::Malformed;

@@ -1,5 +1,6 @@
 //! Reads recordings, whole or cut short.
 
+use crate::begun::{BEGUN, Begun, EPOCH, SET_UP};
 use crate::origin::{CONFIGURATION, FACTS, Origin, PROGRAM};
 use crate::protobuf::Malformed;
 use crate::table::Message;
@@ -9,6 +10,7 @@ use mcap::sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOp
 use mcap::{McapError, parse_record};
 use std::collections::BTreeMap;
 use std::io::{self, Read};
+use std::sync::Arc;
 
 /// Longest part of a file that is believed: a program of some ten million lines.
 const MOST_BYTES: usize = 1 << 30;
@@ -65,8 +67,7 @@ enum Topic {
 pub struct Reader<R> {
     from: R,
     reader: LinearReader,
-    origin: Origin,
-    topics: BTreeMap<u16, Topic>,
+    heading: Heading,
     first: Option<Entry>,
     is_cut: bool,
     is_over: bool,
@@ -94,14 +95,13 @@ impl<R: Read> Reader<R> {
         let mut reader = Self {
             from,
             reader: LinearReader::new_with_options(options),
-            origin: Origin::default(),
-            topics: BTreeMap::new(),
+            heading: Heading::default(),
             first: None,
             is_cut: false,
             is_over: false,
         };
         reader.first = reader.advance()?;
-        if reader.origin.facts.is_empty() {
+        if reader.heading.origin.facts.is_empty() {
             return Err(ReadError::Foreign);
         }
         Ok(reader)
@@ -110,7 +110,14 @@ impl<R: Read> Reader<R> {
     /// What it is of.
     #[must_use]
     pub const fn origin(&self) -> &Origin {
-        &self.origin
+        &self.heading.origin
+    }
+
+    /// What the first program began with whose beginning is in it, once its first setpoint is read; those
+    /// of others are passed over.
+    #[must_use]
+    pub fn begun(&self) -> Option<&Begun> {
+        self.heading.begun.as_ref()
     }
 
     /// Whether it was found to be cut short, once all of it is read.
@@ -149,7 +156,7 @@ impl<R: Read> Reader<R> {
                 }
                 Ok(LinearReadEvent::Record { data, opcode }) => {
                     let record = parse_record(opcode, data).map_err(ReadError::Format)?;
-                    let taken = take(record, &mut self.origin, &mut self.topics)?;
+                    let taken = self.heading.take(record)?;
                     match taken {
                         Taken::Entry(entry) => return Ok(Some(entry)),
                         Taken::End => self.is_over = true,
@@ -175,42 +182,76 @@ enum Taken {
     Nothing,
 }
 
-fn take(
-    record: Record<'_>,
-    origin: &mut Origin,
-    topics: &mut BTreeMap<u16, Topic>,
-) -> Result<Taken, ReadError> {
-    match record {
-        Record::Metadata(metadata) if metadata.name == FACTS => origin.facts = metadata.metadata,
-        Record::Attachment { header, data, .. } => match header.name.as_str() {
-            CONFIGURATION => {
-                origin.configuration = String::from_utf8_lossy(&data).into_owned();
+/// What is in a recording beside its entries.
+#[derive(Default)]
+struct Heading {
+    origin: Origin,
+    topics: BTreeMap<u16, Topic>,
+    begun: Option<Begun>,
+    /// The attachments that the first program's texts are in: their names, with those of their entries.
+    texts: Vec<(String, String)>,
+}
+
+impl Heading {
+    fn take(&mut self, record: Record<'_>) -> Result<Taken, ReadError> {
+        match record {
+            Record::Metadata(metadata) if metadata.name == FACTS => {
+                self.origin.facts = metadata.metadata;
             }
-            PROGRAM => origin.program = Some(data.into_owned()),
+            Record::Metadata(metadata) if metadata.name == BEGUN => self.begins(metadata.metadata),
+            Record::Attachment { header, data, .. } => match header.name.as_str() {
+                CONFIGURATION => {
+                    self.origin.configuration = String::from_utf8_lossy(&data).into_owned();
+                }
+                PROGRAM => self.origin.program = Some(data.into_owned()),
+                name => self.text(name, &data),
+            },
+            Record::Channel(channel) => {
+                let topic = match channel.topic.as_str() {
+                    "/setpoint" => Some(Topic::Setpoint),
+                    "/status" => Some(Topic::Status),
+                    _ => None,
+                };
+                if let Some(topic) = topic {
+                    self.topics.insert(channel.id, topic);
+                }
+            }
+            Record::Message { header, data } => {
+                let entry = match self.topics.get(&header.channel_id) {
+                    Some(Topic::Setpoint) => Entry::Setpoint(message("/setpoint", &data)?),
+                    Some(Topic::Status) => Entry::Status(message("/status", &data)?),
+                    None => return Ok(Taken::Nothing),
+                };
+                return Ok(Taken::Entry(entry));
+            }
+            Record::DataEnd(_) | Record::Footer(_) => return Ok(Taken::End),
             _ => {}
-        },
-        Record::Channel(channel) => {
-            let topic = match channel.topic.as_str() {
-                "/setpoint" => Some(Topic::Setpoint),
-                "/status" => Some(Topic::Status),
-                _ => None,
-            };
-            if let Some(topic) = topic {
-                topics.insert(channel.id, topic);
-            }
         }
-        Record::Message { header, data } => {
-            let entry = match topics.get(&header.channel_id) {
-                Some(Topic::Setpoint) => Entry::Setpoint(message("/setpoint", &data)?),
-                Some(Topic::Status) => Entry::Status(message("/status", &data)?),
-                None => return Ok(Taken::Nothing),
-            };
-            return Ok(Taken::Entry(entry));
-        }
-        Record::DataEnd(_) | Record::Footer(_) => return Ok(Taken::End),
-        _ => {}
+        Ok(Taken::Nothing)
     }
-    Ok(Taken::Nothing)
+
+    fn begins(&mut self, mut entries: BTreeMap<String, String>) {
+        if self.begun.is_some() {
+            return;
+        }
+        let mut entry = |name: &str| entries.remove(name).unwrap_or_default();
+        self.begun = Some(Begun {
+            epoch: entry(EPOCH).parse().unwrap_or(0),
+            set_up: entry(SET_UP),
+            ..Begun::default()
+        });
+        self.texts = entries.into_iter().map(|(of, name)| (name, of)).collect();
+    }
+
+    fn text(&mut self, name: &str, data: &[u8]) {
+        let Some(begun) = &mut self.begun else {
+            return;
+        };
+        let text: Arc<[u8]> = data.into();
+        for (_, of) in self.texts.iter().filter(|(wanted, _)| wanted == name) {
+            begun.take(of, &text);
+        }
+    }
 }
 
 fn message<M: Message + bytemuck::Zeroable>(

@@ -1,12 +1,13 @@
 //! Writes recordings.
 
+use crate::begun::{BEGUN, Begun, EPOCH, SET_UP, attachment_of};
 use crate::origin::{CONFIGURATION, FACTS, Origin, PROGRAM};
 use crate::table::Message;
 use glidepath_link::{Setpoint, Status};
 use mcap::records::{MessageHeader, Metadata};
 use mcap::{Attachment, Compression, McapResult, WriteOptions, Writer};
 use std::borrow::Cow;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::{self, Seek, Write};
 
 /// A recording as it grows.
@@ -16,6 +17,8 @@ pub struct Recorder<W: Write + Seek> {
     ahead_ns: u64,
     message: Vec<u8>,
     written: u64,
+    /// The texts that were attached.
+    attached: BTreeSet<String>,
 }
 
 impl<W: Write + Seek> core::fmt::Debug for Recorder<W> {
@@ -45,22 +48,14 @@ impl<W: Write + Seek> Recorder<W> {
             name: FACTS.to_owned(),
             metadata: origin.facts.clone(),
         })?;
-        let mut attach = |name: &str, media_type: &str, data: &[u8]| {
-            writer.attach(&Attachment {
-                log_time: 0,
-                create_time: 0,
-                name: name.to_owned(),
-                media_type: media_type.to_owned(),
-                data: Cow::Borrowed(data),
-            })
-        };
-        attach(
+        let configuration = origin.configuration.as_bytes();
+        writer.attach(&attachment(
             CONFIGURATION,
             "application/toml",
-            origin.configuration.as_bytes(),
-        )?;
+            configuration,
+        ))?;
         if let Some(program) = &origin.program {
-            attach(PROGRAM, "text/plain", program)?;
+            writer.attach(&attachment(PROGRAM, "text/plain", program))?;
         }
         let channels = [
             channel::<Setpoint, W>(&mut writer, "/setpoint")?,
@@ -72,6 +67,7 @@ impl<W: Write + Seek> Recorder<W> {
             ahead_ns: origin.ahead_ns(),
             message: Vec::new(),
             written: 0,
+            attached: BTreeSet::new(),
         };
         recorder.writer.flush()?;
         Ok(recorder)
@@ -100,6 +96,39 @@ impl<W: Write + Seek> Recorder<W> {
     pub fn status(&mut self, status: &Status) -> io::Result<()> {
         let times = [status.updated_ns; 2];
         self.add(1, 0, times, |message| status.put(message))
+    }
+
+    /// Adds what a program began with, in front of its first setpoint.
+    ///
+    /// # Errors
+    ///
+    /// The writer's.
+    pub fn begun(&mut self, begun: &Begun) -> io::Result<()> {
+        self.add_begun(begun).map_err(io::Error::other)
+    }
+
+    fn add_begun(&mut self, begun: &Begun) -> McapResult<()> {
+        let mut entries = BTreeMap::from([
+            (EPOCH.to_owned(), begun.epoch.to_string()),
+            (SET_UP.to_owned(), begun.set_up.clone()),
+        ]);
+        entries.extend(
+            begun
+                .texts()
+                .map(|(entry, text)| (entry, attachment_of(text))),
+        );
+        self.writer.write_metadata(&Metadata {
+            name: BEGUN.to_owned(),
+            metadata: entries,
+        })?;
+        for (_, text) in begun.texts() {
+            let name = attachment_of(text);
+            if !self.attached.contains(&name) {
+                self.writer.attach(&attachment(&name, "text/plain", text))?;
+                self.attached.insert(name);
+            }
+        }
+        Ok(())
     }
 
     fn add(
@@ -147,6 +176,16 @@ impl<W: Write + Seek> Recorder<W> {
     pub fn finish(mut self) -> io::Result<W> {
         self.writer.finish().map_err(io::Error::other)?;
         Ok(self.writer.into_inner())
+    }
+}
+
+fn attachment<'d>(name: &str, media_type: &str, data: &'d [u8]) -> Attachment<'d> {
+    Attachment {
+        log_time: 0,
+        create_time: 0,
+        name: name.to_owned(),
+        media_type: media_type.to_owned(),
+        data: Cow::Borrowed(data),
     }
 }
 

@@ -25,6 +25,8 @@
 
 use std::collections::BTreeMap;
 
+use serde::{Deserialize, Serialize};
+
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
@@ -59,7 +61,8 @@ impl Locals {
 }
 
 /// All parameters a program can assign.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(from = "Carried", into = "Carried")]
 pub(crate) struct Parameters {
     /// `#31` and up, by number; empty until one is assigned.
     global: Vec<f64>,
@@ -73,6 +76,41 @@ pub(crate) struct Parameters {
     locals: usize,
     /// What is in a parameter that nothing was assigned to.
     unassigned: f64,
+}
+
+/// What of the parameters goes from one program to the next, as text.
+#[derive(Serialize, Deserialize)]
+struct Carried {
+    is_fanuc: bool,
+    silent: bool,
+    global: Vec<f64>,
+    named: BTreeMap<String, f64>,
+}
+
+impl From<Parameters> for Carried {
+    fn from(parameters: Parameters) -> Self {
+        Self {
+            is_fanuc: parameters.locals == FANUC_LOCALS,
+            silent: parameters.silent,
+            global: parameters.global,
+            named: parameters.named,
+        }
+    }
+}
+
+impl From<Carried> for Parameters {
+    fn from(carried: Carried) -> Self {
+        let mut parameters = if carried.is_fanuc {
+            Self::of_fanuc()
+        } else {
+            Self::new()
+        };
+        parameters.silent = carried.silent;
+        parameters.global = carried.global;
+        parameters.names = carried.named.len();
+        parameters.named.extend(carried.named);
+        parameters
+    }
 }
 
 impl Parameters {

@@ -20,6 +20,7 @@
 use std::collections::BTreeMap;
 
 use glidepath_geometry::AxisVector;
+use serde::{Deserialize, Serialize};
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
@@ -35,7 +36,7 @@ pub(crate) const MAX_TOOL: u32 = 999_999;
 pub const MAX_TOOLS: usize = 10_000;
 
 /// One tool.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Tool {
     /// Length offsets: what is added to program coordinates while they are in force; mm, degrees.
     pub offset: AxisVector,
@@ -47,7 +48,7 @@ pub struct Tool {
 }
 
 /// Tools by number.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct ToolTable {
     tools: BTreeMap<u32, Tool>,
 }

@@ -2,12 +2,13 @@
 //! and the offset of G92. A program may change all of it.
 
 use glidepath_geometry::AxisVector;
+use serde::{Deserialize, Serialize};
 
 /// Number of coordinate systems: G54 … G59, G59.1 … G59.3.
 pub const SYSTEMS: usize = 9;
 
 /// One of the coordinate systems G54 … G59.3.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct CoordinateSystem {
     /// Machine coordinates of its zero: mm, degrees.
     pub origin: AxisVector,
@@ -36,7 +37,7 @@ impl CoordinateSystem {
 }
 
 /// What a program starts with, and leaves behind.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct WorkOffsets {
     /// G54 … G59.3.
     pub systems: [CoordinateSystem; SYSTEMS],

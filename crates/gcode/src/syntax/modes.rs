@@ -1,7 +1,9 @@
 //! What the codes of each modal group mean.
 
+use serde::{Deserialize, Serialize};
+
 /// Motion modes (group 1).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Motion {
     /// G0.
     Rapid,
@@ -54,7 +56,7 @@ impl Motion {
 }
 
 /// Cycles of FANUC's lathes of one pass: to depth, along, out and back.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Turning {
     /// G90: along Z.
     Turn,
@@ -65,7 +67,7 @@ pub enum Turning {
 }
 
 /// Splines.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Spline {
     /// G5.
     Cubic,
@@ -80,7 +82,7 @@ pub enum Spline {
 }
 
 /// Canned cycles.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum CannedCycle {
     /// G73: drilling that breaks the chip.
     ChipBreak,
@@ -103,7 +105,7 @@ pub enum CannedCycle {
 }
 
 /// Lathe cycles along a profile.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum LatheCycle {
     /// G70: finishing.
     Finish,
@@ -114,7 +116,7 @@ pub enum LatheCycle {
 }
 
 /// What a roughing cycle does about the pockets of a profile: places where it leads back inwards.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Pockets {
     /// G71, G72: cut like the rest.
     Cut,
@@ -125,7 +127,7 @@ pub enum Pockets {
 }
 
 /// Probing moves.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Probe {
     /// True for G38.2 and G38.3: until contact. False: until contact is lost.
     pub toward: bool,
@@ -189,7 +191,7 @@ pub(crate) enum PoleFrom {
 }
 
 /// Meaning of axis words (group 3) or of I, J, K (group 4).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Distance {
     /// G90, G90.1.
     Absolute,
@@ -198,7 +200,7 @@ pub enum Distance {
 }
 
 /// Meaning of F (group 5).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum FeedMode {
     /// G93: one over the minutes the move takes.
     InverseTime,
@@ -220,7 +222,7 @@ pub(crate) enum CutterRadius {
 }
 
 /// Which side of the path the tool is on, seen in the direction of motion.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) enum Side {
     Left,
     Right,
@@ -242,7 +244,7 @@ pub(crate) enum ToolLength {
 }
 
 /// Where a canned cycle retracts to (group 10).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Retract {
     /// G98: where the axis was before the cycles began.
     Initial,
@@ -260,7 +262,7 @@ pub(crate) enum SpindleMode {
 }
 
 /// Length units (group 6).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Units {
     /// G20.
     Inch,

@@ -8,6 +8,7 @@
     reason = "tests, which clippy does not see as such"
 )]
 
+mod carried;
 mod corpus;
 mod corpus_refused;
 mod damaged;

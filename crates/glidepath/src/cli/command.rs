@@ -336,6 +336,7 @@ impl Command {
             Self::Live(args) => Some((args.file.as_ref(), &args.program)),
             // Each file of a check may be in a dialect of its own.
             Self::Check(args) => Some((None, &args.program)),
+            Self::Audit(args) => Some((args.program.as_ref(), &args.reading)),
             _ => None,
         }
     }

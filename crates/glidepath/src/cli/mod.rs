@@ -15,6 +15,7 @@ mod path;
 mod program;
 mod record;
 mod telemetry;
+mod time;
 
 pub use basic::{BasicArgs, InstanceArgs, OverwriteArgs};
 pub use command::Command;

@@ -3,7 +3,8 @@
 use super::basic::{BasicArgs, OverwriteArgs};
 use super::operator::OperatorArgs;
 use super::path::PathArgs;
-use super::program::program_file;
+use super::program::{ProgramArgs, program_file};
+use super::time::{seconds, time};
 use crate::program_file::ProgramFile;
 use clap::Args;
 use std::path::PathBuf;
@@ -54,6 +55,9 @@ pub struct AuditArgs {
     /// The program that it has to follow; a recording may have one of its own
     #[arg(long, value_name = "PROGRAM", value_parser = program_file(), value_hint = clap::ValueHint::AnyPath)]
     pub program: Option<ProgramFile>,
+    /// How the program is read, where a recording does not tell it.
+    #[command(flatten)]
+    pub reading: ProgramArgs,
     /// How the path was to be followed.
     #[command(flatten)]
     pub path: PathArgs,
@@ -62,29 +66,10 @@ pub struct AuditArgs {
     pub basic: BasicArgs,
 }
 
-fn seconds(text: &str) -> Result<f64, &'static str> {
-    let number: f64 = text.parse().map_err(|_| "give a number")?;
-    if number.is_finite() && number > 0.0 && number <= 1e7 {
-        Ok(number)
-    } else {
-        Err("give seconds above 0")
-    }
-}
-
 fn duration(text: &str) -> Result<Duration, &'static str> {
-    let end = text
-        .find(|c: char| !(c.is_ascii_digit() || c == '.'))
-        .unwrap_or(text.len());
-    let (number, unit) = text.split_at(end);
-    let factor = match unit.trim() {
-        "s" | "" => 1.0,
-        "min" => 60.0,
-        "h" => 3600.0,
-        _ => return Err("give a time, such as 10min, 90s or 1h"),
-    };
-    let number = seconds(number)? * factor;
-    if number <= 14_400.0 {
-        Ok(Duration::from_secs_f64(number))
+    let time = time(text)?;
+    if time <= Duration::from_secs(14_400) {
+        Ok(time)
     } else {
         Err("give 4 h at most: they are kept in memory")
     }

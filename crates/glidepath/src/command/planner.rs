@@ -4,6 +4,7 @@ use super::attendant::{Attendant, tell};
 use super::program_note::ProgramNote;
 use super::session;
 use super::workshop::Workshop;
+use crate::begun::{Board, Part};
 use crate::cli::PlannerArgs;
 use crate::clock;
 use crate::command::failure::Failure;
@@ -37,6 +38,7 @@ pub(super) fn planner(args: &PlannerArgs, config: &MachineConfig) -> Result<Exit
     let link = session::link(&session::instance(&args.instance, config), config);
     let transport = Ipc::connect(&link)?;
     let quiet = args.end_with.is_some();
+    let board = Board::new(link.directory(), session::configuration(&args.basic)?);
     let Some(file) = &args.file else {
         let mut notify = |notice: &Notice<'_>| tell(notice, quiet);
         let mut control = Control {
@@ -44,7 +46,7 @@ pub(super) fn planner(args: &PlannerArgs, config: &MachineConfig) -> Result<Exit
             pause: &mut std::thread::sleep,
             notify: &mut notify,
         };
-        let exit = serve((&transport, &link), config, &mut control, &interrupt)?;
+        let exit = serve((&transport, &link), (config, &board), &mut control, &interrupt)?;
         if args.basic.json {
             output::object(&json!({ "listened": true, "exit_code": exit as u8 }));
         }
@@ -77,6 +79,7 @@ pub(super) fn planner(args: &PlannerArgs, config: &MachineConfig) -> Result<Exit
         publisher,
         config: &config,
         attendant: &attendant,
+        board: &board,
         file,
         note: ProgramNote::of_file(&link, file.name()),
     };
@@ -112,6 +115,7 @@ struct Job<'a> {
     publisher: Publisher<'a>,
     config: &'a MachineConfig,
     attendant: &'a Attendant,
+    board: &'a Board,
     file: &'a ProgramFile,
     note: ProgramNote<'a>,
 }
@@ -173,6 +177,7 @@ impl Job<'_> {
                 "planner: reading standard input; the machine waits on the path where no more has come",
             );
         }
+        self.board.clear();
         let name = self.short_name();
         let start = self.publisher.wait_until_ready(&name, control)?;
         let options = self.watched().program_options(start);
@@ -186,9 +191,17 @@ impl Job<'_> {
     fn run(&mut self, control: &mut Control<'_>) -> Result<Statistics, Failure> {
         let name = self.short_name();
         let start = self.publisher.wait_until_ready(&name, control)?;
-        let source = self.open(start, &self.watched(), control)?;
+        let config = self.watched();
+        let source = self.open(start, &config, control)?;
+        self.tell_begun(&config, source.fingerprint(), Part::Whole);
         let pipeline = Pipeline::new(source, self.config.settings(), start);
         self.publish(pipeline, start, false, control)
+    }
+
+    /// Tells recorders what the program begins with, which is read to its end.
+    fn tell_begun(&self, config: &MachineConfig, fingerprint: u64, part: Part) {
+        let program = (self.file.path(), fingerprint);
+        self.board.tell(config, program, part);
     }
 
     fn publish<S: ItemSource + Send>(
@@ -223,6 +236,7 @@ impl Job<'_> {
         let mut config = self.watched();
         self.attendant.resume(point.program, &mut config)?;
         let source = self.open(point.program_start, &config, control)?;
+        self.tell_begun(&config, source.fingerprint(), Part::Rest);
         let settings = config.settings();
         let find = || Remainder::find(source, point, settings.tolerance_mm);
         let remainder = self.work("reading up to where it was left", control, find)??;
@@ -238,7 +252,7 @@ impl Job<'_> {
 /// Streams, lines and files, until asked to end.
 fn serve(
     (transport, link): (&dyn Transport, &LinkConfig),
-    config: &MachineConfig,
+    (config, board): (&MachineConfig, &Board),
     control: &mut Control<'_>,
     interrupt: &Interrupt,
 ) -> Result<Exit, Failure> {
@@ -255,7 +269,7 @@ fn serve(
              directory of [state]",
         );
     }
-    let mut workshop = Workshop::new(config, link.clone());
+    let mut workshop = Workshop::new(config, link.clone(), board);
     match serve_jobs(transport, &listening, Some(&mut workshop), control) {
         Ok(()) | Err(RunError::Interrupted) => Ok(interrupt.exit()),
         Err(error) => Err(error.into()),

@@ -6,6 +6,7 @@ use super::failure::Failure;
 use super::program_diagnostics::refusal_text;
 use super::program_note::ProgramNote;
 use super::reading::for_program;
+use crate::begun::{Board, Part};
 use crate::clock;
 use crate::config::MachineConfig;
 use crate::joints;
@@ -32,6 +33,7 @@ type LineSource = ProgramSource<Cursor<Vec<u8>>>;
 pub(super) struct Workshop<'c> {
     config: &'c MachineConfig,
     link: LinkConfig,
+    board: &'c Board,
     /// What the job before has left in force.
     in_force: Option<InForce>,
     /// The program begun last, and what it began with.
@@ -57,10 +59,15 @@ impl Bench<'_, '_, '_> {
 }
 
 impl<'c> Workshop<'c> {
-    pub(super) const fn new(config: &'c MachineConfig, link: LinkConfig) -> Self {
+    pub(super) const fn new(
+        config: &'c MachineConfig,
+        link: LinkConfig,
+        board: &'c Board,
+    ) -> Self {
         Self {
             config,
             link,
+            board,
             in_force: None,
             begun: None,
         }
@@ -94,6 +101,7 @@ impl<'c> Workshop<'c> {
                 unlisted: 0,
             }));
         }
+        self.board.clear();
         let source = |options| LineSource::new(Cursor::new(text.clone()), options);
         let attended = source(options()).attended(attendant.attending());
         let pipeline = Pipeline::new(attended, config.settings(), start);
@@ -127,6 +135,9 @@ impl<'c> Workshop<'c> {
         let source = source.map_err(|e| refusal(&e))?;
         let source = source.attended(attendant.attending());
         let fingerprint = source.fingerprint();
+        let is_whole = begins.point.is_none() && file.from.is_none();
+        let part = if is_whole { Part::Whole } else { Part::Rest };
+        self.board.tell(&config, (file.path, fingerprint), part);
         let settings = config.settings();
         let run = match (begins.point, file.from) {
             (Some(point), _) => {

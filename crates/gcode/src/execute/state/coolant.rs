@@ -1,7 +1,9 @@
 //! What the coolant was told.
 
+use serde::{Deserialize, Serialize};
+
 /// What the coolant was told.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub(crate) struct Coolant {
     /// M7.
     pub(crate) mist: bool,

@@ -6,10 +6,12 @@
 //! | `G90` | absolute | as `M82` or `M83` said |
 //! | `M82`, `M83` | absolute, relative | absolute, relative, unless G91 is in force |
 
+use serde::{Deserialize, Serialize};
+
 use crate::setup::firmware::Firmware;
 
 /// What a printer's program has said of its E words.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub(crate) struct ExtruderMode {
     /// By the last of G90, G91, M82 and M83.
     by_last: bool,

@@ -3,19 +3,20 @@
 use std::collections::BTreeMap;
 
 use glidepath_geometry::{Axis, AxisVector, Plane};
+use serde::{Deserialize, Serialize};
 
 use crate::execute::state::frame::Frame;
 use crate::setup::work_offsets::CoordinateSystem;
 
 /// Wear of a tool: what is added to the offsets of the table, mm.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct Wear {
     pub(crate) length_mm: f64,
     pub(crate) radius_mm: f64,
 }
 
 /// Offsets beside those of every control.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct FanucOffsets {
     /// Added to the origin of every coordinate system (G10 L2 P0, `#5201`).
     pub(crate) external: AxisVector,
@@ -27,6 +28,7 @@ pub(crate) struct FanucOffsets {
     /// Where the table has taken the zero of the program from (G254 of Haas).
     pub(crate) dynamic: Option<AxisVector>,
     /// What G51, G51.1 and G68 have begun.
+    #[serde(skip)]
     pub(crate) frames: FanucFrames,
 }
 

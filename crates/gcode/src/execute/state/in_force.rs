@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use glidepath_geometry::AxisVector;
+use serde::{Deserialize, Serialize};
 
 use crate::execute::parameters::Parameters;
 use crate::execute::state::offsets::Offsets;
@@ -12,10 +13,13 @@ use crate::setup::work_offsets::WorkOffsets;
 
 /// All that is in force behind a block: modes, feed, spindle, tool, offsets, parameters. Where the
 /// machine stands is no part of it. Clones are the same; it equals nothing but them.
-#[derive(Debug, Clone)]
+///
+/// As text (serde) it is for programs that are read again elsewhere. Numbers of parameters may be NaN, which stands for
+/// FANUC's null, so the format has to have that; TOML does.
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct InForce(pub(crate) Arc<InForceParts>);
 
-#[derive(Debug)]
+#[derive(Debug, Serialize, Deserialize)]
 pub(crate) struct InForceParts {
     pub(crate) state: State,
     pub(crate) offsets: Offsets,

@@ -2,11 +2,12 @@
 
 use glidepath_geometry::{AxisVector, LINEAR_XYZ, Plane, UVW};
 use glidepath_program::PathMode;
+use serde::{Deserialize, Serialize};
 
 use crate::syntax::modes::{Distance, FeedMode, Motion, Retract, Units};
 
 /// A feedrate of G94, or a feed per revolution of G95.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Feed {
     /// For moves of linear axes, mm/s or mm per revolution, > 0.
     pub linear_v: f64,
@@ -30,7 +31,7 @@ impl Feed {
 }
 
 /// The modal state between two blocks.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Modal {
     /// Motion mode; `None` before the first one and after G80.
     pub motion: Option<Motion>,

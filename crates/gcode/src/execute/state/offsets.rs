@@ -10,13 +10,14 @@
 //! nothing, it gives the same place another name.
 
 use glidepath_geometry::{AXES, AxisVector, Plane};
+use serde::{Deserialize, Serialize};
 
 use crate::execute::state::fanuc_offsets::FanucOffsets;
 use crate::execute::state::frame::{Frame, PlaneImage};
 use crate::setup::work_offsets::{CoordinateSystem, SYSTEMS, WorkOffsets};
 
 /// Every offset a program can set.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Offsets {
     pub(crate) systems: [CoordinateSystem; SYSTEMS],
     /// Index of the active system.
@@ -30,8 +31,10 @@ pub(crate) struct Offsets {
     /// Machine positions of G28 and G30.
     pub(crate) reference: [AxisVector; 2],
     /// What the program has made of its coordinates.
+    #[serde(skip)]
     pub(crate) frame: Frame,
     /// The part of it that is a tilted plane, in which the others count.
+    #[serde(skip)]
     pub(crate) tilted: Frame,
     /// What FANUC's offsets have besides.
     pub(crate) fanuc: FanucOffsets,

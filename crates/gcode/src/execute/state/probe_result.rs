@@ -1,12 +1,13 @@
 //! What the last probing move is to find, and found.
 
 use glidepath_geometry::AxisVector;
+use serde::{Deserialize, Serialize};
 
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::modes::Probe;
 
 /// What `#5061` to `#5070` show.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct ProbeResult {
     /// Program coordinates of the contact, mm and degrees.
     pub(crate) contact: AxisVector,

@@ -1,6 +1,7 @@
 //! What a block may change, offsets apart.
 
 use glidepath_geometry::AxisVector;
+use serde::{Deserialize, Serialize};
 
 use crate::execute::state::coolant::Coolant;
 use crate::execute::state::extruder::ExtruderMode;
@@ -15,14 +16,16 @@ use crate::execute::state::tip::{Tilt, Tip};
 use crate::syntax::modes::Side;
 
 /// The part of the state a block may change, offsets apart.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 pub(crate) struct State {
     pub(crate) modal: Modal,
     /// Where the program has brought the machine, machine coordinates. With cutter radius
     /// compensation that is the programmed contour, not the tool.
+    #[serde(skip)]
     pub(crate) position: AxisVector,
     /// End of the last segment made. Within [`crate::execute::motion::settled::MIN_MOVE`] of
     /// `position`, unless cutter radius compensation is on or was just turned off.
+    #[serde(skip)]
     pub(crate) path_end: AxisVector,
     pub(crate) spindle: Spindle,
     pub(crate) coolant: Coolant,
@@ -52,18 +55,25 @@ pub(crate) struct State {
     /// Where the last pass of a thread ended.
     pub(crate) thread_end: Option<AxisVector>,
     /// The radius of all corners (RNDM), mm; 0: they stay.
+    #[serde(skip)]
     pub(crate) rounds_mm: f64,
     /// The pole of polar coordinates (G110 to G112 of SINUMERIK).
+    #[serde(skip)]
     pub(crate) pole: Pole,
     /// F counts millimetres whatever the unit of lengths is (G70 and G71 of SINUMERIK).
+    #[serde(skip)]
     pub(crate) feeds_in_mm: bool,
     /// The edge of the tool in force (D of SINUMERIK); `None`: none was chosen.
+    #[serde(skip)]
     pub(crate) edge: Option<u32>,
     /// Modes of FANUC alone.
+    #[serde(skip)]
     pub(crate) fanuc: FanucModal,
     /// What X, Y and Z are of, on a machine with five axes.
+    #[serde(skip)]
     pub(crate) tip: Tip,
     /// The program has tilted the plane.
+    #[serde(skip)]
     pub(crate) tilted: Option<Tilt>,
     /// What the first block of FANUC's G76 said.
     pub(crate) thread_setup: Option<ThreadSetup>,

@@ -1,7 +1,9 @@
 //! The spindle as the program has commanded it: direction, speed, and what S means.
 
+use serde::{Deserialize, Serialize};
+
 /// Which way the spindle turns.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) enum SpindleDirection {
     /// M3.
     Clockwise,
@@ -27,7 +29,7 @@ impl SpindleDirection {
 }
 
 /// State of the spindle.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct Spindle {
     /// Which way the program has it turn.
     pub(crate) turning: Option<SpindleDirection>,
@@ -44,7 +46,7 @@ pub(crate) struct Spindle {
 }
 
 /// G96.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Surface {
     /// Cutting speed, mm/min; zero until there is an S word.
     pub(crate) speed: f64,

@@ -1,9 +1,11 @@
 //! What canned cycles keep from block to block.
 
+use serde::{Deserialize, Serialize};
+
 use crate::syntax::modes::CannedCycle;
 
 /// What cycles keep from block to block.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct CycleSeries {
     /// Program coordinate, along the normal axis, from before the series, mm.
     pub(crate) initial: Option<f64>,
@@ -11,7 +13,7 @@ pub(crate) struct CycleSeries {
 }
 
 /// Words of a cycle that later blocks keep, mm and s.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) struct StickyWords {
     pub(crate) cycle: CannedCycle,
     pub(crate) r: f64,

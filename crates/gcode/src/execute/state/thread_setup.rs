@@ -1,7 +1,9 @@
 //! What the first block of FANUC's G76 says for those behind it.
 
+use serde::{Deserialize, Serialize};
+
 /// How a thread of FANUC's G76 is cut, in mm.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) struct ThreadSetup {
     /// Passes at full depth behind those that come to it.
     pub(crate) finishes: u32,

@@ -12,6 +12,12 @@ pub(crate) enum Tip {
     Stands,
 }
 
+impl Default for Tip {
+    fn default() -> Self {
+        Self::PLAIN
+    }
+}
+
 impl Tip {
     /// The tip of the tool that the kinematics know.
     pub(crate) const PLAIN: Self = Self::Follows { longer_mm: 0.0 };

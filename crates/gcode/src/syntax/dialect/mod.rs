@@ -9,6 +9,8 @@ pub(crate) mod marlin;
 pub(crate) mod siemens;
 pub(crate) mod words;
 
+use serde::{Deserialize, Serialize};
+
 /// The language a program is written in.
 ///
 /// The words all of them share are read as LinuxCNC reads them. What differs:
@@ -37,7 +39,8 @@ pub(crate) mod words;
 ///
 /// Programs of grbl are LinuxCNC's; its `$` commands are no part of a program. Everything else a
 /// dialect has is refused with the word.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Dialect {
     /// RS274/NGC as LinuxCNC reads it; grbl too.
     #[default]

@@ -4,27 +4,26 @@ mod continuity;
 mod finding;
 mod follows;
 mod led;
+mod outline;
+mod program;
 mod trace;
 
 use crate::cli::AuditArgs;
 use crate::command::failure::Failure;
-use crate::config::{self, MachineConfig};
+use crate::config::MachineConfig;
 use crate::exit::Exit;
-use crate::file_error::FileError;
 use crate::output;
 use crate::program_file::ProgramFile;
 use crate::report::{ShapeFigures, grouped};
 use continuity::Continuity;
 use finding::Findings;
 use follows::Follows;
-use glidepath_geometry::AxisVector;
-use glidepath_link::{EndOfEpoch, MachineState, Setpoint};
+use glidepath_link::{EndOfEpoch, Setpoint};
 use glidepath_recording::Entry;
-use led::Led;
+use outline::Outline;
+use program::Program;
 use serde_json::json;
-use std::io::Write as _;
-use std::path::{Path, PathBuf};
-use tempfile::NamedTempFile;
+use std::path::Path;
 use trace::Trace;
 
 /// Two places that are the same but for rounding, mm or degrees.
@@ -42,53 +41,9 @@ pub(super) fn audit(args: &AuditArgs, config: &MachineConfig) -> Result<Exit, Fa
         program.open()?;
     }
     let program = Program::of(args, config)?;
-    let verdict = judge(&args.file, &program.config, program.path.as_deref())?;
+    let verdict = judge(&args.file, &program)?;
     verdict.tell(args);
     Ok(verdict.exit())
-}
-
-/// What a file is judged by.
-struct Program {
-    config: MachineConfig,
-    path: Option<PathBuf>,
-    /// The program of the recording, in a file, for as long as it is needed.
-    _kept: Option<NamedTempFile>,
-}
-
-impl Program {
-    fn of(args: &AuditArgs, config: &MachineConfig) -> Result<Self, Failure> {
-        let trace = Trace::open(&args.file, config)?;
-        let mut program = Self {
-            config: config.clone(),
-            path: args.program.as_ref().map(|file| file.path().to_owned()),
-            _kept: None,
-        };
-        let Some(origin) = trace.origin() else {
-            return Ok(program);
-        };
-        if args.basic.config.is_none() {
-            let name = format!("configuration of {}", args.file.name().display());
-            program.config = config::parse(&name, &origin.configuration)?;
-            let fact = |name: &str| origin.fact(name).unwrap_or_default();
-            let path = &mut program.config.path;
-            // What the command line of the recorder said counts for more than its file.
-            path.effort = config::effort(fact("effort")).unwrap_or(path.effort);
-            path.tolerance_mm = fact("tolerance_mm").parse().unwrap_or(path.tolerance_mm);
-            path.effort = args.path.effort.unwrap_or(path.effort);
-            path.tolerance_mm = args.path.tolerance.unwrap_or(path.tolerance_mm);
-        }
-        if let (None, Some(text)) = (&args.program, &origin.program) {
-            let write = || {
-                let mut file = NamedTempFile::new()?;
-                file.write_all(text)?;
-                Ok(file)
-            };
-            let file = write().map_err(FileError::file("keep the program of", args.file.name()))?;
-            program.path = Some(file.path().to_owned());
-            program._kept = Some(file);
-        }
-        Ok(program)
-    }
 }
 
 /// What came of it.
@@ -105,64 +60,9 @@ struct Verdict {
     notes: Vec<String>,
 }
 
-/// What the first look at a file tells.
-#[derive(Default)]
-struct Outline {
-    /// Epochs with motion in them.
-    epochs: Vec<u64>,
-    /// Whether the first of them is there from its beginning, and where it begins.
-    begin: Option<AxisVector>,
-    overrides: Option<(f64, f64)>,
-    is_away: bool,
-    /// Whether the motion went back along the path.
-    goes_back: bool,
-    /// The machine came to the end of what it did.
-    is_idle: bool,
-    /// The drives lost their power in the motion.
-    is_cut: bool,
-    led: Led,
-    end: Option<EndOfEpoch>,
-    has_statuses: bool,
-    /// Fingerprint of the program that was executed, and where the machine stood when it began.
-    program: Option<(u64, AxisVector)>,
-}
-
-impl Outline {
-    fn take(&mut self, setpoint: &Setpoint, last: Option<&Setpoint>) {
-        let state = setpoint.state();
-        self.is_idle = state == Ok(MachineState::Idle);
-        let is_led = self.led.see(setpoint);
-        self.is_cut |= is_led && self.epochs.last() == Some(&setpoint.epoch);
-        // Behind a motion the machine rests in its epoch.
-        if setpoint.epoch == 0 || self.is_idle || is_led {
-            return;
-        }
-        let is_new = self.epochs.last() != Some(&setpoint.epoch);
-        if is_new {
-            if self.epochs.is_empty() {
-                let stood = last.map(|last| AxisVector::from(last.position));
-                let begins = setpoint.sequence == 0 || stood.is_some();
-                let place = stood.unwrap_or_else(|| setpoint.position.into());
-                self.begin = begins.then_some(place);
-            }
-            self.epochs.push(setpoint.epoch);
-        }
-        self.goes_back |= setpoint.feed_v < 0.0;
-        self.is_away |= setpoint.away.iter().any(|away| *away != 0.0);
-        if state == Ok(MachineState::Running) {
-            let now = setpoint.effective_override;
-            let (least, most) = self.overrides.unwrap_or((now, now));
-            self.overrides = Some((least.min(now), most.max(now)));
-        }
-    }
-}
-
 /// Judges a file by a machine and, if there is one, by a program.
-fn judge(
-    file: &ProgramFile,
-    config: &MachineConfig,
-    program: Option<&Path>,
-) -> Result<Verdict, Failure> {
+fn judge(file: &ProgramFile, program: &Program) -> Result<Verdict, Failure> {
+    let config = &program.config;
     let mut trace = Trace::open(file, config)?;
     let mut continuity = Continuity::new(config);
     let mut outline = Outline::default();
@@ -199,34 +99,21 @@ fn judge(
         verdict.note("the recording was cut short: judged as far as it goes");
     }
     outline.goes_back &= !trace.has_program_time();
-    match (program, unjudged(&outline)) {
-        (None, _) => verdict.note("no program was given: its path is not judged (--program)"),
-        (Some(_), Some(why)) => verdict.note(why),
-        (Some(program), None) => follow(file, config, program, &outline, &mut verdict)?,
+    let Some(path) = program.path() else {
+        verdict.note("no program was given: its path is not judged (--program)");
+        return Ok(verdict);
+    };
+    let why = outline.unjudged().map(str::to_owned);
+    match why.or_else(|| program.unjudged(&outline)) {
+        Some(why) => verdict.note(&why),
+        None => follow(file, (config, path), &outline, &mut verdict)?,
     }
     Ok(verdict)
 }
 
-/// Why the path is not judged by the program.
-const fn unjudged(outline: &Outline) -> Option<&'static str> {
-    match (outline.epochs.as_slice(), &outline.begin) {
-        ([], _) => Some("nothing moved: there is no path to judge"),
-        ([_], None) => Some("it begins in the middle of the program: its path is not judged"),
-        ([_], Some(_)) if outline.is_away => {
-            Some("axes left the path, by hand or into a tapped hole: it is not judged")
-        }
-        ([_], Some(_)) if outline.goes_back => Some(
-            "the motion went back along its path, and rows do not tell how far: it is not judged",
-        ),
-        ([_], Some(_)) => None,
-        _ => Some("there are several motions in it: their paths are not judged"),
-    }
-}
-
 fn follow(
     file: &ProgramFile,
-    config: &MachineConfig,
-    program: &Path,
+    (config, program): (&MachineConfig, &Path),
     outline: &Outline,
     verdict: &mut Verdict,
 ) -> Result<(), Failure> {

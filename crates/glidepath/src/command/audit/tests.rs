@@ -1,6 +1,7 @@
 //! Recordings of plans of random programs: as they are, and with one fault planted in each.
 
 use super::*;
+use crate::config;
 use crate::plan_steps::PlanSteps;
 use bytemuck::Zeroable as _;
 use core::fmt::Write as _;
@@ -8,6 +9,7 @@ use glidepath_planner::{FileSource, Step};
 use glidepath_program::Effort;
 use glidepath_recording::{Origin, Recorder};
 use std::fs::File;
+use std::path::PathBuf;
 
 /// Recordings of a run in CI; all of them: `GLIDEPATH_RECORDINGS=100`.
 const SAMPLE: u64 = 10;
@@ -187,6 +189,10 @@ fn record(folder: &Path, name: &str, setpoints: &[Setpoint]) -> PathBuf {
     path
 }
 
+fn by(config: &MachineConfig, program: &Path) -> Program {
+    Program::by(config.clone(), Some(program.to_owned()))
+}
+
 #[test]
 fn every_fault_is_found_and_none_where_there_is_none() {
     let count = std::env::var("GLIDEPATH_RECORDINGS").ok();
@@ -201,7 +207,7 @@ fn every_fault_is_found_and_none_where_there_is_none() {
         std::fs::write(&path, &program).unwrap();
         let mut setpoints = played(&path, &config);
         let clean = record(folder.path(), "clean.mcap", &setpoints);
-        let verdict = judge(&ProgramFile::named(&clean), &config, Some(&path)).unwrap();
+        let verdict = judge(&ProgramFile::named(&clean), &by(&config, &path)).unwrap();
         assert_eq!(verdict.setpoints, setpoints.len() as u64);
         assert!(
             verdict.was_replanned && verdict.notes.is_empty(),
@@ -214,7 +220,7 @@ fn every_fault_is_found_and_none_where_there_is_none() {
         );
         let expected = plant(seed, &mut setpoints, numbers);
         let faulty = record(folder.path(), "faulty.mcap", &setpoints);
-        let verdict = judge(&ProgramFile::named(&faulty), &config, Some(&path)).unwrap();
+        let verdict = judge(&ProgramFile::named(&faulty), &by(&config, &path)).unwrap();
         let kinds: Vec<_> = verdict
             .findings
             .listed
@@ -254,7 +260,7 @@ fn an_ordinary_fault_has_no_findings() {
         (setpoint.velocity, setpoint.acceleration) = ([0.0; 9], [0.0; 9]);
     }
     let recorded = record(folder.path(), "fault.mcap", &setpoints);
-    let verdict = judge(&ProgramFile::named(&recorded), &config, Some(&path)).unwrap();
+    let verdict = judge(&ProgramFile::named(&recorded), &by(&config, &path)).unwrap();
     assert_eq!(verdict.findings.listed, [], "{verdict:?}");
     assert!(
         verdict.most.iter().all(|most| *most <= 1.0 + 1e-6),
@@ -286,7 +292,7 @@ fn a_deviation_is_found_without_the_plan_too() {
         .take(1)
         .for_each(|setpoint| setpoint.effective_override = 0.9);
     let clean = record(folder.path(), "clean.mcap", &setpoints);
-    let verdict = judge(&ProgramFile::named(&clean), &config, Some(&path)).unwrap();
+    let verdict = judge(&ProgramFile::named(&clean), &by(&config, &path)).unwrap();
     assert!(!verdict.was_replanned);
     assert_eq!(verdict.findings.listed, []);
     // A smooth bump across the path, which lies in a plane there.
@@ -296,7 +302,7 @@ fn a_deviation_is_found_without_the_plan_too() {
         setpoint.position[2] += 0.2 * (1.0 - turn.cos()) / 2.0;
     }
     let faulty = record(folder.path(), "faulty.mcap", &setpoints);
-    let verdict = judge(&ProgramFile::named(&faulty), &config, Some(&path)).unwrap();
+    let verdict = judge(&ProgramFile::named(&faulty), &by(&config, &path)).unwrap();
     assert!(
         verdict
             .findings

@@ -7,7 +7,7 @@ use crate::program_file::ProgramFile;
 use bytemuck::Zeroable as _;
 use glidepath_geometry::Axis;
 use glidepath_link::{MachineState, Setpoint};
-use glidepath_recording::{Entry, MAGIC, Origin, Reader};
+use glidepath_recording::{Begun, Entry, MAGIC, Origin, Reader};
 use std::fs::File;
 use std::io::{self, BufRead as _, BufReader, Read as _, Seek as _};
 use std::path::PathBuf;
@@ -81,6 +81,16 @@ impl Trace {
             Self::Recording(reader, _) => Some(reader.origin()),
             Self::Csv(_) => None,
         }
+    }
+
+    /// What the first program began with that begins in it, for which entries are read and passed over.
+    pub(super) fn begun(&mut self) -> Result<Option<&Begun>, Failure> {
+        let Self::Recording(reader, path) = self else {
+            return Ok(None);
+        };
+        let failed = |error| Failure::recording(path, error);
+        while reader.begun().is_none() && reader.next_entry().map_err(failed)?.is_some() {}
+        Ok(reader.begun())
     }
 
     /// Whether it tells at which program time a setpoint was.

@@ -13,8 +13,10 @@ pub(super) const TOLERANCE: Range = Range {
     help: "how far the motion may leave the programmed path",
 };
 
-pub(super) const EFFORTS: [(&str, Effort); 2] =
-    [("optimal", Effort::Optimal), ("fast", Effort::Fast)];
+pub(super) const EFFORTS: [(&str, Effort); 2] = [
+    (Effort::Optimal.name(), Effort::Optimal),
+    (Effort::Fast.name(), Effort::Fast),
+];
 
 pub(super) const CORNERS: [(&str, Corners); 2] =
     [("either", Corners::Either), ("inner", Corners::Inner)];

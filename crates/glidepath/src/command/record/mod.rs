@@ -1,6 +1,8 @@
 //! `glidepath record`: every setpoint and status, in a file that others can open; or in memory, until
 //! a fault makes them worth a file.
 
+mod beginnings;
+
 use super::session;
 use crate::cli::RecordArgs;
 use crate::command::failure::Failure;
@@ -12,12 +14,12 @@ use crate::output;
 use crate::output_file::{OutputFile, OutputKind};
 use crate::report::grouped;
 use crate::text_file;
+use beginnings::Beginnings;
 use glidepath_link::{
     Ipc, MachineState, Record as _, Setpoint, Status, Subscriber, Transport as _,
 };
-use glidepath_program::Effort;
 use glidepath_realtime::{Clock as _, Monotonic};
-use glidepath_recording::{MOST_PROGRAM_BYTES, Origin, Recorder};
+use glidepath_recording::{Begun, MOST_PROGRAM_BYTES, Origin, Recorder};
 use serde_json::json;
 use std::collections::VecDeque;
 use std::ffi::OsString;
@@ -70,12 +72,15 @@ struct Source {
     cleaned: Instant,
     last: Option<(u64, u64)>,
     lost: u64,
+    beginnings: Beginnings,
 }
 
 impl Source {
     fn join(args: &RecordArgs, config: &MachineConfig) -> Result<Self, Failure> {
         let transport = session::join(&args.operator.instance, config)?;
+        let instance = session::instance(&args.operator.instance, config);
         Ok(Self {
+            beginnings: Beginnings::new(session::link(&instance, config).directory()),
             setpoints: transport.setpoint_source()?,
             statuses: transport.status_source()?,
             transport,
@@ -85,7 +90,8 @@ impl Source {
         })
     }
 
-    fn setpoint(&mut self) -> Result<Option<Setpoint>, Failure> {
+    /// The next setpoint, and what its program began with if it is the first of it.
+    fn setpoint(&mut self) -> Result<Option<(Setpoint, Option<Begun>)>, Failure> {
         let Some(setpoint) = self.setpoints.take()? else {
             return Ok(None);
         };
@@ -95,7 +101,8 @@ impl Source {
             self.lost += setpoint.number.saturating_sub(number + 1);
         }
         self.last = Some((setpoint.boot_id, setpoint.number));
-        Ok(Some(setpoint))
+        let begun = self.beginnings.at(&setpoint);
+        Ok(Some((setpoint, begun)))
     }
 
     fn rest(&mut self) -> Result<(), Failure> {
@@ -140,11 +147,7 @@ fn origin(args: &RecordArgs, config: &MachineConfig, instance: &str) -> Result<O
         .collect();
     origin.tell("axes", axes.join(" "));
     origin.tell("tolerance_mm", config.path.tolerance_mm);
-    let effort = match config.path.effort {
-        Effort::Fast => "fast",
-        Effort::Optimal => "optimal",
-    };
-    origin.tell("effort", effort);
+    origin.tell("effort", config.path.effort.name());
     if let Some(program) = &args.program {
         origin.tell("program", program.name().display());
     }
@@ -217,7 +220,10 @@ fn to_file(
         interrupt.is_set() || args.seconds.is_some_and(|seconds| elapsed >= seconds)
     };
     while !is_over() {
-        while let Some(setpoint) = source.setpoint()? {
+        while let Some((setpoint, begun)) = source.setpoint()? {
+            if let Some(begun) = begun {
+                file.put(|recorder| recorder.begun(&begun))?;
+            }
             file.put(|recorder| recorder.setpoint(&setpoint))?;
             count += 1;
         }
@@ -253,6 +259,8 @@ fn to_file(
 struct Ring {
     setpoints: VecDeque<Setpoint>,
     statuses: VecDeque<Status>,
+    /// What the program began with that was begun last.
+    begun: Option<Begun>,
 }
 
 impl Ring {
@@ -277,7 +285,11 @@ impl Ring {
     fn save(&self, place: &Path, origin: &Origin) -> Result<(), Failure> {
         let mut file = Growing::begin(place, origin)?;
         let mut statuses = self.statuses.iter().peekable();
+        let mut begun = self.begun.as_ref();
         for setpoint in &self.setpoints {
+            if let Some(begun) = begun.take_if(|begun| begun.epoch == setpoint.epoch) {
+                file.put(|recorder| recorder.begun(begun))?;
+            }
             while let Some(status) =
                 statuses.next_if(|status| status.updated_ns <= setpoint.scheduled_ns)
             {
@@ -304,7 +316,8 @@ fn black_box(
     let (mut was_faulted, mut fault) = (false, None);
     let mut saved = Vec::new();
     while !interrupt.is_set() {
-        while let Some(setpoint) = source.setpoint()? {
+        while let Some((setpoint, begun)) = source.setpoint()? {
+            ring.begun = begun.or_else(|| ring.begun.take());
             ring.forget_before(setpoint.scheduled_ns.saturating_sub(length_ns));
             ring.setpoints.push_back(setpoint);
         }

@@ -1,0 +1,90 @@
+//! What is in force goes from one program to the next as text, too, and means the same there.
+
+use std::sync::Arc;
+
+use glidepath_gcode::{Connections, Dialect, InForce, Options, Program, Tool, ToolTable};
+use glidepath_geometry::AxisVector;
+use glidepath_program::Item;
+
+fn options(dialect: Dialect) -> Options {
+    let mut tools = ToolTable::new();
+    let mut offset = AxisVector::zeros();
+    offset[2] = 1.0 / 3.0;
+    let tool = Tool {
+        offset,
+        diameter_mm: 6.1,
+        orientation: 3,
+    };
+    tools.set(7, tool);
+    Options {
+        tools: Some(Arc::new(tools)),
+        default_feed_mm_min: Some(600.0),
+        connections: Connections::Simulated,
+        dialect,
+        ..Options::default()
+    }
+}
+
+fn left_by(text: &str, dialect: Dialect) -> InForce {
+    let mut program = Program::new(text.as_bytes(), options(dialect));
+    for item in &mut program {
+        item.expect("a program without findings");
+    }
+    program.in_force()
+}
+
+fn items(text: &str, dialect: Dialect, in_force: Option<InForce>) -> Vec<Item> {
+    let mut options = options(dialect);
+    if let Some(in_force) = &in_force {
+        options.offsets = in_force.work_offsets();
+        options.tools = in_force.tools().cloned();
+    }
+    options.in_force = in_force;
+    let program = Program::new(text.as_bytes(), options);
+    program.map(|item| item.expect("no findings")).collect()
+}
+
+#[test]
+fn a_program_means_the_same_behind_what_was_carried_as_text() {
+    // What one leaves, and one that depends on it.
+    let pairs = [
+        (
+            Dialect::LinuxCnc,
+            "G20 G91 G18 G98 G64 P0.001\n#31=[1/3] #4999=-2 #<_depth>=0.7\nG10 L2 P3 X[1/7] R30\nG56 G43 H7 S800 M3 M8\n\
+             G92 Y0.2\nG10 L1 P7 Z0.4\nF[100/7] G1 X1\n",
+            "X#31 Z[#4999 / 10]\nY#<_depth>\nG90 G43 H7 Z0\nG2 X0 Z0 I0.1\nG56 X0 Y0\n",
+        ),
+        (
+            Dialect::LinuxCnc,
+            "G81 X1 Y1 Z-1 R2 F100\nG61\n",
+            "X2\nG80 G1 X0\n",
+        ),
+        (
+            Dialect::Fanuc,
+            "#100=5.5\nG54 G21 G90 G0 X1\nM30\n",
+            "G90 G0 X#100 Y#101\nG1 X1 F100\nM30\n",
+        ),
+    ];
+    for (dialect, before, after) in pairs {
+        let left = left_by(before, dialect);
+        let text = toml::to_string(&left).expect("text");
+        let carried: InForce = toml::from_str(&text).expect("what is in force");
+        let wanted = items(after, dialect, Some(left));
+        assert_ne!(
+            wanted,
+            items(after, dialect, None),
+            "it depends on nothing: {after}"
+        );
+        assert_eq!(items(after, dialect, Some(carried)), wanted, "{text}");
+    }
+}
+
+#[test]
+fn text_of_others_does_no_harm() {
+    let left = left_by("#31=1 G55\n", Dialect::LinuxCnc);
+    let text = toml::to_string(&left).expect("text");
+    let wild = text.replace("active = 1", "active = 70000");
+    assert_ne!(wild, text);
+    let carried: InForce = toml::from_str(&wild).expect("what is in force");
+    assert!(!items("G1 X1 Y2\n", Dialect::LinuxCnc, Some(carried)).is_empty());
+}
