@@ -59,7 +59,7 @@ mod tests {
     use super::*;
     use crate::failure::Code;
     use bytemuck::Zeroable as _;
-    use glidepath_link::{FaultCause, Record as _};
+    use glidepath_link::FaultCause;
 
     /// What a function gives that takes room for a text.
     fn told(give: impl Fn(Room<c_char>, usize) -> i32) -> Result<String, i32> {
