@@ -3,7 +3,7 @@
 use std::io::BufRead;
 
 use glidepath_geometry::AxisVector;
-use glidepath_program::Item;
+use glidepath_program::{Item, ItemKind};
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::{Diagnostic, MAX_DIAGNOSTICS};
@@ -58,7 +58,7 @@ impl Report {
 }
 
 /// What [`diagnostics`] found.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Diagnostics {
     /// As [`Report::diagnostics`].
     pub diagnostics: Vec<Diagnostic>,
@@ -70,6 +70,8 @@ pub struct Diagnostics {
     pub lacks_end: bool,
     /// Lines read, as [`Totals::lines`].
     pub lines: u32,
+    /// The time that feed moves, at their feedrate, and dwells take at least, s: those without diagnostics.
+    pub least_time_s: f64,
 }
 
 /// Checks a program.
@@ -95,7 +97,20 @@ pub fn check<R: BufRead>(reader: R, options: Options) -> Report {
 /// Lists the diagnostics of [`check`] without counts and sums, for a program that is only to be
 /// accepted or refused.
 pub fn diagnostics<R: BufRead>(reader: R, options: Options) -> Diagnostics {
-    read(&mut Program::new(reader, options).only_judged(), |_| {})
+    let mut least_time_s = 0.0;
+    let mut program = Program::new(reader, options).only_judged();
+    let found = read(&mut program, |item| match &item.kind {
+        ItemKind::Move { segment, rate, .. } => {
+            let time_s = |feed_v| segment.length() / feed_v;
+            least_time_s += rate.feed_v().map_or(0.0, time_s);
+        }
+        ItemKind::Dwell(seconds) => least_time_s += seconds,
+        ItemKind::Event(_) => {}
+    });
+    Diagnostics {
+        least_time_s: least_time_s + program.interpreter.judged_time_s,
+        ..found
+    }
 }
 
 /// Reads a program to its end, or for as long as its loops may go on.

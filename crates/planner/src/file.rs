@@ -205,6 +205,7 @@ pub fn find_in_file(
         given_up_at: report.given_up_at,
         lacks_end: report.lacks_end,
         lines: report.totals.lines,
+        least_time_s: report.totals.feed_time_s + report.totals.dwell_s,
     })
 }
 

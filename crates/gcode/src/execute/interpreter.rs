@@ -73,6 +73,9 @@ pub(crate) struct Interpreter {
     pub(crate) only_judges: bool,
     /// The block executed last was one of them.
     pub(crate) has_judged: bool,
+    /// The time that those which were judged take at their feedrate, or somewhat less, s: that of the axis
+    /// which goes furthest.
+    pub(crate) judged_time_s: f64,
     /// What the straight move of a plain line made last was made with; it holds as long as nothing
     /// else is executed.
     pub(crate) course: Course,
@@ -148,6 +151,7 @@ impl Interpreter {
             zero_length: ZeroLength::default(),
             only_judges: false,
             has_judged: false,
+            judged_time_s: 0.0,
             course: Course::new(),
             axes_end,
             is_mapped: map.is_some(),

@@ -3,9 +3,11 @@
 use super::basic::{BasicArgs, InstanceArgs, OverwriteArgs};
 use super::path::PathArgs;
 use super::program::{ProgramArgs, program_file};
+use super::time::time;
 use crate::program_file::ProgramFile;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
+use std::time::Duration;
 
 /// What `run` moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -81,6 +83,9 @@ pub struct PlanArgs {
     /// Write a plot of the motion: NAME.svg, or a page to look closer, NAME.html
     #[arg(long, value_name = "FILE")]
     pub plot: Option<PathBuf>,
+    /// Refuse programs whose feeds and dwells take longer than that; such as 90s, 10min, 8h or 30d
+    #[arg(long, value_name = "TIME", value_parser = time, default_value = "7d")]
+    pub longest: Duration,
     /// Which files may be overwritten.
     #[command(flatten)]
     pub overwrite: OverwriteArgs,

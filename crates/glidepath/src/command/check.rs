@@ -13,7 +13,7 @@ use crate::output;
 use crate::program_file::ProgramFile;
 use crate::progress::Progress;
 use crate::report::{counted, diagnostic_object};
-use glidepath_gcode::{Diagnostic, Report};
+use glidepath_gcode::{Diagnostic, Diagnostics, Report};
 use glidepath_geometry::Axis;
 use glidepath_planner::{check_file, find_in_file};
 use serde_json::{Value, json};
@@ -74,7 +74,24 @@ fn read(file: &ProgramFile, config: &MachineConfig, json: bool) -> Result<Report
     })
 }
 
-/// Checks a program that is to be run; the number of its lines.
+/// A program that may be run.
+pub(super) struct Accepted {
+    /// How many it has, or, where it is not checked to its end, were read.
+    pub(super) lines: u32,
+    /// The time that its feeds and dwells take at least, s.
+    pub(super) least_time_s: f64,
+}
+
+impl Accepted {
+    const fn of(found: &Diagnostics) -> Self {
+        Self {
+            lines: found.lines,
+            least_time_s: found.least_time_s,
+        }
+    }
+}
+
+/// Checks a program that is to be run.
 ///
 /// # Errors
 /// The file cannot be opened, the program has something to mend, or it is not checked to its end
@@ -83,7 +100,7 @@ pub(super) fn accepted(
     file: &ProgramFile,
     config: &MachineConfig,
     json: bool,
-) -> Result<u32, Failure> {
+) -> Result<Accepted, Failure> {
     let config = &for_program(file, config);
     let options = config.program_options(config.home());
     let progress = progress(file, json);
@@ -99,7 +116,7 @@ pub(super) fn accepted(
         let has_joints = config.joint_watch().is_some();
         if config.program.may_run_unchecked && !has_joints {
             output::note(&not_checked(&file.name().display().to_string(), line));
-            return Ok(found.lines);
+            return Ok(Accepted::of(&found));
         }
         return Err(Failure::Unchecked {
             program: file.name().display().to_string(),
@@ -111,7 +128,7 @@ pub(super) fn accepted(
         found.diagnostics = along_joints(file, config, found.lines, json)?;
     }
     if found.diagnostics.is_empty() {
-        return Ok(found.lines);
+        return Ok(Accepted::of(&found));
     }
     name_offset(&mut found.diagnostics, file, config);
     Err(Failure::Rejected {

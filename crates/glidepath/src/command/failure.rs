@@ -98,6 +98,20 @@ pub(super) enum Failure {
         /// Whether the machine has joints that are not its axes.
         has_joints: bool,
     },
+    /// More motion than is to be planned.
+    #[error(
+        "{program} takes {takes} at least, at its feeds and with its dwells, and {longest} of motion are \
+         planned at most, because each period is computed; give a higher feed, shorter dwells or a part of \
+         it, or --longest with more than that. A machine executes it, however long it takes"
+    )]
+    TooLong {
+        /// The program.
+        program: String,
+        /// The least time of it.
+        takes: String,
+        /// The most that is planned.
+        longest: String,
+    },
     /// A curve file has something to mend.
     #[error("the curve is rejected: {0}")]
     Curve(Box<CurveDiagnostic>),

@@ -41,6 +41,7 @@ impl Failure {
             | Self::UnknownEvent(_)
             | Self::Jitter(JitterError::Cyclictest(CyclictestError::Absent)) => Exit::Usage,
             Self::Rejected { .. }
+            | Self::TooLong { .. }
             | Self::Curve(_)
             | Self::CurveBeyond { .. }
             | Self::Refused(_)

@@ -14,7 +14,7 @@ use crate::output;
 use crate::plan_steps::PlanSteps;
 use crate::progress::Progress;
 use crate::recording::Recording;
-use crate::report::{DiagnosisReport, MotionReport, Planning, peak_rss_bytes};
+use crate::report::{DiagnosisReport, MotionReport, Planning, peak_rss_bytes, rough_time};
 use crate::sample::Sample;
 use glidepath_audit::diagnosis::Diagnosis;
 use glidepath_audit::{Audit, AuditSettings};
@@ -24,6 +24,9 @@ use glidepath_program::{Frame, Item};
 use std::path::Path;
 use std::time::Duration;
 
+/// From so much motion on its time is a better measure of how far planning is than the lines are, s.
+const LONG_S: f64 = 1800.0;
+
 /// Steps of the planner between two looks at the clock, at progress and Ctrl-C.
 const STEPS_PER_TURN: usize = 64;
 
@@ -32,23 +35,42 @@ const STEPS_PER_TURN: usize = 64;
 /// # Errors
 /// The program is rejected, a file cannot be read or written, or the user interrupted.
 pub(super) fn plan(args: &PlanArgs, config: &MachineConfig) -> Result<Exit, Failure> {
-    let (lines, refused) = match check::accepted(&args.file, config, args.basic.json) {
-        Ok(lines) => (lines, None),
+    let (accepted, refused) = match check::accepted(&args.file, config, args.basic.json) {
+        Ok(accepted) => (Some(accepted), None),
         // A program is to be looked at also while its offset is not set yet.
-        Err(failure) if args.plot.is_some() && leaves_the_travel(&failure) => (0, Some(failure)),
+        Err(failure) if args.plot.is_some() && leaves_the_travel(&failure) => (None, Some(failure)),
         Err(failure) => return Err(failure),
     };
+    let lines = accepted.as_ref().map_or(0, |accepted| accepted.lines);
+    let least_time_s = accepted.map_or(0.0, |accepted| accepted.least_time_s);
+    if least_time_s > args.longest.as_secs_f64() {
+        return Err(Failure::TooLong {
+            program: args.file.name().display().to_string(),
+            takes: rough_time(least_time_s),
+            longest: rough_time(args.longest.as_secs_f64()),
+        });
+    }
     let wide = refused.as_ref().map(|_| without_travel(config));
     let config = wide.as_ref().unwrap_or(config);
     let interrupt = Interrupt::install().map_err(Failure::Signals)?;
     let guard = session::guard(Some(&args.file), &args.basic, config, args.overwrite);
     let (csv, plot) = (args.setpoints.as_deref(), args.plot.as_deref());
     let mut recording = Recording::create(config, csv, plot, &guard)?;
-    let progress = Progress::lines(lines.into(), args.basic.json);
+    let progress = if least_time_s < LONG_S {
+        Progress::lines(lines.into(), args.basic.json)
+    } else {
+        Progress::motion(least_time_s, args.basic.json)
+    };
     progress.doing("planning");
     let mut pass = Pass::on_all_cores(args.file.path(), config)?;
     while pass.turn(&mut recording)? {
-        progress.at(pass.steps.statistics().lines);
+        let statistics = pass.steps.statistics();
+        if least_time_s < LONG_S {
+            progress.at(statistics.lines);
+        } else {
+            #[allow(clippy::cast_precision_loss, reason = "for people")]
+            progress.has_planned(statistics.frames as f64 * config.period_t());
+        }
         if interrupt.is_set() {
             return Err(Failure::Interrupted);
         }

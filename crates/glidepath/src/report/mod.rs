@@ -23,7 +23,7 @@ pub use fit::{FitReport, FittedRun};
 pub use machine::awaited_code;
 pub use memory::peak_rss_bytes;
 pub use motion::{MotionReport, Planning};
-pub use quantity::{counted, grouped, seconds};
+pub use quantity::{counted, grouped, rough_time, seconds};
 pub use run::RunReport;
 pub use shape::{AxisShape, Distance, ShapeFigures};
 pub use smoothness::{AxisFigures, SmoothnessFigures};

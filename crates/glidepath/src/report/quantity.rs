@@ -34,6 +34,15 @@ pub fn seconds(t: f64) -> String {
     }
 }
 
+/// How long something takes, for people: in the unit that suits it, to a tenth.
+#[must_use]
+pub fn rough_time(t: f64) -> String {
+    let units = [(86_400.0, "days"), (3600.0, "h"), (60.0, "min")];
+    let suits = |(length, _): &(f64, &str)| t >= 2.0 * length;
+    let (length, unit) = units.into_iter().find(suits).unwrap_or((1.0, "s"));
+    format!("{:.1} {unit}", t / length)
+}
+
 /// A time in µs.
 #[allow(clippy::cast_precision_loss, reason = "for display")]
 pub(super) fn microseconds(ns: u64) -> f64 {
@@ -43,6 +52,12 @@ pub(super) fn microseconds(ns: u64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn times_have_the_unit_that_suits_them() {
+        let texts = [7.0, 150.0, 12_960.0, 24e6].map(rough_time);
+        assert_eq!(texts, ["7.0 s", "2.5 min", "3.6 h", "277.8 days"]);
+    }
 
     #[test]
     fn numbers_read_well() {

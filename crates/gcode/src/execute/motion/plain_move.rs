@@ -77,15 +77,18 @@ impl Interpreter {
         }
         let start = state.path_end;
         let (mut target, mut end, mut is_zero) = (state.position, start, true);
+        let mut way = 0.0_f64;
         for (axis, word) in words.axes() {
             let i = axis.index();
             target[i] = axis_value(axis, word, course.scale) + course.origin[i];
             // As `settled` has it: where an axis only rounds, it stays.
-            if (target[i] - start[i]).abs() > MIN_MOVE {
+            let distance = (target[i] - start[i]).abs();
+            if distance > MIN_MOVE {
                 if self.soft_limits.is_beyond(i, target[i]) {
                     return false;
                 }
                 end[i] = target[i];
+                way = way.max(distance);
                 is_zero = false;
             }
         }
@@ -104,6 +107,9 @@ impl Interpreter {
             });
         } else if self.only_judges {
             self.has_judged = true;
+            if let Some(feed) = feed.filter(|_| motion != Motion::Rapid) {
+                self.judged_time_s += way / feed.linear_v;
+            }
         } else {
             let rate = match feed {
                 Some(feed) if motion != Motion::Rapid => Rate::Feed(feed.of_line(&start, &end)),

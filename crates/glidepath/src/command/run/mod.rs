@@ -29,7 +29,6 @@ use crate::recording::Recording;
 use crate::report::{DiagnosisReport, Planning, RunReport};
 use child::Process;
 use glidepath_link::{Ipc, LinkConfig, Status, remove_leftovers};
-use glidepath_program::Effort;
 use left::Left;
 use monitor::Monitor;
 pub(in crate::command) use pipe::Farewell;
@@ -49,7 +48,7 @@ const PATIENCE: Duration = Duration::from_secs(20);
 /// # Errors
 /// The program is rejected, real time is not granted, a process failed, or the user interrupted.
 pub(super) fn run(args: &RunArgs, config: &MachineConfig) -> Result<Exit, Failure> {
-    let lines = check::accepted(&args.file, config, args.basic.json)?;
+    let lines = check::accepted(&args.file, config, args.basic.json)?.lines;
     let program = args.file.name().display().to_string();
     let progress = Progress::lines(lines.into(), args.basic.json);
     progress.doing("judging");
@@ -300,11 +299,7 @@ impl Supervisor<'_> {
         let path = &self.args.path;
         let mut args = Vec::new();
         if let Some(effort) = path.effort {
-            let name = match effort {
-                Effort::Optimal => "optimal",
-                Effort::Fast => "fast",
-            };
-            args.extend(["--effort".into(), name.into()]);
+            args.extend(["--effort".into(), effort.name().into()]);
         }
         if let Some(tolerance_mm) = path.tolerance {
             args.extend(["--tolerance".into(), tolerance_mm.to_string().into()]);
