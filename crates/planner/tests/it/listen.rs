@@ -5,8 +5,6 @@
     reason = "test code, which clippy does not see as such"
 )]
 
-use crate::support;
-
 use std::cell::RefCell;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
@@ -249,7 +247,7 @@ fn a_second_client_is_refused_while_the_first_is_served() {
 fn the_next_stream_starts_where_the_last_one_ended() {
     let transport = InProcess::default();
     let there = staircase(2);
-    let back = support::items::polyline(&[point(5.0, 5.0), point(0.0, 0.0)]);
+    let back = polyline(&[point(5.0, 5.0), point(0.0, 0.0)]);
     let mut clients = [
         Scripted::new(&transport, 1, &script(&there, true)),
         Scripted::new(&transport, 2, &[]),
@@ -368,10 +366,7 @@ fn the_bundled_client_streams_a_program_whole() {
 #[test]
 fn the_bundled_client_reports_what_the_planner_refuses() {
     let mut items = staircase(3);
-    items.extend(support::items::polyline(&[
-        point(10.0, 5.0),
-        point(101.0, 5.0),
-    ]));
+    items.extend(polyline(&[point(10.0, 5.0), point(101.0, 5.0)]));
     let (result, executed) = fed(&Listed::new(&items));
     match result {
         Err(FeedError::RefusedByPlanner {

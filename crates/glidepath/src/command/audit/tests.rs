@@ -5,6 +5,7 @@ use crate::config;
 use crate::plan_steps::PlanSteps;
 use bytemuck::Zeroable as _;
 use core::fmt::Write as _;
+use glidepath_link::MachineState;
 use glidepath_planner::{FileSource, Step};
 use glidepath_program::Effort;
 use glidepath_recording::{Origin, Recorder};
