@@ -466,13 +466,25 @@ _glidepath() {
             return 0
             ;;
         glidepath__subcmd__audit)
-            opts="-c -h --program --effort --tolerance --config --json --help"
+            opts="-c -h --program --tool-table --subroutine-path --dialect --allow-unchecked --effort --tolerance --config --json --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
             fi
             case "${prev}" in
                 --program)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --tool-table)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --subroutine-path)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --dialect)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
@@ -2325,7 +2337,7 @@ _glidepath() {
             return 0
             ;;
         glidepath__subcmd__plan)
-            opts="-c -h --tool-table --subroutine-path --dialect --allow-unchecked --effort --tolerance --config --json --setpoints --plot --force --help"
+            opts="-c -h --tool-table --subroutine-path --dialect --allow-unchecked --effort --tolerance --config --json --setpoints --plot --longest --force --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -2364,6 +2376,10 @@ _glidepath() {
                     return 0
                     ;;
                 --plot)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --longest)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;

@@ -94,6 +94,7 @@ complete -c glidepath -n "__fish_glidepath_using_subcommand plan" -l tolerance -
 complete -c glidepath -n "__fish_glidepath_using_subcommand plan" -s c -l config -d 'Machine configuration (TOML); without it the built-in 3-axis mill' -r -F
 complete -c glidepath -n "__fish_glidepath_using_subcommand plan" -l setpoints -d 'Write every setpoint as CSV' -r -F
 complete -c glidepath -n "__fish_glidepath_using_subcommand plan" -l plot -d 'Write a plot of the motion: NAME.svg, or a page to look closer, NAME.html' -r -F
+complete -c glidepath -n "__fish_glidepath_using_subcommand plan" -l longest -d 'Refuse programs whose feeds and dwells take longer than that; such as 90s, 10min, 8h or 30d' -r
 complete -c glidepath -n "__fish_glidepath_using_subcommand plan" -l allow-unchecked -d 'Take a program whose loops go on for too long to be checked to their end (20 million lines): what it does behind that is judged only when it comes to it'
 complete -c glidepath -n "__fish_glidepath_using_subcommand plan" -l json -d 'Print one JSON object instead of text'
 complete -c glidepath -n "__fish_glidepath_using_subcommand plan" -l force -d 'Overwrite files that are not of the kind that is written; never one that is read'
@@ -216,9 +217,13 @@ complete -c glidepath -n "__fish_glidepath_using_subcommand replay" -l instance 
 complete -c glidepath -n "__fish_glidepath_using_subcommand replay" -l json -d 'Print one JSON object instead of text'
 complete -c glidepath -n "__fish_glidepath_using_subcommand replay" -s h -l help -d 'Print help'
 complete -c glidepath -n "__fish_glidepath_using_subcommand audit" -l program -d 'The program that it has to follow; a recording may have one of its own' -r -F
+complete -c glidepath -n "__fish_glidepath_using_subcommand audit" -l tool-table -d 'Tool table (LinuxCNC\'s .tbl); overrides `program.tool_table` of the configuration' -r -F
+complete -c glidepath -n "__fish_glidepath_using_subcommand audit" -l subroutine-path -d 'Folder to look in for subroutines in files of their own, behind that of the program; may be given several times, and comes before `program.subroutine_path` of the configuration' -r -F
+complete -c glidepath -n "__fish_glidepath_using_subcommand audit" -l dialect -d 'Language of the program: linuxcnc, marlin, fanuc or siemens; else told by its beginning' -r
 complete -c glidepath -n "__fish_glidepath_using_subcommand audit" -l effort -d 'optimal or fast; overrides `path.effort` of the configuration' -r
 complete -c glidepath -n "__fish_glidepath_using_subcommand audit" -l tolerance -d 'How far the motion may leave the programmed path, mm; overrides `path.tolerance` of the configuration, as G64 P of the program overrides both' -r
 complete -c glidepath -n "__fish_glidepath_using_subcommand audit" -s c -l config -d 'Machine configuration (TOML); without it the built-in 3-axis mill' -r -F
+complete -c glidepath -n "__fish_glidepath_using_subcommand audit" -l allow-unchecked -d 'Take a program whose loops go on for too long to be checked to their end (20 million lines): what it does behind that is judged only when it comes to it'
 complete -c glidepath -n "__fish_glidepath_using_subcommand audit" -l json -d 'Print one JSON object instead of text'
 complete -c glidepath -n "__fish_glidepath_using_subcommand audit" -s h -l help -d 'Print help'
 complete -c glidepath -n "__fish_glidepath_using_subcommand telemetry" -l broker -d 'The broker, as HOST or HOST:PORT' -r

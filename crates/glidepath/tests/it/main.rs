@@ -12,6 +12,7 @@ mod hostile_text;
 mod joints;
 mod kept_state;
 mod keys;
+mod long_plans;
 mod manual_words;
 mod migration;
 mod nurbs;
