@@ -5,13 +5,15 @@
     reason = "test code, which clippy does not see as such"
 )]
 
+use crate::support;
+
 use std::cell::RefCell;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use crate::support::attended;
 use crate::support::interpolator::Interpolator;
-use crate::support::items::{Listed, PERIOD_NS, point, polyline, records, settings, staircase};
+use crate::support::items::{Listed, PERIOD_NS, point, records, settings, staircase};
 use glidepath_geometry::AxisVector;
 use glidepath_link::{
     Client, EndOfEpoch, InProcess, SegmentRefusal, SegmentReply, SegmentRequest, SetpointFrame,
@@ -20,18 +22,12 @@ use glidepath_link::{
 use glidepath_planner::{
     Control, FeedError, Listening, Pace, Refusal, RunError, SoftLimits, feed, listen,
 };
-use glidepath_program::{Effort, Item, ItemKind, Settings};
+use glidepath_program::{Item, ItemKind};
 
-/// Length of each move that is sent.
-const STEP_MM: f64 = 1.5;
-
-fn listening(effort: Effort) -> Listening {
+fn listening() -> Listening {
     Listening {
         joints: None,
-        settings: Settings {
-            effort,
-            ..settings()
-        },
+        settings: settings(),
         pace: Pace {
             period_ns: PERIOD_NS,
             horizon_frames: 50,
@@ -51,8 +47,6 @@ struct Scripted {
     replies: Vec<SegmentReply>,
     /// Takes a planner that is not ready for an answer.
     impatient: bool,
-    /// Sends the next move when the machine has less than so much of its way before it, mm.
-    lead_mm: f64,
 }
 
 impl Scripted {
@@ -68,11 +62,10 @@ impl Scripted {
             sent: 0,
             replies: Vec::new(),
             impatient: false,
-            lead_mm: f64::INFINITY,
         }
     }
 
-    fn go_on(&mut self, done_mm: f64) {
+    fn go_on(&mut self) {
         while let Some(reply) = self.port.reply().unwrap() {
             let not_ready = reply.number == 0 && reply.refusal == SegmentRefusal::Stopped.code();
             if not_ready && !self.impatient {
@@ -81,11 +74,7 @@ impl Scripted {
                 self.replies.push(reply);
             }
         }
-        let moves = self.sent.saturating_sub(1);
-        #[allow(clippy::cast_precision_loss, reason = "few")]
-        let is_wanted = STEP_MM * moves as f64 - done_mm < self.lead_mm;
         if self.replies.len() == self.sent
-            && is_wanted
             && let Some(request) = self.requests.get(self.sent)
         {
             self.port.ask(request).unwrap();
@@ -114,15 +103,6 @@ fn listen_to(
     clients: &mut [Scripted],
     done: impl Fn(&Interpolator, &[Scripted]) -> bool,
 ) -> (Interpolator, Vec<String>) {
-    listen_with(&listening(Effort::Fast), transport, clients, done)
-}
-
-fn listen_with(
-    listening: &Listening,
-    transport: &InProcess,
-    clients: &mut [Scripted],
-    done: impl Fn(&Interpolator, &[Scripted]) -> bool,
-) -> (Interpolator, Vec<String>) {
     let interpolator = RefCell::new(Interpolator::new(transport, 128));
     let stop = AtomicBool::new(false);
     let (result, notices) = attended(
@@ -130,13 +110,12 @@ fn listen_with(
         |time| {
             let mut interpolator = interpolator.borrow_mut();
             interpolator.pass(time);
-            let done_mm = interpolator.executed.last().map_or(0.0, |at| at.path_s);
             for client in clients.iter_mut() {
-                client.go_on(done_mm);
+                client.go_on();
             }
             stop.store(done(&interpolator, clients), Ordering::Relaxed);
         },
-        |control| listen(transport, listening, control),
+        |control| listen(transport, &listening(), control),
     );
     assert!(matches!(result, Err(RunError::Interrupted)), "{result:?}");
     (interpolator.into_inner(), notices)
@@ -158,47 +137,6 @@ fn a_stream_gives_the_frames_of_the_same_program() {
     assert_eq!(notices[..2], ["Listening", "StreamOpened { session: 1 }"]);
 }
 
-/// Rests within a straight way of 3 s that a client sends as the machine goes, with a lead.
-fn rests_at_a_lead_of(lead_t: f64, effort: Effort) -> usize {
-    let transport = InProcess::default();
-    let points: Vec<_> = (0..=200_u32)
-        .map(|i| point(STEP_MM * f64::from(i), 0.0))
-        .collect();
-    let items = polyline(&points);
-    let mut clients = [Scripted {
-        // At the feed of the moves.
-        lead_mm: 100.0 * lead_t,
-        ..Scripted::new(&transport, 1, &script(&items, true))
-    }];
-    let listening = Listening {
-        limits: None,
-        ..listening(effort)
-    };
-    let (interpolator, _) = listen_with(&listening, &transport, &mut clients, |i, _| {
-        i.end() == EndOfEpoch::Completed
-    });
-    assert_eq!(clients[0].refusals(), []);
-    assert_eq!(interpolator.position, point(300.0, 0.0));
-    let frames = interpolator.executed.windows(2);
-    frames
-        .filter(|pair| pair[0].path_v > 0.0 && pair[1].path_v <= 0.0)
-        .count()
-        - 1
-}
-
-/// What comes before the motion that is known has to be slowed down within what is published is gone on
-/// with: the horizon is 0.2 s here, and it takes a tenth of a second to slow down. With effort "optimal" a
-/// motion begins when 1.25 s of moves have come, or when nothing more comes.
-#[test]
-fn what_comes_in_time_is_gone_on_with_without_a_stop() {
-    assert_eq!(rests_at_a_lead_of(0.4, Effort::Fast), 0);
-    assert_eq!(rests_at_a_lead_of(1.5, Effort::Optimal), 0);
-    // As the moves are driven, one by one.
-    for effort in [Effort::Fast, Effort::Optimal] {
-        assert!(rests_at_a_lead_of(0.01, effort) > 10, "{effort:?}");
-    }
-}
-
 #[test]
 fn a_client_that_dies_leaves_the_machine_at_the_last_accepted_segment() {
     let transport = InProcess::default();
@@ -216,9 +154,10 @@ fn a_client_that_dies_leaves_the_machine_at_the_last_accepted_segment() {
     });
     let mut planned = records(&known, 1);
     // The rest is no block of the stream, and belongs to the last one.
-    let rests = planned.iter_mut().filter(|frame| frame.block == 8);
-    let count = rests.map(|frame| frame.block = 7).count();
-    assert!(count > 0 && planned.iter().all(|frame| frame.block <= 7));
+    for frame in planned.iter_mut().filter(|frame| frame.block == 8) {
+        frame.block = 7;
+    }
+    assert!(planned.iter().all(|frame| frame.block <= 7));
     assert!(
         interpolator.executed == planned,
         "other frames than planned"
@@ -247,7 +186,7 @@ fn a_second_client_is_refused_while_the_first_is_served() {
 fn the_next_stream_starts_where_the_last_one_ended() {
     let transport = InProcess::default();
     let there = staircase(2);
-    let back = polyline(&[point(5.0, 5.0), point(0.0, 0.0)]);
+    let back = support::items::polyline(&[point(5.0, 5.0), point(0.0, 0.0)]);
     let mut clients = [
         Scripted::new(&transport, 1, &script(&there, true)),
         Scripted::new(&transport, 2, &[]),
@@ -260,11 +199,11 @@ fn the_next_stream_starts_where_the_last_one_ended() {
         |time| {
             let mut interpolator = interpolator.borrow_mut();
             interpolator.pass(time);
-            clients[0].go_on(0.0);
+            clients[0].go_on();
             if interpolator.executed.len() == executed && clients[1].requests.is_empty() {
                 clients[1] = Scripted::new(&transport, 2, &script(&back, true));
             }
-            clients[1].go_on(0.0);
+            clients[1].go_on();
             // A client that comes too early, before the planner has seen the end, is refused.
             if clients[1].refusals().contains(&SegmentRefusal::Busy) {
                 clients[1] = Scripted::new(&transport, 2, &script(&back, true));
@@ -275,7 +214,7 @@ fn the_next_stream_starts_where_the_last_one_ended() {
                 Ordering::Relaxed,
             );
         },
-        |control| listen(&transport, &listening(Effort::Fast), control),
+        |control| listen(&transport, &listening(), control),
     );
     assert_eq!(
         interpolator.into_inner().position,
@@ -298,10 +237,10 @@ fn an_unready_machine_opens_no_stream() {
         &stop,
         |time| {
             interpolator.borrow_mut().pass(time);
-            clients[0].go_on(0.0);
+            clients[0].go_on();
             stop.store(!clients[0].replies.is_empty(), Ordering::Relaxed);
         },
-        |control| listen(&transport, &listening(Effort::Fast), control),
+        |control| listen(&transport, &listening(), control),
     );
     assert!(matches!(result, Err(RunError::Interrupted)), "{result:?}");
     assert_eq!(clients[0].refusals(), [SegmentRefusal::Stopped]);
@@ -329,7 +268,7 @@ fn fed(
                 pause: &mut pause,
                 notify: &mut |_| {},
             };
-            let result = listen(&transport, &listening(Effort::Fast), &mut control);
+            let result = listen(&transport, &listening(), &mut control);
             assert!(matches!(result, Err(RunError::Interrupted)), "{result:?}");
             interpolator.executed
         });
@@ -366,7 +305,10 @@ fn the_bundled_client_streams_a_program_whole() {
 #[test]
 fn the_bundled_client_reports_what_the_planner_refuses() {
     let mut items = staircase(3);
-    items.extend(polyline(&[point(10.0, 5.0), point(101.0, 5.0)]));
+    items.extend(support::items::polyline(&[
+        point(10.0, 5.0),
+        point(101.0, 5.0),
+    ]));
     let (result, executed) = fed(&Listed::new(&items));
     match result {
         Err(FeedError::RefusedByPlanner {
