@@ -46,7 +46,12 @@ pub(super) fn planner(args: &PlannerArgs, config: &MachineConfig) -> Result<Exit
             pause: &mut std::thread::sleep,
             notify: &mut notify,
         };
-        let exit = serve((&transport, &link), (config, &board), &mut control, &interrupt)?;
+        let exit = serve(
+            (&transport, &link),
+            (config, &board),
+            &mut control,
+            &interrupt,
+        )?;
         if args.basic.json {
             output::object(&json!({ "listened": true, "exit_code": exit as u8 }));
         }

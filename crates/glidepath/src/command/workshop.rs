@@ -59,11 +59,7 @@ impl Bench<'_, '_, '_> {
 }
 
 impl<'c> Workshop<'c> {
-    pub(super) const fn new(
-        config: &'c MachineConfig,
-        link: LinkConfig,
-        board: &'c Board,
-    ) -> Self {
+    pub(super) const fn new(config: &'c MachineConfig, link: LinkConfig, board: &'c Board) -> Self {
         Self {
             config,
             link,
