@@ -63,6 +63,13 @@ function attentionKeys() {
   if (['held', 'program-stop'].includes(S.state) && isAway(s)) return key('return', 'Return to the path', { press: SHORT, why: not, kind: 'main', sub: 'press ½ s' });
   return '';
 }
+/* What a program that runs says, until somebody has read it. Where it stops, the panel says it. */
+S.read = '';
+DEEDS.read = () => { S.read = `${S.status.epoch} ${S.status.message}`; paintSays(); };
+function paintSays() {
+  const s = S.status, said = s && s.message && s.end_of_epoch === 'open' && !(s.asked && s.asked.says) && S.read !== `${s.epoch} ${s.message}` ? s.message : '';
+  fill($('#says'), said ? `<p><span class="lab">The program says</span><br>${safe(said)}</p>${key('read', 'Read')}` : '');
+}
 /* ---- overrides, in steps of 5 % */
 function layOverrides() {
   $$('.ov').forEach(tile => {
@@ -82,5 +89,5 @@ function paintHands() {
   app.dataset.may = S.may; app.dataset.operates = S.operates ? 1 : 0;
   $$('.ov [data-do]').forEach(b => { if (notOperating()) b.setAttribute('aria-disabled', 'true'); else b.removeAttribute('aria-disabled'); });
   fill($('#g-foot'), S.may === 'look' ? `${icon('lock')}<span>This page only looks; it sends no commands.</span>` : '<span>Not for emergencies.</span>');
-  paintBar(); paintSetUp();
+  paintBar(); paintSetUp(); paintPrograms();
 }

@@ -63,7 +63,7 @@ function ribbon() {
 function emptyRibbon() {
   const s = S.status, runs = programName();
   if (s && !S.shows) {
-    if (!s.active_program) return `${runs || 'A stream'} runs. It is no file, so there is neither its text nor its path.`;
+    if (!s.active_program) return `${runs ? sentence(runs) : 'A stream'} runs. It is no file, so there is neither its text nor its path.`;
     if (INFO.failed) return `${runs} runs. Its path cannot be shown: ${INFO.failed}`;
     return `${runs} runs. Its text is read, or has been changed since it began: no other is shown in its place.`;
   }

@@ -113,5 +113,5 @@ function paintState() {
   const keys = panel ? attentionKeys() : '';
   fill($('#attn'), panel + (keys ? `<div class="row keysrow">${keys}</div>` : ''));
   document.title = `${level > 1 ? `${word} · ` : ''}${INFO.machine.instance} · Glidepath`;
-  paintBar();
+  paintBar(); paintSays();
 }

@@ -29,7 +29,7 @@ fn program() -> String {
 
 #[test]
 fn a_machine_is_run_with_the_mouse_alone() {
-    let (instance, _watchdog) = (Instance::alone(), Watchdog::new(PATIENCE));
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
     let Some(mut browser) = Browser::start(1440, 900) else {
         return;
     };
