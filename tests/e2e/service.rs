@@ -123,7 +123,12 @@ fn lines_and_files_are_executed_by_one_service() {
         }
         let status = bench.wait_for(MachineState::Faulted);
         assert_eq!(status.fault(), Ok(Some(cause)));
-        let _failed = running.wait().expect(5);
+        let failed = running.wait().expect(5);
+        if line == "M151" {
+            let said = "has failed, line 1: the vice does not close";
+            assert!(status.fault_text().unwrap().contains(said), "{status:#?}");
+            assert!(failed.stderr.contains(said), "{failed:#?}");
+        }
         bench.operate(&["reset"]);
     }
 

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use glidepath_link::MachineState;
-use glidepath_tests::{Instance, Operated, Watchdog};
+use glidepath_tests::{Instance, Operated, Process, Watchdog};
 use rustix::process::Signal;
 use serde_json::Value;
 
@@ -78,6 +78,13 @@ fn a_watch_waits_for_an_interpolator_that_is_silent_and_says_so() {
     let interpolator = bench.process(&["interpolator", "--best-effort"]);
     let _seen = bench.wait(|status| status.ticks > 0);
     let watch = bench.process(&["status", "--watch", "--json", "--every", "0.1"]);
+    for form in [&["--json"][..], &[]] {
+        let read_once = [&["status", "--watch", "--every", "0.1"], form].concat();
+        assert_eq!(
+            Process::join_read_once(&instance, &read_once).code(),
+            Some(0)
+        );
+    }
     std::thread::sleep(Duration::from_secs(1));
     interpolator.signal(Signal::STOP);
     std::thread::sleep(Duration::from_secs(4));

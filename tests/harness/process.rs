@@ -1,6 +1,6 @@
 //! Processes of the program under test.
 
-use std::io::{Read, Write};
+use std::io::{BufRead as _, BufReader, Read, Write};
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::{Arc, Mutex};
 use std::thread::JoinHandle;
@@ -113,6 +113,38 @@ impl Process {
     /// Closes its standard input.
     pub fn close(&mut self) {
         drop(self.child.stdin.take());
+    }
+
+    /// Starts one whose reader of standard output is gone after the first line, as behind `| head -1`; waits for
+    /// its end.
+    #[must_use]
+    pub fn join_read_once(instance: &Instance, arguments: &[&str]) -> ExitStatus {
+        let name = &instance.config().instance;
+        let mut child = Command::new(glidepath())
+            .args(arguments)
+            .args(["--instance", name])
+            .env("XDG_RUNTIME_DIR", instance.directory())
+            .current_dir(instance.directory())
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut line = String::new();
+        let mut reader = BufReader::new(child.stdout.take().unwrap());
+        let _length = reader.read_line(&mut line).unwrap();
+        drop(reader);
+        let begun = Instant::now();
+        loop {
+            if let Some(status) = child.try_wait().unwrap() {
+                return status;
+            }
+            if begun.elapsed() > PATIENCE {
+                child.kill().unwrap();
+                let _killed = child.wait();
+                panic!("it goes on without a reader");
+            }
+            std::thread::sleep(POLL);
+        }
     }
 
     /// Its process number.

@@ -17,6 +17,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Why a result was not written.
 static UNWRITTEN: OnceLock<String> = OnceLock::new();
+/// Whether the reader of standard output went away.
+static HAS_NO_READER: AtomicBool = AtomicBool::new(false);
 /// Whether a file is written to standard output.
 static IS_GIVEN_AWAY: AtomicBool = AtomicBool::new(false);
 
@@ -41,11 +43,20 @@ pub fn control(text: &str) {
         Box::new(std::io::stdout().lock())
     };
     let written = out.write_all(text.as_bytes()).and_then(|()| out.flush());
-    if let Err(error) = written
-        && error.kind() != ErrorKind::BrokenPipe
-    {
-        UNWRITTEN.get_or_init(|| error.to_string());
+    match written {
+        Ok(()) => {}
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => {
+            HAS_NO_READER.store(true, Ordering::Relaxed);
+        }
+        Err(error) => {
+            UNWRITTEN.get_or_init(|| error.to_string());
+        }
     }
+}
+
+/// True once the reader of standard output went away: a command that only shows, again and again, is done then.
+pub fn has_no_reader() -> bool {
+    HAS_NO_READER.load(Ordering::Relaxed)
 }
 
 /// Why a result of this process was not written to standard output, if one was not.

@@ -9,8 +9,8 @@ use crate::feedback::DriveBook;
 use crate::job::{JobBook, Told, unfit};
 use crate::message::{Order, PortsEnds, Report};
 use glidepath_link::{
-    Command, CommandOutcome, CommandRefusal, CommandReply, CommandRequest, JobPhase, JobStage,
-    MachineState, Objection,
+    Command, CommandOutcome, CommandRefusal, CommandReply, CommandRequest, EndOfEpoch, JobPhase,
+    JobStage, MachineState, Objection,
 };
 
 /// Orders that one command comes to, at most.
@@ -60,8 +60,12 @@ impl Desk<'_, '_> {
         let command = match request.command() {
             Err(error) => return (Err(CommandRefusal::Malformed), error.to_string()),
             Ok(Command::Ping | Command::Tell) => return done,
-            Ok(Command::Job { number, phase }) => {
-                return match self.hear_job((number, phase), request) {
+            Ok(Command::Job {
+                number,
+                phase,
+                asked_ns,
+            }) => {
+                return match self.hear_job((number, phase, asked_ns), request) {
                     Ok(()) => done,
                     Err(why) => wrong(why),
                 };
@@ -106,7 +110,7 @@ impl Desk<'_, '_> {
     /// A planner tells of its job.
     fn hear_job(
         &mut self,
-        (number, phase): (u64, JobPhase),
+        job: (u64, JobPhase, u64),
         request: &CommandRequest,
     ) -> Result<(), String> {
         let is_homing = self.drives.as_ref().is_some_and(|book| book.is_homing());
@@ -115,9 +119,7 @@ impl Desk<'_, '_> {
         } else {
             unfit(self.report.state).map_or(Ok(()), Err)
         };
-        let told = self
-            .jobs
-            .tell((number, phase), request.text, self.now_ns, free)?;
+        let told = self.jobs.tell(job, request.text, self.now_ns, free)?;
         match told {
             Told::Nothing => {}
             Told::Takes => {
@@ -135,6 +137,12 @@ impl Desk<'_, '_> {
     fn tell_job(&mut self, command: Command) {
         if matches!(command, Command::Hold | Command::Resume) {
             self.jobs.hold(command == Command::Hold);
+        }
+        if command == Command::Hold && self.report.end_of_epoch != EndOfEpoch::Open {
+            self.jobs.hold_what_was_asked(self.now_ns);
+        }
+        if matches!(command, Command::Abort | Command::Disable) {
+            self.jobs.stop(self.now_ns);
         }
         let (stage, why) = if command == Command::Abort {
             (JobStage::Aborted, "aborted before anything moved")

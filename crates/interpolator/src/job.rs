@@ -12,7 +12,9 @@
 //! * **A hold is in force when the first frame comes**: the real-time thread keeps it from then on.
 //! * **Whatever makes the machine unfit for a program ends the job**, and so does a first frame that is
 //!   refused: the planner is told by the status why its epoch does not begin.
-//! * **A planner of which nothing is heard** is taken for dead; its job does not begin.
+//! * **A planner of which nothing is heard** is taken for dead; its job does not begin, and one that rests under way
+//!   does not go on: what is known of it would be driven, and then the machine would stand anywhere.
+//! * **A planner that hung tells of a job late.** Whoever asked for it said when. A stop after that counts for it.
 //!
 //! While a job has the machine, nothing else moves it.
 
@@ -44,6 +46,10 @@ pub(crate) struct JobBook {
     text: Text,
     /// Why it does not begin.
     end: Text,
+    /// When an abort, or the loss of power, was ordered last, ns: what was asked for before does not begin.
+    stopped_ns: u64,
+    /// When a hold was ordered last with nothing to hold, ns: what was asked for before begins held.
+    held_ns: u64,
 }
 
 impl JobBook {
@@ -55,6 +61,8 @@ impl JobBook {
             heard_ns: 0,
             text: Text::default(),
             end: Text::default(),
+            stopped_ns: 0,
+            held_ns: 0,
         }
     }
 
@@ -87,7 +95,7 @@ impl JobBook {
     /// Why the job cannot be what the planner says that it is.
     pub(crate) fn tell(
         &mut self,
-        (number, phase): (u64, JobPhase),
+        (number, phase, asked_ns): (u64, JobPhase, u64),
         text: Text,
         now_ns: u64,
         free: Result<(), &'static str>,
@@ -97,11 +105,7 @@ impl JobBook {
             if phase == JobPhase::Over {
                 return Ok(Told::Nothing);
             }
-            *self = Self {
-                number,
-                stage: JobStage::Waiting,
-                ..Self::new()
-            };
+            self.take_up(number, asked_ns);
             if had_machine {
                 // There is one planner at a time: that of the job before is no more.
                 (self.heard_ns, self.text) = (now_ns, text);
@@ -128,6 +132,36 @@ impl JobBook {
             (JobStage::None | JobStage::Over, _) => Err("that job is over".to_owned()),
             (JobStage::Waiting | JobStage::Preparing | JobStage::Begun, _) => Ok(Told::Nothing),
         }
+    }
+
+    /// A job that was not heard of before. Its planner may have hung since somebody asked for it.
+    fn take_up(&mut self, number: u64, asked_ns: u64) {
+        let is_before = |stop_ns| asked_ns != 0 && asked_ns < stop_ns;
+        let (stage, end) = if is_before(self.stopped_ns) {
+            let why = "the machine was stopped after this was asked for, and before its planner told of it";
+            (JobStage::Aborted, Text::new(why))
+        } else {
+            (JobStage::Waiting, Text::default())
+        };
+        *self = Self {
+            number,
+            stage,
+            end,
+            is_held: stage == JobStage::Waiting && is_before(self.held_ns),
+            stopped_ns: self.stopped_ns,
+            held_ns: self.held_ns,
+            ..Self::new()
+        };
+    }
+
+    /// An abort, or the power is taken.
+    pub(crate) fn stop(&mut self, now_ns: u64) {
+        self.stopped_ns = now_ns;
+    }
+
+    /// A hold with nothing to hold.
+    pub(crate) fn hold_what_was_asked(&mut self, now_ns: u64) {
+        self.held_ns = now_ns;
     }
 
     /// A hold, or the end of one, for the job that is to come.
@@ -176,6 +210,15 @@ impl JobBook {
             self.stage = JobStage::Over;
         }
         false
+    }
+
+    /// Whether the job rests under way, and its planner has fallen silent. In motion that is found by the frames.
+    pub(crate) fn is_orphaned(&self, report: &Report, now_ns: u64) -> bool {
+        use MachineState::{Awaiting, Held, ProgramStop};
+        self.stage == JobStage::Begun
+            && report.end_of_epoch == EndOfEpoch::Open
+            && matches!(report.state, Held | ProgramStop | Awaiting)
+            && now_ns > self.heard_ns.saturating_add(SILENCE_NS)
     }
 
     pub(crate) fn write(&self, status: &mut Status) {

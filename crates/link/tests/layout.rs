@@ -52,8 +52,8 @@ layout!(status, Status, "glidepath.Status.v10", 1776, {
     job_number: 1112, next_epoch: 1120, job_stage: 1128, job_held: 1132, last_error: 1136,
     last_event: 1264, message: 1392, job: 1520, job_end: 1648,
 });
-layout!(command_request, CommandRequest, "glidepath.CommandRequest.v6", 192, {
-    client: 0, number: 8, value: 16, kind: 24, joints: 28, event: 32, job: 56, text: 64,
+layout!(command_request, CommandRequest, "glidepath.CommandRequest.v7", 200, {
+    client: 0, number: 8, value: 16, kind: 24, joints: 28, event: 32, job: 56, asked_ns: 64, text: 72,
 });
 layout!(auxiliary, Auxiliary, "glidepath.Auxiliary.v2", 656, {
     boot_id: 0, generation: 8, epoch: 16, sequence: 24, awaited: 32, awaited_since_ns: 56,
@@ -74,9 +74,9 @@ layout!(jog_demand, JogDemand, "glidepath.JogDemand.v1", 128, {
     client: 0, number: 8, sent_ns: 16, mode: 24, mask: 28, by_joint: 32, reserved: 36,
     velocity_v: 40, scale: 48, value: 56,
 });
-layout!(job_request, JobRequest, "glidepath.JobRequest.v2", 1064, {
-    client: 0, number: 8, kind: 16, from_line: 20, pass: 24, confirmed: 28, resumes: 32, wish: 36,
-    text: 40,
+layout!(job_request, JobRequest, "glidepath.JobRequest.v3", 1072, {
+    client: 0, number: 8, asked_ns: 16, kind: 24, from_line: 28, pass: 32, confirmed: 36, resumes: 40, wish: 44,
+    text: 48,
 });
 layout!(job_reply, JobReply, "glidepath.JobReply.v2", 1048, {
     client: 0, number: 8, state: 16, reserved: 20, text: 24,

@@ -25,6 +25,8 @@ pub(crate) const REPORT_INTERVAL: Duration = Duration::from_millis(100);
 #[derive(Debug)]
 pub(crate) struct Claim {
     pub(crate) number: u64,
+    /// When somebody asked for it, ns of the host's steady clock; 0 if that is not known.
+    asked_ns: u64,
     name: String,
     pub(crate) doing: String,
     pub(crate) phase: JobPhase,
@@ -35,8 +37,9 @@ pub(crate) struct Claim {
 }
 
 impl Claim {
-    pub(crate) fn new(name: &str) -> Self {
+    pub(crate) fn new(name: &str, asked_ns: u64) -> Self {
         Self {
+            asked_ns,
             number: RandomState::new().build_hasher().finish().max(1),
             name: name.to_owned(),
             doing: "waits for the machine".to_owned(),
@@ -51,6 +54,7 @@ impl Claim {
         Command::Job {
             number: self.number,
             phase,
+            asked_ns: self.asked_ns,
         }
     }
 

@@ -14,9 +14,11 @@ use crate::publish::Publisher;
 use crate::{Control, RunError};
 
 impl Publisher<'_> {
-    /// Tells the interpolator of a job. From now on it can be aborted and held there, whatever it is at.
-    pub fn claim(&mut self, name: &str, control: &mut Control<'_>) {
-        let claim = Claim::new(name);
+    /// Tells the interpolator of a job that was asked for at `asked_ns` (of the host's steady clock; 0 if that is not
+    /// known). From now on it can be aborted and held there, whatever it is at; so it could before, by who had
+    /// asked for it by then.
+    pub fn claim(&mut self, name: &str, asked_ns: u64, control: &mut Control<'_>) {
+        let claim = Claim::new(name, asked_ns);
         let (command, text) = (claim.command(JobPhase::Waiting), claim.text());
         self.claim = Some(claim);
         if self.machine.status().is_some() {
@@ -78,7 +80,7 @@ impl Publisher<'_> {
         patience: Duration,
         control: &mut Control<'_>,
     ) -> Result<Option<AxisVector>, RunError> {
-        self.claim(name, control);
+        self.claim(name, 0, control);
         let mut waited = Duration::ZERO;
         while waited < patience {
             if let Some(position) = self.take(control)? {

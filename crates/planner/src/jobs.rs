@@ -169,8 +169,8 @@ impl JobDesk {
     }
 
     /// Answers what came in while nothing is executed, and takes a job, if one came: `claim` is called
-    /// before its client is told.
-    pub(crate) fn take(&mut self, claim: &mut dyn FnMut(&Job)) -> Result<(), LinkError> {
+    /// with it, and with when it was asked for, before its client is told.
+    pub(crate) fn take(&mut self, claim: &mut dyn FnMut(&Job, u64)) -> Result<(), LinkError> {
         for _ in 0..REQUESTS_PER_TURN {
             let (current, past) = (&mut self.current, &self.past);
             let waiting = &mut self.waiting;
@@ -182,7 +182,7 @@ impl JobDesk {
                 let Some(job) = Job::of(request).filter(|_| wish == JobWish::Execute) else {
                     return unknown(request);
                 };
-                claim(&job);
+                claim(&job, request.asked_ns);
                 *waiting = Some((job, Duration::ZERO));
                 *current = Some(Current {
                     client: (request.client, request.number),

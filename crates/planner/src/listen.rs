@@ -158,7 +158,7 @@ impl Listener<'_> {
             return Ok(None);
         };
         if !jobs.has_waiting() {
-            jobs.take(&mut |job| publisher.claim(&job.name(), control))?;
+            jobs.take(&mut |job, asked_ns| publisher.claim(&job.name(), asked_ns, control))?;
         }
         if !jobs.has_waiting() {
             return Ok(None);

@@ -28,7 +28,7 @@ impl Publisher<'_> {
         control: &mut Control<'_>,
     ) -> Result<AxisVector, RunError> {
         let mut told = None;
-        self.claim(name, control);
+        self.claim(name, 0, control);
         loop {
             if control.is_stopped() {
                 return Err(RunError::Interrupted);

@@ -138,6 +138,7 @@ fn request(kind: u32, value: f64, joints: u32, event: EventId) -> CommandRequest
         joints,
         event,
         job: 0,
+        asked_ns: 0,
         text: Text::default(),
     }
 }

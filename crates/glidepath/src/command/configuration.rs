@@ -29,11 +29,11 @@ pub(super) fn configuration(args: &ConfigArgs) -> Result<Exit, Failure> {
         (_, Some(file)) => checked(file, args.json),
         // The arguments ask for exactly one of the three.
         (None, None) => {
-            let text = config::default_text();
+            let text = config::EMBEDDED;
             if args.json {
                 output::object(&json!({ "configuration": text }));
             } else {
-                output::result(&text);
+                output::result(text);
             }
             Ok(Exit::Done)
         }

@@ -222,6 +222,12 @@ pub(super) enum Failure {
          glidepath-planner"
     )]
     NoService,
+    /// The planner's service ended with a job that it had taken.
+    #[error(
+        "the planner's service ended before this was done; `glidepath status` says where the machine stands; \
+         start `glidepath planner --listen` again; `glidepath run-file --resume` goes on with a program"
+    )]
+    ServiceLost,
     /// The interpolator could not start or failed.
     #[error(transparent)]
     Interpolator(#[from] interpolator::RunError),

@@ -63,6 +63,7 @@ impl Failure {
             | Self::NoInterpolator { .. }
             | Self::CommandRefused { .. }
             | Self::NoService
+            | Self::ServiceLost
             | Self::Silent { .. }
             | Self::NotStopped { .. }
             | Self::DoesNotEnd { .. }

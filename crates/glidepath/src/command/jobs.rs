@@ -14,6 +14,7 @@ use glidepath_link::{
     Client, Command, CommandRequest, JobKind, JobReply, JobRequest, JobState, JobWish, LinkConfig,
     LinkError, Record as _, Transport as _,
 };
+use glidepath_realtime::{Clock as _, Monotonic};
 use serde_json::json;
 use std::io::{BufRead as _, IsTerminal as _};
 use std::time::{Duration, Instant};
@@ -34,7 +35,7 @@ const POLL: Duration = Duration::from_millis(20);
 /// # Errors
 /// No service runs, it refuses, or the motion ended before the line did.
 pub(super) fn mdi(args: &MdiArgs, config: &MachineConfig) -> Result<Exit, Failure> {
-    let request = JobRequest::new(client(), 1, JobKind::Line, &args.line);
+    let request = JobRequest::new(client(), 1, JobKind::Line, &args.line, Monotonic.now_ns());
     if request.text.as_str() != args.line {
         let line = args.line.clone();
         return Err(Failure::Word(line, "a line has at most 1024 bytes"));
@@ -54,7 +55,7 @@ pub(super) fn run_file(args: &RunFileArgs, config: &MachineConfig) -> Result<Exi
         .canonicalize()
         .map_err(FileError::open(&args.file))?;
     let name = path.display().to_string();
-    let mut request = JobRequest::new(client(), 1, JobKind::File, &name);
+    let mut request = JobRequest::new(client(), 1, JobKind::File, &name, Monotonic.now_ns());
     if request.text.as_str() != name {
         return Err(Failure::Word(
             name,
@@ -196,6 +197,9 @@ impl Desk<'_> {
         let started = Instant::now();
         loop {
             match self.client.ask(request) {
+                Err(LinkError::NoServer { .. }) if self.is_taken => {
+                    return Err(Failure::ServiceLost);
+                }
                 // It may have been started just now.
                 Err(LinkError::NoServer { .. }) if started.elapsed() < PATIENCE => {
                     self.told.wait_for("the planner's service", started);
@@ -213,8 +217,13 @@ impl Desk<'_> {
         }
         let started = Instant::now();
         loop {
-            // A service that ended is an error here.
-            if let Some(reply) = self.client.reply()? {
+            let reply = match self.client.reply() {
+                Err(LinkError::NoServer { .. }) if self.is_taken => {
+                    return Err(Failure::ServiceLost);
+                }
+                reply => reply?,
+            };
+            if let Some(reply) = reply {
                 reply.check().map_err(LinkError::from)?;
                 return Ok(reply);
             }

@@ -37,6 +37,7 @@ mod program_note;
 mod reading;
 mod record;
 mod replay;
+mod rest;
 mod run;
 mod servo;
 mod session;
@@ -118,7 +119,7 @@ fn dispatch(command: &Command) -> Result<Exit, Failure> {
         Command::Replay(args) => replay::replay(args, &config()?),
         Command::Telemetry(args) => telemetry::telemetry(args, &config()?),
         Command::Audit(args) => audit::audit(args, &config()?),
-        Command::Hold(args) => operator::command(args, &config()?, "hold", link::Command::Hold),
+        Command::Hold(args) => rest::hold(args, &config()?),
         Command::Resume(args) => {
             operator::command(args, &config()?, "resume", link::Command::Resume)
         }
@@ -157,9 +158,7 @@ fn dispatch(command: &Command) -> Result<Exit, Failure> {
         }
         Command::Override(args) => operator::overrides(args, &config()?),
         Command::Jog(args) => jog::jog(args, &config()?),
-        Command::Return(args) => {
-            operator::command(args, &config()?, "return", link::Command::Return)
-        }
+        Command::Return(args) => rest::return_to_path(args, &config()?),
         Command::Bench(args) => bench::bench(args, &config()?),
         Command::Doctor(args) => Ok(doctor::doctor(args, &config()?)),
         Command::Jitter(args) => jitter::jitter(args, &config()?),

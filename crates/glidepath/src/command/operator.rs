@@ -5,6 +5,7 @@
 use super::active_program::active_program;
 use super::jog::lift;
 use super::other_users::OtherUsers;
+use super::rest;
 use super::session;
 use crate::cli::{AbortArgs, JointsArgs, OperatorArgs, OverrideArgs};
 use crate::command::failure::Failure;
@@ -35,7 +36,21 @@ pub(super) fn command(
     name: &'static str,
     command: Command,
 ) -> Result<Exit, Failure> {
-    commands(args, config, name, &[command], |_, _| Ok(()))
+    command_and_wait(args, config, name, command, |_, _| Ok(()))
+}
+
+/// Sends a command, waits until it has the effect that is waited for, and reports the answer.
+///
+/// # Errors
+/// The errors of [`command`], and those of what is waited for.
+pub(super) fn command_and_wait(
+    args: &OperatorArgs,
+    config: &MachineConfig,
+    name: &'static str,
+    command: Command,
+    wait: impl FnOnce(&Operator, &LinkConfig) -> Result<(), Failure>,
+) -> Result<Exit, Failure> {
+    commands(args, config, name, &[command], wait)
 }
 
 /// Switches the drives on, and waits until they have power.
@@ -43,7 +58,7 @@ pub(super) fn command(
 /// # Errors
 /// The errors of [`command`], or the drives do not get power.
 pub(super) fn enable(args: &OperatorArgs, config: &MachineConfig) -> Result<Exit, Failure> {
-    commands(args, config, "enable", &[Command::Enable], wait_for_power)
+    command_and_wait(args, config, "enable", Command::Enable, wait_for_power)
 }
 
 /// Waits until the drives have power: what is typed next is not to be refused for the want of it.
@@ -242,7 +257,7 @@ fn abort_and_lift(args: &AbortArgs, config: &MachineConfig) -> Result<Exit, Fail
         && reach(&link)?
             .status(PATIENCE)?
             .is_some_and(|status| status.end_of_epoch() == Ok(EndOfEpoch::Open));
-    let exit = command(&args.operator, config, "abort", Command::Abort)?;
+    let exit = rest::abort(&args.operator, config)?;
     if was_open {
         lift(&link, config)?;
     }

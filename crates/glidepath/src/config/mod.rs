@@ -45,17 +45,13 @@ pub const EMBEDDED: &str = include_str!("../../machines/mill.toml");
 /// A second built-in machine, for benchmarks: the one of published results on corner smoothing.
 pub const EMBEDDED_SEED: &str = include_str!("../../machines/seed.toml");
 
-/// Reads a configuration file, or the embedded machine if `path` is `None`: that of
-/// `config/mill.toml` without its default feedrate.
+/// Reads a configuration file, or the embedded machine if `path` is `None`: that of `config/mill.toml`.
 ///
 /// # Errors
 /// The file cannot be read, or something in it has to be mended.
 pub fn load(path: Option<&Path>) -> Result<MachineConfig, ConfigError> {
     let Some(path) = path else {
-        let mut machine = parse("built-in machine", EMBEDDED)?;
-        // Nobody chose it: a program without F is refused, as by other controls.
-        machine.path.default_feed = None;
-        return Ok(machine);
+        return parse("built-in machine", EMBEDDED);
     };
     load_kept(path, path)
 }
@@ -83,21 +79,6 @@ pub(crate) fn load_kept(named: &Path, path: &Path) -> Result<MachineConfig, Conf
         }
         Err(source) => Err(ConfigError::Unreadable { path: name, source }),
     }
-}
-
-/// The built-in machine, as a file that loads to the same machine.
-#[must_use]
-pub fn default_text() -> String {
-    let mut text = String::with_capacity(EMBEDDED.len() + 2);
-    for line in EMBEDDED.lines() {
-        // The built-in machine has none: see `load`.
-        if line.starts_with("default_feed") {
-            text.push_str("# ");
-        }
-        text.push_str(line);
-        text.push('\n');
-    }
-    text
 }
 
 /// Judges the text of a configuration; `path` is only used in reports.

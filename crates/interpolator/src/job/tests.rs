@@ -6,7 +6,12 @@ use crate::message::Report;
 const FREE: Result<(), &str> = Ok(());
 
 fn told(jobs: &mut JobBook, number: u64, phase: JobPhase, now_ns: u64) -> Result<Told, String> {
-    jobs.tell((number, phase), Text::new("a.ngc: checking"), now_ns, FREE)
+    jobs.tell(
+        (number, phase, 0),
+        Text::new("a.ngc: checking"),
+        now_ns,
+        FREE,
+    )
 }
 
 fn in_state(state: MachineState) -> Report {
@@ -22,7 +27,12 @@ fn a_job_takes_an_idle_machine_and_gives_it_back() {
     let idle = in_state(MachineState::Idle);
     assert_eq!(told(&mut jobs, 7, JobPhase::Waiting, 1), Ok(Told::Nothing));
     assert_eq!(jobs.state(&idle), MachineState::Idle);
-    let busy = jobs.tell((7, JobPhase::Preparing), Text::new(""), 2, Err("it moves"));
+    let busy = jobs.tell(
+        (7, JobPhase::Preparing, 0),
+        Text::new(""),
+        2,
+        Err("it moves"),
+    );
     assert_eq!(busy, Err("it moves".to_owned()));
     assert_eq!(told(&mut jobs, 7, JobPhase::Preparing, 3), Ok(Told::Takes));
     assert_eq!(jobs.state(&idle), MachineState::Preparing);
@@ -106,4 +116,73 @@ fn a_planner_that_is_started_anew_ends_the_job_before() {
     assert!(!jobs.has_machine() && jobs.is_to_come());
     assert_eq!(told(&mut jobs, 7, JobPhase::Over, 2), Ok(Told::Nothing));
     assert!(jobs.is_to_come(), "what is over is the other one");
+}
+
+#[test]
+fn a_stop_counts_for_what_was_asked_for_before_it_whenever_its_planner_tells() {
+    let asked = |jobs: &mut JobBook, number, asked_ns| {
+        jobs.tell(
+            (number, JobPhase::Waiting, asked_ns),
+            Text::new(""),
+            100,
+            FREE,
+        )
+    };
+    let mut jobs = JobBook::new();
+    jobs.stop(50);
+    assert!(asked(&mut jobs, 7, 49).is_err());
+    assert!(!jobs.is_to_come());
+    for asked_ns in [50, 51, 0] {
+        let number = 8 + asked_ns;
+        assert_eq!(
+            asked(&mut jobs, number, asked_ns),
+            Ok(Told::Nothing),
+            "{asked_ns}"
+        );
+        assert!(jobs.is_to_come() && !jobs.is_held());
+    }
+    jobs.hold_what_was_asked(60);
+    assert_eq!(asked(&mut jobs, 70, 59), Ok(Told::Nothing));
+    assert!(jobs.is_held(), "it begins held");
+    assert_eq!(asked(&mut jobs, 71, 61), Ok(Told::Nothing));
+    assert!(!jobs.is_held());
+    // The job before has the machine.
+    assert_eq!(
+        told(&mut jobs, 71, JobPhase::Preparing, 101),
+        Ok(Told::Takes)
+    );
+    jobs.stop(110);
+    assert_eq!(asked(&mut jobs, 72, 109), Ok(Told::GivesBack));
+    assert!(asked(&mut jobs, 72, 109).is_err());
+}
+
+#[test]
+fn a_job_that_rests_under_way_is_an_orphan_when_its_planner_falls_silent() {
+    let mut jobs = JobBook::new();
+    told(&mut jobs, 7, JobPhase::Waiting, 0).unwrap();
+    told(&mut jobs, 7, JobPhase::Preparing, 0).unwrap();
+    jobs.begin();
+    let resting = |state| Report {
+        end_of_epoch: EndOfEpoch::Open,
+        ..in_state(state)
+    };
+    for state in [
+        MachineState::Held,
+        MachineState::ProgramStop,
+        MachineState::Awaiting,
+    ] {
+        assert!(!jobs.is_orphaned(&resting(state), SILENCE_NS));
+        assert!(jobs.is_orphaned(&resting(state), SILENCE_NS + 1));
+        assert!(
+            !jobs.is_orphaned(&in_state(state), SILENCE_NS + 1),
+            "it is over"
+        );
+    }
+    let running = resting(MachineState::Running);
+    assert!(
+        !jobs.is_orphaned(&running, SILENCE_NS + 1),
+        "its frames tell"
+    );
+    told(&mut jobs, 7, JobPhase::Preparing, SILENCE_NS).unwrap();
+    assert!(!jobs.is_orphaned(&resting(MachineState::Held), SILENCE_NS + 1));
 }

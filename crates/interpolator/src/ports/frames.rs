@@ -93,6 +93,11 @@ impl Ports<'_> {
         if self.jobs.watch(&report, is_opening, now_ns) {
             self.give_machine_back();
         }
+        if self.jobs.is_orphaned(&report, now_ns) && report.fault.is_none() {
+            let setpoint = &report.setpoint;
+            let line = setpoint.line;
+            self.fault(Fault::new(FaultCause::PlannerLost, line, setpoint.sequence));
+        }
         Ok(())
     }
 

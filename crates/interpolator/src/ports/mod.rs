@@ -57,6 +57,8 @@ pub(crate) struct Ports<'a> {
     book: StatusBook,
     auxiliary: AuxiliaryBook,
     acknowledgements: Acknowledgements,
+    /// Somebody said why an event has failed, and the fault that comes of it is not told yet.
+    failure_is_explained: bool,
     jobs: JobBook,
     /// Number of the setpoint after which an order was passed on that a job waits for.
     ordered_after: Option<u64>,
@@ -93,6 +95,7 @@ impl<'a> Ports<'a> {
             book: StatusBook::new(config, boot_id),
             auxiliary: AuxiliaryBook::new(boot_id, config.gates, config.stops),
             acknowledgements: Acknowledgements::new(boot_id, config.gates),
+            failure_is_explained: false,
             jobs: JobBook::new(),
             ordered_after: None,
             boot_id,
@@ -184,7 +187,11 @@ impl<'a> Ports<'a> {
                     .drives
                     .as_mut()
                     .and_then(|drives| drives.explain(&fault));
+                let is_explained = core::mem::take(&mut self.failure_is_explained)
+                    && fault.cause == FaultCause::AuxFailed;
                 match why {
+                    // What was said is the last error already, and stands behind the fault.
+                    None if is_explained => (self.log)(&fault.to_string()),
                     None => self.tell(&fault.to_string()),
                     // The fault itself is in the status.
                     Some(why) => {
@@ -276,6 +283,7 @@ impl<'a> Ports<'a> {
                 } else if has_failed && !is_refusal(&reply) && !text.is_empty() {
                     log(text);
                     book.last_error(text);
+                    self.failure_is_explained = true;
                 } else if matches!(command, Some(Command::Job { .. })) {
                     // Its planner waits for that.
                     self.status_due_ns = 0;

@@ -122,6 +122,9 @@ pub enum Command {
         number: u64,
         /// How it stands.
         phase: JobPhase,
+        /// When somebody asked for it, ns of the host's steady clock; 0 where nobody knows. A job that was
+        /// asked for before an abort does not begin, however late its planner hears of it.
+        asked_ns: u64,
     },
 }
 
@@ -173,7 +176,7 @@ impl Command {
 /// A command on its way.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.CommandRequest.v6")]
+#[type_name("glidepath.CommandRequest.v7")]
 pub struct CommandRequest {
     /// Who asks: any number the client keeps, for the log.
     pub client: u64,
@@ -191,6 +194,8 @@ pub struct CommandRequest {
     pub event: EventId,
     /// Which job is told of, else 0.
     pub job: u64,
+    /// When that job was asked for, ns of the host's steady clock, else 0.
+    pub asked_ns: u64,
     /// Why what an event asked for has failed, what the program says, or what is being done for a job,
     /// for people; else empty.
     pub text: Text,
@@ -208,6 +213,7 @@ impl CommandRequest {
             joints: 0,
             event: EventId::default(),
             job: 0,
+            asked_ns: 0,
             text: Text::default(),
         };
         match command {
@@ -222,8 +228,13 @@ impl CommandRequest {
             Command::Acknowledge { event, done } => {
                 (record.event, record.value) = (event, f64::from(u8::from(done)));
             }
-            Command::Job { number, phase } => {
-                (record.job, record.value) = (number, f64::from(phase.code()));
+            Command::Job {
+                number,
+                phase,
+                asked_ns,
+            } => {
+                (record.job, record.asked_ns) = (number, asked_ns);
+                record.value = f64::from(phase.code());
             }
             Command::Ping
             | Command::Hold
@@ -296,6 +307,7 @@ impl CommandRequest {
             CommandKind::Job => Command::Job {
                 number: self.job,
                 phase: fields.code("value", fields.whole("value", self.value)?)?,
+                asked_ns: self.asked_ns,
             },
             CommandKind::JogOverride => {
                 fields.range("value", self.value, 0.0, 1.0)?;
@@ -346,7 +358,7 @@ impl CommandRequest {
 }
 
 impl Record for CommandRequest {
-    const NAME: &'static str = "glidepath.CommandRequest.v6";
+    const NAME: &'static str = "glidepath.CommandRequest.v7";
 
     fn check(&self) -> Result<(), RecordError> {
         self.command()?;

@@ -32,12 +32,15 @@ coded! {
 /// Something to execute.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.JobRequest.v2")]
+#[type_name("glidepath.JobRequest.v3")]
 pub struct JobRequest {
     /// Who asks: any number that no other client has.
     pub client: u64,
     /// Counts the client's jobs.
     pub number: u64,
+    /// When the job was asked for, ns of the host's steady clock, the same in every request for it. An abort
+    /// after that ends it, also where the service has not heard of it yet.
+    pub asked_ns: u64,
     /// Code of a [`JobKind`].
     pub kind: u32,
     /// The line of a file to begin with, 0 for its beginning.
@@ -57,10 +60,11 @@ pub struct JobRequest {
 impl JobRequest {
     /// A line, or a file from its beginning.
     #[must_use]
-    pub fn new(client: u64, number: u64, kind: JobKind, text: &str) -> Self {
+    pub fn new(client: u64, number: u64, kind: JobKind, text: &str, asked_ns: u64) -> Self {
         Self {
             client,
             number,
+            asked_ns,
             kind: kind.code(),
             from_line: 0,
             pass: 0,
@@ -100,7 +104,7 @@ impl JobRequest {
 }
 
 impl Record for JobRequest {
-    const NAME: &'static str = "glidepath.JobRequest.v2";
+    const NAME: &'static str = "glidepath.JobRequest.v3";
 
     fn check(&self) -> Result<(), RecordError> {
         let fields = Fields(Self::NAME);

@@ -39,10 +39,10 @@ impl MachineState {
                 "slowing down on the path, because the plan does not come fast enough"
             }
             Self::Starved => {
-                "at rest on the path until the planner sends more; it goes on by itself"
+                "at rest on the path until the planner sends more; it goes on by itself when more comes"
             }
             Self::ProgramStop => {
-                "at rest where the program stopped the machine; `glidepath resume` goes on"
+                "at rest at a stop of the program, or at the end of a block; `glidepath resume` goes on"
             }
             Self::Stopping => "coming to rest on the path; the rest of the program is dropped",
             Self::Faulted => "at rest by a fault, which stays until `glidepath reset`",

@@ -42,12 +42,20 @@ const HELP: &str = "arrows X Y · page up/down Z · X…W then + - another axis 
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Action {
     Move(Axis, f64),
-    Select(Axis),
+    Select(Selected),
     NextStep,
     Faster(f64),
     Stop,
     Quit,
     Nothing,
+}
+
+/// What + and - move.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Selected {
+    Axis(Axis),
+    /// Nothing: the machine has no such axis, and whoever asked for it does not mean another one.
+    Missing(Axis),
 }
 
 /// What the operator has chosen, and presses.
@@ -58,7 +66,7 @@ struct Hand<'m> {
     part: f64,
     /// The step in use; none as long as a key is held.
     step: Option<usize>,
-    selected: Axis,
+    selected: Selected,
     /// What is moved, and until when.
     pressed: Option<(Axis, f64, Instant)>,
     sent: Instant,
@@ -141,7 +149,7 @@ impl<'m> Hand<'m> {
             by_joint: args.by_joint,
             part: asked.unwrap_or(0.25).clamp(1e-3, 1.0),
             step: None,
-            selected,
+            selected: Selected::Axis(selected),
             pressed: None,
             sent: Instant::now(),
         }
@@ -162,17 +170,28 @@ impl<'m> Hand<'m> {
             Key::Up => moves(Axis::Y, 1.0),
             Key::PageDown => moves(Axis::Z, -1.0),
             Key::PageUp => moves(Axis::Z, 1.0),
-            Key::Character('+') => moves(self.selected, 1.0),
-            Key::Character('-') => moves(self.selected, -1.0),
+            Key::Character('+') => self.moves_selected(1.0),
+            Key::Character('-') => self.moves_selected(-1.0),
             Key::Character(' ') => Action::Stop,
             Key::Character('q') => Action::Quit,
             Key::Character('i') => Action::NextStep,
             Key::Character('f') => Action::Faster(FASTER),
             Key::Character('s') => Action::Faster(1.0 / FASTER),
             // Capitals: small letters are commands.
-            Key::Character(letter) => Axis::from_letter(letter)
-                .filter(|axis| self.config.axis_names().contains(axis))
-                .map_or(Action::Nothing, Action::Select),
+            Key::Character(letter) => match Axis::from_letter(letter) {
+                Some(axis) if self.config.axis_names().contains(&axis) => {
+                    Action::Select(Selected::Axis(axis))
+                }
+                Some(axis) => Action::Select(Selected::Missing(axis)),
+                None => Action::Nothing,
+            },
+        }
+    }
+
+    const fn moves_selected(&self, side: f64) -> Action {
+        match self.selected {
+            Selected::Axis(axis) => Action::Move(axis, side),
+            Selected::Missing(_) => Action::Nothing,
         }
     }
 
@@ -182,7 +201,11 @@ impl<'m> Hand<'m> {
             Action::Nothing => {}
             Action::Quit => return Ok(false),
             Action::Stop => self.release(panel)?,
-            Action::Select(axis) => self.selected = axis,
+            Action::Select(selected) => {
+                // What is still held down belongs to the axis before.
+                self.release(panel)?;
+                self.selected = selected;
+            }
             Action::Faster(factor) => {
                 self.part = (self.part * factor).clamp(1e-3, 1.0);
                 self.pressed = None;
@@ -267,13 +290,44 @@ impl<'m> Hand<'m> {
             .step
             .and_then(|step| self.config.jog.increments.get(step));
         let step = step.map_or("as long as held".to_owned(), |step| format!("step {step}"));
-        let (part, selected) = (self.part * 100.0, self.selected);
+        let selected = match self.selected {
+            Selected::Axis(axis) => format!("(+ - {axis})"),
+            Selected::Missing(axis) => format!("(no axis {axis}: + - move nothing)"),
+        };
+        let part = self.part * 100.0;
         let line = format!(
-            "{}  {}  {part:.0} %  {step}  (+ - {selected})",
+            "{}  {}  {part:.0} %  {step}  {selected}",
             state.name(),
             position.join("  ")
         );
         // Over the line before, to its end.
         let _ = write!(std::io::stderr(), "\r{line}\x1b[K");
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_axis_that_is_not_there_is_not_another_one() {
+        let config = crate::config::load(None).unwrap();
+        let mut hand = Hand {
+            config: &config,
+            by_joint: false,
+            part: 0.25,
+            step: None,
+            selected: Selected::Axis(Axis::X),
+            pressed: None,
+            sent: Instant::now(),
+        };
+        assert_eq!(hand.action(Key::Character('+')), Action::Move(Axis::X, 1.0));
+        let missing = Selected::Missing(Axis::B);
+        assert_eq!(hand.action(Key::Character('B')), Action::Select(missing));
+        hand.selected = missing;
+        assert_eq!(hand.action(Key::Character('+')), Action::Nothing);
+        assert_eq!(hand.action(Key::Character('-')), Action::Nothing);
+        let there = Selected::Axis(Axis::Z);
+        assert_eq!(hand.action(Key::Character('Z')), Action::Select(there));
     }
 }

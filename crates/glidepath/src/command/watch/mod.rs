@@ -33,7 +33,7 @@ const HOME: &str = "\x1b[H";
 const REST_OF_LINE: &str = "\x1b[K\n";
 const REST: &str = "\x1b[J";
 
-/// Shows the machine until the process is asked to end.
+/// Shows the machine until the process is asked to end, or nobody reads it any more.
 ///
 /// # Errors
 /// No interpolator runs, or it ends; the program cannot be read. One that says nothing is waited for.
@@ -55,7 +55,7 @@ pub(super) fn watch(args: &StatusArgs, config: &MachineConfig) -> Result<Exit, F
     let mut offsets = KeptOffsets::new(config);
     let every = Duration::from_secs_f64(args.every);
     let mut silent_since = None::<Instant>;
-    while !interrupt.is_set() {
+    while !interrupt.is_set() && !output::has_no_reader() {
         let looked = Instant::now();
         let Some(status) = next_status(&operator, &link)? else {
             let since = *silent_since.get_or_insert(looked);

@@ -9,7 +9,11 @@ use glidepath_plant::{JointSettings, Upset};
 const TICKS: usize = 16;
 
 fn tell(bench: &mut Bench, number: u64, phase: JobPhase) -> Result<(), String> {
-    bench.command(Command::Job { number, phase })
+    bench.command(Command::Job {
+        number,
+        phase,
+        asked_ns: 0,
+    })
 }
 
 /// A machine that is ready.

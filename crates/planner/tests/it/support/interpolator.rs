@@ -175,7 +175,7 @@ impl Interpolator {
                 Command::Tell => self.told.push(request.text.as_str().to_owned()),
                 Command::Abort => self.abort(),
                 Command::Reset => self.reset(),
-                Command::Job { number, phase } => {
+                Command::Job { number, phase, .. } => {
                     self.hear_job(number, phase, request.text.as_str());
                 }
                 other => panic!("not simulated: {other:?}"),
