@@ -41,36 +41,24 @@ impl Asked {
     /// What is asked of a person; null if nothing is.
     pub(super) fn object(&mut self, status: &Status) -> Value {
         let said = status.message.as_str();
-        match status.state() {
-            Ok(MachineState::ProgramStop) => json!({
-                "what": "stop",
-                "says": said,
-                "line": status.line,
-            }),
-            Ok(MachineState::Awaiting) => match status.awaited_event() {
-                Ok(Some(Event::MCode(6) | Event::Await(6))) => {
-                    let tools = self.tools();
-                    json!({
-                        "what": "tool",
-                        "code": awaited_code(status),
-                        "says": said,
-                        "line": status.awaited_line,
-                        "tools": tools,
-                    })
-                }
-                Ok(Some(Event::MCode(_) | Event::Await(_))) => json!({
-                    "what": "code",
-                    "code": awaited_code(status),
-                    "says": said,
-                    "line": status.awaited_line,
-                }),
-                // The spindle answers that.
-                _ => Value::Null,
-            },
-            _ => {
-                self.known = None;
-                Value::Null
+        if status.state() == Ok(MachineState::ProgramStop) {
+            return json!({ "what": "stop", "says": said, "line": status.line });
+        }
+        if status.state() != Ok(MachineState::Awaiting) {
+            self.known = None;
+            return Value::Null;
+        }
+        let line = status.awaited_line;
+        match status.awaited_event() {
+            Ok(Some(Event::MCode(6) | Event::Await(6))) => {
+                let (code, tools) = (awaited_code(status), self.tools());
+                json!({ "what": "tool", "code": code, "says": said, "line": line, "tools": tools })
             }
+            Ok(Some(Event::MCode(_) | Event::Await(_))) => {
+                json!({ "what": "code", "code": awaited_code(status), "says": said, "line": line })
+            }
+            // The spindle answers that.
+            _ => Value::Null,
         }
     }
 

@@ -63,12 +63,10 @@ impl Day {
             return;
         }
         // Of a job whose end was not seen nothing is told.
-        let end = match status.end_of_epoch() {
-            _ if last.epoch != status.epoch => "over",
-            Ok(EndOfEpoch::Completed) => "done",
-            Ok(EndOfEpoch::Aborted) => "aborted",
-            Ok(EndOfEpoch::Faulted) => "fault",
-            _ => "over",
+        let end = if last.epoch == status.epoch {
+            status.end_of_epoch().map_or("over", end_word)
+        } else {
+            "over"
         };
         last.end = Some((end, now_ms, status.line));
     }
@@ -84,6 +82,16 @@ impl Day {
             })
         };
         self.entries.iter().map(object).collect()
+    }
+}
+
+/// How a job ended, by how its epoch did.
+const fn end_word(end: EndOfEpoch) -> &'static str {
+    match end {
+        EndOfEpoch::Completed => "done",
+        EndOfEpoch::Aborted => "aborted",
+        EndOfEpoch::Faulted | EndOfEpoch::Tripped => "fault",
+        EndOfEpoch::None | EndOfEpoch::Open => "over",
     }
 }
 

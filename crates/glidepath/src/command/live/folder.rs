@@ -22,11 +22,11 @@ const MOST_LISTED: usize = 2000;
 /// Why a program is not taken, or not there.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum FolderError {
-    #[error("{0:?} is no name of a program: give one without `/` that does not begin with a point")]
+    #[error("{0} is no name of a program: give one without `/` that does not begin with a point")]
     Name(String),
-    #[error("there is no program {0:?} in the folder")]
+    #[error("there is no program {0} in the folder")]
     NotThere(String),
-    #[error("there is a program {0:?} already")]
+    #[error("there is a program {0} already")]
     There(String),
     #[error("a piece is missing, or two pages send the same program: send it from its beginning")]
     Piece,
