@@ -10,6 +10,15 @@ use crate::syntax::dialect::Dialect;
 use crate::syntax::modes::{FeedMode, Motion, Turning};
 
 impl Interpreter {
+    /// The unit of length that F counts in, mm.
+    pub(crate) const fn feed_unit_mm(&self) -> f64 {
+        if self.state.feeds_in_mm {
+            1.0
+        } else {
+            self.state.modal.units.mm()
+        }
+    }
+
     /// Feed mode and F.
     pub(crate) fn feed(&mut self, block: &Block, motion: Option<Motion>) -> Outcome<()> {
         let modal = &mut self.state.modal;

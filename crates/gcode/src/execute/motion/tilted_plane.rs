@@ -87,12 +87,15 @@ impl Interpreter {
 
     /// The tilted plane ends; the axes stay where they are.
     pub(crate) fn end_tilt(&mut self) {
-        if self.state.tilted.take().is_none() {
+        let was_tilted = self.state.tilted.take().is_some();
+        if !was_tilted && !self.offsets.tilted.is_in_force() {
             return;
         }
         self.offsets.tilted = Frame::default();
         self.offsets.frame = self.offsets.fanuc.frames.frame();
-        self.let_tip_follow(false);
+        if was_tilted {
+            self.let_tip_follow(false);
+        }
     }
 
     /// Refuses moves in a plane along whose normal the tool does not stand yet.

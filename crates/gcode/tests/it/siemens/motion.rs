@@ -293,6 +293,50 @@ fn a_dwell_in_turns_of_the_spindle() {
     finds("S600\nG4 S5", &["2:1 missing-word"]);
 }
 
+#[test]
+fn a_plane_that_does_not_turn_is_a_zero_on_every_machine() {
+    let plane = "CYCLE800(0,\"\",0,57,10,20,0,0,0,0,0,0,5,-1)";
+    assert_eq!(
+        ends(&format!("{plane}\nG0 X1 Y1 Z1\nCYCLE800()\nG0 X1 Y1 Z1")),
+        [[11.0, 21.0, 6.0], [1.0, 1.0, 1.0]]
+    );
+    assert_eq!(
+        ends(&format!(
+            "{plane}\nTRANS X100\nG0 X1\nTRANS\nCYCLE800()\nG0 X1"
+        )),
+        [[111.0, 0.0, 0.0], [1.0, 0.0, 0.0]]
+    );
+    finds(&format!("TRANS X1\n{plane}"), &["2:1 not-supported"]);
+    finds(
+        &format!("{plane}\nTRANS X1\nCYCLE800()"),
+        &["3:1 not-supported"],
+    );
+    // Where there is no plane a frame stays what it is.
+    assert_eq!(ends("TRANS X100\nCYCLE800()\nG0 X1"), [[101.0, 0.0, 0.0]]);
+}
+
+#[test]
+fn feeds_of_cycles_are_those_of_the_program_in_inches_of_lengths() {
+    let rates = |text: &str| -> Vec<Rate> {
+        let all = moves(text).into_iter();
+        all.map(|(_, rate, _)| rate)
+            .filter(|rate| *rate != Rate::Rapid)
+            .collect()
+    };
+    // The first stroke at half of 600 mm/min.
+    let text = "G70 F600\nG0 Z1\nCYCLE83(1,0,0.1,-0.5,,-0.25,,0.1,,,0.5,0)";
+    let all = rates(text);
+    assert!(
+        matches!(all[0], Rate::Feed(feed_v) if (feed_v - 5.0).abs() < 1e-9),
+        "{all:?}"
+    );
+    let last = all.last().expect("a move");
+    assert!(
+        matches!(last, Rate::Feed(feed_v) if (feed_v - 10.0).abs() < 1e-9),
+        "{all:?}"
+    );
+}
+
 /// A machine whose spindle is followed.
 fn with_encoder() -> Options {
     Options {

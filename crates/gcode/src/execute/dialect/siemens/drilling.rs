@@ -78,7 +78,7 @@ impl Interpreter {
             .state
             .modal
             .feed
-            .map(|feed| feed.linear_v * 60.0 / unit);
+            .map(|feed| feed.linear_v * 60.0 / self.feed_unit_mm());
         if let Some(feed) = feed.filter(|_| factor < 1.0) {
             lines.feed(feed * factor);
         }

@@ -13,6 +13,7 @@ use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::dialect::siemens::flow::check_end;
+use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::tilted_plane::Branch;
 use crate::execute::program::Program;
 use crate::execute::state::frame::Frame;
@@ -41,6 +42,7 @@ impl<R: BufRead> Program<R> {
             (numbers, is_off, SourceSpan::new(at, input.at))
         };
         let interpreter = &mut self.interpreter;
+        check_frame(interpreter, is_off, span)?;
         if is_off {
             interpreter.end_tilt();
             return Ok(());
@@ -85,6 +87,19 @@ impl<R: BufRead> Program<R> {
         self.end_of_line();
         Ok(())
     }
+}
+
+/// Refuses to put a plane in front of a frame of the program, or to take it from under one.
+fn check_frame(interpreter: &Interpreter, is_off: bool, span: SourceSpan) -> Outcome<()> {
+    let offsets = &interpreter.offsets;
+    let has_frame = offsets.frame != offsets.tilted;
+    if !has_frame || is_off && !offsets.tilted.is_in_force() {
+        return Ok(());
+    }
+    let message = "CYCLE800 within a frame";
+    Err(Fault::new(DiagnosticCode::NotSupported, span, message)
+        .because("TRANS, ROT and the like count in the plane, and would count in another one")
+        .help("write TRANS alone before it, which ends them"))
 }
 
 /// The zero before the turn, the turn, and the zero behind it.
