@@ -92,7 +92,7 @@ fn steps_move_the_axes_and_a_program_goes_on_from_there() {
         jog(&["X1"])
             .expect(5)
             .stderr
-            .contains("idle, or a program is held")
+            .contains("while no program runs")
     );
     let _held = Process::join(&instance, &["hold"]).wait().expect(0);
     let held = services.wait_for(MachineState::Held);

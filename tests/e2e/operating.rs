@@ -78,6 +78,62 @@ fn a_machine_is_switched_on_homed_used_and_recovers_from_the_loss_of_its_drives(
 }
 
 #[test]
+fn joints_that_are_not_homed_are_jogged_and_what_ends_a_motion_by_hand_is_told() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let machine = Operated::new(&instance, &[LOOKS_FOR_HOME], "");
+    let interpolator = machine.process(&["interpolator", "--best-effort"]);
+    let servo = machine.process(&["servo"]);
+    let _off = machine.wait_for_drives();
+    machine.refused(&["jog", "X1"], 5, "`glidepath enable");
+    machine.operate(&["enable"]);
+    let at = machine.wait_for(MachineState::NotHomed).position;
+    machine.operate(&["jog", "X2"]);
+    machine.operate(&["jog", "Y-1", "--by-joint"]);
+    let status = machine.wait_for(MachineState::NotHomed);
+    assert!((status.position[0] - at[0] - 2.0).abs() < 1e-9);
+    assert!((status.position[1] - at[1] + 1.0).abs() < 1e-9);
+
+    // At home, and home again.
+    machine.operate(&["home"]);
+    let _idle = machine.wait_for(MachineState::Idle);
+    machine.operate(&["home"]);
+    let _idle = machine.wait_for(MachineState::Idle);
+
+    // Somebody else ends a jog, and a way home.
+    let jog = machine.process(&["jog", "X60", "--feed", "1200"]);
+    let _moving = machine.wait_for(MachineState::Jogging);
+    machine.operate(&["hold"]);
+    let ended = jog.wait().expect(5);
+    assert!(ended.stdout.contains("a hold ended the jog"), "{ended:#?}");
+    machine.operate(&["jog", "X60"]);
+    let home = machine.process(&["home"]);
+    let _homing = machine.wait_for(MachineState::Homing);
+    machine.operate(&["abort"]);
+    let ended = home.wait().expect(5);
+    let why = "an abort ended the way home";
+    assert!(ended.stderr.contains(why), "{ended:#?}");
+    let status = machine.wait_for(MachineState::NotHomed);
+    assert_eq!(status.homed & 1, 0);
+    machine.operate(&["home"]);
+
+    // The drives fall silent.
+    let jog = machine.process(&["jog", "X60", "--feed", "600"]);
+    let _moving = machine.wait_for(MachineState::Jogging);
+    servo.signal(Signal::STOP);
+    let ended = jog.wait().expect(5);
+    let why = FaultCause::FeedbackLost.text();
+    assert!(ended.stdout.contains(why), "{ended:#?}");
+    let _faulted = machine.wait_for(MachineState::Faulted);
+    for word in ["jog", "home", "unhome"] {
+        let joints = if word == "jog" { "X1" } else { "J0" };
+        machine.refused(&[word, joints], 5, "a fault is latched");
+    }
+    servo.signal(Signal::CONT);
+    let _servo = servo.end().expect(0);
+    let _interpolator = interpolator.end().expect(0);
+}
+
+#[test]
 fn run_switches_a_machine_with_drives_on() {
     let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
     let machine = Operated::new(&instance, &[LOOKS_FOR_HOME], "");

@@ -10,7 +10,7 @@ use crate::job::{JobBook, Told, unfit};
 use crate::message::{Order, PortsEnds, Report};
 use glidepath_link::{
     Command, CommandOutcome, CommandRefusal, CommandReply, CommandRequest, EndOfEpoch, JobPhase,
-    JobStage, MachineState, Objection,
+    JobStage, MachineState, Objection, SWITCHED_OFF,
 };
 
 /// Orders that one command comes to, at most.
@@ -147,7 +147,7 @@ impl Desk<'_, '_> {
         let (stage, why) = if command == Command::Abort {
             (JobStage::Aborted, "aborted before anything moved")
         } else if command == Command::Disable {
-            (JobStage::Refused, "the drives were switched off")
+            (JobStage::Refused, SWITCHED_OFF)
         } else {
             return;
         };

@@ -203,7 +203,8 @@ impl JobBook {
         if self.has_machine()
             && let Some(why) = unfit(report.state)
         {
-            return self.end(JobStage::Refused, why);
+            let fault = report.fault.map(|fault| fault.to_string());
+            return self.end(JobStage::Refused, fault.as_deref().unwrap_or(why));
         }
         let is_open = report.end_of_epoch == EndOfEpoch::Open || is_opening;
         if self.stage == JobStage::Begun && !is_open && report.state != MachineState::Waiting {

@@ -144,6 +144,7 @@ mod supply;
 #[cfg(test)]
 mod testing;
 mod tick;
+mod told_by_hand;
 mod track;
 mod tracker;
 mod wait;

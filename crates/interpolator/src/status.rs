@@ -90,6 +90,8 @@ impl StatusBook {
         // One that waits goes on: what it said is still to be read.
         if self.status.state != MachineState::Waiting.code() {
             self.message("");
+            // Nor is what was told of an error before of the motion that begins.
+            self.last_error("");
         }
         self.entering = Some(*frame);
     }

@@ -77,4 +77,6 @@ pub use record::{
     SetpointMarks, SpindleFlags, SpindleState, Status, StreamItem, Text, decode,
 };
 pub use service::Capacity;
-pub use wording::{FaultReport, Objection, StateChange, is_printable, printable, refused};
+pub use wording::{
+    FaultReport, Objection, SWITCHED_OFF, StateChange, is_printable, printable, refused,
+};

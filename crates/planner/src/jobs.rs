@@ -12,7 +12,7 @@
 
 use std::collections::VecDeque;
 use std::path::PathBuf;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use glidepath_geometry::AxisVector;
 use glidepath_link::{
@@ -24,6 +24,9 @@ use crate::{Control, Publisher, StartLine};
 
 /// A client from which nothing was heard for so long is taken for dead.
 pub const CLIENT_SILENCE: Duration = Duration::from_secs(2);
+
+/// A turn counts for so long at most towards that silence.
+const LONGEST_TURN: Duration = Duration::from_millis(50);
 
 /// Requests served between two looks at the motion.
 const REQUESTS_PER_TURN: u32 = 32;
@@ -122,13 +125,24 @@ enum Gate {
 #[derive(Debug)]
 struct Current {
     client: (u64, u64),
-    /// Since when its client was not heard.
+    /// Since when its client was not heard, without what this process slept through.
     silent: Duration,
+    /// The last look at that.
+    looked: Instant,
     is_unwanted: bool,
     gate: Gate,
 }
 
 impl Current {
+    /// So long was meant to pass since the last look; on a busy host it was more. A look that is
+    /// much too late says that this process stood still, and that says nothing of the client.
+    fn wait(&mut self, meant: Duration) {
+        let now = Instant::now();
+        let passed = now.duration_since(core::mem::replace(&mut self.looked, now));
+        let passed = passed.min(LONGEST_TURN).max(meant);
+        self.silent = self.silent.saturating_add(passed);
+    }
+
     /// Its client asks.
     fn hear(&mut self, wish: JobWish) {
         self.silent = Duration::ZERO;
@@ -187,6 +201,7 @@ impl JobDesk {
                 *current = Some(Current {
                     client: (request.client, request.number),
                     silent: Duration::ZERO,
+                    looked: Instant::now(),
                     is_unwanted: false,
                     gate: Gate::Closed,
                 });
@@ -230,7 +245,7 @@ impl JobDesk {
         (doing, busy): (&str, &str),
     ) -> Result<Option<&'static str>, LinkError> {
         if let Some(current) = &mut self.current {
-            current.silent = current.silent.saturating_add(waited);
+            current.wait(waited);
         }
         for _ in 0..REQUESTS_PER_TURN {
             let (current, past) = (&mut self.current, &self.past);
@@ -350,5 +365,40 @@ impl Attend for JobAttendant<'_> {
 
     fn may_begin(&mut self) -> bool {
         self.jobs.may_begin()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn looked_before(time: Duration) -> Current {
+        Current {
+            client: (1, 1),
+            silent: Duration::ZERO,
+            looked: Instant::now().checked_sub(time).unwrap(),
+            is_unwanted: false,
+            gate: Gate::Closed,
+        }
+    }
+
+    #[test]
+    fn silence_is_the_time_that_passed_and_not_the_turns_that_were_meant() {
+        let meant = Duration::from_millis(1);
+        let mut busy = looked_before(Duration::from_millis(8));
+        busy.wait(meant);
+        assert!(busy.silent >= Duration::from_millis(8), "{busy:?}");
+        // A turn that was meant to be long counts as such.
+        let mut at_once = looked_before(Duration::ZERO);
+        at_once.wait(CLIENT_SILENCE);
+        assert!(at_once.unwanted().is_some());
+    }
+
+    #[test]
+    fn a_process_that_stood_still_holds_nothing_against_the_client() {
+        let mut stopped = looked_before(Duration::from_secs(60));
+        stopped.wait(Duration::from_millis(1));
+        assert_eq!(stopped.silent, LONGEST_TURN);
+        assert_eq!(stopped.unwanted(), None);
     }
 }

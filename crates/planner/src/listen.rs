@@ -77,6 +77,9 @@ pub fn serve(
         last: None,
     };
     loop {
+        if control.is_stopped() {
+            return Err(RunError::Interrupted);
+        }
         (control.notify)(&Notice::Listening);
         let (stream, position) = match listener.accept(listening, control)? {
             Accepted::Stream(stream, position) => (*stream, position),

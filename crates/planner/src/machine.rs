@@ -6,7 +6,7 @@ use glidepath_gcode::Probed;
 use glidepath_geometry::AxisVector;
 use glidepath_link::{
     Client, Command, CommandReply, CommandRequest, ContactKind, EndOfEpoch, JobStage, LinkError,
-    MachineState, Record, Status, Subscriber, Transport,
+    MachineState, Record, SWITCHED_OFF, Status, Subscriber, Transport,
 };
 use glidepath_program::Override;
 
@@ -156,7 +156,7 @@ impl Machine {
         match end {
             EndOfEpoch::Completed => Ok(Standing::Completed),
             EndOfEpoch::Tripped => Ok(Standing::Tripped),
-            EndOfEpoch::Aborted => Err(RunError::Aborted),
+            EndOfEpoch::Aborted => Err(aborted(status)),
             EndOfEpoch::None | EndOfEpoch::Open | EndOfEpoch::Faulted => Ok(Standing::Open {
                 executed: status.frames_executed,
                 received: status.frames_received,
@@ -263,6 +263,17 @@ impl Machine {
             command: command.kind(),
         })
     }
+}
+
+/// Who ended an epoch that was aborted.
+fn aborted(status: &Status) -> RunError {
+    let told = status.last_error.as_str();
+    if told == SWITCHED_OFF {
+        return RunError::Ended {
+            why: told.to_owned(),
+        };
+    }
+    RunError::Aborted
 }
 
 /// Why the next epoch does not begin.

@@ -70,6 +70,9 @@ fn is_on_cam(settings: &JointSettings, place: f64) -> bool {
     cam.is_some_and(|(low, high)| (low..=high).contains(&place))
 }
 
+/// What finding a home takes at least, ns, also where the joint stands there: a drive leaves the
+/// switch and comes back to it.
+const SEARCH_NS: u64 = 50_000_000;
 /// Slower than this a joint sticks, mm/s or °/s.
 const STICKING_V: f64 = 0.01;
 
@@ -87,6 +90,8 @@ pub(crate) struct Joint {
     is_homed: bool,
     is_homing: bool,
     was_asked_home: bool,
+    /// For how long it has looked for its home.
+    homing_ns: u64,
     pub(crate) fault_code: u32,
     pub(crate) is_stuck: bool,
     pub(crate) has_power_source: bool,
@@ -110,6 +115,7 @@ impl Joint {
             is_homed: settings.home.is_none(),
             is_homing: false,
             was_asked_home: false,
+            homing_ns: 0,
             fault_code: 0,
             is_stuck: false,
             has_power_source: true,
@@ -216,6 +222,7 @@ impl Joint {
             self.was_asked_home = home;
             if begins_homing && self.settings.home.is_some() {
                 (self.is_homing, self.is_homed) = (true, false);
+                self.homing_ns = 0;
             }
             self.is_homing &= home;
             // What is found is not gone away from before the position was taken over.
@@ -244,10 +251,16 @@ impl Joint {
         };
     }
 
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a step of milliseconds"
+    )]
     fn go_home(&mut self, step_t: f64) {
         let Some(home) = self.settings.home else {
             return;
         };
+        self.homing_ns += (step_t * 1e9) as u64;
         let away = home.switch - self.place;
         let way = home.velocity * step_t;
         if away.abs() > way {
@@ -255,6 +268,9 @@ impl Joint {
             return;
         }
         self.place = home.switch;
+        if self.homing_ns < SEARCH_NS {
+            return;
+        }
         self.offset = home.position - home.switch;
         (self.is_homed, self.is_homing) = (true, false);
     }

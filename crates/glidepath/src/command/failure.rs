@@ -208,6 +208,16 @@ pub(super) enum Failure {
         /// Why.
         reason: String,
     },
+    /// A motion that was accepted did not come to its end.
+    #[error("{command} has ended before its end: {reason}")]
+    CutShort {
+        /// The command.
+        command: &'static str,
+        /// What the machine does.
+        state: &'static str,
+        /// Why.
+        reason: String,
+    },
     /// The planner's service did not execute a job to its end.
     #[error("{text}")]
     Job {

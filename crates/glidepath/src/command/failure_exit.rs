@@ -62,6 +62,7 @@ impl Failure {
             | Self::Terminal(_)
             | Self::NoInterpolator { .. }
             | Self::CommandRefused { .. }
+            | Self::CutShort { .. }
             | Self::NoService
             | Self::ServiceLost
             | Self::Silent { .. }

@@ -1,5 +1,6 @@
 //! `glidepath home`: the joints find their home, and the command waits for that.
 
+use super::ending;
 use super::operator::{PATIENCE, command, joints_meant, reach, read_status, send};
 use super::session;
 use crate::cli::HomeArgs;
@@ -8,7 +9,7 @@ use crate::config::MachineConfig;
 use crate::exit::Exit;
 use crate::interrupt::Interrupt;
 use crate::output;
-use glidepath_link::{Command, LinkConfig, LinkError, MachineState, Operator};
+use glidepath_link::{Command, LinkConfig, LinkError, MachineState, Operator, Status};
 use std::time::{Duration, Instant};
 
 const NAME: &str = "home";
@@ -53,18 +54,56 @@ fn wait(
         has_begun |= state == MachineState::Homing;
         let is_over = state != MachineState::Homing;
         if is_over && (has_begun || started.elapsed() > PATIENCE) {
-            if status.homed & mask == mask {
-                return Ok(());
-            }
-            return Err(Failure::CommandRefused {
-                command: NAME,
-                state: state.name(),
-                reason:
-                    "the joints did not find their home; `glidepath status` tells what is known \
-                         of them"
-                        .to_owned(),
-            });
+            return judge(&status, state, mask);
         }
         std::thread::sleep(POLL);
+    }
+}
+
+/// Whether the joints are at home by the way that has ended. Who sets out for home is not homed
+/// before it has ended well, so that their bits are of this way.
+fn judge(status: &Status, state: MachineState, mask: u32) -> Result<(), Failure> {
+    if status.homed & mask == mask && ending::failure(status).is_none() {
+        return Ok(());
+    }
+    let reason = ending::why(status).unwrap_or_else(|| {
+        "the joints did not find their home; `glidepath status` tells what is known of them"
+            .to_owned()
+    });
+    Err(Failure::CutShort {
+        command: NAME,
+        state: state.name(),
+        reason,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glidepath_link::{FaultCause, Text};
+
+    #[test]
+    fn joints_that_are_homed_are_not_at_home_by_a_way_that_ended_in_a_fault_or_without_power() {
+        let mut status: Status = bytemuck::Zeroable::zeroed();
+        let told = |status: &Status| {
+            let state = status.state().unwrap();
+            judge(status, state, 0b11).map_err(|failure| failure.to_string())
+        };
+        (status.homed, status.state) = (0b111, MachineState::Idle.code());
+        assert_eq!(told(&status), Ok(()));
+        status.state = MachineState::Off.code();
+        assert!(told(&status).unwrap_err().contains("switched off"));
+        status.state = MachineState::Faulted.code();
+        status.fault = FaultCause::Homing.code();
+        let fault = told(&status).unwrap_err();
+        assert!(fault.contains("did not find its home"), "{fault}");
+        (status.fault, status.homed) = (0, 0b101);
+        status.state = MachineState::NotHomed.code();
+        status.last_error = Text::new("an abort ended the way home");
+        let abort = told(&status).unwrap_err();
+        assert_eq!(
+            abort,
+            "home has ended before its end: an abort ended the way home"
+        );
     }
 }

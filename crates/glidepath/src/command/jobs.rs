@@ -131,6 +131,12 @@ fn execute(
                     exit: Exit::Rejected,
                 });
             }
+            JobState::Failed if desk.interrupted.is_some() => {
+                return Err(Failure::Job {
+                    text: format!("interrupted, and the job has ended: {text}"),
+                    exit: Exit::Interrupted,
+                });
+            }
             JobState::Failed | JobState::Busy | JobState::NotReady | JobState::Unknown => {
                 return Err(Failure::Job {
                     text,

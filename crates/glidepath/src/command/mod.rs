@@ -10,6 +10,7 @@ mod check;
 mod configuration;
 mod differences;
 mod doctor;
+mod ending;
 mod ethercat;
 mod evidence;
 mod failure;

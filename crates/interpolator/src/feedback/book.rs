@@ -3,6 +3,7 @@
 use super::adaptive::{AdaptiveWatch, turned_round};
 use super::claims::{Claims, Joints};
 use super::demands::Demands;
+use super::drive_search::DriveSearch;
 use super::following::FollowingErrors;
 use super::observation::Observation;
 use super::probe::ProbeWatch;
@@ -44,6 +45,8 @@ pub(crate) struct DriveBook {
     pub(super) offset: JointVector,
     /// Joints whose drives say that they know where they are, and are not believed.
     pub(super) unhomed: u32,
+    /// The way home that drives look for themselves.
+    pub(super) search: DriveSearch,
     pub(super) handover: u64,
     /// Where the axes were last, to choose among positions that belong to the same joints.
     pub(super) near: AxisVector,
@@ -88,6 +91,7 @@ impl DriveBook {
             revolutions: RevolutionWatch::new(ns(settings.stale_after)),
             offset: JointVector::zeros(),
             unhomed: 0,
+            search: DriveSearch::default(),
             handover: 0,
             near: config.start_position,
             was_on: false,
@@ -122,6 +126,7 @@ impl DriveBook {
             self.found &= !self.conductor.mask(|joint| joint.is_volatile);
         }
         self.was_on = is_on;
+        self.unhomed &= !self.search.note(report);
         self.ordered &= report.fault.is_none() && is_on;
         self.demands.push(&report.setpoint);
         self.probe.note(report);
@@ -133,6 +138,7 @@ impl DriveBook {
     pub(crate) fn observe(&mut self, report: &Report, now_ns: u64) -> Observation {
         let joints = self.claims.joints();
         self.forget_lost_homes(&joints);
+        self.search.watch(now_ns);
         let setpoint = &report.setpoint;
         let follows = if report.power == Power::On {
             setpoint.home
@@ -169,7 +175,7 @@ impl DriveBook {
             axes: self.near,
             offset: self.offset,
             enabled: joints.enabled,
-            homed: self.homed(&joints),
+            homed: self.homed(&joints) | self.found_by_drives(&joints),
             homing: joints.homing,
             faults: joints.fault,
             limits: joints.limits & !self.conductor.ignores_limits(),
@@ -205,6 +211,12 @@ impl DriveBook {
     fn homed(&self, joints: &Joints) -> u32 {
         let of_drives = self.homes & !self.conductor.joints();
         (self.all & !self.homes) | (joints.homed & !self.unhomed & of_drives) | self.found
+    }
+
+    /// The joints on their way home whose drives say that they are there: what ends that way, and is
+    /// believed once it has ended well.
+    const fn found_by_drives(&self, joints: &Joints) -> u32 {
+        joints.homed & self.search.joints()
     }
 
     /// A stack that was started again counts anew: what was found does not hold any more.

@@ -114,6 +114,13 @@ pub(super) const FARTHEST: f64 = 1e9;
 /// Stacks that are kept: one for each joint, and as many that are refused.
 const STACKS: usize = 2 * JOINTS;
 
+/// Joints, one bit each, as people name them.
+fn names(joints: u32) -> String {
+    let all = (0..JOINTS).filter(|joint| joints & (1 << joint) != 0);
+    let names: Vec<String> = all.map(|joint| format!("J{joint}")).collect();
+    names.join(" ")
+}
+
 impl Claims {
     pub(super) const fn new(all: u32, lasts_ns: u64, ahead_ns: u64) -> Self {
         Self {
@@ -172,10 +179,9 @@ impl Claims {
             (false, _) => Ok(()),
             (true, true) => Err(String::new()),
             (true, false) => Err(format!(
-                "the servo stack {:#x} says that it drives joints {:#x}, which another drives \
-                 already: what it sends is not used",
-                feedback.boot_id,
-                claimed & taken
+                "a servo stack says that it drives {}, which another drives already: what it sends is not \
+                 used",
+                names(claimed & taken)
             )),
         }
     }

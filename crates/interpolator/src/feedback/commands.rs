@@ -25,13 +25,20 @@ impl DriveBook {
                 .map(|()| false),
             Command::Home(mask) => self.home(mask, report, now_ns),
             Command::Unhome(mask) => {
+                refuse_at_fault(report)?;
                 refuse(rests(report), Objection::NotAtRest)?;
                 self.unhomed |= mask & self.all;
+                self.search.give_up(mask);
                 self.found &= !mask;
                 Ok(false)
             }
             Command::Abort if report.state != MachineState::Faulted => {
                 self.conductor.drop_job();
+                self.search.give_up(self.all);
+                Ok(true)
+            }
+            Command::Disable => {
+                self.search.give_up(self.all);
                 Ok(true)
             }
             Command::Ping
@@ -42,7 +49,6 @@ impl DriveBook {
             | Command::StopAtEndOfBlock
             | Command::SingleBlock(_)
             | Command::Step
-            | Command::Disable
             | Command::Return
             | Command::Acknowledge { .. }
             | Command::JogOverride(_)
@@ -97,6 +103,7 @@ impl DriveBook {
         position: f64,
         report: &Report,
     ) -> Result<(), Objection> {
+        refuse_at_fault(report)?;
         refuse(rests(report), Objection::NotAtRest)?;
         refuse(position.abs() <= FARTHEST, Objection::NoSuchPosition)?;
         let is_own = joint < JOINTS && self.all & (1 << joint) != 0;
@@ -113,6 +120,7 @@ impl DriveBook {
         let shift = position - counted - self.offset[joint];
         self.offset[joint] = position - counted;
         self.unhomed |= 1 << joint;
+        self.search.give_up(1 << joint);
         self.found &= !(1 << joint);
         for pair in self.pairs.iter().filter(|pair| pair.joints.0 == joint) {
             self.offset[pair.joints.1] += shift;
@@ -123,6 +131,7 @@ impl DriveBook {
     }
 
     fn home(&mut self, mask: u32, report: &Report, now_ns: u64) -> Result<bool, Objection> {
+        refuse_at_fault(report)?;
         refuse(
             matches!(report.state, MachineState::NotHomed | MachineState::Idle),
             Objection::NeedsPower,
@@ -140,9 +149,15 @@ impl DriveBook {
         for joint in (0..JOINTS).filter(|joint| mask & (1 << joint) != 0) {
             self.offset[joint] = 0.0;
         }
-        self.unhomed &= !mask;
+        self.unhomed |= mask;
+        self.search.begin(mask, now_ns);
         Ok(true)
     }
+}
+
+fn refuse_at_fault(report: &Report) -> Result<(), Objection> {
+    let is_clear = report.state != MachineState::Faulted;
+    refuse(is_clear, Objection::FaultLatched)
 }
 
 const fn refuse(is_possible: bool, why: Objection) -> Result<(), Objection> {

@@ -8,7 +8,7 @@ use crate::fault::Fault;
 use crate::homing::{Outcome, Seen, Surroundings};
 use crate::message::{Order, Report};
 use glidepath_kinematics::JOINTS;
-use glidepath_link::{FaultCause, Power, Setpoint};
+use glidepath_link::{EndOfEpoch, FaultCause, Power, Setpoint};
 
 /// After a hand-over, joints are not judged for so long.
 const SETTLING_NS: u64 = 100_000_000;
@@ -16,9 +16,18 @@ const SETTLING_NS: u64 = 100_000_000;
 /// Share of what is allowed by which two joints of an axis may be apart before power goes.
 const APART_CUT_R: f64 = 2.0;
 
+/// Line and sequence of what is executed; none without a program.
+const fn place(report: &Report) -> (u32, u64) {
+    let Setpoint { line, sequence, .. } = report.setpoint;
+    match report.end_of_epoch {
+        EndOfEpoch::Open => (line, sequence),
+        _ => (0, 0),
+    }
+}
+
 /// Two joints of an axis are apart.
 fn apart_fault(joint: usize, difference: f64, allowed: f64, report: &Report) -> Fault {
-    let Setpoint { line, sequence, .. } = report.setpoint;
+    let (line, sequence) = place(report);
     Fault {
         joint: Some(joint),
         value: difference,
@@ -39,6 +48,7 @@ impl DriveBook {
         let is_stopping = report.fault.is_some() || self.ordered;
         let judged = self.all & joints.enabled & !report.setpoint.home;
         let (mut order, mut told) = (None, None);
+        let (line, sequence) = place(report);
         for joint in (0..JOINTS).filter(|joint| judged & (1 << joint) != 0) {
             let sample_ns = joints.sample_ns[joint];
             if sample_ns < self.demands.since_ns().saturating_add(SETTLING_NS) {
@@ -55,11 +65,7 @@ impl DriveBook {
                 joint: Some(joint),
                 value,
                 limit,
-                ..Fault::new(
-                    FaultCause::FollowingError,
-                    report.setpoint.line,
-                    report.setpoint.sequence,
-                )
+                ..Fault::new(FaultCause::FollowingError, line, sequence)
             };
             match found {
                 None => {}
@@ -86,7 +92,7 @@ impl DriveBook {
     /// Whether the probe touched something that nobody looked for.
     fn judge_contact(&mut self, report: &Report) -> Option<Order> {
         let is_touched = self.probe.take_touched() && report.fault.is_none();
-        let Setpoint { line, sequence, .. } = report.setpoint;
+        let (line, sequence) = place(report);
         is_touched.then(|| Order::Fault(Fault::new(FaultCause::ProbeContact, line, sequence)))
     }
 

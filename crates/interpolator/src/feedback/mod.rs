@@ -15,6 +15,7 @@ mod book;
 mod claims;
 mod commands;
 mod demands;
+mod drive_search;
 mod following;
 mod judging;
 mod observation;

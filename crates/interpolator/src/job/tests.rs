@@ -1,7 +1,9 @@
 //! The job of a planner at the interpolator: what ends it, and what it is told.
 
 use super::*;
+use crate::fault::Fault;
 use crate::message::Report;
+use glidepath_link::FaultCause;
 
 const FREE: Result<(), &str> = Ok(());
 
@@ -102,6 +104,18 @@ fn a_silent_planner_and_an_unfit_machine_end_a_job() {
     assert!(jobs.watch(&off, false, 2), "it had the machine");
     let refused = told(&mut jobs, 7, JobPhase::Preparing, 3);
     assert_eq!(refused, Err(MachineState::Off.text().to_owned()));
+}
+
+#[test]
+fn a_job_that_a_fault_ends_says_which() {
+    let mut jobs = JobBook::new();
+    told(&mut jobs, 7, JobPhase::Waiting, 0).unwrap();
+    told(&mut jobs, 7, JobPhase::Preparing, 0).unwrap();
+    let mut faulted = in_state(MachineState::Faulted);
+    faulted.fault = Some(Fault::new(FaultCause::FeedbackLost, 0, 0));
+    assert!(jobs.watch(&faulted, false, 2));
+    let refused = told(&mut jobs, 7, JobPhase::Preparing, 3);
+    assert_eq!(refused, Err(FaultCause::FeedbackLost.text().to_owned()));
 }
 
 #[test]

@@ -20,6 +20,7 @@ use crate::jog::DemandReader;
 use crate::message::{Happening, Order, PortsEnds, Report};
 use crate::status::{StatusBook, grants_of};
 use crate::stops::StopCause;
+use crate::told_by_hand;
 use glidepath_link::{
     Command, EndOfEpoch, FaultCause, LinkError, MachineState, Setpoint, SetpointFrame, Status,
     Transport,
@@ -276,6 +277,7 @@ impl<'a> Ports<'a> {
                 let reply = desk.answer(request);
                 let text = request.text.as_str();
                 let command = request.command().ok();
+                let by_hand = told_by_hand::of_command(desk.report.state, command);
                 let has_failed = matches!(command, Some(Command::Acknowledge { done: false, .. }));
                 if command == Some(Command::Tell) {
                     log(text);
@@ -284,6 +286,8 @@ impl<'a> Ports<'a> {
                     log(text);
                     book.last_error(text);
                     self.failure_is_explained = true;
+                } else if let Some(text) = by_hand.filter(|_| !is_refusal(&reply)) {
+                    book.last_error(text);
                 } else if matches!(command, Some(Command::Job { .. })) {
                     // Its planner waits for that.
                     self.status_due_ns = 0;
@@ -313,6 +317,9 @@ impl<'a> Ports<'a> {
             };
             match self.reader.read(&record) {
                 Ok(demand) => {
+                    if told_by_hand::may_begin(&report, &demand) {
+                        self.book.last_error("");
+                    }
                     self.demanded_after = Some(report.setpoint.number);
                     // A full ring is a real-time thread that hangs: nothing begins then.
                     self.ends.demands.enqueue(demand).ok();

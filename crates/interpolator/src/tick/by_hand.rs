@@ -167,7 +167,12 @@ impl Interpolator<'_> {
     /// Sees to what the drives say.
     pub(super) fn attend_to_drives(&mut self, inputs: &mut Inputs<'_>) {
         let is_open = self.is_open();
-        let place = (self.passed.line, self.passed.sequence);
+        // Without a program nothing that happens is of a line.
+        let place = if self.has_program() {
+            (self.passed.line, self.passed.sequence)
+        } else {
+            (0, 0)
+        };
         let (output, requests) = (&mut self.output, &mut self.requests);
         let observations = &mut inputs.observations;
         let is_cut = self

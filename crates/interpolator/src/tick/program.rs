@@ -251,7 +251,9 @@ impl Interpolator<'_> {
             if self.track.program_stop() == Some(now.sequence) {
                 self.requests.wait_for_operator();
             }
-            if self.block_stop.is_at(now) && (self.rate.now().rate <= 0.0 || self.plan_rests()) {
+            let stands = self.rate.now().rate <= 0.0 || self.plan_rests();
+            // What is awaited there comes first: a resume does not go on from it.
+            if self.block_stop.is_at(now) && stands && !self.is_at_gate() {
                 self.requests.stand_at_block_end();
             }
         }

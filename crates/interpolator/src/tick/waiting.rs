@@ -23,14 +23,21 @@ impl Interpolator<'_> {
         }
     }
 
+    /// Whether the motion is where an event is to be answered.
+    pub(super) fn is_at_gate(&self) -> bool {
+        let now = self.rate.now().time;
+        self.track
+            .gate()
+            .is_some_and(|(frame, _)| ProgramTime::at(frame.sequence) == now)
+    }
+
     /// Begins to wait where the motion stands at an event that is to be answered.
     pub(super) fn stand_at_gate(&mut self, scheduled_ns: u64, number: u64) {
         if !self.track.has_gate() {
             return;
         }
-        let now = self.rate.now().time;
         if let Some((frame, gate)) = self.track.gate()
-            && ProgramTime::at(frame.sequence) == now
+            && self.is_at_gate()
             && !self.requests.is_stopping()
             && self.tap.is_none()
         {

@@ -55,8 +55,8 @@ impl FaultCause {
                 "keep the recording and report it, unless two planners ran; `glidepath reset`"
             }
             Self::PlannerLost => {
-                "read in the planner's log why; `glidepath reset`, then start the program again, or \
-                 go on with it by --resume"
+                "read in the planner's log why; `glidepath reset`, then start the program again, or, \
+                 where it is a file, go on with it by --resume"
             }
             Self::MissedTicks => {
                 "`glidepath doctor` says what keeps this host from being in time; `glidepath reset`"
@@ -67,7 +67,8 @@ impl FaultCause {
                 "read in the interpolator's log why; start it again: `glidepath interpolator`"
             }
             Self::FeedbackLost => {
-                "start the servo stack; `glidepath reset`, `glidepath enable`, `glidepath home`"
+                "start the servo stack; `glidepath reset`, then `glidepath enable` where the power is \
+                 gone, and `glidepath home` where joints are not homed"
             }
             Self::FollowingError => {
                 "look what keeps the joint back; `glidepath disable`, `glidepath reset`, \
@@ -100,7 +101,7 @@ impl FaultCause {
             }
             Self::Homing => {
                 "look at the joint's switch, and at the direction of its search; `glidepath reset`, \
-                 `glidepath home`"
+                 then `glidepath enable` where the power is gone, and `glidepath home`"
             }
         }
     }

@@ -17,4 +17,4 @@ pub use objection::Objection;
 pub(crate) use printable::in_one_line;
 pub use printable::{is_printable, printable};
 pub use refusal::refused;
-pub use state::StateChange;
+pub use state::{SWITCHED_OFF, StateChange};

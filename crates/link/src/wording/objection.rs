@@ -147,10 +147,14 @@ impl Objection {
             Self::NoSuchJoint => "the machine has no such joint",
             Self::SecondJoint => "it is the second joint of its axis, and goes with the first",
             Self::Unreported => "nobody says where the joint is; start the servo stack",
-            Self::NeedsPower => "the drives have to be on and at rest, without a program",
+            Self::NeedsPower => {
+                "the drives have to be on and at rest, without a program; `glidepath enable` switches them on"
+            }
             Self::NoHome => "not all of these joints have a home to find",
-            Self::HomingAlready => "joints are on their way home already",
-            Self::NoJogNow => "axes are jogged when the machine is idle, or a program is held",
+            Self::HomingAlready => "joints are on their way home; `glidepath abort` ends it",
+            Self::NoJogNow => {
+                "axes are jogged while no program runs, or one is held; `glidepath hold` holds it"
+            }
             Self::OtherLife => "that event is of another life of the interpolator",
             Self::Answered => "that event was answered already",
             Self::ByFeedback => "the drives' feedback answers that event, and nobody else",

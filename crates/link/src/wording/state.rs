@@ -3,6 +3,10 @@
 use crate::record::{EndOfEpoch, MachineState, MotionMode, Power};
 use core::fmt;
 
+/// What ended a motion, or a job, where an operator took the power from the drives. The status' last
+/// error has it for the motion that was ended so.
+pub const SWITCHED_OFF: &str = "the drives were switched off";
+
 impl MachineState {
     /// The name, as `status` and recordings have it.
     #[must_use]

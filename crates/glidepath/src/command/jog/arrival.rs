@@ -2,6 +2,7 @@
 //! the axes were told to be.
 
 use super::panel::Panel;
+use crate::command::ending;
 use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::exit::Exit;
@@ -50,6 +51,8 @@ enum Followed {
 pub(super) struct Arrival {
     short: Vec<Short>,
     followed: Followed,
+    /// What ended it, if it was not at its end.
+    ended_by: Option<String>,
 }
 
 impl Arrival {
@@ -67,7 +70,8 @@ impl Arrival {
         let waits_from = Instant::now();
         let followed = loop {
             let followed = followed(panel.status()?, config.drives());
-            let is_over = interrupt.is_set() || waits_from.elapsed() > PATIENCE;
+            let has_failed = ending::failure(panel.status()?).is_some();
+            let is_over = has_failed || interrupt.is_set() || waits_from.elapsed() > PATIENCE;
             if followed == Followed::Yes || is_over {
                 break followed;
             }
@@ -75,12 +79,17 @@ impl Arrival {
         };
         let end = panel.position();
         let short = asked.map_or_else(Vec::new, |asked| shorts(start, asked, &end, config));
-        Ok(Self { short, followed })
+        let ended_by = ended_by(panel.status()?, &short).filter(|_| !interrupt.is_set());
+        Ok(Self {
+            short,
+            followed,
+            ended_by,
+        })
     }
 
-    /// Done; a fault where the drives are elsewhere.
+    /// Done; a fault where the drives are elsewhere, or something ended the jog.
     pub(super) fn exit(&self) -> Exit {
-        if self.have_followed() {
+        if self.have_followed() && self.ended_by.is_none() {
             Exit::Done
         } else {
             Exit::Fault
@@ -96,6 +105,11 @@ impl Arrival {
     pub(super) fn at_end_of_travel(&self) -> Vec<String> {
         let at_end = self.short.iter().filter(|it| it.at_end);
         at_end.map(|it| it.axis.to_string()).collect()
+    }
+
+    /// What ended the jog before its end.
+    pub(super) fn ended_by(&self) -> Option<&str> {
+        self.ended_by.as_deref()
     }
 
     /// Whether the drives are where they were told to be, as far as anybody says.
@@ -124,7 +138,11 @@ impl Arrival {
             } else {
                 "stopped before the end of its step"
             };
-            let _ = writeln!(text, "  {axis} {why}: {by:.4} of it was not moved");
+            let unit = if axis.is_rotary() { "°" } else { "mm" };
+            let _ = writeln!(text, "  {axis} {why}: {by:.4} {unit} of it was not moved");
+        }
+        if let Some(why) = &self.ended_by {
+            let _ = writeln!(text, "  the jog has ended before its end: {why}");
         }
         match &self.followed {
             Followed::Yes => {}
@@ -146,6 +164,48 @@ impl Arrival {
         }
         text
     }
+}
+
+/// What ended a jog before its end: whatever stopped the machine, or somebody where axes did not go
+/// as far as they could.
+fn ended_by(status: &Status, short: &[Short]) -> Option<String> {
+    let stopped = short.iter().any(|it| !it.at_end);
+    if stopped {
+        ending::why(status)
+    } else {
+        ending::failure(status)
+    }
+}
+
+/// Why nothing can move, if every axis that is asked to stands where its travel ends that way.
+pub(super) fn at_end_already(
+    start: &[(Axis, f64)],
+    asked: &[f64; AXES],
+    config: &MachineConfig,
+) -> Option<String> {
+    let step = |axis: Axis| asked.get(axis.index()).copied().unwrap_or(0.0);
+    let meant = || start.iter().filter(|(axis, _)| step(*axis) != 0.0);
+    let is_at_end = |(axis, at): &(Axis, f64)| {
+        let of_axis = config.axes.iter().find(|of| of.axis == *axis);
+        let travel = of_axis.and_then(|of| of.travel);
+        travel.is_some_and(|(low, high)| {
+            if step(*axis) < 0.0 {
+                *at <= low + ROUNDING
+            } else {
+                *at >= high - ROUNDING
+            }
+        })
+    };
+    let all = meant().next().is_some() && meant().all(is_at_end);
+    all.then(|| {
+        let ends: Vec<String> = meant()
+            .map(|(axis, at)| {
+                let unit = if axis.is_rotary() { "°" } else { "mm" };
+                format!("{axis} at {at:.4} {unit}")
+            })
+            .collect();
+        format!("nothing moved: the travel ends there, {}", ends.join(", "))
+    })
 }
 
 /// Whether an axis stands at an end of its travel.
@@ -199,6 +259,7 @@ fn shorts(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use glidepath_link::{FaultCause, MachineState, Text};
 
     #[test]
     fn what_was_not_moved_is_told_by_axis_and_why() {
@@ -214,6 +275,7 @@ mod tests {
             Arrival {
                 short,
                 followed: Followed::Yes,
+                ended_by: None,
             }
         };
         assert_eq!(told([high + 7.0, -4.0]).text(), "");
@@ -223,11 +285,62 @@ mod tests {
         assert!(is_at_end(&config, x, high) && !is_at_end(&config, x, high - 1.0));
         assert_eq!(
             at_end.text(),
-            "  X is at the end of its travel: 7.0000 of it was not moved\n"
+            "  X is at the end of its travel: 7.0000 mm of it was not moved\n"
         );
         let stopped = told([high, -1.0]);
         assert!(stopped.text().contains("Y stopped before"));
         assert_eq!(stopped.at_end_of_travel(), ["X"]);
+    }
+
+    #[test]
+    fn whoever_ended_a_jog_is_named_and_it_is_no_success() {
+        let mut status: Status = bytemuck::Zeroable::zeroed();
+        (status.state, status.power) = (MachineState::Idle.code(), Power::On.code());
+        status.last_error = Text::new("a hold ended the jog");
+        let short = |at_end| Short {
+            axis: Axis::X,
+            by: 3.0,
+            at_end,
+        };
+        assert_eq!(ended_by(&status, &[]), None, "it was at its end");
+        assert_eq!(ended_by(&status, &[short(true)]), None, "nor did it matter");
+        let arrival = |status: &Status, short: Vec<Short>| Arrival {
+            ended_by: ended_by(status, &short),
+            short,
+            followed: Followed::Yes,
+        };
+        let held = arrival(&status, vec![short(false)]);
+        assert_eq!(held.ended_by(), Some("a hold ended the jog"));
+        assert_eq!(held.exit(), Exit::Fault);
+        assert!(
+            held.text()
+                .ends_with("before its end: a hold ended the jog\n")
+        );
+        // At its end or not: the machine is at fault.
+        status.state = MachineState::Faulted.code();
+        status.fault = FaultCause::FeedbackLost.code();
+        let faulted = arrival(&status, Vec::new());
+        assert_eq!(faulted.exit(), Exit::Fault);
+        assert!(faulted.text().contains(FaultCause::FeedbackLost.text()));
+    }
+
+    #[test]
+    fn an_axis_at_the_end_of_its_travel_is_told_before_anything_is_asked() {
+        let config = crate::config::load(None).unwrap();
+        let (_, high) = config.axes[0].travel.unwrap();
+        let mut asked = [0.0; AXES];
+        asked[0] = 1.0;
+        let told = |x: f64, asked: &[f64; AXES]| {
+            at_end_already(&[(Axis::X, x), (Axis::Y, 0.0)], asked, &config)
+        };
+        let why = told(high, &asked).unwrap();
+        assert!(why.contains("X at ") && why.ends_with(" mm"), "{why}");
+        assert_eq!(told(high - 1.0, &asked), None);
+        assert_eq!(told(high, &[0.0; AXES]), None);
+        asked[0] = -1.0;
+        assert_eq!(told(high, &asked), None, "inwards");
+        (asked[0], asked[1]) = (1.0, 1.0);
+        assert_eq!(told(high, &asked), None, "another axis can go");
     }
 
     #[test]
@@ -239,6 +352,7 @@ mod tests {
         let away = Arrival {
             short: Vec::new(),
             followed: followed(&status, 3),
+            ended_by: None,
         };
         assert!(!away.have_followed());
         assert_eq!(away.exit(), Exit::Fault);

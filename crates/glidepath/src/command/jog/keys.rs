@@ -235,7 +235,7 @@ impl<'m> Hand<'m> {
             .and_then(|step| self.config.jog.increments.get(step));
         if let Some(step) = step {
             // One after the other: a key that repeats makes no queue.
-            let is_over = self.sent.elapsed() > PRESS && Panel::can_jog(panel.state()?);
+            let is_over = self.sent.elapsed() > PRESS && Panel::objection(panel.state()?).is_none();
             if is_over {
                 let demands = &mut panel.demands;
                 demands.ask(JogMode::Incremental, along(*step), v, self.by_joint)?;

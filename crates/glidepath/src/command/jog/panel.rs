@@ -7,7 +7,8 @@ use crate::config::MachineConfig;
 use core::time::Duration;
 use glidepath_geometry::{AXES, Axis};
 use glidepath_link::{
-    Ipc, LinkConfig, LinkError, MachineState, Record as _, Status, Subscriber, Transport as _,
+    InterpolatorProcess, Ipc, LinkConfig, LinkError, MachineState, Objection, Record as _, Status,
+    Subscriber, Transport as _,
 };
 use glidepath_realtime::{Clock as _, Monotonic};
 use std::time::Instant;
@@ -22,7 +23,7 @@ pub(super) struct Panel {
     status: Box<dyn Subscriber<Status>>,
     last: Status,
     axes: Vec<Axis>,
-    instance: String,
+    link: LinkConfig,
     _transport: Ipc,
 }
 
@@ -41,7 +42,7 @@ impl Panel {
                 break status;
             }
             if started.elapsed() > PATIENCE {
-                return Err(gone(&link.instance));
+                return Err(gone(link));
             }
             std::thread::sleep(POLL);
         };
@@ -50,7 +51,7 @@ impl Panel {
             status,
             last,
             axes: config.axis_names(),
-            instance: link.instance.clone(),
+            link: link.clone(),
             _transport: transport,
         })
     }
@@ -65,7 +66,7 @@ impl Panel {
         }
         let age = Monotonic.now_ns().saturating_sub(self.last.updated_ns);
         if Duration::from_nanos(age) > PATIENCE {
-            return Err(gone(&self.instance));
+            return Err(gone(&self.link));
         }
         Ok(&self.last)
     }
@@ -90,25 +91,44 @@ impl Panel {
         self.axes.iter().filter_map(value).collect()
     }
 
-    /// The last thing the interpolator could not do, in its words.
-    pub(super) fn last_error(&self) -> &str {
-        self.last.last_error.as_str()
-    }
-
-    /// Whether the machine can be jogged as it is.
-    pub(super) const fn can_jog(state: MachineState) -> bool {
-        matches!(
-            state,
-            MachineState::Idle | MachineState::Held | MachineState::ProgramStop
-        )
+    /// Why the machine cannot be jogged as it is, if it cannot.
+    pub(super) const fn objection(state: MachineState) -> Option<Objection> {
+        match state {
+            MachineState::Idle
+            | MachineState::NotHomed
+            | MachineState::Held
+            | MachineState::ProgramStop => None,
+            MachineState::Faulted => Some(Objection::FaultLatched),
+            MachineState::Off => Some(Objection::NeedsPower),
+            MachineState::Preparing => Some(Objection::JobHasMachine),
+            MachineState::Homing => Some(Objection::HomingAlready),
+            MachineState::Running
+            | MachineState::Holding
+            | MachineState::Starving
+            | MachineState::Starved
+            | MachineState::Stopping
+            | MachineState::Waiting
+            | MachineState::Awaiting
+            | MachineState::Jogging => Some(Objection::NoJogNow),
+        }
     }
 }
 
-fn gone(instance: &str) -> Failure {
-    Failure::NoInterpolator {
-        instance: instance.to_owned(),
-        // It was there.
-        others: OtherUsers::default(),
+/// Nothing is heard of the interpolator: it has ended, or hangs.
+fn gone(link: &LinkConfig) -> Failure {
+    let instance = link.instance.clone();
+    match InterpolatorProcess::find(link) {
+        Ok(Some(process)) => Failure::Silent {
+            instance,
+            process: process.id(),
+            waited_s: PATIENCE.as_secs(),
+        },
+        Ok(None) => Failure::NoInterpolator {
+            instance,
+            // It was there.
+            others: OtherUsers::default(),
+        },
+        Err(error) => error.into(),
     }
 }
 

@@ -1,16 +1,18 @@
 //! A jog by steps: `glidepath jog X10 Y-5`.
 
-use super::arrival::Arrival;
+use super::arrival::{Arrival, at_end_already};
 use super::panel::Panel;
 use crate::cli::JogArgs;
+use crate::command::ending;
 use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::exit::Exit;
 use crate::interrupt::Interrupt;
+use crate::machine_options::complete;
 use crate::output;
 use core::time::Duration;
 use glidepath_geometry::{AXES, Axis};
-use glidepath_link::{JogMode, MachineState, Objection};
+use glidepath_link::{JogMode, MachineState};
 use serde_json::{Map, Value, json};
 use std::time::Instant;
 
@@ -43,11 +45,18 @@ pub(super) fn jog(
             *slot += step.distance;
         }
     }
-    if !Panel::can_jog(state) {
-        let reason = Objection::NoJogNow.text().to_owned();
-        return Err(refused(state.name(), reason));
+    if let Some(objection) = Panel::objection(state) {
+        return Err(refused(state.name(), objection.text().to_owned()));
     }
     let start = panel.position();
+    let is_homed = panel.status()?.homed == panel.status()?.joints;
+    let means_axes = means_axes(args, config);
+    if means_axes
+        && is_homed
+        && let Some(reason) = at_end_already(&start, &value, config)
+    {
+        return Err(refused(state.name(), reason));
+    }
     let most_v = args.feed.map_or(0.0, |feed| feed / 60.0);
     panel
         .demands
@@ -57,7 +66,7 @@ pub(super) fn jog(
     // Held, the machine is slowing for as long as its last differences are not those of rest.
     while matches!(
         panel.state()?,
-        MachineState::Jogging | MachineState::Holding
+        MachineState::Jogging | MachineState::Holding | MachineState::Stopping
     ) {
         if interrupt.is_set() && !has_let_go {
             panel.demands.let_go()?;
@@ -65,7 +74,7 @@ pub(super) fn jog(
         }
         std::thread::sleep(POLL);
     }
-    let asked = (!args.by_joint).then_some(&value);
+    let asked = means_axes.then_some(&value);
     let arrival = Arrival::of(&mut panel, config, (&start, asked), &interrupt)?;
     report(args, instance, &mut panel, (&start, &arrival))?;
     Ok(if interrupt.is_set() {
@@ -73,6 +82,17 @@ pub(super) fn jog(
     } else {
         arrival.exit()
     })
+}
+
+/// Whether the steps are those of the axes that they name: joints are counted, and those of a machine
+/// that has the first axes one after the other are its axes.
+fn means_axes(args: &JogArgs, config: &MachineConfig) -> bool {
+    let axes = config.axis_names();
+    !args.by_joint
+        || axes
+            .iter()
+            .zip(0..)
+            .all(|(axis, joint)| axis.index() == joint)
 }
 
 /// Waits until the machine moves, or has moved. Says it again meanwhile: the interpolator may just
@@ -86,16 +106,16 @@ pub(super) fn set_out(
     while panel.state()? != MachineState::Jogging && panel.position() == start {
         if interrupt.is_set() || started.elapsed() > PATIENCE {
             panel.demands.let_go()?;
-            let state = panel.state()?.name();
-            let reason = match panel.last_error() {
-                "" => {
-                    "nothing moved: it is at the end of its travel or reach, somebody else jogs, \
-                       or a program began"
+            let state = panel.state()?;
+            let status = panel.status()?;
+            let reason = ending::failure(status)
+                .or_else(|| Panel::objection(state).map(|it| it.text().to_owned()))
+                .or_else(|| ending::why(status))
+                .unwrap_or_else(|| {
+                    "nothing moved: it is at the end of its travel or reach, or somebody else jogs"
                         .to_owned()
-                }
-                error => format!("nothing moved; the interpolator's last word: {error}"),
-            };
-            return Err(refused(state, reason));
+                });
+            return Err(refused(state.name(), reason));
         }
         panel.demands.again()?;
         std::thread::sleep(POLL);
@@ -129,6 +149,7 @@ fn report(
             "away": object(&panel.away()),
             "not_moved": object(&arrival.not_moved()),
             "at_end_of_travel": arrival.at_end_of_travel(),
+            "ended_by": arrival.ended_by().map(complete),
             "have_followed": arrival.have_followed(),
             "following_error": arrival.following_errors(),
         }));

@@ -160,6 +160,7 @@ fn a_second_stack_that_claims_a_joint_is_refused() {
     assert_eq!((status.fault, status.joint_actual[0]), (0, 12.5));
     let text = status.last_error.as_str();
     assert!(text.contains("another drives already"), "{text}");
+    assert!(!text.contains("0x") && text.contains(" J0"), "{text}");
 }
 
 #[test]

@@ -83,6 +83,39 @@ fn motion_waits_for_its_answer_and_then_is_the_same() {
 }
 
 #[test]
+fn single_block_waits_for_the_answer_first_and_for_the_operator_behind_it() {
+    for is_on_before in [false, true] {
+        let mut bench = bench(gates(&[(6, ACK, 0)]));
+        bench.load_codes(3, 120, &[8, 6, 9]);
+        if !is_on_before {
+            assert!(bench.run_to(MachineState::Awaiting, 1000));
+        }
+        bench.command(Command::SingleBlock(true)).unwrap();
+        for _ in 0..2_000 {
+            if bench.last_awaited().is_some() {
+                break;
+            }
+            if bench.state() == MachineState::ProgramStop {
+                bench.command(Command::Resume).unwrap();
+            }
+            bench.tick();
+        }
+        bench.run(100);
+        assert_eq!(bench.state(), MachineState::Awaiting, "{is_on_before}");
+        assert!(bench.command(Command::Resume).is_err());
+        let stood = bench.last().position;
+        let awaited = bench.awaited().unwrap();
+        acknowledge(&mut bench, awaited, DONE).unwrap();
+        assert!(bench.run_to(MachineState::ProgramStop, 1000));
+        bench.run(100);
+        assert_eq!(bench.last_awaited(), None);
+        let is_there = bench.last().position == stood;
+        bench.command(Command::Resume).unwrap();
+        assert!(bench.run_to(MachineState::Running, 50), "{is_there}");
+    }
+}
+
+#[test]
 fn an_answer_that_is_early_or_of_another_event_is_refused() {
     let mut bench = bench(gates(&[(6, ACK, 0), (106, ACK, 0)]));
     bench.load_codes(4, 100, &[7, 6, 106]);

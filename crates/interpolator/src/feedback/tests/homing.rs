@@ -372,7 +372,9 @@ fn homing_ends_at_rest_when_it_is_aborted_and_nothing_jumps() {
         let rest = bench.joints();
         bench.run(100);
         assert_eq!(bench.joints(), rest, "{after}");
-        assert_eq!(bench.status().fault, 0);
+        let status = bench.status();
+        assert_eq!(status.fault, 0);
+        assert_eq!(status.last_error.as_str(), "an abort ended the way home");
         assert!(bench.worst_ratio() <= 1.0 + 1e-6, "{after}");
         bench.assert_no_joint_jumps();
     }

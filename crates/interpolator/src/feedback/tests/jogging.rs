@@ -86,3 +86,39 @@ fn an_axis_that_is_not_home_is_slow_and_the_others_keep_their_travel() {
     );
     assert!(machine.bench.worst_ratio() <= 1.0 + 1e-6);
 }
+
+/// What the status says of the last error.
+fn told(machine: &mut Machine) -> String {
+    machine.bench.status().last_error.as_str().to_owned()
+}
+
+#[test]
+fn what_ended_a_jog_is_told_of_that_jog_alone() {
+    let mut machine = Machine::new();
+    machine.bench.enable(MachineState::NotHomed);
+    machine.home();
+    machine.bench.upset(Upset::DriveFault(0, 7));
+    assert!(machine.bench.run_to(MachineState::Faulted, 20));
+    assert!(machine.bench.run_to(MachineState::Faulted, 20));
+    assert!(told(&mut machine).contains("a drive reports a fault"));
+    machine.bench.upset(Upset::DriveFault(0, 0));
+    machine.bench.run(20);
+    machine.bench.command(Command::Reset).unwrap();
+    machine.bench.enable(MachineState::Idle);
+    for (command, why) in [
+        (None, ""),
+        (Some(Command::Hold), "a hold ended the jog"),
+        (None, ""),
+        (Some(Command::Abort), "an abort ended the jog"),
+        (Some(Command::Disable), "the drives were switched off"),
+    ] {
+        machine.jog([30.0, 0.0, 0.0], 20);
+        assert_eq!(machine.bench.state(), MachineState::Jogging, "{command:?}");
+        if let Some(command) = command {
+            machine.bench.command(command).unwrap();
+        }
+        machine.let_go();
+        machine.bench.run(100);
+        assert_eq!(told(&mut machine), why, "{command:?}");
+    }
+}

@@ -5,7 +5,7 @@ use crate::config::Config;
 use crate::testing::hexapod;
 use glidepath_geometry::AxisVector;
 use glidepath_kinematics::{Kinematics as _, Mechanism};
-use glidepath_link::{Command, EndOfEpoch, MachineState, Power};
+use glidepath_link::{Command, EndOfEpoch, MachineState, Power, SWITCHED_OFF};
 use glidepath_plant::{HomeSettings, JointSettings, Upset};
 
 #[test]
@@ -133,6 +133,117 @@ fn a_search_for_home_ends_when_it_is_aborted() {
     assert_eq!(bench.state(), MachineState::NotHomed);
     assert_eq!(bench.joints()[1], rest);
     assert_eq!(bench.last().joint_position[1], rest);
+}
+
+/// A machine whose first joint is at home by its drive, which then does not stir and keeps its word.
+fn home_with_a_stuck_drive() -> Bench {
+    let mut joints = [JointSettings::default(); 3];
+    joints[0].home = Some(HomeSettings {
+        switch: 2.0,
+        velocity: 100.0,
+        position: 2.0,
+    });
+    let mut settings = config(false);
+    settings.feedback.as_mut().unwrap().joints[0].homes = true;
+    let mut bench = Bench::new(settings, &joints);
+    bench.enable(MachineState::NotHomed);
+    bench.command(Command::Home(1)).unwrap();
+    assert!(bench.run_to(MachineState::Homing, 3) && bench.run_to(MachineState::Idle, 100));
+    assert_eq!(bench.status().homed, 0b111);
+    bench.upset(Upset::Stuck(0, true));
+    bench
+}
+
+#[test]
+fn a_joint_whose_way_home_did_not_end_well_is_not_homed_whatever_its_drive_says() {
+    for (unhomes, end) in [false, true].into_iter().flat_map(|unhomes| {
+        let ends = [None, Some(Command::Abort), Some(Command::Disable)];
+        ends.map(|end| (unhomes, end))
+    }) {
+        let mut bench = home_with_a_stuck_drive();
+        if unhomes {
+            bench.command(Command::Unhome(1)).unwrap();
+            bench.run(5);
+        }
+        bench.command(Command::Home(1)).unwrap();
+        assert!(bench.run_to(MachineState::Homing, 3));
+        bench.run(20);
+        match end {
+            Some(command) => bench.command(command).unwrap(),
+            None => assert!(bench.run_to(MachineState::Faulted, 600)),
+        }
+        bench.run(5);
+        assert_eq!(bench.plant.measured().homed & 1, 1, "its drive says so");
+        assert_eq!(bench.status().homed, 0b110, "{unhomes} {end:?}");
+        if end.is_none() {
+            bench.command(Command::Reset).unwrap();
+        }
+        if end == Some(Command::Disable) {
+            assert!(bench.run_to(MachineState::Off, 20));
+            bench.enable(MachineState::NotHomed);
+        }
+        bench.run(5);
+        assert_eq!(bench.state(), MachineState::NotHomed, "{unhomes} {end:?}");
+        bench.load(3, 200);
+        bench.run(50);
+        assert_eq!(bench.state(), MachineState::NotHomed, "no program begins");
+        // The next way home can end well.
+        bench.feed.clear();
+        bench.upset(Upset::Stuck(0, false));
+        bench.run(3);
+        bench.command(Command::Home(1)).unwrap();
+        assert!(bench.run_to(MachineState::Idle, 200), "{unhomes} {end:?}");
+        assert_eq!(bench.status().homed, 0b111);
+    }
+}
+
+#[test]
+fn a_joint_that_is_at_home_comes_home_again() {
+    let mut bench = home_with_a_stuck_drive();
+    bench.upset(Upset::Stuck(0, false));
+    bench.command(Command::Home(1)).unwrap();
+    assert!(bench.run_to(MachineState::Homing, 3));
+    assert!(bench.run_to(MachineState::Idle, 100));
+    assert_eq!(bench.status().homed, 0b111);
+}
+
+#[test]
+fn a_fault_without_a_program_is_of_no_line_and_a_program_that_is_switched_off_says_so() {
+    let mut bench = Bench::mill();
+    bench.enable(MachineState::Idle);
+    bench.load_codes(3, 60, &[8, 9]);
+    assert!(bench.run_to(MachineState::Running, 50) && bench.run_to(MachineState::Idle, 1000));
+    bench.upset(Upset::DriveFault(0, 7));
+    assert!(bench.run_to(MachineState::Faulted, 20));
+    let status = bench.status();
+    assert_ne!(status.line, 0, "a program ran before");
+    assert_eq!((status.fault_line, status.fault_sequence), (0, 0));
+    bench.upset(Upset::DriveFault(0, 0));
+    bench.run(20);
+    bench.command(Command::Reset).unwrap();
+    bench.enable(MachineState::Idle);
+    bench.load(3, 300);
+    assert!(bench.run_to(MachineState::Running, 50));
+    assert_eq!(bench.status().last_error.as_str(), "", "it is of the fault");
+    bench.command(Command::Disable).unwrap();
+    assert!(bench.run_to(MachineState::Off, 200));
+    assert_eq!(bench.status().last_error.as_str(), SWITCHED_OFF);
+}
+
+#[test]
+fn a_fault_is_what_keeps_joints_from_their_home_and_from_another_number() {
+    let mut bench = Bench::mill();
+    bench.enable(MachineState::Idle);
+    bench.upset(Upset::DriveFault(0, 7));
+    assert!(bench.run_to(MachineState::Faulted, 20));
+    let set = Command::SetPosition {
+        joint: 1,
+        position: 200.0,
+    };
+    for command in [Command::Home(1), Command::Unhome(1), set] {
+        let why = bench.command(command).unwrap_err();
+        assert!(why.contains("a fault is latched"), "{command:?}: {why}");
+    }
 }
 
 #[test]
