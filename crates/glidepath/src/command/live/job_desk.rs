@@ -11,6 +11,7 @@ use glidepath_link::{
     Client, Ipc, JobKind, JobReply, JobRequest, JobState, JobWish, LinkConfig, LinkError,
     Record as _, Transport as _,
 };
+use glidepath_realtime::{Clock as _, Monotonic};
 use serde_json::{Value, json};
 use std::collections::VecDeque;
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
@@ -45,7 +46,7 @@ impl Wanted {
             Self::Line(line) => (JobKind::Line, line),
             Self::File { path, .. } => (JobKind::File, path),
         };
-        let mut request = JobRequest::new(client, number, kind, text);
+        let mut request = JobRequest::new(client, number, kind, text, Monotonic.now_ns());
         if let Self::File {
             from_line,
             pass,
