@@ -11,17 +11,21 @@ pub(crate) const fn of_command(
     state: MachineState,
     command: Option<Command>,
 ) -> Option<&'static str> {
-    match (state, command) {
-        (_, Some(Command::Home(_) | Command::Return)) => Some(""),
-        (MachineState::Jogging, Some(Command::Hold)) => Some("a hold ended the jog"),
-        (MachineState::Jogging, Some(Command::Abort)) => Some("an abort ended the jog"),
-        (MachineState::Homing, Some(Command::Abort)) => Some("an abort ended the way home"),
-        (
-            MachineState::Idle | MachineState::NotHomed | MachineState::Faulted | MachineState::Off,
-            _,
-        ) => None,
-        (_, Some(Command::Disable)) => Some(SWITCHED_OFF),
-        _ => None,
+    use MachineState::{Faulted, Homing, Idle, Jogging, NotHomed, Off};
+    let jogs = matches!(state, Jogging);
+    let is_at_rest = matches!(state, Idle | NotHomed | Faulted | Off);
+    if matches!(command, Some(Command::Home(_) | Command::Return)) {
+        Some("")
+    } else if jogs && matches!(command, Some(Command::Hold)) {
+        Some("a hold ended the jog")
+    } else if jogs && matches!(command, Some(Command::Abort)) {
+        Some("an abort ended the jog")
+    } else if matches!(state, Homing) && matches!(command, Some(Command::Abort)) {
+        Some("an abort ended the way home")
+    } else if !is_at_rest && matches!(command, Some(Command::Disable)) {
+        Some(SWITCHED_OFF)
+    } else {
+        None
     }
 }
 

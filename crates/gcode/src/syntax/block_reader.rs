@@ -9,12 +9,12 @@ use crate::syntax::block_reader_of_dialects::skip_brackets;
 use crate::syntax::cursor::Cursor;
 use crate::syntax::dialect::Dialect;
 use crate::syntax::dialect::marlin::{reads_words, shows_text};
+use crate::syntax::duplicate_word::duplicate;
 use crate::syntax::expression::scope::Scope;
 use crate::syntax::expression::vacant::is_vacant;
 use crate::syntax::expression::value::{open_expression, parameter, value};
 use crate::syntax::letters::{Letters, Slot};
 use crate::syntax::plain_line::WordSink;
-use crate::syntax::word_check::duplicate;
 
 impl Block {
     /// Fills the block from the text of a line.

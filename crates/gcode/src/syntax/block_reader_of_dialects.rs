@@ -9,6 +9,7 @@ use crate::syntax::codes::Coded;
 use crate::syntax::cursor::Cursor;
 use crate::syntax::dialect::Dialect;
 use crate::syntax::dialect::words::refused;
+use crate::syntax::duplicate_word::duplicate;
 use crate::syntax::expression::scope::Scope;
 use crate::syntax::expression::vacant::is_vacant;
 use crate::syntax::expression::value::word_value;
@@ -16,7 +17,6 @@ use crate::syntax::letters::{AXIS_WORDS, Letters, Slot};
 use crate::syntax::modes::NonModal;
 use crate::syntax::named_word::Named;
 use crate::syntax::plain_line::WordSink;
-use crate::syntax::word_check::duplicate;
 
 /// Letters whose values are coordinates, ways or radii.
 const LENGTHS: Letters = AXIS_WORDS.and(Letters::of(b"IJKRQ"));

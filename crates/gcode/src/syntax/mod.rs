@@ -19,6 +19,7 @@ mod block_reader_of_dialects;
 pub(crate) mod codes;
 pub(crate) mod cursor;
 pub(crate) mod dialect;
+pub(crate) mod duplicate_word;
 pub(crate) mod expression;
 mod foreign;
 pub(crate) mod letters;

@@ -6,7 +6,7 @@
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
-use crate::syntax::word_check::duplicate;
+use crate::syntax::duplicate_word::duplicate;
 
 /// What such a word is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -91,14 +91,3 @@ pub(crate) fn whole(block: &Block, letter: u8, max: u32) -> Outcome<Option<u32>>
     )]
     Ok(Some(nearest as u32))
 }
-
-#[cold]
-pub(crate) fn duplicate(letter: char, span: SourceSpan) -> Box<Fault> {
-    Fault::new(
-        DiagnosticCode::DuplicateWord,
-        span,
-        format!("a second {letter} in the block"),
-    )
-    .because("a block has each word once")
-    .help("remove one of them, or write two blocks")
-}

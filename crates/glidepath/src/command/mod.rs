@@ -142,7 +142,7 @@ fn dispatch(command: &Command) -> Result<Exit, Failure> {
             operator::command(&args.operator, &config()?, "single-block", command)
         }
         Command::Acknowledge(args) => acknowledge::acknowledge(args, &config()?),
-        Command::Abort(args) => operator::abort(args, &config()?),
+        Command::Abort(args) => rest::abort(args, &config()?),
         Command::Reset(args) => operator::command(args, &config()?, "reset", link::Command::Reset),
         Command::Enable(args) => operator::enable(args, &config()?),
         Command::Disable(args) => {

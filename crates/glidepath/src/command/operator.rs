@@ -1,29 +1,23 @@
 //! What an operator does: `glidepath hold`, `resume`, `step`, `stop-at-block-end`, `single-block`,
-//! `reverse`, `forward`, `override`, `abort` and `status`, talking to a running interpolator by its panel, and
-//! `abort --signal`, which reaches the process itself.
+//! `reverse`, `forward`, `override` and `status`, talking to a running interpolator by its panel.
 
 use super::active_program::active_program;
-use super::jog::lift;
 use super::other_users::OtherUsers;
-use super::rest;
 use super::session;
-use crate::cli::{AbortArgs, JointsArgs, OperatorArgs, OverrideArgs};
+use crate::cli::{JointsArgs, OperatorArgs, OverrideArgs};
 use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::exit::Exit;
 use crate::output;
 use crate::report::{active_object, active_text, status_object, status_text};
 use glidepath_link::{
-    Command, CommandReply, CommandRequest, EndOfEpoch, InterpolatorProcess, LinkConfig, LinkError,
-    Operator, Power, Status,
+    Command, CommandReply, CommandRequest, LinkConfig, LinkError, Operator, Power, Status,
 };
 use serde_json::json;
 use std::time::{Duration, Instant};
 
 /// How long an interpolator may take to answer.
 pub(super) const PATIENCE: Duration = Duration::from_secs(2);
-/// How long one that was signalled may take to end: 5 s to come to rest, and to clean up.
-const END_PATIENCE: Duration = Duration::from_secs(10);
 const POLL: Duration = Duration::from_millis(2);
 
 /// Sends a command and reports the answer.
@@ -207,61 +201,6 @@ pub(super) fn silent(operator: &Operator, link: &LinkConfig) -> Failure {
         process: operator.interpolator().id(),
         waited_s: PATIENCE.as_secs(),
     }
-}
-
-/// Brings the machine to rest on the path: by a command, or by a signal that needs nothing but the
-/// process.
-///
-/// # Errors
-/// The errors of [`command`], or the process does not end.
-pub(super) fn abort(args: &AbortArgs, config: &MachineConfig) -> Result<Exit, Failure> {
-    if !args.signal {
-        return abort_and_lift(args, config);
-    }
-    let instance = session::instance(&args.operator.instance, config);
-    let found = InterpolatorProcess::find(&session::link(&instance, config))?;
-    let process = found.ok_or_else(|| Failure::NoInterpolator {
-        instance: instance.clone(),
-        others: OtherUsers::look(),
-    })?;
-    let pid = process.id();
-    process.terminate()?;
-    let started = Instant::now();
-    while process.lives()? {
-        if started.elapsed() >= END_PATIENCE {
-            let waited_s = END_PATIENCE.as_secs();
-            return Err(Failure::DoesNotEnd { pid, waited_s });
-        }
-        std::thread::sleep(POLL);
-    }
-    if args.operator.basic.json {
-        output::object(&json!({
-            "command": "abort",
-            "instance": instance,
-            "signalled": pid,
-            "ended": true,
-        }));
-    } else {
-        let text = format!("abort: the interpolator (process {pid}) was signalled and has ended\n");
-        output::result(&text);
-    }
-    Ok(Exit::Done)
-}
-
-/// By command; then the tool axis goes up, if a program was under way and that is configured.
-fn abort_and_lift(args: &AbortArgs, config: &MachineConfig) -> Result<Exit, Failure> {
-    let instance = session::instance(&args.operator.instance, config);
-    let link = session::link(&instance, config);
-    let lifts = config.jog.lift > 0.0 && !args.no_lift;
-    let was_open = lifts
-        && reach(&link)?
-            .status(PATIENCE)?
-            .is_some_and(|status| status.end_of_epoch() == Ok(EndOfEpoch::Open));
-    let exit = rest::abort(&args.operator, config)?;
-    if was_open {
-        lift(&link, config)?;
-    }
-    Ok(exit)
 }
 
 /// Shows the state of the interpolator.

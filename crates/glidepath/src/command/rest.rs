@@ -1,18 +1,26 @@
 //! `glidepath hold`, `abort` and `return`: what is typed next finds the machine where the command was to bring it.
 
-use super::operator::{PATIENCE, command_and_wait, read_status, send};
-use crate::cli::OperatorArgs;
+use super::jog::lift;
+use super::operator::{PATIENCE, command_and_wait, reach, read_status, send};
+use super::other_users::OtherUsers;
+use super::session;
+use crate::cli::{AbortArgs, OperatorArgs};
 use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::exit::Exit;
 use crate::interrupt::Interrupt;
+use crate::output;
 use glidepath_link::{
-    Command, JobStage, LinkConfig, LinkError, MachineState, Operator, RecordError, Status,
+    Command, EndOfEpoch, InterpolatorProcess, JobStage, LinkConfig, LinkError, MachineState,
+    Operator, RecordError, Status,
 };
+use serde_json::json;
 use std::time::{Duration, Instant};
 
 /// Between two looks at the machine.
 const POLL: Duration = Duration::from_millis(10);
+/// How long an interpolator that was signalled may take to end: 5 s to come to rest, and to clean up.
+const END_PATIENCE: Duration = Duration::from_secs(10);
 
 /// Holds the motion, and waits until it rests; not longer than an answer may take: a thread is cut to its end first.
 ///
@@ -24,12 +32,67 @@ pub(super) fn hold(args: &OperatorArgs, config: &MachineConfig) -> Result<Exit, 
     })
 }
 
+/// Brings the machine to rest on the path: by a command, or by a signal that needs nothing but the
+/// process.
+///
+/// # Errors
+/// The errors of [`command`], or the process does not end.
+pub(super) fn abort(args: &AbortArgs, config: &MachineConfig) -> Result<Exit, Failure> {
+    if !args.signal {
+        return abort_and_lift(args, config);
+    }
+    let instance = session::instance(&args.operator.instance, config);
+    let found = InterpolatorProcess::find(&session::link(&instance, config))?;
+    let process = found.ok_or_else(|| Failure::NoInterpolator {
+        instance: instance.clone(),
+        others: OtherUsers::look(),
+    })?;
+    let pid = process.id();
+    process.terminate()?;
+    let started = Instant::now();
+    while process.lives()? {
+        if started.elapsed() >= END_PATIENCE {
+            let waited_s = END_PATIENCE.as_secs();
+            return Err(Failure::DoesNotEnd { pid, waited_s });
+        }
+        std::thread::sleep(POLL);
+    }
+    if args.operator.basic.json {
+        output::object(&json!({
+            "command": "abort",
+            "instance": instance,
+            "signalled": pid,
+            "ended": true,
+        }));
+    } else {
+        let text = format!("abort: the interpolator (process {pid}) was signalled and has ended\n");
+        output::result(&text);
+    }
+    Ok(Exit::Done)
+}
+
+/// By command; then the tool axis goes up, if a program was under way and that is configured.
+fn abort_and_lift(args: &AbortArgs, config: &MachineConfig) -> Result<Exit, Failure> {
+    let instance = session::instance(&args.operator.instance, config);
+    let link = session::link(&instance, config);
+    let lifts = config.jog.lift > 0.0 && !args.no_lift;
+    let was_open = lifts
+        && reach(&link)?
+            .status(PATIENCE)?
+            .is_some_and(|status| status.end_of_epoch() == Ok(EndOfEpoch::Open));
+    let exit = abort_and_wait(&args.operator, config)?;
+    if was_open {
+        lift(&link, config)?;
+    }
+    Ok(exit)
+}
+
 /// Ends the motion and the job, and waits until it rests and its planner has let go of it; not longer than an answer
 /// may take.
 ///
 /// # Errors
 /// The errors of a command.
-pub(super) fn abort(args: &OperatorArgs, config: &MachineConfig) -> Result<Exit, Failure> {
+fn abort_and_wait(args: &OperatorArgs, config: &MachineConfig) -> Result<Exit, Failure> {
     command_and_wait(args, config, "abort", Command::Abort, |operator, link| {
         wait(operator, link, |status| {
             let has_job = matches!(

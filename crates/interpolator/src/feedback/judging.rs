@@ -19,9 +19,10 @@ const APART_CUT_R: f64 = 2.0;
 /// Line and sequence of what is executed; none without a program.
 const fn place(report: &Report) -> (u32, u64) {
     let Setpoint { line, sequence, .. } = report.setpoint;
-    match report.end_of_epoch {
-        EndOfEpoch::Open => (line, sequence),
-        _ => (0, 0),
+    if report.end_of_epoch == EndOfEpoch::Open {
+        (line, sequence)
+    } else {
+        (0, 0)
     }
 }
 

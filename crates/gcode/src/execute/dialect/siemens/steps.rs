@@ -2,8 +2,8 @@
 
 use std::collections::VecDeque;
 
-use crate::execute::dialect::siemens::subprogram::CallState;
 use crate::execute::dialect::tape::TapePlace;
+use crate::execute::state::frame::Frame;
 use crate::execute::state::modal::Modal;
 use crate::syntax::dialect::siemens::variables::Variables;
 
@@ -32,6 +32,20 @@ pub(crate) enum ModalCall {
     Cycle(CycleCall),
     /// A subprogram, from its first line, with the values of its arguments.
     Subprogram(TapePlace, Vec<Option<f64>>),
+}
+
+/// What a subprogram in progress has, and what its caller gets back.
+#[derive(Debug)]
+pub(crate) struct CallState {
+    /// The caller's variables.
+    pub(super) variables: Variables,
+    /// The values of the call.
+    pub(super) arguments: Vec<Option<f64>>,
+    /// The modes and the frame of the caller, where PROC says SAVE.
+    pub(super) saved: Option<Box<(Modal, Frame)>>,
+    /// What MCALL had called it, and what is left of a pattern of positions.
+    pub(super) modal_call: Option<ModalCall>,
+    pub(super) steps: Vec<Step>,
 }
 
 /// What a SINUMERIK program has besides the state of the interpreter.

@@ -13,13 +13,12 @@ use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::dialect::fanuc::call::lines_of;
 use crate::execute::dialect::siemens::flow::check_end;
-use crate::execute::dialect::siemens::steps::{ModalCall, Step};
+use crate::execute::dialect::siemens::steps::{CallState, ModalCall};
 use crate::execute::dialect::tape::{SubprogramCall, TapePlace};
 use crate::execute::flow::activation::MAX_CALLS;
 use crate::execute::flow::load::unusable;
 use crate::execute::line_origin::LineOrigin;
 use crate::execute::program::Program;
-use crate::execute::state::frame::Frame;
 use crate::execute::state::modal::Modal;
 use crate::setup::subroutine_file::{NoSubroutineFile, NotTaken, SubroutineFile, Subroutines};
 use crate::syntax::dialect::siemens::callee::Callee;
@@ -28,20 +27,6 @@ use crate::syntax::dialect::siemens::variables::Variables;
 
 /// Most turns of one call.
 const MAX_TURNS: f64 = 9999.0;
-
-/// What a subprogram in progress has, and what its caller gets back.
-#[derive(Debug)]
-pub(crate) struct CallState {
-    /// The caller's variables.
-    variables: Variables,
-    /// The values of the call.
-    pub(super) arguments: Vec<Option<f64>>,
-    /// The modes and the frame of the caller, where PROC says SAVE.
-    pub(super) saved: Option<Box<(Modal, Frame)>>,
-    /// What MCALL had called it, and what is left of a pattern of positions.
-    modal_call: Option<ModalCall>,
-    pub(super) steps: Vec<Step>,
-}
 
 /// The files that a subprogram may be in, in the order in which they are looked for.
 fn file_names(name: &[u8]) -> Vec<String> {
