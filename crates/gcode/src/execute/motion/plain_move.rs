@@ -30,7 +30,7 @@ use crate::execute::state::modal::Feed;
 use crate::execute::state::sticky_words::CycleSeries;
 use crate::syntax::dialect::Dialect;
 use crate::syntax::letters::{AXIS_WORDS, WordValues};
-use crate::syntax::modes::{Distance, FeedMode, Motion};
+use crate::syntax::modes::{Distance, FeedMode, Motion, Units};
 use crate::syntax::straight_line::{WORDS, is_straight};
 
 impl Interpreter {
@@ -144,6 +144,8 @@ impl Interpreter {
             && modal.feed_mode == FeedMode::PerMinute
             && !modal.diameter
             && !self.is_mapped
+            // F counts in the unit of lengths.
+            && !(state.feeds_in_mm && modal.units == Units::Inch)
             && state.tilted.is_none()
             && state.fanuc.polar.is_none()
             && self.options.dialect != Dialect::Marlin

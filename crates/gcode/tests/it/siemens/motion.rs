@@ -275,7 +275,8 @@ fn inches_of_lengths_and_of_feeds() {
     assert_eq!(first("G70 G1 X1 F600"), (25.4, Rate::Feed(10.0)));
     assert_eq!(first("G700 G1 X1 F60"), (25.4, Rate::Feed(25.4)));
     assert_eq!(first("G71 G1 X1 F600"), (1.0, Rate::Feed(10.0)));
-    let rates = moves("G700\nG1 X1 F60\nG70 X2 F60\nG710 X3 F60");
+    // Also in lines with nothing but words.
+    let rates = moves("G700\nG1 X1 F60\nG70\nX2 F60\nG710\nX3 F60");
     let rates: Vec<Rate> = rates.into_iter().map(|(_, rate, _)| rate).collect();
     assert_eq!(rates, [Rate::Feed(25.4), Rate::Feed(1.0), Rate::Feed(1.0)]);
 }
