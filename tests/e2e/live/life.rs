@@ -27,6 +27,90 @@ fn program() -> String {
     text
 }
 
+/// Power and home.
+fn power_and_home(browser: &mut Browser, operated: &Operated<'_>) {
+    browser.evaluate("setView('setup')");
+    press(browser, "#rail [data-do=power]", Duration::ZERO);
+    std::thread::sleep(HALF);
+    let _still_off = operated.wait_for(MachineState::Off);
+    press(browser, "#rail [data-do=power]", HALF);
+    let _on = operated.wait_for(MachineState::NotHomed);
+    browser.wait("S.state === 'not-homed'");
+    press(browser, "#rail [data-do=home]", HALF);
+    let _idle = operated.wait_for(MachineState::Idle);
+    browser.wait("S.state === 'idle' && !document.querySelector('.jog[aria-disabled]')");
+}
+
+/// A finger on X+, for as long as it is down. On a busy host the page may lose it: then it comes down anew.
+fn jog(browser: &mut Browser, operated: &Operated<'_>) {
+    let before = operated.position()[0];
+    let key = ".jog[aria-label=\"move X+\"]";
+    while operated.position()[0] < before + 2.0 {
+        let place = browser.finger_down(key);
+        std::thread::sleep(HALF);
+        browser.finger_up(&place);
+        std::thread::sleep(HALF);
+    }
+    let after = operated.position()[0];
+    std::thread::sleep(Duration::from_millis(300));
+    assert_eq!(operated.position()[0].to_bits(), after.to_bits());
+}
+
+/// Zero by touching the number.
+fn zero(browser: &mut Browser) {
+    browser.press("#sX");
+    press(browser, "#sheet [data-do=zero]", Duration::ZERO);
+    browser.wait("S.status.offset && document.querySelector('#sX').textContent === '0.000'");
+    browser.wait("SETUP.systems && Math.abs(SETUP.systems[0].origin.X) > 2");
+}
+
+/// A program is dropped, looked at, and run. The tool is asked for, and answered.
+fn run(browser: &mut Browser, operated: &Operated<'_>) {
+    browser.evaluate("setView('programs')");
+    let dropped = format!(
+        "(() => {{ const d = new DataTransfer(); d.items.add(new File([{:?}], 'life.ngc')); \
+         document.querySelector('#list').dispatchEvent(new DragEvent('drop', \
+         {{ dataTransfer: d, bubbles: true, cancelable: true }})); }})()",
+        program()
+    );
+    browser.evaluate(&dropped);
+    browser.wait("FOLDER.chosen === 'life.ngc' && LOOK.info && LOOK.info.report");
+    press(browser, "#chosen [data-do=run]", HALF);
+
+    // The tool is asked for, and answered.
+    let _asked = operated.wait_for(MachineState::Awaiting);
+    browser.wait(
+        "S.view === 'operate' && S.state === 'awaiting' && \
+         document.querySelector('#attn').textContent.includes('put T2 in the spindle'.replace('put', 'Put'))",
+    );
+    press(browser, "#attn [data-do=done]", HALF);
+    let _moving = operated.wait_for(MachineState::Running);
+    browser.wait("S.state === 'running' && S.status.program_is_shown && PLAN");
+    browser.wait("document.querySelector('#blocks .cur').textContent.includes('X')");
+    browser.press("[data-ov=feed-override] button:last-child");
+    let _faster = operated.wait(|status| (status.feed_override - 1.05).abs() < 1e-9);
+}
+
+/// Hold, jog away, return, and on.
+fn hold_and_return(browser: &mut Browser, operated: &Operated<'_>) {
+    browser.press("[data-c=hold]");
+    let _held = operated.wait_for(MachineState::Held);
+    browser.evaluate("setView('setup')");
+    browser.wait("S.state === 'held' && !document.querySelector('.jog[aria-disabled]')");
+    let key = ".jog[aria-label=\"move Z+\"]";
+    browser.press_for(key, HALF);
+    let _away = operated
+        .wait(|status| status.state == MachineState::Held.code() && status.away[2].abs() > 0.1);
+    browser.evaluate("setView('operate')");
+    browser.wait("document.querySelector('[data-c=go] small').textContent === 'return first'");
+    press(browser, "#attn [data-do=return]", HALF);
+    let _back = operated
+        .wait(|status| status.state == MachineState::Held.code() && status.away[2].abs() < 1e-9);
+    browser.wait("document.querySelector('[data-c=go]').getAttribute('aria-disabled') === null");
+    press(browser, "[data-c=go]", HALF);
+    let _moving = operated.wait_for(MachineState::Running);
+}
+
 #[test]
 fn a_machine_is_run_with_the_mouse_alone() {
     let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
@@ -53,79 +137,11 @@ fn a_machine_is_run_with_the_mouse_alone() {
     browser.open(&live.url);
     browser.wait("typeof S !== 'undefined' && S.operates && S.state === 'off' && SETUP.jog");
 
-    // Power and home.
-    browser.evaluate("setView('setup')");
-    press(&mut browser, "#rail [data-do=power]", Duration::ZERO);
-    std::thread::sleep(HALF);
-    let _still_off = operated.wait_for(MachineState::Off);
-    press(&mut browser, "#rail [data-do=power]", HALF);
-    let _on = operated.wait_for(MachineState::NotHomed);
-    browser.wait("S.state === 'not-homed'");
-    press(&mut browser, "#rail [data-do=home]", HALF);
-    let _idle = operated.wait_for(MachineState::Idle);
-    browser.wait("S.state === 'idle' && !document.querySelector('.jog[aria-disabled]')");
-
-    // A finger on X+, for as long as it is down. On a busy host the page may lose it: then it comes down anew.
-    let before = operated.position()[0];
-    let key = ".jog[aria-label=\"move X+\"]";
-    while operated.position()[0] < before + 2.0 {
-        let place = browser.finger_down(key);
-        std::thread::sleep(HALF);
-        browser.finger_up(&place);
-        std::thread::sleep(HALF);
-    }
-    let after = operated.position()[0];
-    std::thread::sleep(Duration::from_millis(300));
-    assert_eq!(operated.position()[0].to_bits(), after.to_bits());
-
-    // Zero by touching the number.
-    browser.press("#sX");
-    press(&mut browser, "#sheet [data-do=zero]", Duration::ZERO);
-    browser.wait("S.status.offset && document.querySelector('#sX').textContent === '0.000'");
-    browser.wait("SETUP.systems && Math.abs(SETUP.systems[0].origin.X) > 2");
-
-    // A program is dropped, looked at, and run.
-    browser.evaluate("setView('programs')");
-    let dropped = format!(
-        "(() => {{ const d = new DataTransfer(); d.items.add(new File([{:?}], 'life.ngc')); \
-         document.querySelector('#list').dispatchEvent(new DragEvent('drop', \
-         {{ dataTransfer: d, bubbles: true, cancelable: true }})); }})()",
-        program()
-    );
-    browser.evaluate(&dropped);
-    browser.wait("FOLDER.chosen === 'life.ngc' && LOOK.info && LOOK.info.report");
-    press(&mut browser, "#chosen [data-do=run]", HALF);
-
-    // The tool is asked for, and answered.
-    let _asked = operated.wait_for(MachineState::Awaiting);
-    browser.wait(
-        "S.view === 'operate' && S.state === 'awaiting' && \
-         document.querySelector('#attn').textContent.includes('put T2 in the spindle'.replace('put', 'Put'))",
-    );
-    press(&mut browser, "#attn [data-do=done]", HALF);
-    let _moving = operated.wait_for(MachineState::Running);
-    browser.wait("S.state === 'running' && S.status.program_is_shown && PLAN");
-    browser.wait("document.querySelector('#blocks .cur').textContent.includes('X')");
-    browser.press("[data-ov=feed-override] button:last-child");
-    let _faster = operated.wait(|status| (status.feed_override - 1.05).abs() < 1e-9);
-
-    // Hold, jog away, return, and on.
-    browser.press("[data-c=hold]");
-    let _held = operated.wait_for(MachineState::Held);
-    browser.evaluate("setView('setup')");
-    browser.wait("S.state === 'held' && !document.querySelector('.jog[aria-disabled]')");
-    let key = ".jog[aria-label=\"move Z+\"]";
-    browser.press_for(key, HALF);
-    let _away = operated
-        .wait(|status| status.state == MachineState::Held.code() && status.away[2].abs() > 0.1);
-    browser.evaluate("setView('operate')");
-    browser.wait("document.querySelector('[data-c=go] small').textContent === 'return first'");
-    press(&mut browser, "#attn [data-do=return]", HALF);
-    let _back = operated
-        .wait(|status| status.state == MachineState::Held.code() && status.away[2].abs() < 1e-9);
-    browser.wait("document.querySelector('[data-c=go]').getAttribute('aria-disabled') === null");
-    press(&mut browser, "[data-c=go]", HALF);
-    let _moving = operated.wait_for(MachineState::Running);
+    power_and_home(&mut browser, &operated);
+    jog(&mut browser, &operated);
+    zero(&mut browser);
+    run(&mut browser, &operated);
+    hold_and_return(&mut browser, &operated);
 
     // Abort is pressed for a second.
     browser.wait("S.state === 'running'");
