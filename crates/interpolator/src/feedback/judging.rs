@@ -19,7 +19,7 @@ const APART_CUT_R: f64 = 2.0;
 /// Line and sequence of what is executed; none without a program.
 const fn place(report: &Report) -> (u32, u64) {
     let Setpoint { line, sequence, .. } = report.setpoint;
-    if report.end_of_epoch == EndOfEpoch::Open {
+    if matches!(report.end_of_epoch, EndOfEpoch::Open) {
         (line, sequence)
     } else {
         (0, 0)
