@@ -362,7 +362,7 @@ fn keys_are_found_by_every_name_of_theirs() {
     assert_eq!(names("axis.Y.max_jerk"), ["axis.X.max_jerk"]);
     assert_eq!(names("joint.J4.max_jerk"), ["joint.J0.max_jerk"]);
     assert_eq!(names("path.tolerance"), ["path.tolerance"]);
-    assert_eq!(names("path").len(), 7);
+    assert_eq!(names("path").len(), 8);
     assert_eq!(
         names("max_jerk"),
         ["axis.X.max_jerk", "joint.J0.max_jerk", "path.max_jerk"]
