@@ -3,7 +3,7 @@
 
 use std::time::{Duration, Instant};
 
-use glidepath_link::{JobStage, MachineState, Status};
+use glidepath_link::{FaultCause, JobStage, MachineState, Status};
 use glidepath_tests::{Instance, Operated, Output, Process, Watchdog};
 use rustix::process::Signal;
 
@@ -28,14 +28,14 @@ fn slow_to_check() -> String {
 struct Bench<'a> {
     operated: Operated<'a>,
     slow: String,
-    _processes: Vec<Process>,
+    processes: Vec<Process>,
 }
 
 impl<'a> Bench<'a> {
     fn start(instance: &'a Instance) -> Self {
         let mut bench = Self::without_service(instance);
         let service = bench.operated.process(&["planner", "--listen"]);
-        bench._processes.push(service);
+        bench.processes.push(service);
         bench
     }
 
@@ -49,7 +49,7 @@ impl<'a> Bench<'a> {
         Self {
             operated,
             slow: instance.file("slow.ngc", &slow_to_check()),
-            _processes: vec![interpolator, servo],
+            processes: vec![interpolator, servo],
         }
     }
 
@@ -78,6 +78,55 @@ impl<'a> Bench<'a> {
         self.operated.operate(&["mdi", "G0 X0"]);
         assert!(self.operated.position()[0].abs() < 1e-9);
     }
+}
+
+/// A planner that hangs hears of it late.
+#[test]
+fn what_waits_at_a_planner_that_hangs_does_not_outlive_an_abort() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let bench = Bench::start(&instance);
+    bench.goes_on();
+    let part = instance.file("part.ngc", "G21 G90\nG1 X20 F600\nM2\n");
+    for command in [
+        &["mdi", "G1 X20 F600"][..],
+        &["run-file", &part],
+        &["feed", &part],
+    ] {
+        let service = bench.processes.last().unwrap();
+        service.signal(Signal::STOP);
+        let before = bench.operated.wait(|_| true);
+        let client = bench.operated.process(command);
+        std::thread::sleep(Duration::from_secs(2));
+        bench.operated.operate(&["abort"]);
+        service.signal(Signal::CONT);
+        bench.stays(&before);
+        let output = client.wait();
+        assert_ne!(output.status.code(), Some(0), "{output:#?}");
+        bench.goes_on();
+    }
+}
+
+#[test]
+fn a_planner_that_dies_while_its_program_rests_ends_it() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let mut bench = Bench::start(&instance);
+    let part = instance.file("part.ngc", "G21 G90\nG1 X2 F600\nM0\nG1 X30\nM2\n");
+    let client = bench.operated.process(&["run-file", &part]);
+    let stands = bench.operated.wait_for(MachineState::ProgramStop);
+    let service = bench.processes.pop().unwrap();
+    service.signal(Signal::KILL);
+    let fault = bench.operated.wait_for(MachineState::Faulted);
+    assert_eq!(fault.fault(), Ok(Some(FaultCause::PlannerLost)));
+    assert_eq!(
+        fault.position.map(f64::to_bits),
+        stands.position.map(f64::to_bits)
+    );
+    let output = client.wait().expect(5);
+    assert!(output.stderr.contains("--resume"), "{output:#?}");
+    bench.operated.operate(&["reset"]);
+    let service = bench.operated.process(&["planner", "--listen"]);
+    bench.processes.push(service);
+    bench.goes_on();
 }
 
 fn ended_within(process: Process, patience: Duration) -> Output {
@@ -206,7 +255,7 @@ fn a_planner_that_hangs_through_an_abort_moves_nothing_afterwards() {
     let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
     let mut bench = Bench::start(&instance);
     let client = bench.preparing();
-    let service = bench._processes.pop().unwrap();
+    let service = bench.processes.pop().unwrap();
     service.signal(Signal::STOP);
     bench.operated.operate(&["abort"]);
     let idle = bench.operated.wait_for(MachineState::Idle);

@@ -10,7 +10,7 @@
 //! nothing to send repeats its last request.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use glidepath_geometry::AxisVector;
 use glidepath_kinematics::PathCaps;
@@ -28,6 +28,9 @@ use crate::{
 
 /// Requests served between two looks at the motion.
 const REQUESTS_PER_TURN: u32 = 256;
+/// A pause between two looks that takes longer is one of a process that was stopped, or of a host that stood still:
+/// what was asked meanwhile may be older than a stop that the machine was given.
+const HANG: Duration = Duration::from_secs(1);
 
 type Segments = dyn Server<SegmentRequest, SegmentReply>;
 
@@ -131,10 +134,12 @@ impl Listener<'_> {
         listening: &Listening,
         control: &mut Control<'_>,
     ) -> Result<Accepted, RunError> {
+        let mut paused = Instant::now();
         loop {
             if control.is_stopped() {
                 return Err(RunError::Interrupted);
             }
+            let has_hung = paused.elapsed() > HANG;
             let ready = match self.publisher.ready() {
                 Ok(Some(position)) => Ok(position),
                 Ok(None) => Err(self.publisher.why_not_ready()),
@@ -144,6 +149,13 @@ impl Listener<'_> {
             if let Some(accepted) = self.serve_jobs(control)? {
                 return Ok(accepted);
             }
+            // A job says when it was asked for, and a stop after that counts for it. A stream does not say so.
+            let ready = if has_hung {
+                let why = "the planner hung, and the machine may have been stopped meanwhile; start again";
+                Err((SegmentRefusal::Busy, why.to_owned()))
+            } else {
+                ready.map_err(|why| (SegmentRefusal::Stopped, why))
+            };
             let has_waiting = self.jobs.as_ref().is_some_and(JobDesk::has_waiting);
             if !has_waiting
                 && let Some((stream, position)) =
@@ -151,6 +163,7 @@ impl Listener<'_> {
             {
                 return Ok(Accepted::Stream(Box::new(stream), position));
             }
+            paused = Instant::now();
             self.publisher.idle(control)?;
         }
     }
@@ -203,7 +216,7 @@ impl Listener<'_> {
     /// Answers what came in; returns a stream if one was opened.
     fn serve_waiting(
         &mut self,
-        ready: &Result<AxisVector, String>,
+        ready: &Result<AxisVector, (SegmentRefusal, String)>,
         limits: Option<SoftLimits>,
         control: &mut Control<'_>,
     ) -> Result<Option<(Stream, AxisVector)>, RunError> {
@@ -220,7 +233,7 @@ impl Listener<'_> {
                 let stopped = |why| (SegmentRefusal::Stopped, why);
                 let taken = match ready {
                     Ok(_) => publisher.take_now("a stream of segments", NEWS, control),
-                    Err(why) => return refuse(request, &stopped(why.clone())),
+                    Err(refused) => return refuse(request, refused),
                 };
                 let refused = match taken {
                     Ok(Some(position)) => match Stream::open(request, position, limits) {
