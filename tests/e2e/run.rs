@@ -33,6 +33,9 @@ fn a_run_is_the_plan_bit_for_bit() {
     ] {
         assert!(report[ratio].as_f64().unwrap() <= 1.0 + 1e-6, "{report:#}");
     }
+    // With the rows at rest before it.
+    let judged = ["audit", &csv, "--program", &program];
+    let _clean = Process::start(&instance, &judged).wait().expect(0);
 }
 
 #[test]

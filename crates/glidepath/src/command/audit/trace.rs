@@ -31,6 +31,12 @@ pub(super) struct Csv {
     columns: Vec<Option<(Axis, usize)>>,
     period_ns: u64,
     row: u64,
+    /// The first frame of the program, by the tick at which it was, or would have been; none before the motion.
+    begun_at: Option<u64>,
+    /// Whether a row at rest came before the motion: that was the first frame.
+    has_rested: bool,
+    /// Whether program time has gone with the clock so far: rows do not say how far it is in a hold.
+    is_steady: bool,
 }
 
 impl Trace {
@@ -72,6 +78,9 @@ impl Trace {
             columns: names.map(column).collect(),
             period_ns: config.period_ns(),
             row: 1,
+            begun_at: None,
+            has_rested: false,
+            is_steady: true,
         })))
     }
 
@@ -144,22 +153,22 @@ impl Csv {
         Ok(Some(Entry::Setpoint(setpoint)))
     }
 
-    fn setpoint(&self, row: &str) -> Option<Setpoint> {
+    fn setpoint(&mut self, row: &str) -> Option<Setpoint> {
         let mut values = row.split(',');
         let mut setpoint = Setpoint::zeroed();
         setpoint.tick = values.next()?.parse().ok()?;
         values.next()?.parse::<f64>().ok()?;
         setpoint.line = values.next()?.parse().ok()?;
-        let state = match values.next()? {
-            "idle" => MachineState::Idle,
-            _ => MachineState::Running,
-        };
+        let state = self.state(values.next()?, setpoint.tick);
         setpoint.state = state.code();
         setpoint.feed_v = values.next()?.parse().ok()?;
         setpoint.path_s = values.next()?.parse().ok()?;
         // Rows have no numbers and no times of their own: the tick stands for both.
         setpoint.number = setpoint.tick;
-        setpoint.sequence = setpoint.tick;
+        setpoint.sequence = setpoint
+            .tick
+            .saturating_sub(self.begun_at.unwrap_or(setpoint.tick));
+        setpoint.fraction = if self.is_steady { 0.0 } else { 0.5 };
         setpoint.scheduled_ns = setpoint.tick.wrapping_mul(self.period_ns);
         setpoint.apply_ns = setpoint.scheduled_ns.wrapping_add(self.period_ns);
         setpoint.epoch = 1;
@@ -178,5 +187,22 @@ impl Csv {
             *of.get_mut(axis.index())? = value;
         }
         values.next().is_none().then_some(setpoint)
+    }
+
+    /// The state of a row. A run rests while its first frames are planned, whatever that is called.
+    fn state(&mut self, name: &str, tick: u64) -> MachineState {
+        let runs = name == "running";
+        if self.begun_at.is_none() {
+            if !runs {
+                self.has_rested = true;
+                return MachineState::Idle;
+            }
+            self.begun_at = Some(tick.saturating_sub(self.has_rested.into()));
+        }
+        if name == "idle" {
+            return MachineState::Idle;
+        }
+        self.is_steady &= runs;
+        MachineState::Running
     }
 }
