@@ -260,14 +260,12 @@ impl<'a> Attack<'a> {
                 MachineState::Idle if status.job_stage() != Ok(JobStage::Waiting) => {
                     let line = ["mdi", "G21 G90 G54 G1 X1 Y0 Z0 F2400"];
                     let told = self.type_in_patiently(&line);
-                    // A busy host may keep drives from saying where they are.
-                    let is_done = told.status.code() == Some(0);
-                    if is_done || self.operated.wait(|_| true).state() != Ok(MachineState::Faulted)
-                    {
-                        if !is_done {
-                            self.fail(&format!("it does nothing any more: {told:#?}"));
-                        }
+                    if told.status.code() == Some(0) {
                         break;
+                    }
+                    // A busy host may keep drives from saying where they are: then it is brought back again.
+                    if self.operated.wait(|_| true).state() != Ok(MachineState::Faulted) {
+                        self.fail(&format!("it does nothing any more: {told:#?}"));
                     }
                     continue;
                 }

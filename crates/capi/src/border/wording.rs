@@ -4,7 +4,7 @@ use super::call::call;
 use super::pointer::{Given, Room, check_size};
 use crate::failure::Failure;
 use core::ffi::c_char;
-use glidepath_link::{MachineState, Status, printable};
+use glidepath_link::{FaultCause, MachineState, Status, printable};
 
 const NO_STATUS: &str = "status: NULL, or not aligned";
 
@@ -49,7 +49,7 @@ extern "C" fn gp_fault_remedy(
     call(|| {
         check_size::<Status>("gp_status", status_size)?;
         let cause = status.get(NO_STATUS)?.fault()?;
-        let told = cause.map(glidepath_link::FaultCause::remedy);
+        let told = cause.map(FaultCause::remedy);
         Ok(tell(told.unwrap_or_default(), &text, size))
     })
 }
