@@ -26,12 +26,15 @@ pub(crate) enum StepKind {
 }
 
 impl PartStep {
-    /// About how much memory it takes, in frames.
+    /// Memory that it keeps beside its own, bytes.
     #[must_use]
-    pub fn weight(&self) -> usize {
+    pub fn heap_bytes(&self) -> usize {
         match &self.0 {
-            StepKind::Motion(settled) => settled.iter().map(Settled::weight).sum(),
-            StepKind::Frame(_) | StepKind::Origin(_) | StepKind::Failed(_) => 1,
+            StepKind::Motion(settled) => {
+                let beside: usize = settled.iter().map(Settled::heap_bytes).sum();
+                settled.capacity() * size_of::<Settled>() + beside
+            }
+            StepKind::Frame(_) | StepKind::Origin(_) | StepKind::Failed(_) => 0,
         }
     }
 }

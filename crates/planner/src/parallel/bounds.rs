@@ -7,11 +7,10 @@ use super::allowance::Allowance;
 /// part was read.
 const MOST_ITEMS: usize = 8 * 1024;
 
-/// Frames that wait for the caller, or what takes as much memory: 9 minutes of motion at 4 ms,
-/// about 40 MB.
-const MOST_FRAMES: usize = 128 * 1024;
+/// Plans that wait for the caller, bytes: at 4 ms about 5 minutes of motion.
+const MOST_PLANNED: usize = 40 << 20;
 /// What the part that is being taken may add to that.
-const MOST_FRAMES_OF_FIRST: usize = 4 * 1024;
+const MOST_PLANNED_OF_FIRST: usize = 1 << 20;
 
 /// Both ends of the workers.
 #[derive(Debug)]
@@ -26,7 +25,7 @@ impl Bounds {
     pub(super) fn new() -> Self {
         Self {
             items: Allowance::new(MOST_ITEMS, 0),
-            plans: Allowance::new(MOST_FRAMES, MOST_FRAMES_OF_FIRST),
+            plans: Allowance::new(MOST_PLANNED, MOST_PLANNED_OF_FIRST),
         }
     }
 

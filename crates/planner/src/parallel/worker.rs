@@ -14,8 +14,8 @@ use crate::joint_bounds::JointBounds;
 /// What parts are planned for: settings, and joints that are not the axes.
 type Machine = (Settings, Option<PathCaps>);
 
-/// Frames, or what weighs as much, that are handed over together.
-const CHUNK: usize = 256;
+/// Bytes of a plan that are handed over together.
+const CHUNK: usize = 64 << 10;
 
 /// Plans parts as they come, until there are no more or nobody wants them.
 pub(super) fn work(parts: &Mutex<Receiver<Part>>, machine: Machine, bounds: &Bounds) {
@@ -34,32 +34,40 @@ struct Outlet<'a> {
     plan: Sender<Planned>,
     bounds: &'a Bounds,
     steps: Vec<PlanStep>,
-    weight: usize,
+    /// Memory that the steps keep beside their own, bytes.
+    heap_bytes: usize,
     lines: u64,
 }
 
 impl Outlet<'_> {
     fn put(&mut self, step: PlanStep) -> Result<(), Gone> {
-        self.weight += match &step {
-            PlanStep::Item(_) => 1,
-            PlanStep::Motion(motion) => motion.weight(),
+        self.heap_bytes += match &step {
+            PlanStep::Item(_) => 0,
+            PlanStep::Motion(motion) => motion.heap_bytes(),
         };
         self.steps.push(step);
-        if self.weight >= CHUNK {
+        if self.bytes() >= CHUNK {
             self.hand_over()?;
         }
         Ok(())
+    }
+
+    fn bytes(&self) -> usize {
+        self.steps.len() * size_of::<PlanStep>() + self.heap_bytes
     }
 
     fn hand_over(&mut self) -> Result<(), Gone> {
         if self.steps.is_empty() {
             return Ok(());
         }
-        let weight = std::mem::take(&mut self.weight);
+        // A few large steps fill a chunk as well as many small ones: room for more of them is not kept.
+        self.steps.shrink_to_fit();
+        let weight = self.bytes();
+        self.heap_bytes = 0;
         if !self.bounds.plans.add(self.part, weight) {
             return Err(Gone);
         }
-        let steps = std::mem::replace(&mut self.steps, Vec::with_capacity(CHUNK));
+        let steps = std::mem::take(&mut self.steps);
         let lines = self.lines;
         self.send(Planned::Steps {
             steps,
@@ -82,8 +90,8 @@ fn plan(part: Part, (settings, joints): Machine, bounds: &Bounds) -> Result<(), 
         part: part.number,
         plan: part.plan,
         bounds,
-        steps: Vec::with_capacity(CHUNK),
-        weight: 0,
+        steps: Vec::new(),
+        heap_bytes: 0,
         lines: 0,
     };
     put_motion(&mut planner, &mut outlet)?;

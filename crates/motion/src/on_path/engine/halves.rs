@@ -9,9 +9,6 @@ use super::OnPathEngine;
 use crate::on_path::look_ahead::Settled;
 use std::collections::VecDeque;
 
-/// About how many frames take as much memory as a piece with what drives it.
-const FRAMES_PER_PIECE: usize = 4;
-
 impl OnPathEngine {
     /// Takes away what is settled and was not sampled.
     pub(crate) fn take_settled(&mut self) -> VecDeque<Settled> {
@@ -21,17 +18,5 @@ impl OnPathEngine {
     /// Takes in motion that another engine settled, to be sampled behind what is here.
     pub(crate) fn add_settled(&mut self, settled: VecDeque<Settled>) {
         self.settled.extend(settled);
-    }
-}
-
-impl Settled {
-    /// About how much memory it takes, in frames.
-    pub(crate) fn weight(&self) -> usize {
-        match self {
-            Self::Motion { pieces, .. } | Self::Parametrised { pieces, .. } => {
-                FRAMES_PER_PIECE * pieces.len()
-            }
-            Self::Rest(_) => 1,
-        }
     }
 }

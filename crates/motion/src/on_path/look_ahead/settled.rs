@@ -31,6 +31,22 @@ impl Settled {
         }
     }
 
+    /// Memory that it keeps beside its own, bytes.
+    pub(crate) fn heap_bytes(&self) -> usize {
+        let of_pieces = |pieces: &Vec<Piece>| {
+            let beside: usize = pieces.iter().map(Piece::heap_bytes).sum();
+            pieces.capacity() * size_of::<Piece>() + beside
+        };
+        match self {
+            Self::Motion { pieces, legs } => of_pieces(pieces) + legs.capacity() * size_of::<Leg>(),
+            Self::Parametrised {
+                pieces,
+                parametrisation,
+            } => of_pieces(pieces) + parametrisation.heap_bytes(),
+            Self::Rest(_) => 0,
+        }
+    }
+
     /// What it was made of.
     pub(crate) fn elements(&self) -> Vec<Element> {
         match self {

@@ -38,6 +38,17 @@ pub(crate) enum Shape {
 }
 
 impl Piece {
+    /// Memory that it keeps beside its own, bytes.
+    pub(crate) fn heap_bytes(&self) -> usize {
+        let of_shape = match &self.shape {
+            Shape::Segment(_) => 0,
+            Shape::Transition(transition) => size_of_val(&**transition),
+            Shape::Spline(spline) => size_of_val(&**spline),
+        };
+        let of_lines = self.lines.capacity() * size_of::<(f64, ProgramLine)>();
+        of_shape + of_lines + self.events.capacity() * size_of::<Event>()
+    }
+
     /// True for a line.
     pub(crate) fn is_straight(&self) -> bool {
         matches!(self.shape, Shape::Segment(Segment::Line(_)))

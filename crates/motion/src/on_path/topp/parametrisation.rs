@@ -79,6 +79,11 @@ impl MotionPhase {
 }
 
 impl Parametrisation {
+    /// Memory that it keeps beside its own, bytes.
+    pub(crate) fn heap_bytes(&self) -> usize {
+        self.phases.capacity() * size_of::<MotionPhase>()
+    }
+
     /// The same motion as some S-curves, slowed down: `rate_r` ≤ 1 times as fast.
     pub(crate) fn slowed(legs: &[Leg], rate_r: f64) -> Option<Self> {
         let mut phases: Vec<MotionPhase> = Vec::new();
