@@ -74,7 +74,7 @@ complete -c glidepath -n "__fish_glidepath_using_subcommand run" -l dialect -d '
 complete -c glidepath -n "__fish_glidepath_using_subcommand run" -l effort -d 'optimal or fast; overrides `path.effort` of the configuration' -r
 complete -c glidepath -n "__fish_glidepath_using_subcommand run" -l tolerance -d 'How far the motion may leave the programmed path, mm; overrides `path.tolerance` of the configuration, as G64 P of the program overrides both' -r
 complete -c glidepath -n "__fish_glidepath_using_subcommand run" -s c -l config -d 'Machine configuration (TOML); without it the built-in 3-axis mill' -r -F
-complete -c glidepath -n "__fish_glidepath_using_subcommand run" -l instance -d 'Name of the machine\'s shared memory; overrides `link.instance` of the configuration' -r
+complete -c glidepath -n "__fish_glidepath_using_subcommand run" -l instance -d 'Name of the run\'s shared memory; overrides `link.instance` of the configuration' -r
 complete -c glidepath -n "__fish_glidepath_using_subcommand run" -l drives -d 'What is moved: "mock", a servo that does exactly what it is told, or "emulated", drives on an EtherCAT that is not there, with the bridge that real ones are driven by' -r -f -a "mock\t'A mock servo'
 emulated\t'Emulated drives on EtherCAT'"
 complete -c glidepath -n "__fish_glidepath_using_subcommand run" -l bus-period-us -d 'Period of the bus to emulated drives, µs' -r

@@ -65,6 +65,8 @@ impl Process {
             .env("XDG_RUNTIME_DIR", instance.directory())
             .env("TMPDIR", instance.directory())
             .env("NO_COLOR", "1")
+            .env_remove("GLIDEPATH_CONFIG")
+            .env_remove("GLIDEPATH_INSTANCE")
             .envs(instance.wall_clock().map(|clock| ("LD_PRELOAD", clock)))
             .current_dir(instance.directory())
             .stdin(input)

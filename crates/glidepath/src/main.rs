@@ -1,7 +1,8 @@
 //! The `glidepath` command.
 
-use clap::Parser as _;
-use glidepath::{cli::Cli, command, interrupt};
+use clap::FromArgMatches as _;
+use glidepath::cli::{self, Cli};
+use glidepath::{command, interrupt};
 use std::process::ExitCode;
 use std::thread;
 
@@ -26,7 +27,9 @@ fn main() -> ExitCode {
 fn work() -> ExitCode {
     // One that cannot be handled ends this process as ever.
     let _ = interrupt::survive_limits_of_files();
-    match Cli::try_parse() {
+    let mut line = cli::grouped();
+    let told = line.try_get_matches_from_mut(std::env::args_os());
+    match told.and_then(|told| Cli::from_arg_matches(&told).map_err(|e| e.format(&mut line))) {
         Ok(cli) => command::main(&cli),
         Err(error) => command::usage(&error),
     }

@@ -9,7 +9,7 @@ use clap::Args;
 #[derive(Debug, Clone, Args)]
 pub struct BasicArgs {
     /// Machine configuration (TOML); without it the built-in 3-axis mill
-    #[arg(long, short, value_name = "TOML", value_parser = program_file(), value_hint = clap::ValueHint::AnyPath)]
+    #[arg(long, short, env = "GLIDEPATH_CONFIG", hide_env_values = true, value_name = "TOML", value_parser = program_file(), value_hint = clap::ValueHint::AnyPath)]
     pub config: Option<ProgramFile>,
     /// Print one JSON object instead of text
     #[arg(long)]
@@ -28,6 +28,14 @@ pub struct OverwriteArgs {
 #[derive(Debug, Clone, Args)]
 pub struct InstanceArgs {
     /// Name of the machine's shared memory; overrides `link.instance` of the configuration
+    #[arg(long, env = "GLIDEPATH_INSTANCE", hide_env_values = true, value_name = "NAME", value_parser = instance_name)]
+    pub instance: Option<String>,
+}
+
+/// The instance of a run, whose machine is a mock: that of the environment may be a machine's.
+#[derive(Debug, Clone, Args)]
+pub struct RunInstanceArgs {
+    /// Name of the run's shared memory; overrides `link.instance` of the configuration
     #[arg(long, value_name = "NAME", value_parser = instance_name)]
     pub instance: Option<String>,
 }

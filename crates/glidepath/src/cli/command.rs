@@ -266,7 +266,7 @@ impl Command {
     #[must_use]
     pub fn instance(&self) -> Option<&str> {
         let args = match self {
-            Self::Run(args) => &args.instance,
+            Self::Run(args) => return args.instance.instance.as_deref(),
             Self::Interpolator(args) => &args.instance,
             Self::Planner(args) => &args.instance,
             Self::RunFile(args) => &args.instance,

@@ -1,6 +1,6 @@
 //! Arguments of the commands that check, plan and run programs, and of the processes by themselves.
 
-use super::basic::{BasicArgs, InstanceArgs, OverwriteArgs};
+use super::basic::{BasicArgs, InstanceArgs, OverwriteArgs, RunInstanceArgs};
 use super::path::PathArgs;
 use super::program::{ProgramArgs, program_file};
 use super::time::time;
@@ -35,7 +35,7 @@ pub struct RunArgs {
     pub basic: BasicArgs,
     /// The instance, by which processes find each other.
     #[command(flatten)]
-    pub instance: InstanceArgs,
+    pub instance: RunInstanceArgs,
     /// Run without real-time privileges too; the report says what was granted
     #[arg(long)]
     pub best_effort: bool,

@@ -9,7 +9,7 @@
 use crate::support::{glidepath, object};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
-use std::process::Output;
+use std::process::{Command, Output};
 
 const PART: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/part.ngc");
 const MILL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/mill.toml");
@@ -79,6 +79,27 @@ fn usage_errors_end_with_2() {
             "{args:?}"
         );
     }
+}
+
+/// A shell that works on one machine names it once.
+#[test]
+fn the_environment_names_the_machine_where_the_command_line_does_not() {
+    let folder = tempfile::tempdir().unwrap();
+    let config = file(folder.path(), "m.toml", "[axis.X]\nmax_velocty = 1\n");
+    let checked = |more: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_glidepath"));
+        let command = command.args(["check", PART]).args(more);
+        let command = command.env("GLIDEPATH_CONFIG", &config);
+        command.output().unwrap()
+    };
+    assert_eq!(exit(&checked(&[])), 3);
+    assert_eq!(exit(&checked(&["--config", MILL])), 0);
+
+    let mut command = Command::new(env!("CARGO_BIN_EXE_glidepath"));
+    let command = command.env("XDG_RUNTIME_DIR", folder.path());
+    let command = command.env("GLIDEPATH_INSTANCE", "mill-7");
+    let told = stderr(&command.arg("status").output().unwrap());
+    assert!(told.contains("\"mill-7\""), "{told}");
 }
 
 #[test]
