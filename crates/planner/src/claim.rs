@@ -17,9 +17,10 @@ use glidepath_gcode::ReadingWatch;
 use glidepath_link::{Command, JobPhase, JobStage, LinkError, Status};
 
 use crate::RunError;
+use crate::interval::Interval;
 
 /// Between two reports of a job.
-pub(crate) const REPORT_INTERVAL: Duration = Duration::from_millis(100);
+const REPORT_INTERVAL: Duration = Duration::from_millis(100);
 
 /// What a planner has told the interpolator of its job.
 #[derive(Debug)]
@@ -32,7 +33,8 @@ pub(crate) struct Claim {
     pub(crate) phase: JobPhase,
     /// The number of its first epoch, and the life of the interpolator that gave it.
     pub(crate) epoch: Option<(u64, u64)>,
-    pub(crate) since_told: Duration,
+    /// Since the interpolator was told of it.
+    pub(crate) since_told: Interval,
     pub(crate) watch: ReadingWatch,
 }
 
@@ -45,7 +47,7 @@ impl Claim {
             doing: "waits for the machine".to_owned(),
             phase: JobPhase::Waiting,
             epoch: None,
-            since_told: Duration::ZERO,
+            since_told: Interval::new(REPORT_INTERVAL),
             watch: ReadingWatch::default(),
         }
     }

@@ -8,7 +8,7 @@ use glidepath_geometry::AxisVector;
 use glidepath_link::{JobPhase, JobStage, Status};
 
 use crate::attend::{Attend, Attended};
-use crate::claim::{Claim, REPORT_INTERVAL};
+use crate::claim::Claim;
 use crate::machine::POLL;
 use crate::publish::Publisher;
 use crate::{Control, RunError};
@@ -99,7 +99,7 @@ impl Publisher<'_> {
             && claim.doing != doing
         {
             doing.clone_into(&mut claim.doing);
-            claim.since_told = REPORT_INTERVAL;
+            claim.since_told.end();
         }
     }
 
@@ -111,9 +111,8 @@ impl Publisher<'_> {
         let Some(claim) = &mut self.claim else {
             return Ok(());
         };
-        claim.since_told = claim.since_told.saturating_add(waited);
-        if claim.since_told >= REPORT_INTERVAL {
-            claim.since_told = Duration::ZERO;
+        if claim.since_told.is_over_after(waited) {
+            claim.since_told.restart();
             self.machine
                 .post(claim.command(claim.phase), &claim.text())?;
         }

@@ -5,8 +5,12 @@ use std::time::Duration;
 use glidepath_link::SetpointFrame;
 use glidepath_program::Event;
 
+use crate::interval::Interval;
 use crate::machine::Standing;
 use crate::{Progress, Refusal, Statistics};
+
+/// Between two signs of life of a planner without frames.
+const HEARTBEAT: Duration = Duration::from_millis(200);
 
 /// Frames beyond the horizon for an interpolator that cannot go on with what it has.
 const MORE_FRAMES: u64 = 8;
@@ -73,8 +77,8 @@ pub(crate) struct Epoch {
     pub(crate) last: Option<SetpointFrame>,
     /// Set when the pipeline has no more frames.
     pub(crate) ended: Option<Result<(), Refusal>>,
-    /// Time waited for items since something was offered.
-    pub(crate) hungry: Duration,
+    /// Since something was offered.
+    pub(crate) since_offer: Interval,
     /// Time waited since the last notice of progress.
     pub(crate) since_progress: Duration,
     horizon_frames: u64,
@@ -83,7 +87,7 @@ pub(crate) struct Epoch {
 }
 
 impl Epoch {
-    pub(crate) const fn new(boot_id: u64, number: u64, horizon_frames: u64) -> Self {
+    pub(crate) fn new(boot_id: u64, number: u64, horizon_frames: u64) -> Self {
         Self {
             boot_id,
             number,
@@ -91,7 +95,7 @@ impl Epoch {
             in_hand: None,
             last: None,
             ended: None,
-            hungry: Duration::ZERO,
+            since_offer: Interval::new(HEARTBEAT),
             since_progress: Duration::ZERO,
             horizon_frames,
             delivered: 0,
@@ -105,8 +109,9 @@ impl Epoch {
     }
 
     /// The frame in hand has arrived.
-    pub(crate) const fn delivered(&mut self) {
-        (self.last, self.hungry) = (self.in_hand.take(), Duration::ZERO);
+    pub(crate) fn delivered(&mut self) {
+        self.last = self.in_hand.take();
+        self.since_offer.restart();
         self.delivered += 1;
     }
 

@@ -14,6 +14,7 @@ use glidepath_link::{
 };
 use thiserror::Error;
 
+use crate::interval::Interval;
 use crate::{Control, ItemSource, Refusal, Supply};
 
 /// Between two looks for answers.
@@ -195,7 +196,7 @@ impl Feeder {
         control: &mut Control<'_>,
     ) -> Result<Option<Refusal>, FeedError> {
         let mut ended = None;
-        let mut silent = Duration::ZERO;
+        let mut silent = Interval::new(HEARTBEAT);
         loop {
             while ended.is_none() && self.outbox.len() < MAX_UNANSWERED {
                 match source.next_item() {
@@ -207,15 +208,14 @@ impl Feeder {
             }
             if !self.outbox.is_empty() {
                 self.round(control)?;
-                silent = Duration::ZERO;
+                silent.restart();
             } else if let Some(refusal) = ended {
                 return Ok(refusal);
             } else {
                 pause(POLL, control)?;
-                silent += POLL;
-                if silent >= HEARTBEAT {
+                if silent.is_over_after(POLL) {
                     self.heartbeat(control)?;
-                    silent = Duration::ZERO;
+                    silent.restart();
                 }
             }
         }

@@ -81,6 +81,7 @@ mod file_moves;
 mod fingerprint;
 mod history;
 mod inputs;
+mod interval;
 mod jobs;
 mod joint_bounds;
 mod joint_speed;

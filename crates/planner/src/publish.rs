@@ -51,9 +51,6 @@ const FRAMES_PER_TURN: u32 = 512;
 /// Between two notices of progress.
 const PROGRESS_INTERVAL: Duration = Duration::from_millis(100);
 
-/// Between two signs of life of a planner without frames.
-const HEARTBEAT: Duration = Duration::from_millis(200);
-
 /// The planner's ports to one interpolator.
 pub struct Publisher<'t> {
     pub(crate) transport: &'t dyn Transport,
@@ -369,11 +366,10 @@ impl<'t> Publisher<'t> {
 
     /// Tells the interpolator, now and then, that there will be more.
     fn show_life(&mut self, epoch: &mut Epoch, waited: Duration) -> Result<(), LinkError> {
-        epoch.hungry += waited;
-        if epoch.hungry >= HEARTBEAT
+        if epoch.since_offer.is_over_after(waited)
             && let Some(last) = &epoch.last
         {
-            epoch.hungry = Duration::ZERO;
+            epoch.since_offer.restart();
             // If it cannot be delivered now, the next will be.
             self.sink.offer(last)?;
         }
