@@ -10,7 +10,7 @@
 
 use std::time::{Duration, Instant};
 
-use glidepath_link::{JobStage, MachineState, Power, Setpoint};
+use glidepath_link::{JobStage, MachineState, Power, Setpoint, Status};
 use glidepath_plant::{JointSettings, SwitchSettings};
 use glidepath_tests::{Instance, Operated, Output, Process, ServoStack, Tape, Watchdog};
 use rustix::process::Signal;
@@ -98,8 +98,10 @@ impl<'a> Attack<'a> {
     }
 
     fn note(&mut self, what: &str) {
-        let state = self.operated.wait(|_| true).state();
-        self.log.push(format!("{what} ({state:?})"));
+        let status = self.operated.wait(|_| true);
+        let fault = status.fault_text().unwrap_or_default();
+        let state = status.state();
+        self.log.push(format!("{what} ({state:?}) {fault}"));
     }
 
     #[allow(clippy::panic, reason = "a test that fails panics")]
@@ -269,7 +271,10 @@ impl<'a> Attack<'a> {
                     }
                     continue;
                 }
-                MachineState::Faulted => &["reset"],
+                MachineState::Faulted => {
+                    self.clear(&status);
+                    continue;
+                }
                 MachineState::Off if status.power() == Ok(Power::Off) => &["enable"],
                 MachineState::NotHomed => &["home"],
                 _ => &["status"],
@@ -279,10 +284,23 @@ impl<'a> Attack<'a> {
         self.log.clear();
     }
 
+    /// Types the commands that `status` names for clearing its fault, one after the other.
+    fn clear(&mut self, status: &Status) {
+        let remedy = status.fault().unwrap().unwrap().remedy();
+        for quoted in remedy.split('`').skip(1).step_by(2) {
+            let words: Vec<&str> = quoted.split(' ').skip(1).collect();
+            let _answer = self.type_in_patiently(&words);
+        }
+    }
+
     /// What may take as long as the way that the machine goes.
     fn type_in_patiently(&mut self, command: &[&str]) -> Output {
         self.note(&command.join(" "));
-        self.operated.process(command).wait()
+        let output = self.operated.process(command).wait();
+        if !output.status.success() {
+            self.log.push(output.stderr.clone());
+        }
+        output
     }
 }
 
