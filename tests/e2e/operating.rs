@@ -149,3 +149,32 @@ fn run_switches_a_machine_with_drives_on() {
     let report = Process::start(&instance, &run).wait().expect(0).json();
     assert_eq!(report["lost_setpoints"], 0);
 }
+
+/// An interpolator that hung sees a command late: its client has ended by itself, by Ctrl-C, or was killed.
+#[test]
+fn a_command_that_was_given_up_is_not_carried_out_later() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let machine = Operated::new(&instance, &[], "");
+    let interpolator = machine.process(&["interpolator", "--best-effort"]);
+    let _off = machine.wait_for(MachineState::Off);
+    let servo = machine.process(&["servo"]);
+    let _answer = machine.wait_for_drives();
+    for signal in [None, Some(Signal::INT), Some(Signal::KILL)] {
+        interpolator.signal(Signal::STOP);
+        let client = machine.process(&["enable"]);
+        if let Some(signal) = signal {
+            std::thread::sleep(Duration::from_millis(500));
+            client.signal(signal);
+        }
+        let output = client.wait();
+        assert_ne!(output.status.code(), Some(0), "{output:#?}");
+        interpolator.signal(Signal::CONT);
+        std::thread::sleep(Duration::from_millis(500));
+        let status = machine.wait_for_drives();
+        assert_eq!(status.power(), Ok(Power::Off), "{signal:?}");
+    }
+    machine.operate(&["enable"]);
+    let _on = machine.wait(|status| status.power() == Ok(Power::On));
+    let _servo = servo.end().expect(0);
+    let _interpolator = interpolator.end().expect(0);
+}

@@ -87,6 +87,9 @@ impl Desk<'_, '_> {
             }
             Ok(command) => command,
         };
+        if command.sets_out() && self.jobs.was_stopped_after(request.asked_ns) {
+            return wrong(Objection::StoppedSince.text().to_owned());
+        }
         match self.judge(command) {
             Err(why) => return wrong(why.text().to_owned()),
             Ok(is_for_motion) => {
@@ -138,8 +141,9 @@ impl Desk<'_, '_> {
         if matches!(command, Command::Hold | Command::Resume) {
             self.jobs.hold(command == Command::Hold);
         }
-        if command == Command::Hold && self.report.end_of_epoch != EndOfEpoch::Open {
-            self.jobs.hold_what_was_asked(self.now_ns);
+        if command == Command::Hold {
+            let is_open = self.report.end_of_epoch == EndOfEpoch::Open;
+            self.jobs.hold_what_was_asked(self.now_ns, is_open);
         }
         if matches!(command, Command::Abort | Command::Disable) {
             self.jobs.stop(self.now_ns);

@@ -50,6 +50,8 @@ pub(crate) struct JobBook {
     stopped_ns: u64,
     /// When a hold was ordered last with nothing to hold, ns: what was asked for before begins held.
     held_ns: u64,
+    /// When any hold was ordered last, ns.
+    any_hold_ns: u64,
 }
 
 impl JobBook {
@@ -63,6 +65,7 @@ impl JobBook {
             end: Text::default(),
             stopped_ns: 0,
             held_ns: 0,
+            any_hold_ns: 0,
         }
     }
 
@@ -150,6 +153,7 @@ impl JobBook {
             is_held: stage == JobStage::Waiting && is_before(self.held_ns),
             stopped_ns: self.stopped_ns,
             held_ns: self.held_ns,
+            any_hold_ns: self.any_hold_ns,
             ..Self::new()
         };
     }
@@ -159,9 +163,17 @@ impl JobBook {
         self.stopped_ns = now_ns;
     }
 
-    /// A hold with nothing to hold.
-    pub(crate) fn hold_what_was_asked(&mut self, now_ns: u64) {
-        self.held_ns = now_ns;
+    /// A hold; `is_open`: there was a program to hold, so that it does not count for one to come.
+    pub(crate) fn hold_what_was_asked(&mut self, now_ns: u64, is_open: bool) {
+        self.any_hold_ns = now_ns;
+        if !is_open {
+            self.held_ns = now_ns;
+        }
+    }
+
+    /// Whether the machine was brought to rest after something was asked for; 0 if nobody knows when.
+    pub(crate) fn was_stopped_after(&self, asked_ns: u64) -> bool {
+        asked_ns != 0 && asked_ns < self.stopped_ns.max(self.any_hold_ns)
     }
 
     /// A hold, or the end of one, for the job that is to come.

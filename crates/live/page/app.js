@@ -67,7 +67,7 @@ async function listen() {
 function heard(kind, payload) {
   if (kind === 1) {
     const status = JSON.parse(new TextDecoder().decode(payload));
-    S.status = status; S.heard = performance.now();
+    S.status = status; S.heard = performance.now(); S.clock_ms = status.clock_ms;
     S.state = status.state; S.rate = status.effective_override || 1;
     S.p = status.place === null ? 0 : status.place;
     // Nothing of another program is shown while one runs.

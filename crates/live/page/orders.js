@@ -14,11 +14,11 @@ const PAGE = (() => {
 })();
 const headers = kind => ({ 'X-Glidepath-Token': TOKEN, 'X-Glidepath-Page': PAGE, 'Content-Type': kind });
 
-/* Gives an order; gives back what was answered. What is refused is told beside the buttons. */
+/* Gives an order, with the time that was heard last of the page's server: what comes late does not count. Gives back what was answered. What is refused is told beside the buttons. */
 async function order(kind, more = {}, quietly = false) {
   let said;
   try {
-    const answer = await fetch('/api/command', { method: 'POST', headers: headers('application/json'), body: JSON.stringify({ kind, ...more }), keepalive: true });
+    const answer = await fetch('/api/command', { method: 'POST', headers: headers('application/json'), body: JSON.stringify({ kind, heard_ms: S.clock_ms, ...more }), keepalive: true });
     said = await answer.json();
   } catch { said = { accepted: false, reason: `${kind} was not sent: the page's server does not answer` }; }
   if (!quietly) { S.refusal = said.accepted ? '' : buttonWords(said.reason); S.refused_at = performance.now(); paintState(); }
@@ -87,6 +87,7 @@ const may = role => S.may === 'operate' || S.may === role;
 const notOperating = () => S.may !== 'operate' ? `this page may only ${S.may}` : !S.operates ? 'another page operates' : '';
 async function here(kind = 'here', more = {}) {
   const said = await order(kind, more, true);
+  if (said.accepted && said.clock_ms !== undefined) S.clock_ms = said.clock_ms;
   if (said.accepted) { S.operates = said.operates; S.asks = said.asks; S.asked_for = said.operates && said.asked; paintHands(); }
 }
 DEEDS['ask-seat'] = () => here('ask-seat');

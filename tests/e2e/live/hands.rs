@@ -7,7 +7,7 @@ use glidepath_tests::{Instance, Process, Services, Watchdog};
 use rustix::process::{Pid, Signal, kill_process};
 use serde_json::{Value, json};
 
-use super::{Live, PATIENCE, of_page};
+use super::{Live, PATIENCE, given_now, of_page};
 
 /// How long the axes may take to rest once nothing is heard: two time-outs, and the way to rest of a slow jog
 /// on a busy host.
@@ -19,7 +19,7 @@ struct Page<'l>(&'l Live, u64);
 impl Page<'_> {
     fn order(&self, body: &Value) -> (u16, Value) {
         let fields = format!("{}{}", self.0.token(), of_page(self.1));
-        let body = body.to_string();
+        let body = given_now(body);
         let (status, said) =
             self.0
                 .post("/api/command", "application/json", &fields, body.as_bytes());
@@ -185,6 +185,43 @@ fn axes_move_for_as_long_as_a_finger_is_down() {
     down(10, 7, 4);
     assert_eq!(x(&rests(&services)).to_bits(), there.to_bits());
     drop(live);
+    drop(services.end());
+}
+
+/// What waited at a server that stood still.
+#[test]
+fn orders_that_come_late_or_behind_an_abort_move_nothing() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let services = Services::start(&instance);
+    let service = Process::join(&instance, &["planner", "--listen"]);
+    let live = Live::start(&instance, &["--may", "operate"]);
+    let page = Page(&live, 1);
+    let line = json!({ "kind": "mdi", "line": "G21 G91 G0 X4" });
+    let begun = Instant::now();
+    while page.order(&line).0 != 200 {
+        assert!(begun.elapsed() < Duration::from_secs(30));
+        std::thread::sleep(Duration::from_millis(100));
+    }
+    let there = x(&rests(&services));
+    let step = json!({ "kind": "jog-step", "axes": { "X": 3.0 }, "feed": 600.0 });
+    let pid = Pid::from_raw(live.id().try_into().unwrap()).unwrap();
+    // Within what may be on its way an abort counts for what was asked for before it.
+    for (order, still) in [(&line, 3000), (&step, 3000), (&line, 300)] {
+        kill_process(pid, Signal::STOP).unwrap();
+        std::thread::scope(|scope| {
+            let asked = scope.spawn(|| page.order(order));
+            std::thread::sleep(Duration::from_millis(still));
+            let _aborted = Process::join(&instance, &["abort"]).wait().expect(0);
+            kill_process(pid, Signal::CONT).unwrap();
+            let (status, said) = asked.join().unwrap();
+            assert_eq!(status, 409, "{order}: {said}");
+        });
+        assert_eq!(x(&rests(&services)).to_bits(), there.to_bits(), "{order}");
+    }
+    let _goes_on = page.accepted(&line);
+    let _there = services.wait(|status| (x(status) - there - 4.0).abs() < 1e-9);
+    drop(live);
+    drop(service);
     drop(services.end());
 }
 

@@ -12,6 +12,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use glidepath_link::MachineState;
+use glidepath_realtime::{Clock as _, Monotonic};
 use glidepath_tests::{Browser, Instance, Process, Services, Watchdog, glidepath};
 use rustix::process::{Pid, Signal, kill_process};
 use serde_json::Value;
@@ -27,6 +28,14 @@ pub(crate) struct Live {
     /// The addresses of all roles.
     urls: Value,
     pub(crate) port: u16,
+}
+
+/// An order of a page that hears what the server says at once.
+fn given_now(order: &Value) -> String {
+    let mut order = order.clone();
+    let heard_ms = Monotonic.now_ns() / 1_000_000;
+    order["heard_ms"] = heard_ms.into();
+    order.to_string()
 }
 
 impl Live {
@@ -60,6 +69,7 @@ impl Live {
     /// Commands as a page does; gives the status and the body of the answer.
     fn command(&self, token: &str, body: &str) -> (u16, String) {
         let json = "application/json";
+        let body = given_now(&serde_json::from_str(body).unwrap());
         self.post(
             "/api/command",
             json,

@@ -1,11 +1,13 @@
-//! What tests of every crate share: how a test says what it left out, and why, and [`Pulse`], by which it finds
-//! out whether the host let anything run in time.
+//! What tests of every crate share: how a test says what it left out, and why, and [`Pulse`] and
+//! [`is_crowded`], by which it finds out whether the host let anything run in time.
 //!
 //! Cargo swallows what a test says that passes. So [`skip`] and [`leave_out`] write past it, and into the file
 //! that [`SKIPPED`] names, where `cargo test-all` reads it and tells it at the end.
 
+mod crowd;
 mod pulse;
 
+pub use crowd::is_crowded;
 pub use pulse::Pulse;
 
 use std::ffi::OsString;

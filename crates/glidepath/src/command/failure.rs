@@ -175,9 +175,9 @@ pub(super) enum Failure {
         /// How long it was waited for.
         waited_s: u64,
     },
-    /// A command that brings the machine to rest did not arrive.
+    /// A command that brings the machine to rest was not answered.
     #[error(
-        "{command}: the command did not arrive: {source}. If the machine moves, the last resort is \
+        "{command}: no answer: {source}. An interpolator that goes on still obeys. If the machine moves meanwhile, the last resort is \
          `glidepath abort --signal`, or SIGTERM to the interpolator: it comes to rest on the path \
          and ends"
     )]

@@ -13,6 +13,7 @@ use crate::report::{active_object, active_text, status_object, status_text};
 use glidepath_link::{
     Command, CommandReply, CommandRequest, LinkConfig, LinkError, Operator, Power, Status,
 };
+use glidepath_realtime::{Clock as _, Monotonic};
 use serde_json::json;
 use std::time::{Duration, Instant};
 
@@ -179,7 +180,8 @@ pub(super) fn send_saying(
     command: Command,
     text: &str,
 ) -> Result<CommandReply, Failure> {
-    let request = CommandRequest::new(u64::from(std::process::id()), 1, command).saying(text);
+    let request = CommandRequest::new(u64::from(std::process::id()), 1, command);
+    let request = request.saying(text).asked_at(Monotonic.now_ns());
     let reply = operator.call(&request, PATIENCE);
     let reply = reply.map_err(|error| of_link(error, link))?;
     reply.ok_or_else(|| silent(operator, link))

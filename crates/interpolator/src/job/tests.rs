@@ -155,7 +155,7 @@ fn a_stop_counts_for_what_was_asked_for_before_it_whenever_its_planner_tells() {
         );
         assert!(jobs.is_to_come() && !jobs.is_held());
     }
-    jobs.hold_what_was_asked(60);
+    jobs.hold_what_was_asked(60, false);
     assert_eq!(asked(&mut jobs, 70, 59), Ok(Told::Nothing));
     assert!(jobs.is_held(), "it begins held");
     assert_eq!(asked(&mut jobs, 71, 61), Ok(Told::Nothing));
@@ -199,4 +199,15 @@ fn a_job_that_rests_under_way_is_an_orphan_when_its_planner_falls_silent() {
     );
     told(&mut jobs, 7, JobPhase::Preparing, SILENCE_NS).unwrap();
     assert!(!jobs.is_orphaned(&resting(MachineState::Held), SILENCE_NS + 1));
+}
+
+#[test]
+fn what_was_asked_for_before_a_stop_is_known() {
+    let mut jobs = JobBook::new();
+    assert!(!jobs.was_stopped_after(1));
+    jobs.stop(50);
+    jobs.hold_what_was_asked(60, true);
+    for (asked_ns, was_stopped) in [(0, false), (49, true), (59, true), (60, false), (61, false)] {
+        assert_eq!(jobs.was_stopped_after(asked_ns), was_stopped, "{asked_ns}");
+    }
 }

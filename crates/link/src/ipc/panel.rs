@@ -6,13 +6,15 @@
 //! that the interpolator makes, with all of their room, before anything moves, and keeps open: a
 //! few places for a command and its answer each, and one for the status. They are read and written,
 //! not mapped, so that nobody can die of them. Whoever has a command takes a place by a lock, which
-//! the kernel releases however its process ends; see [`super::operator`].
+//! the kernel releases however its process ends; see [`super::operator`]. A command whose place nobody
+//! has any more was given up, and nothing moves by it, however late an interpolator that hung sees it.
 
 use super::config::LinkConfig;
 use super::directory;
 use super::stamped::{Place, reserve};
-use crate::{CommandReply, CommandRequest, LinkError, Status};
-use std::fs::File;
+use crate::{Command, CommandReply, CommandRequest, LinkError, Status};
+use std::fs::{File, TryLockError};
+use std::io;
 use std::path::PathBuf;
 
 /// How many may have a command under way at a time.
@@ -88,12 +90,26 @@ impl Panel {
                 continue; // Not written to its end yet.
             };
             slot.seen = number;
+            if !request.command().is_ok_and(Command::stops)
+                && !is_held(&slot.file).map_err(failed)?
+            {
+                continue; // Given up: a stop counts all the same.
+            }
             let reply = answer(&request);
             REPLY.write(&slot.file, number, &reply).map_err(failed)?;
             self.next = (self.next + turn) % PLACES;
             return Ok(true);
         }
         Ok(false)
+    }
+}
+
+/// Whether somebody has the place: the lock ends with whoever asked, however that comes.
+fn is_held(file: &File) -> io::Result<bool> {
+    match file.try_lock() {
+        Ok(()) => file.unlock().map(|()| false),
+        Err(TryLockError::WouldBlock) => Ok(true),
+        Err(TryLockError::Error(error)) => Err(error),
     }
 }
 

@@ -173,6 +173,32 @@ impl Command {
     }
 }
 
+impl Command {
+    /// Whether it brings the machine to rest.
+    #[must_use]
+    pub const fn stops(self) -> bool {
+        matches!(
+            self,
+            Self::Hold | Self::Abort | Self::Disable | Self::StopAtEndOfBlock
+        )
+    }
+
+    /// Whether axes that rest may move by it, or get power.
+    #[must_use]
+    pub const fn sets_out(self) -> bool {
+        matches!(
+            self,
+            Self::Resume
+                | Self::Step
+                | Self::Return
+                | Self::Reverse
+                | Self::Forward
+                | Self::Enable
+                | Self::Home(_)
+        )
+    }
+}
+
 /// A command on its way.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
@@ -194,7 +220,8 @@ pub struct CommandRequest {
     pub event: EventId,
     /// Which job is told of, else 0.
     pub job: u64,
-    /// When that job was asked for, ns of the host's steady clock, else 0.
+    /// When it, or the job that is told of, was asked for, ns of the host's steady clock; 0 if that is not
+    /// known. What was asked for before the machine was stopped moves nothing, however late it comes.
     pub asked_ns: u64,
     /// Why what an event asked for has failed, what the program says, or what is being done for a job,
     /// for people; else empty.
@@ -251,6 +278,12 @@ impl CommandRequest {
             | Command::Tell => {}
         }
         record
+    }
+
+    /// The same with the time at which it was asked for, ns of the host's steady clock.
+    #[must_use]
+    pub const fn asked_at(self, asked_ns: u64) -> Self {
+        Self { asked_ns, ..self }
     }
 
     /// The same with a word for people, cut where it is too long.

@@ -53,6 +53,8 @@ pub enum Objection {
     HomingAlready,
     /// A jog while the machine does something else.
     NoJogNow,
+    /// What would move the axes, asked for before the machine was stopped.
+    StoppedSince,
     /// An answer to an event of an interpolator that has ended.
     OtherLife,
     /// A second answer.
@@ -97,6 +99,7 @@ impl Objection {
         Self::NoHome,
         Self::HomingAlready,
         Self::NoJogNow,
+        Self::StoppedSince,
         Self::OtherLife,
         Self::Answered,
         Self::ByFeedback,
@@ -126,6 +129,9 @@ impl Objection {
             Self::NoFault => {
                 "no fault is latched, or the motion has not come to rest yet; `glidepath status` says \
                  which"
+            }
+            Self::StoppedSince => {
+                "the machine was stopped after this was asked for; ask again if it is to move"
             }
             Self::StaysApart => {
                 "a joint is still too far from where it is to be; `glidepath disable`, `glidepath reset`, \

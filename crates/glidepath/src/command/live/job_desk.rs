@@ -11,7 +11,6 @@ use glidepath_link::{
     Client, Ipc, JobKind, JobReply, JobRequest, JobState, JobWish, LinkConfig, LinkError,
     Record as _, Transport as _,
 };
-use glidepath_realtime::{Clock as _, Monotonic};
 use serde_json::{Value, json};
 use std::collections::VecDeque;
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
@@ -41,12 +40,12 @@ pub(super) enum Wanted {
 }
 
 impl Wanted {
-    fn request(&self, client: u64, number: u64) -> Option<JobRequest> {
+    fn request(&self, client: u64, number: u64, asked_ns: u64) -> Option<JobRequest> {
         let (kind, text) = match self {
             Self::Line(line) => (JobKind::Line, line),
             Self::File { path, .. } => (JobKind::File, path),
         };
-        let mut request = JobRequest::new(client, number, kind, text, Monotonic.now_ns());
+        let mut request = JobRequest::new(client, number, kind, text, asked_ns);
         if let Self::File {
             from_line,
             pass,
@@ -97,7 +96,7 @@ struct Past {
 type Seen = Arc<Mutex<VecDeque<Past>>>;
 
 enum Asked {
-    HandIn(Wanted, Sender<Handed>),
+    HandIn(Wanted, u64, Sender<Handed>),
     Cancel,
 }
 
@@ -125,11 +124,15 @@ impl JobDesk {
         Ok(Self { asked, seen })
     }
 
-    /// Hands a job in, and waits a moment for its end.
-    pub(super) fn hand_in(&self, wanted: Wanted) -> Handed {
+    /// Hands a job in that was asked for at a time of the host's steady clock, and waits a moment for its end.
+    pub(super) fn hand_in(&self, wanted: Wanted, asked_ns: u64) -> Handed {
         let (answer, answered) = channel();
         let gone = || Handed::Not("nobody hands jobs in any more: start the page anew".to_owned());
-        if self.asked.send(Asked::HandIn(wanted, answer)).is_err() {
+        if self
+            .asked
+            .send(Asked::HandIn(wanted, asked_ns, answer))
+            .is_err()
+        {
             return gone();
         }
         answered.recv().unwrap_or_else(|_| gone())
@@ -181,7 +184,7 @@ struct Clerk {
 impl Clerk {
     fn serve(&mut self) {
         while let Ok(asked) = self.asked.recv() {
-            let Asked::HandIn(wanted, answer) = asked else {
+            let Asked::HandIn(wanted, asked_ns, answer) = asked else {
                 continue;
             };
             self.begin(&wanted);
@@ -189,7 +192,7 @@ impl Clerk {
                 answer: Some(answer),
                 since: Instant::now(),
             };
-            let end = self.execute(&wanted, &mut waiting);
+            let end = self.execute(&wanted, asked_ns, &mut waiting);
             waiting.tell(&end);
             if let Some(past) = lock(&self.seen).front_mut() {
                 past.end = Some(end);
@@ -208,9 +211,9 @@ impl Clerk {
         seen.truncate(REMEMBERED);
     }
 
-    fn execute(&mut self, wanted: &Wanted, waiting: &mut Waiting) -> Handed {
+    fn execute(&mut self, wanted: &Wanted, asked_ns: u64, waiting: &mut Waiting) -> Handed {
         self.number += 1;
-        let Some(request) = wanted.request(self.client, self.number) else {
+        let Some(request) = wanted.request(self.client, self.number, asked_ns) else {
             let words = "lines, and names of programs, have at most 1024 bytes";
             return Handed::Not(words.to_owned());
         };
@@ -246,7 +249,7 @@ impl Clerk {
             loop {
                 match self.asked.try_recv() {
                     Ok(Asked::Cancel) => wish = JobWish::Cancel,
-                    Ok(Asked::HandIn(_, answer)) => {
+                    Ok(Asked::HandIn(_, _, answer)) => {
                         let words = "a job of a page is under way; wait for its end, or abort it";
                         // A page that has gone is not told.
                         let _told = answer.send(Handed::Not(words.to_owned()));
@@ -309,7 +312,7 @@ mod tests {
 
     #[test]
     fn what_does_not_fit_is_not_handed_in() {
-        let line = |length| Wanted::Line("x".repeat(length)).request(1, 1);
+        let line = |length| Wanted::Line("x".repeat(length)).request(1, 1, 5);
         assert!(line(1024).is_some() && line(1025).is_none());
         let file = Wanted::File {
             path: "/srv/programs/part.ngc".to_owned(),
@@ -318,7 +321,7 @@ mod tests {
             agreed: true,
             resumes: false,
         };
-        let request = file.request(3, 4).unwrap();
+        let request = file.request(3, 4, 5).unwrap();
         assert_eq!(
             (request.from_line, request.pass, request.confirmed),
             (7, 2, 1)

@@ -52,7 +52,7 @@ use job_desk::JobDesk;
 use jogger::Jogger;
 use lateness::Histogram;
 use log::Log;
-use pages::Pages;
+use pages::{Pages, clock_ms};
 use preview::Preview;
 use serde_json::{Map, Value, json};
 use set_up::SetUp;
@@ -284,6 +284,7 @@ impl Machine<'_> {
                 self.log.ended();
                 json!({
                     "state": "none",
+                    "clock_ms": clock_ms(),
                     "version": self.shown.version(),
                     "place": Value::Null,
                     "log": self.log.object(),
@@ -312,6 +313,7 @@ impl Machine<'_> {
             object.remove("events");
             let boot = format!("{:016x}", status.boot_id);
             object.insert("boot".to_owned(), boot.into());
+            object.insert("clock_ms".to_owned(), clock_ms().into());
             object.insert("seat".to_owned(), self.seat_object());
             object.insert("set_up".to_owned(), self.set_up.version().into());
             let jobs = self.jobs.as_ref().map(|jobs| jobs.object());

@@ -3,7 +3,7 @@
 use super::folder::{Folder, FolderError, Piece};
 use super::job_desk::{Handed, JobDesk, Wanted};
 use super::jogger::{Hand, Jogger};
-use super::order::{Order, by_axis};
+use super::order::{Given, Order, by_axis};
 use super::preview::Preview;
 use super::set_up::SetUp;
 use super::shown::Shown;
@@ -12,6 +12,7 @@ use crate::config::MachineConfig;
 use crate::machine_options::complete;
 use glidepath_link::{Command, CommandRequest, LinkConfig, LinkError, Operator, refused};
 use glidepath_live::{Answer, Caller, ContentType, Role, Seat, Site, Status};
+use glidepath_realtime::{Clock as _, Monotonic};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -39,6 +40,15 @@ pub(super) struct Pages {
 /// What came of an order: what a page is told besides that it was accepted, or why it was not.
 type Done = Result<Value, (Status, String)>;
 
+/// The clock that pages say of which they have heard last, ms.
+#[expect(
+    clippy::cast_precision_loss,
+    reason = "ms of three centuries are exact"
+)]
+pub(super) fn clock_ms() -> f64 {
+    (Monotonic.now_ns() / 1_000_000) as f64
+}
+
 fn not_now(text: impl Into<String>) -> (Status, String) {
     (Status::Conflict, complete(&text.into()))
 }
@@ -56,7 +66,8 @@ impl Pages {
 
     /// Does what is ordered, if the caller may.
     fn order(&self, caller: Caller, body: &[u8]) -> Done {
-        let order = Order::of(body).ok_or_else(malformed)?;
+        let given = Given::of(body).ok_or_else(malformed)?;
+        let order = &given.order;
         if caller.role < order.role() {
             let (may, wants) = (caller.role.name(), order.role().name());
             let text = format!("this page may {may}; that takes a page that may {wants}");
@@ -69,26 +80,33 @@ impl Pages {
         if order.takes_the_seat() && !self.seat().here(caller.page, Instant::now()) {
             return Err(not_now("another page operates; ask it for the seat"));
         }
-        match order {
-            Order::Here {} | Order::AskSeat {} | Order::AnswerSeat { .. } | Order::LeaveSeat {} => {
-                Ok(self.sit(caller, &order))
+        let asked_ns = given.asked_ns(Monotonic.now_ns()).map_err(not_now)?;
+        match given.order {
+            order @ (Order::Here {}
+            | Order::AskSeat {}
+            | Order::AnswerSeat { .. }
+            | Order::LeaveSeat {}) => Ok(self.sit(caller, &order)),
+            order @ (Order::Jog { .. } | Order::JogEnd { .. } | Order::JogStep { .. }) => {
+                self.jog(&order)
             }
-            Order::Jog { .. } | Order::JogEnd { .. } | Order::JogStep { .. } => self.jog(&order),
-            Order::Mdi { line } => self.hand_in(Wanted::Line(line)),
+            Order::Mdi { line } => self.hand_in(Wanted::Line(line), asked_ns),
             Order::Run {
                 name,
                 from_line,
                 pass,
                 agreed,
                 resume,
-            } => self.hand_in(Wanted::File {
-                path: self.program(&name)?,
-                from_line: from_line.unwrap_or(0),
-                pass: pass.unwrap_or(0),
-                agreed,
-                resumes: resume,
-            }),
-            order => self.command(&order),
+            } => {
+                let wanted = Wanted::File {
+                    path: self.program(&name)?,
+                    from_line: from_line.unwrap_or(0),
+                    pass: pass.unwrap_or(0),
+                    agreed,
+                    resumes: resume,
+                };
+                self.hand_in(wanted, asked_ns)
+            }
+            order => self.command(&order, asked_ns),
         }
     }
 
@@ -111,10 +129,11 @@ impl Pages {
             "operates": holder == Some(caller.page),
             "asked": asking.is_some_and(|asking| asking != caller.page),
             "asks": asking == Some(caller.page),
+            "clock_ms": clock_ms(),
         })
     }
 
-    fn command(&self, order: &Order) -> Done {
+    fn command(&self, order: &Order, asked_ns: u64) -> Done {
         let joints = (1 << self.config.drives()) - 1;
         let (command, text) = order.command(joints).ok_or_else(malformed)?;
         if matches!(command, Command::Hold | Command::Abort) {
@@ -125,15 +144,20 @@ impl Pages {
             // One that has not begun is known to nobody but its service.
             self.jobs.iter().for_each(|jobs| jobs.cancel());
         }
-        let state = self.send(command, text)?;
+        let state = self.send(command, text, asked_ns)?;
         Ok(json!({ "state": state }))
     }
 
     /// The state in which a command was accepted, or why it was not.
-    fn send(&self, command: Command, text: &str) -> Result<&'static str, (Status, String)> {
+    fn send(
+        &self,
+        command: Command,
+        text: &str,
+        asked_ns: u64,
+    ) -> Result<&'static str, (Status, String)> {
         let number = self.number.fetch_add(1, Ordering::Relaxed);
         let request = CommandRequest::new(u64::from(std::process::id()), number, command);
-        let request = request.saying(text);
+        let request = request.saying(text).asked_at(asked_ns);
         let unavailable = |error: LinkError| (Status::Unavailable, error.to_string());
         let operator = Operator::find(&self.link).map_err(unavailable)?;
         let reply = operator.call(&request, PATIENCE).map_err(unavailable)?;
@@ -180,11 +204,11 @@ impl Pages {
         }
     }
 
-    fn hand_in(&self, wanted: Wanted) -> Done {
+    fn hand_in(&self, wanted: Wanted, asked_ns: u64) -> Done {
         let Some(jobs) = &self.jobs else {
             return Err(malformed());
         };
-        match jobs.hand_in(wanted) {
+        match jobs.hand_in(wanted, asked_ns) {
             Handed::Running => Ok(json!({ "runs": true })),
             Handed::Done(text) => Ok(json!({ "text": text })),
             Handed::ToConfirm(text) => Ok(json!({ "to_confirm": text })),
