@@ -209,7 +209,7 @@ fn judge(scale: &Scale, seen: &Seen) {
     );
     show("waking", &status.latency);
     show("lateness", &status.lateness);
-    show("handed over", &status.response);
+    show("published", &status.response);
     show("work", &status.work);
     assert_eq!(status.setpoints_lost, 0, "the ports thread was disturbed");
     assert_eq!(status.setpoints_published, status.ticks);

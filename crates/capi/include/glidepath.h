@@ -700,7 +700,7 @@ typedef struct gp_status {
     gp_quantiles work;
     /* How long the host took to wake the thread before a tick. */
     gp_quantiles latency;
-    /* From the deadline of a tick to its setpoint handed to the thread that publishes it. */
+    /* From the deadline of a tick to its setpoint published: whoever subscribes has it. */
     gp_quantiles response;
     /* The number of the job that a planner has told of last, 0 for none. */
     uint64_t job_number;

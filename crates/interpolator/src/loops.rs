@@ -3,12 +3,14 @@
 //! ```text
 //! grid            |─────────────|─────────────|
 //! real-time     ▓▓█           ▓▓█              prepares the setpoint, spins, hands it over in time
-//! ports              ▐███░         ▐███░       200 µs later: setpoints out, commands and frames in
+//! ports            ▐  ▐███░      ▐  ▐███░      50 µs later: setpoints out; 200 µs: commands, frames in
 //! ```
 //!
 //! Both keep the same grid. The real-time thread rises a little before it, so that neither the
-//! host's latency nor cold caches delay a setpoint; the ports thread wakes a fixed phase after it,
-//! so that a setpoint leaves the process a known time after its tick.
+//! host's latency nor cold caches delay a setpoint. The ports thread looks for the setpoint a little
+//! after it, and again until it is there, so that whoever subscribes has it early in the period; all
+//! else it does a fixed phase after the tick, when the setpoint should be there on a host that is late,
+//! and drives have said where they are.
 
 use crate::config::Config;
 use crate::message::{Inputs, Report, Timing};
@@ -16,12 +18,16 @@ use crate::tick::Interpolator;
 use core::sync::atomic::{AtomicBool, Ordering};
 use glidepath_link::LinkError;
 use glidepath_realtime::{
-    Clock, DeadlineTimer, Mode, NotRealTime, Request, SentinelError, enter, forbid_system_calls,
+    Clock, DeadlineTimer, Mode, NotRealTime, Request, SentinelError, Wake, enter,
+    forbid_system_calls,
 };
 use heapless::spsc::Producer;
 
 /// Time from a tick to the work of the ports thread, as long as it fits into the period.
 const PHASE_NS: u64 = 200_000;
+
+/// Looks for the setpoint in that time, the last at its end.
+const LOOKS: u64 = 4;
 
 /// Time from rising to the tick, as long as it is a small part of the period.
 const LEAD_NS: u64 = 100_000;
@@ -79,6 +85,29 @@ pub(crate) fn phase_ns(period_ns: u64) -> u64 {
     PHASE_NS.min(period_ns / 4)
 }
 
+/// When the ports thread looks for the setpoint first after a tick.
+pub(crate) fn first_look_ns(period_ns: u64) -> u64 {
+    phase_ns(period_ns) / LOOKS
+}
+
+/// Looks for the setpoint of a tick from the first look on, which is now, until it is handed over, and
+/// returns when the phase has passed.
+pub(crate) fn hand_over(
+    clock: &mut impl Clock,
+    first_look: &Wake,
+    period_ns: u64,
+    mut hand_over: impl FnMut() -> bool,
+) {
+    let between_ns = first_look_ns(period_ns);
+    for look in 1..LOOKS {
+        if hand_over() {
+            break;
+        }
+        clock.sleep_until(first_look.scheduled_ns + look * between_ns);
+    }
+    clock.sleep_until(first_look.scheduled_ns + phase_ns(period_ns) - between_ns);
+}
+
 /// What the ports thread asks for: less than the real-time thread, on any processor. The memory is
 /// locked already.
 pub(crate) fn ports_request(request: &Request) -> Request {
@@ -111,7 +140,6 @@ pub(crate) fn real_time<C: Clock>(
         interpolator.keep_timing(Timing {
             latency_ns: rise.latency_ns(),
             work_ns: (prepared_ns - rise.woke_ns) + (done_ns - wake.woke_ns),
-            response_ns: done_ns - wake.scheduled_ns,
         });
     }
 }

@@ -136,8 +136,6 @@ pub(crate) struct Timing {
     pub(crate) latency_ns: u64,
     /// All work of the tick, before and at the deadline.
     pub(crate) work_ns: u64,
-    /// From the deadline to the setpoint handed over.
-    pub(crate) response_ns: u64,
 }
 
 /// Real-time thread to ports thread, every tick.

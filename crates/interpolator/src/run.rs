@@ -1,7 +1,9 @@
 //! Running an interpolator until it is told to stop.
 
 use crate::config::Config;
-use crate::loops::{RunError, enter_ports, enter_real_time, guard, lead_ns, phase_ns, real_time};
+use crate::loops::{
+    RunError, enter_ports, enter_real_time, first_look_ns, guard, hand_over, lead_ns, real_time,
+};
 use crate::message::{HAPPENINGS, Happening, Inputs, Report, Rings};
 use crate::ports::Ports;
 use crate::supply::least_horizon;
@@ -123,22 +125,29 @@ fn serve(
 ) {
     enter_ports(config);
     ports.granted(grants, config.real_time.mode);
-    let origin_ns = origin_ns + phase_ns(config.period_ns);
-    let mut timer = DeadlineTimer::new(Monotonic, origin_ns, config.period_ns);
+    let (period_ns, now) = (config.period_ns, || Monotonic.now_ns());
+    let origin_ns = origin_ns + first_look_ns(period_ns);
+    let mut timer = DeadlineTimer::new(Monotonic, origin_ns, period_ns);
+    let mut turn = |ports: &mut Ports<'_>| {
+        let first_look = timer.wait();
+        hand_over(&mut Monotonic, &first_look, period_ns, || {
+            ports.hand_over(&now)
+        });
+        ports.turn(&now);
+        now()
+    };
     while !stop.load(Ordering::Relaxed) {
-        let now_ns = timer.wait().woke_ns;
-        ports.turn(now_ns);
+        let now_ns = turn(ports);
         if !lives() {
             ports.real_time_died(now_ns);
             return;
         }
     }
     ports.abort();
-    let until_ns = timer.clock().now_ns() + FAREWELL_NS;
+    let until_ns = now() + FAREWELL_NS;
     loop {
         // The order is carried out at the next tick: look at the state after that.
-        let now_ns = timer.wait().woke_ns;
-        ports.turn(now_ns);
+        let now_ns = turn(ports);
         let rests = matches!(
             ports.state(),
             Some(
@@ -229,6 +238,45 @@ mod tests {
         assert_eq!(status.state(), Ok(MachineState::Faulted));
         assert_eq!(status.end_of_epoch(), Ok(EndOfEpoch::None));
         assert!(status.last_error.as_str().contains("real-time thread died"));
+    }
+
+    #[test]
+    fn a_setpoint_is_out_before_the_turn_and_the_response_is_when() {
+        let Rig {
+            ends,
+            mut interpolator,
+            mut inputs,
+            mut reports,
+            config,
+            ..
+        } = Rig::mill();
+        let transport = InProcess::new(Capacity::default());
+        let mut setpoints = transport.setpoint_source().unwrap();
+        let events = Box::leak(Box::<Events<Happening, HAPPENINGS>>::default());
+        let (_writer, reader) = event_ring(events);
+        let mut log = |_: &str| {};
+        let mut ports =
+            Ports::new(&config, 1, Box::new(transport), ends, reader, &mut log).unwrap();
+        let tick_ns = config.period_ns;
+        let due = glidepath_realtime::Wake {
+            tick: 1,
+            scheduled_ns: tick_ns,
+            woke_ns: tick_ns,
+            missed: 0,
+        };
+        let mut report = Report::blank();
+        interpolator.prepare(&due, &mut inputs, &mut report);
+        interpolator.stamp(&mut report, &due);
+        assert!(!ports.hand_over(&|| tick_ns + 50_000), "there is none yet");
+        reports.enqueue(report).unwrap();
+        assert!(ports.hand_over(&|| tick_ns + 102_000));
+        assert_eq!(setpoints.take().unwrap().unwrap().scheduled_ns, tick_ns);
+        ports.turn(&|| tick_ns + 200_000);
+        assert!(setpoints.take().unwrap().is_none(), "handed over twice");
+        let status = ports.status();
+        assert_eq!(status.setpoints_published, 1);
+        let response_us = status.response.max_ns / 1000;
+        assert!((102..104).contains(&response_us), "{response_us}");
     }
 
     #[test]

@@ -76,7 +76,7 @@ impl Served<'_> {
         // The ports take every report before the next one.
         let _ = self.reports.enqueue(report);
         let phase_ns = PHASE_NS.min(self.period_ns / 2);
-        self.ports.turn(scheduled_ns + phase_ns);
+        self.ports.turn(&|| scheduled_ns + phase_ns);
         report.setpoint
     }
 }

@@ -7,8 +7,8 @@ use crate::message::{FRAMES, Report};
 use crate::retrace::frames_kept;
 use crate::track::TRACK_CAPACITY;
 use glidepath_link::{
-    EndOfEpoch, FrameRefusal, Grants, MachineState, MotionMode, Quantiles, SetpointFrame, Status,
-    Text,
+    EndOfEpoch, FrameRefusal, Grants, MachineState, MotionMode, Quantiles, Setpoint, SetpointFrame,
+    Status, Text,
 };
 use glidepath_realtime::{Histogram, Item, Mode};
 
@@ -69,8 +69,14 @@ impl StatusBook {
         if report.setpoint.number > 0 {
             self.work.record(report.timing.work_ns);
             self.latency.record(report.timing.latency_ns);
-            self.response.record(report.timing.response_ns);
         }
+    }
+
+    /// Counts a setpoint that has been published: whoever subscribes to it has it by then.
+    pub(crate) fn published(&mut self, setpoint: &Setpoint, now_ns: u64) {
+        self.status.setpoints_published += 1;
+        let response_ns = now_ns.saturating_sub(setpoint.scheduled_ns);
+        self.response.record(response_ns);
     }
 
     /// Counts a refused frame. Returns whether it is the first for its reason.

@@ -309,7 +309,7 @@ structure! {
         work: Quantiles,
         /// How long the host took to wake the thread before a tick.
         latency: Quantiles,
-        /// From the deadline of a tick to its setpoint handed to the thread that publishes it.
+        /// From the deadline of a tick to its setpoint published: whoever subscribes has it.
         response: Quantiles,
         /// The number of the job that a planner has told of last, 0 for none.
         job_number: u64,

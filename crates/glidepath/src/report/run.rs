@@ -42,7 +42,7 @@ pub struct RunReport {
     pub work_us: Value,
     /// How long the host took to wake the thread before a tick: p50, p99, p999, max.
     pub latency_us: Value,
-    /// From the deadline of a tick to its setpoint handed over: p50, p99, p999, max.
+    /// From the deadline of a tick to its setpoint published, when whoever subscribes has it: p50, p99, p999, max.
     pub response_us: Value,
     /// What real time was granted.
     pub realtime: Value,

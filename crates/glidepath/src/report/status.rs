@@ -263,7 +263,7 @@ pub fn status_text(instance: &str, status: &Status) -> String {
 #[must_use]
 pub fn timing_text(status: &Status) -> String {
     format!(
-        "  ticks         {}, {} missed, {} late, {} starved\n  waking        {}\n  lateness      {}\n  handed over   {}\n  work          {}\n  real time     {}\n",
+        "  ticks         {}, {} missed, {} late, {} starved\n  waking        {}\n  lateness      {}\n  published     {}\n  work          {}\n  real time     {}\n",
         grouped(status.ticks),
         grouped(status.missed_ticks),
         grouped(status.late_ticks),

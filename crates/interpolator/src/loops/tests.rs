@@ -6,6 +6,7 @@ use crate::fault::Fault;
 use crate::jog::Demand;
 use crate::message::{Order, PortsEnds};
 use crate::testing::{Rig, hexapod, lines, mill, records};
+use core::cell::Cell;
 use glidepath_geometry::AxisVector;
 use glidepath_link::{Command, FaultCause, JogMode, MachineState, SetpointFrame};
 use glidepath_realtime::CountingAllocator;
@@ -279,4 +280,46 @@ fn steps_faults_and_reset_do_not_allocate() {
         Act::Until(Idle),
     ];
     assert_eq!(allocations(&acts), 0);
+}
+
+/// Goes to every time it is told to.
+struct Sleeper<'a>(&'a Cell<u64>);
+
+impl Clock for Sleeper<'_> {
+    fn now_ns(&self) -> u64 {
+        self.0.get()
+    }
+
+    fn sleep_until(&mut self, deadline_ns: u64) {
+        self.0.set(self.0.get().max(deadline_ns));
+    }
+}
+
+#[test]
+fn a_setpoint_is_handed_over_as_soon_as_it_is_there_and_all_else_waits_for_the_phase() {
+    // The period, when the setpoint is there and when it is looked for, us after the tick.
+    let cases: [(u64, u64, &[u64]); 4] = [
+        (4_000, 1, &[50]),
+        (4_000, 90, &[50, 100]),
+        (4_000, 300, &[50, 100, 150]),
+        (160, 15, &[10, 20]),
+    ];
+    for (period_us, there_us, expected) in cases {
+        let (tick_ns, period_ns) = (7_000_000, 1000 * period_us);
+        let first_ns = tick_ns + first_look_ns(period_ns);
+        let now_ns = Cell::new(first_ns);
+        let first_look = Wake {
+            tick: 1,
+            scheduled_ns: first_ns,
+            woke_ns: first_ns,
+            missed: 0,
+        };
+        let mut looks = Vec::new();
+        hand_over(&mut Sleeper(&now_ns), &first_look, period_ns, || {
+            looks.push((now_ns.get() - tick_ns) / 1000);
+            now_ns.get() >= tick_ns + 1000 * there_us
+        });
+        assert_eq!(looks, expected, "{there_us} of {period_us}");
+        assert_eq!(now_ns.get(), tick_ns + phase_ns(period_ns));
+    }
 }

@@ -1,6 +1,6 @@
 //! The ports thread: everything that talks to other processes.
 //!
-//! Each turn: setpoints out, commands in, frames in as long as the ring to the real-time thread has
+//! Setpoints go out as soon as they are there. Then, each turn: commands in, frames in as long as the ring to the real-time thread has
 //! room (what does not fit stays in the planner's queue, which pushes back), now and then a status,
 //! and the leftovers of dead processes. It may allocate, log and wait; the real-time thread does
 //! not notice.
@@ -27,6 +27,7 @@ use glidepath_link::{
 };
 use glidepath_realtime::{EventReader, Grants, Mode};
 use links::Links;
+use std::collections::VecDeque;
 
 /// Records of feedback taken in one turn: those of nine stacks at 2 kHz and 4 ms.
 const FEEDBACK_PER_TURN: usize = 72;
@@ -54,6 +55,10 @@ pub(crate) struct Ports<'a> {
     drives: Option<DriveBook>,
     /// A frame that is to be judged again.
     pending: Option<SetpointFrame>,
+    /// Reports whose setpoints were handed over, to be taken note of in the next turn.
+    handed_over: VecDeque<Report>,
+    /// How handing over went since the last turn.
+    handing_over: Result<(), LinkError>,
     report: Option<Report>,
     book: StatusBook,
     auxiliary: AuxiliaryBook,
@@ -92,6 +97,8 @@ impl<'a> Ports<'a> {
                 .feedback
                 .map(|settings| DriveBook::new(config, settings)),
             pending: None,
+            handed_over: VecDeque::new(),
+            handing_over: Ok(()),
             report: None,
             book: StatusBook::new(config, boot_id),
             auxiliary: AuxiliaryBook::new(boot_id, config.gates, config.stops),
@@ -132,11 +139,28 @@ impl<'a> Ports<'a> {
         &self.book.status
     }
 
-    /// One turn. A port that fails stops the motion, and is tried again at the next turn.
-    pub(crate) fn turn(&mut self, now_ns: u64) {
+    /// Hands over the setpoints that are there, by a clock; true if there were any since the last turn.
+    /// What else a report tells is for the turn.
+    pub(crate) fn hand_over(&mut self, now: &dyn Fn() -> u64) -> bool {
+        while let Some(report) = self.ends.reports.dequeue() {
+            match self.links.setpoints.publish(&report.setpoint) {
+                Ok(()) => self.book.published(&report.setpoint, now()),
+                Err(error) if self.handing_over.is_ok() => self.handing_over = Err(error),
+                Err(_) => {}
+            }
+            self.handed_over.push_back(report);
+        }
+        !self.handed_over.is_empty()
+    }
+
+    /// One turn, by a clock. A port that fails stops the motion, and is tried again at the next turn.
+    pub(crate) fn turn(&mut self, now: &dyn Fn() -> u64) {
+        let now_ns = now();
         self.write_log();
+        self.hand_over(now);
         let done = [
-            self.publish_setpoints(),
+            core::mem::replace(&mut self.handing_over, Ok(())),
+            self.take_reports(),
             self.take_feedback(now_ns),
             self.serve_commands(now_ns),
             self.pass_on_demands(),
@@ -168,14 +192,9 @@ impl<'a> Ports<'a> {
         self.ends.orders.enqueue(Order::Fault(fault)).ok();
     }
 
-    fn publish_setpoints(&mut self) -> Result<(), LinkError> {
-        let mut result = Ok(());
-        while let Some(report) = self.ends.reports.dequeue() {
-            let published = self.links.setpoints.publish(&report.setpoint);
-            if published.is_ok() {
-                self.book.status.setpoints_published += 1;
-            }
-            result = result.and(published);
+    /// Takes note of the reports whose setpoints were handed over.
+    fn take_reports(&mut self) -> Result<(), LinkError> {
+        while let Some(report) = self.handed_over.pop_front() {
             self.book.count(&report);
             self.auxiliary.note(&report);
             self.acknowledgements.note(&report);
@@ -203,7 +222,7 @@ impl<'a> Ports<'a> {
             }
             self.report = Some(report);
         }
-        result.and(self.publish_auxiliary())
+        self.publish_auxiliary()
     }
 
     fn publish_auxiliary(&mut self) -> Result<(), LinkError> {

@@ -208,7 +208,7 @@ pub struct Status {
     pub work: Quantiles,
     /// How long the host took to wake the thread before a tick.
     pub latency: Quantiles,
-    /// From the deadline of a tick to its setpoint handed to the thread that publishes it.
+    /// From the deadline of a tick to its setpoint published: whoever subscribes has it.
     pub response: Quantiles,
     /// The number of the job that a planner has told of last, 0 for none.
     pub job_number: u64,

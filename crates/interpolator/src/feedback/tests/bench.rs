@@ -146,7 +146,7 @@ impl Bench {
         self.interpolator.stamp(&mut report, &wake);
         assert_eq!(CountingAllocator::calls_of_this_thread(), calls);
         self.reports.enqueue(report).unwrap();
-        self.ports.turn(scheduled_ns + 200_000);
+        self.ports.turn(&|| scheduled_ns + 200_000);
         while let Some(status) = self.statuses.take().unwrap() {
             self.status = Some(status);
         }
