@@ -71,12 +71,15 @@ pub use execute::program::Program;
 pub use execute::state::in_force::InForce;
 pub use execute::state::modal::{Feed, Modal};
 pub use execute::state::probe_result::Probed;
-pub use setup::fanuc::{Arctangent, FanucControl, FanucParameters, OffsetMemory, PointInput};
+pub use setup::fanuc::{
+    Arctangent, FanucControl, FanucParameters, FeedAtStart, OffsetMemory, PointInput,
+};
 pub use setup::firmware::Firmware;
 pub use setup::m_codes::{MCodes, WaitsAt};
 pub use setup::machine::{Machine, Travel};
 pub use setup::options::{AdaptiveFeed, Connections, LoopLimits, Options};
 pub use setup::reading_watch::ReadingWatch;
+pub use setup::siemens::{SiemensParameters, ToolChangeBy};
 pub use setup::spindle_axis::SpindleAxis;
 pub use setup::subroutine_file::{
     MAX_SUBROUTINE_BYTES, NoSubroutineFile, SubroutineFile, Subroutines,

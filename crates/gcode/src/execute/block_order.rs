@@ -14,14 +14,14 @@ use glidepath_program::{Event, Item, ItemKind, PathMode};
 use crate::diagnostic::fault::Outcome;
 use crate::execute::block_words::{check_named_words, check_words, path_mode};
 use crate::execute::interpreter::Interpreter;
+use crate::execute::motion::corner::CornerMove;
 use crate::execute::motion::speed::Pace;
 use crate::execute::state::fanuc_offsets::FanucFrames;
 use crate::execute::state::frame::Frame;
 use crate::execute::state::open_spline::{OpenSpline, goes_on, interrupted};
 use crate::execute::state::sticky_words::CycleSeries;
-use crate::setup::work_offsets::CoordinateSystem;
 use crate::syntax::block::Block;
-use crate::syntax::codes::{Coded, NO_SYSTEM};
+use crate::syntax::codes::Coded;
 use crate::syntax::dialect::Dialect;
 use crate::syntax::letters::Letters;
 use crate::syntax::modes::{Distance, Motion, Spline, Stop};
@@ -59,7 +59,9 @@ impl Interpreter {
             || codes.saved_state.is_some()
             || codes.frame.is_some()
             || codes.kept_place.is_some()
-            || codes.extended_system.is_some();
+            || codes.extended_system.is_some()
+            || block.dialect != Dialect::LinuxCnc && block.has_any(Letters::of(b"TDH"))
+            || codes.tool_change.is_some();
         let ends = matches!(
             codes.stop,
             Some(Coded {
@@ -124,12 +126,15 @@ impl Interpreter {
         self.check_axes(block)?;
         self.check_compensated(block)?;
         self.feed(block, motion)?;
-        if block.says_modes || block.has_any(Letters::of(b"STD")) {
+        if block.says_modes || block.has_any(Letters::of(b"STDH")) {
             self.auxiliary(block, out)?;
             self.modes(block, out)?;
             if block.dialect != Dialect::LinuxCnc {
                 self.modes_of_dialects(block)?;
             }
+        }
+        if block.dialect == Dialect::LinuxCnc {
+            self.switch_kinematics(block, out)?;
         }
         if let Some(non_modal) = block.codes.non_modal {
             self.act_non_modal(block, non_modal, motion, out)?;
@@ -156,20 +161,18 @@ impl Interpreter {
             if block.codes.exact_stop.is_some() {
                 self.state.modal.path_mode = PathMode::ExactStop;
             }
+            let feed = self.take_block_feed(block)?;
             self.motion(block, motion, out)?;
+            if let Some(feed) = feed {
+                self.state.modal.feed = feed;
+            }
             self.state.modal.path_mode = mode;
         }
         let stop = block.codes.stop.map(|stop| stop.code);
         Ok(match stop {
             Some(Stop::End) => {
                 self.end_compensation(out)?;
-                // As LinuxCNC does: the next program begins in G54.
-                self.offsets.active = 0;
-                self.offsets.frame = Frame::default();
-                self.offsets.tilted = Frame::default();
-                self.offsets.fanuc.dynamic = None;
-                self.offsets.fanuc.active = None;
-                self.offsets.fanuc.frames = FanucFrames::default();
+                self.end_offsets();
                 AfterBlock::End
             }
             Some(Stop::Program(number)) => {
@@ -182,6 +185,19 @@ impl Interpreter {
             }
             None => AfterBlock::Continue,
         })
+    }
+
+    /// The end of a program: as LinuxCNC does, the next one begins in G54.
+    fn end_offsets(&mut self) {
+        for (index, system) in core::mem::take(&mut self.offsets.fanuc.pending) {
+            self.offsets.keep_system(index, system);
+        }
+        self.offsets.active = 0;
+        self.offsets.frame = Frame::default();
+        self.offsets.tilted = Frame::default();
+        self.offsets.fanuc.dynamic = None;
+        self.offsets.fanuc.active = None;
+        self.offsets.fanuc.frames = FanucFrames::default();
     }
 
     /// Codes of other dialects that act once, and move by themselves.
@@ -234,15 +250,17 @@ impl Interpreter {
         }
         if let Some(Coded { code, .. }) = codes.diameter {
             modal.diameter = code;
+            self.state.diameter_by_distance = false;
         }
+        self.state.diameter_by_distance |= codes.diameter_by_distance.is_some();
         if let Some(coded) = codes.cutter_radius {
             self.cutter_radius(block, coded, out)?;
         }
         if let Some(coded) = codes.tool_length {
             self.tool_length(block, coded)?;
         }
-        if let Some(Coded { code, .. }) = codes.system {
-            self.choose_system(code);
+        if let Some(coded) = codes.system {
+            self.choose_system(coded)?;
         }
         let modal = &mut self.state.modal;
         if let Some(Coded { code, .. }) = codes.path_mode {
@@ -251,6 +269,9 @@ impl Interpreter {
         if let Some(Coded { code, .. }) = codes.distance {
             modal.distance = code;
             self.state.extruder.distance(code == Distance::Incremental);
+        }
+        if self.state.diameter_by_distance {
+            modal.diameter = modal.distance == Distance::Absolute;
         }
         if let Some(Coded { code, .. }) = codes.extruder {
             self.state.extruder.code(code);
@@ -278,17 +299,6 @@ impl Interpreter {
             self.fanuc_modes(block)?;
         }
         Ok(())
-    }
-
-    fn choose_system(&mut self, index: usize) {
-        let fanuc = &mut self.offsets.fanuc;
-        if index == NO_SYSTEM {
-            fanuc.extended.insert(0, CoordinateSystem::default());
-            fanuc.active = Some(0);
-        } else {
-            self.offsets.active = index;
-            fanuc.active = None;
-        }
     }
 
     /// The motion mode that a code leaves. FANUC's cycles are a group of their own: behind G80 the
@@ -336,7 +346,7 @@ impl Interpreter {
                     return Ok(());
                 }
                 if self.has_corners(block) && motion == Motion::Linear {
-                    self.straight_between_corners(block, target, out)?;
+                    self.move_between_corners(block, CornerMove { target, arc: None }, out)?;
                 } else {
                     self.straight(block, target, pace, out)?;
                 }
@@ -360,6 +370,7 @@ impl Interpreter {
             }
             Motion::ThreadCycle => self.thread_cycle(block, out)?,
             Motion::Turning(cycle) => self.turning(block, cycle, out)?,
+            Motion::CirclePocket(is_clockwise) => self.circle_pocket(block, is_clockwise, out)?,
             Motion::Groove(across) => self.groove(block, across, out)?,
         }
         self.follow_surface(out);

@@ -42,6 +42,7 @@ fn taken(block: &Block, motion: Option<Motion>) -> [Letters; 13] {
             Some(NonModal::GoToReference(1)) if block.dialect == Dialect::Fanuc => {
                 Letters::of(b"P")
             }
+            Some(NonModal::SetData) if block.is_lathe => Letters::of(b"LPRQ"),
             Some(NonModal::SetData) if block.dialect == Dialect::Fanuc => Letters::of(b"LPR"),
             Some(NonModal::SetData) => match block.get(b'L') {
                 Some(2.0 | 20.0) => Letters::of(b"LPR"),
@@ -81,20 +82,35 @@ fn taken(block: &Block, motion: Option<Motion>) -> [Letters; 13] {
             None => none,
         },
         taken_by_modes_of_dialects(block),
-        match codes.extended_system {
-            Some(_) => Letters::of(b"P"),
-            None => none,
-        },
+        taken_by_systems(block),
         if motion.is_some() || axes_non_modal {
             match block.dialect {
                 Dialect::Marlin => AXIS_WORDS.and(Letters::of(b"E")),
-                Dialect::Fanuc if block.is_lathe => AXIS_WORDS.and(Letters::of(b"H")),
+                Dialect::Fanuc if block.has_increments() => AXIS_WORDS.and(Letters::of(b"H")),
                 _ => AXIS_WORDS,
             }
         } else {
             none
         },
     ]
+}
+
+/// True where P of a block with G54 is the number of a work offset.
+pub(crate) fn takes_number(block: &Block) -> bool {
+    block.get(b'P').is_some() && block.codes.non_modal.is_none() && block.codes.motion.is_none()
+}
+
+/// P of G54.1, and of G54 where it is one of those.
+fn taken_by_systems(block: &Block) -> Letters {
+    let codes = &block.codes;
+    let takes = match (codes.extended_system, codes.system) {
+        (Some(coded), _) => coded.code.is_none(),
+        (None, Some(system)) => {
+            system.code == 0 && block.dialect == Dialect::Fanuc && takes_number(block)
+        }
+        (None, None) => false,
+    };
+    Letters::of(if takes { b"P" } else { b"" })
 }
 
 /// The words of FANUC's frames, of codes that are read over, and of printers' places.
@@ -118,10 +134,12 @@ fn taken_by_motion(block: &Block, motion: Option<Motion>) -> Letters {
             Dialect::Fanuc => Letters::of(b"IJKR"),
             _ => Letters::of(b"IJKRP"),
         },
-        Some(Motion::Cycle(_)) if block.dialect == Dialect::Fanuc => Letters::of(b"RLPQK"),
+        Some(Motion::Cycle(_)) if block.dialect == Dialect::Fanuc => Letters::of(b"RLPQKIJ"),
         Some(Motion::Turning(_)) => Letters::of(b"R"),
         Some(Motion::TapIn | Motion::TapOut) => Letters::of(b"IJK"),
-        Some(Motion::Groove(_)) => Letters::of(b"RPQ"),
+        Some(Motion::CirclePocket(_)) => Letters::of(b"IKQLD"),
+        Some(Motion::Groove(_)) => Letters::of(b"RPQIK"),
+        Some(Motion::Thread) if block.dialect == Dialect::Siemens => Letters::of(b"IJKQ"),
         Some(Motion::Thread) => Letters::of(b"KQ"),
         Some(Motion::RigidTap) => Letters::of(b"KIPQR"),
         Some(Motion::ThreadCycle) if block.dialect == Dialect::Fanuc => Letters::of(b"PQRIKDA"),
@@ -185,6 +203,8 @@ pub(crate) fn check_words(block: &Block, motion: Option<Motion>) -> Outcome<()> 
     let always = match block.dialect {
         // The edge of the tool may be chosen in any block.
         Dialect::Siemens => Letters::of(b"FSTD"),
+        // So may the length of the tool.
+        Dialect::Fanuc if !block.is_lathe => Letters::of(b"FSTH"),
         _ => Letters::of(b"FST"),
     };
     let used = taken.iter().fold(always, |used, one| used.and(*one));
@@ -219,7 +239,9 @@ pub(crate) fn check_named_words(block: &Block, motion: Option<Motion>) -> Outcom
     let is_arc = motion.is_some_and(Motion::is_arc);
     let is_straight = matches!(motion, Some(Motion::Rapid | Motion::Linear));
     let takes = |word: Named| match word {
-        Named::SpeedLimit | Named::SpindleAngle => true,
+        Named::SpeedLimit | Named::SpindleAngle | Named::CornerFeeds => true,
+        Named::BlockFeed => is_arc || motion == Some(Motion::Linear),
+        Named::CornerFeed => block.corner.is_some(),
         Named::PolarRadius | Named::PolarAngle => is_arc || is_straight || sets_pole,
         Named::ArcAngle => is_arc,
         Named::LineAngle => motion == Some(Motion::Linear),

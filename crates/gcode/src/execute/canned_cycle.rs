@@ -36,16 +36,14 @@ use glidepath_program::{Event, Item, ItemKind, PathMode};
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
-use crate::execute::auxiliary::order::fanuc_dwell;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::speed::Pace;
 use crate::execute::state::sticky_words::{CycleSeries, StickyWords};
 use crate::execute::tapping_cycle::tap_turns;
-use crate::setup::fanuc::PointInput;
 use crate::syntax::block::Block;
 use crate::syntax::dialect::Dialect;
-use crate::syntax::modes::{CannedCycle, Distance, FeedMode, Retract, Units};
-use crate::syntax::word_check::{missing, negative, whole};
+use crate::syntax::modes::{CannedCycle, Distance, FeedMode, Retract};
+use crate::syntax::word_check::whole;
 
 /// How far the tool backs off from a depth it has reached, mm.
 const BACK_OFF_MM: f64 = 0.254;
@@ -53,8 +51,6 @@ const BACK_OFF_MM: f64 = 0.254;
 const BOTTOM_MM: f64 = 1e-6;
 /// Most pecks of one block.
 const MAX_PECKS: f64 = 10_000.0;
-/// Depths without a point above this are in doubt on a FANUC mill.
-const MOST_PECK: f64 = 99.0;
 /// Most holes of one block.
 const MAX_HOLES: u32 = 10_000;
 
@@ -93,7 +89,11 @@ impl Interpreter {
         let normal = self.state.modal.plane.normal();
         let sticky = self.keep(block, cycle)?;
         self.check_cycle(block, &sticky)?;
-        let repeats = whole(block, b'K', MAX_HOLES)?.or(whole(block, b'L', MAX_HOLES)?);
+        // Beside I, K is the least depth of Haas.
+        let repeats = match block.get(b'I') {
+            None => whole(block, b'K', MAX_HOLES)?.or(whole(block, b'L', MAX_HOLES)?),
+            Some(_) => whole(block, b'L', MAX_HOLES)?,
+        };
         let holes = match repeats {
             // FANUC keeps the words for the blocks that follow.
             Some(0) if block.dialect == Dialect::Fanuc => 0,
@@ -138,7 +138,7 @@ impl Interpreter {
             return Ok(());
         }
         let clear = match self.state.modal.retract {
-            Retract::RPlane if !block.is_lathe => r,
+            Retract::RPlane if !block.has_increments() => r,
             _ => initial.max(r),
         };
         let hole = Hole {
@@ -203,113 +203,14 @@ impl Interpreter {
         Ok(())
     }
 
-    /// The words of the block, with those kept from the block before where they are missing.
-    fn keep(&mut self, block: &Block, cycle: CannedCycle) -> Outcome<StickyWords> {
-        let span = block.motion_span();
-        let name = name(cycle);
-        let scale = self.state.modal.units.mm();
-        let last = self.state.cycles.last.filter(|last| last.cycle == cycle);
-        let normal = self.state.modal.plane.normal();
-        let letter = u8::try_from(normal.letter()).unwrap_or(b'Z');
-        let get = |letter: u8, scale: f64, sticky: Option<f64>, meaning: &str| {
-            let word = block.get(letter).map(|value| value * scale);
-            let text = char::from(letter).to_string();
-            word.or(sticky)
-                .ok_or_else(|| missing(span, name, &text, meaning))
-        };
-        let last_r = last.map(|l| l.r).or(block.is_lathe.then_some(0.0));
-        let r = get(b'R', scale, last_r, "the plane above the hole")?;
-        let peck_scale = scale * self.peck_unit(block)?;
-        let depth = get(
-            letter,
-            scale,
-            last.map(|l| l.depth),
-            "the bottom of the hole",
-        )?;
-        let mut sticky = StickyWords {
-            cycle,
-            r,
-            depth,
-            dwell_s: 0.0,
-            peck: 0.0,
-            is_rigid: false,
-            starts_spindle: false,
-        };
-        let last_dwell = last.map(|l| l.dwell_s);
-        match cycle {
-            CannedCycle::DrillDwell | CannedCycle::BoreStop | CannedCycle::BoreDwell => {
-                sticky.dwell_s = if block.dialect == Dialect::Fanuc {
-                    0.0
-                } else {
-                    get(b'P', 1.0, last_dwell, "seconds at the bottom")?
-                };
-            }
-            CannedCycle::TapLeft | CannedCycle::TapRight => {
-                sticky.dwell_s = block.get(b'P').or(last_dwell).unwrap_or(0.0);
-                let word = block.get(b'Q').map(|peck| peck * peck_scale);
-                sticky.peck = word.or(last.map(|l| l.peck)).unwrap_or(0.0);
-            }
-            CannedCycle::ChipBreak | CannedCycle::Peck => {
-                sticky.peck = get(
-                    b'Q',
-                    peck_scale,
-                    last.map(|l| l.peck),
-                    "how deep to go at a time",
-                )?;
-                if sticky.peck <= 0.0 {
-                    let message = format!("{name} goes no deeper");
-                    return Err(
-                        Fault::new(DiagnosticCode::CannedCycle, block.span(b'Q'), message)
-                            .because("Q is how deep it goes at a time, and must be above zero")
-                            .help("write a Q above zero"),
-                    );
-                }
-            }
-            CannedCycle::Drill | CannedCycle::Bore => {}
-        }
-        if block.dialect == Dialect::Fanuc {
-            // In every cycle.
-            let word = fanuc_dwell(block);
-            sticky.dwell_s = word.or(last_dwell).unwrap_or(0.0);
-        }
-        if sticky.dwell_s < 0.0 {
-            return Err(negative(block, b'P', "the dwell"));
-        }
-        self.settle_rigidity(block, last.as_ref(), &mut sticky)?;
-        Ok(sticky)
-    }
-
-    /// What Q counts: lengths, and on a FANUC without a point least increments where all coordinates
-    /// do, and on lathes.
-    fn peck_unit(&self, block: &Block) -> Outcome<f64> {
-        let is_fanuc = block.dialect == Dialect::Fanuc && block.has_no_point(b'Q');
-        let Some(peck) = block.get(b'Q').filter(|_| is_fanuc) else {
-            return Ok(1.0);
-        };
-        let increment = match self.state.modal.units {
-            Units::Inch => 1e-4,
-            Units::Millimetre => 1e-3,
-        };
-        match block.point {
-            _ if block.is_lathe => Ok(increment),
-            PointInput::Increment => Ok(increment),
-            PointInput::Unsaid if peck > MOST_PECK => {
-                let message = format!("Q{peck} has no decimal point");
-                Err(
-                    Fault::new(DiagnosticCode::AmbiguousWord, block.span(b'Q'), message)
-                        .because(
-                            "it is millimetres on one control, and least increments on another",
-                        )
-                        .help("write the point, or set `point` of [program] in the configuration"),
-                )
-            }
-            PointInput::Calculator | PointInput::Unsaid => Ok(1.0),
-        }
-    }
-
     fn holes(&mut self, block: &Block, hole: Hole, holes: u32, out: &mut Vec<Item>) -> Outcome<()> {
         if hole.sticky.peck > 0.0 {
-            let pecks = (hole.r - hole.bottom) / hole.sticky.peck * f64::from(holes);
+            let least = if hole.sticky.least > 0.0 {
+                hole.sticky.least
+            } else {
+                hole.sticky.peck
+            };
+            let pecks = (hole.r - hole.bottom) / least * f64::from(holes);
             if pecks > MAX_PECKS {
                 let message = format!("the block asks for {pecks:.0} pecks");
                 return Err(
@@ -428,7 +329,8 @@ impl Interpreter {
     /// All depths of G73 and G83 but the last.
     fn pecks(&mut self, block: &Block, hole: Hole, peck: f64, out: &mut Vec<Item>) -> Outcome<()> {
         let normal = self.state.modal.plane.normal();
-        let mut depth = hole.r - peck;
+        let mut stroke = peck;
+        let mut depth = hole.r - stroke;
         // A last peck of less is rounding.
         while depth > hole.bottom + BOTTOM_MM {
             self.along(block, normal, depth, Pace::Feed, out)?;
@@ -438,22 +340,9 @@ impl Interpreter {
             // Never above the R plane, which a small Q would lead to.
             let back = (depth + BACK_OFF_MM).min(hole.r);
             self.along(block, normal, back, Pace::Rapid, out)?;
-            depth -= peck;
+            stroke = (stroke - hole.sticky.less).max(hole.sticky.least);
+            depth -= stroke;
         }
         Ok(())
-    }
-}
-
-const fn name(cycle: CannedCycle) -> &'static str {
-    match cycle {
-        CannedCycle::ChipBreak => "G73",
-        CannedCycle::TapLeft => "G74",
-        CannedCycle::Drill => "G81",
-        CannedCycle::DrillDwell => "G82",
-        CannedCycle::Peck => "G83",
-        CannedCycle::TapRight => "G84",
-        CannedCycle::Bore => "G85",
-        CannedCycle::BoreStop => "G86",
-        CannedCycle::BoreDwell => "G89",
     }
 }

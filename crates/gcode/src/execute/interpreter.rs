@@ -127,6 +127,8 @@ impl Interpreter {
                 cubic_tail: None,
                 thread_end: None,
                 rounds_mm: 0.0,
+                corner_feed: None,
+                diameter_by_distance: false,
                 pole: Pole::default(),
                 feeds_in_mm: false,
                 edge: None,

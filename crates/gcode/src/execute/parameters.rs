@@ -44,6 +44,11 @@ pub(crate) const FANUC_LOCALS: usize = 33;
 /// Most named parameters at a time.
 const MAX_NAMES: usize = 10_000;
 
+/// The named parameter that keeps which variable a name is of.
+pub(crate) fn place_of_name(name: &str) -> String {
+    format!("_setvn.{}", name.to_ascii_lowercase())
+}
+
 /// What a subroutine call has for itself.
 #[derive(Debug, Clone)]
 struct Locals {

@@ -22,6 +22,7 @@ use crate::execute::line_origin::{LineOrigin, SourceLine};
 use crate::execute::parameters::Parameters;
 use crate::execute::scope::ProgramScope;
 use crate::execute::state::modal::Modal;
+use crate::setup::fanuc::FeedAtStart;
 use crate::setup::options::Options;
 use crate::setup::tool_table::ToolTable;
 use crate::setup::work_offsets::WorkOffsets;
@@ -31,7 +32,7 @@ use crate::syntax::block::Block;
 use crate::syntax::cursor::Cursor;
 use crate::syntax::dialect::Dialect;
 use crate::syntax::line_source::LineSource;
-use crate::syntax::modes::Motion;
+use crate::syntax::modes::{FeedMode, Motion};
 use crate::syntax::straight_line::StraightLine;
 
 /// A program being read: an iterator of [`Item`]s in constant memory.
@@ -87,13 +88,14 @@ impl<R: BufRead> Program<R> {
     pub fn new(reader: R, options: Options) -> Self {
         let block = Block::of(options.dialect, &options.m_codes)
             .with_point(options.fanuc.point)
-            .of_lathe(options.is_fanuc_lathe());
+            .of_lathe(options.is_fanuc_lathe(), options.fanuc_control());
         let parameters = match options.dialect {
             Dialect::Fanuc => Parameters::of_fanuc(),
             _ => Parameters::new(),
         };
         let awaited = AwaitedCodes::new(&options.m_codes);
         let in_force = options.in_force.clone();
+        let fanuc = options.fanuc;
         let mut program = Self {
             source: LineSource::new(reader),
             interpreter: Interpreter::new(options),
@@ -128,8 +130,19 @@ impl<R: BufRead> Program<R> {
             if program.block.is_lathe {
                 // X words are diameters, the plane is that of G18.
                 (modal.diameter, modal.plane) = (true, Plane::Zx);
-                program.interpreter.state.fanuc.is_feed_unsaid = modal.feed.is_none();
+                let feed_mode = match fanuc.feed_at_start {
+                    FeedAtStart::Unsaid => None,
+                    FeedAtStart::PerMinute => Some(FeedMode::PerMinute),
+                    FeedAtStart::PerRevolution => Some(FeedMode::PerRevolution),
+                };
+                modal.feed_mode = feed_mode.unwrap_or(modal.feed_mode);
+                let is_unsaid = modal.feed.is_none() && feed_mode.is_none();
+                program.interpreter.state.fanuc.is_feed_unsaid = is_unsaid;
             }
+        }
+        if program.block.dialect == Dialect::Siemens {
+            // MD 20150: G1 at power on.
+            program.interpreter.state.modal.motion = Some(Motion::Linear);
         }
         if let Some(in_force) = in_force {
             program.begin_with(&in_force);

@@ -10,7 +10,7 @@ use crate::syntax::expression::scope::Scope;
 use crate::syntax::expression::value::value;
 
 /// Remarks that are kept until they are taken.
-const MOST: usize = 256;
+pub(crate) const MOST: usize = 256;
 
 impl<R: BufRead> Program<R> {
     /// The same program, which keeps its remarks until they are taken.

@@ -3,10 +3,13 @@
 use glidepath_geometry::{AXES, AxisVector, Plane};
 
 use crate::execute::interpreter::Interpreter;
-use crate::execute::parameters::{DEBUG, MAX_ASSIGNED, MAX_NUMBERED, Parameters, READ_ONLY};
+use crate::execute::parameters::{
+    DEBUG, MAX_ASSIGNED, MAX_NUMBERED, Parameters, READ_ONLY, place_of_name,
+};
 use crate::execute::state::spindle::SpindleDirection;
 use crate::setup::fanuc::Arctangent;
 use crate::syntax::dialect::Dialect;
+use crate::syntax::dialect::siemens::system_index::Index;
 use crate::syntax::expression::scope::Scope;
 use crate::syntax::letters::AXIS_LETTERS;
 use crate::syntax::modes::{
@@ -46,6 +49,24 @@ impl Scope for ProgramScope<'_> {
 
     fn dialect(&self) -> Dialect {
         self.interpreter.options.dialect
+    }
+
+    fn system_value(&self, name: &[u8], index: &[Index]) -> Option<f64> {
+        self.interpreter.siemens_value(name, index)
+    }
+
+    fn named_number(&self, name: &str) -> Option<u32> {
+        let number = self.parameters.named(&place_of_name(name))?;
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "it was a number of a variable"
+        )]
+        Some(number as u32)
+    }
+
+    fn tool_named(&self, name: &str) -> Option<u32> {
+        self.interpreter.tools.as_ref()?.named(name)
     }
 
     fn declares_m(&self, number: u32) -> bool {
@@ -215,6 +236,8 @@ const fn motion_code(motion: Option<Motion>) -> u16 {
         Some(Motion::RigidTap | Motion::TapIn | Motion::TapOut) => 331,
         Some(Motion::ArcThrough | Motion::ArcTangent) => 20,
         Some(Motion::ThreadCycle | Motion::Turning(_) | Motion::Groove(_)) => 760,
+        Some(Motion::CirclePocket(true)) => 120,
+        Some(Motion::CirclePocket(false)) => 130,
         Some(Motion::Spline(spline)) => match spline {
             Spline::Cubic => 50,
             Spline::Quadratic => 51,
@@ -242,6 +265,7 @@ const fn motion_code(motion: Option<Motion>) -> u16 {
         Some(Motion::Lathe(cycle)) => {
             let (code, pockets) = match cycle {
                 LatheCycle::Finish => return 700,
+                LatheCycle::Repeat => return 730,
                 LatheCycle::Turn(pockets) => (710, pockets),
                 LatheCycle::Face(pockets) => (720, pockets),
             };

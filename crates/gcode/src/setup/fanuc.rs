@@ -7,6 +7,22 @@ pub enum FanucControl {
     Mill,
     /// A lathe whose codes are those of system A: G90, G92 and G94 are cycles, U and W increments.
     LatheA,
+    /// System B: G77, G78 and G79 are the cycles, G90 and G91 say how coordinates count.
+    LatheB,
+    /// System C: G20, G21 and G24 are the cycles, G70 and G71 inches and millimetres.
+    LatheC,
+}
+
+/// What F is on a lathe before G98 or G99 (parameter 3402#4).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum FeedAtStart {
+    /// Not said: an F before either is refused.
+    #[default]
+    Unsaid,
+    /// Per minute.
+    PerMinute,
+    /// Per revolution.
+    PerRevolution,
 }
 
 /// What a coordinate without a decimal point means (parameter 3401#0).
@@ -57,4 +73,6 @@ pub struct FanucParameters {
     pub offset_memory: OffsetMemory,
     /// The range of `ATAN[a]/[b]`.
     pub arctangent: Arctangent,
+    /// The feed of a lathe.
+    pub feed_at_start: FeedAtStart,
 }

@@ -6,6 +6,7 @@ pub(crate) mod m_codes;
 pub(crate) mod machine;
 pub(crate) mod options;
 pub(crate) mod reading_watch;
+pub(crate) mod siemens;
 pub(crate) mod spindle_axis;
 pub(crate) mod subroutine_file;
 pub(crate) mod threading;

@@ -12,6 +12,7 @@ use crate::setup::firmware::Firmware;
 use crate::setup::m_codes::MCodes;
 use crate::setup::machine::Machine;
 use crate::setup::reading_watch::ReadingWatch;
+use crate::setup::siemens::SiemensParameters;
 use crate::setup::spindle_axis::SpindleAxis;
 use crate::setup::subroutine_file::Subroutines;
 use crate::setup::threading::Threading;
@@ -41,6 +42,8 @@ pub struct Options {
     pub dialect: Dialect,
     /// What the parameters of a FANUC control say, for [`Dialect::Fanuc`].
     pub fanuc: FanucParameters,
+    /// What the machine data of a SINUMERIK say, for [`Dialect::Siemens`].
+    pub siemens: SiemensParameters,
     /// A machine with five axes, whose kinematics keep the tip of the tool where the program says while
     /// rotary axes turn. Other controls than LinuxCNC do so between G43.4 and G49, in a tilted plane, or
     /// behind TRAORI; elsewhere their programs move the machine's own axes. `None`: another machine.
@@ -135,15 +138,24 @@ impl Options {
         }
     }
 
+    /// True for a machine with X and Z, and without Y.
+    pub(crate) const fn is_lathe(&self) -> bool {
+        let machine = &self.machine;
+        machine.has(Axis::X) && machine.has(Axis::Z) && !machine.has(Axis::Y)
+    }
+
+    /// What a FANUC program's control is made for.
+    pub(crate) fn fanuc_control(&self) -> FanucControl {
+        self.fanuc.control.unwrap_or(if self.is_lathe() {
+            FanucControl::LatheA
+        } else {
+            FanucControl::Mill
+        })
+    }
+
     /// True for a program of a FANUC lathe.
     pub(crate) fn is_fanuc_lathe(&self) -> bool {
-        let machine = &self.machine;
-        let has_no_y = machine.has(Axis::X) && machine.has(Axis::Z) && !machine.has(Axis::Y);
-        self.dialect == Dialect::Fanuc
-            && match self.fanuc.control {
-                None => has_no_y,
-                Some(control) => control == FanucControl::LatheA,
-            }
+        self.dialect == Dialect::Fanuc && self.fanuc_control() != FanucControl::Mill
     }
 }
 
@@ -162,6 +174,7 @@ impl Default for Options {
             subroutines: None,
             dialect: Dialect::LinuxCnc,
             fanuc: FanucParameters::default(),
+            siemens: SiemensParameters::default(),
             five_axis: None,
             extruder: None,
             firmware: None,

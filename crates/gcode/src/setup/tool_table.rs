@@ -47,10 +47,16 @@ pub struct Tool {
     pub orientation: u8,
 }
 
+/// Longest name of a tool, bytes; a longer comment is none.
+const MAX_NAME: usize = 64;
+
 /// Tools by number.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct ToolTable {
     tools: BTreeMap<u32, Tool>,
+    /// Names of tools, in capitals, as the comments of their lines have them; `None`: of several.
+    #[serde(default)]
+    names: BTreeMap<String, Option<u32>>,
 }
 
 impl ToolTable {
@@ -59,6 +65,7 @@ impl ToolTable {
     pub const fn new() -> Self {
         Self {
             tools: BTreeMap::new(),
+            names: BTreeMap::new(),
         }
     }
 
@@ -91,6 +98,25 @@ impl ToolTable {
     #[must_use]
     pub fn get(&self, number: u32) -> Option<&Tool> {
         self.tools.get(&number)
+    }
+
+    /// The number of the tool whose line has that name behind `;`, in capitals or not; `None` also
+    /// where several have it.
+    #[must_use]
+    pub fn named(&self, name: &str) -> Option<u32> {
+        self.names
+            .get(&name.trim().to_uppercase())
+            .copied()
+            .flatten()
+    }
+
+    /// Gives a tool a name.
+    pub fn name(&mut self, number: u32, name: &str) {
+        let name = name.trim().to_uppercase();
+        if !name.is_empty() && name.len() <= MAX_NAME {
+            let entry = self.names.entry(name).or_insert(Some(number));
+            *entry = entry.filter(|known| *known == number);
+        }
     }
 
     /// Adds a tool or replaces it.
@@ -149,6 +175,11 @@ impl ToolTable {
                 .because("the size of a tool table is bounded"));
         }
         self.tools.insert(number, line.tool);
+        let comment = text.iter().position(|byte| *byte == b';');
+        let comment = comment
+            .and_then(|at| text.get(at + 1..))
+            .unwrap_or_default();
+        self.name(number, &String::from_utf8_lossy(comment));
         Ok(())
     }
 }
@@ -224,6 +255,10 @@ mod tests {
         assert_eq!(turning.orientation, 2);
         assert!((turning.offset[0] - 1.0).abs() < 1e-15 && (turning.offset[2] + 2.0).abs() < 1e-15);
         assert!(table.get(9).is_none());
+        assert_eq!(
+            (table.named("MILL t9"), table.named("mill")),
+            (Some(1), None)
+        );
     }
 
     #[test]

@@ -8,10 +8,11 @@ use std::sync::Arc;
 use glidepath_geometry::Axis;
 
 use crate::diagnostic::span::SourceSpan;
-use crate::setup::fanuc::PointInput;
+use crate::setup::fanuc::{FanucControl, PointInput};
 use crate::setup::m_codes::MCodes;
 use crate::syntax::codes::{Coded, Codes};
 use crate::syntax::dialect::Dialect;
+use crate::syntax::dialect::words::fanuc_systems::OtherSystem;
 use crate::syntax::expression::scope::Parameter;
 use crate::syntax::letters::{AXIS_LETTERS, AXIS_WORDS, Letters, Slot, WordValues};
 use crate::syntax::modes::Motion;
@@ -62,6 +63,8 @@ pub(crate) struct Block {
     pub(crate) point: PointInput,
     /// The lines are of a FANUC lathe.
     pub(crate) is_lathe: bool,
+    /// The codes of it are those of system B or C.
+    pub(super) system: Option<OtherSystem>,
 }
 
 /// How the corner between two moves is broken.
@@ -125,6 +128,14 @@ impl Block {
         } else {
             self.spans[Slot::of(letter).index()]
         }
+    }
+
+    /// Takes a word out of the block, with the place where it stands.
+    pub(super) fn take(&mut self, letter: u8) -> Option<(f64, SourceSpan)> {
+        let span = self.span(letter);
+        let value = self.words.take(letter)?;
+        self.is_plain = false;
+        Some((value, span))
     }
 
     /// True if the word of a FANUC program was written without a decimal point.
@@ -221,9 +232,15 @@ impl Block {
     }
 
     /// A block for lines of a FANUC lathe, if they are.
-    pub(crate) const fn of_lathe(mut self, is_lathe: bool) -> Self {
+    pub(crate) fn of_lathe(mut self, is_lathe: bool, control: FanucControl) -> Self {
         self.is_lathe = is_lathe;
+        self.system = OtherSystem::of(control).filter(|_| is_lathe);
         self
+    }
+
+    /// True where U, V, W and H are increments: on a lathe of system A.
+    pub(crate) const fn has_increments(&self) -> bool {
+        self.is_lathe && self.system.is_none()
     }
 
     /// Fills the block from a plain line, of which `text` has all and may have more: where the line

@@ -33,7 +33,8 @@ impl Block {
     pub(crate) fn parse_any(&mut self, text: &[u8], scope: &dyn Scope) -> Outcome<()> {
         self.clear();
         self.is_plain = false;
-        let mut cursor = Cursor::new(text);
+        let is_printer = self.dialect == Dialect::Marlin;
+        let mut cursor = Cursor::new(text).with_e_words(is_printer);
         match cursor.next_visible() {
             Some(b'%') => return self.percent(cursor),
             Some(b'/') => {
@@ -85,6 +86,10 @@ impl Block {
                 }
                 b'#' if self.dialect != Dialect::Marlin => {
                     self.assignment(&mut cursor, scope)?;
+                    start_of_block = false;
+                }
+                b'[' if self.dialect == Dialect::Fanuc => {
+                    self.named_assignment(&mut cursor, scope)?;
                     start_of_block = false;
                 }
                 b'$' if self.dialect == Dialect::LinuxCnc && has_value(cursor) => {
@@ -236,7 +241,8 @@ impl Block {
         self.says_modes |= matches!(letter, b'G' | b'M') && !is_move;
         match letter {
             b'G' if self.dialect == Dialect::Fanuc => {
-                self.codes.add_fanuc_g(value, self.is_lathe, span)
+                self.codes
+                    .add_fanuc_g(value, self.is_lathe, self.system, span)
             }
             b'G' if self.dialect == Dialect::Marlin => self.codes.add_printer_g(value, span),
             b'G' if self.dialect == Dialect::Siemens => self.codes.add_rewritten_g(value, span),

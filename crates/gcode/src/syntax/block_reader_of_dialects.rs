@@ -4,15 +4,15 @@ use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::setup::fanuc::PointInput;
-use crate::syntax::block::{Block, CornerKind, CornerWord};
-use crate::syntax::codes::Coded;
+use crate::syntax::block::{Assignment, Block, CornerKind, CornerWord};
+use crate::syntax::codes::{Coded, FrameCode};
 use crate::syntax::cursor::Cursor;
 use crate::syntax::dialect::Dialect;
 use crate::syntax::dialect::words::refused;
 use crate::syntax::duplicate_word::duplicate;
 use crate::syntax::expression::scope::Scope;
 use crate::syntax::expression::vacant::is_vacant;
-use crate::syntax::expression::value::word_value;
+use crate::syntax::expression::value::{open_expression, parameter, word_value};
 use crate::syntax::letters::{AXIS_WORDS, Letters, Slot};
 use crate::syntax::modes::NonModal;
 use crate::syntax::named_word::Named;
@@ -39,9 +39,14 @@ impl Block {
         matches!(self.dialect, Dialect::LinuxCnc)
     }
 
-    /// The number of a switch behind `/`: FANUC has nine of them.
+    /// The number of a switch behind `/`: FANUC has nine of them, SINUMERIK ten.
     pub(super) fn skip_switch(&self, cursor: &mut Cursor<'_>) {
-        if self.dialect == Dialect::Fanuc && matches!(cursor.peek(), Some(b'1'..=b'9')) {
+        let has_switch = match self.dialect {
+            Dialect::Fanuc => matches!(cursor.peek(), Some(b'1'..=b'9')),
+            Dialect::Siemens => matches!(cursor.peek(), Some(b'0'..=b'9')),
+            Dialect::LinuxCnc | Dialect::Marlin => false,
+        };
+        if has_switch {
             cursor.advance();
         }
     }
@@ -90,8 +95,13 @@ impl Block {
         if has_no_point {
             self.pointless = self.pointless.and(Letters::one(letter));
         }
-        // Q of threads and cycles counts in its own way.
-        if !is_length || letter == b'Q' || !has_no_point {
+        // Q of threads and cycles counts in its own way, and so do the factors of G51.
+        let is_factor = matches!(letter, b'I'..=b'K')
+            && self
+                .codes
+                .frame
+                .is_some_and(|frame| frame.code == FrameCode::Scale(true));
+        if !is_length || letter == b'Q' || is_factor || !has_no_point {
             return Ok(value);
         }
         match self.point {
@@ -103,6 +113,37 @@ impl Block {
                 Err(without_point(char::from(letter), value, span))
             }
         }
+    }
+
+    /// `[#DEPTH]=5`: FANUC's variable of a name.
+    pub(super) fn named_assignment(
+        &mut self,
+        cursor: &mut Cursor<'_>,
+        scope: &dyn Scope,
+    ) -> Outcome<()> {
+        let start = cursor.at();
+        cursor.advance();
+        if cursor.next_visible() != Some(b'#') {
+            return Err(bad_bracket(start));
+        }
+        let parameter = parameter(cursor, scope)?;
+        let span = SourceSpan::new(start, cursor.end_of_word());
+        if cursor.next_visible() != Some(b']') {
+            return Err(bad_bracket(start));
+        }
+        cursor.advance();
+        if cursor.next_visible() != Some(b'=') {
+            return Err(bad_bracket(start));
+        }
+        cursor.advance();
+        let value = open_expression(cursor, scope)?;
+        self.any = true;
+        self.assignments.push(Assignment {
+            parameter,
+            value,
+            span,
+        });
+        Ok(())
     }
 
     /// `,C`, `,R` and `,A`; what SINUMERIK's words with longer names were rewritten into.
@@ -188,6 +229,18 @@ pub(super) fn skip_brackets(cursor: &mut Cursor<'_>) -> Outcome<()> {
 
 /// Whole numbers above this are millimetres on one control and micrometres on another.
 const MOST_WITHOUT_POINT: f64 = 999.0;
+
+#[cold]
+fn bad_bracket(at: usize) -> Box<Fault> {
+    let span = SourceSpan::new(at, at + 1);
+    Fault::new(
+        DiagnosticCode::BadCharacter,
+        span,
+        "`[` has no meaning here",
+    )
+    .because("in front of `=` it is around the name of a variable: [#DEPTH]=5")
+    .help("write the letter of the word in front, or remove it")
+}
 
 #[cold]
 fn without_point(letter: char, value: f64, span: SourceSpan) -> Box<Fault> {

@@ -64,6 +64,8 @@ pub(crate) struct Codes {
     pub(crate) spindle_mode: Option<Coded<SpindleMode>>,
     /// True for G7: X words are diameters.
     pub(crate) diameter: Option<Coded<bool>>,
+    /// DIAM90 of SINUMERIK: X words are diameters where they are absolute.
+    pub(crate) diameter_by_distance: Option<Coded<()>>,
     /// Index of the coordinate system, from 0 for G54; [`NO_SYSTEM`] is none (SINUMERIK's G500).
     pub(crate) system: Option<Coded<usize>>,
     /// The tolerance of G64 comes from its P word.
@@ -101,12 +103,16 @@ pub(crate) struct Codes {
     pub(crate) frame: Option<Coded<FrameCode>>,
     /// True for G43.4 of FANUC and TRAORI: the axes follow the tip of the tool; false for TRAFOOF.
     pub(crate) tip: Option<Coded<bool>>,
+    /// M428 to M430 of LinuxCNC's five-axis machines: which kinematics.
+    pub(crate) kinematics: Option<Coded<u32>>,
+    /// G43.5 of FANUC: I, J and K of straight moves are the direction of the tool.
+    pub(crate) tip_by_vector: bool,
     /// G68.2 and G53.1 of FANUC.
     pub(crate) tilt: Option<Coded<TiltCode>>,
     /// G254 and G255 of Haas: true where the zero goes with the table.
     pub(crate) dynamic: Option<Coded<bool>>,
-    /// G54.1 of FANUC, G154 of Haas.
-    pub(crate) extended_system: Option<Coded<()>>,
+    /// G54.1 of FANUC and G154 of Haas, whose number is P; G110 to G129 of Haas with theirs.
+    pub(crate) extended_system: Option<Coded<Option<u32>>>,
 }
 
 impl Codes {
@@ -188,6 +194,7 @@ impl Codes {
             || self.retract.is_some()
             || self.spindle_mode.is_some()
             || self.diameter.is_some()
+            || self.diameter_by_distance.is_some()
             || self.system.is_some()
             || self.path_mode.is_some()
             || self.tool_change.is_some()
@@ -199,6 +206,7 @@ impl Codes {
             || self.input_output.is_some()
             || self.saved_state.is_some()
             || self.user.is_some()
+            || self.kinematics.is_some()
             || self.rigid_tapping.is_some()
             || self.exact_stop.is_some()
             || self.read_over.is_some()
@@ -241,6 +249,7 @@ impl Codes {
             19 => set(&mut self.orient, number, span),
             62..=68 => set(&mut self.input_output, number, span),
             _ if declared.contains(number) => set(&mut self.user, number, span),
+            428..=430 => set(&mut self.kinematics, number, span),
             _ => Err(refused_m(number, value, span)),
         }
     }

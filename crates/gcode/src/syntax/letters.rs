@@ -150,6 +150,13 @@ impl WordValues {
         self.present = 0;
     }
 
+    /// Takes a word out.
+    pub(super) const fn take(&mut self, letter: u8) -> Option<f64> {
+        let value = self.get(letter);
+        self.present &= !Slot::of(letter).bit();
+        value
+    }
+
     /// Adds a word; `None` if there is one of that letter.
     #[inline]
     pub(crate) const fn add(&mut self, slot: Slot, value: f64) -> Option<()> {

@@ -39,13 +39,19 @@ pub enum Motion {
     Turning(Turning),
     /// G74 and G75 of FANUC's lathes: grooves by depths; true along X.
     Groove(bool),
+    /// G12 and G13 of Haas: a round pocket; true clockwise.
+    CirclePocket(bool),
 }
 
 impl Motion {
     /// True if a block of this mode may do without axis words: arcs, splines, lathe cycles.
     #[must_use]
     pub const fn may_lack_axes(self) -> bool {
-        self.is_arc() || matches!(self, Self::Spline(_) | Self::Lathe(_))
+        self.is_arc()
+            || matches!(
+                self,
+                Self::Spline(_) | Self::Lathe(_) | Self::CirclePocket(_)
+            )
     }
 
     /// True for G2 and G3.
@@ -113,6 +119,8 @@ pub enum LatheCycle {
     Turn(Pockets),
     /// G72, G72.1, G72.2: roughing by passes along X.
     Face(Pockets),
+    /// G73 of FANUC: passes along a profile that the part has already, nearer and nearer.
+    Repeat,
 }
 
 /// What a roughing cycle does about the pockets of a profile: places where it leads back inwards.

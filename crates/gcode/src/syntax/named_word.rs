@@ -27,10 +27,16 @@ pub(crate) enum Named {
     Vector(usize),
     /// SPOS: the angle at which the spindle stops, degrees.
     SpindleAngle,
+    /// FB: the feed of this block alone.
+    BlockFeed,
+    /// FRC: the feed of the corner at the end of this block.
+    CornerFeed,
+    /// FRCM: the feed of all corners from here on; zero: that of the path.
+    CornerFeeds,
 }
 
 /// How many there are.
-const COUNT: usize = 12;
+const COUNT: usize = 15;
 
 impl Named {
     /// The letter that stands for it behind a comma.
@@ -48,6 +54,9 @@ impl Named {
             Self::Vector(1) => b'V',
             Self::Vector(_) => b'W',
             Self::SpindleAngle => b'N',
+            Self::BlockFeed => b'B',
+            Self::CornerFeed => b'F',
+            Self::CornerFeeds => b'G',
         }
     }
 
@@ -66,6 +75,9 @@ impl Named {
             b'V' => Self::Vector(1),
             b'W' => Self::Vector(2),
             b'N' => Self::SpindleAngle,
+            b'B' => Self::BlockFeed,
+            b'F' => Self::CornerFeed,
+            b'G' => Self::CornerFeeds,
             _ => return None,
         })
     }
@@ -85,6 +97,9 @@ impl Named {
             b"B3" => Self::Vector(1),
             b"C3" => Self::Vector(2),
             b"SPOS" => Self::SpindleAngle,
+            b"FB" => Self::BlockFeed,
+            b"FRC" => Self::CornerFeed,
+            b"FRCM" => Self::CornerFeeds,
             _ => return None,
         })
     }
@@ -104,6 +119,9 @@ impl Named {
             Self::Vector(1) => "B3",
             Self::Vector(_) => "C3",
             Self::SpindleAngle => "SPOS",
+            Self::BlockFeed => "FB",
+            Self::CornerFeed => "FRC",
+            Self::CornerFeeds => "FRCM",
         }
     }
 
@@ -125,6 +143,9 @@ impl Named {
             Self::Via(axis) => 5 + axis,
             Self::Vector(axis) => 8 + axis,
             Self::SpindleAngle => 11,
+            Self::BlockFeed => 12,
+            Self::CornerFeed => 13,
+            Self::CornerFeeds => 14,
         }
     }
 }
@@ -194,6 +215,14 @@ pub(crate) fn no_use(word: NamedValue) -> Box<Fault> {
         Named::LineAngle => (
             "it is the direction of a straight move at feed",
             "write G1 into the block",
+        ),
+        Named::BlockFeed => (
+            "it is the feed of the move in its block",
+            "write G1, G2 or G3 into the block",
+        ),
+        Named::CornerFeed => (
+            "it is the feed of a corner that is broken",
+            "write RND=, CHR= or CHF= beside it",
         ),
         Named::Via(_) => (
             "it is of the point that CIP goes through",

@@ -13,9 +13,9 @@
 //! ```
 
 use crate::diagnostic::span::SourceSpan;
-use crate::syntax::cursor::POWERS;
 use crate::syntax::letters::Slot;
 use crate::syntax::modes::Motion;
+use crate::syntax::number::POWERS;
 
 /// Most digits of a number that is read here.
 const MOST_DIGITS: usize = 15;

@@ -197,7 +197,7 @@ fn words_that_mean_something_else_on_a_fanuc() {
     );
     // The radius may be called H, but for a block that has a length.
     finds(Dialect::Fanuc, "G42 H7 G1 X1", &["1:5 unknown-tool"]);
-    finds(Dialect::Fanuc, "G42 H7 D7 G1 X1", &["1:5 unused-word"]);
+    finds(Dialect::Fanuc, "G42 H7 D7 G1 X1", &["1:8 unknown-tool"]);
     finds(Dialect::LinuxCnc, "G42 H7 G1 X1 F9", &["1:5 unused-word"]);
     finds(Dialect::Fanuc, "G43.4 H1 Z5", &["1:1 not-supported"]);
     finds(Dialect::Fanuc, "N1 G0 X1 X2", &["1:10 duplicate-word"]);
@@ -276,7 +276,7 @@ fn programs_of_other_controls_are_read_or_refused_by_name() {
             "dialect-authored/sinumerik-cycle832.mpf",
             Dialect::Siemens,
             3,
-            "not-supported",
+            "unknown-tool",
         ),
         (
             "siemens/sinumerik840d.nc",

@@ -95,6 +95,7 @@ fn without_the_tip_the_joints_stand_while_the_tables_turn() {
             Dialect::Siemens,
             "TRAORI\nG0 X10 Y20 Z30\nTRAFOOF\nG1 A30 C60 F2000",
         ),
+        (Dialect::LinuxCnc, "G0 X10 Y20 Z30\nM429\nG1 A30 C60 F2000"),
     ] {
         let all = moves(dialect, text);
         for (from, to, ..) in &all[1..] {
@@ -131,6 +132,14 @@ fn without_the_tip_the_joints_stand_while_the_tables_turn() {
         last(Dialect::LinuxCnc, "G0 X10 Y20 Z30\nG1 A30 C60 F2000"),
         at(10.0, 20.0, 30.0, 30.0, 60.0),
     );
+    near(
+        last(
+            Dialect::LinuxCnc,
+            "M429\nG0 X10 Y20 Z30\nM428\nG1 A30 C60 F2000",
+        ),
+        at(10.0, 20.0, 30.0, 30.0, 60.0),
+    );
+    finds(Dialect::LinuxCnc, "M430", &["1:1 not-supported"]);
     // Whole rounds are no rest.
     assert!(moves(Dialect::Fanuc, "G0 X10\nG1 C1440. F9000").len() > 40);
 }
@@ -260,7 +269,7 @@ fn what_is_wrong_with_a_plane_is_told() {
     fanuc("G68.2 X0 J30\nG0 X1", &["2:1 not-supported"]);
     fanuc("G53.1", &["1:1 not-supported"]);
     fanuc("G68.2 P3 J30", &["1:7 not-supported"]);
-    fanuc("G68.2 J30\nG53.1 P1", &["2:7 not-supported"]);
+    fanuc("G68.2 J30\nG53.1 P3", &["2:7 not-supported"]);
     fanuc("G68.2 J30\nG53.1\nG68.2 J10", &["3:1 not-supported"]);
     fanuc("G43.4 H0\nG68.2 J30", &["2:1 not-supported"]);
     fanuc("G68.2 J30\nG53.1\nG43.4 H0", &["3:1 not-supported"]);
@@ -366,4 +375,15 @@ proptest! {
         let tool = machine.tool_axis(axes[Axis::A.index()], axes[Axis::C.index()]);
         prop_assert!((tool - normal).norm() < 1e-6);
     }
+}
+
+#[test]
+fn directions_and_ways_to_turn_are_fanucs() {
+    let vector = "G43.5 H0\nG0 X0 Y0 Z20 I0 J0 K2\nG1 X10 Z5 I0 J0.5 K0.8660254037844386 F900";
+    near(last(Dialect::Fanuc, vector), at(10.0, 0.0, 5.0, 30.0, 0.0));
+    let refused = |text: &str| finds(Dialect::Fanuc, text, &["3:7 unused-word"]);
+    refused("G43.5 H0\nG49\nG1 X1 K1 F100");
+    refused("G43.5 H0\nG43.4 H0\nG1 X1 K1 F100");
+    let tilt = |form: &str| last(Dialect::Fanuc, &format!("G68.2 J30\nG53.1 {form}"))[3].round();
+    assert_eq!(["", "P1", "P2"].map(tilt), [-30.0, 30.0, -30.0]);
 }

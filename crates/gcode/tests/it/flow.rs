@@ -209,3 +209,13 @@ fn deleted_lines_are_not_kept() {
     assert_eq!(Program::new(text.as_bytes(), options).count(), 2);
     goes(text, &[1.0]);
 }
+
+#[test]
+fn values_as_near_as_a_ten_thousandth_are_equal() {
+    // As LinuxCNC has it.
+    let report = check(
+        "G0 X[1 EQ 1.00009] Y[1 NE 1.00009] Z[1 EQ 1.0002]".as_bytes(),
+        Options::default(),
+    );
+    assert_eq!(report.final_position.as_slice()[..3], [1.0, 0.0, 0.0]);
+}

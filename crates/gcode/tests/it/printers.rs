@@ -1,6 +1,6 @@
 //! Places and states that printers' programs keep, and offsets of Klipper.
 
-use glidepath_gcode::{Connections, Dialect, Options, Program, check};
+use glidepath_gcode::{Connections, Dialect, Machine, Options, Program, check};
 use glidepath_geometry::Axis;
 use glidepath_program::{ItemKind, Rate};
 
@@ -12,6 +12,7 @@ fn options() -> Options {
         extruder: Some(Axis::U),
         connections: Connections::Simulated,
         default_feed_mm_min: Some(600.0),
+        machine: Machine::new(&[Axis::X, Axis::Y, Axis::Z, Axis::U]),
         ..Options::default()
     }
 }
@@ -92,4 +93,25 @@ fn states_are_kept_and_brought_back() {
     assert_eq!(all[4], ([11.0, 5.0, 1.0, 2.0], 1200.0));
     finds("RESTORE_GCODE_STATE NAME=a", &["1:1 parameter"]);
     finds("SAVE_GCODE_STATE NAME=", &["1:1 missing-word"]);
+}
+
+#[test]
+fn words_follow_each_other_without_blanks() {
+    assert_eq!(last("M82\nG1X20Y10E1.5F600"), [20.0, 10.0, 0.0, 1.5]);
+    assert_eq!(last("M83\ng1x20e-2f600"), [20.0, 0.0, 0.0, -2.0]);
+    finds("G1 X20e-2e1 F600", &["1:10 duplicate-word"]);
+}
+
+#[test]
+fn flags_and_checks_of_printers_are_read() {
+    // All axes go; nothing is levelled.
+    assert_eq!(last("G1 X10 Y5 Z1\nG28 W")[..3], [0.0; 3]);
+    assert_eq!(
+        last("M862.3 P \"MK3S\" ; model\nM862.1 P0.4\nG1 X1")[0],
+        1.0
+    );
+    finds("M862", &[]);
+    finds("M863.1", &["1:1 unknown-m-code"]);
+    finds("M600", &["1:1 not-supported"]);
+    finds("M207 S1", &["1:1 not-supported"]);
 }

@@ -326,6 +326,7 @@ impl MachineConfig {
             subroutines: self.program.subroutines.clone(),
             dialect: self.program.dialect.unwrap_or_default(),
             fanuc: self.program.fanuc,
+            siemens: self.program.siemens,
             five_axis: match self.mechanism {
                 Mechanism::FiveAxis(machine) => Some(machine),
                 _ => None,

@@ -1,8 +1,8 @@
 //! How programs are read.
 
 use glidepath_gcode::{
-    Connections, Dialect, FanucParameters, Firmware, InForce, ReadingWatch, Subroutines, ToolTable,
-    WorkOffsets,
+    Connections, Dialect, FanucParameters, Firmware, InForce, ReadingWatch, SiemensParameters,
+    Subroutines, ToolTable, WorkOffsets,
 };
 use glidepath_geometry::Axis;
 use std::path::PathBuf;
@@ -15,6 +15,8 @@ pub struct ProgramConfig {
     pub dialect: Option<Dialect>,
     /// What the parameters of a FANUC control say.
     pub fanuc: FanucParameters,
+    /// What the machine data of a SINUMERIK say.
+    pub siemens: SiemensParameters,
     /// The tool table's file.
     pub tool_table: Option<PathBuf>,
     /// What the machine is set up with, once it has been read.

@@ -5,9 +5,9 @@ use crate::diagnostic::fault::{Fault, Outcome};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::state::modal::Feed;
 use crate::syntax::block::Block;
-use crate::syntax::codes::Coded;
 use crate::syntax::dialect::Dialect;
-use crate::syntax::modes::{FeedMode, Motion, Turning};
+use crate::syntax::modes::{FeedMode, Motion, SpindleMode, Turning};
+use crate::syntax::named_word::Named;
 
 impl Interpreter {
     /// The unit of length that F counts in, mm.
@@ -22,7 +22,8 @@ impl Interpreter {
     /// Feed mode and F.
     pub(crate) fn feed(&mut self, block: &Block, motion: Option<Motion>) -> Outcome<()> {
         let modal = &mut self.state.modal;
-        if let Some(Coded { code, .. }) = block.codes.feed_mode {
+        let written = block.codes.feed_mode.map(|coded| coded.code);
+        if let Some(code) = written.or_else(|| feed_mode_of_speed(block)) {
             if modal.feed_mode != code {
                 // The F of one mode means nothing in the other.
                 modal.feed = None;
@@ -52,10 +53,19 @@ impl Interpreter {
                     .help("write a positive feedrate; use M0 to stop"),
             );
         }
+        if let Some(feed) = self.feed_of(block, feed) {
+            self.state.modal.feed = Some(feed);
+        }
+        Ok(())
+    }
+
+    /// What a value counts as a feed in the mode and the units in force; `None`: it is a time (G93).
+    fn feed_of(&self, block: &Block, feed: f64) -> Option<Feed> {
+        let modal = &self.state.modal;
         let per_second = match modal.feed_mode {
             FeedMode::PerMinute => 60.0,
             FeedMode::PerRevolution => 1.0,
-            FeedMode::InverseTime => return Ok(()),
+            FeedMode::InverseTime => return None,
         };
         // On other controls than LinuxCNC the unit in the block counts for its F, too.
         let written = block
@@ -67,12 +77,63 @@ impl Interpreter {
             None => (modal.units, self.state.feeds_in_mm),
         };
         let unit_mm = if in_mm { 1.0 } else { units.mm() };
-        modal.feed = Some(Feed {
+        Some(Feed {
             linear_v: feed * unit_mm / per_second,
             rotary_v: feed / per_second,
-        });
+        })
+    }
+
+    /// The feed of a word of SINUMERIK, which is above zero.
+    fn named_feed(&self, block: &Block, word: Named) -> Outcome<Option<Feed>> {
+        let Some(found) = block.named.find(word) else {
+            return Ok(None);
+        };
+        match self.feed_of(block, found.value) {
+            Some(feed) if found.value > 0.0 => Ok(Some(feed)),
+            _ => {
+                let message = format!("the feedrate {}={}", word.name(), found.value);
+                Err(Fault::new(DiagnosticCode::BadFeed, found.span, message)
+                    .because("it is a feed per minute or per revolution, above zero")
+                    .help("write a positive feedrate, with G94 or G95 in force"))
+            }
+        }
+    }
+
+    /// FB: the feed of the block's own move. What was in force before, where there is such a word.
+    pub(crate) fn take_block_feed(&mut self, block: &Block) -> Outcome<Option<Option<Feed>>> {
+        let own = self.named_feed(block, Named::BlockFeed)?;
+        let before = self.state.modal.feed;
+        Ok(own.map(|own| {
+            self.state.modal.feed = Some(own);
+            before
+        }))
+    }
+
+    /// FRCM: the feed of all corners from here on.
+    pub(crate) fn take_corner_feeds(&mut self, block: &Block) -> Outcome<()> {
+        if let Some(all) = block.named.get(Named::CornerFeeds) {
+            self.state.corner_feed = match all {
+                0.0 => None,
+                _ => self.named_feed(block, Named::CornerFeeds)?,
+            };
+        }
         Ok(())
     }
+
+    /// The feed of the corner at the end of the block; `None`: that of the path.
+    pub(crate) fn corner_feed(&self, block: &Block) -> Outcome<Option<Feed>> {
+        let own = self.named_feed(block, Named::CornerFeed)?;
+        Ok(own.or(self.state.corner_feed))
+    }
+}
+
+/// On a SINUMERIK G96 makes F a way per revolution, which it stays behind G97.
+fn feed_mode_of_speed(block: &Block) -> Option<FeedMode> {
+    let cuts = block
+        .codes
+        .spindle_mode
+        .is_some_and(|coded| coded.code == SpindleMode::SurfaceSpeed);
+    (cuts && block.dialect == Dialect::Siemens).then_some(FeedMode::PerRevolution)
 }
 
 #[cold]

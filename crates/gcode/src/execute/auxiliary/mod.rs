@@ -1,6 +1,7 @@
 //! What a block does beside its motion: feed, spindle, tools, overrides, inputs and outputs,
 //! offsets.
 
+mod coordinate_system;
 mod feed;
 mod input_output;
 pub(crate) mod input_wait;

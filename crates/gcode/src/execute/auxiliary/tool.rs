@@ -35,6 +35,10 @@ impl Interpreter {
             self.push(out, ItemKind::Event(Event::SelectTool(tool)));
         }
         let Some(Coded { code, span }) = block.codes.tool_change else {
+            if block.get(b'T').is_some() && self.changes_tool_by_t(block) {
+                self.state.tool = self.state.selected_tool;
+                self.push(out, ItemKind::Event(Event::MCode(6)));
+            }
             return Ok(());
         };
         self.state.tool = if code == 61 {

@@ -131,6 +131,8 @@ impl Interpreter {
             finishing,
             increment_mm,
             retract_mm: get(b'R', "the retreat", 0.5)?,
+            first_level: 0.0,
+            repeating: None,
         })
     }
 

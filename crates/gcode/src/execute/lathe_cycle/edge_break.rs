@@ -16,6 +16,8 @@ pub(crate) enum EdgeBreak {
     Fillet(f64),
     /// A line between the ends of a fillet of this radius.
     Chamfer(f64),
+    /// A line whose ends are this far from the corner of two lines.
+    Leg(f64),
 }
 
 /// Puts a fillet or chamfer between two elements, which are shortened; `None` if it does not fit.
@@ -31,6 +33,8 @@ pub(crate) fn cut(
     }
     let radius = match corner {
         EdgeBreak::Fillet(radius) | EdgeBreak::Chamfer(radius) => radius,
+        EdgeBreak::Leg(_) if before.arc.is_some() || after.arc.is_some() => return None,
+        EdgeBreak::Leg(leg) => leg / (0.5 * left_turn.abs()).tan(),
     };
     let left = radius.copysign(left_turn);
     let center = meet(&before.offset(left)?, &after.offset(left)?)?;

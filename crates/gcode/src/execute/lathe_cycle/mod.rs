@@ -40,5 +40,6 @@ pub(crate) mod pass_axes;
 pub(crate) mod passes;
 pub(crate) mod profile;
 pub(crate) mod read;
+mod repeating;
 #[cfg(test)]
 mod tests;

@@ -13,6 +13,7 @@ use crate::execute::lathe_cycle::pass_axes::{PassAxes, ROUNDING_MM, pieces};
 use crate::execute::lathe_cycle::passes::{
     MAX_PASS_MOVES, NoPasses, PassMove, Roughing, finish, lift, rough,
 };
+use crate::execute::lathe_cycle::profile::LatheProfile;
 use crate::execute::motion::settled::{MIN_MOVE, settled};
 use crate::execute::motion::speed::Pace;
 use crate::syntax::block::Block;
@@ -36,28 +37,12 @@ impl Interpreter {
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
         let (block, words, profile) = (&cycle.block, &cycle.words, &cycle.profile);
-        if profile.elements.is_empty() || profile.is_open() {
-            let (message, help) = if profile.is_open() {
-                (
-                    "a fillet or chamfer at the end of the profile",
-                    "remove A or C there",
-                )
-            } else {
-                (
-                    "the profile is empty",
-                    "draw at least one element behind its first point",
-                )
-            };
-            return Err(
-                Fault::new(DiagnosticCode::CannedCycle, block.span(b'Q'), message)
-                    .because("the cycle follows the elements of its profile")
-                    .help(help),
-            );
-        }
+        check_elements(block, profile)?;
         let start = self.lathe_point();
         let (facing, pockets) = match words.cycle {
             LatheCycle::Finish => return self.finish_profile(cycle, start, out),
             LatheCycle::Turn(pockets) => (false, pockets),
+            LatheCycle::Repeat => return self.repeat_profile(cycle, out),
             LatheCycle::Face(pockets) => (true, pockets),
         };
         let axes = axes_of(block, facing, &profile.elements, start)?;
@@ -74,6 +59,7 @@ impl Interpreter {
             pockets,
             increment_mm: words.increment_mm,
             retract_mm: words.retract_mm,
+            first_level: words.first_level,
         };
         let moves = rough(&at_distance, axes.inside(start), roughing)
             .map_err(|why| no_passes(block, why))?;
@@ -156,7 +142,7 @@ impl Interpreter {
     }
 
     /// An arc of at most half a turn about a centre, to a machine position.
-    fn lathe_arc(
+    pub(super) fn lathe_arc(
         &mut self,
         block: &Block,
         target: AxisVector,
@@ -197,6 +183,28 @@ impl Interpreter {
         self.push_move(segment, speed, out);
         Ok(())
     }
+}
+
+/// Refuses a profile without elements, or with a corner at its end.
+fn check_elements(block: &Block, profile: &LatheProfile) -> Outcome<()> {
+    let (message, help) = if profile.is_open() {
+        (
+            "a fillet or chamfer at the end of the profile",
+            "remove A or C there",
+        )
+    } else if profile.elements.is_empty() {
+        (
+            "the profile is empty",
+            "draw at least one element behind its first point",
+        )
+    } else {
+        return Ok(());
+    };
+    Err(
+        Fault::new(DiagnosticCode::CannedCycle, block.span(b'Q'), message)
+            .because("the cycle follows the elements of its profile")
+            .help(help),
+    )
 }
 
 fn axes_of(block: &Block, facing: bool, profile: &[Element], start: Point) -> Outcome<PassAxes> {

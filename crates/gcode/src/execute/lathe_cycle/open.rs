@@ -2,6 +2,7 @@
 
 use crate::execute::lathe_cycle::profile::LatheProfile;
 use crate::execute::line_origin::SourceLine;
+use crate::execute::state::fanuc_modal::Repeating;
 use crate::execute::state::program_state::State;
 use crate::syntax::block::Block;
 use crate::syntax::modes::LatheCycle;
@@ -46,7 +47,12 @@ impl OpenLatheCycle {
 
 impl LatheCycleWords {
     /// Roughing of FANUC: the profile itself has the allowances.
-    pub(crate) const fn of_fanuc(cycle: LatheCycle, increment_mm: f64, retract_mm: f64) -> Self {
+    pub(crate) const fn of_fanuc(
+        cycle: LatheCycle,
+        increment_mm: f64,
+        retract_mm: f64,
+        repeating: Option<Repeating>,
+    ) -> Self {
         Self {
             cycle,
             distance_mm: 0.0,
@@ -54,6 +60,8 @@ impl LatheCycleWords {
             finishing: 1,
             increment_mm,
             retract_mm,
+            first_level: 1.0,
+            repeating,
         }
     }
 }
@@ -69,4 +77,8 @@ pub(crate) struct LatheCycleWords {
     pub(super) finishing: u32,
     pub(super) increment_mm: f64,
     pub(super) retract_mm: f64,
+    /// How many depths below the start the first pass is: none to LinuxCNC, one to FANUC.
+    pub(super) first_level: f64,
+    /// The passes of G73.
+    pub(super) repeating: Option<Repeating>,
 }

@@ -53,6 +53,8 @@ pub(crate) struct Roughing {
     pub(super) increment_mm: f64,
     /// How far the tool retreats behind a pass, along *a* and *b*, ≥ 0.
     pub(super) retract_mm: f64,
+    /// How many increments below the start the first pass is.
+    pub(super) first_level: f64,
 }
 
 /// The moves of a roughing cycle along a contour, for a tool at `start`.
@@ -219,7 +221,11 @@ impl Passes<'_> {
         let increment = self.words.increment_mm;
         let mut count = ((origin - piece.start[1] - SAME_MM) / increment)
             .ceil()
-            .max(0.0);
+            .max(if index == 0 {
+                self.words.first_level
+            } else {
+                0.0
+            });
         loop {
             let level = origin - count * increment;
             if !piece.falls() || level < piece.end[1] + if index == 0 { SAME_MM } else { -SAME_MM }

@@ -5,7 +5,7 @@
 //! | G0 G1 | a straight element; the first one leads to the first point of the profile |
 //! | G2 G3, I K or R | an arc |
 //! | X Z, with G91 incremental; with G90 U W: incremental X and Z | where the element ends |
-//! | A, C | a fillet, a chamfer at its end, in front of the next element |
+//! | A, C; `,R`, `,C` of FANUC | a fillet, a chamfer at its end, in front of the next element |
 //!
 //! Feedrate, speed of the spindle, coolant and path mode have no effect there, as in LinuxCNC.
 //! Codes that would give the words another meaning are refused, as skipping them would make another
@@ -18,7 +18,7 @@ use crate::execute::compensation::element::{Element, Point};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::lathe_cycle::edge_break::{EdgeBreak, cut};
 use crate::execute::motion::arc_ends::{Ends, center_from_radius, check_radii, sweep};
-use crate::syntax::block::Block;
+use crate::syntax::block::{Block, CornerKind};
 use crate::syntax::codes::Coded;
 use crate::syntax::letters::Letters;
 use crate::syntax::modes::{Distance, Motion};
@@ -37,9 +37,13 @@ pub(crate) struct LatheProfile {
     pub(super) at: Point,
     /// True once the first point is known.
     begun: bool,
-    motion: Option<Motion>,
+    pub(crate) motion: Option<Motion>,
     /// What is to be made of the next corner.
     corner: Option<EdgeBreak>,
+    /// The way to the first point is one at feed.
+    pub(super) begins_at_feed: bool,
+    /// How far it was shifted.
+    pub(super) shift: Point,
 }
 
 impl LatheProfile {
@@ -50,11 +54,14 @@ impl LatheProfile {
             begun: false,
             motion: None,
             corner: None,
+            begins_at_feed: false,
+            shift: [0.0; 2],
         }
     }
 
     /// Shifts all of it.
-    pub(crate) fn shift(&mut self, by: Point) {
+    pub(crate) fn shift_by(&mut self, by: Point) {
+        self.shift = [self.shift[0] + by[0], self.shift[1] + by[1]];
         let shift = |point: &mut Point| {
             point[0] += by[0];
             point[1] += by[1];
@@ -147,6 +154,7 @@ impl LatheProfile {
         };
         if !self.begun {
             self.begun = true;
+            self.begins_at_feed = motion == Motion::Linear;
             if motion.is_arc() || block.has_any(Letters::of(b"ACIKR")) {
                 let message = "a profile that does not begin with a point";
                 return Err(refused(span, message)
@@ -195,6 +203,16 @@ impl LatheProfile {
     /// What is to be made of the corner at the end of a block.
     fn corner_of(&self, block: &Block, interpreter: &Interpreter) -> Outcome<Option<EdgeBreak>> {
         let scale = interpreter.state.modal.units.mm();
+        if let Some(word) = block.corner {
+            let size = word.value.abs() * scale;
+            let is_arc = word.kind == CornerKind::Round;
+            let corner = if is_arc {
+                EdgeBreak::Fillet(size)
+            } else {
+                EdgeBreak::Leg(size)
+            };
+            return Ok(Some(corner).filter(|_| size > 0.0));
+        }
         let (letter, size) = match (block.get(b'A'), block.get(b'C')) {
             (None, None) => return Ok(None),
             (Some(_), Some(_)) => {

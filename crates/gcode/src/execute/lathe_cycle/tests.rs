@@ -145,6 +145,7 @@ fn increments() -> impl Strategy<Value = Roughing> {
         pockets,
         increment_mm,
         retract_mm,
+        first_level: 0.0,
     })
 }
 

@@ -114,7 +114,7 @@ impl Interpreter {
     }
 
     pub(crate) fn check_axes(&self, block: &Block) -> Outcome<()> {
-        if !block.has_any(self.lacking) || block.is_lathe && self.has_lathe_axes(block) {
+        if !block.has_any(self.lacking) || block.has_increments() && self.has_lathe_axes(block) {
             return Ok(());
         }
         // In FANUC's G76 A is the angle of the tool.
@@ -123,7 +123,11 @@ impl Interpreter {
                 .codes
                 .motion
                 .is_some_and(|coded| coded.code == Some(Motion::ThreadCycle));
-        let has = |axis: Axis| self.options.machine.has(axis) || is_thread && axis == Axis::A;
+        let has = |axis: Axis| {
+            self.options.machine.has(axis)
+                || is_thread && axis == Axis::A
+                || axis == Axis::W && homes_without_mesh(block)
+        };
         match block.axes().find(|(axis, _)| !has(*axis)) {
             None => Ok(()),
             Some((axis, _)) => {
@@ -171,7 +175,7 @@ impl Interpreter {
         if self.state.modal.diameter {
             values[0] = values[0].map(|x| 0.5 * x);
         }
-        if block.is_lathe {
+        if block.has_increments() {
             self.resolve_increments(block, &mut values)?;
         }
         Ok(values)
@@ -247,4 +251,13 @@ fn conflict(span: SourceSpan) -> Box<Fault> {
     )
     .because("G10, G28, G30, G52, G92 and G43.1 take them for themselves")
     .help("write two blocks")
+}
+
+/// True for `G28 W` of printers without such an axis: all axes go, and nothing is levelled.
+pub(crate) fn homes_without_mesh(block: &Block) -> bool {
+    block.dialect == Dialect::Marlin
+        && block
+            .codes
+            .non_modal
+            .is_some_and(|code| matches!(code.code, NonModal::GoToReference(_)))
 }

@@ -1,44 +1,35 @@
 //! Corners that are broken: `,C` and `,R` of FANUC, CHR, CHF, RND and RNDM of SINUMERIK.
 //!
-//! The move to the corner is held until the next one is known. Between two straight moves at feed, in
-//! the plane:
-//!
-//! ```text
-//!        a ───────●P1
-//!                  ╲        P1, P2: as far from the corner b, t
-//!               b   ●P2     chamfer: t, or its own length / (2 sin(θ/2))
-//!                   │       arc: t = r / tan(θ/2), θ the angle between the moves
-//!                   c
-//! ```
+//! The move to the corner is held until the next one is known; both are straight moves at feed or arcs,
+//! in the plane, and end where the chamfer or the arc between them begins and ends
+//! ([`super::corner_geometry`]).
 
-use core::f64::consts::PI;
-
-use glidepath_geometry::{Arc, AxisVector, Segment};
+use glidepath_geometry::{Arc, AxisVector, Plane, Segment};
 use glidepath_program::Item;
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
+use crate::execute::compensation::element::Element;
 use crate::execute::interpreter::Interpreter;
+use crate::execute::motion::corner_geometry::broken;
 use crate::execute::motion::settled::MIN_MOVE;
 use crate::execute::motion::speed::Pace;
 use crate::execute::state::open_corner::OpenCorner;
 use crate::syntax::block::{Block, CornerKind, CornerWord};
 use crate::syntax::modes::Motion;
 
-/// The angle between the moves within which they go on straight, or back, radians.
-const STRAIGHT_RAD: f64 = 1e-6;
-
-/// Where a corner is left and where the next move begins, in the two axes of the plane.
-struct Broken {
-    first: [f64; 2],
-    second: [f64; 2],
-    /// Centre and sweep of an arc.
-    arc: Option<([f64; 2], f64)>,
+/// A move in the plane that begins where the tool is, or at a corner.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct CornerMove {
+    /// Where the program goes to, machine coordinates.
+    pub(crate) target: AxisVector,
+    /// Centre and sweep of an arc, in the two axes of the plane.
+    pub(crate) arc: Option<([f64; 2], f64)>,
 }
 
 impl Interpreter {
-    /// Before a block: without a straight move of its own a corner cannot be broken.
+    /// Before a block: without a move of its own a corner cannot be broken.
     pub(crate) fn settle_corner(
         &mut self,
         block: &Block,
@@ -50,11 +41,15 @@ impl Interpreter {
         {
             self.state.rounds_mm = word.value * self.state.modal.units.mm();
         }
+        self.take_corner_feeds(block)?;
         let Some(corner) = &self.corner else {
             return Ok(());
         };
-        let goes_on = motion == Some(Motion::Linear) && block.codes.non_modal.is_none();
-        if goes_on {
+        let is_move = matches!(
+            motion,
+            Some(Motion::Linear | Motion::ArcClockwise | Motion::ArcCounterclockwise)
+        );
+        if is_move && block.codes.non_modal.is_none() {
             return Ok(());
         }
         if !corner.may_stay {
@@ -68,7 +63,7 @@ impl Interpreter {
         let Some(corner) = self.corner.take() else {
             return Ok(());
         };
-        self.make_held(block, &corner, corner.at, out)
+        self.make_held(block, &corner, corner.at, corner.arc, out)
     }
 
     /// The end of the program: a corner has to have its second move.
@@ -79,37 +74,43 @@ impl Interpreter {
         }
     }
 
-    /// A straight move of G1: breaks the corner it begins at, and holds the move if its end is
-    /// one.
-    pub(crate) fn straight_between_corners(
+    /// A move of G1, G2 or G3: breaks the corner it begins at, and holds the move if its end is one.
+    pub(crate) fn move_between_corners(
         &mut self,
         block: &Block,
-        target: AxisVector,
+        mut next: CornerMove,
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
         if let Some(corner) = self.corner.take() {
-            self.break_corner(block, &corner, target, out)?;
+            self.break_corner(block, &corner, &mut next, out)?;
         }
-        let word = self.corner_word(block);
-        let Some((kind, size_mm, may_stay)) = word else {
-            return self.straight(block, target, Pace::Feed, out);
-        };
-        let from = if self.compensation.is_some() {
-            self.state.position
-        } else {
-            self.state.path_end
+        let corner_feed = self.corner_feed(block)?;
+        let CornerMove { target, arc } = next;
+        let Some((kind, size_mm, may_stay)) = self.corner_word(block) else {
+            return self.make_move(block, target, arc, out);
         };
         self.corner = Some(Box::new(OpenCorner {
-            from,
+            from: self.here_on_contour(),
             at: target,
+            arc,
             kind,
             size_mm,
             feed: self.state.modal.feed,
+            corner_feed,
             line: self.line,
             may_stay,
         }));
         self.state.position = target;
         Ok(())
+    }
+
+    /// Where the next move begins.
+    fn here_on_contour(&self) -> AxisVector {
+        if self.compensation.is_some() {
+            self.state.position
+        } else {
+            self.state.path_end
+        }
     }
 
     /// How the corner at the end of a block is to be broken.
@@ -130,13 +131,14 @@ impl Interpreter {
         block: &Block,
         corner: &OpenCorner,
         place: AxisVector,
+        arc: Option<([f64; 2], f64)>,
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
         let (line, feed) = (self.line, self.state.modal.feed);
         self.line = corner.line;
         self.state.modal.feed = corner.feed;
         self.state.position = corner.from;
-        let made = self.straight(block, place, Pace::Feed, out);
+        let made = self.make_move(block, place, arc, out);
         self.state.modal.feed = feed;
         self.line = line;
         made
@@ -146,7 +148,7 @@ impl Interpreter {
         &mut self,
         block: &Block,
         corner: &OpenCorner,
-        target: AxisVector,
+        next: &mut CornerMove,
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
         let span = block.motion_span();
@@ -159,19 +161,31 @@ impl Interpreter {
             (other[i], other[j]) = (0.0, 0.0);
             other.amax() > MIN_MOVE
         };
-        let is_out = leaves_plane(&corner.from, &corner.at) || leaves_plane(&corner.at, &target);
+        let is_out =
+            leaves_plane(&corner.from, &corner.at) || leaves_plane(&corner.at, &next.target);
         if is_out && corner.may_stay {
-            return self.make_held(block, corner, corner.at, out);
+            return self.make_held(block, corner, corner.at, corner.arc, out);
         } else if is_out {
             return Err(not_in_plane(span));
         }
         let flat = |place: &AxisVector| [place[i], place[j]];
-        let points = [flat(&corner.from), flat(&corner.at), flat(&target)];
-        let broken = broken(points, corner.kind, corner.size_mm * image.scale);
+        let before = Element {
+            start: flat(&corner.from),
+            end: flat(&corner.at),
+            arc: corner.arc,
+        };
+        let behind = Element {
+            start: flat(&corner.at),
+            end: flat(&next.target),
+            arc: next.arc,
+        };
+        let broken = broken(before, behind, corner.kind, corner.size_mm * image.scale);
         let broken = match broken {
             Ok(Some(broken)) => broken,
-            Ok(None) => return self.make_held(block, corner, corner.at, out),
-            Err(_) if corner.may_stay => return self.make_held(block, corner, corner.at, out),
+            Ok(None) => return self.make_held(block, corner, corner.at, corner.arc, out),
+            Err(_) if corner.may_stay => {
+                return self.make_held(block, corner, corner.at, corner.arc, out);
+            }
             Err(why) => return Err(cannot_break(span, why)),
         };
         let place = |flat: [f64; 2]| {
@@ -179,98 +193,60 @@ impl Interpreter {
             (place[i], place[j]) = (flat[0], flat[1]);
             place
         };
-        self.make_held(block, corner, place(broken.first), out)?;
-        match broken.arc {
-            None => self.straight(block, place(broken.second), Pace::Feed, out),
-            Some((center, sweep_rad)) => {
-                let end = place(broken.second);
-                let arc = Arc {
-                    start: end,
-                    end,
-                    plane: image.plane,
-                    center,
-                    sweep_rad,
-                };
-                self.round(block, arc, out)
-            }
-        }
+        self.make_held(
+            block,
+            corner,
+            place(broken.before.end),
+            broken.before.arc,
+            out,
+        )?;
+        next.arc = broken.behind.arc;
+        let feed = self.state.modal.feed;
+        self.state.modal.feed = corner.corner_feed.or(feed);
+        let made = self.make_move(block, place(broken.between.end), broken.between.arc, out);
+        self.state.modal.feed = feed;
+        made
     }
 
-    /// The arc of a rounded corner; it begins where the tool is.
-    fn round(&mut self, block: &Block, arc: Arc, out: &mut Vec<Item>) -> Outcome<()> {
-        let is_compensated = self.compensation.is_some();
-        let start = if is_compensated {
-            self.state.position
-        } else {
-            self.state.path_end
+    /// A line, or an arc, to a place; it begins where the tool is.
+    pub(crate) fn make_move(
+        &mut self,
+        block: &Block,
+        target: AxisVector,
+        arc: Option<([f64; 2], f64)>,
+        out: &mut Vec<Item>,
+    ) -> Outcome<()> {
+        let Some((center, sweep_rad)) = arc else {
+            return self.straight(block, target, Pace::Feed, out);
         };
-        let (arc, end) = (Arc { start, ..arc }, arc.end);
+        let plane = self.offsets.plane(self.state.modal.plane);
+        let plane = plane.map_or(Plane::Xy, |image| image.plane);
+        let arc = Arc {
+            start: self.here_on_contour(),
+            end: target,
+            plane,
+            center,
+            sweep_rad,
+        };
         let segment = Segment::Arc(arc);
         let speed = self.speed(block, &segment, Pace::Feed)?;
-        if is_compensated {
-            self.state.position = end;
+        if self.compensation.is_some() {
+            self.state.position = target;
             return self.contour_move(block, segment, speed, out);
         }
         let (low, high) = arc.bounding_box();
         self.check_limits(block, &low, &high, "a point")?;
-        self.state.position = end;
+        self.state.position = target;
         self.push_move(segment, speed, out);
         Ok(())
     }
 }
 
-/// How a corner is broken; `None`: the moves go on straight. Else why it cannot be.
-fn broken(
-    [a, b, c]: [[f64; 2]; 3],
-    kind: CornerKind,
-    size_mm: f64,
-) -> Result<Option<Broken>, &'static str> {
-    let way = |to: [f64; 2]| [to[0] - b[0], to[1] - b[1]];
-    let length = |v: [f64; 2]| v[0].hypot(v[1]);
-    let (to_a, to_c) = (way(a), way(c));
-    let (before, behind) = (length(to_a), length(to_c));
-    if before <= MIN_MOVE || behind <= MIN_MOVE {
-        return Err("one of the moves goes nowhere");
-    }
-    let u = to_a.map(|part| part / before);
-    let v = to_c.map(|part| part / behind);
-    let cross = u[0] * v[1] - u[1] * v[0];
-    let angle = cross.abs().atan2(u[0] * v[0] + u[1] * v[1]);
-    if PI - angle < STRAIGHT_RAD {
-        return Ok(None);
-    }
-    if angle < STRAIGHT_RAD {
-        return Err("the second move goes back where the first one came from");
-    }
-    let leg = match kind {
-        CornerKind::Chamfer => size_mm,
-        CornerKind::ChamferLength => 0.5 * size_mm / (0.5 * angle).sin(),
-        CornerKind::Round | CornerKind::RoundAll => size_mm / (0.5 * angle).tan(),
-    };
-    if leg > before + MIN_MOVE || leg > behind + MIN_MOVE {
-        return Err("one of the moves is shorter than what it takes away");
-    }
-    let along = |way: [f64; 2]| [b[0] + leg * way[0], b[1] + leg * way[1]];
-    let arc = matches!(kind, CornerKind::Round | CornerKind::RoundAll).then(|| {
-        let middle = [u[0] + v[0], u[1] + v[1]];
-        let out = size_mm / (0.5 * angle).sin() / length(middle);
-        let center = [b[0] + out * middle[0], b[1] + out * middle[1]];
-        // The moves go along −u, then v: to the left where that turns left.
-        let sweep = (PI - angle).copysign(-cross);
-        (center, sweep)
-    });
-    Ok(Some(Broken {
-        first: along(u),
-        second: along(v),
-        arc,
-    }))
-}
-
 #[cold]
 fn no_second_move(span: SourceSpan) -> Box<Fault> {
-    let message = "a corner that is broken has no straight move behind it";
+    let message = "a corner that is broken has no move in the plane behind it";
     Fault::new(DiagnosticCode::NotSupported, span, message)
-        .because("the word in the block before counts between two straight moves at feed (G1)")
+        .because("the word in the block before counts between two moves of G1, G2 and G3")
         .help("write the moves one behind the other, or write the chamfer or arc out")
 }
 
@@ -288,35 +264,4 @@ fn cannot_break(span: SourceSpan, why: &str) -> Box<Fault> {
     Fault::new(DiagnosticCode::InvalidValue, span, message)
         .because(why)
         .help("write a smaller value")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_right_angle_by_hand() {
-        let points = [[0.0, 0.0], [20.0, 0.0], [20.0, 20.0]];
-        let round = broken(points, CornerKind::Round, 5.0).expect("it can be");
-        let round = round.expect("a corner");
-        let (center, sweep) = round.arc.expect("an arc");
-        let near = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]) < 1e-12;
-        assert!(near(round.first, [15.0, 0.0]) && near(round.second, [20.0, 5.0]));
-        assert!(near(center, [15.0, 5.0]) && (sweep - PI / 2.0).abs() < 1e-12);
-        let own = broken(points, CornerKind::ChamferLength, 2.0_f64.sqrt()).expect("it can be");
-        assert!(near(own.expect("a corner").first, [19.0, 0.0]));
-        let back = [[0.0, 0.0], [20.0, 0.0], [5.0, 0.0]];
-        assert!(broken(back, CornerKind::Chamfer, 1.0).is_err());
-        assert!(broken(points, CornerKind::Chamfer, 20.1).is_err());
-        let on = [[0.0, 0.0], [20.0, 0.0], [25.0, 0.0]];
-        assert!(matches!(broken(on, CornerKind::Round, 1.0), Ok(None)));
-    }
-
-    #[test]
-    fn a_turn_to_the_right_sweeps_clockwise() {
-        let points = [[0.0, 0.0], [20.0, 0.0], [20.0, -20.0]];
-        let round = broken(points, CornerKind::Round, 5.0).expect("it can be");
-        let (_, sweep) = round.and_then(|round| round.arc).expect("an arc");
-        assert!((sweep + PI / 2.0).abs() < 1e-12);
-    }
 }

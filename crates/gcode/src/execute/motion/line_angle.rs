@@ -15,6 +15,7 @@ use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
+use crate::execute::motion::corner::CornerMove;
 use crate::execute::motion::speed::Pace;
 use crate::execute::state::open_line::OpenLine;
 use crate::syntax::block::Block;
@@ -162,7 +163,7 @@ impl Interpreter {
         self.line = open.line;
         self.state.modal.feed = open.feed;
         let made = if self.has_corners(&open.block) {
-            self.straight_between_corners(&open.block, target, out)
+            self.move_between_corners(&open.block, CornerMove { target, arc: None }, out)
         } else {
             self.straight(&open.block, target, Pace::Feed, out)
         };

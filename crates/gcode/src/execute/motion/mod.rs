@@ -1,12 +1,15 @@
 //! The moves of a block: where its axis words lead, along which segments, and how fast.
 
 mod arc;
+mod arc_center;
 pub(crate) mod arc_ends;
 mod arc_in_space;
 pub(crate) mod axis_words;
-mod corner;
+pub(crate) mod corner;
+mod corner_geometry;
 mod curve;
 mod feedrate;
+mod kinematics_switch;
 mod limits;
 mod line_angle;
 mod mapped_moves;

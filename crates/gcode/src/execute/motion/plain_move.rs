@@ -154,6 +154,12 @@ impl Interpreter {
             && !state.on_contour
             && !state.leaving_contour
             && self.open_spline.is_none()
+            // Corners that are broken, and what the blocks before have left open.
+            && state.rounds_mm <= 0.0
+            && self.corner.is_none()
+            && self.open_line.is_none()
+            && self.open_tap.is_none()
+            && self.offsets.fanuc.dynamic.is_none()
             && !state.spindle.follows_tool()
             && !state.spindle.stands_for_tap();
         let is_settled = |i: usize| {

@@ -5,11 +5,11 @@ use glidepath_program::{Item, ItemKind};
 
 use crate::diagnostic::fault::Outcome;
 use crate::execute::interpreter::Interpreter;
+use crate::execute::motion::axis_words::homes_without_mesh;
 use crate::execute::motion::settled::settled;
 use crate::execute::motion::speed::{Pace, Speed};
 use crate::syntax::block::Block;
 use crate::syntax::dialect::Dialect;
-use crate::syntax::letters::AXIS_WORDS;
 
 impl Interpreter {
     /// A straight move to a machine position.
@@ -59,7 +59,9 @@ impl Interpreter {
         index: usize,
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
-        let all = !block.has_any(AXIS_WORDS);
+        let is_flag = homes_without_mesh(block) && !self.options.machine.has(Axis::W);
+        let named = |axis: Axis| !(is_flag && axis == Axis::W);
+        let all = !block.axes().any(|(axis, _)| named(axis));
         // The letters of a printer's G28 say which axes go; their numbers mean nothing.
         if !all && block.dialect != Dialect::Marlin {
             let target = self.target(block)?;

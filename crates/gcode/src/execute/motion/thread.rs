@@ -32,13 +32,18 @@ impl Interpreter {
     pub(crate) fn thread(&mut self, block: &Block, out: &mut Vec<Item>) -> Outcome<()> {
         let span = block.motion_span();
         let is_fanuc = block.dialect == Dialect::Fanuc;
-        let (letter, other) = if is_fanuc { (b'F', b'K') } else { (b'K', b'F') };
+        let (letter, other) = match block.dialect {
+            Dialect::Fanuc => (b'F', b'K'),
+            Dialect::Siemens => (lead_letter(block), b'F'),
+            Dialect::LinuxCnc | Dialect::Marlin => (b'K', b'F'),
+        };
         let name = char::from(letter);
         let Some(pitch) = block.get(letter) else {
             let meaning = "the way of a revolution along the thread";
             return Err(missing(span, "G33", &name.to_string(), meaning));
         };
-        if block.get(other).is_some() {
+        // F of a SINUMERIK is that of the moves that follow.
+        if block.dialect != Dialect::Siemens && block.get(other).is_some() {
             let message = format!("G33 with {}", char::from(other));
             return Err(
                 Fault::new(DiagnosticCode::InvalidValue, block.span(other), message)
@@ -65,8 +70,17 @@ impl Interpreter {
         let phase = self.phase(block)?;
         let end = settled(self.state.path_end, target, [None, None]);
         let way = end - self.state.path_end;
-        // On a FANUC the lead is that of the axis that goes further.
-        let along = if is_fanuc && way.amax() > 0.0 {
+        // The lead is that of the axis that goes further: to LinuxCNC it is along the thread.
+        let of_axis = match letter {
+            b'I' => Some(way[0]),
+            b'J' => Some(way[1]),
+            b'K' if block.dialect == Dialect::Siemens => Some(way[2]),
+            _ => None,
+        };
+        if of_axis.is_some_and(|own| own.abs() < way.amax() - MIN_MOVE) {
+            return Err(other_lead(block, letter));
+        }
+        let along = if (is_fanuc || of_axis.is_some()) && way.amax() > 0.0 {
             way.norm() / way.amax()
         } else {
             1.0
@@ -234,6 +248,24 @@ impl Interpreter {
         }
         Ok(speed_v)
     }
+}
+
+/// The lead of a SINUMERIK's thread: I, J or K, by the axis that goes further.
+fn lead_letter(block: &Block) -> u8 {
+    let written = [b'K', b'I', b'J'];
+    let found = written
+        .into_iter()
+        .find(|letter| block.get(*letter).is_some());
+    found.unwrap_or(b'K')
+}
+
+#[cold]
+fn other_lead(block: &Block, letter: u8) -> Box<Fault> {
+    let name = char::from(letter);
+    let message = format!("{name} is not the lead of the axis that goes further");
+    Fault::new(DiagnosticCode::InvalidValue, block.span(letter), message)
+        .because("I is the lead along X, J along Y, K along Z: that of the longer way counts")
+        .help("write the lead of the axis that goes further")
 }
 
 #[cfg(test)]

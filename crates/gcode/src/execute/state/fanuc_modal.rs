@@ -12,6 +12,8 @@ pub(crate) struct FanucModal {
     pub(crate) radius_offset: u32,
     /// G43 or G44 is in force, and which of them.
     pub(crate) length_sign: Option<f64>,
+    /// G43.5: I, J and K of straight moves are the direction of the tool.
+    pub(crate) tip_by_vector: bool,
     /// G16.
     pub(crate) polar: Option<Polar>,
     /// A lathe that has not said yet what F is (G98, G99).
@@ -23,6 +25,8 @@ pub(crate) struct FanucModal {
     /// What the first blocks of G71 and G72, G74 and G75 said, mm.
     pub(crate) depth_mm: Option<f64>,
     pub(crate) retract_mm: f64,
+    /// What the first block of G73 said.
+    pub(crate) repeating: Option<Repeating>,
     /// A macro is called behind every move (G66).
     pub(crate) calls_macro: bool,
 }
@@ -34,15 +38,24 @@ impl Default for FanucModal {
             length_offset: None,
             radius_offset: 0,
             length_sign: None,
+            tip_by_vector: false,
             polar: None,
             is_feed_unsaid: false,
             turning: None,
             lead_mm: None,
             depth_mm: None,
             retract_mm: 0.5,
+            repeating: None,
             calls_macro: false,
         }
     }
+}
+
+/// The passes of G73: how far the first one is away from the last, Z and X, mm, X as a radius.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Repeating {
+    pub(crate) relief_mm: [f64; 2],
+    pub(crate) passes: u32,
 }
 
 /// Where a cycle of one pass leads, program coordinates in mm, X as a radius.

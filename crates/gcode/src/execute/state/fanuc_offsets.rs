@@ -13,6 +13,9 @@ use crate::setup::work_offsets::CoordinateSystem;
 pub(crate) struct Wear {
     pub(crate) length_mm: f64,
     pub(crate) radius_mm: f64,
+    /// Along X of a lathe, as a radius.
+    #[serde(default)]
+    pub(crate) x_mm: f64,
 }
 
 /// Offsets beside those of every control.
@@ -27,6 +30,9 @@ pub(crate) struct FanucOffsets {
     pub(crate) wear: BTreeMap<u32, Wear>,
     /// Where the table has taken the zero of the program from (G254 of Haas).
     pub(crate) dynamic: Option<AxisVector>,
+    /// Coordinate systems of SINUMERIK that change with their next code.
+    #[serde(skip)]
+    pub(crate) pending: BTreeMap<usize, CoordinateSystem>,
     /// What G51, G51.1 and G68 have begun.
     #[serde(skip)]
     pub(crate) frames: FanucFrames,
@@ -50,6 +56,14 @@ impl FanucOffsets {
         self.wear.get(&number).copied().unwrap_or_default()
     }
 }
+
+/// Where a coordinate system is kept that the machine does not keep, by its index: behind those of
+/// G54.1.
+pub(crate) fn system_key(index: usize) -> u32 {
+    u32::try_from(index).unwrap_or(u32::MAX - FIRST_KEY) + FIRST_KEY
+}
+
+const FIRST_KEY: u32 = 1000;
 
 /// A scale about a point, mm.
 #[derive(Debug, Clone, Copy, PartialEq)]

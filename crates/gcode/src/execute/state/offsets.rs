@@ -12,7 +12,7 @@
 use glidepath_geometry::{AXES, AxisVector, Plane};
 use serde::{Deserialize, Serialize};
 
-use crate::execute::state::fanuc_offsets::FanucOffsets;
+use crate::execute::state::fanuc_offsets::{FanucOffsets, system_key};
 use crate::execute::state::frame::{Frame, PlaneImage};
 use crate::setup::work_offsets::{CoordinateSystem, SYSTEMS, WorkOffsets};
 
@@ -41,6 +41,17 @@ pub(crate) struct Offsets {
 }
 
 impl Offsets {
+    /// Sets a coordinate system of SINUMERIK: one of the machine's, or one that the program has beside
+    /// them.
+    pub(crate) fn keep_system(&mut self, index: usize, system: CoordinateSystem) {
+        match self.systems.get_mut(index) {
+            Some(kept) => *kept = system,
+            None => {
+                self.fanuc.extended.insert(system_key(index), system);
+            }
+        }
+    }
+
     /// The offsets a program begins with: no tool offset is in force.
     pub(crate) fn of(set_up: &WorkOffsets) -> Self {
         let WorkOffsets {

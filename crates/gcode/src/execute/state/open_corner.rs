@@ -5,16 +5,20 @@ use glidepath_geometry::AxisVector;
 use crate::execute::state::modal::Feed;
 use crate::syntax::block::CornerKind;
 
-/// A straight move at feed to a corner that is to be broken.
+/// A straight move at feed, or an arc, to a corner that is to be broken.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct OpenCorner {
     /// Where the move begins and ends, machine coordinates.
     pub(crate) from: AxisVector,
     pub(crate) at: AxisVector,
+    /// Centre and sweep of an arc, in the two axes of the plane.
+    pub(crate) arc: Option<([f64; 2], f64)>,
     pub(crate) kind: CornerKind,
     /// Leg, length or radius, mm.
     pub(crate) size_mm: f64,
     pub(crate) feed: Option<Feed>,
+    /// The feed of what breaks the corner; `None`: that of the move behind it.
+    pub(crate) corner_feed: Option<Feed>,
     /// Source line of the move.
     pub(crate) line: u32,
     /// Broken only where two such moves meet (RNDM); else the next move has to be one.

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::execute::state::coolant::Coolant;
 use crate::execute::state::extruder::ExtruderMode;
 use crate::execute::state::fanuc_modal::FanucModal;
-use crate::execute::state::modal::Modal;
+use crate::execute::state::modal::{Feed, Modal};
 use crate::execute::state::pole::Pole;
 use crate::execute::state::probe_result::ProbeResult;
 use crate::execute::state::spindle::Spindle;
@@ -57,6 +57,12 @@ pub(crate) struct State {
     /// The radius of all corners (RNDM), mm; 0: they stay.
     #[serde(skip)]
     pub(crate) rounds_mm: f64,
+    /// The feed of broken corners (FRCM of SINUMERIK); `None`: that of the path.
+    #[serde(skip)]
+    pub(crate) corner_feed: Option<Feed>,
+    /// X words are diameters where they are absolute (DIAM90 of SINUMERIK).
+    #[serde(skip)]
+    pub(crate) diameter_by_distance: bool,
     /// The pole of polar coordinates (G110 to G112 of SINUMERIK).
     #[serde(skip)]
     pub(crate) pole: Pole,

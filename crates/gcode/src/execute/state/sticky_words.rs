@@ -19,7 +19,12 @@ pub(crate) struct StickyWords {
     pub(crate) r: f64,
     pub(crate) depth: f64,
     pub(crate) dwell_s: f64,
+    /// How deep to go at a time, by how much less each time (J of Haas), and the least (K).
     pub(crate) peck: f64,
+    #[serde(default)]
+    pub(crate) less: f64,
+    #[serde(default)]
+    pub(crate) least: f64,
     /// It taps behind the spindle.
     pub(crate) is_rigid: bool,
     /// The spindle turns in the hole alone (M29).

@@ -5,7 +5,8 @@ use crate::diagnostic::span::SourceSpan;
 use crate::setup::m_codes::MCodes;
 use crate::syntax::codes::{Codes, FrameCode, NO_SYSTEM, TiltCode, code_number, set};
 use crate::syntax::dialect::Dialect;
-use crate::syntax::dialect::marlin::is_function;
+use crate::syntax::dialect::marlin::{function_with_decimal, is_function};
+use crate::syntax::dialect::words::fanuc_systems::{OtherSystem, SystemCode};
 use crate::syntax::dialect::words::{Meaning, fanuc, fanuc_lathe, marlin, no_g, no_m, refused};
 use crate::syntax::modes::{
     FeedMode, LatheCycle, Motion, NonModal, Pockets, PoleFrom, Probe, ToolLength, Turning, Units,
@@ -16,10 +17,19 @@ impl Codes {
     /// Adds a G word of a FANUC program.
     pub(crate) fn add_fanuc_g(
         &mut self,
-        value: f64,
+        mut value: f64,
         is_lathe: bool,
+        system: Option<OtherSystem>,
         span: SourceSpan,
     ) -> Outcome<()> {
+        let code = code_number(value * 10.0);
+        if let Some((system, code)) = system.zip(code) {
+            match system.code(code) {
+                SystemCode::OfA(code) => value = f64::from(code) / 10.0,
+                SystemCode::Shared(code) => return self.add_g(f64::from(code) / 10.0, span),
+                SystemCode::Absent => return Err(no_g(Dialect::Fanuc, value, span)),
+            }
+        }
         let table = if is_lathe { fanuc_lathe::g } else { fanuc::g };
         let tenths = code_number(value * 10.0);
         let found = tenths.and_then(|tenths| Some((tenths, table(tenths)?)));
@@ -42,6 +52,7 @@ impl Codes {
             700 => Motion::Lathe(LatheCycle::Finish),
             710 => Motion::Lathe(LatheCycle::Turn(Pockets::Cut)),
             720 => Motion::Lathe(LatheCycle::Face(Pockets::Cut)),
+            730 => Motion::Lathe(LatheCycle::Repeat),
             740 | 750 => Motion::Groove(tenths == 750),
             900 => Motion::Turning(Turning::Turn),
             920 => Motion::Turning(Turning::Thread),
@@ -68,6 +79,7 @@ impl Codes {
                 Motion::Rapid
             }
             760 => Motion::ThreadCycle,
+            120 | 130 => Motion::CirclePocket(tenths == 120),
             _ => return self.add_fanuc_mode(tenths, span),
         };
         self.is_once = true;
@@ -89,7 +101,8 @@ impl Codes {
                 set(&mut self.tilt, code, span)
             }
             2540 | 2550 => set(&mut self.dynamic, tenths == 2540, span),
-            434 | 2340 => {
+            434 | 435 | 2340 => {
+                self.tip_by_vector = tenths == 435;
                 set(&mut self.tip, true, span)?;
                 set(&mut self.tool_length, ToolLength::FromTable, span)
             }
@@ -103,7 +116,8 @@ impl Codes {
                 PathMode::Continuous { tolerance_mm: None },
                 span,
             ),
-            _ => set(&mut self.extended_system, (), span),
+            1100..=1290 => set(&mut self.extended_system, Some(tenths / 10 - 109), span),
+            _ => set(&mut self.extended_system, None, span),
         }
     }
 
@@ -133,6 +147,7 @@ impl Codes {
     pub(crate) fn add_rewritten_g(&mut self, value: f64, span: SourceSpan) -> Outcome<()> {
         match code_number(value * 10.0) {
             Some(90) => set(&mut self.exact_stop, (), span),
+            Some(72) => set(&mut self.diameter_by_distance, (), span),
             Some(25) => self.set_motion(Some(Motion::ArcThrough), span),
             Some(26) => self.set_motion(Some(Motion::ArcTangent), span),
             Some(3310) => self.set_motion(Some(Motion::TapIn), span),
@@ -156,6 +171,12 @@ impl Codes {
                 set(&mut self.units, units, span)
             }
             Some(5000) => set(&mut self.system, NO_SYSTEM, span),
+            // G54 to G57 are the first four of them.
+            Some(code @ 5050..=5990) => set(
+                &mut self.system,
+                usize::try_from(code / 10 - 501).unwrap_or(NO_SYSTEM),
+                span,
+            ),
             Some(code @ (434 | 435)) => set(&mut self.tip, code == 434, span),
             _ => self.add_g(value, span),
         }
@@ -195,7 +216,7 @@ impl Codes {
         span: SourceSpan,
         declared: &MCodes,
     ) -> Outcome<()> {
-        let number = code_number(value);
+        let number = code_number(value).or_else(|| function_with_decimal(value));
         match number {
             Some(number @ (82 | 83)) => return set(&mut self.extruder, number == 83, span),
             Some(number) if is_function(number) => {

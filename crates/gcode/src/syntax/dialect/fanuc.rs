@@ -17,8 +17,12 @@ pub(crate) enum Statement {
     End,
     /// A block with a code that calls, or returns.
     Call(Call),
-    /// DPRNT, BPRNT, POPEN, PCLOS, SETVN: what is printed, and names of variables.
+    /// DPRNT: what is printed.
     Print,
+    /// BPRNT, POPEN, PCLOS: what goes to another device.
+    Device,
+    /// SETVN: names of variables.
+    Names,
 }
 
 /// Codes that call, or return.
@@ -135,10 +139,10 @@ pub(crate) fn statement(text: &[u8]) -> (Statement, usize) {
         (b"END", Statement::End),
         (b"DO", Statement::While),
         (b"DPRNT", Statement::Print),
-        (b"BPRNT", Statement::Print),
-        (b"POPEN", Statement::Print),
-        (b"PCLOS", Statement::Print),
-        (b"SETVN", Statement::Print),
+        (b"BPRNT", Statement::Device),
+        (b"POPEN", Statement::Device),
+        (b"PCLOS", Statement::Device),
+        (b"SETVN", Statement::Names),
     ] {
         if starts_with_word(rest, word) {
             return (statement, at + word.len());
@@ -148,6 +152,16 @@ pub(crate) fn statement(text: &[u8]) -> (Statement, usize) {
         Some(call) => (Statement::Call(call), call.end),
         None => (Statement::Block, at),
     }
+}
+
+/// The name of the program that a line is in front of: `O<PART>`, `<PART>`.
+pub(crate) fn program_name(text: &[u8]) -> Option<&[u8]> {
+    let (Statement::Name, end) = statement(text) else {
+        return None;
+    };
+    let head = text.get(..end)?.trim_ascii_end().strip_suffix(b">")?;
+    let open = head.iter().position(|byte| *byte == b'<')?;
+    head.get(open + 1..)
 }
 
 /// Bytes of a name in `< >`, the brackets included.

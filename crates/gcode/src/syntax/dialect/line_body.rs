@@ -18,8 +18,8 @@ pub(crate) fn body(text: &[u8]) -> usize {
     };
     let mut at = blank(0);
     if text.get(at) == Some(&b'/') {
-        // FANUC has switches with numbers: `/2`.
-        let switch = usize::from(matches!(text.get(at + 1), Some(b'1'..=b'9')));
+        // FANUC and SINUMERIK have switches with numbers: `/2`.
+        let switch = usize::from(text.get(at + 1).is_some_and(u8::is_ascii_digit));
         at = blank(at + 1 + switch);
     }
     let digits = |at: usize| {

@@ -102,11 +102,11 @@ pub(crate) fn verified(text: &[u8]) -> Outcome<&[u8]> {
 
 /// M codes of printers; the rest of the line belongs to them. None of them moves an axis or gives
 /// places other names.
-const FUNCTIONS: [u32; 71] = [
+const FUNCTIONS: [u32; 72] = [
     17, 18, 20, 21, 22, 31, 42, 73, 75, 76, 77, 78, 80, 81, 84, 85, 92, 104, 105, 106, 107, 108,
     109, 110, 111, 113, 114, 115, 117, 118, 119, 140, 141, 145, 149, 150, 155, 190, 191, 200, 201,
     203, 204, 205, 220, 221, 250, 280, 300, 301, 302, 304, 305, 350, 355, 400, 412, 413, 486, 500,
-    501, 502, 503, 504, 569, 572, 593, 900, 906, 907, 914,
+    501, 502, 503, 504, 569, 572, 593, 862, 900, 906, 907, 914,
 ];
 
 /// True for an M code whose line goes on with text to show.
@@ -117,6 +117,12 @@ pub(crate) const fn shows_text(number: u32) -> bool {
 /// True for an M code whose words say whether it changes the motion: M200, M220, M221.
 pub(crate) const fn reads_words(number: u32) -> bool {
     matches!(number, 200 | 220 | 221)
+}
+
+/// The function of a code with a decimal: M862.1 to M862.6, which check the printer.
+pub(crate) fn function_with_decimal(value: f64) -> Option<u32> {
+    const CHECKS: f64 = 862.0;
+    (CHECKS < value && value < CHECKS + 1.0).then_some(862)
 }
 
 /// True for an M code that is a function of the machine.

@@ -3,6 +3,7 @@
 mod codes;
 pub(crate) mod detect;
 pub(crate) mod fanuc;
+mod fanuc_words;
 pub(crate) mod klipper;
 pub(crate) mod line_body;
 pub(crate) mod marlin;

@@ -13,6 +13,9 @@ pub(crate) enum Function {
     Acos,
     Asin,
     Atan,
+    /// From decimal digits in groups of four bits, and to them.
+    FromDecimal,
+    ToDecimal,
     Cos,
     Exists,
     Exp,
@@ -49,12 +52,14 @@ const FUNCTIONS: [(&[u8], Function); 14] = [
 ];
 
 /// FANUC's functions, longer names before their beginnings.
-const FANUC: [(&[u8], Function); 17] = [
+const FANUC: [(&[u8], Function); 19] = [
     (b"ABS", Function::Abs),
     (b"ACOS", Function::Acos),
     (b"ADP", Function::Same),
     (b"ASIN", Function::Asin),
     (b"ATAN", Function::Atan),
+    (b"BCD", Function::ToDecimal),
+    (b"BIN", Function::FromDecimal),
     (b"COS", Function::Cos),
     (b"EXP", Function::Exp),
     (b"FIX", Function::Truncate),
@@ -84,6 +89,8 @@ pub(crate) fn evaluate(
         Function::Acos => x.acos().to_degrees(),
         Function::Asin => x.asin().to_degrees(),
         Function::Atan => x.atan2(second.unwrap_or(1.0)).to_degrees(),
+        Function::FromDecimal => in_base(x, 16, 10).unwrap_or(f64::NAN),
+        Function::ToDecimal => in_base(x, 10, 16).unwrap_or(f64::NAN),
         Function::Cos => x.to_radians().cos(),
         Function::Exists => x,
         Function::Exp => x.exp(),
@@ -101,6 +108,28 @@ pub(crate) fn evaluate(
         Function::Tan => x.to_radians().tan(),
     };
     finite(value, span)
+}
+
+/// A whole number whose digits in one base are taken for digits of another one; `None` where they are
+/// none there, or the number is none that such digits are of.
+fn in_base(x: f64, of: u32, to: u32) -> Option<f64> {
+    let whole = x.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&x);
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "range checked"
+    )]
+    let (mut left, mut place, mut made) = whole.then_some((x as u32, 1.0, 0.0))?;
+    while left > 0 {
+        let digit = left % of;
+        if digit >= to {
+            return None;
+        }
+        made += f64::from(digit) * place;
+        place *= f64::from(to);
+        left /= of;
+    }
+    Some(made)
 }
 
 /// Skips a function name, if its bracket follows.

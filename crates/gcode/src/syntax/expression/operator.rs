@@ -7,8 +7,10 @@ use crate::syntax::dialect::Dialect;
 use crate::syntax::expression::finite::finite;
 use crate::syntax::expression::vacant::{is_vacant, or_zero};
 
-/// Differences below this are equality.
-const EQUAL: f64 = 1e-6;
+/// Differences below this are equality to LinuxCNC's EQ and NE.
+const EQUAL: f64 = 1e-4;
+/// The same on a FANUC: of computed values less is rounding.
+const SAME: f64 = 1e-6;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Operator {
@@ -108,7 +110,7 @@ fn bitwise(left: f64, right: f64, span: SourceSpan, of: impl Fn(i64, i64) -> i64
 pub(crate) fn apply(operator: Operator, left: f64, right: f64, span: SourceSpan) -> Outcome<f64> {
     let truth = |t: bool| f64::from(u8::from(t));
     let is_same =
-        is_vacant(left) == is_vacant(right) && (or_zero(left) - or_zero(right)).abs() < EQUAL;
+        is_vacant(left) == is_vacant(right) && (or_zero(left) - or_zero(right)).abs() < SAME;
     let (left, right) = (or_zero(left), or_zero(right));
     let value = match operator {
         Operator::Same => truth(is_same),

@@ -69,6 +69,12 @@ impl Reader<'_, '_, '_> {
             }
             return Ok(Parameter::Named(name));
         }
+        if self.scope.dialect() == Dialect::Fanuc
+            && matches!(self.cursor.peek(), Some(b'A'..=b'Z' | b'a'..=b'z' | b'_'))
+        {
+            self.depth -= 1;
+            return self.named_variable(start);
+        }
         let number = self.primary(start)?;
         self.depth -= 1;
         let nearest = number.round();
@@ -86,6 +92,26 @@ impl Reader<'_, '_, '_> {
             reason = "range checked"
         )]
         Ok(Parameter::Numbered(nearest as u32))
+    }
+
+    /// The variable of a name that SETVN gave: `#DEPTH`.
+    fn named_variable(&mut self, start: usize) -> Outcome<Parameter> {
+        let mut name = String::new();
+        while let Some(byte) = self.cursor.peek() {
+            if !byte.is_ascii_alphanumeric() && byte != b'_' {
+                break;
+            }
+            name.push(char::from(byte));
+            self.cursor.advance();
+        }
+        let number = self.scope.named_number(&name);
+        number.map(Parameter::Numbered).ok_or_else(|| {
+            let span = SourceSpan::new(start, self.cursor.at());
+            let message = format!("there is no variable #{name}");
+            Fault::new(DiagnosticCode::Parameter, span, message)
+                .because("names of variables are those that SETVN gave; what the control itself names is not known here")
+                .help("write its number, or name it by SETVN before")
+        })
     }
 
     fn parameter_value(&mut self) -> Outcome<f64> {

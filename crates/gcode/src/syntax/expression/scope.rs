@@ -4,6 +4,7 @@ use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::Fault;
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::dialect::Dialect;
+use crate::syntax::dialect::siemens::system_index::Index;
 
 /// Parameters local to a subroutine call, `#1` to `#30`: its arguments at first.
 pub(crate) const LOCALS: usize = 30;
@@ -16,6 +17,18 @@ pub(crate) trait Scope {
     fn named(&self, name: &str) -> Option<f64>;
     /// Why the program may not read a numbered parameter, if it may not.
     fn refuses(&self, _number: u32) -> Option<&'static str> {
+        None
+    }
+    /// Value of a variable of a SINUMERIK control; `None`: it is not known.
+    fn system_value(&self, _name: &[u8], _index: &[Index]) -> Option<f64> {
+        None
+    }
+    /// The number of a FANUC variable that has a name.
+    fn named_number(&self, _name: &str) -> Option<u32> {
+        None
+    }
+    /// The number of the tool of that name in the tool table.
+    fn tool_named(&self, _name: &str) -> Option<u32> {
         None
     }
     /// Whether the machine's builder declared an M code.

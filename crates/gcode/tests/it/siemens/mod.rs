@@ -1,8 +1,12 @@
 //! SINUMERIK: structures, jumps, variables, frames, cycles.
 
+mod boring;
+mod corners;
 mod cycles;
 mod flow;
 mod frames;
+mod kept_data;
+mod lathes;
 mod motion;
 mod programs;
 mod subprograms;

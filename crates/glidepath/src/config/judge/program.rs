@@ -5,8 +5,8 @@ use crate::config::diagnostic::ConfigDiagnostic;
 use crate::config::program::ProgramConfig;
 use crate::config::raw::RawProgram;
 use glidepath_gcode::{
-    Arctangent, Connections, Dialect, FanucControl, FanucParameters, Firmware, OffsetMemory,
-    PointInput, WorkOffsets,
+    Arctangent, Connections, Dialect, FanucControl, FanucParameters, FeedAtStart, Firmware,
+    OffsetMemory, PointInput, SiemensParameters, ToolChangeBy, WorkOffsets,
 };
 use glidepath_geometry::Axis;
 use std::path::PathBuf;
@@ -28,7 +28,7 @@ const FIRMWARES: [(&str, Option<Firmware>); 3] = [
 ];
 
 impl Judge {
-    pub(super) fn program(&mut self, raw: RawProgram, expects_feedback: bool) -> ProgramConfig {
+    pub(super) fn program(&mut self, mut raw: RawProgram, expects_feedback: bool) -> ProgramConfig {
         let dialects = [
             ("auto", None),
             ("linuxcnc", Some(Dialect::LinuxCnc)),
@@ -42,7 +42,11 @@ impl Judge {
             ("feedback", Connections::Real),
         ];
         let span = raw.inputs_outputs.as_ref().map(Spanned::span);
-        let connections = self.choice("program.inputs_outputs", raw.inputs_outputs, &connections);
+        let connections = self.choice(
+            "program.inputs_outputs",
+            raw.inputs_outputs.take(),
+            &connections,
+        );
         if connections == Connections::Real && !expects_feedback {
             self.diagnostics.push(ConfigDiagnostic {
                 key: "program.inputs_outputs".to_owned(),
@@ -51,43 +55,11 @@ impl Judge {
                 span,
             });
         }
-        let fanuc = FanucParameters {
-            control: self.choice(
-                "program.fanuc",
-                raw.fanuc,
-                &[
-                    ("auto", None),
-                    ("mill", Some(FanucControl::Mill)),
-                    ("lathe-a", Some(FanucControl::LatheA)),
-                ],
-            ),
-            point: self.choice(
-                "program.point",
-                raw.point,
-                &[
-                    ("unsaid", PointInput::Unsaid),
-                    ("calculator", PointInput::Calculator),
-                    ("increment", PointInput::Increment),
-                ],
-            ),
-            offset_memory: self.choice(
-                "program.offset_memory",
-                raw.offset_memory,
-                &[
-                    ("unsaid", OffsetMemory::Unsaid),
-                    ("A", OffsetMemory::A),
-                    ("C", OffsetMemory::C),
-                    ("haas", OffsetMemory::Haas),
-                ],
-            ),
-            arctangent: self.choice(
-                "program.arctangent",
-                raw.arctangent,
-                &[("0-360", Arctangent::Full), ("signed", Arctangent::Signed)],
-            ),
-        };
+        let fanuc = self.fanuc(&mut raw);
+        let siemens = self.siemens(&mut raw);
         ProgramConfig {
             fanuc,
+            siemens,
             dialect: self.choice("program.dialect", raw.dialect, &dialects),
             tool_table: raw.tool_table.map(|path| path.into_inner().into()),
             tools: None,
@@ -100,6 +72,76 @@ impl Judge {
             in_force: None,
             watch: None,
             may_run_unchecked: false,
+        }
+    }
+
+    /// What the parameters of a FANUC control say.
+    fn fanuc(&mut self, raw: &mut RawProgram) -> FanucParameters {
+        FanucParameters {
+            control: self.choice(
+                "program.fanuc",
+                raw.fanuc.take(),
+                &[
+                    ("auto", None),
+                    ("mill", Some(FanucControl::Mill)),
+                    ("lathe-a", Some(FanucControl::LatheA)),
+                    ("lathe-b", Some(FanucControl::LatheB)),
+                    ("lathe-c", Some(FanucControl::LatheC)),
+                ],
+            ),
+            point: self.choice(
+                "program.point",
+                raw.point.take(),
+                &[
+                    ("unsaid", PointInput::Unsaid),
+                    ("calculator", PointInput::Calculator),
+                    ("increment", PointInput::Increment),
+                ],
+            ),
+            offset_memory: self.choice(
+                "program.offset_memory",
+                raw.offset_memory.take(),
+                &[
+                    ("unsaid", OffsetMemory::Unsaid),
+                    ("A", OffsetMemory::A),
+                    ("C", OffsetMemory::C),
+                    ("haas", OffsetMemory::Haas),
+                ],
+            ),
+            arctangent: self.choice(
+                "program.arctangent",
+                raw.arctangent.take(),
+                &[("0-360", Arctangent::Full), ("signed", Arctangent::Signed)],
+            ),
+            feed_at_start: self.choice(
+                "program.lathe_feed",
+                raw.lathe_feed.take(),
+                &[
+                    ("unsaid", FeedAtStart::Unsaid),
+                    ("minute", FeedAtStart::PerMinute),
+                    ("revolution", FeedAtStart::PerRevolution),
+                ],
+            ),
+        }
+    }
+
+    /// What the machine data of a SINUMERIK say.
+    fn siemens(&mut self, raw: &mut RawProgram) -> SiemensParameters {
+        SiemensParameters {
+            tool_change: self.choice(
+                "program.tool_change",
+                raw.tool_change.take(),
+                &[
+                    ("auto", None),
+                    ("T", Some(ToolChangeBy::T)),
+                    ("M6", Some(ToolChangeBy::M6)),
+                ],
+            ),
+            edge_after_change: self.choice(
+                "program.edge_after_change",
+                raw.edge_after_change.take(),
+                &[("D1", true), ("none", false)],
+            ),
         }
     }
 }

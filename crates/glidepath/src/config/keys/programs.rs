@@ -23,11 +23,21 @@ pub(super) const PROGRAM: &[Key] = &[
     key(
         "program.fanuc",
         Takes::Choice {
-            of: &["auto", "mill", "lathe-a"],
+            of: &["auto", "mill", "lathe-a", "lathe-b", "lathe-c"],
         },
         LeftOut::Value("\"auto\""),
         "what a FANUC or Haas control is made for; \"auto\": a lathe (system A) on a machine with X and Z \
-         and without Y, else a mill (parameter 3401#6)",
+         and without Y, else a mill; \"lathe-b\" and \"lathe-c\" have the codes of these systems \
+         (parameters 3401#6, #7)",
+    ),
+    key(
+        "program.lathe_feed",
+        Takes::Choice {
+            of: &["unsaid", "minute", "revolution"],
+        },
+        LeftOut::Value("\"unsaid\""),
+        "what F is on a FANUC lathe before G98 or G99 (parameter 3402#4); \"unsaid\": such an F is \
+         refused",
     ),
     key(
         "program.point",
@@ -56,6 +66,24 @@ pub(super) const PROGRAM: &[Key] = &[
         LeftOut::Value("\"0-360\""),
         "the range of ATAN[a]/[b] on a FANUC control (parameter 6004#0): 0 to 360 degrees, or \
          -180 to 180",
+    ),
+    key(
+        "program.tool_change",
+        Takes::Choice {
+            of: &["auto", "T", "M6"],
+        },
+        LeftOut::Value("\"auto\""),
+        "which word changes the tool on a SINUMERIK (MD 22550); \"auto\": T on a machine with X and Z \
+         and without Y, else M6",
+    ),
+    key(
+        "program.edge_after_change",
+        Takes::Choice {
+            of: &["D1", "none"],
+        },
+        LeftOut::Value("\"D1\""),
+        "the edge that is in force behind a tool change of a SINUMERIK that names none (MD 20270): \
+         \"none\": the tool has no length until D is written",
     ),
     key(
         "program.tool_table",

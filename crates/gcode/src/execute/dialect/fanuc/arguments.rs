@@ -14,6 +14,7 @@ use crate::execute::parameters::FANUC_LOCALS;
 use crate::execute::program::Program;
 use crate::syntax::bad_byte::bad_byte;
 use crate::syntax::cursor::Cursor;
+use crate::syntax::expression::name::name;
 use crate::syntax::expression::vacant::VACANT;
 use crate::syntax::expression::value::value;
 use crate::syntax::word_check::unused;
@@ -30,6 +31,8 @@ const MOST_SETS: usize = 10;
 #[derive(Debug, Clone)]
 pub(super) struct CallWords {
     pub(super) program: Option<u32>,
+    /// The name of the program, in capitals, in the place of its number: `M98 <PART>`.
+    pub(super) name: Option<Vec<u8>>,
     pub(super) turns: u32,
     /// L or K was written.
     pub(super) says_turns: bool,
@@ -61,6 +64,7 @@ impl<R: BufRead> Program<R> {
     pub(super) fn call_words(&self, text: &[u8], at: usize, is_macro: bool) -> Outcome<CallWords> {
         let mut words = CallWords {
             program: None,
+            name: None,
             turns: 1,
             says_turns: false,
             is_macro,
@@ -76,6 +80,10 @@ impl<R: BufRead> Program<R> {
                 b';' => break,
                 b'(' => {
                     cursor.skip_comment()?;
+                    continue;
+                }
+                b'<' => {
+                    words.name = Some(name(&mut cursor)?.to_ascii_uppercase().into_bytes());
                     continue;
                 }
                 b'A'..=b'Z' => cursor.advance(),

@@ -83,8 +83,13 @@ impl<R: BufRead> Program<R> {
         }
         let is_macro = matches!(call.code, CallCode::Macro | CallCode::ModalMacro);
         let words = self.call_words(text, call.end, is_macro)?;
-        let Some(program) = words.program else {
-            return Err(missing(span, "the call", "P", "the program's number"));
+        let program = match (words.program, &words.name) {
+            (Some(program), _) => program,
+            (None, Some(name)) if call.code != CallCode::Local => {
+                let first = self.fanuc_program_named(name, span)?;
+                return self.enter_called(first, words.turns, &words, call.code, span);
+            }
+            (None, _) => return Err(missing(span, "the call", "P", "the program's number")),
         };
         if call.code == CallCode::Local {
             let first = self.fanuc_block_numbered(program, span)?;
@@ -93,12 +98,24 @@ impl<R: BufRead> Program<R> {
                 .map(|()| true);
         }
         let (first, turns) = self.fanuc_program_and_turns(program, &words, span)?;
-        if call.code == CallCode::ModalMacro {
+        self.enter_called(first, turns, &words, call.code, span)
+    }
+
+    /// Goes to the program of a call, or keeps it for the moves that follow.
+    fn enter_called(
+        &mut self,
+        first: TapePlace,
+        turns: u32,
+        words: &CallWords,
+        code: CallCode,
+        span: SourceSpan,
+    ) -> Outcome<bool> {
+        if code == CallCode::ModalMacro {
             return self
                 .begin_modal_macro(first, turns, words.arguments, span)
                 .map(|()| true);
         }
-        let arguments = is_macro.then_some(&words.arguments);
+        let arguments = words.is_macro.then_some(&words.arguments);
         self.enter_subprogram(first, turns, arguments)
             .map(|()| true)
     }

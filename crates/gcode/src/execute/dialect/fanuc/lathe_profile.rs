@@ -1,9 +1,11 @@
-//! G70, G71 and G72 of a lathe: along a profile that stands in blocks P to Q of the program.
+//! G70 to G73 of a lathe: along a profile that stands in blocks P to Q of the program.
 //!
 //! ```text
 //! G71 U depth R back        G72 W depth R back        each of its own, and once
 //! G71 P Q U W F S           the allowances: U a diameter, both with their sign
 //! G71 P Q U W D F S         in one block: D is the depth
+//! G73 U W R                 from where to the profile, U a radius, and the number of passes
+//! G73 P Q U W F S           as G71; Haas: G73 P Q U W I K D F, with D passes from I and K
 //! G70 P Q F S               the blocks of the profile as they stand, and back
 //! ```
 //!
@@ -25,14 +27,18 @@ use crate::execute::lathe_cycle::profile::LatheProfile;
 use crate::execute::motion::speed::Pace;
 use crate::execute::program::Program;
 use crate::execute::scope::ProgramScope;
+use crate::execute::state::fanuc_modal::Repeating;
 use crate::syntax::block::Block;
 use crate::syntax::dialect::fanuc::{Statement, is_label, is_numbered, statement};
 use crate::syntax::letters::Letters;
 use crate::syntax::modes::{LatheCycle, Motion, Units};
+use crate::syntax::named_word::Named;
 use crate::syntax::word_check::{missing, unused, whole};
 
 /// Largest block number.
 const MOST_NUMBER: u32 = 99_999_999;
+/// Most passes of G73.
+const MOST_PASSES: u32 = 1000;
 
 impl<R: BufRead> Program<R> {
     /// Makes the cycle that the block asks for.
@@ -53,11 +59,14 @@ impl<R: BufRead> Program<R> {
                 self.items = items;
                 match cycle {
                     LatheCycle::Finish => self.finish_profile(&block, lines)?,
-                    LatheCycle::Turn(_) | LatheCycle::Face(_) => {
+                    _ => {
                         self.rough_profile(&block, cycle, lines, line)?;
                     }
                 }
                 self.end_of_line();
+            }
+            (None, None) if cycle == LatheCycle::Repeat => {
+                self.interpreter.repeating_words(&block)?;
             }
             (None, None) if cycle != LatheCycle::Finish => {
                 self.interpreter.roughing_words(&block, cycle)?;
@@ -103,7 +112,7 @@ impl<R: BufRead> Program<R> {
         }
     }
 
-    /// G71 and G72.
+    /// G71, G72 and G73.
     fn rough_profile(
         &mut self,
         block: &Block,
@@ -111,7 +120,10 @@ impl<R: BufRead> Program<R> {
         [first, last]: [usize; 2],
         line: u32,
     ) -> Outcome<()> {
-        let used = Letters::of(b"PQUWFSTD");
+        let used = match cycle {
+            LatheCycle::Repeat => Letters::of(b"PQUWFSTDIK"),
+            _ => Letters::of(b"PQUWFSTD"),
+        };
         if let Some((letter, span)) = block.unused(used) {
             return Err(unused(letter, span));
         }
@@ -133,7 +145,7 @@ impl<R: BufRead> Program<R> {
             block.get(b'W').unwrap_or(0.0) * mm,
             0.5 * block.get(b'U').unwrap_or(0.0) * mm,
         ];
-        profile.shift(allowance);
+        profile.shift_by(allowance);
         let open = OpenLatheCycle::of_fanuc(
             source,
             line,
@@ -165,17 +177,22 @@ impl<R: BufRead> Program<R> {
             interpreter: &self.interpreter,
         };
         self.block.parse(text, &scope)?;
+        let motion = self.block.codes.motion.and_then(|coded| coded.code);
+        let motion = motion.or(profile.motion);
+        self.block
+            .take_words_of_lathes(motion, self.interpreter.options.machine)?;
         let own = [b'A', b'C']
             .into_iter()
             .find(|letter| self.block.get(*letter).is_some());
+        let angle = self.block.named.find(Named::LineAngle);
         let span = own
             .map(|letter| self.block.span(letter))
-            .or_else(|| self.block.corner.map(|corner| corner.span));
+            .or_else(|| angle.map(|angle| angle.span));
         if let Some(span) = span {
-            let message = "a chamfer, an arc at a corner or an angle in the profile of a cycle";
+            let message = "an angle, or an axis of rotation, in the profile of a cycle";
             return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
-                .because("a profile is drawn by ends and arcs")
-                .help("write it as G1, G2 or G3"));
+                .because("a profile is drawn by ends and arcs, chamfers and rounded corners")
+                .help("write the coordinates of the end"));
         }
         profile.add(&self.block, &self.interpreter)
     }
@@ -255,8 +272,57 @@ impl Interpreter {
         Ok(())
     }
 
+    /// The first block of G73: U and W are the way from the first pass to the last, R the passes.
+    fn repeating_words(&mut self, block: &Block) -> Outcome<()> {
+        if let Some((other, span)) = block.unused(Letters::of(b"UWR")) {
+            return Err(unused(other, span));
+        }
+        let relief = [block.get(b'W'), block.get(b'U')];
+        self.state.fanuc.repeating = Some(self.repeating(block, b'R', relief)?);
+        Ok(())
+    }
+
+    /// The passes of G73, whose number is the word of a letter.
+    fn repeating(&self, block: &Block, letter: u8, relief: [Option<f64>; 2]) -> Outcome<Repeating> {
+        let name = char::from(letter).to_string();
+        let passes = whole(block, letter, MOST_PASSES)?
+            .filter(|passes| *passes > 0)
+            .ok_or_else(|| missing(block.motion_span(), "G73", &name, "the number of passes"))?;
+        let mm = self.state.modal.units.mm();
+        Ok(Repeating {
+            relief_mm: relief.map(|way| way.unwrap_or(0.0) * mm),
+            passes,
+        })
+    }
+
+    /// The passes of G73: of its block, as Haas has them, or of the one before.
+    fn fanuc_repeating(&self, block: &Block) -> Outcome<LatheCycleWords> {
+        let own = Letters::of(b"IKD");
+        let repeating = if block.has_any(own) {
+            let relief = [block.get(b'K'), block.get(b'I')];
+            Some(self.repeating(block, b'D', relief)?)
+        } else {
+            self.state.fanuc.repeating
+        };
+        let repeating = repeating.ok_or_else(|| {
+            let meaning = "the number of passes, in a block of its own: G73 U5. W0 R3";
+            missing(block.motion_span(), "the cycle", "R", meaning)
+        })?;
+        let retract_mm = self.state.fanuc.retract_mm;
+        let cycle = LatheCycle::Repeat;
+        Ok(LatheCycleWords::of_fanuc(
+            cycle,
+            1.0,
+            retract_mm,
+            Some(repeating),
+        ))
+    }
+
     /// Depth and way back of a cycle, of its block or of the one before.
     fn fanuc_roughing(&self, block: &Block, cycle: LatheCycle) -> Outcome<LatheCycleWords> {
+        if cycle == LatheCycle::Repeat {
+            return self.fanuc_repeating(block);
+        }
         let mm = self.state.modal.units.mm();
         let unit = match (block.has_no_point(b'D'), self.state.modal.units) {
             (false, _) => 1.0,
@@ -275,6 +341,7 @@ impl Interpreter {
             cycle,
             depth_mm,
             self.state.fanuc.retract_mm,
+            None,
         ))
     }
 

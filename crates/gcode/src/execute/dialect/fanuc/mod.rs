@@ -9,13 +9,17 @@
 mod arguments;
 mod assign;
 pub(crate) mod call;
+mod circular_pocket;
 mod frames;
 mod groove;
 mod increments;
+mod lathe_offsets;
 mod lathe_profile;
 mod modal_macro;
+mod named_program;
 mod offsets;
 mod polar;
+mod printing;
 mod statement;
 mod tilted_plane;
 mod tip;
@@ -42,6 +46,7 @@ impl Interpreter {
         {
             self.state.fanuc.radius_offset = number;
         }
+        self.length_without_code(block)?;
         self.check_look_ahead(block)?;
         self.extended_system(block)?;
         self.fanuc_frame(block)?;

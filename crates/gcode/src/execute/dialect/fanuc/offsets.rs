@@ -14,10 +14,11 @@ use glidepath_geometry::{AXES, AxisVector};
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
-use crate::execute::block_words::require_axes;
+use crate::execute::block_words::{require_axes, takes_number};
 use crate::execute::interpreter::Interpreter;
 use crate::setup::tool_table::{MAX_TOOL, Tool, ToolTable};
 use crate::syntax::block::Block;
+use crate::syntax::codes::Coded;
 use crate::syntax::letters::AXIS_WORDS;
 use crate::syntax::modes::Distance;
 use crate::syntax::word_check::{missing, unused, whole};
@@ -37,6 +38,9 @@ fn with_words(base: AxisVector, words: &[Option<f64>; AXES], adds: bool) -> Axis
 impl Interpreter {
     /// G10.
     pub(crate) fn set_fanuc_data(&mut self, block: &Block, span: SourceSpan) -> Outcome<()> {
+        if block.is_lathe && block.get(b'L').is_none() {
+            return self.set_lathe_offset(block, span);
+        }
         let kind = whole(block, b'L', 99)?.ok_or_else(|| {
             let meaning = "2 or 20 for a work offset, 10 to 13 for a tool";
             missing(span, "G10", "L", meaning)
@@ -119,7 +123,7 @@ impl Interpreter {
     }
 
     /// Changes an offset in the tool table, which gets the tool if it has none of that number.
-    pub(super) fn set_tool_value(&mut self, number: u32, change: impl Fn(&mut Tool)) {
+    pub(crate) fn set_tool_value(&mut self, number: u32, change: impl Fn(&mut Tool)) {
         let tools = self.tools.get_or_insert_with(|| Arc::new(ToolTable::new()));
         let tools = Arc::make_mut(tools);
         let mut tool = tools.get(number).copied().unwrap_or_default();
@@ -129,24 +133,34 @@ impl Interpreter {
 
     /// G54.1 P, and G54 to G59, which end it.
     pub(super) fn extended_system(&mut self, block: &Block) -> Outcome<()> {
-        let Some(coded) = block.codes.extended_system else {
-            if block.codes.system.is_some() {
-                self.offsets.fanuc.active = None;
+        let Coded { code, span } = match (block.codes.extended_system, block.codes.system) {
+            (Some(coded), _) => coded,
+            // G54 P is G54.1 P.
+            (None, Some(Coded { code: 0, span })) if takes_number(block) => {
+                Coded { code: None, span }
             }
-            return Ok(());
+            (None, system) => {
+                if system.is_some() {
+                    self.offsets.fanuc.active = None;
+                }
+                return Ok(());
+            }
         };
-        let number = whole(block, b'P', MOST_EXTENDED)?
-            .filter(|number| *number > 0)
-            .ok_or_else(|| missing(coded.span, "G54.1", "P", "the number of the work offset"))?;
+        let written = match code {
+            Some(number) => Some(number),
+            None => whole(block, b'P', MOST_EXTENDED)?.filter(|number| *number > 0),
+        };
+        let number =
+            written.ok_or_else(|| missing(span, "G54.1", "P", "the number of the work offset"))?;
         if !self.offsets.fanuc.extended.contains_key(&number) {
             let message = format!("the work offset of G54.1 P{number} was not set");
-            return Err(
-                Fault::new(DiagnosticCode::NotSupported, coded.span, message)
-                    .because("the machine keeps G54 to G59, and a program has those of G54.1 that it sets")
-                    .help(format!(
-                        "write G10 L20 P{number} with its coordinates before it"
-                    )),
-            );
+            return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
+                .because(
+                    "the machine keeps G54 to G59, and a program has those of G54.1 that it sets",
+                )
+                .help(format!(
+                    "write G10 L20 P{number} with its coordinates before it"
+                )));
         }
         self.offsets.fanuc.active = Some(number);
         Ok(())

@@ -130,7 +130,9 @@ impl<R: BufRead> Program<R> {
                 }
                 return self.fanuc_call(&text, call).inspect_err(|_| self.end());
             }
-            Statement::Print => {}
+            Statement::Print => self.fanuc_print(&text, at)?,
+            Statement::Names => self.fanuc_names(&text, at)?,
+            Statement::Device => {}
             // What follows depends on it, so a diagnostic ends the program.
             _ => {
                 return self
@@ -172,7 +174,18 @@ impl<R: BufRead> Program<R> {
         self.fanuc_block(number, parsed)
     }
 
-    fn fanuc_block(&mut self, number: u32, parsed: Outcome<()>) -> Outcome<bool> {
+    fn fanuc_block(&mut self, number: u32, mut parsed: Outcome<()>) -> Outcome<bool> {
+        if parsed.is_ok() && self.block.is_lathe {
+            let motion = self.block.codes.motion;
+            let motion = motion.map_or(self.interpreter.state.modal.motion, |coded| coded.code);
+            let machine = self.interpreter.options.machine;
+            parsed = self.block.take_words_of_lathes(motion, machine);
+        }
+        if parsed.is_ok() && self.has_vectors() {
+            let motion = self.block.codes.motion;
+            let motion = motion.map_or(self.interpreter.state.modal.motion, |coded| coded.code);
+            parsed = self.block.take_vector(motion);
+        }
         if parsed.is_ok()
             && self.block.is_lathe
             && let Some(Coded {
@@ -187,6 +200,15 @@ impl<R: BufRead> Program<R> {
             self.call_modal_macro()?;
         }
         Ok(goes_on)
+    }
+
+    /// True where G43.5 is in force for the block.
+    fn has_vectors(&self) -> bool {
+        let codes = &self.block.codes;
+        match codes.tool_length {
+            Some(_) => codes.tip_by_vector,
+            None => self.interpreter.state.fanuc.tip_by_vector,
+        }
     }
 
     /// Executes a statement other than IF.

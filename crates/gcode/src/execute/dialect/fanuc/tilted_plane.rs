@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `G68.2 X Y Z I J K` | a plane whose zero is X, Y, Z: turned by I about Z, by J about the new X, by K about the new Z |
 //! | `G68.2 P1 …` | turned by I about X, by J about Y, by K about Z, each of the work |
-//! | `G53.1` | the rotary axes turn until the tool stands along the normal |
+//! | `G53.1` | the rotary axes turn until the tool stands along the normal; P1: with the greater angle of the tilting axis, P2: with the smaller one |
 //! | `G254` | the zero of the program goes with the table to where the rotary axes have brought it; the directions stay the machine's |
 
 use glidepath_geometry::AxisVector;
@@ -71,14 +71,19 @@ impl Interpreter {
         else {
             return Ok(());
         };
-        if whole(block, b'P', 9)?.is_some_and(|which| which != 0) {
-            let message = "G53.1 with P other than 0 is not supported";
-            let fault = Fault::new(DiagnosticCode::NotSupported, block.span(b'P'), message);
-            return Err(fault
-                .because("of the two ways to turn the axes the one with the smaller turns is taken")
-                .help("leave P out, or turn the axes near to where they are wanted before G68.2"));
-        }
-        self.align_tool(block, (Branch::Nearest, span), out)
+        let branch = match whole(block, b'P', 9)? {
+            None | Some(0) => Branch::Nearest,
+            Some(1) => Branch::HighTilt,
+            Some(2) => Branch::LowTilt,
+            Some(which) => {
+                let message = format!("G53.1 P{which} is not supported");
+                let fault = Fault::new(DiagnosticCode::NotSupported, block.span(b'P'), message);
+                return Err(fault
+                    .because("P1 is the way with the greater angle of the tilting axis, P2 the other one")
+                    .help("write P0, P1 or P2"));
+            }
+        };
+        self.align_tool(block, (branch, span), out)
     }
 
     /// G254 and G255.

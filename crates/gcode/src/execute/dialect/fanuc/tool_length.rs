@@ -29,6 +29,7 @@ impl Interpreter {
             return Err(keeps_no_tip(coded));
         }
         self.state.fanuc.length_sign = sign;
+        self.state.fanuc.tip_by_vector = block.codes.tip_by_vector;
         let Some(sign) = sign else {
             self.offsets.tool = AxisVector::zeros();
             self.set_length_in_force(0.0, false);
@@ -63,6 +64,35 @@ impl Interpreter {
         self.offsets.tool = AxisVector::zeros();
         self.set_length_in_force(sign * length_mm, follows);
         Ok(())
+    }
+
+    /// H in a block without G43: the number that counts from here on; while G43 or G44 is in force, its
+    /// length.
+    pub(super) fn length_without_code(&mut self, block: &Block) -> Outcome<()> {
+        let is_radius = block.codes.cutter_radius.is_some() && block.get(b'D').is_none();
+        if block.is_lathe || block.codes.tool_length.is_some() || is_radius {
+            return Ok(());
+        }
+        let Some(number) = whole(block, b'H', MAX_TOOL)? else {
+            return Ok(());
+        };
+        let span = block.span(b'H');
+        let Some(sign) = self.state.fanuc.length_sign else {
+            self.state.fanuc.length_offset = Some(number);
+            return Ok(());
+        };
+        if self.options.five_axis.is_some() {
+            let message = "H without G43 or G43.4";
+            return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
+                .because("whether the length counts along Z or along the tool is said by the code")
+                .help("write the code into the block"));
+        }
+        let code = if sign < 0.0 {
+            ToolLength::Subtract
+        } else {
+            ToolLength::FromTable
+        };
+        self.fanuc_tool_length(block, Coded { code, span })
     }
 
     /// Puts a length in force: along Z, or along the tool where the tip is followed.

@@ -41,7 +41,9 @@ impl Interpreter {
         }
         self.offsets.tool = AxisVector::zeros();
         if offset > 0 {
-            (self.offsets.tool[0], self.offsets.tool[2]) = (length.offset[0], length.offset[2]);
+            let wear = self.offsets.fanuc.wear(offset);
+            self.offsets.tool[0] = length.offset[0] + wear.x_mm;
+            self.offsets.tool[2] = length.offset[2] + wear.length_mm;
         }
         self.state.fanuc.length_offset = Some(offset);
         self.state.fanuc.radius_offset = offset;

@@ -82,6 +82,11 @@ fn axis_of(number: u32) -> Option<usize> {
     (1..=9).contains(&index).then_some(index - 1)
 }
 
+/// True for the variables that all programs have in common.
+pub(super) const fn is_common(number: u32) -> bool {
+    matches!(number, 100..=199 | 500..=999)
+}
+
 /// What a variable is; `memory` is how that of tool offsets is divided.
 fn variable(number: u32, memory: OffsetMemory) -> Variable {
     use ToolPart::{Length, LengthAll, LengthWear, Radius, RadiusWear};

@@ -8,6 +8,10 @@
 //! | `CYCLE84` | RTP, RFP, SDIS, DP, DPR, DTB, SDAC, MPIT, PIT, POSS, SST, SST1, AXN, PITA, TECHNO, VARI, DAM, VRT |
 //! | `CYCLE85` | RTP, RFP, SDIS, DP, DPR, DTB, FFR, RFF |
 //! | `CYCLE86` | RTP, RFP, SDIS, DP, DPR, DTB, SDIR, RPA, RPO, RPAP, POSS |
+//! | `CYCLE87` | RTP, RFP, SDIS, DP, DPR, SDIR |
+//! | `CYCLE88` | RTP, RFP, SDIS, DP, DPR, DTB, SDIR |
+//! | `CYCLE89` | RTP, RFP, SDIS, DP, DPR, DTB |
+//! | `CYCLE840` | RTP, RFP, SDIS, DP, DPR, DTB, SDR, SDAC, ENC, MPIT, PIT, AXN, PITA, TECHNO |
 //! | `POCKET3` | RTP, RFP, SDIS, DP, LENG, WID, CRAD, PA, PO, STA, MID, FAL, FALD, FFP1, FFD, CDIR, VARI, MIDA, AP1, AP2, AD, RAD1, DP1 |
 //! | `POCKET4` | RTP, RFP, SDIS, DP, PRAD, PA, PO, MID, FAL, FALD, FFP1, FFD, CDIR, VARI, MIDA, AP1, AD, RAD1, DP1 |
 //!
@@ -33,20 +37,24 @@ use crate::syntax::word_check::missing;
 const MAX_LINES: usize = 200_000;
 
 /// Names of cycles, and how many arguments each takes.
-const CYCLES: [(&str, usize); 8] = [
+const CYCLES: [(&str, usize); 12] = [
     ("CYCLE81", 5),
     ("CYCLE82", 6),
     ("CYCLE83", 12),
     ("CYCLE84", 18),
     ("CYCLE85", 8),
     ("CYCLE86", 11),
+    ("CYCLE87", 6),
+    ("CYCLE88", 7),
+    ("CYCLE89", 6),
+    ("CYCLE840", 14),
     ("POCKET3", 23),
     ("POCKET4", 19),
 ];
 
 /// Arguments that the newer controls have behind those, and what each may be: the axis, a least depth
 /// and ways that are left out; GMODE, DMODE and AMODE, which say how the others are meant.
-const NEWER: [(&str, &[&[f64]]); 5] = [
+const NEWER: [(&str, &[&[f64]]); 8] = [
     ("CYCLE81", &[&[0.0], &[0.0], &[0.0, 10.0]]),
     ("CYCLE82", &[&[0.0], &[0.0], &[0.0, 10.0]]),
     (
@@ -64,6 +72,9 @@ const NEWER: [(&str, &[&[f64]]); 5] = [
     ),
     ("CYCLE85", &[&[0.0], &[0.0], &[0.0, 10.0]]),
     ("CYCLE86", &[&[0.0], &[0.0], &[0.0, 10.0]]),
+    ("CYCLE87", &[&[0.0], &[0.0], &[0.0, 10.0]]),
+    ("CYCLE88", &[&[0.0], &[0.0], &[0.0, 10.0]]),
+    ("CYCLE89", &[&[0.0], &[0.0], &[0.0, 10.0]]),
 ];
 
 /// Whether the arguments behind the first ones say nothing that is not made.
@@ -199,7 +210,7 @@ impl Lines {
     pub(super) fn new(axes: [Axis; 3]) -> Self {
         Self {
             // No corner of a cycle is rounded off, and its coordinates are absolute.
-            steps: vec![Step::Line("G90 G61 G94 G91.1".to_owned())],
+            steps: vec![Step::Line("G90 G61 G91.1 ,M0".to_owned())],
             axes: axes.map(Axis::letter),
         }
     }
@@ -348,9 +359,10 @@ impl<R: BufRead> Program<R> {
 
     pub(super) fn siemens_begin(&mut self, call: &CycleCall, span: SourceSpan) -> Outcome<()> {
         let lines = self.cycle_lines(Arguments { call, span })?;
-        let modal = Box::new(self.interpreter.state.modal);
+        let state = &self.interpreter.state;
+        let before = Box::new((state.modal, state.rounds_mm));
         self.siemens.steps.extend(lines.steps);
-        self.siemens.steps.push_back(Step::Restore(modal));
+        self.siemens.steps.push_back(Step::Restore(before));
         Ok(())
     }
 
@@ -365,13 +377,13 @@ impl<R: BufRead> Program<R> {
                 )
                 .help("write G40 and a move before it"));
         }
-        if state.modal.feed_mode != FeedMode::PerMinute {
+        if state.modal.feed_mode == FeedMode::InverseTime {
             return Err(arguments
                 .refused(
-                    "a feed that is not per minute",
-                    "the moves of a cycle have feeds per minute",
+                    "a feed that is a time (G93)",
+                    "the moves of a cycle have feeds per minute or per revolution",
                 )
-                .help("write G94 before it"));
+                .help("write G94 or G95 before it"));
         }
         match arguments.call.name {
             "CYCLE81" | "CYCLE82" => interpreter.drill(arguments),
@@ -379,6 +391,10 @@ impl<R: BufRead> Program<R> {
             "CYCLE84" => interpreter.tap_hole(arguments),
             "CYCLE85" => interpreter.ream(arguments),
             "CYCLE86" => interpreter.bore(arguments),
+            "CYCLE87" => interpreter.bore_to_stop(arguments, 5, None),
+            "CYCLE88" => interpreter.bore_to_stop(arguments, 6, Some(5)),
+            "CYCLE89" => interpreter.bore_both_ways(arguments),
+            "CYCLE840" => interpreter.tap_with_chuck(arguments),
             "POCKET3" => interpreter.rectangular_pocket(arguments),
             _ => interpreter.circular_pocket(arguments),
         }

@@ -17,6 +17,7 @@
 use crate::diagnostic::fault::Outcome;
 use crate::execute::dialect::siemens::cycle::{Arguments, Levels, Lines, coordinate, plane_axes};
 use crate::execute::interpreter::Interpreter;
+use crate::syntax::modes::FeedMode;
 
 /// Most strokes of a hole.
 const MAX_STROKES: usize = 10_000;
@@ -27,7 +28,7 @@ const BOTTOM: f64 = 1e-6;
 
 impl Interpreter {
     /// The lines of a cycle that begins: above the hole, clear of the surface.
-    fn above(&self, arguments: Arguments<'_>, levels: Levels) -> Outcome<Lines> {
+    pub(super) fn above(&self, arguments: Arguments<'_>, levels: Levels) -> Outcome<Lines> {
         let mut lines = Lines::new(plane_axes(self, arguments)?);
         lines.along("G0", levels.clear);
         Ok(lines)
@@ -74,11 +75,15 @@ impl Interpreter {
             (depth / 50.0).min(7.0 / unit)
         };
         let mut lines = self.above(arguments, levels)?;
+        let seconds = match self.state.modal.feed_mode {
+            FeedMode::PerRevolution => 1.0,
+            FeedMode::PerMinute | FeedMode::InverseTime => 60.0,
+        };
         let feed = self
             .state
             .modal
             .feed
-            .map(|feed| feed.linear_v * 60.0 / self.feed_unit_mm());
+            .map(|feed| feed.linear_v * seconds / self.feed_unit_mm());
         if let Some(feed) = feed.filter(|_| factor < 1.0) {
             lines.feed(feed * factor);
         }

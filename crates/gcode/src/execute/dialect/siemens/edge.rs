@@ -1,6 +1,8 @@
 //! D: the edge of the tool, whose length and radius are in force at once.
 //!
-//! The tool table has one edge for each tool, which is D1. D0 takes the length back.
+//! The tool table has one edge for each tool, which is D1. D0 takes the length back. A block that
+//! changes the tool and names no edge puts D1 in force, unless the machine data say otherwise. T
+//! itself changes the tool on lathes.
 
 use glidepath_geometry::AxisVector;
 
@@ -9,18 +11,30 @@ use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::state::tip::Tip;
+use crate::setup::siemens::ToolChangeBy;
 use crate::setup::tool_table::Tool;
 use crate::syntax::block::Block;
 use crate::syntax::codes::Coded;
+use crate::syntax::dialect::Dialect;
 use crate::syntax::word_check::whole;
 
 impl Interpreter {
     /// D of a block, behind its T and M6.
     pub(crate) fn choose_edge(&mut self, block: &Block) -> Outcome<()> {
-        let Some(edge) = whole(block, b'D', 9)? else {
-            return Ok(());
+        let (edge, span) = match whole(block, b'D', 9)? {
+            Some(edge) => (edge, block.span(b'D')),
+            // Without a table no length is known.
+            None if self.changes_tool(block) && self.tools.is_none() => {
+                self.offsets.tool = AxisVector::zeros();
+                self.state.edge = None;
+                return Ok(());
+            }
+            None if self.changes_tool(block) => {
+                let edge = u32::from(self.options.siemens.edge_after_change);
+                (edge, block.span(b'T'))
+            }
+            None => return Ok(()),
         };
-        let span = block.span(b'D');
         if edge > 1 {
             let message = format!("D{edge} is not supported");
             return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
@@ -44,6 +58,21 @@ impl Interpreter {
         }
         self.state.edge = Some(edge);
         Ok(())
+    }
+
+    /// True for a block whose T changes the tool by itself.
+    pub(crate) fn changes_tool_by_t(&self, block: &Block) -> bool {
+        let by_t = match self.options.siemens.tool_change {
+            None => self.options.is_lathe(),
+            Some(by) => by == ToolChangeBy::T,
+        };
+        by_t && block.dialect == Dialect::Siemens
+    }
+
+    /// True for a block that changes the tool.
+    fn changes_tool(&self, block: &Block) -> bool {
+        block.codes.tool_change.is_some()
+            || block.get(b'T').is_some() && self.changes_tool_by_t(block)
     }
 
     /// The tool whose radius G41 and G42 take: the one in the spindle, unless D0 is in force.

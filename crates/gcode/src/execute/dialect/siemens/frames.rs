@@ -27,9 +27,9 @@ const MAX_SCALE: f64 = 1000.0;
 const MAX_SHIFT: f64 = 1e6;
 
 /// What one word of a frame says.
-struct FrameValue {
+pub(super) struct FrameValue {
     /// Which axis; `None`: RPL.
-    axis: Option<Axis>,
+    pub(super) axis: Option<Axis>,
     value: f64,
     span: SourceSpan,
 }
@@ -97,12 +97,14 @@ impl<R: BufRead> Program<R> {
                 .because("coordinates so far away have no micrometres any more")
                 .help("check what is added to what; TRANS alone ends the frame"));
         }
+        let before = offsets.frame;
         offsets.frame = frame;
+        self.remember_shift(word, before, &values);
         Ok(())
     }
 
     /// The words of a frame.
-    fn frame_values(&self, text: &[u8], at: usize) -> Outcome<Vec<FrameValue>> {
+    pub(super) fn frame_values(&self, text: &[u8], at: usize) -> Outcome<Vec<FrameValue>> {
         let scope = self.scope();
         let mut input = self.evaluator(&scope, text, at);
         let mut values: Vec<FrameValue> = Vec::new();
@@ -152,7 +154,7 @@ impl<R: BufRead> Program<R> {
         Ok(values)
     }
 
-    fn shift(&self, values: &[FrameValue]) -> Outcome<Frame> {
+    pub(super) fn shift(&self, values: &[FrameValue]) -> Outcome<Frame> {
         let mut shift = AxisVector::zeros();
         let scale = self.interpreter.state.modal.units.mm();
         for FrameValue { axis, value, span } in values {

@@ -5,12 +5,15 @@
 //! REPEAT … UNTIL · REPEAT A P=3 · REPEAT A B · REPEATB A · GOTO, GOTOF, GOTOB, GOTOC A · A: · N100
 //! CASE … OF … · L1 P2 · NAME(5) · PROC, EXTERN, RET, M17
 //! DEF REAL, INT, BOOL, arrays · TRANS, ROT, MIRROR, SCALE · ATRANS, AROT, AMIRROR, ASCALE
-//! CYCLE81 to 86 · POCKET3, POCKET4 · MCALL · HOLES1, HOLES2, CYCLE801 · CYCLE800
+//! G58, G59 · $P_UIFR[n]=CTRANS(X,10) · $TC_DP3[t,1]=50
+//! CYCLE81 to 89 · CYCLE840 · POCKET3, POCKET4 · MCALL · HOLES1, HOLES2, CYCLE801 · CYCLE800
 //! ```
 //!
 //! A line of a cycle becomes several ones in RS274/NGC's words, which are executed one after the
 //! other ([`steps`]), so that a long cycle takes no more memory at a time than its words.
 
+mod axis_offset;
+mod boring;
 mod case;
 mod circular_pocket;
 mod cycle;
@@ -29,4 +32,6 @@ mod repetition;
 pub(crate) mod steps;
 pub(crate) mod subprogram;
 mod swivel;
+mod system_data;
+mod system_values;
 mod tapping;

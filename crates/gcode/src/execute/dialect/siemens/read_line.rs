@@ -7,12 +7,25 @@ use crate::diagnostic::span::SourceSpan;
 use crate::execute::dialect::siemens::steps::Step;
 use crate::execute::program::Program;
 use crate::execute::scope::ProgramScope;
+use crate::execute::state::modal::Modal;
 use crate::syntax::dialect::line_body::body;
 use crate::syntax::dialect::siemens::callee::callee;
 use crate::syntax::dialect::siemens::expression::{Evaluator, Names};
 use crate::syntax::dialect::siemens::statement::{Statement, is_header, label, statement};
 use crate::syntax::dialect::siemens::writer::rewrite;
 use crate::syntax::modes::Distance;
+
+/// A main block, whose number stands behind a colon, with the letter of other blocks.
+fn with_block_number(mut text: Box<[u8]>) -> Box<[u8]> {
+    let colon = text.iter().position(|byte| !byte.is_ascii_whitespace());
+    if let Some(colon) = colon
+        && text.get(colon) == Some(&b':')
+        && text.get(colon + 1).is_some_and(u8::is_ascii_digit)
+    {
+        text[colon] = b'N';
+    }
+    text
+}
 
 /// The text with blanks in the place of its label, which keeps the columns of the rest.
 fn without_label(text: &[u8]) -> Vec<u8> {
@@ -43,6 +56,7 @@ impl<R: BufRead> Program<R> {
             return self.end_of_input();
         };
         self.set_tape_origin(number, &text);
+        let text = with_block_number(text);
         if self.tape.is_again() {
             self.count_idle().inspect_err(|_| self.end())?;
         }
@@ -74,6 +88,10 @@ impl<R: BufRead> Program<R> {
                 done.inspect_err(|_| self.end()).map(|()| true)
             }
             Statement::Frame(word) => self.siemens_frame(word, &text, at).map(|()| true),
+            Statement::AxisOffset(is_fine) => {
+                self.siemens_axis_offset(is_fine, &text, at).map(|()| true)
+            }
+            Statement::SystemData => self.siemens_system_data(&text, at).map(|()| true),
             Statement::Cycle => self.siemens_cycle(&text, at).map(|()| true),
             Statement::Swivel => self.siemens_swivel(&text, at).map(|()| true),
             Statement::Positions => self.siemens_positions(&text, at).map(|()| true),
@@ -154,11 +172,17 @@ impl<R: BufRead> Program<R> {
         Ok(true)
     }
 
+    /// What was in force before a cycle is so again.
+    fn restore(&mut self, (modal, rounds_mm): (Modal, f64)) {
+        self.interpreter.state.modal = modal;
+        self.interpreter.state.rounds_mm = rounds_mm;
+    }
+
     /// A step of the cycle in progress; what is wrong with it is wrong with the cycle's line.
     fn siemens_step(&mut self, step: Step) -> Outcome<bool> {
         let line = match step {
-            Step::Restore(modal) => {
-                self.interpreter.state.modal = *modal;
+            Step::Restore(before) => {
+                self.restore(*before);
                 return Ok(true);
             }
             Step::Position(place) => return self.siemens_position(place),
@@ -172,8 +196,8 @@ impl<R: BufRead> Program<R> {
                 let here = self.here();
                 fault.span = SourceSpan::new(label(&here.text).1, here.text.trim_ascii_end().len());
                 while let Some(step) = self.siemens.steps.pop_front() {
-                    if let Step::Restore(modal) = step {
-                        self.interpreter.state.modal = *modal;
+                    if let Step::Restore(before) = step {
+                        self.restore(*before);
                     }
                 }
                 fault

@@ -2,6 +2,8 @@
 
 use std::collections::VecDeque;
 
+use glidepath_geometry::AxisVector;
+
 use crate::execute::dialect::tape::TapePlace;
 use crate::execute::state::frame::Frame;
 use crate::execute::state::modal::Modal;
@@ -14,8 +16,8 @@ pub(crate) enum Step {
     Line(String),
     /// A position of a pattern, in the two axes of the plane: the cycle of MCALL is made there.
     Position([f64; 2]),
-    /// The modes from before the cycle.
-    Restore(Box<Modal>),
+    /// The modes from before the cycle, and the radius of all corners, mm.
+    Restore(Box<(Modal, f64)>),
 }
 
 /// A cycle with the values of its arguments.
@@ -48,6 +50,17 @@ pub(crate) struct CallState {
     pub(super) steps: Vec<Step>,
 }
 
+/// The shift of a frame in its two parts, as TRANS and ATRANS have said them.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ShiftParts {
+    /// The frame that they are of.
+    pub(super) frame: Frame,
+    /// TRANS, G58.
+    pub(super) coarse: AxisVector,
+    /// ATRANS, G59.
+    pub(super) fine: AxisVector,
+}
+
 /// What a SINUMERIK program has besides the state of the interpreter.
 #[derive(Debug, Default)]
 pub(crate) struct SiemensState {
@@ -58,4 +71,6 @@ pub(crate) struct SiemensState {
     pub(crate) modal_call: Option<ModalCall>,
     /// The subprograms in progress.
     pub(crate) calls: Vec<CallState>,
+    /// The parts of the frame's shift; of no use where another frame is in force.
+    pub(crate) shift: Option<ShiftParts>,
 }

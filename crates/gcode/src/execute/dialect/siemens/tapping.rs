@@ -1,5 +1,9 @@
-//! CYCLE84: a hole that is tapped rigidly.
+//! CYCLE84: a hole that is tapped rigidly; CYCLE840: one with a tap in a chuck that gives way.
 //!
+//! CYCLE840 goes at the feed of pitch and speed, or of F where no pitch is given, in the direction in
+//! which the spindle turns, which is reversed at the bottom. Behind it the spindle turns as SDAC says.
+//!
+//! CYCLE84:
 //! From SDIS above the surface with the spindle to the bottom and out again, then to RTP. The
 //! pitch is PIT, or that of the metric thread MPIT (3: M3); below zero it is a left-hand one. A
 //! spindle that is an axis begins at the angle POSS, dwells for DTB, comes out at SST1, and goes DAM
@@ -10,6 +14,8 @@ use glidepath_geometry::Axis;
 use crate::diagnostic::fault::Outcome;
 use crate::execute::dialect::siemens::cycle::{Arguments, Lines, plane_axes};
 use crate::execute::interpreter::Interpreter;
+use crate::execute::state::spindle::SpindleDirection;
+use crate::syntax::modes::FeedMode;
 
 /// Metric threads of ISO 261, first choice and second, and their coarse pitch, mm.
 const METRIC: [(f64, f64); 21] = [
@@ -73,6 +79,61 @@ impl Interpreter {
         Ok(lines)
     }
 
+    /// CYCLE840.
+    pub(super) fn tap_with_chuck(&self, arguments: Arguments<'_>) -> Outcome<Lines> {
+        let levels = arguments.levels(arguments.get(4))?;
+        let dwell = arguments.not_negative(5, "DTB", "seconds at the bottom")?;
+        let out = arguments.choice(6, "SDR", &[0, 3, 4])?;
+        let behind = arguments.choice(7, "SDAC", &[0, 3, 4, 5])?;
+        arguments.choice(11, "AXN", &[0, 3])?;
+        arguments.choice(13, "TECHNO", &[0])?;
+        let spindle = &self.state.spindle;
+        let turning = spindle
+            .turning
+            .filter(|_| spindle.speed > 0.0)
+            .ok_or_else(|| {
+                arguments
+                    .refused(
+                        "the spindle does not turn",
+                        "the tap goes into the hole as the spindle turns",
+                    )
+                    .help("write S and M3, or M4 for a left-hand thread, before it")
+            })?;
+        let back = match turning {
+            SpindleDirection::Clockwise => 4,
+            SpindleDirection::Counterclockwise => 3,
+        };
+        if out != 0 && out != back {
+            let message = format!("SDR {out} is the direction in which the tap goes in");
+            return Err(arguments
+                .refused(
+                    message,
+                    "the tap comes out of its thread the other way round",
+                )
+                .help(format!("write {back}, or 0")));
+        }
+        let mut lines = self.above(arguments, levels)?;
+        let has_pitch = [9, 10].iter().any(|at| arguments.or_zero(*at) != 0.0);
+        if has_pitch {
+            let pitch = self.metric_pitch_at(arguments, 9, 10)?.abs();
+            let per_revolution = self.state.modal.feed_mode == FeedMode::PerRevolution;
+            lines.feed(if per_revolution {
+                pitch
+            } else {
+                pitch * spindle.speed
+            });
+        }
+        let cycle = if back == 4 { "G84" } else { "G74" };
+        let words = format!("G99 {cycle} R[{}] P[{dwell}]", levels.clear);
+        lines.along(&words, levels.bottom);
+        lines.line("G80");
+        if behind != 0 {
+            lines.line(format!("M{behind}"));
+        }
+        lines.along("G0", levels.retract);
+        Ok(lines)
+    }
+
     /// Dwell, depths and the speed out of the hole, where the spindle is an axis.
     fn words_of_tap(&self, arguments: Arguments<'_>, speed: f64) -> Outcome<String> {
         let mut words = String::new();
@@ -99,8 +160,18 @@ impl Interpreter {
 
     /// The pitch in the units in force, below zero of a left-hand thread.
     fn metric_pitch(&self, arguments: Arguments<'_>) -> Outcome<f64> {
-        let size = arguments.or_zero(7);
-        if let Some(pitch) = arguments.get(8).filter(|pitch| *pitch != 0.0) {
+        self.metric_pitch_at(arguments, 7, 8)
+    }
+
+    /// The same, where the arguments MPIT and PIT are.
+    fn metric_pitch_at(
+        &self,
+        arguments: Arguments<'_>,
+        size_at: usize,
+        pitch_at: usize,
+    ) -> Outcome<f64> {
+        let size = arguments.or_zero(size_at);
+        if let Some(pitch) = arguments.get(pitch_at).filter(|pitch| *pitch != 0.0) {
             return Ok(pitch);
         }
         let is_it = |(of, _): &&(f64, f64)| (of - size.abs()).abs() < 1e-9;

@@ -21,6 +21,15 @@ fn no_address(letter: char, span: SourceSpan) -> Box<Fault> {
         .help("remove it; a radius is CR=, a dwell G4 F")
 }
 
+/// G58 or G59 that is not the first word of its block.
+#[cold]
+fn beside_offset(number: u32, span: SourceSpan) -> Box<Fault> {
+    let message = format!("words in front of G{number}");
+    Fault::new(DiagnosticCode::UnusedWord, span, message)
+        .because("it changes the offset of an axis, in a block of its own")
+        .help("write it first in its block")
+}
+
 impl Writer<'_> {
     /// A letter and its number: a code of the tables, or an address that this language has.
     pub(super) fn address(
@@ -68,6 +77,11 @@ impl Writer<'_> {
             (Some(Meaning::Own), 500) => b"G500",
             (Some(Meaning::Own), 710) => b"G21",
             (Some(Meaning::Own), 700) => b"G20",
+            // The limit of the speed is not put in force by G973.
+            (Some(Meaning::Own), 961) => b"G96 G94",
+            (Some(Meaning::Own), 971) => b"G97 G94",
+            (Some(Meaning::Own), 972 | 973) => b"G97",
+            (Some(Meaning::Own), 58 | 59) => return Err(beside_offset(number, span)),
             (Some(Meaning::ReadOver), _) => b"",
             (Some(Meaning::Shared | Meaning::Own), _) => {
                 self.replace(span.start, 0, format!("G{number}").as_bytes());

@@ -1,4 +1,5 @@
-//! Coordinates with their own way of counting: `X=AC(5)`, `X=IC(5)`, `C=DC(5)`, `C=ACP(5)`, `C=ACN(5)`.
+//! Coordinates with their own way of counting: `X=AC(5)`, `X=IC(5)`, `C=DC(5)`, `C=ACP(5)`, `C=ACN(5)`;
+//! of X as a diameter or as a radius: `X=DAC(5)`, `X=DIC(5)`, `X=RAC(5)`, `X=RIC(5)`.
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
@@ -47,6 +48,12 @@ impl Way {
     }
 }
 
+/// How values of X are converted.
+struct UnitOfX {
+    of_value: f64,
+    of_place: f64,
+}
+
 #[cold]
 fn no_turn(letter: char, span: SourceSpan) -> Box<Fault> {
     let message = format!("DC, ACP or ACN of {letter}, which does not turn");
@@ -55,7 +62,39 @@ fn no_turn(letter: char, span: SourceSpan) -> Box<Fault> {
         .help("write the value alone")
 }
 
+#[cold]
+fn no_diameter(letter: char, span: SourceSpan) -> Box<Fault> {
+    let message = format!("a diameter or radius of {letter}");
+    Fault::new(DiagnosticCode::InvalidValue, span, message)
+        .because("DAC, DIC, RAC and RIC say whether X is a diameter or a radius")
+        .help("write AC or IC")
+}
+
 impl Writer<'_> {
+    /// What a value of X and the place of the tool, which is a radius, are multiplied by to count as
+    /// the words of the line do.
+    fn unit_of_x(&self, name: &[u8], way: Way, incremental: bool) -> UnitOfX {
+        let scope = self.names.scope;
+        // DIAM90: diameters where coordinates are absolute.
+        let by_distance = scope.system_value(b"DIAM90", &[]) == Some(1.0);
+        let counts_diameters = if by_distance {
+            !incremental
+        } else {
+            scope.named("_lathe_diameter_mode") == Some(1.0)
+        };
+        let is_diameter = match name {
+            b"DAC" | b"DIC" => true,
+            b"RAC" | b"RIC" => false,
+            _ if by_distance => way == Way::Absolute,
+            _ => counts_diameters,
+        };
+        let of = |diameters: bool| if diameters { 1.0 } else { 2.0 };
+        UnitOfX {
+            of_value: of(is_diameter) / of(counts_diameters),
+            of_place: 2.0 / of(counts_diameters),
+        }
+    }
+
     /// `X=expression`, `X=AC(expression)`, `X=IC(expression)`; `C=DC(…)`, `C=ACP(…)`, `C=ACN(…)`.
     ///
     /// What these say holds for that word alone, whatever G90 and G91 say for the others: the
@@ -64,9 +103,10 @@ impl Writer<'_> {
         self.input.at = start + 1;
         self.input.eat(b'=');
         self.input.next_visible();
-        let way = match self.input.name_ahead().as_slice() {
-            b"AC" => Way::Absolute,
-            b"IC" => Way::Increment,
+        let name = self.input.name_ahead();
+        let way = match name.as_slice() {
+            b"AC" | b"DAC" | b"RAC" => Way::Absolute,
+            b"IC" | b"DIC" | b"RIC" => Way::Increment,
             b"DC" => Way::Shortest,
             b"ACP" => Way::Upwards,
             b"ACN" => Way::Downwards,
@@ -98,18 +138,26 @@ impl Writer<'_> {
         let here = u32::try_from(axis)
             .ok()
             .and_then(|axis| scope.numbered(COORDINATES + axis));
-        let here = here.unwrap_or(0.0);
         let incremental = match (self.has_code(90), self.has_code(91)) {
             (true, _) => false,
             (_, true) => true,
             _ => scope.named("_incremental") == Some(1.0),
         };
+        let mut value = *value;
+        let mut here = here.unwrap_or(0.0);
+        if axis == 0 && !centre {
+            let unit = self.unit_of_x(&name, way, incremental);
+            value *= unit.of_value;
+            here *= unit.of_place;
+        } else if matches!(name.as_slice(), [b'D' | b'R', _, b'C']) {
+            return Err(no_diameter(char::from(letter), word));
+        }
         let counts_from_here = centre || incremental;
         let value = match way {
-            Way::Increment if counts_from_here => *value,
+            Way::Increment if counts_from_here => value,
             Way::Increment => value + here,
-            _ if counts_from_here => way.place(*value, here) - here,
-            _ => way.place(*value, here),
+            _ if counts_from_here => way.place(value, here) - here,
+            _ => way.place(value, here),
         };
         self.put(start, &[letter, b'['], value);
         Ok(())

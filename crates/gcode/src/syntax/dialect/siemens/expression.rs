@@ -22,6 +22,7 @@ use crate::syntax::dialect::siemens::function::{FUNCTIONS, Function};
 use crate::syntax::dialect::siemens::operator::{
     Compare, LOGIC, OPERATORS, apply, comparison, finite,
 };
+use crate::syntax::dialect::siemens::system_index::not_known;
 use crate::syntax::dialect::siemens::variables::Variables;
 use crate::syntax::expression::scope::{Parameter, Scope};
 
@@ -341,6 +342,11 @@ impl<'a> Evaluator<'a> {
                 return Ok(f64::from(u8::from(value == 0.0)));
             }
             _ => {}
+        }
+        if name.first() == Some(&b'$') {
+            let index = self.system_index()?;
+            let value = self.names.scope.system_value(&name, &index);
+            return value.ok_or_else(|| not_known(&name, SourceSpan::new(start, self.at)));
         }
         let span = SourceSpan::new(start, self.at);
         let function = FUNCTIONS.into_iter().find(|(known, ..)| *known == name);

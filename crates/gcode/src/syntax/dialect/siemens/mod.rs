@@ -32,8 +32,11 @@ mod operator;
 mod refused_word;
 mod rewritten;
 pub(crate) mod statement;
+pub(crate) mod system_index;
+pub(crate) mod system_variable;
 #[cfg(test)]
 mod tests;
+mod valued_word;
 mod variable_word;
 pub(crate) mod variables;
 pub(crate) mod writer;

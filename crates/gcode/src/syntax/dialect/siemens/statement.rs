@@ -49,6 +49,10 @@ pub(crate) enum Statement {
     Procedure,
     /// TRANS and the like.
     Frame(FrameWord),
+    /// G58 and G59: true for G59, the part that ATRANS adds.
+    AxisOffset(bool),
+    /// `$P_UIFR[1]=…`, `$TC_DP3[1,1]=…`: what the control keeps of coordinate systems and tools.
+    SystemData,
     /// A call of a cycle by name.
     Cycle,
     /// HOLES1, HOLES2, CYCLE801.
@@ -82,9 +86,23 @@ impl Statement {
 }
 
 /// Cycles that are made.
-const CYCLES: [&[u8]; 8] = [
-    b"CYCLE81", b"CYCLE82", b"CYCLE83", b"CYCLE84", b"CYCLE85", b"CYCLE86", b"POCKET3", b"POCKET4",
+const CYCLES: [&[u8]; 12] = [
+    b"CYCLE81",
+    b"CYCLE82",
+    b"CYCLE83",
+    b"CYCLE84",
+    b"CYCLE85",
+    b"CYCLE86",
+    b"CYCLE87",
+    b"CYCLE88",
+    b"CYCLE89",
+    b"CYCLE840",
+    b"POCKET3",
+    b"POCKET4",
 ];
+
+/// Beginnings of the names of what a program may set.
+const SYSTEM_DATA: [&[u8]; 2] = [b"$P_UIFR", b"$TC_DP"];
 
 /// Letters, digits and underscores at the start of a text.
 pub(crate) fn name_at(text: &[u8], at: usize) -> &[u8] {
@@ -188,6 +206,15 @@ pub(crate) fn statement(text: &[u8]) -> (Statement, usize) {
     }
     if let Some(frame) = FrameWord::named(&name) {
         return (Statement::Frame(frame), behind);
+    }
+    if let [b'G', b'5', digit @ (b'8' | b'9'), rest @ ..] = name.as_slice()
+        && !rest.first().is_some_and(u8::is_ascii_digit)
+        && text.get(at + 3) != Some(&b'.')
+    {
+        return (Statement::AxisOffset(*digit == b'9'), at + 3);
+    }
+    if SYSTEM_DATA.iter().any(|known| name.starts_with(known)) {
+        return (Statement::SystemData, at);
     }
     if CYCLES.contains(&name.as_slice()) {
         return (Statement::Cycle, at);

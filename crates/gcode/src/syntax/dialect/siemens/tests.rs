@@ -161,7 +161,7 @@ fn what_has_no_value_is_refused() {
 fn what_is_not_read_is_refused_with_the_word() {
     for (text, start, length) in [
         ("N10 TRACYL", 4, 6),
-        ("G1 X1 G505", 6, 4),
+        ("G1 X1 G74", 6, 3),
         ("N5 HOLES2(1,2)", 3, 6),
         ("OTHER=5", 0, 5),
         ("F=AC(5)", 2, 2),

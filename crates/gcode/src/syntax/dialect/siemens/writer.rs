@@ -11,7 +11,6 @@ use crate::syntax::dialect::siemens::variables::{Declared, Kind};
 use crate::syntax::dialect::words::{Meaning, refused, siemens_names};
 use crate::syntax::expression::scope::Parameter;
 use crate::syntax::named_word::Named;
-use crate::syntax::word_check::missing;
 
 /// Rewrites a line; the values of its expressions take their place.
 pub(crate) fn rewrite(text: &[u8], names: Names<'_>) -> Outcome<Rewritten> {
@@ -54,6 +53,7 @@ const fn code_named(name: &[u8]) -> Option<&'static [u8]> {
         b"CT" => b"G2.6",
         b"DIAMON" => b"G7",
         b"DIAMOF" => b"G8",
+        b"DIAM90" => b"G7.2",
         b"SUPA" => b"G53",
         _ => return None,
     })
@@ -131,6 +131,9 @@ impl Writer<'_> {
             }
             _ => {}
         }
+        if matches!(name.as_slice(), b"AP" | b"RP") && is_assigned {
+            return self.polar_value(start, &name);
+        }
         if let Some(word) = Named::of_name(&name).filter(|_| is_assigned) {
             return self.value_of(start, length, &[b',', word.letter()], 0.0);
         }
@@ -152,6 +155,7 @@ impl Writer<'_> {
         let is_address = digits > 0 && (digits + 1 < length || !is_assigned);
         if let Some(code) = code_named(&name).filter(|_| !is_assigned) {
             self.replace(start, length, code);
+            self.skip_no_arguments();
             return Ok(());
         }
         match (name.as_slice(), is_assigned) {
@@ -161,20 +165,7 @@ impl Writer<'_> {
             }
             (b"CYCLE832", _) => self.tolerance_cycle(start, length),
             (b"TRAORI", false) => self.orientation(start, length),
-            (b"RET", false) => {
-                let span = SourceSpan::new(start, start + length);
-                if self
-                    .input
-                    .text
-                    .get(start + length..)
-                    .is_some_and(|rest| rest.trim_ascii_start().starts_with(b"("))
-                {
-                    let help = "write RET alone";
-                    return Err(refused("RET( )", "a return to another place", help, span));
-                }
-                self.end_program(span, b"M2");
-                Ok(())
-            }
+            (b"RET", false) => self.return_to_caller(start, length),
             (b"RND", true) => self.value_of(start, length, b",R", 0.0),
             (b"RNDM", true) => self.value_of(start, length, b",M", 0.0),
             (b"CHR", true) => self.value_of(start, length, b",C", 0.0),
@@ -182,11 +173,37 @@ impl Writer<'_> {
             (b"ADIS", true) => self.value_of(start, length, b"P", 0.0),
             (b"CTOL", true) => self.contour_tolerance(start, length),
             (b"CR", true) => self.value_of(start, length, b"R", 0.0),
+            (b"SF", true) => self.value_of(start, length, b"Q", 0.0),
             (b"TURN", true) => self.value_of(start, length, b"P", 1.0),
+            // The first spindle, which is the only one.
+            (b"S1" | b"M1", true) => self.value_of(start, length, &name[..1], 0.0),
+            (b"SPOS", false) if self.input.peek(length) == Some(b'[') => self.spindle_angle(start),
+            (b"SETMS", false) => self.master_spindle(start, length),
+            (b"T", true) if self.is_text_assigned() => self.tool_by_name(start),
             ([letter], true) => self.coordinate(start, *letter),
             ([_], false) => self.address(start, length, &name, dwell),
             _ => Err(unknown(&name, SourceSpan::new(start, start + length))),
         }
+    }
+
+    /// `TRAFOOF()` is `TRAFOOF`.
+    fn skip_no_arguments(&mut self) {
+        let rest = self.input.text.get(self.input.at..).unwrap_or_default();
+        if rest.starts_with(b"()") {
+            self.input.at += 2;
+        }
+    }
+
+    /// `RET`.
+    fn return_to_caller(&mut self, start: usize, length: usize) -> Outcome<()> {
+        let span = SourceSpan::new(start, start + length);
+        let rest = self.input.text.get(start + length..).unwrap_or_default();
+        if rest.trim_ascii_start().starts_with(b"(") {
+            let help = "write RET alone";
+            return Err(refused("RET( )", "a return to another place", help, span));
+        }
+        self.end_program(span, b"M2");
+        Ok(())
     }
 
     /// `TRAORI`, `TRAORI(1)`.
@@ -316,47 +333,5 @@ impl Writer<'_> {
         let value = self.input.value()? + plus;
         self.put(start, &[with, b"["].concat(), value);
         Ok(())
-    }
-
-    /// `CTOL=tolerance`, alone or beside G641 and the like; below zero it is the configured one.
-    fn contour_tolerance(&mut self, start: usize, length: usize) -> Outcome<()> {
-        let has_mode = self.has_code(64) || (641..=645).any(|number| self.has_code(number));
-        self.input.at = start + length;
-        self.input.eat(b'=');
-        let value = self.input.value()?;
-        if !has_mode {
-            self.out.push(b"G64 ", start);
-        }
-        if value >= 0.0 {
-            self.put(start, b"P[", value);
-        }
-        Ok(())
-    }
-
-    /// `CYCLE832(tolerance, …)`.
-    fn tolerance_cycle(&mut self, start: usize, length: usize) -> Outcome<()> {
-        self.input.at = start + length;
-        let span = SourceSpan::new(start, start + length);
-        self.out.push(b"G64 ", start);
-        if !self.input.eat(b'(') {
-            return Err(missing(span, "CYCLE832", "( )", "the tolerance"));
-        }
-        if !matches!(self.input.next_visible(), Some(b')' | b',')) {
-            let value = self.input.value()?;
-            self.put(start, b"P[", value);
-        }
-        // The other arguments choose between roughing and finishing: the tolerance decides here.
-        while let Some(byte) = self.input.peek(0) {
-            self.input.at += 1;
-            if byte == b')' {
-                return Ok(());
-            }
-        }
-        Err(Fault::new(
-            DiagnosticCode::Expression,
-            span,
-            "the parenthesis is not closed",
-        )
-        .help("add `)`"))
     }
 }

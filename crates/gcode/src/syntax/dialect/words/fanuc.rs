@@ -13,18 +13,21 @@ pub(crate) const fn g(tenths: u32) -> Option<Meaning> {
         | 430 | 490 | 520 | 530 | 540 | 550 | 560 | 570 | 580 | 590 | 610 | 640 | 730 | 740
         | 800 | 810 | 820 | 830 | 840 | 850 | 860 | 890 | 900 | 910 | 920 | 930 | 940 | 950
         | 960 | 970 | 980 | 990 => Shared,
-        // G9, G10, G15, G16, G30, G31, G44, G43.4, G50, G51, G50.1, G51.1, G54.1, G60, G62, G63,
+        // G9, G10, G12, G13, G15, G16, G30, G31, G44, G43.4, G43.5, G50, G51, G50.1, G51.1, G54.1, G60, G62, G63,
         // G53.1, G68, G68.2, G69, G76, G154, G234, G254, G255.
-        90 | 100 | 150 | 160 | 300 | 310 | 434 | 440 | 500 | 501 | 510 | 511 | 531 | 541 | 600
-        | 620 | 630 | 680 | 682 | 690 | 760 | 1540 | 2340 | 2540 | 2550 => Own,
+        90 | 100 | 120 | 130 | 150 | 160 | 300 | 310 | 434 | 435 | 440 | 500 | 501 | 510 | 511
+        | 531 | 541 | 600 | 620 | 630 | 680 | 682 | 690 | 760 | 1540 | 2340 | 2540 | 2550 => Own,
         // Look-ahead and smoothness (G5 P, G5.1 Q, G8 P, G103 P, G187 P E), the end of G10 L50,
         // no stroke check (G23), no watch on the spindle's speed (G25), the end of what is refused
-        // (G13.1, G113, G54.2 P0 apart).
-        50 | 51 | 80 | 110 | 131 | 230 | 250 | 1030 | 1130 | 1870 => ReadOver,
+        // (G13.1, G54.2 P0 apart).
+        50 | 51 | 80 | 110 | 131 | 230 | 250 | 1030 | 1870 => ReadOver,
         71 | 1070 => Refused("cylindrical interpolation", PLAIN_BLOCKS),
 
-        120 | 130 => Refused("a circular pocket", "write the circles as G2 and G3"),
         121 | 1120 => Refused("polar coordinates of a C axis", PLAIN_BLOCKS),
+        1130 => Refused(
+            "the end of polar coordinates, or a work offset",
+            "remove it, or write G154 P4",
+        ),
         220 => Refused(
             "a zone the tool may not enter",
             "set the travel of the axes in the configuration",
@@ -45,7 +48,6 @@ pub(crate) const fn g(tenths: u32) -> Option<Meaning> {
             "write G43 H where the rotary axes stand at zero",
         ),
         432 => Refused("a second tool length", "write G43 H"),
-        435 => Refused("tool centre point control by vectors", AXES_OF_THE_CAM),
         450 | 460 | 470 | 480 => Refused(
             "a tool offset that makes moves longer or shorter",
             "write G41 or G42 with D",
@@ -71,9 +73,8 @@ pub(crate) const fn g(tenths: u32) -> Option<Meaning> {
             "a mirror image switched on and off",
             "write G51.1 and G50.1",
         ),
-        1100..=1290 if tenths.is_multiple_of(10) => {
-            Refused("a work offset", "write G154 P1 to P20")
-        }
+        // Those of Haas, G154 P1 to P20; two of them are codes of a C axis, too.
+        1100..=1290 if tenths.is_multiple_of(10) => Own,
         1360 | 1430 | 1500 | 1530 | 1740 | 1840 => Refused("a function of Haas", PLAIN_BLOCKS),
         _ => return None,
     })

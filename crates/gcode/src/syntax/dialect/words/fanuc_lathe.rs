@@ -7,19 +7,18 @@ use crate::syntax::dialect::words::fanuc;
 pub(crate) const fn g(tenths: u32) -> Option<Meaning> {
     const PLAIN_BLOCKS: &str = "let the CAM system write plain blocks";
     Some(match tenths {
-        // G32, G50; G70 to G72, G74, G75; G90, G92 and G94, which are cycles; G98 and G99, which say
+        // G32, G50; G70 to G75; G90, G92 and G94, which are cycles; G98 and G99, which say
         // what F is.
-        320 | 500 | 700 | 710 | 720 | 740 | 750 | 900 | 920 | 940 | 980 | 990 => Own,
+        320 | 500 | 700 | 710 | 720 | 730 | 740 | 750 | 900 | 920 | 940 | 980 | 990 => Own,
         330 => Refused("a thread in another system of codes", "write G32"),
         340 => Refused("a thread whose pitch changes", PLAIN_BLOCKS),
-        730 => Refused("passes along a profile that is there already", "write G71"),
         770 | 780 | 790 | 910 | 930 | 950 => Refused(
             "a code of the systems B and C",
             "write the codes of system A: U and W for G91, G98 and G99 for G94 and G95",
         ),
         870 | 880 | 890 => Refused("a cycle on the side of the part", PLAIN_BLOCKS),
-        150 | 160 | 434 | 440 | 531 | 682 | 2340 | 2540 | 2550 | 501 | 510 | 511 | 541 | 1540
-        | 680 | 690 => Refused("a code of mills", PLAIN_BLOCKS),
+        120 | 130 | 150 | 160 | 434 | 435 | 440 | 531 | 682 | 2340 | 2540 | 2550 | 501 | 510
+        | 511 | 541 | 1540 | 680 | 690 => Refused("a code of mills", PLAIN_BLOCKS),
         430 | 490 | 810 | 820 | 860 => Refused("a code of mills", "write T0101, or G83"),
         _ => return fanuc::g(tenths),
     })

@@ -78,11 +78,10 @@ pub fn words(dialect: Dialect) -> Vec<Word> {
         }
         Dialect::Siemens => {
             let codes = (0..=MOST).filter_map(|number| Some((number, siemens::g(number)?)));
-            let names = siemens_names::NAMES.iter();
             codes
                 .map(|(number, meaning)| word(format!("G{number}"), meaning))
                 .chain(m_codes(siemens::m))
-                .chain(names.map(|(name, meaning)| word((*name).to_owned(), *meaning)))
+                .chain(siemens_names::names().map(|(name, meaning)| word(name.to_owned(), meaning)))
                 .collect()
         }
     }

@@ -39,6 +39,13 @@ pub(crate) const fn m(number: u32) -> Option<Meaning> {
         ),
         48 => Refused("a test of the probe", "remove it"),
         49..=53 | 60..=72 => Refused("a code of other controls", "remove it"),
+        207..=209 => Refused(
+            "retraction by the firmware",
+            "let the slicer write the moves of the extruder",
+        ),
+        125 | 290 | 401 | 402 | 600 | 603 | 701 | 702 => {
+            Refused("a move of the firmware", "write the moves out, or M0")
+        }
         206 => Refused(
             "offsets of home positions",
             "write G92, or set the work offset of the machine",

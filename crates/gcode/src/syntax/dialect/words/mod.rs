@@ -5,6 +5,7 @@
 
 pub(crate) mod fanuc;
 pub(crate) mod fanuc_lathe;
+pub(crate) mod fanuc_systems;
 pub(crate) mod listing;
 pub(crate) mod marlin;
 pub(crate) mod siemens;

@@ -7,7 +7,23 @@ pub(crate) const fn g(number: u32) -> Option<Meaning> {
     const PLAIN: &str = "let the CAM system write plain blocks";
     Some(match number {
         0..=4 | 17..=19 | 33 | 40..=42 | 53..=57 | 64 | 90 | 91 | 93..=97 => Shared,
-        9 | 60 | 70 | 71 | 110..=112 | 153 | 331 | 332 | 500 | 641..=645 | 700 | 710 => Own,
+        9
+        | 58
+        | 59
+        | 60
+        | 70
+        | 71
+        | 110..=112
+        | 153
+        | 331
+        | 332
+        | 500
+        | 505..=599
+        | 641..=645
+        | 700
+        | 710
+        | 961
+        | 971..=973 => Own,
         // Windows of exact stops, and how corners of G41 and G42 are gone round: see the manual.
         450 | 601..=603 => ReadOver,
         5 | 7 => Refused("an inclined axis", PLAIN),
@@ -16,10 +32,6 @@ pub(crate) const fn g(number: u32) -> Option<Meaning> {
             "set it in the configuration",
         ),
         34 | 35 => Refused("a thread whose pitch changes", PLAIN),
-        58 | 59 => Refused(
-            "an offset of an axis",
-            "write TRANS or ATRANS, which it changes",
-        ),
         63 => Refused("tapping with a compensating chuck", "write CYCLE84"),
         74 | 75 => Refused("a reference or fixed point", "write G53 and the place"),
         140..=143 | 147 | 148 | 247 | 248 | 340 | 341 | 347 | 348 => Refused(
@@ -32,10 +44,9 @@ pub(crate) const fn g(number: u32) -> Option<Meaning> {
         ),
         451 => Refused("a corner cut at the crossing of its sides", "write G450"),
         460..=462 => Refused("a way to and from the contour", "write it out"),
-        505..=599 => Refused("a coordinate system", "write G54 to G57"),
         621 => Refused("a stop at every corner", "write G60"),
         810..=829 => Refused("a code of the machine's builder", "remove it"),
-        931 | 942 | 952 | 961..=963 | 971..=973 => Refused(
+        931 | 942 | 952 | 962 | 963 => Refused(
             "a meaning of F and S in one code",
             "write G94, G95, G96 and G97",
         ),

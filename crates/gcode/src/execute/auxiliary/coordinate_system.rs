@@ -1,0 +1,50 @@
+//! G54 to G59.3, and SINUMERIK's G500 and G505 to G599: which coordinate system is in force.
+
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::{Fault, Outcome};
+use crate::diagnostic::span::SourceSpan;
+use crate::execute::interpreter::Interpreter;
+use crate::execute::state::fanuc_offsets::system_key;
+use crate::setup::work_offsets::CoordinateSystem;
+use crate::syntax::codes::{Coded, NO_SYSTEM};
+
+impl Interpreter {
+    pub(crate) fn choose_system(
+        &mut self,
+        Coded { code: index, span }: Coded<usize>,
+    ) -> Outcome<()> {
+        if let Some(system) = self.offsets.fanuc.pending.remove(&index) {
+            self.offsets.keep_system(index, system);
+        }
+        let fanuc = &mut self.offsets.fanuc;
+        if index == NO_SYSTEM {
+            fanuc.extended.insert(0, CoordinateSystem::default());
+            fanuc.active = Some(0);
+        } else if index < self.offsets.systems.len() {
+            self.offsets.active = index;
+            fanuc.active = None;
+        } else {
+            // Those of SINUMERIK from G510 on.
+            let key = system_key(index);
+            if !fanuc.extended.contains_key(&key) {
+                return Err(system_not_set(index, span));
+            }
+            fanuc.active = Some(key);
+        }
+        Ok(())
+    }
+}
+
+#[cold]
+fn system_not_set(index: usize, span: SourceSpan) -> Box<Fault> {
+    let code = index + 501;
+    let message = format!("the coordinate system of G{code} was not set");
+    Fault::new(DiagnosticCode::NotSupported, span, message)
+        .because(
+            "the machine keeps G54 to G57 and G505 to G509; a program has the others that it sets",
+        )
+        .help(format!(
+            "write $P_UIFR[{}]=CTRANS(X,0) with its offsets before it",
+            index + 1
+        ))
+}

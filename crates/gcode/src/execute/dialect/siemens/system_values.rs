@@ -1,0 +1,119 @@
+//! What a program reads of the control by names with `$`.
+//!
+//! | | |
+//! |---|---|
+//! | `$P_EP[X]`, `$AA_IW[X]` | where the program has gone to, in its coordinates |
+//! | `$AA_IM[X]` | the same in the machine's |
+//! | `$P_UIFR[1,X,TR]`, `[1,Z,RT]` | a coordinate system |
+//! | `$TC_DP3[1,1]` to `$TC_DP6[1,1]` | lengths and radius of a tool |
+//! | `$P_TOOLNO`, `$P_TOOL`, `$P_TOOLR`, `$P_TOOLL[1]` | tool in the spindle, its edge, radius, lengths |
+//! | `$P_F`, `$P_S` | feed, speed of the spindle |
+//! | `$P_GG[6]`, `[8]`, `[14]` | which code of a group is in force: plane, coordinate system, distances |
+//! | `$P_SEARCH`, `$P_SIM`, `$P_ISTEST`, `$P_DRYRUN` | 0: the program is executed |
+
+use glidepath_geometry::{Axis, Plane};
+
+use crate::execute::dialect::siemens::system_data::{EdgePart, edge_of, edge_part, system_number};
+use crate::execute::interpreter::Interpreter;
+use crate::execute::scope::{coordinate, in_units};
+use crate::setup::tool_table::Tool;
+use crate::syntax::dialect::siemens::system_index::Index;
+use crate::syntax::modes::{Distance, FeedMode};
+
+impl Interpreter {
+    /// The value of a variable of the control; `None`: it is not known.
+    pub(crate) fn siemens_value(&self, name: &[u8], index: &[Index]) -> Option<f64> {
+        let modal = &self.state.modal;
+        // Whether X is a diameter there depends on the machine.
+        let axis = match index {
+            [Index::Axis(axis)] => Some(*axis).filter(|axis| *axis != Axis::X || !modal.diameter),
+            _ => None,
+        };
+        Some(match (name, index) {
+            (b"$P_EP" | b"$AA_IW", _) => coordinate(self, axis?.index()),
+            (b"$AA_IM", _) => in_units(self, self.state.position, axis?.index()),
+            // What words of a line mean, which no program reads.
+            (b"DIAM90", _) => f64::from(u8::from(self.state.diameter_by_distance)),
+            (b"AP", _) => self.state.pole.degrees.unwrap_or(0.0),
+            (b"RP", _) => self.state.pole.radius_mm.unwrap_or(0.0) / modal.units.mm(),
+            (b"$P_TOOLNO", []) => f64::from(self.state.tool),
+            (b"$P_TOOL", []) => f64::from(self.state.edge.unwrap_or(0)),
+            (b"$P_TOOLR", []) => self.edge_value(self.tool_in_force(), EdgePart::Radius)?,
+            (b"$P_TOOLL", [Index::Value(which)]) => {
+                let name: &[u8] = match which {
+                    1.0 => b"$TC_DP3",
+                    2.0 => b"$TC_DP4",
+                    3.0 => b"$TC_DP5",
+                    _ => return None,
+                };
+                let part = edge_part(name, self.options.is_lathe())?;
+                self.edge_value(self.tool_in_force(), part)?
+            }
+            (b"$P_F", []) => {
+                let per_second = match modal.feed_mode {
+                    FeedMode::PerMinute => 60.0,
+                    FeedMode::PerRevolution => 1.0,
+                    FeedMode::InverseTime => return None,
+                };
+                modal.feed?.linear_v * per_second / self.feed_unit_mm()
+            }
+            (b"$P_S", []) if !self.state.spindle.follows_tool() => self.state.spindle.speed,
+            (b"$P_SEARCH" | b"$P_SIM" | b"$P_ISTEST" | b"$P_DRYRUN", []) => 0.0,
+            (b"$P_GG", [Index::Value(group)]) => self.code_of_group(*group)?,
+            (b"$P_UIFR", [Index::Value(number), Index::Axis(axis), Index::Word(part)]) => {
+                let system = self.kept_system(system_number(*number)?);
+                match part.as_slice() {
+                    b"TR" => in_units(self, system.origin, axis.index()),
+                    b"RT" if *axis == Axis::Z => system.rotation_deg,
+                    _ => return None,
+                }
+            }
+            (name, index) => {
+                let part = edge_part(name, self.options.is_lathe())?;
+                let tools = self.tools.as_ref()?;
+                self.edge_value(*tools.get(edge_of(index)?)?, part)?
+            }
+        })
+    }
+
+    /// The tool in the spindle with its edge; none where D0 is in force.
+    fn tool_in_force(&self) -> Tool {
+        let tools = self.tools.as_ref().filter(|_| self.state.edge != Some(0));
+        let tool = tools.and_then(|tools| tools.get(self.state.tool));
+        tool.copied().unwrap_or_default()
+    }
+
+    fn edge_value(&self, tool: Tool, part: EdgePart) -> Option<f64> {
+        let mm = self.state.modal.units.mm();
+        Some(match part {
+            EdgePart::Kind => return None,
+            EdgePart::Length(axis) => tool.offset[axis] / mm,
+            EdgePart::Radius => 0.5 * tool.diameter_mm / mm,
+        })
+    }
+
+    /// The number within its group of the code that is in force.
+    fn code_of_group(&self, group: f64) -> Option<f64> {
+        let modal = &self.state.modal;
+        let offsets = &self.offsets;
+        Some(match group {
+            6.0 => match modal.plane {
+                Plane::Xy => 1.0,
+                Plane::Zx => 2.0,
+                Plane::Yz => 3.0,
+                Plane::Uv | Plane::Wu | Plane::Vw => return None,
+            },
+            // G500 is the first, G54 the second.
+            8.0 => match offsets.fanuc.active {
+                None => f64::from(u32::try_from(offsets.active).ok()?) + 2.0,
+                Some(0) => 1.0,
+                Some(_) => return None,
+            },
+            14.0 => match modal.distance {
+                Distance::Absolute => 1.0,
+                Distance::Incremental => 2.0,
+            },
+            _ => return None,
+        })
+    }
+}

@@ -1,0 +1,186 @@
+//! The geometry of corners that are broken.
+//!
+//! ```text
+//!        a ───────●P1
+//!                  ╲        P1, P2: as far from the corner b, t
+//!               b   ●P2     chamfer: t, or its own length / (2 sin(θ/2))
+//!                   │       arc: t = r / tan(θ/2), θ the angle between the moves
+//!                   c
+//! ```
+//!
+//! Beside arcs an arc touches both moves; its centre is as far from both as its radius.
+
+use core::f64::consts::PI;
+
+use crate::execute::compensation::element::{Element, Point};
+use crate::execute::lathe_cycle::edge_break::{EdgeBreak, cut};
+use crate::execute::motion::settled::MIN_MOVE;
+use crate::syntax::block::CornerKind;
+
+/// The angle between the moves within which they go on straight, or back, radians.
+const STRAIGHT_RAD: f64 = 1e-6;
+
+/// Two moves, and what is between them.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Broken {
+    pub(super) before: Element,
+    pub(super) between: Element,
+    pub(super) behind: Element,
+}
+
+/// How a corner is broken; `None`: the moves go on straight. Else why it cannot be.
+pub(super) fn broken(
+    mut before: Element,
+    mut behind: Element,
+    kind: CornerKind,
+    size_mm: f64,
+) -> Result<Option<Broken>, &'static str> {
+    if before.arc.is_none() && behind.arc.is_none() {
+        return between_lines([before.start, before.end, behind.end], kind, size_mm);
+    }
+    let is_arc = matches!(kind, CornerKind::Round | CornerKind::RoundAll);
+    if !is_arc {
+        return Err("a chamfer is made between straight moves alone");
+    }
+    match cut(&mut before, &mut behind, EdgeBreak::Fillet(size_mm)) {
+        None => Err("the arc does not fit between the moves"),
+        Some(None) => Ok(None),
+        Some(Some(between)) => Ok(Some(Broken {
+            before,
+            between,
+            behind,
+        })),
+    }
+}
+
+/// A corner of the straight moves from a to b and on to c.
+fn between_lines(
+    [a, b, c]: [Point; 3],
+    kind: CornerKind,
+    size_mm: f64,
+) -> Result<Option<Broken>, &'static str> {
+    let way = |to: [f64; 2]| [to[0] - b[0], to[1] - b[1]];
+    let length = |v: [f64; 2]| v[0].hypot(v[1]);
+    let (to_a, to_c) = (way(a), way(c));
+    let (before, behind) = (length(to_a), length(to_c));
+    if before <= MIN_MOVE || behind <= MIN_MOVE {
+        return Err("one of the moves goes nowhere");
+    }
+    let u = to_a.map(|part| part / before);
+    let v = to_c.map(|part| part / behind);
+    let cross = u[0] * v[1] - u[1] * v[0];
+    let angle = cross.abs().atan2(u[0] * v[0] + u[1] * v[1]);
+    if PI - angle < STRAIGHT_RAD {
+        return Ok(None);
+    }
+    if angle < STRAIGHT_RAD {
+        return Err("the second move goes back where the first one came from");
+    }
+    let leg = match kind {
+        CornerKind::Chamfer => size_mm,
+        CornerKind::ChamferLength => 0.5 * size_mm / (0.5 * angle).sin(),
+        CornerKind::Round | CornerKind::RoundAll => size_mm / (0.5 * angle).tan(),
+    };
+    if leg > before + MIN_MOVE || leg > behind + MIN_MOVE {
+        return Err("one of the moves is shorter than what it takes away");
+    }
+    let along = |way: Point| [b[0] + leg * way[0], b[1] + leg * way[1]];
+    let arc = matches!(kind, CornerKind::Round | CornerKind::RoundAll).then(|| {
+        let middle = [u[0] + v[0], u[1] + v[1]];
+        let out = size_mm / (0.5 * angle).sin() / length(middle);
+        let center = [b[0] + out * middle[0], b[1] + out * middle[1]];
+        // The moves go along −u, then v: to the left where that turns left.
+        let sweep = (PI - angle).copysign(-cross);
+        (center, sweep)
+    });
+    let line = |start: Point, end: Point| Element {
+        start,
+        end,
+        arc: None,
+    };
+    let (first, second) = (along(u), along(v));
+    Ok(Some(Broken {
+        before: line(a, first),
+        between: Element {
+            arc,
+            ..line(first, second)
+        },
+        behind: line(second, c),
+    }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn line(start: Point, end: Point) -> Element {
+        Element {
+            start,
+            end,
+            arc: None,
+        }
+    }
+
+    fn near(a: Point, b: Point) -> bool {
+        (a[0] - b[0]).hypot(a[1] - b[1]) < 1e-9
+    }
+
+    fn corner(points: [Point; 3], kind: CornerKind, size: f64) -> Option<Broken> {
+        let [a, b, c] = points;
+        broken(line(a, b), line(b, c), kind, size).expect("it can be")
+    }
+
+    #[test]
+    fn a_right_angle_by_hand() {
+        let points = [[0.0, 0.0], [20.0, 0.0], [20.0, 20.0]];
+        let round = corner(points, CornerKind::Round, 5.0).expect("a corner");
+        let (center, sweep) = round.between.arc.expect("an arc");
+        assert!(near(round.before.end, [15.0, 0.0]) && near(round.behind.start, [20.0, 5.0]));
+        assert!(near(center, [15.0, 5.0]) && (sweep - PI / 2.0).abs() < 1e-12);
+        let own = corner(points, CornerKind::ChamferLength, 2.0_f64.sqrt()).expect("a corner");
+        assert!(near(own.before.end, [19.0, 0.0]));
+        let back = broken(
+            line([0.0, 0.0], [20.0, 0.0]),
+            line([20.0, 0.0], [5.0, 0.0]),
+            CornerKind::Chamfer,
+            1.0,
+        );
+        assert!(back.is_err());
+        let [a, b, c] = points;
+        assert!(broken(line(a, b), line(b, c), CornerKind::Chamfer, 20.1).is_err());
+        let on = [[0.0, 0.0], [20.0, 0.0], [25.0, 0.0]];
+        assert!(corner(on, CornerKind::Round, 1.0).is_none());
+    }
+
+    #[test]
+    fn a_turn_to_the_right_sweeps_clockwise() {
+        let points = [[0.0, 0.0], [20.0, 0.0], [20.0, -20.0]];
+        let round = corner(points, CornerKind::Round, 5.0).expect("a corner");
+        let (_, sweep) = round.between.arc.expect("an arc");
+        assert!((sweep + PI / 2.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_line_and_a_quarter_circle_by_hand() {
+        // Along X to (10, 0), then clockwise about (20, 0), upwards at first. An arc of radius 2 inside
+        // the corner, above the line and left of the circle: its centre is 2 above the line, and 12
+        // from (20, 0).
+        let before = line([0.0, 0.0], [10.0, 0.0]);
+        let behind = Element {
+            start: [10.0, 0.0],
+            end: [20.0, 10.0],
+            arc: Some(([20.0, 0.0], -PI / 2.0)),
+        };
+        let made = broken(before, behind, CornerKind::Round, 2.0).expect("it can be");
+        let made = made.expect("a corner");
+        let x = 20.0 - 140.0_f64.sqrt();
+        let (center, _) = made.between.arc.expect("an arc");
+        assert!(near(center, [x, 2.0]), "{center:?}");
+        assert!(near(made.before.end, [x, 0.0]));
+        let touch = [20.0 - (20.0 - x) * 10.0 / 12.0, 2.0 * 10.0 / 12.0];
+        assert!(near(made.behind.start, touch), "{:?}", made.behind.start);
+        let (_, sweep) = made.behind.arc.expect("an arc");
+        let from = (touch[1]).atan2(touch[0] - 20.0);
+        assert!((sweep - (PI / 2.0 - from)).abs() < 1e-9, "{sweep}");
+    }
+}

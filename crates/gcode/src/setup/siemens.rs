@@ -1,0 +1,30 @@
+//! What the machine data of a SINUMERIK decide about its programs.
+
+/// Which word changes the tool (MD 22550).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ToolChangeBy {
+    /// T itself, as on the turret of a lathe.
+    T,
+    /// M6, for the tool that T has chosen.
+    M6,
+}
+
+/// What the machine data of a SINUMERIK say.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SiemensParameters {
+    /// Which word changes the tool; `None`: T on a machine with X and Z and without Y, else M6.
+    pub tool_change: Option<ToolChangeBy>,
+    /// Edge D1 is in force behind a tool change that names no edge (MD 20270); else the tool has no
+    /// length until D is written.
+    pub edge_after_change: bool,
+}
+
+impl Default for SiemensParameters {
+    /// By the machine, and D1.
+    fn default() -> Self {
+        Self {
+            tool_change: None,
+            edge_after_change: true,
+        }
+    }
+}

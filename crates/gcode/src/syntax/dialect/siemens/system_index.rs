@@ -1,0 +1,31 @@
+//! Variables of the control, whose names begin with `$`: what their indices may be.
+
+use glidepath_geometry::Axis;
+
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::Fault;
+use crate::diagnostic::span::SourceSpan;
+
+/// An index of a variable of the control.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Index {
+    /// `X`
+    Axis(Axis),
+    /// `TR`, `RT`, `FI`, `SC`, `MI`: a part of a frame.
+    Word(Vec<u8>),
+    Value(f64),
+}
+
+/// A name as text.
+pub(crate) fn letters(name: &[u8]) -> String {
+    String::from_utf8_lossy(name).into_owned()
+}
+
+/// A variable of the control that is not known here.
+#[cold]
+pub(crate) fn not_known(name: &[u8], span: SourceSpan) -> Box<Fault> {
+    let message = format!("{} cannot be read", letters(name));
+    Fault::new(DiagnosticCode::NotSupported, span, message)
+        .because("what this variable of the control holds is not known here, or depends on its machine data")
+        .help("write the value, or a variable of the program")
+}

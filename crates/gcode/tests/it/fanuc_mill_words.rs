@@ -1,0 +1,192 @@
+//! FANUC's and Haas' mills: offsets by other words, depths of Haas, round pockets, names of programs and
+//! variables, what is printed. Values are computed by hand.
+
+use std::sync::Arc;
+
+use glidepath_gcode::{
+    Connections, Dialect, Machine, Options, Program, RemarkKind, Tool, ToolTable, check,
+};
+use glidepath_geometry::{Axis, Segment};
+use glidepath_program::{ItemKind, Rate};
+
+use crate::support::listed;
+
+/// Tools 1 and 2, 10 and 20 mm long, with a diameter of 6 and 10 mm.
+fn options() -> Options {
+    let mut tools = ToolTable::new();
+    for (number, diameter_mm) in [(1, 6.0), (2, 10.0)] {
+        let mut tool = Tool {
+            diameter_mm,
+            ..Tool::default()
+        };
+        tool.offset[2] = 10.0 * f64::from(number);
+        tools.set(number, tool);
+    }
+    Options {
+        dialect: Dialect::Fanuc,
+        connections: Connections::Simulated,
+        default_feed_mm_min: Some(600.0),
+        tools: Some(Arc::new(tools)),
+        machine: Machine::new(&[Axis::X, Axis::Y, Axis::Z]),
+        ..Options::default()
+    }
+}
+
+fn moves(text: &str) -> Vec<(Segment, Rate)> {
+    Program::new(text.as_bytes(), options())
+        .map(|item| item.unwrap_or_else(|d| panic!("{text}\n{d}")))
+        .filter_map(|item| match item.kind {
+            ItemKind::Move { segment, rate, .. } => Some((segment, rate)),
+            _ => None,
+        })
+        .collect()
+}
+
+fn ends(text: &str) -> Vec<[f64; 3]> {
+    let all = moves(text).into_iter();
+    all.map(|(segment, _)| [0, 1, 2].map(|axis| (segment.end()[axis] * 1e6).round() / 1e6 + 0.0))
+        .collect()
+}
+
+fn last(text: &str) -> [f64; 3] {
+    *ends(text).last().expect("a move")
+}
+
+#[track_caller]
+fn finds(text: &str, expected: &[&str]) {
+    let report = check(text.as_bytes(), options());
+    assert_eq!(listed(&report), expected, "{text}");
+}
+
+#[test]
+fn work_offsets_have_several_names() {
+    let set = "G10 L20 P4 X30 Y20\n";
+    for code in ["G54.1 P4", "G54 P4", "G154 P4"] {
+        assert_eq!(
+            last(&format!("{set}{code}\nG0 X1 Y1")),
+            [31.0, 21.0, 0.0],
+            "{code}"
+        );
+    }
+    assert_eq!(last("G10 L20 P2 X30\nG111\nG0 X1"), [31.0, 0.0, 0.0]);
+    assert_eq!(last("G10 L20 P2 X30\nG111\nG54 G0 X1"), [1.0, 0.0, 0.0]);
+    // Factors without a point count thousandths, however large they are.
+    assert_eq!(last("G51 X0 Y0 I2000 J1000\nG0 X10 Y10"), [20.0, 10.0, 0.0]);
+    // G112 and G113 are of a C axis, too.
+    finds("G113", &["1:1 not-supported"]);
+    finds("G54 P7", &["1:1 not-supported"]);
+}
+
+#[test]
+fn the_length_follows_h() {
+    let at = |text: &str| last(text)[2];
+    assert_eq!(at("G43 H1 G0 Z5\nH2 Z5"), 25.0);
+    assert_eq!(at("G44 H1 G0 Z5\nH2 Z5"), -15.0);
+    assert_eq!(at("G43 H1 G0 Z5\nH0 Z5"), 5.0);
+    // Without G43 it is the number that the next one takes.
+    assert_eq!(at("G0 Z50 H2"), 50.0);
+    assert_eq!(at("G0 Z50 H2\nG43 Z5"), 25.0);
+    finds("G0 Z5 H9\nG43 Z5", &["2:1 unknown-tool"]);
+}
+
+#[test]
+fn depths_of_haas_become_less() {
+    // 8, 6, 4, 3, 3 …: from R2 to Z-22.
+    let levels: Vec<f64> = ends("G0 Z20\nG98 G83 X0 Z-22 R2 I8 J2 K3 F100")
+        .into_iter()
+        .map(|[_, _, z]| z)
+        .collect();
+    let feeds: Vec<f64> = moves("G0 Z20\nG98 G83 X0 Z-22 R2 I8 J2 K3 F100")
+        .into_iter()
+        .filter(|(_, rate)| !matches!(rate, Rate::Rapid))
+        .map(|(segment, _)| (segment.end()[2] * 1e6).round() / 1e6)
+        .collect();
+    assert_eq!(feeds, [-6.0, -12.0, -16.0, -19.0, -22.0]);
+    assert_eq!(levels.last(), Some(&20.0));
+    // The words are kept for the next hole.
+    let both = ends("G0 Z20\nG98 G83 X0 Z-22 R2 I8 J2 K3 F100\nX10");
+    assert_eq!(both.iter().filter(|end| end[2] == -19.0).count(), 2);
+    finds("G0 Z20\nG83 X0 Z-5 R2 I8 Q1 F100", &["2:18 unused-word"]);
+    finds("G0 Z20\nG81 X0 Z-5 R2 I8 F100", &["2:15 unused-word"]);
+    finds("G0 Z20\nG83 X0 Z-5 R2 I2 K3 F100", &["2:15 canned-cycle"]);
+}
+
+#[test]
+fn round_pockets_go_from_the_centre_and_back() {
+    // A tool of radius 5 in a pocket of radius 20: its circle has 15.
+    let text = "G0 X10 Y20 Z1\nG13 I20 D2 Z-3 F500";
+    assert_eq!(
+        ends(text)[1..],
+        [
+            [10.0, 20.0, -3.0],
+            [25.0, 20.0, -3.0],
+            [25.0, 20.0, -3.0],
+            [10.0, 20.0, -3.0]
+        ]
+    );
+    let length: f64 = moves(text)[1..]
+        .iter()
+        .map(|(segment, _)| segment.length())
+        .sum();
+    let circles = std::f64::consts::PI * (7.5 + 30.0 + 7.5);
+    assert!((length - 4.0 - circles).abs() < 1e-9, "{length}");
+    let sweeps = |text: &str| -> Vec<f64> {
+        let all = moves(text).into_iter();
+        all.filter_map(|(segment, _)| match segment {
+            Segment::Arc(arc) => Some(arc.sweep_rad.to_degrees().round()),
+            _ => None,
+        })
+        .collect()
+    };
+    assert_eq!(sweeps(text), [180.0, 360.0, 180.0]);
+    assert_eq!(sweeps("G12 I20 D2 F500"), [-180.0, -360.0, -180.0]);
+    // From I to K by Q, the last as far as is left; D0 takes nothing away.
+    let xs: Vec<f64> = ends("G13 I5 K12 Q4 D0 F500")
+        .iter()
+        .map(|end| end[0])
+        .collect();
+    assert_eq!(xs, [5.0, 5.0, 9.0, 9.0, 12.0, 12.0, 0.0]);
+    // Levels.
+    let zs: Vec<f64> = ends("G91 G13 Z-1 L2 I6 D0 F500")
+        .iter()
+        .map(|end| end[2])
+        .collect();
+    assert_eq!(zs, [-1.0, -1.0, -1.0, -1.0, -2.0, -2.0, -2.0, -2.0]);
+    finds("G13 I20 F500", &["1:1 missing-word"]);
+    finds("G13 I4 D2 F500", &["1:5 canned-cycle"]);
+    finds("G13 I5 K20 D0 F500", &["1:1 missing-word"]);
+    finds("G13 Z-1 L2 I6 D0 F500", &["1:9 canned-cycle"]);
+}
+
+#[test]
+fn programs_and_variables_have_names() {
+    let text = "%\nO<MAIN>\nM98 <SLOT> L2\nM30\nO<SLOT>\nG91 G0 X5\nG90\nM99\n%\n";
+    assert_eq!(last(text), [10.0, 0.0, 0.0]);
+    let text = "O1\nG65 <PART> X7\nM30\n<PART>\nG0 X#24\nM99";
+    assert_eq!(last(text), [7.0, 0.0, 0.0]);
+    finds("M98 <NONE>", &["1:1 unknown-subroutine"]);
+    let text = "SETVN 510[DEPTH,WIDTH]\n#510=4\n[#WIDTH]=[#DEPTH]*2\nG0 X#511 Y[#DEPTH+1]";
+    assert_eq!(last(text), [8.0, 5.0, 0.0]);
+    finds("SETVN 10[DEPTH]", &["1:9 parameter"]);
+    finds("G0 X[#DEPTH]", &["1:6 parameter"]);
+    assert_eq!(
+        last("#1=BIN[18]\n#2=BCD[12]\nG0 X#1 Y#2"),
+        [12.0, 18.0, 0.0]
+    );
+    finds("#1=BIN[10]", &["1:4 arithmetic"]);
+}
+
+#[test]
+fn variables_are_printed() {
+    let text = "POPEN\n#100=-1.5\nDPRNT[X#100[32]*Y#101[20]]\nPCLOS\n";
+    let mut program = Program::new(text.as_bytes(), options()).with_remarks();
+    assert!(program.by_ref().all(|item| item.is_ok()));
+    let remarks = program.take_remarks();
+    assert_eq!(remarks.len(), 1);
+    assert_eq!(
+        (remarks[0].line, remarks[0].kind, remarks[0].text.as_str()),
+        (3, RemarkKind::Debug, "X-  1.50 Y  0")
+    );
+    finds("DPRNT[X#100]", &["1:8 expression"]);
+    finds("DPRNT[X", &["1:6 expression"]);
+}

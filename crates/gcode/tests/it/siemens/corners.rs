@@ -1,0 +1,163 @@
+//! Corners beside arcs, feeds of corners and of blocks, polar coordinates that are added to the last
+//! ones. Values are computed by hand.
+
+use glidepath_geometry::Segment;
+use glidepath_program::Rate;
+use proptest::prelude::*;
+
+use super::{ends, finds, moves, xs};
+
+fn near(a: [f64; 2], b: [f64; 2]) -> bool {
+    (a[0] - b[0]).hypot(a[1] - b[1]) < 1e-6
+}
+
+fn flat(text: &str) -> Vec<[f64; 2]> {
+    ends(text).into_iter().map(|[x, y, _]| [x, y]).collect()
+}
+
+#[test]
+fn arcs_have_corners_too() {
+    // Along X to (10, 0), then up about (20, 0), clockwise: the centre of an arc of radius 2 is 2 above
+    // the line, and 12 from (20, 0).
+    let text = "F600\nG1 X10 RND=2\nG2 X20 Y10 CR=10\nG1 X30";
+    let x = 20.0 - 140.0_f64.sqrt();
+    let touch = [20.0 - (20.0 - x) * 10.0 / 12.0, 2.0 * 10.0 / 12.0];
+    let found = flat(text);
+    assert!(
+        near(found[0], [x, 0.0]) && near(found[1], touch),
+        "{found:?}"
+    );
+    assert_eq!(found[2..], [[20.0, 10.0], [30.0, 10.0]]);
+    // The other way round: the arc comes first.
+    let text = "F600\nG0 X20 Y10\nG3 X10 Y0 CR=10 RND=2\nG1 X0";
+    let found = flat(text);
+    assert!(
+        near(found[1], touch) && near(found[2], [x, 0.0]),
+        "{found:?}"
+    );
+    // Between two arcs: about (10, 10) to the left, along X at its end, and about (20, 0) to the right,
+    // upwards at first. The centre of the arc between them is 8 from the one and 12 from the other.
+    let text = "F600\nG0 X0 Y10\nG3 X10 Y0 CR=10 RND=2\nG2 X20 Y10 CR=10";
+    let all = moves(text);
+    let Segment::Arc(arc) = all[2].0 else {
+        panic!("an arc")
+    };
+    let x = 13.0 - 23.0_f64.sqrt();
+    assert!(near(arc.center, [x, x - 6.0]), "{:?}", arc.center);
+    let x = 20.0 - 140.0_f64.sqrt();
+    // RNDM rounds where it fits, and leaves the rest.
+    let text = "F600\nG1 X10 RNDM=2\nG2 X20 Y10 CR=10\nRNDM=0\nG1 X30";
+    assert!(near(flat(text)[0], [x, 0.0]));
+    finds(
+        "F600\nG1 X10 CHR=2\nG2 X20 Y10 CR=10",
+        &["3:1 invalid-value"],
+    );
+    finds(
+        "F600\nG1 X10 RND=50\nG2 X20 Y10 CR=10",
+        &["3:1 invalid-value"],
+    );
+    finds(
+        "F600\nG1 X10 RND=2\nG2 X20 Y10 Z1 CR=10",
+        &["3:1 not-supported"],
+    );
+    finds("F600\nG1 X10 RND=2\nG0 X20", &["3:1 not-supported"]);
+}
+
+proptest! {
+    /// A rounded corner of a line and an arc leaves and meets both along their own directions.
+    #[test]
+    fn a_rounded_corner_is_smooth(
+        radius in 3.0..40.0_f64, round in 0.1..1.0_f64, angle in 20.0..160.0_f64, left in any::<bool>(),
+    ) {
+        // It fits: between the arc and the line that it comes back to, and on a quarter of the arc.
+        let lens = radius * (1.0 - angle.to_radians().cos().abs());
+        prop_assume!(angle < 90.0 || !left || 2.5 * round < lens);
+        prop_assume!(round / (90.0 - 0.5 * angle).to_radians().tan() < 0.6 * radius);
+        // A line along X to the origin, then an arc whose first direction has that angle to it.
+        let (sin, cos) = angle.to_radians().sin_cos();
+        let side = if left { 1.0 } else { -1.0 };
+        let center = [-side * radius * sin, side * radius * cos];
+        // A quarter of the circle.
+        let from = [-center[0], -center[1]];
+        let end = [center[0] - side * from[1], center[1] + side * from[0]];
+        let code = if left { "G3" } else { "G2" };
+        let text = format!(
+            "F600\nG0 X-50 Y0\nG1 X0 RND={round}\n{code} X={} Y={} I={} J={}",
+            end[0], end[1], center[0], center[1]
+        );
+        let all = moves(&text);
+        prop_assert_eq!(all.len(), 4, "{}", text);
+        for pair in all[1..].windows(2) {
+            let (before, behind) = (pair[0].0, pair[1].0);
+            let out = before.jet(before.length()).d1;
+            let into = behind.jet(0.0).d1;
+            prop_assert!((out - into).norm() < 1e-6, "{}: {} {}", text, out, into);
+        }
+        let Segment::Arc(arc) = all[2].0 else { panic!("an arc") };
+        let distance = (arc.center[0] - arc.start[0]).hypot(arc.center[1] - arc.start[1]);
+        prop_assert!((distance - round).abs() < 1e-6);
+    }
+}
+
+#[test]
+fn corners_and_blocks_have_feeds_of_their_own() {
+    let rates = |text: &str| -> Vec<f64> {
+        let all = moves(text).into_iter();
+        all.map(|(_, rate, _)| match rate {
+            Rate::Feed(feed_v) => (feed_v * 60.0).round(),
+            _ => 0.0,
+        })
+        .collect()
+    };
+    assert_eq!(
+        rates("F600\nG1 X20 CHR=2 FRC=100\nY20\nX0"),
+        [600.0, 100.0, 600.0, 600.0]
+    );
+    assert_eq!(
+        rates("F600\nG1 X20 RND=2 FRCM=100\nY20 RND=2\nX0 FRCM=0 RND=1\nY10"),
+        [600.0, 100.0, 600.0, 100.0, 600.0, 600.0, 600.0]
+    );
+    assert_eq!(rates("F600\nG1 X20 FB=100\nY20"), [100.0, 600.0]);
+    finds("F600\nG1 X20 FRC=100", &["2:8 unused-word"]);
+    finds("F600\nG0 X20 FB=100", &["2:8 unused-word"]);
+    finds("F600\nG1 X20 FB=0", &["2:8 bad-feed"]);
+}
+
+#[test]
+fn polar_coordinates_are_added_to_the_last_ones() {
+    let text = "G111 X0 Y0\nG0 RP=10 AP=0\nG1 AP=IC(90) F600\nAP=IC(90) RP=IC(5)\nRP=AC(2)";
+    let expected = [[10.0, 0.0], [0.0, 10.0], [-15.0, 0.0], [-2.0, 0.0]];
+    assert_eq!(flat(text), expected);
+    finds("G111 X0 Y0\nG0 RP=10 AP=IC(1,2)", &["2:13 missing-word"]);
+}
+
+#[test]
+fn blocks_have_the_forms_of_the_control() {
+    assert_eq!(xs(":30 G0 X5\n/3 X6\nN40 X7"), [5.0, 6.0, 7.0]);
+    assert_eq!(xs("S1=500 M1=3\nSETMS(1)\nG0 X5"), [5.0]);
+    assert_eq!(xs("ACC[X]=50\nLFON\nTRAFOOF()\nG0 X5"), [5.0]);
+    finds("S2=500", &["1:1 not-supported"]);
+    finds("SETMS(2)", &["1:1 not-supported"]);
+    // The angle of this spindle is not known, but it is this one's.
+    finds("SPOS[1]=90", &["1:1 not-connected"]);
+    finds("SPOS[2]=90", &["1:1 not-supported"]);
+}
+
+#[test]
+fn what_is_left_open_holds_for_plain_moves_too() {
+    let rounded = [[0.0, 0.0], [8.0, 0.0], [10.0, 2.0], [10.0, 10.0]];
+    assert_eq!(flat("F600\nG0 Z20\nRNDM=2\nG1 X10\nY10\nRNDM=0"), rounded);
+    finds("F600\nG1 ANG=45\nX20 Y0", &["3:1 polar"]);
+}
+
+#[test]
+fn corners_of_cycles_stay() {
+    // The cycle goes down and up at feed, and the corners behind it are round again.
+    let text = "F600\nG0 Z20\nG1 X0 RNDM=2\nCYCLE85(20,0,2,-10,,,120,240)\nG1 X10\nY10\nRNDM=0";
+    let all = moves(text);
+    let arcs = all
+        .iter()
+        .filter(|(segment, ..)| matches!(segment, Segment::Arc(_)));
+    assert_eq!(arcs.count(), 1);
+    assert!(ends(text).contains(&[0.0, 0.0, -10.0]) && ends(text).contains(&[8.0, 0.0, 20.0]));
+}

@@ -1,0 +1,161 @@
+//! Lathes of SINUMERIK: diameters, feeds by the spindle, threads. X is a radius here.
+
+use std::sync::Arc;
+
+use glidepath_gcode::{Machine, Options, Program, Threading, Tool, ToolTable, check};
+use glidepath_geometry::Axis;
+use glidepath_program::{Event, ItemKind, Limits, PHASE_STEPS, Rate};
+
+use super::options;
+use crate::support::listed;
+
+fn lathe() -> Options {
+    let mut tools = ToolTable::new();
+    let mut tool = Tool::default();
+    (tool.offset[0], tool.offset[2]) = (1.0, 5.0);
+    tools.set(4, tool);
+    Options {
+        tools: Some(Arc::new(tools)),
+        machine: Machine::new(&[Axis::X, Axis::Z]),
+        threading: Some(Threading::new(
+            Limits::uniform(200.0, 2_000.0, 40_000.0),
+            0.004,
+        )),
+        ..options()
+    }
+}
+
+fn moves(text: &str) -> Vec<([f64; 2], Rate)> {
+    Program::new(text.as_bytes(), lathe())
+        .map(|item| item.unwrap_or_else(|d| panic!("{text}\n{d}")))
+        .filter_map(|item| match item.kind {
+            ItemKind::Move { segment, rate, .. } => {
+                let end = segment.end();
+                Some((
+                    [0, 2].map(|axis| (end[axis] * 1e6).round() / 1e6 + 0.0),
+                    rate,
+                ))
+            }
+            _ => None,
+        })
+        .collect()
+}
+
+fn last(text: &str) -> f64 {
+    moves(text).last().expect("a move").0[0]
+}
+
+#[track_caller]
+fn finds(text: &str, expected: &[&str]) {
+    let report = check(text.as_bytes(), lathe());
+    assert_eq!(listed(&report), expected, "{text}");
+}
+
+#[test]
+fn increments_and_diameters_go_together() {
+    let at_10 = "G18 DIAMON\nG0 X20 Z0\n";
+    for (words, radius) in [
+        ("X=IC(10)", 15.0),
+        ("X=AC(10)", 5.0),
+        ("G91 X10", 15.0),
+        ("G91 X=AC(10)", 5.0),
+        ("G91 X=IC(10)", 15.0),
+        ("X=DIC(10)", 15.0),
+        ("X=RIC(10)", 20.0),
+        ("X=DAC(10)", 5.0),
+        ("X=RAC(10)", 10.0),
+        ("G91 X=RAC(12)", 12.0),
+    ] {
+        assert_eq!(last(&format!("{at_10}{words}")), radius, "DIAMON {words}");
+    }
+    let at_10 = "G18 DIAMOF\nG0 X10 Z0\n";
+    for (words, radius) in [
+        ("X=IC(10)", 20.0),
+        ("X=DAC(10)", 5.0),
+        ("X=DIC(10)", 15.0),
+        ("X=RAC(12)", 12.0),
+        ("X=RIC(10)", 20.0),
+    ] {
+        assert_eq!(last(&format!("{at_10}{words}")), radius, "DIAMOF {words}");
+    }
+    // Diameters in G90, radii in G91.
+    let at_10 = "G18 DIAM90\nG0 X20 Z0\n";
+    for (words, radius) in [
+        ("X30", 15.0),
+        ("G91 X10", 20.0),
+        ("X=IC(10)", 20.0),
+        ("G91 X=AC(10)", 5.0),
+        ("G91 X=IC(10)", 20.0),
+        ("G91 X1\nG90 X30", 15.0),
+        ("DIAMOF X3", 3.0),
+    ] {
+        assert_eq!(last(&format!("{at_10}{words}")), radius, "DIAM90 {words}");
+    }
+    finds("G18 DIAMON\nG0 Z=DAC(3)", &["2:6 invalid-value"]);
+}
+
+#[test]
+fn the_cutting_speed_makes_the_feed_one_of_the_spindle() {
+    // 0.2 mm a turn; at a radius of 10 mm 200 m/min are more than the limit of 1200.
+    let rate = |text: &str| moves(text).last().expect("a move").1;
+    let per_minute = Rate::Feed(0.2 / 60.0);
+    let by_spindle = Rate::PerRevolution {
+        feed_v: 0.2 * 1200.0 / 60.0,
+        most_v: f64::INFINITY,
+    };
+    let is_near = |found: Rate, wanted: Rate| match (found, wanted) {
+        (Rate::Feed(a), Rate::Feed(b)) => (a - b).abs() < 1e-9,
+        (Rate::PerRevolution { feed_v, .. }, Rate::PerRevolution { feed_v: by, .. }) => {
+            (feed_v - by).abs() < 1e-9
+        }
+        _ => false,
+    };
+    let head = "G18 LIMS=1200 M4\nG0 X10 Z0\n";
+    for (text, wanted) in [
+        ("G96 S200\nG1 Z-5 F0.2", by_spindle),
+        ("G96 S200 F0.2\nG1 Z-5", by_spindle),
+        ("G96 S200\nG97 S1200\nG1 Z-5 F0.2", by_spindle),
+        ("G961 S200\nG1 Z-5 F0.2", per_minute),
+        ("G96 S200\nG971 S1200\nG1 Z-5 F0.2", per_minute),
+        ("G96 S200 G94\nG1 Z-5 F0.2", per_minute),
+    ] {
+        let found = rate(&format!("{head}{text}"));
+        assert!(is_near(found, wanted), "{text}: {found:?}");
+    }
+}
+
+#[test]
+fn t_is_the_turret() {
+    assert_eq!(moves("G18 T4 D1\nG0 X20 Z0")[0].0, [21.0, 5.0]);
+    assert_eq!(moves("G18 T4\nG0 X20 Z0\nD0\nG0 X20 Z0")[1].0, [20.0, 0.0]);
+}
+
+#[test]
+fn threads_have_the_lead_of_the_longer_way() {
+    let begun = |text: &str| -> Vec<(f64, u32)> {
+        Program::new(text.as_bytes(), lathe())
+            .map(|item| item.unwrap_or_else(|d| panic!("{text}\n{d}")))
+            .filter_map(|item| match item.kind {
+                ItemKind::Event(Event::Synchronise { pitch_mm, phase }) => Some((pitch_mm, phase)),
+                _ => None,
+            })
+            .collect()
+    };
+    let head = "G18 S500 M3\nG0 X20 Z5\n";
+    assert_eq!(
+        begun(&format!("{head}G33 Z-20 K2 SF=90")),
+        [(2.0, PHASE_STEPS / 4)]
+    );
+    // 25 along Z and 5 along X: 2 mm of Z with each turn.
+    let taper = begun(&format!("{head}G33 X25 Z-20 K2"))[0].0;
+    assert!(
+        (taper - 2.0 * 650.0_f64.sqrt() / 25.0).abs() < 1e-12,
+        "{taper}"
+    );
+    let face = begun(&format!("{head}G33 X60 Z0 I2"))[0].0;
+    assert!(
+        (face - 2.0 * 1625.0_f64.sqrt() / 40.0).abs() < 1e-12,
+        "{face}"
+    );
+    finds(&format!("{head}G33 X25 Z-20 I2"), &["3:14 invalid-value"]);
+}
