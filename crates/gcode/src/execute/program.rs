@@ -22,6 +22,7 @@ use crate::execute::line_origin::{LineOrigin, SourceLine};
 use crate::execute::parameters::Parameters;
 use crate::execute::scope::ProgramScope;
 use crate::execute::state::modal::Modal;
+use crate::execute::state::words_in_force::words_in_force;
 use crate::setup::fanuc::FeedAtStart;
 use crate::setup::options::Options;
 use crate::setup::tool_table::ToolTable;
@@ -78,6 +79,8 @@ pub struct Program<R> {
     pub(crate) ended: bool,
     /// The input ended, and not the program: it has no M2, M30 or percent line at its end.
     pub(crate) ran_out: bool,
+    /// Its lines come one after the other, and it waits for them.
+    pub(crate) is_typed: bool,
     /// What was said to people, if that is kept.
     pub(crate) keeps_remarks: bool,
     pub(crate) remarks: Vec<Remark>,
@@ -120,6 +123,7 @@ impl<R: BufRead> Program<R> {
             begun: false,
             ended: false,
             ran_out: false,
+            is_typed: false,
             keeps_remarks: false,
             remarks: Vec::new(),
         };
@@ -148,6 +152,51 @@ impl<R: BufRead> Program<R> {
             program.begin_with(&in_force);
         }
         program
+    }
+
+    /// The same program, of lines that come one after the other, as somebody sends them. Where the reader gives
+    /// nothing, the program waits for more: it gives no item, and goes on when it is asked again. A line that is
+    /// refused has no effect, and the next one may be read, unless what follows depends on it.
+    #[must_use]
+    pub fn typed(self) -> Self {
+        Self {
+            is_typed: true,
+            ..self
+        }
+    }
+
+    /// Whether nothing more is read: behind M2, M30, the percent line, or a diagnostic behind which nothing can
+    /// be understood.
+    #[must_use]
+    pub const fn has_ended(&self) -> bool {
+        self.ended
+    }
+
+    /// Whether all that the line read last comes to was given out.
+    #[must_use]
+    pub const fn is_line_given(&self) -> bool {
+        self.given >= self.items.len()
+    }
+
+    /// Whether the block read last assigns parameters.
+    #[must_use]
+    pub const fn assigns(&self) -> bool {
+        !self.block.assignments.is_empty()
+    }
+
+    /// Likewise, and nothing depends on the next line: no move is held back beside the tool, no structure is open.
+    #[must_use]
+    pub fn is_settled(&self) -> bool {
+        let interpreter = &self.interpreter;
+        let is_open = interpreter.compensation.is_some()
+            || interpreter.corner.is_some()
+            || interpreter.open_line.is_some()
+            || interpreter.open_tap.is_some()
+            || interpreter.open_spline.is_some()
+            || self.lathe_cycle.is_some()
+            || self.flow.recorder.is_some()
+            || !self.flow.activations.is_empty();
+        !is_open && self.is_line_given()
     }
 
     /// What an M66 among the items of the last block waits for; once, and only of a machine whose
@@ -204,6 +253,26 @@ impl<R: BufRead> Program<R> {
     #[must_use]
     pub const fn tools(&self) -> Option<&Arc<ToolTable>> {
         self.interpreter.tools.as_ref()
+    }
+
+    /// The codes and words in force after the last block read, as a line would say them: motion, coordinate
+    /// system, plane, units, distance and feed mode, spindle, coolant, tool, feed and speed.
+    #[must_use]
+    pub fn words_in_force(&self) -> String {
+        words_in_force(&self.interpreter.state, &self.interpreter.offsets)
+    }
+
+    /// Where the program's zero is in machine coordinates after the last block read, with all offsets, that of
+    /// the tool, too.
+    #[must_use]
+    pub fn zero(&self) -> AxisVector {
+        self.interpreter.offsets.to_machine(AxisVector::zeros())
+    }
+
+    /// The offset of the tool (G43) after the last block read.
+    #[must_use]
+    pub const fn tool_offset(&self) -> &AxisVector {
+        &self.interpreter.offsets.tool
     }
 
     /// Tool in the spindle after the last block read; 0: none.

@@ -31,6 +31,16 @@ impl<R: BufRead> Program<R> {
         if self.ended {
             return None;
         }
+        if self.is_typed && self.flow.activations.is_empty() {
+            match self.source.has_line() {
+                Ok(true) => {}
+                Ok(false) => return None,
+                Err(fault) => {
+                    self.ended = true;
+                    return Some(Err(self.here().diagnostic(*fault)));
+                }
+            }
+        }
         if let Some(watch) = &self.interpreter.options.watch {
             watch.come_to(self.line_of_program());
             if watch.is_to_end() {
@@ -93,7 +103,7 @@ impl<R: BufRead> Iterator for Program<R> {
             match self.next_line() {
                 Some(Ok(())) => {}
                 Some(Err(diagnostic)) => {
-                    self.ended = true;
+                    self.ended |= !self.is_typed;
                     return Some(Err(diagnostic));
                 }
                 // Another line may go on from here: one that was typed.

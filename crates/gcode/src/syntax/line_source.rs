@@ -97,6 +97,19 @@ impl<R: BufRead> LineSource<R> {
         self.number
     }
 
+    /// Whether a whole line is there to be read, of a reader that has nothing for now where it gives nothing.
+    pub(crate) fn has_line(&mut self) -> Outcome<bool> {
+        loop {
+            let ahead = self.ahead();
+            if memchr2(b'\n', b'\r', ahead).is_some() || ahead.len() > MAX_LINE_BYTES {
+                return Ok(true);
+            }
+            if !self.take()? {
+                return Ok(false);
+            }
+        }
+    }
+
     /// Reads the next line; false at the end of the input.
     pub(crate) fn advance(&mut self) -> Outcome<bool> {
         // The end of most lines is in the buffer.

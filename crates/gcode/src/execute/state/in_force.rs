@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::execute::parameters::Parameters;
 use crate::execute::state::offsets::Offsets;
 use crate::execute::state::program_state::State;
+use crate::execute::state::words_in_force::words_in_force;
 use crate::setup::tool_table::ToolTable;
 use crate::setup::work_offsets::WorkOffsets;
 
@@ -44,6 +45,12 @@ impl InForce {
     #[must_use]
     pub fn zero(&self) -> AxisVector {
         self.0.offsets.to_machine(AxisVector::zeros())
+    }
+
+    /// The codes and words in force, as a line would say them: see [`crate::Program::words_in_force`].
+    #[must_use]
+    pub fn words(&self) -> String {
+        words_in_force(&self.0.state, &self.0.offsets)
     }
 
     /// The tool table with what G10 has made of it.

@@ -23,3 +23,4 @@ pub(crate) mod spindle;
 pub(crate) mod sticky_words;
 pub(crate) mod thread_setup;
 pub(crate) mod tip;
+pub(crate) mod words_in_force;
