@@ -71,10 +71,11 @@ pub use record::{
     CommandOutcome, CommandRefusal, CommandReply, CommandRequest, ContactKind, Coolant, DriveState,
     EVENTS_MOST, EndOfEpoch, EventId, EventKind, EventRecord, FRAME_REFUSALS, FaultCause, Feedback,
     FrameRefusal, Grants, JobKind, JobPhase, JobReply, JobRequest, JobStage, JobState, JobWish,
-    JogDemand, JogMode, LATCHES, Latch, LatchKind, LongText, MachineState, ModeCode, MotionMode,
-    OVERRIDE_MAX, PERIOD_NS_MAX, PlaneCode, Power, Quantiles, Record, RecordError, RequestKind,
-    SegmentOutcome, SegmentRefusal, SegmentReply, SegmentRequest, Setpoint, SetpointFrame,
-    SetpointMarks, SpindleFlags, SpindleState, Status, StreamItem, Text, decode,
+    JogDemand, JogMode, LATCHES, Latch, LatchKind, LinesReply, LinesRequest, LinesState, LinesWish,
+    LongText, MachineState, ModeCode, MotionMode, OVERRIDE_MAX, PERIOD_NS_MAX, PlaneCode, Power,
+    Quantiles, Record, RecordError, RequestKind, SegmentOutcome, SegmentRefusal, SegmentReply,
+    SegmentRequest, Setpoint, SetpointFrame, SetpointMarks, SpindleFlags, SpindleState, Status,
+    StreamItem, TOLD_SYSTEMS, Text, decode,
 };
 pub use service::Capacity;
 pub use wording::{

@@ -5,6 +5,7 @@
 //!   clients ──Client<CommandRequest, …>──► Server     interpolator
 //!   clients ──Client<SegmentRequest, …>──► Server     planner
 //!   operators ──Client<JobRequest, …>──► Server       planner
+//!   senders ──Client<LinesRequest, …>──► Server       planner
 //!   interpolator ──Publisher<Setpoint>, Publisher<Status>──► Subscriber  anybody
 //!   interpolator ──Publisher<Auxiliary>──► Subscriber     spindle, coolant, tools, outputs
 //!   servo stacks ──Publisher<Feedback>──► Subscriber      interpolator, anybody
@@ -19,8 +20,8 @@
 //! thread calls them.
 
 use crate::{
-    Auxiliary, CommandReply, CommandRequest, Feedback, JobReply, JobRequest, JogDemand, LinkError,
-    SegmentReply, SegmentRequest, Setpoint, SetpointFrame, Status,
+    Auxiliary, CommandReply, CommandRequest, Feedback, JobReply, JobRequest, JogDemand, LinesReply,
+    LinesRequest, LinkError, SegmentReply, SegmentRequest, Setpoint, SetpointFrame, Status,
 };
 use core::sync::atomic::{AtomicBool, Ordering};
 use core::time::Duration;
@@ -207,6 +208,10 @@ pub trait Transport {
     fn job_client(&self) -> Result<Box<dyn Client<JobRequest, JobReply>>, LinkError>;
     /// For the planner's service.
     fn job_server(&self) -> Result<Box<dyn Server<JobRequest, JobReply>>, LinkError>;
+    /// For senders, who have lines executed as they come.
+    fn lines_client(&self) -> Result<Box<dyn Client<LinesRequest, LinesReply>>, LinkError>;
+    /// For the planner's service.
+    fn lines_server(&self) -> Result<Box<dyn Server<LinesRequest, LinesReply>>, LinkError>;
 
     /// Frees what dead processes of this instance hold. To be called every 200 ms or so by a
     /// process that runs for long, outside any real-time thread. Returns how many dead it found.

@@ -16,6 +16,9 @@ pub(crate) const SEGMENTS: &str = "glidepath/segments";
 /// Operators to the planner's service.
 pub(crate) const JOBS: &str = "glidepath/jobs";
 
+/// Senders of lines to the planner's service.
+pub(crate) const LINES: &str = "glidepath/lines";
+
 /// Servo stacks to the interpolator.
 pub(crate) const FEEDBACK: &str = "glidepath/feedback";
 /// Operators' panels to the interpolator.

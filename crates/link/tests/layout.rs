@@ -3,7 +3,8 @@
 use core::mem::{align_of, offset_of, size_of};
 use glidepath_link::{
     Auxiliary, CommandReply, CommandRequest, EventId, Feedback, JobReply, JobRequest, JogDemand,
-    Latch, Quantiles, Record, SegmentReply, SegmentRequest, Setpoint, SetpointFrame, Status, Text,
+    Latch, LinesReply, LinesRequest, Quantiles, Record, SegmentReply, SegmentRequest, Setpoint,
+    SetpointFrame, Status, Text,
 };
 
 macro_rules! layout {
@@ -80,6 +81,14 @@ layout!(job_request, JobRequest, "glidepath.JobRequest.v3", 1072, {
 });
 layout!(job_reply, JobReply, "glidepath.JobReply.v2", 1048, {
     client: 0, number: 8, state: 16, reserved: 20, text: 24,
+});
+layout!(lines_request, LinesRequest, "glidepath.LinesRequest.v1", 1200, {
+    client: 0, number: 8, asked_ns: 16, first: 24, ahead_t: 32, wish: 40, reserved: 44, name: 48, text: 176,
+});
+layout!(lines_reply, LinesReply, "glidepath.LinesReply.v1", 2424, {
+    client: 0, number: 8, taken: 16, read: 24, state: 32, is_refused: 36, refused_column: 40,
+    refused_in_motion: 44, ahead_t: 48, zero: 56, systems: 128, references: 776, shift: 920, tool: 992,
+    probe: 1064, probe_made: 1136, probes: 1140, diagnostic: 1144, words: 1272, text: 1400,
 });
 layout!(segment_request, SegmentRequest, "glidepath.SegmentRequest.v2", 352, {
     session: 0, number: 8, kind: 16, line: 20, rapid: 24, mode: 28, plane: 32, event_kind: 36,

@@ -2,6 +2,8 @@
 
 use std::time::Duration;
 
+use crate::Followed;
+
 /// What comes of attending.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Attended {
@@ -16,6 +18,11 @@ pub trait Attend {
     /// Called every few milliseconds with the time waited since the last call, and with what is being
     /// done for the job.
     fn attend(&mut self, waited: Duration, doing: &str) -> Attended;
+
+    /// Told how far what was given out is executed, right before that.
+    fn follow(&mut self, followed: &Followed) {
+        let _nobody = followed;
+    }
 
     /// Asked when the first frame is ready, until the answer is yes.
     fn may_begin(&mut self) -> bool {

@@ -128,6 +128,11 @@ impl Epoch {
         self.delivered > 0
     }
 
+    /// Frames that were delivered and are not executed.
+    pub(crate) const fn unexecuted(&self) -> u64 {
+        self.delivered.saturating_sub(self.executed())
+    }
+
     /// Whether the interpolator executes it, or has.
     pub(crate) const fn is_known(&self) -> bool {
         !matches!(self.standing, Standing::NotStarted)

@@ -17,10 +17,12 @@ use std::time::{Duration, Instant};
 use glidepath_geometry::AxisVector;
 use glidepath_link::{
     JobKind, JobReply, JobRequest, JobState, JobWish, LinkError, LongText, Record as _, Server,
+    Transport,
 };
 
 use crate::attend::{Attend, Attended};
-use crate::{Control, Publisher, StartLine};
+use crate::sent::{Begun, Counter, LinesEnd};
+use crate::{Control, Followed, LineFacts, LineInbox, Publisher, StartLine};
 
 /// A client from which nothing was heard for so long is taken for dead.
 pub const CLIENT_SILENCE: Duration = Duration::from_secs(2);
@@ -51,6 +53,13 @@ pub enum Job {
         /// It goes on where it was left.
         resumes: bool,
     },
+    /// Lines that come one after the other.
+    Lines {
+        /// Who sends them.
+        name: String,
+        /// Where they come in.
+        inbox: LineInbox,
+    },
 }
 
 impl Job {
@@ -79,6 +88,7 @@ impl Job {
                 let name = path.file_name().unwrap_or(path.as_os_str());
                 name.to_string_lossy().into_owned()
             }
+            Self::Lines { name, .. } => name.clone(),
         }
     }
 }
@@ -108,6 +118,11 @@ pub trait JobRunner {
         attend: &mut dyn Attend,
         control: &mut Control<'_>,
     ) -> JobEnd;
+
+    /// How the machine is set up for the next job, if that is known.
+    fn facts(&self) -> Option<LineFacts> {
+        None
+    }
 }
 
 /// What a job waits for before its first frame.
@@ -131,6 +146,8 @@ struct Current {
     looked: Instant,
     is_unwanted: bool,
     gate: Gate,
+    /// The lines that it is made of.
+    lines: Option<LineInbox>,
 }
 
 impl Current {
@@ -141,6 +158,25 @@ impl Current {
         let passed = now.duration_since(core::mem::replace(&mut self.looked, now));
         let passed = passed.min(LONGEST_TURN).max(meant);
         self.silent = self.silent.saturating_add(passed);
+        if let Some(lines) = self
+            .lines
+            .as_ref()
+            .filter(|_| self.silent >= CLIENT_SILENCE)
+        {
+            lines.close();
+        }
+    }
+
+    /// Of a job of which nothing is known yet.
+    fn new(client: (u64, u64), lines: Option<LineInbox>) -> Self {
+        Self {
+            client,
+            silent: Duration::ZERO,
+            looked: Instant::now(),
+            is_unwanted: false,
+            gate: Gate::Closed,
+            lines,
+        }
     }
 
     /// Its client asks.
@@ -165,6 +201,7 @@ impl Current {
 /// Where jobs are handed in.
 pub(crate) struct JobDesk {
     server: Box<dyn Server<JobRequest, JobReply>>,
+    lines: Counter,
     current: Option<Current>,
     /// That job, and how long it has waited for the machine to be ready.
     waiting: Option<(Job, Duration)>,
@@ -173,13 +210,19 @@ pub(crate) struct JobDesk {
 }
 
 impl JobDesk {
-    pub(crate) const fn new(server: Box<dyn Server<JobRequest, JobReply>>) -> Self {
-        Self {
-            server,
+    pub(crate) fn open(transport: &dyn Transport) -> Result<Self, LinkError> {
+        Ok(Self {
+            server: transport.job_server()?,
+            lines: Counter::open(transport)?,
             current: None,
             waiting: None,
             past: VecDeque::new(),
-        }
+        })
+    }
+
+    /// How the machine is set up from now on, as senders are told.
+    pub(crate) fn know(&mut self, facts: Option<LineFacts>) {
+        self.lines.know(facts.unwrap_or_default());
     }
 
     /// Answers what came in while nothing is executed, and takes a job, if one came: `claim` is called
@@ -198,18 +241,27 @@ impl JobDesk {
                 };
                 claim(&job, request.asked_ns);
                 *waiting = Some((job, Duration::ZERO));
-                *current = Some(Current {
-                    client: (request.client, request.number),
-                    silent: Duration::ZERO,
-                    looked: Instant::now(),
-                    is_unwanted: false,
-                    gate: Gate::Closed,
-                });
+                *current = Some(Current::new((request.client, request.number), None));
                 JobReply::new(request, JobState::Running, "waits for the machine")
             })?;
             if self.waiting.is_some() || !any {
                 break;
             }
+        }
+        if self.waiting.is_some() {
+            return Ok(());
+        }
+        if let Some(begun) = self.lines.take()? {
+            let Begun {
+                client,
+                name,
+                asked_ns,
+                inbox,
+            } = begun;
+            self.current = Some(Current::new(client, Some(inbox.clone())));
+            let job = Job::Lines { name, inbox };
+            claim(&job, asked_ns);
+            self.waiting = Some((job, Duration::ZERO));
         }
         Ok(())
     }
@@ -247,6 +299,15 @@ impl JobDesk {
         if let Some(current) = &mut self.current {
             current.wait(waited);
         }
+        let lines = self
+            .current
+            .as_ref()
+            .and_then(|it| Some((it.client, it.lines.clone()?)));
+        for wish in self.lines.serve(lines.as_ref(), busy)? {
+            if let Some(current) = &mut self.current {
+                current.hear(wish);
+            }
+        }
         for _ in 0..REQUESTS_PER_TURN {
             let (current, past) = (&mut self.current, &self.past);
             let any = self.server.serve(&mut |request| {
@@ -268,6 +329,14 @@ impl JobDesk {
             }
         }
         Ok(self.current.as_ref().and_then(Current::unwanted))
+    }
+
+    /// How far the job is executed.
+    pub(crate) fn follow(&self, followed: &Followed) {
+        let lines = self.current.as_ref().and_then(|it| it.lines.as_ref());
+        if let Some(lines) = lines {
+            lines.follow(followed);
+        }
     }
 
     /// The first frame of the job is ready. Returns whether it may be published: its client has asked
@@ -295,9 +364,23 @@ impl JobDesk {
 
     fn end(&mut self, state: JobState, text: &str) {
         self.waiting = None;
-        let Some(Current { client, .. }) = self.current.take() else {
+        let Some(Current { client, lines, .. }) = self.current.take() else {
             return;
         };
+        if let Some(lines) = lines {
+            let end = match state {
+                JobState::Done => LinesEnd::Done,
+                JobState::Failed => LinesEnd::Failed,
+                JobState::Running
+                | JobState::Refused
+                | JobState::Busy
+                | JobState::NotReady
+                | JobState::ToConfirm
+                | JobState::Unknown => LinesEnd::NotBegun,
+            };
+            self.lines.end(client, lines, (end, text));
+            return;
+        }
         if self.past.len() == REMEMBERED {
             self.past.pop_front();
         }
@@ -363,6 +446,10 @@ impl Attend for JobAttendant<'_> {
         }
     }
 
+    fn follow(&mut self, followed: &Followed) {
+        self.jobs.follow(followed);
+    }
+
     fn may_begin(&mut self) -> bool {
         self.jobs.may_begin()
     }
@@ -379,6 +466,7 @@ mod tests {
             looked: Instant::now().checked_sub(time).unwrap(),
             is_unwanted: false,
             gate: Gate::Closed,
+            lines: None,
         }
     }
 

@@ -19,6 +19,7 @@
 //! * [`ParallelPipeline`] does the same ahead of time, on all cores.
 //! * [`Publisher`] hands frames on, no further ahead of the machine than its [`Pace`] says. They are
 //!   planned further ahead than that, in a thread of their own.
+//! * [`SentLines`] are the lines that a sender gives to the planner's service as they come.
 //! * [`listen()`] and [`feed()`] are the two ends of a stream of segments from another process.
 //! * [`Remainder`] is what is left of a program whose planner died, or that was aborted.
 //!
@@ -99,6 +100,7 @@ mod refusal;
 mod remarks;
 mod restoring;
 mod resume;
+mod sent;
 mod source;
 mod start_line;
 mod step;
@@ -126,6 +128,7 @@ pub use publish::Publisher;
 pub use refusal::Refusal;
 pub use remarks::RemarkLog;
 pub use resume::{Remainder, ResumeError, ResumePoint};
+pub use sent::{Followed, LineFacts, LineInbox, SentLines};
 pub use source::{ItemSource, SILENCE, Settled, Supply};
 pub use start_line::{Approach, LineStart, StartLine, StartLineError};
 pub use step::{Output, Statistics, Step};

@@ -72,10 +72,10 @@ pub fn serve(
     mut runner: Option<&mut dyn JobRunner>,
     control: &mut Control<'_>,
 ) -> Result<(), RunError> {
-    let jobs = runner.is_some().then(|| transport.job_server());
+    let jobs = runner.is_some().then(|| JobDesk::open(transport));
     let mut listener = Listener {
         server: transport.segment_server()?,
-        jobs: jobs.transpose()?.map(JobDesk::new),
+        jobs: jobs.transpose()?,
         publisher: Publisher::connect(transport, listening.pace)?,
         last: None,
     };
@@ -84,6 +84,9 @@ pub fn serve(
             return Err(RunError::Interrupted);
         }
         (control.notify)(&Notice::Listening);
+        if let (Some(jobs), Some(runner)) = (&mut listener.jobs, &runner) {
+            jobs.know(runner.facts());
+        }
         let (stream, position) = match listener.accept(listening, control)? {
             Accepted::Stream(stream, position) => (*stream, position),
             Accepted::Job(job, start) => {

@@ -3,7 +3,9 @@
 use std::io::{self, BufRead, BufReader, Seek};
 use std::path::Path;
 
-use glidepath_gcode::{Diagnostic, InForce, InputWait, Options, Program, Subroutines, diagnostics};
+use glidepath_gcode::{
+    Diagnostic, InForce, InputWait, Options, Probed, Program, Subroutines, diagnostics,
+};
 use glidepath_program::{Event, ItemKind};
 
 use crate::desk::{Answer, Answered, InputDesk, Question};
@@ -30,6 +32,8 @@ pub struct ProgramSource<R> {
     wait: Option<(u32, InputWait)>,
     /// The desk was asked, and has not answered.
     asking: bool,
+    /// How the probing move ended that was answered last, until it is taken.
+    probed: Option<Probed>,
 }
 
 impl<R: BufRead> ProgramSource<R> {
@@ -45,7 +49,31 @@ impl<R: BufRead> ProgramSource<R> {
             inputs: None,
             wait: None,
             asking: false,
+            probed: None,
         }
+    }
+
+    /// A program whose lines come one after the other: [`Program::typed`].
+    pub(crate) fn typed(reader: R, options: Options) -> Self {
+        let source = Self::new(reader, options);
+        Self {
+            program: source.program.typed(),
+            ..source
+        }
+    }
+
+    pub(crate) const fn program(&self) -> &Program<R> {
+        &self.program
+    }
+
+    /// Whether nothing is read before an input, or the probe, was looked at.
+    pub(crate) const fn is_asking(&self) -> bool {
+        self.asking
+    }
+
+    /// How the probing move ended that was answered last, once.
+    pub(crate) const fn take_probed(&mut self) -> Option<Probed> {
+        self.probed.take()
     }
 
     /// The same source, which shares what it comes to with whoever attends to its run.
@@ -131,6 +159,7 @@ impl<R: BufRead> ProgramSource<R> {
         match answer {
             Answer::Input(value) => self.program.answer_input(value),
             Answer::Probe(probed) => {
+                self.probed = Some(probed);
                 let ended = self.program.answer_probe(&probed);
                 ended.map_err(|diagnostic| refused(*diagnostic))?;
             }
@@ -235,6 +264,8 @@ impl<R: BufRead> ItemSource for ProgramSource<R> {
                 Supply::Item(item)
             }
             Some(Err(diagnostic)) => Supply::Refused(refused(diagnostic)),
+            // It waits for lines.
+            None if !self.program.has_ended() => Supply::Pending,
             None => Supply::End,
         }
     }

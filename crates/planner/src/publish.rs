@@ -33,7 +33,8 @@ use std::time::Duration;
 
 use glidepath_geometry::AxisVector;
 use glidepath_link::{
-    Auxiliary, Command, Delivery, FrameSink, LinkError, Record as _, SetpointFrame, Transport,
+    Auxiliary, Command, Delivery, FrameSink, LinkError, MachineState, Record as _, SetpointFrame,
+    Transport,
 };
 use glidepath_program::Override;
 
@@ -43,7 +44,9 @@ use crate::claim::Claim;
 use crate::epoch::Epoch;
 use crate::inputs::InputWatch;
 use crate::machine::{HUNGRY_POLL, Machine, POLL, SILENCE, Standing};
-use crate::{Control, InputDesk, ItemSource, Notice, Pace, Pipeline, RemarkLog, RunError};
+use crate::{
+    Control, Followed, InputDesk, ItemSource, Notice, Pace, Pipeline, RemarkLog, RunError,
+};
 
 /// Frames offered between two looks at status and stop flag.
 const FRAMES_PER_TURN: u32 = 512;
@@ -230,6 +233,7 @@ impl<'t> Publisher<'t> {
                 return Err(error);
             }
             epoch.follow(self.standing(&epoch)?);
+            attend.follow(&self.followed(&plan, &epoch));
             if epoch.is_over() {
                 self.report(&epoch, &plan, control);
                 return match epoch.ended {
@@ -329,6 +333,25 @@ impl<'t> Publisher<'t> {
             }
         }
         Ok(Turn::Busy)
+    }
+
+    /// How far what was planned is executed.
+    fn followed(&self, plan: &Plan<'_>, epoch: &Epoch) -> Followed {
+        let state = self.machine.status().and_then(|status| status.state().ok());
+        let is_waiting = matches!(state, Some(MachineState::Waiting | MachineState::Starved));
+        let is_executed = epoch.in_hand.is_none() && epoch.unexecuted() == 0;
+        let planned = epoch.unexecuted() + plan.queue.waiting() as u64;
+        #[allow(clippy::cast_precision_loss, reason = "far below 2^53 ns")]
+        let ahead_t = planned.saturating_mul(self.pace.period_ns) as f64 * 1e-9;
+        Followed {
+            ahead_t,
+            rests: is_executed && plan.queue.is_dry() && (is_waiting || !epoch.has_begun()),
+            block: if epoch.is_known() {
+                self.machine.block()
+            } else {
+                0
+            },
+        }
     }
 
     fn standing(&self, epoch: &Epoch) -> Result<Standing, RunError> {

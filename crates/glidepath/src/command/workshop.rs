@@ -10,18 +10,19 @@ use crate::begun::{Board, Part};
 use crate::clock;
 use crate::config::MachineConfig;
 use crate::joints;
+use crate::kept::read::{read, set_up};
 use crate::output;
 use crate::program_file::ProgramFile;
 use crate::report::counted;
-use glidepath_gcode::{InForce, Program};
+use glidepath_gcode::{Dialect, InForce, Program};
 use glidepath_geometry::AxisVector;
 use glidepath_link::{LinkConfig, refused};
 use glidepath_planner::{
-    Attend, Control, FileSource, ItemSource, Job, JobEnd, JobRunner, LineStart, Notice, Pipeline,
-    ProgramSource, Publisher, Refusal, Remainder, ResumePoint, RunError, StartLine, Statistics,
-    Supply,
+    Attend, Control, FileSource, ItemSource, Job, JobEnd, JobRunner, LineFacts, LineInbox,
+    LineStart, Notice, Pipeline, ProgramSource, Publisher, Refusal, Remainder, ResumePoint,
+    RunError, SentLines, StartLine, Statistics, Supply,
 };
-use std::io::Cursor;
+use std::io::{self, Cursor};
 use std::path::Path;
 use std::time::Duration;
 
@@ -80,6 +81,33 @@ impl<'c> Workshop<'c> {
         config.program.in_force = self.in_force.clone();
         config.program.watch = Some(publisher.watch());
         Ok((config, attendant))
+    }
+
+    /// Lines, as they come: what was read is executed, and what it left is in force.
+    fn lines(
+        &mut self,
+        inbox: &LineInbox,
+        start: AxisVector,
+        bench: &mut Bench<'_, '_, '_>,
+    ) -> End {
+        let (config, attendant) = self.set_up(bench.publisher)?;
+        let config = of_sender(config);
+        self.board.clear();
+        let options = config.program_options(start);
+        let source = SentLines::new(inbox.clone(), options, attendant.attending());
+        let pipeline = Pipeline::new(source, config.settings(), start).of_stream();
+        let (run, in_force) = Self::publish(pipeline, (&config, &attendant), start, bench, |s| {
+            Some(s.in_force())
+        });
+        // Where the motion ended before the lines did, what its executed part has left.
+        let left = in_force.or_else(|| inbox.in_force_at(bench.publisher.block()));
+        self.in_force = left.or_else(|| self.in_force.take());
+        let statistics = run?;
+        Ok(format!(
+            "executed; {}, {}",
+            counted(statistics.lines, "line"),
+            counted(statistics.segments, "segment")
+        ))
     }
 
     /// A line: refused as a whole, or executed, and then what it left is in force.
@@ -273,7 +301,7 @@ impl<'c> Workshop<'c> {
 
     /// Takes what is in force from now on: all that the job left, or, where its motion ended before
     /// it did, what it left at the block that was executed.
-    fn settle<R: std::io::BufRead>(
+    fn settle<R: io::BufRead>(
         &mut self,
         run: &Result<Statistics, Stop>,
         left: Option<InForce>,
@@ -318,6 +346,20 @@ impl<'c> Workshop<'c> {
 }
 
 impl JobRunner for Workshop<'_> {
+    fn facts(&self) -> Option<LineFacts> {
+        let mut config = self.config.clone();
+        // What is kept, or the job before has left.
+        if let Ok(Some(kept)) = read(&config) {
+            set_up(&mut config, &kept);
+        } else if let Some(in_force) = &self.in_force {
+            config.program.offsets = in_force.work_offsets();
+        }
+        config.program.in_force = self.in_force.clone();
+        let home = config.home();
+        let program = Program::new(io::empty(), of_sender(config).program_options(home));
+        Some(LineFacts::of(&program))
+    }
+
     fn run(
         &mut self,
         job: &Job,
@@ -335,6 +377,7 @@ impl JobRunner for Workshop<'_> {
         };
         let end = match job {
             Job::Line(text) => self.line(text, start, &mut bench),
+            Job::Lines { inbox, .. } => self.lines(inbox, start, &mut bench),
             Job::File {
                 path,
                 from,
@@ -385,6 +428,12 @@ struct Begins {
 fn open(path: &Path, config: &MachineConfig, start: AxisVector) -> Result<FileSource, Refusal> {
     joints::check_plan(path, config, start, &mut |_| {})?;
     FileSource::open(path, config.program_options(start), &config.settings())
+}
+
+/// For the lines of senders, whose language is nearest to that of `LinuxCNC`.
+fn of_sender(mut config: MachineConfig) -> MachineConfig {
+    config.program.dialect = Some(Dialect::LinuxCnc);
+    config
 }
 
 /// For reading that goes on when the job is over.

@@ -9,13 +9,13 @@ mod shared;
 mod topic;
 
 use crate::service::{
-    AUXILIARY, COMMANDS, Capacity, FEEDBACK, FEEDBACK_DEPTH, FRAMES, JOBS, JOG, JOG_DEPTH, PEERS,
-    SEGMENTS, SENDERS, SETPOINTS, STATUS,
+    AUXILIARY, COMMANDS, Capacity, FEEDBACK, FEEDBACK_DEPTH, FRAMES, JOBS, JOG, JOG_DEPTH, LINES,
+    PEERS, SEGMENTS, SENDERS, SETPOINTS, STATUS,
 };
 use crate::{
     Auxiliary, Client, CommandReply, CommandRequest, Feedback, FrameSink, JobReply, JobRequest,
-    JogDemand, LinkError, Publisher, SegmentReply, SegmentRequest, Server, Setpoint, SetpointFrame,
-    Status, Subscriber, Transport,
+    JogDemand, LinesReply, LinesRequest, LinkError, Publisher, SegmentReply, SegmentRequest,
+    Server, Setpoint, SetpointFrame, Status, Subscriber, Transport,
 };
 use queue::FrameQueue;
 use request::Exchange;
@@ -34,6 +34,7 @@ pub struct InProcess {
     commands: Shared<Exchange<CommandRequest, CommandReply>>,
     segments: Shared<Exchange<SegmentRequest, SegmentReply>>,
     jobs: Shared<Exchange<JobRequest, JobReply>>,
+    lines: Shared<Exchange<LinesRequest, LinesReply>>,
 }
 
 impl InProcess {
@@ -60,6 +61,7 @@ impl InProcess {
             commands: Shared::new(Exchange::new(COMMANDS)),
             segments: Shared::new(Exchange::new(SEGMENTS)),
             jobs: Shared::new(Exchange::new(JOBS)),
+            lines: Shared::new(Exchange::new(LINES)),
         }
     }
 }
@@ -141,6 +143,14 @@ impl Transport for InProcess {
 
     fn job_server(&self) -> Result<Box<dyn Server<JobRequest, JobReply>>, LinkError> {
         Ok(Box::new(request::Answering::new(&self.jobs)?))
+    }
+
+    fn lines_client(&self) -> Result<Box<dyn Client<LinesRequest, LinesReply>>, LinkError> {
+        Ok(Box::new(request::Asking::new(&self.lines)?))
+    }
+
+    fn lines_server(&self) -> Result<Box<dyn Server<LinesRequest, LinesReply>>, LinkError> {
+        Ok(Box::new(request::Answering::new(&self.lines)?))
     }
 
     fn clean_up_dead_peers(&self) -> Result<usize, LinkError> {

@@ -36,13 +36,13 @@ pub use operator::Operator;
 pub use presence::remove_leftovers;
 
 use crate::service::{
-    AUXILIARY, COMMANDS, Capacity, FEEDBACK, FEEDBACK_DEPTH, FRAMES, JOBS, JOG, JOG_DEPTH, PEERS,
-    SEGMENTS, SENDERS, SETPOINTS, STATUS,
+    AUXILIARY, COMMANDS, Capacity, FEEDBACK, FEEDBACK_DEPTH, FRAMES, JOBS, JOG, JOG_DEPTH, LINES,
+    PEERS, SEGMENTS, SENDERS, SETPOINTS, STATUS,
 };
 use crate::{
     Auxiliary, Client, CommandReply, CommandRequest, Feedback, FrameSink, JobReply, JobRequest,
-    JogDemand, LinkError, Publisher, Record, SegmentReply, SegmentRequest, Server, Setpoint,
-    SetpointFrame, Status, Subscriber, Transport,
+    JogDemand, LinesReply, LinesRequest, LinkError, Publisher, Record, SegmentReply,
+    SegmentRequest, Server, Setpoint, SetpointFrame, Status, Subscriber, Transport,
 };
 use interpolator_lock::InterpolatorLock;
 use node::{Session, TopicSettings};
@@ -254,6 +254,14 @@ impl Transport for Ipc {
 
     fn job_server(&self) -> Result<Box<dyn Server<JobRequest, JobReply>>, LinkError> {
         self.server(JOBS)
+    }
+
+    fn lines_client(&self) -> Result<Box<dyn Client<LinesRequest, LinesReply>>, LinkError> {
+        self.client(LINES)
+    }
+
+    fn lines_server(&self) -> Result<Box<dyn Server<LinesRequest, LinesReply>>, LinkError> {
+        self.server(LINES)
     }
 
     fn clean_up_dead_peers(&self) -> Result<usize, LinkError> {

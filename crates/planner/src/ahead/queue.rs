@@ -186,8 +186,15 @@ impl FrameQueue {
         }
     }
 
+    /// Whether the source has nothing, and every frame before was given out.
+    pub(crate) fn is_dry(&self) -> bool {
+        let shared = self.lock();
+        shared.frames.is_empty()
+            && shared.wanted.is_none()
+            && matches!(shared.activity, Activity::Pending)
+    }
+
     /// Frames that wait.
-    #[cfg(test)]
     pub(crate) fn waiting(&self) -> usize {
         self.lock().frames.len()
     }
