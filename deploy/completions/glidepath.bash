@@ -55,6 +55,9 @@ _glidepath() {
             glidepath,forward)
                 cmd="glidepath__subcmd__forward"
                 ;;
+            glidepath,grbl)
+                cmd="glidepath__subcmd__grbl"
+                ;;
             glidepath,help)
                 cmd="glidepath__subcmd__help"
                 ;;
@@ -216,6 +219,9 @@ _glidepath() {
                 ;;
             glidepath__subcmd__help,forward)
                 cmd="glidepath__subcmd__help__subcmd__forward"
+                ;;
+            glidepath__subcmd__help,grbl)
+                cmd="glidepath__subcmd__help__subcmd__grbl"
                 ;;
             glidepath__subcmd__help,help)
                 cmd="glidepath__subcmd__help__subcmd__help"
@@ -392,7 +398,7 @@ _glidepath() {
 
     case "${cmd}" in
         glidepath)
-            opts="-h -V --help --version run plan check interpolator planner run-file mdi servo ethercat feed status live record replay audit telemetry hold resume step stop-at-block-end reverse forward single-block override jog return acknowledge abort reset enable disable home unhome set-position preview bench fit offsets config doctor jitter help"
+            opts="-h -V --help --version run plan check interpolator planner run-file mdi servo ethercat feed status live grbl record replay audit telemetry hold resume step stop-at-block-end reverse forward single-block override jog return acknowledge abort reset enable disable home unhome set-position preview bench fit offsets config doctor jitter help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 1 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -995,8 +1001,54 @@ _glidepath() {
             COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
             return 0
             ;;
+        glidepath__subcmd__grbl)
+            opts="-c -h --port --pty --user --ahead --rx-bytes --config --json --instance --help"
+            if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
+                COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+                return 0
+            fi
+            case "${prev}" in
+                --port)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --pty)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --user)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --ahead)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --rx-bytes)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --config)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                -c)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --instance)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                *)
+                    COMPREPLY=()
+                    ;;
+            esac
+            COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+            return 0
+            ;;
         glidepath__subcmd__help)
-            opts="run plan check interpolator planner run-file mdi servo ethercat feed status live record replay audit telemetry hold resume step stop-at-block-end reverse forward single-block override jog return acknowledge abort reset enable disable home unhome set-position preview bench fit offsets config doctor jitter help"
+            opts="run plan check interpolator planner run-file mdi servo ethercat feed status live grbl record replay audit telemetry hold resume step stop-at-block-end reverse forward single-block override jog return acknowledge abort reset enable disable home unhome set-position preview bench fit offsets config doctor jitter help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -1234,6 +1286,20 @@ _glidepath() {
             return 0
             ;;
         glidepath__subcmd__help__subcmd__forward)
+            opts=""
+            if [[ ${cur} == -* || ${COMP_CWORD} -eq 3 ]] ; then
+                COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+                return 0
+            fi
+            case "${prev}" in
+                *)
+                    COMPREPLY=()
+                    ;;
+            esac
+            COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+            return 0
+            ;;
+        glidepath__subcmd__help__subcmd__grbl)
             opts=""
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 3 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )

@@ -8,6 +8,7 @@
 mod attack;
 mod chain;
 mod faults;
+mod grbl;
 mod hal;
 mod jobs;
 mod jog;

@@ -19,8 +19,9 @@ const PATIENCE: Duration = Duration::from_secs(60);
 /// How long a command that goes on until Ctrl-C is left alone once it minds that.
 const LOOKED_AT: Duration = Duration::from_millis(250);
 /// What goes on until Ctrl-C.
-const LASTING: [&str; 3] = [
+const LASTING: [&str; 4] = [
     "glidepath live",
+    "glidepath grbl",
     "glidepath record",
     "glidepath status --watch",
 ];
@@ -70,10 +71,12 @@ impl<'a> Machine<'a> {
 
     /// Types a line; tells what went wrong.
     pub(super) fn type_line(&mut self, line: &str) -> Result<(), String> {
-        // The port of the page may be another's on this host.
-        let is_page = line.starts_with("glidepath live") && !line.contains("--port");
-        let with_port = line.replacen("glidepath live", "glidepath live --port 0", 1);
-        let line = if is_page { &with_port } else { line };
+        // The port of the page, or of senders, may be another's on this host.
+        let served = ["glidepath live", "glidepath grbl"];
+        let served = served.iter().find(|served| line.starts_with(**served));
+        let takes_port = !line.contains("--port") && !line.contains("--pty");
+        let with_port = served.map(|it| line.replacen(it, &format!("{it} --port 0"), 1));
+        let line = with_port.as_deref().filter(|_| takes_port).unwrap_or(line);
         let command = line.split(" #").next().unwrap_or(line).trim();
         if ELSEWHERE.iter().any(|(other, _)| *other == command) {
             return Ok(());

@@ -120,6 +120,7 @@ houses! {
     fit: "fit",
     gcode: "gcode",
     geometry: "geometry",
+    grbl: "grbl",
     glidepath: "glidepath",
     hal: "hal",
     interpolator: "interpolator",

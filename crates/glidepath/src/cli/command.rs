@@ -4,6 +4,7 @@ use super::basic::BasicArgs;
 use super::config::ConfigArgs;
 use super::curves::{FitArgs, PreviewArgs};
 use super::ethercat::{EthercatAction, EthercatArgs};
+use super::grbl::GrblArgs;
 use super::host::{BenchArgs, DoctorArgs, JitterArgs};
 use super::jog::JogArgs;
 use super::live::LiveArgs;
@@ -73,6 +74,11 @@ pub enum Command {
         after_help = "Examples: glidepath live · glidepath live --may operate --programs programs"
     )]
     Live(LiveArgs),
+    /// Let senders of grbl (CNCjs, bCNC, gSender, UGS) drive the machine, by TCP or a pseudo-terminal
+    #[command(
+        after_help = "Examples: glidepath grbl · glidepath grbl --pty /run/user/1000/mill.grbl"
+    )]
+    Grbl(GrblArgs),
     /// Record every setpoint and status in a file that others can open (MCAP), or be a black box
     #[command(
         after_help = "Examples: glidepath record run.mcap --program part.ngc · \
@@ -225,6 +231,7 @@ impl Command {
             Self::Feed(args) => &args.basic,
             Self::Status(args) => &args.operator.basic,
             Self::Live(args) => &args.operator.basic,
+            Self::Grbl(args) => &args.operator.basic,
             Self::Record(args) => &args.operator.basic,
             Self::Replay(args) => &args.operator.basic,
             Self::Telemetry(args) => &args.basic,
@@ -277,6 +284,7 @@ impl Command {
             Self::Telemetry(args) => &args.instance,
             Self::Status(args) => &args.operator.instance,
             Self::Live(args) => &args.operator.instance,
+            Self::Grbl(args) => &args.operator.instance,
             Self::Record(args) => &args.operator.instance,
             Self::Replay(args) => &args.operator.instance,
             Self::Hold(args)

@@ -2,6 +2,7 @@
 
 use crate::bench::CatalogueError;
 use crate::command::evidence::Evidence;
+use crate::command::grbl::error::EndpointError;
 use crate::command::other_users::OtherUsers;
 use crate::config::ConfigError;
 use crate::curve_file::{CurveDiagnostic, CurveFileError};
@@ -322,6 +323,9 @@ pub(super) enum Failure {
         /// What was played, and where the machine stood.
         evidence: Box<Evidence>,
     },
+    /// Senders cannot be served.
+    #[error(transparent)]
+    Endpoint(#[from] EndpointError),
     /// The page cannot be served.
     #[error(transparent)]
     Server(#[from] ServerError),

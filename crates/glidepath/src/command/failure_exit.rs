@@ -76,6 +76,7 @@ impl Failure {
             | Self::Hal(_)
             | Self::Recording { .. }
             | Self::Server(_)
+            | Self::Endpoint(_)
             | Self::Process(_)
             | Self::Jitter(_)
             | Self::Answers(_)

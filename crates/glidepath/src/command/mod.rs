@@ -20,6 +20,7 @@ mod feed;
 mod fit;
 mod fitting;
 mod forecast;
+mod grbl;
 mod home;
 mod interpolator;
 mod jitter;
@@ -116,6 +117,7 @@ fn dispatch(command: &Command) -> Result<Exit, Failure> {
         Command::Status(args) if args.watch => watch::watch(args, &config()?),
         Command::Status(args) => operator::status(&args.operator, &config()?),
         Command::Live(args) => live::live(args, &config()?),
+        Command::Grbl(args) => grbl::grbl(args, &config()?),
         Command::Record(args) => record::record(args, &config()?),
         Command::Replay(args) => replay::replay(args, &config()?),
         Command::Telemetry(args) => telemetry::telemetry(args, &config()?),

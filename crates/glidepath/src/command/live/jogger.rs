@@ -27,7 +27,7 @@ const REMEMBERED: usize = 64;
 
 /// How axes are to be moved.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Hand {
+pub(in crate::command) enum Hand {
     /// A message of a finger that is down: mm/s or °/s by axis.
     Down {
         gesture: u64,
@@ -45,11 +45,11 @@ pub(super) enum Hand {
 
 /// The way to the thread that jogs.
 #[derive(Debug)]
-pub(super) struct Jogger(Sender<(Hand, Instant)>);
+pub(in crate::command) struct Jogger(Sender<(Hand, Instant)>);
 
 impl Jogger {
     /// Starts the thread, which ends with this.
-    pub(super) fn start(link: &LinkConfig) -> Result<Self, std::io::Error> {
+    pub(in crate::command) fn start(link: &LinkConfig) -> Result<Self, std::io::Error> {
         let (sender, receiver) = channel();
         let link = link.clone();
         let thread = std::thread::Builder::new().name("live-jog".to_owned());
@@ -58,7 +58,7 @@ impl Jogger {
     }
 
     /// Has axes moved. Returns whether there is anybody to do it.
-    pub(super) fn hand(&self, hand: Hand) -> bool {
+    pub(in crate::command) fn hand(&self, hand: Hand) -> bool {
         self.0.send((hand, Instant::now())).is_ok()
     }
 }

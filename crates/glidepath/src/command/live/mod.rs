@@ -16,7 +16,7 @@ mod folder;
 mod following;
 mod gesture;
 mod job_desk;
-mod jogger;
+pub(super) mod jogger;
 mod lateness;
 mod log;
 mod order;

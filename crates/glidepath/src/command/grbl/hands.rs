@@ -1,0 +1,144 @@
+//! What a sender has the machine do at once: commands of the interpolator, and jogs.
+//!
+//! A thread gives commands, because their answers are waited for, and a report waits for nothing. What stops the
+//! motion is given first.
+
+use super::super::live::jogger::{Hand, Jogger};
+use crate::config::MachineConfig;
+use glidepath_geometry::AXES;
+use glidepath_grbl::Act;
+use glidepath_link::{Command, CommandRequest, EventId, LinkConfig, LinkError, Operator, Status};
+use std::io;
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::time::Duration;
+
+/// How long the interpolator may take for an answer.
+const PATIENCE: Duration = Duration::from_secs(2);
+
+type Refusal = (Act, String);
+
+/// The ways to the machine.
+pub(super) struct Hands {
+    commands: Sender<(Act, Command)>,
+    refusals: Receiver<Refusal>,
+    jogger: Jogger,
+    /// The joints of each axis, and of all, one bit each.
+    joints: [u32; AXES],
+    all: u32,
+    untold: Vec<Refusal>,
+}
+
+impl Hands {
+    /// Starts the threads, which end with this.
+    pub(super) fn start(config: &MachineConfig, link: &LinkConfig) -> io::Result<Self> {
+        let (commands, receiver) = channel();
+        let (sender, refusals) = channel();
+        let own = link.clone();
+        let thread = std::thread::Builder::new().name("grbl-commands".to_owned());
+        thread.spawn(move || give(&own, &receiver, &sender))?;
+        let mut joints = [0; AXES];
+        for (joint, axis) in config.axis_of_joints().iter().enumerate() {
+            if let Some(mask) = joints.get_mut(axis.index()) {
+                *mask |= 1 << joint;
+            }
+        }
+        Ok(Self {
+            commands,
+            refusals,
+            jogger: Jogger::start(link)?,
+            joints,
+            all: (1 << config.drives()) - 1,
+            untold: Vec::new(),
+        })
+    }
+
+    /// Has something done.
+    pub(super) fn act(&mut self, act: Act, status: Option<&Status>, _link: &LinkConfig) {
+        let command = match &act {
+            Act::Hold => Command::Hold,
+            Act::Resume => Command::Resume,
+            Act::Return => Command::Return,
+            Act::Abort => Command::Abort,
+            Act::Reset => Command::Reset,
+            Act::Enable => Command::Enable,
+            Act::Disable => Command::Disable,
+            Act::FeedOverride(ratio) => Command::FeedOverride(*ratio),
+            Act::RapidOverride(ratio) => Command::RapidOverride(*ratio),
+            Act::Home(None) => Command::Home(self.all),
+            Act::Home(Some(axis)) => {
+                Command::Home(self.joints.get(*axis).copied().unwrap_or_default())
+            }
+            Act::ToggleSingleBlock => {
+                Command::SingleBlock(status.is_none_or(|status| status.single_block == 0))
+            }
+            Act::Acknowledge => Command::Acknowledge {
+                event: status.map_or_else(EventId::default, |status| EventId {
+                    boot_id: status.boot_id,
+                    epoch: status.epoch,
+                    sequence: status.awaited_sequence,
+                }),
+                done: true,
+            },
+            Act::Jog { by, most_v } => {
+                let (by, most_v) = (*by, *most_v);
+                self.hand(Hand::Step { by, most_v }, act);
+                return;
+            }
+            Act::LetGo => {
+                self.hand(Hand::LetGo, act);
+                return;
+            }
+            Act::Judge(_) => return,
+        };
+        if let Err(unsent) = self.commands.send((act, command)) {
+            let (act, _) = unsent.0;
+            self.untold
+                .push((act, "nobody gives commands any more".to_owned()));
+        }
+    }
+
+    fn hand(&mut self, hand: Hand, act: Act) {
+        if !self.jogger.hand(hand) {
+            self.untold.push((act, "nobody jogs any more".to_owned()));
+        }
+    }
+
+    /// What was refused since the last call, and why.
+    pub(super) fn refusals(&mut self) -> Vec<Refusal> {
+        let untold = core::mem::take(&mut self.untold);
+        untold.into_iter().chain(self.refusals.try_iter()).collect()
+    }
+}
+
+/// Gives commands until nobody has any more.
+fn give(link: &LinkConfig, commands: &Receiver<(Act, Command)>, refusals: &Sender<Refusal>) {
+    while let Ok(first) = commands.recv() {
+        let mut waiting: Vec<(Act, Command)> =
+            core::iter::once(first).chain(commands.try_iter()).collect();
+        // A stop waits for no override.
+        waiting.sort_by_key(|(_, command)| !matches!(command, Command::Abort | Command::Hold));
+        for (act, command) in waiting {
+            let Err(why) = give_one(link, command) else {
+                continue;
+            };
+            if refusals.send((act, why)).is_err() {
+                return;
+            }
+        }
+    }
+}
+
+fn give_one(link: &LinkConfig, command: Command) -> Result<(), String> {
+    let told = |error: LinkError| error.to_string();
+    let request = CommandRequest::new(u64::from(std::process::id()), 1, command);
+    let operator = Operator::find(link).map_err(told)?;
+    let reply = operator.call(&request, PATIENCE).map_err(told)?;
+    let Some(reply) = reply else {
+        return Err("the interpolator does not answer".to_owned());
+    };
+    match reply.outcome() {
+        Ok(Ok(())) => Ok(()),
+        Ok(Err(refusal)) => Err(reply.why(refusal)),
+        Err(error) => Err(error.to_string()),
+    }
+}

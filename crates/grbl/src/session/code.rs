@@ -1,0 +1,165 @@
+//! Lines that are executed, and what comes of them.
+
+use std::time::Duration;
+
+use super::awaited::Waiting;
+use super::{Latch, Session};
+use crate::error::ErrorNumber;
+use crate::line::{Wanted, wanted};
+use crate::state::State;
+use crate::stream::{Outcome, Refused};
+use crate::{Act, Alarm, Doing};
+
+impl Session {
+    /// Does what lines want, as far as that is possible now.
+    pub(super) fn process(&mut self, now: Duration) {
+        while self.process_next(now) {}
+    }
+
+    /// Does what the next line wants. Returns whether there may be more to do.
+    fn process_next(&mut self, now: Duration) -> bool {
+        if self.reset.is_some() || self.waiting != Waiting::Nothing {
+            return false;
+        }
+        let Some(line) = self.lines.get(self.given) else {
+            return false;
+        };
+        let is_first = self.given == 0;
+        if line.is_too_long {
+            if is_first {
+                self.answer_error(ErrorNumber::TOO_LONG, "a line has at most 256 characters");
+            }
+            return is_first;
+        }
+        let text = line.text.clone();
+        match wanted(&text) {
+            Wanted::Nothing if is_first => {
+                self.answer_ok();
+                true
+            }
+            Wanted::Nothing => self.give(""),
+            Wanted::Code => self.process_code(&text),
+            statement if is_first => self.process_statement(statement, now),
+            // Answers come in order.
+            _ => false,
+        }
+    }
+
+    fn process_code(&mut self, text: &str) -> bool {
+        let is_first = self.given == 0;
+        match self.state() {
+            State::Alarm | State::Sleep | State::Jog | State::Home if !is_first => false,
+            State::Alarm | State::Sleep => {
+                self.answer_error(ErrorNumber::LOCKED, "the machine is locked: $X unlocks it");
+                true
+            }
+            State::Jog | State::Home => {
+                self.answer_error(ErrorNumber::LOCKED, "the machine is moved by hand");
+                true
+            }
+            State::Check => {
+                self.waiting = Waiting::Judgement;
+                self.acts.push(Act::Judge(text.to_owned()));
+                false
+            }
+            State::Idle | State::Run | State::Hold { .. } | State::Door { .. } => {
+                self.latch == Latch::Free && self.give(text)
+            }
+        }
+    }
+
+    /// Gives a line to the stream, if there is room.
+    fn give(&mut self, text: &str) -> bool {
+        if !self.stream.has_room() {
+            return false;
+        }
+        self.stream.push(text);
+        self.given += 1;
+        true
+    }
+
+    /// The line that waits for it was judged.
+    pub fn judged(&mut self, refused: Option<&Refused>) {
+        if self.waiting != Waiting::Judgement {
+            return;
+        }
+        self.waiting = Waiting::Nothing;
+        match refused {
+            None => self.answer_ok(),
+            Some(refused) => {
+                let number = ErrorNumber::of_diagnostic(&refused.name);
+                self.answer_error(number, &refused.text);
+            }
+        }
+    }
+
+    /// What came of lines that were given.
+    pub(super) fn take_outcome(&mut self, outcome: Outcome, now: Duration) {
+        match outcome {
+            Outcome::Read => self.answer_given(None, ""),
+            Outcome::ProgramEnd => {
+                self.message("Pgm End");
+                self.overrides.reset(now, &mut self.acts);
+            }
+            Outcome::Refused(refused) => self.take_refusal(&refused),
+            Outcome::NotBegun(why) => {
+                self.stream.drop_oldest();
+                let is_ready = matches!(self.machine.doing, Doing::NotHomed | Doing::Off);
+                let number = if is_ready {
+                    ErrorNumber::LOCKED
+                } else {
+                    ErrorNumber::NOT_IDLE
+                };
+                self.answer_given(Some(number), &why);
+            }
+            Outcome::Failed(why) => {
+                // What was given waits again, and is refused as long as the machine is locked.
+                self.stream.forget_unread();
+                self.given = 0;
+                if self.machine.doing != Doing::Faulted {
+                    self.alarm = Some(Alarm::Stopped);
+                    self.say(&format!("ALARM:{}", Alarm::Stopped.number()));
+                    self.message(&why);
+                }
+            }
+        }
+    }
+
+    fn take_refusal(&mut self, refused: &Refused) {
+        if refused.name == "probe" {
+            let alarm = if self.facts.probe_made {
+                Alarm::ProbeAtFirst
+            } else {
+                Alarm::ProbeNothing
+            };
+            self.alarm = Some(alarm);
+            self.say(&format!("ALARM:{}", alarm.number()));
+            self.message(&refused.text);
+            self.answer_given(None, "");
+            return;
+        }
+        let text = match refused.column {
+            0 => refused.text.clone(),
+            column => format!("column {column}: {}", refused.text),
+        };
+        let number = ErrorNumber::of_diagnostic(&refused.name);
+        self.answer_given(Some(number), &text);
+        // What is behind it in the sender's stream is not executed without somebody who says so.
+        if refused.is_in_motion && self.latch == Latch::Free {
+            self.latch = Latch::Hold;
+            self.message("The machine comes to rest before the line that was refused");
+        }
+    }
+
+    /// Answers the oldest line, which was given. Where it was dropped meanwhile, nobody waits for an answer.
+    fn answer_given(&mut self, error: Option<ErrorNumber>, why: &str) {
+        if self.given == 0 {
+            return;
+        }
+        self.given -= 1;
+        match error {
+            None => self.answer_ok(),
+            Some(number) => self.answer_error(number, why),
+        }
+    }
+}

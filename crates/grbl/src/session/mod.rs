@@ -1,0 +1,407 @@
+//! One sender: its lines, what it was told, and what it has the machine do.
+
+mod awaited;
+mod code;
+mod real_time;
+mod statement;
+#[cfg(test)]
+mod tests;
+mod waiting;
+
+use std::collections::VecDeque;
+use std::time::Duration;
+
+use crate::error::ErrorNumber;
+use crate::intake::{Heard, Intake, Line};
+use crate::jogging::{Jogged, Jogging};
+use crate::numbers::Units;
+use crate::overrides::Overrides;
+use crate::report::{BLOCKS, BUFFER, Beside, MACHINE_POSITION, Reporter};
+use crate::state::State;
+use crate::stream::{Request, Stream, Told};
+use crate::{Act, Alarm, Doing, Facts, Machine, MachineSettings};
+use awaited::{Reset, Waiting};
+
+/// Bytes that are kept of what a sender sends without being answered, whatever it was told: it is read no
+/// further.
+const MOST_KEPT: usize = 4096;
+/// Bytes that wait for a sender that does not read.
+const MOST_UNSENT: usize = 32 * 1024;
+/// How long a sender that asks for reports may be silent while it jogs.
+const JOG_SILENCE: Duration = Duration::from_secs(1);
+/// Reports after which a sender is one that asks for them.
+const ASKS: u32 = 3;
+
+/// What keeps lines from being begun.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Latch {
+    Free,
+    Hold,
+    Door,
+}
+
+/// One sender after the other, and what is known of the machine.
+#[derive(Debug)]
+pub struct Session {
+    settings: MachineSettings,
+    machine: Machine,
+    facts: Facts,
+    ahead_t: f64,
+    intake: Intake,
+    /// Received and not answered, the oldest first.
+    lines: VecDeque<Line>,
+    /// So many of them were given to the stream.
+    given: usize,
+    stream: Stream,
+    jogging: Jogging,
+    waiting: Waiting,
+    reset: Option<Reset>,
+    latch: Latch,
+    alarm: Option<Alarm>,
+    /// A machine that does not know where it is may be jogged.
+    is_unlocked: bool,
+    is_checking: bool,
+    is_asleep: bool,
+    /// `$10` and `$13`.
+    mask: u32,
+    units: Units,
+    overrides: Overrides,
+    reporter: Reporter,
+    heard_at: Duration,
+    reports: u32,
+    spindle_was_told: bool,
+    /// For the next sender.
+    note: Option<String>,
+    acts: Vec<Act>,
+    out: Vec<u8>,
+}
+
+impl Session {
+    /// A machine that nobody has told of, and no sender.
+    #[must_use]
+    pub fn new(settings: MachineSettings) -> Self {
+        Self {
+            settings,
+            machine: Machine::default(),
+            facts: Facts::default(),
+            ahead_t: 0.0,
+            intake: Intake::default(),
+            lines: VecDeque::new(),
+            given: 0,
+            stream: Stream::default(),
+            jogging: Jogging::default(),
+            waiting: Waiting::Nothing,
+            reset: None,
+            latch: Latch::Free,
+            alarm: None,
+            is_unlocked: false,
+            is_checking: false,
+            is_asleep: false,
+            mask: MACHINE_POSITION | BUFFER,
+            units: Units::Millimetre,
+            overrides: Overrides::WHOLE,
+            reporter: Reporter::default(),
+            heard_at: Duration::ZERO,
+            reports: 0,
+            spindle_was_told: false,
+            note: None,
+            acts: Vec::new(),
+            out: Vec::new(),
+        }
+    }
+
+    /// A sender has connected. `now` is the time since any fixed instant, here and everywhere.
+    pub fn connected(&mut self, now: Duration) {
+        (self.mask, self.units) = (MACHINE_POSITION | BUFFER, Units::Millimetre);
+        (self.heard_at, self.reports) = (now, 0);
+        self.spindle_was_told = false;
+        self.welcome();
+        if let Some(note) = self.note.take() {
+            self.message(&note);
+        }
+    }
+
+    /// The sender has gone. What it sent last is not executed: lines that were read are, up to the end of the
+    /// last, and jogs come to rest.
+    pub fn lost(&mut self) {
+        if self.jogging.cancel() {
+            self.acts.push(Act::LetGo);
+        }
+        let rests = self.machine.doing == Doing::Waiting && !self.stream.has_unread();
+        let was_open = self.stream.is_open() && !rests;
+        let dropped = self.lines.len();
+        self.stream.abandon();
+        self.lines.clear();
+        self.given = 0;
+        self.intake = Intake::default();
+        (self.waiting, self.is_checking) = (Waiting::Nothing, false);
+        if was_open {
+            self.latch = Latch::Hold;
+        }
+        if was_open || dropped > 0 {
+            let lines = if dropped == 1 { "line" } else { "lines" };
+            self.note = Some(format!(
+                "The sender before was lost: {dropped} {lines} of it dropped"
+            ));
+        }
+        self.out.clear();
+    }
+
+    /// What a sender has sent.
+    pub fn hear(&mut self, bytes: &[u8], now: Duration) {
+        if !bytes.is_empty() {
+            self.heard_at = now;
+        }
+        for byte in bytes {
+            match self.intake.take(*byte) {
+                None => {}
+                Some(Heard::Line(line)) => self.lines.push_back(line),
+                Some(Heard::RealTime(real_time)) => {
+                    // What stands in front of it comes first.
+                    self.process(now);
+                    self.take_real_time(real_time, now);
+                }
+            }
+        }
+        self.process(now);
+    }
+
+    /// What is known of the machine now. To be called every few milliseconds.
+    pub fn see(&mut self, machine: &Machine, now: Duration) {
+        let before = core::mem::replace(&mut self.machine, machine.clone());
+        self.overrides.follow(&self.machine, now);
+        self.tell_of_changes(&before);
+        self.look_at_jogs(now);
+        self.look_at_waiting(now);
+        self.look_at_reset(now);
+        self.process(now);
+    }
+
+    /// What the planner's service tells of lines.
+    pub fn told(&mut self, told: &Told, now: Duration) {
+        let probes = core::mem::replace(&mut self.facts, told.facts.clone()).probes;
+        self.ahead_t = told.ahead_t;
+        if self.facts.probes != probes {
+            let line = self.facts.probe_line(self.units, &self.settings.axes);
+            self.say(&line);
+        }
+        for outcome in self.stream.hear(told) {
+            self.take_outcome(outcome, now);
+        }
+        self.process(now);
+    }
+
+    /// Nobody executes lines, for this reason.
+    pub fn service_lost(&mut self, why: &str, now: Duration) {
+        if let Some(outcome) = self.stream.lose_service(why) {
+            self.take_outcome(outcome, now);
+        }
+        self.process(now);
+    }
+
+    /// What to ask the planner's service.
+    pub fn request(&mut self) -> Request {
+        let may_begin = self.latch == Latch::Free && self.reset.is_none() && !self.is_locked();
+        self.stream.request(may_begin)
+    }
+
+    /// Whether the service is to be asked at once, and not only now and then.
+    #[must_use]
+    pub fn is_urgent(&self) -> bool {
+        self.stream.is_open() || self.stream.has_unread()
+    }
+
+    /// What the machine is to do, in this order.
+    pub fn take_acts(&mut self) -> Vec<Act> {
+        core::mem::take(&mut self.acts)
+    }
+
+    /// An act was refused.
+    pub fn refused(&mut self, act: &Act, why: &str) {
+        match act {
+            // At rest there is nothing to hold or to end: what keeps lines from beginning is kept here.
+            Act::Hold | Act::Abort | Act::LetGo => {}
+            Act::Home(_) if matches!(self.waiting, Waiting::Home { .. }) => {
+                self.waiting = Waiting::Nothing;
+                self.answer_error(ErrorNumber::NO_HOMING, why);
+            }
+            _ => self.message(why),
+        }
+    }
+
+    /// Bytes for the sender.
+    pub fn take_output(&mut self) -> Vec<u8> {
+        core::mem::take(&mut self.out)
+    }
+
+    /// Whether the sender is to be read from: what it has sent is bounded, whatever it was told.
+    #[must_use]
+    pub fn wants_bytes(&self) -> bool {
+        self.kept_bytes() < MOST_KEPT && self.out.len() < MOST_UNSENT
+    }
+
+    fn kept_bytes(&self) -> usize {
+        let lines: usize = self.lines.iter().map(|line| line.bytes.min(300)).sum();
+        lines + self.intake.open_bytes()
+    }
+
+    /// What the machine does, as senders know it.
+    fn state(&self) -> State {
+        if self.is_asleep {
+            return State::Sleep;
+        }
+        if self.is_locked() {
+            return State::Alarm;
+        }
+        let doing = self.machine.doing;
+        if doing == Doing::Homing {
+            return State::Home;
+        }
+        if self.is_checking {
+            return State::Check;
+        }
+        if self.jogging.is_active() || doing == Doing::Jogging {
+            return State::Jog;
+        }
+        let is_at_rest = !doing.is_moving() && doing != Doing::Preparing;
+        match self.latch {
+            Latch::Hold => return State::Hold { is_at_rest },
+            Latch::Door => return State::Door { is_at_rest },
+            Latch::Free => {}
+        }
+        match doing {
+            Doing::Holding => State::Hold { is_at_rest: false },
+            Doing::Held | Doing::ProgramStop | Doing::AwaitingTool => {
+                State::Hold { is_at_rest: true }
+            }
+            // What was read last may not have begun.
+            Doing::Idle | Doing::NotHomed if !self.is_urgent() => State::Idle,
+            Doing::Waiting if !self.stream.has_unread() => State::Idle,
+            _ => State::Run,
+        }
+    }
+
+    /// Nothing is executed before it is unlocked.
+    fn is_locked(&self) -> bool {
+        let is_fit = match self.machine.doing {
+            Doing::Unknown | Doing::Off | Doing::Faulted => false,
+            Doing::NotHomed => self.is_unlocked,
+            _ => true,
+        };
+        self.alarm.is_some() || !is_fit
+    }
+
+    /// What senders have to know of what has changed.
+    fn tell_of_changes(&mut self, before: &Machine) {
+        let (was, is) = (before.doing, self.machine.doing);
+        if !self.machine.message.is_empty() && self.machine.message != before.message {
+            let message = self.machine.message.clone();
+            self.message(&message);
+        }
+        if matches!(is, Doing::Idle | Doing::Running) {
+            self.is_unlocked = false;
+        }
+        let is_lost = matches!(is, Doing::Faulted | Doing::Off | Doing::Unknown) && was != is;
+        let was_fit = !matches!(was, Doing::Faulted | Doing::Off | Doing::Unknown);
+        if is_lost && (was_fit || is == Doing::Faulted) && !self.is_asleep {
+            let (alarm, why) = self.machine.fault.clone().unwrap_or_else(|| {
+                let why = "the machine has no power, or its interpolator is gone";
+                (Alarm::Stopped, why.to_owned())
+            });
+            self.jogging.forget();
+            self.say(&format!("ALARM:{}", alarm.number()));
+            self.message(&why);
+        }
+    }
+
+    fn look_at_jogs(&mut self, now: Duration) {
+        let asks = self.reports >= ASKS;
+        let is_silent = now.saturating_sub(self.heard_at) >= JOG_SILENCE;
+        if asks && is_silent && self.jogging.is_active() && self.jogging.has_room() {
+            self.message("The sender is silent: the jog ends");
+            self.cancel_jogs();
+        }
+        let look = (self.machine.doing, &self.machine.position);
+        let jogged = self.jogging.look(look, now, &mut self.acts);
+        if jogged == Jogged::NotDone {
+            self.message("The jog ended before its end");
+        }
+    }
+
+    fn cancel_jogs(&mut self) -> bool {
+        let was_active = self.jogging.cancel();
+        if was_active {
+            // What was not handed over does not begin.
+            self.acts.retain(|act| !matches!(act, Act::Jog { .. }));
+            self.acts.push(Act::LetGo);
+        }
+        was_active
+    }
+
+    fn say_report(&mut self, is_full: bool) {
+        let state = self.state();
+        let ahead_r = self.ahead_t / self.settings.ahead_t;
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "between 0 and 15"
+        )]
+        let taken = (ahead_r.clamp(0.0, 1.0) * f64::from(BLOCKS)).ceil() as u32;
+        let is_open = self.stream.is_open();
+        let beside = Beside {
+            state,
+            axes: &self.settings.axes,
+            units: self.units,
+            mask: self.mask,
+            free_blocks: BLOCKS - if is_open { taken } else { 0 },
+            free_bytes: self.settings.rx_bytes.saturating_sub(self.kept_bytes()),
+            line: match self.machine.line {
+                line @ 1.. if is_open => self.stream.number(line.into()),
+                _ => 0,
+            },
+            overrides: self.overrides.percents(),
+            is_full,
+        };
+        let text = self.reporter.report(&self.machine, &beside);
+        self.say(&text);
+    }
+
+    fn welcome(&mut self) {
+        self.reporter.begin_anew();
+        self.say("");
+        self.say("Grbl 1.1h ['$' for help]");
+        if self.state() == State::Alarm {
+            self.message("'$H'|'$X' to unlock");
+        }
+    }
+
+    fn say(&mut self, text: &str) {
+        self.out.extend_from_slice(text.as_bytes());
+        self.out.extend_from_slice(b"\r\n");
+    }
+
+    /// Something for people. Brackets would end it early.
+    fn message(&mut self, text: &str) {
+        let is_plain = |c: char| c.is_ascii() && !c.is_ascii_control() && !matches!(c, '[' | ']');
+        let plain: String = text
+            .chars()
+            .map(|c| if is_plain(c) { c } else { ' ' })
+            .collect();
+        self.say(&format!("[MSG:{}]", plain.trim()));
+    }
+
+    /// Answers the oldest line.
+    fn answer_ok(&mut self) {
+        if self.lines.pop_front().is_some() {
+            self.say("ok");
+        }
+    }
+
+    /// Likewise, with why it is refused.
+    fn answer_error(&mut self, number: ErrorNumber, why: &str) {
+        if self.lines.pop_front().is_some() {
+            self.message(why);
+            self.say(&format!("error:{}", number.0));
+        }
+    }
+}

@@ -1,0 +1,374 @@
+//! The lines of a sender as jobs of the planner's service.
+//!
+//! ```text
+//!   line ──► unread ──given──► service ──read──► answered
+//!                 │                │
+//!                 │                └ a job ends: nothing more has come, M2, a line that was refused, an abort
+//!                 └ what is left is given to the next job
+//! ```
+
+use std::collections::VecDeque;
+
+use crate::Facts;
+
+/// Lines that are not read, at most.
+const MOST_UNREAD: usize = 64;
+/// Text of one request at most, bytes.
+const MOST_TEXT: usize = 1000;
+
+/// What is wanted of a job.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Wish {
+    /// The lines are to be executed; the first of them begins the job.
+    Execute,
+    /// How it stands.
+    Ask,
+    /// What was read is executed, and nothing more.
+    Close,
+    /// It is to end: the motion comes to rest on the path.
+    Cancel,
+}
+
+/// What the planner's service is asked.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Request {
+    /// Counts the jobs of this endpoint; 0 to ask how the machine is set up.
+    pub job: u64,
+    /// What is wanted of it.
+    pub wish: Wish,
+    /// The number of the first of the lines, from 1.
+    pub first: u64,
+    /// Lines of the job.
+    pub lines: Vec<String>,
+}
+
+/// A line that was refused. It has no effect, and ends its job behind the line before.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Refused {
+    /// Byte of the line, from 1; 0 if it is about no place.
+    pub column: u32,
+    /// The stable name of the diagnostic.
+    pub name: String,
+    /// What, why, and how to mend it.
+    pub text: String,
+    /// Lines before it are still executed.
+    pub is_in_motion: bool,
+}
+
+/// How a job ended.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum End {
+    /// All that was read was executed.
+    Done,
+    /// Likewise, and the last line ended a program.
+    ProgramEnd,
+    /// It has not begun: somebody else has the machine, or it is not ready.
+    NotBegun(String),
+    /// The motion ended before it did.
+    Failed(String),
+}
+
+/// How a job stands.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Stage {
+    /// Nothing is known of it.
+    Unknown,
+    /// Lines are taken, read and executed.
+    Open,
+    /// It has ended.
+    Over(End),
+}
+
+/// What the planner's service tells.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Told {
+    /// The job that was asked about.
+    pub job: u64,
+    /// How it stands.
+    pub stage: Stage,
+    /// Lines of it that have come.
+    pub taken: u64,
+    /// Lines of it that were read, and, where they end at rest, executed.
+    pub read: u64,
+    /// The line behind those was refused.
+    pub refused: Option<Refused>,
+    /// Motion that is planned ahead of what is executed, s.
+    pub ahead_t: f64,
+    /// How the machine is set up.
+    pub facts: Facts,
+}
+
+/// What came of lines.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Outcome {
+    /// The oldest line was read.
+    Read,
+    /// The oldest line was refused.
+    Refused(Refused),
+    /// A program ended with the line that is read next.
+    ProgramEnd,
+    /// The job has not begun.
+    NotBegun(String),
+    /// The motion of the job ended before it did.
+    Failed(String),
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+enum Phase {
+    /// No job.
+    #[default]
+    None,
+    Open,
+    /// Nothing more is given.
+    Closing,
+    /// It is to end.
+    Cancelling,
+}
+
+/// The lines of a sender, and the job they belong to.
+#[derive(Debug, Default)]
+pub(crate) struct Stream {
+    job: u64,
+    phase: Phase,
+    unread: VecDeque<String>,
+    taken: u64,
+    read: u64,
+    /// Lines of jobs before.
+    before: u64,
+}
+
+impl Stream {
+    pub(crate) fn has_room(&self) -> bool {
+        self.unread.len() < MOST_UNREAD && matches!(self.phase, Phase::None | Phase::Open)
+    }
+
+    /// Whether a job is under way.
+    pub(crate) const fn is_open(&self) -> bool {
+        !matches!(self.phase, Phase::None)
+    }
+
+    pub(crate) fn has_unread(&self) -> bool {
+        !self.unread.is_empty()
+    }
+
+    /// The number of a line of the present job among all lines.
+    pub(crate) const fn number(&self, line: u64) -> u64 {
+        self.before + line
+    }
+
+    pub(crate) fn push(&mut self, text: &str) {
+        self.unread.push_back(text.to_owned());
+    }
+
+    /// What was read is executed, and nothing more.
+    pub(crate) const fn close(&mut self) {
+        if matches!(self.phase, Phase::Open) {
+            self.phase = Phase::Closing;
+        }
+    }
+
+    /// The job is to end, and lines that are not read are forgotten.
+    pub(crate) fn cancel(&mut self) {
+        self.unread.clear();
+        if self.is_open() {
+            self.phase = Phase::Cancelling;
+        }
+    }
+
+    /// Lines that are not read are forgotten, and what was read is executed.
+    pub(crate) fn abandon(&mut self) {
+        self.unread.clear();
+        self.close();
+    }
+
+    /// Lines that are not read are to be given once more.
+    pub(crate) fn forget_unread(&mut self) {
+        self.unread.clear();
+    }
+
+    /// What to ask. `may_begin`: lines may begin a job.
+    pub(crate) fn request(&mut self, may_begin: bool) -> Request {
+        if self.phase == Phase::None && may_begin && self.has_unread() {
+            self.before += self.read;
+            (self.job, self.phase) = (self.job + 1, Phase::Open);
+            (self.taken, self.read) = (0, 0);
+        }
+        let wish = match self.phase {
+            Phase::None => {
+                return Request {
+                    job: 0,
+                    wish: Wish::Ask,
+                    first: 1,
+                    lines: Vec::new(),
+                };
+            }
+            Phase::Open => Wish::Execute,
+            Phase::Closing => Wish::Close,
+            Phase::Cancelling => Wish::Cancel,
+        };
+        let given = usize::try_from(self.taken - self.read).unwrap_or(usize::MAX);
+        let mut lines = Vec::new();
+        let mut bytes = 0;
+        for line in self.unread.iter().skip(given) {
+            bytes += line.len() + 1;
+            if wish != Wish::Execute || bytes > MOST_TEXT {
+                break;
+            }
+            lines.push(line.clone());
+        }
+        Request {
+            job: self.job,
+            wish: if lines.is_empty() && wish == Wish::Execute && self.taken > 0 {
+                Wish::Ask
+            } else {
+                wish
+            },
+            first: self.taken + 1,
+            lines,
+        }
+    }
+
+    /// What came of lines.
+    pub(crate) fn hear(&mut self, told: &Told) -> Vec<Outcome> {
+        let mut outcomes = Vec::new();
+        if self.phase == Phase::None || told.job != self.job {
+            return outcomes;
+        }
+        self.taken = self.taken.max(told.taken);
+        let is_program_end = told.stage == Stage::Over(End::ProgramEnd);
+        while self.read < told.read {
+            self.read += 1;
+            if is_program_end && self.read == told.read {
+                outcomes.push(Outcome::ProgramEnd);
+            }
+            if self.unread.pop_front().is_some() {
+                outcomes.push(Outcome::Read);
+            }
+        }
+        if let (Some(refused), Phase::Open) = (&told.refused, self.phase) {
+            self.phase = Phase::Closing;
+            if self.unread.pop_front().is_some() {
+                outcomes.push(Outcome::Refused(refused.clone()));
+            }
+        }
+        let was_cancelled = self.phase == Phase::Cancelling;
+        let end = match &told.stage {
+            Stage::Open => return outcomes,
+            Stage::Unknown => Outcome::Failed("the planner's service was started anew".to_owned()),
+            Stage::Over(End::Done | End::ProgramEnd) => {
+                self.phase = Phase::None;
+                return outcomes;
+            }
+            Stage::Over(End::NotBegun(why)) => Outcome::NotBegun(why.clone()),
+            Stage::Over(End::Failed(why)) => Outcome::Failed(why.clone()),
+        };
+        self.phase = Phase::None;
+        if !was_cancelled {
+            outcomes.push(end);
+        }
+        outcomes
+    }
+
+    /// Nobody executes lines.
+    pub(crate) fn lose_service(&mut self, why: &str) -> Option<Outcome> {
+        let phase = core::mem::take(&mut self.phase);
+        match phase {
+            Phase::None | Phase::Cancelling => None,
+            Phase::Open if self.taken == 0 => Some(Outcome::NotBegun(why.to_owned())),
+            Phase::Open | Phase::Closing => Some(Outcome::Failed(why.to_owned())),
+        }
+    }
+
+    /// The oldest line, which is not executed.
+    pub(crate) fn drop_oldest(&mut self) {
+        self.unread.pop_front();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn told(job: u64, stage: Stage, taken: u64, read: u64) -> Told {
+        Told {
+            job,
+            stage,
+            taken,
+            read,
+            refused: None,
+            ahead_t: 0.0,
+            facts: Facts::default(),
+        }
+    }
+
+    #[test]
+    fn lines_are_given_until_they_have_come_and_read_once() {
+        let mut stream = Stream::default();
+        ["a", "b", "c"].iter().for_each(|line| stream.push(line));
+        let first = stream.request(true);
+        assert_eq!((first.job, first.first, first.lines.len()), (1, 1, 3));
+        // The answer was lost: the same again.
+        assert_eq!(stream.request(true), first);
+        assert_eq!(stream.hear(&told(1, Stage::Open, 2, 1)), [Outcome::Read]);
+        let next = stream.request(true);
+        assert_eq!((next.first, &next.lines[..]), (3, &["c".to_owned()][..]));
+        // An old answer changes nothing.
+        assert_eq!(stream.hear(&told(1, Stage::Open, 1, 1)), []);
+        let all = stream.hear(&told(1, Stage::Open, 3, 3));
+        assert_eq!(all, [Outcome::Read, Outcome::Read]);
+        assert_eq!(stream.request(true).wish, Wish::Ask);
+        stream.hear(&told(1, Stage::Over(End::Done), 3, 3));
+        assert!(!stream.is_open());
+        assert_eq!(stream.request(true).job, 0);
+    }
+
+    #[test]
+    fn what_a_job_leaves_is_given_to_the_next() {
+        let mut stream = Stream::default();
+        ["M2", "G0 X1"].iter().for_each(|line| stream.push(line));
+        stream.request(true);
+        let outcomes = stream.hear(&told(1, Stage::Over(End::ProgramEnd), 2, 1));
+        assert_eq!(outcomes, [Outcome::ProgramEnd, Outcome::Read]);
+        assert_eq!(stream.request(false).job, 0);
+        let next = stream.request(true);
+        assert_eq!((next.job, next.first, next.lines.len()), (2, 1, 1));
+        assert_eq!(stream.number(1), 2);
+    }
+
+    #[test]
+    fn a_line_that_was_refused_is_told_at_once_and_ends_its_job() {
+        let mut stream = Stream::default();
+        ["G1 X1", "G999", "G1 X2"]
+            .iter()
+            .for_each(|line| stream.push(line));
+        stream.request(true);
+        let refused = Refused {
+            column: 1,
+            name: "unknown-g-code".to_owned(),
+            text: String::new(),
+            is_in_motion: true,
+        };
+        let mut answer = told(1, Stage::Open, 3, 1);
+        answer.refused = Some(refused.clone());
+        let outcomes = stream.hear(&answer);
+        assert_eq!(outcomes, [Outcome::Read, Outcome::Refused(refused)]);
+        assert_eq!(stream.hear(&answer), []);
+        assert_eq!(stream.request(true).wish, Wish::Close);
+        answer.stage = Stage::Over(End::Done);
+        assert_eq!(stream.hear(&answer), []);
+        assert_eq!(stream.request(true).lines, ["G1 X2"]);
+    }
+
+    #[test]
+    fn a_cancelled_job_says_nothing_more() {
+        let mut stream = Stream::default();
+        stream.push("G1 X1");
+        stream.request(true);
+        stream.cancel();
+        assert_eq!(stream.request(true).wish, Wish::Cancel);
+        stream.push("G55");
+        let failed = Stage::Over(End::Failed("aborted".to_owned()));
+        assert_eq!(stream.hear(&told(1, failed, 1, 0)), []);
+        assert_eq!(stream.request(true).lines, ["G55"]);
+    }
+}
