@@ -358,6 +358,10 @@ impl Machine<'_> {
 }
 
 #[test]
+#[allow(
+    clippy::too_many_lines,
+    reason = "a recording, from its first row to the last"
+)]
 fn hal_plays_what_is_recorded_and_opens_its_enable_chain_when_lines_stay_away() {
     if !is_there() {
         skip(
