@@ -14,6 +14,7 @@ mod planned;
 mod preview;
 mod refusals;
 mod scurve;
+mod straight_walls;
 #[path = "../support/mod.rs"]
 mod support;
 mod tolerance_split;

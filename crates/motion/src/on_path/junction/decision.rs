@@ -236,18 +236,19 @@ impl Corner<'_> {
         Some(self.no_longer_than_needed(best))
     }
 
-    /// The shortest transition that is as fast as the programmed rate, if the best is that fast.
-    fn no_longer_than_needed(&self, best: Candidate) -> Candidate {
-        let wanted_v = self.full_speed_v() * (1.0 - 1e-3);
-        if best.limit.top_v < wanted_v {
-            return best;
+    /// The shortest transition that is as fast as the programmed rate; if there is none, as fast as the fastest.
+    fn no_longer_than_needed(&self, longest: Candidate) -> Candidate {
+        let rate_v = self.full_speed_v() * (1.0 - 1e-3);
+        let fastest = self.fastest(longest, rate_v);
+        if fastest.limit.top_v < rate_v {
+            return fastest;
         }
-        let (mut slow_s, mut found) = (0.0, best);
+        let (mut slow_s, mut found) = (0.0, fastest);
         for _ in 0..HALVINGS {
             let middle_s = 0.5 * (slow_s + found.d_s);
             match self.candidate(middle_s) {
                 Some(shorter)
-                    if shorter.limit.top_v >= wanted_v && shorter.error_mm <= self.tolerance_mm =>
+                    if shorter.limit.top_v >= rate_v && shorter.error_mm <= self.tolerance_mm =>
                 {
                     found = shorter;
                 }
@@ -255,6 +256,25 @@ impl Corner<'_> {
             }
         }
         found
+    }
+
+    /// A transition that is as fast as a rate, or else the fastest. A longer one bends less, but the tool has further
+    /// to go on it than on the program beside an arc: where bending does not keep it from the rate, a shorter one is
+    /// faster.
+    fn fastest(&self, longest: Candidate, rate_v: f64) -> Candidate {
+        let mut fastest = longest;
+        while self.family == Family::Hermite && fastest.limit.top_v < rate_v {
+            match self.candidate(0.5 * fastest.d_s) {
+                Some(shorter)
+                    if shorter.limit.top_v > fastest.limit.top_v
+                        && shorter.error_mm <= self.tolerance_mm =>
+                {
+                    fastest = shorter;
+                }
+                _ => break,
+            }
+        }
+        fastest
     }
 
     /// The rate at which the straight parts beside the corner can be driven.

@@ -35,7 +35,7 @@ const ZIGZAG_RAD: f64 = 0.96;
 /// root of each other, so that limits do not matter.
 const ZIGZAG_R: f64 = 1.15;
 /// Lengths in tolerances: of a chord whose middle is a line if it bends, and if it does not; of the
-/// curves beside such a line; of a line beside a corner; the least spacing of samples.
+/// curves beside such a line, at a feed that uses the limits; of a line beside a corner; the least spacing of samples.
 const LONG_BENT_R: f64 = 400.0;
 const LONG_R: f64 = 4000.0;
 const BESIDE_LINE_R: f64 = 150.0;
@@ -154,10 +154,13 @@ impl<const D: usize> SampleLayout<D> {
         let bend_rad = self.turn_rad.max(end_turn_rad);
         let tolerance_mm = self.shares.tolerance_mm;
         let is_bent = length_t * bend_rad > 8.0 * tolerance_mm;
-        let is_long =
-            length_t > LONG_R * tolerance_mm || (is_bent && length_t > LONG_BENT_R * tolerance_mm);
+        let most_beside_t = (self.window.feed_v * self.shares.beside_line_t)
+            .max(BESIDE_CORNER_R * tolerance_mm)
+            .min(BESIDE_LINE_R * tolerance_mm);
+        let is_long = length_t > LONG_R * tolerance_mm
+            || (is_bent && length_t > LONG_BENT_R / BESIDE_LINE_R * most_beside_t);
         let beside_t = if is_long {
-            (0.3 * length_t).min(BESIDE_LINE_R * tolerance_mm)
+            (0.3 * length_t).min(most_beside_t)
         } else {
             length_t - (0.5 * length_t).min(BESIDE_CORNER_R * tolerance_mm)
         };

@@ -15,6 +15,11 @@ const CHORD_SHARE_R: f64 = 0.25;
 /// Share of what is allowed that the weights aim at.
 const TARGET_R: f64 = 0.8;
 
+/// How long a curve beside a line may take at the feed, in times that an axis needs for the tolerance with all of its
+/// jerk. Beside a line it would otherwise swing from one side of the tube to the other, ever longer: a wave in a wall
+/// that the feed gains nothing by.
+const BESIDE_LINE_R: f64 = 12.0;
+
 /// Longest wavelength that is smoothed away, in tolerances.
 const LONGEST_R: f64 = 1250.0;
 
@@ -29,6 +34,8 @@ pub(super) struct ToleranceShares {
     pub(super) allowed_mm: f64,
     pub(super) target_mm: f64,
     pub(super) longest_mm: f64,
+    /// How long a curve beside a line may take at the feed, s.
+    pub(super) beside_line_t: f64,
     /// How near their radius curves are kept.
     pub(super) held_radius: HeldRadius,
     /// The axes that measure the feed.
@@ -46,6 +53,9 @@ impl ToleranceShares {
             .map(|i| settings.limits.acceleration[i])
             .fold(0.0, f64::max);
         let chord_mm = (sharpest_a * period_t * period_t / 8.0).min(CHORD_SHARE_R * tolerance_mm);
+        let weakest_j = (feed_axes.clone())
+            .map(|i| settings.limits.jerk[i])
+            .fold(f64::INFINITY, f64::min);
         let merge_mm = MERGE_SHARE_R * tolerance_mm;
         let allowed_mm = tolerance_mm - merge_mm - chord_mm;
         Self {
@@ -54,6 +64,7 @@ impl ToleranceShares {
             allowed_mm,
             target_mm: TARGET_R * allowed_mm,
             longest_mm: LONGEST_R * tolerance_mm,
+            beside_line_t: BESIDE_LINE_R * (tolerance_mm / weakest_j).cbrt(),
             held_radius: HeldRadius::new(tolerance_mm, &settings.limits, feed_axes.clone()),
             feed_axes,
             travel: settings.limits.travel,
