@@ -67,6 +67,20 @@ pub(crate) struct Follow {
     /// How far the last frame was from there, and from all it may be on.
     distance_mm: f64,
     least_mm: f64,
+    /// The points of the program between the frame before and the last one: the ends of its moves, and some of
+    /// what is no line.
+    passed: Vec<ProgramPoint>,
+}
+
+/// A place on the program: moves before it, and path position on its move.
+#[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
+pub(crate) struct Place(u64, f64);
+
+/// A point of the program.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ProgramPoint {
+    pub(crate) place: Place,
+    pub(crate) position: AxisVector,
 }
 
 /// The program near a frame.
@@ -94,6 +108,7 @@ impl Follow {
             position: AxisVector::zeros(),
             distance_mm: 0.0,
             least_mm: 0.0,
+            passed: Vec::new(),
         }
     }
 
@@ -130,13 +145,42 @@ impl Follow {
     pub(crate) fn go(&mut self, position: &AxisVector) {
         let step_s = feed_length(&(position - self.position));
         self.position = *position;
+        self.passed.clear();
         let Some(here) = self.moves.get(self.here) else {
             (self.distance_mm, self.least_mm) = (0.0, 0.0);
             return;
         };
         let reach_s = self.here_s + 2.0 * step_s + 4.0 * here.tolerance_mm;
+        let from = (self.here, self.here_s);
         self.choose(position, reach_s);
+        self.pass(from);
         self.leave(position);
+    }
+
+    /// Notes what lies between a place and the one at hand.
+    fn pass(&mut self, (first, mut from_s): (usize, f64)) {
+        for (index, passed) in self.moves.iter().enumerate().skip(first) {
+            let is_here = index == self.here;
+            let to_s = if is_here {
+                self.here_s
+            } else {
+                passed.length_s
+            };
+            let point = |s: f64| ProgramPoint {
+                place: Place(passed.number, s),
+                position: passed.segment.position(s),
+            };
+            if !matches!(passed.segment, Prepared::Line(_)) && to_s > from_s {
+                let quarter_s = 0.25 * (to_s - from_s);
+                let between = [1.0, 2.0, 3.0].map(|i| point(from_s + i * quarter_s));
+                self.passed.extend(between);
+            }
+            if is_here {
+                break;
+            }
+            self.passed.push(point(passed.length_s));
+            from_s = 0.0;
+        }
     }
 
     /// Goes on to a frame.
@@ -199,6 +243,20 @@ impl Follow {
         }
         self.here -= left;
         self.ahead -= left;
+    }
+
+    /// The points of the program between the frame before and the last one.
+    pub(crate) fn passed(&self) -> &[ProgramPoint] {
+        &self.passed
+    }
+
+    /// The earliest place at which the motion may be.
+    pub(crate) fn earliest(&self) -> Place {
+        let first = self.moves.front();
+        Place(
+            first.map_or(self.count, |first| first.number),
+            self.earliest_s,
+        )
     }
 
     /// The move at hand.

@@ -51,6 +51,7 @@ mod judge;
 mod limits;
 mod matching;
 mod passed;
+mod passed_points;
 mod piece;
 mod program;
 mod report;

@@ -18,6 +18,7 @@ pub use places::SlowPlace;
 
 use crate::AuditSettings;
 use crate::follow::{Follow, Nearby};
+use crate::passed_points::PassedPoints;
 use crate::shape::{Shape, ShapeReport};
 use crate::smoothness::{Smoothness, SmoothnessReport};
 use binding::COUNT;
@@ -33,6 +34,7 @@ const FULLY_R: f64 = 0.98;
 pub struct Diagnosis {
     differences: Differences,
     follow: Follow,
+    passed: PassedPoints,
     counts: [u64; COUNT],
     places: Places,
     smoothness: Smoothness,
@@ -41,10 +43,12 @@ pub struct Diagnosis {
     feed_v: f64,
 }
 
-/// How far a frame is from the programmed path, and how far it may be.
+/// How far motion and program are from each other at a frame, and how far they may be.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Deviation {
-    /// Distance, mm.
+    /// The deviation at the frame, mm, both ways, as the [auditor](crate::Audit) means it: how far the frame is from
+    /// the program, or how far the motion stays from a point of the program that it has just passed, if that is more.
+    /// The largest of a motion is what the auditor finds.
     pub distance_mm: f64,
     /// Tolerance there, mm.
     pub tolerance_mm: f64,
@@ -71,6 +75,7 @@ impl Diagnosis {
         Self {
             differences: Differences::new(&settings.limits, settings.period_t),
             follow: Follow::new(settings),
+            passed: PassedPoints::default(),
             counts: [0; COUNT],
             places: Places::new(settings.period_t),
             smoothness: Smoothness::new(settings.period_t),
@@ -89,6 +94,7 @@ impl Diagnosis {
     /// The next frame is passed again, on a way back or onward again: it is not diagnosed once more.
     pub fn pass(&mut self, frame: &Frame) {
         self.differences.next(&frame.position, false);
+        self.passed.pass(&frame.position);
         self.smoothness.pass(&frame.position);
     }
 
@@ -106,8 +112,13 @@ impl Diagnosis {
             classify(frame.path_v, &self.differences, (&nearby, &self.follow))
         };
         let deviation_mm = self.follow.least_deviation_mm();
+        let (passed, earliest) = (self.follow.passed(), self.follow.earliest());
+        let mut missed_mm = self.passed.next(&frame.position, passed, earliest);
+        if frame.flags.contains(FrameFlags::LAST) {
+            missed_mm = missed_mm.max(self.passed.rest());
+        }
         self.deviation = Deviation {
-            distance_mm: deviation_mm,
+            distance_mm: deviation_mm.max(missed_mm),
             tolerance_mm: nearby.tolerance_mm,
         };
         self.feed_v = nearby.feed_v;
@@ -136,7 +147,7 @@ impl Diagnosis {
         binding
     }
 
-    /// How far the last frame is from the programmed path.
+    /// How far motion and program are from each other at the last frame.
     #[must_use]
     pub const fn deviation(&self) -> Deviation {
         self.deviation

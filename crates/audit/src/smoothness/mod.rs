@@ -51,9 +51,9 @@ pub struct Figures {
     pub ringing_a: [f64; AXES],
     /// How often every axis turned round. One that stood in between did so too.
     pub reversals: [u64; AXES],
-    /// Mean distance from the programmed path, mm.
+    /// Mean distance of the positions from the programmed path, mm.
     pub mean_deviation_mm: f64,
-    /// Rms distance from the programmed path, mm.
+    /// Rms distance of the positions from the programmed path, mm.
     pub rms_deviation_mm: f64,
 }
 

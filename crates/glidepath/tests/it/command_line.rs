@@ -347,6 +347,36 @@ fn bench_compares_programs_with_their_catalogue() {
     );
 }
 
+/// A corner that is rounded on its inner side is further from the motion than any setpoint is from the program.
+#[test]
+fn the_deviation_is_the_same_in_report_header_and_strip() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "G21 G90 G17\nG0 Z2\nG0 X10 Y10\nG1 Z-1 F600\nX30 F6000\nY30\nX10\nY10\nG0 Z2\nM2\n";
+    let program = file(folder.path(), "square.ngc", text);
+    let svg = folder.path().join("square.svg");
+    let mill = std::fs::read_to_string(MILL).unwrap();
+    for corners in ["either", "inner"] {
+        let machine = mill.replace("corners = \"either\"", &format!("corners = \"{corners}\""));
+        let machine = file(folder.path(), "mill.toml", &machine);
+        let [program, svg, machine] = [&program, &svg, &machine].map(|path| path.to_str().unwrap());
+        let output = glidepath(&[
+            "plan", program, "--config", machine, "--json", "--plot", svg, "--force",
+        ]);
+        assert_eq!(exit(&output), 0, "{output:?}");
+        let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let deviation_mm = report["max_deviation_mm"].as_f64().unwrap();
+        assert!(deviation_mm > 0.015, "{corners}: {deviation_mm} mm");
+        let drawn = std::fs::read_to_string(svg).unwrap();
+        for told in [
+            format!("deviation {deviation_mm:.4} of 0.02 mm"),
+            format!("peak {:.1} µm", 1e3 * deviation_mm),
+            format!("{:.1} % of the tolerance", 5e3 * deviation_mm),
+        ] {
+            assert!(drawn.contains(&told), "{corners}: no {told:?}");
+        }
+    }
+}
+
 #[test]
 fn plan_tells_people_where_the_plot_is() {
     let folder = tempfile::tempdir().unwrap();
