@@ -47,9 +47,9 @@ extern "C" {
 
 /* layout: begin, written by a test of the library */
 /* The version of the ABI: functions and structures. */
-#define GP_ABI 4u
+#define GP_ABI 5u
 /* What the structures of this header are, as one number. */
-#define GP_LAYOUT UINT64_C(0x33e93fdeef351674)
+#define GP_LAYOUT UINT64_C(0x17ec5f33c63ad7fe)
 /* Axes X Y Z A B C U V W, and joints J0 to J8. */
 #define GP_AXES 9
 
@@ -345,7 +345,8 @@ enum {
     GP_SEGMENT_REFUSAL_SOFT_LIMIT = 7,
     GP_SEGMENT_REFUSAL_UNPLANNABLE = 8,
     GP_SEGMENT_REFUSAL_STOPPED = 9,
-    GP_SEGMENT_REFUSAL_SHUTTING_DOWN = 10
+    GP_SEGMENT_REFUSAL_SHUTTING_DOWN = 10,
+    GP_SEGMENT_REFUSAL_ABORTED = 11
 };
 
 /* Quantiles of a time, ns. */
@@ -946,12 +947,16 @@ GP_FIELD(gp_jog, scale, 48, 8);
 GP_FIELD(gp_jog, value, 56, 72);
 
 /* A piece of a stream. Fields that a kind does not use are zero. The record
-   glidepath.SegmentRequest.v2. */
+   glidepath.SegmentRequest.v3. */
 typedef struct gp_segment {
     /* The stream. Filled in. */
     uint64_t session;
     /* Counts the pieces of a stream. Filled in. */
     uint64_t number;
+    /* Of GP_SEGMENT_OPEN: when the stream was asked for, by gp_now_ns. An abort after that,
+       or the loss of power, ends the stream, also if its planner hangs until then. Filled in
+       where it is 0. */
+    uint64_t asked_ns;
     /* A GP_SEGMENT_. */
     uint32_t kind;
     /* Line of a program, from 1; 0 for GP_SEGMENT_OPEN and GP_SEGMENT_END. */
@@ -992,27 +997,28 @@ typedef struct gp_segment {
     /* Of a curve: how far it is from what it stands for, mm, 0 or more. */
     double error_mm;
 } gp_segment;
-GP_ASSERT(sizeof(gp_segment) == 352, "gp_segment has another size");
+GP_ASSERT(sizeof(gp_segment) == 360, "gp_segment has another size");
 GP_FIELD(gp_segment, session, 0, 8);
 GP_FIELD(gp_segment, number, 8, 8);
-GP_FIELD(gp_segment, kind, 16, 4);
-GP_FIELD(gp_segment, line, 20, 4);
-GP_FIELD(gp_segment, rapid, 24, 4);
-GP_FIELD(gp_segment, mode, 28, 4);
-GP_FIELD(gp_segment, plane, 32, 4);
-GP_FIELD(gp_segment, event_kind, 36, 4);
-GP_FIELD(gp_segment, event_value, 40, 8);
-GP_FIELD(gp_segment, feed_v, 48, 8);
-GP_FIELD(gp_segment, tolerance_mm, 56, 8);
-GP_FIELD(gp_segment, dwell_t, 64, 8);
-GP_FIELD(gp_segment, sweep_rad, 72, 8);
-GP_FIELD(gp_segment, center, 80, 16);
-GP_FIELD(gp_segment, start, 96, 72);
-GP_FIELD(gp_segment, end, 168, 72);
-GP_FIELD(gp_segment, tangents, 240, 48);
-GP_FIELD(gp_segment, bends, 288, 48);
-GP_FIELD(gp_segment, length, 336, 8);
-GP_FIELD(gp_segment, error_mm, 344, 8);
+GP_FIELD(gp_segment, asked_ns, 16, 8);
+GP_FIELD(gp_segment, kind, 24, 4);
+GP_FIELD(gp_segment, line, 28, 4);
+GP_FIELD(gp_segment, rapid, 32, 4);
+GP_FIELD(gp_segment, mode, 36, 4);
+GP_FIELD(gp_segment, plane, 40, 4);
+GP_FIELD(gp_segment, event_kind, 44, 4);
+GP_FIELD(gp_segment, event_value, 48, 8);
+GP_FIELD(gp_segment, feed_v, 56, 8);
+GP_FIELD(gp_segment, tolerance_mm, 64, 8);
+GP_FIELD(gp_segment, dwell_t, 72, 8);
+GP_FIELD(gp_segment, sweep_rad, 80, 8);
+GP_FIELD(gp_segment, center, 88, 16);
+GP_FIELD(gp_segment, start, 104, 72);
+GP_FIELD(gp_segment, end, 176, 72);
+GP_FIELD(gp_segment, tangents, 248, 48);
+GP_FIELD(gp_segment, bends, 296, 48);
+GP_FIELD(gp_segment, length, 344, 8);
+GP_FIELD(gp_segment, error_mm, 352, 8);
 
 /* The answer to a piece of a stream. The record glidepath.SegmentReply.v1. */
 typedef struct gp_segment_reply {

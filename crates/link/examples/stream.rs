@@ -9,6 +9,7 @@ use glidepath_link::{
     Transport,
 };
 use glidepath_program::{Item, ItemKind, PathMode, Rate};
+use glidepath_realtime::{Clock as _, Monotonic};
 use std::time::Duration;
 
 const PATIENCE: Duration = Duration::from_secs(5);
@@ -51,7 +52,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut port = transport.segment_client()?;
 
     // The answer to the first request tells where the machine stands: the path starts there.
-    let mut position = AxisVector::from(send(&mut *port, 0, &StreamItem::Open)?.position);
+    // An abort after this counts for the stream, also if its planner hangs until then.
+    let asked_ns = Monotonic.now_ns();
+    let opened = send(&mut *port, 0, &StreamItem::Open { asked_ns })?;
+    let mut position = AxisVector::from(opened.position);
     let mut number = 1;
     for (dx, dy) in [(SIDE, 0.0), (0.0, SIDE), (-SIDE, 0.0), (0.0, -SIDE)] {
         let mut end = position;

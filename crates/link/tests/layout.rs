@@ -90,10 +90,10 @@ layout!(lines_reply, LinesReply, "glidepath.LinesReply.v1", 2424, {
     refused_in_motion: 44, ahead_t: 48, zero: 56, systems: 128, references: 776, shift: 920, tool: 992,
     probe: 1064, probe_made: 1136, probes: 1140, diagnostic: 1144, words: 1272, text: 1400,
 });
-layout!(segment_request, SegmentRequest, "glidepath.SegmentRequest.v2", 352, {
-    session: 0, number: 8, kind: 16, line: 20, rapid: 24, mode: 28, plane: 32, event_kind: 36,
-    event_value: 40, feed_v: 48, tolerance_mm: 56, dwell_t: 64, sweep_rad: 72, center: 80,
-    start: 96, end: 168, tangents: 240, bends: 288, length: 336, error_mm: 344,
+layout!(segment_request, SegmentRequest, "glidepath.SegmentRequest.v3", 360, {
+    session: 0, number: 8, asked_ns: 16, kind: 24, line: 28, rapid: 32, mode: 36, plane: 40, event_kind: 44,
+    event_value: 48, feed_v: 56, tolerance_mm: 64, dwell_t: 72, sweep_rad: 80, center: 88,
+    start: 104, end: 176, tangents: 248, bends: 296, length: 344, error_mm: 352,
 });
 layout!(segment_reply, SegmentReply, "glidepath.SegmentReply.v1", 232, {
     session: 0, number: 8, accepted: 16, credit: 24, refusal: 28, position: 32, message: 104,

@@ -70,17 +70,18 @@ impl Publisher<'_> {
         Ok(None)
     }
 
-    /// Takes the machine, which is known to be ready, and waits a moment for it.
+    /// Takes the machine, which is known to be ready, for what was asked for at a time (as [`Publisher::claim`] has it), and
+    /// waits a moment for it.
     ///
     /// # Errors
     /// As [`Publisher::take`].
     pub(crate) fn take_now(
         &mut self,
         name: &str,
-        patience: Duration,
+        (asked_ns, patience): (u64, Duration),
         control: &mut Control<'_>,
     ) -> Result<Option<AxisVector>, RunError> {
-        self.claim(name, 0, control);
+        self.claim(name, asked_ns, control);
         let mut waited = Duration::ZERO;
         while waited < patience {
             if let Some(position) = self.take(control)? {

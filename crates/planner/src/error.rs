@@ -16,7 +16,7 @@ pub enum RunError {
     #[error("interrupted")]
     Interrupted,
     /// Somebody aborted it at the interpolator.
-    #[error("aborted at the interpolator")]
+    #[error("aborted by an operator")]
     Aborted,
     /// The interpolator did not begin it.
     #[error("nothing moved: {why}")]

@@ -83,20 +83,22 @@ pub struct Fed {
     pub lines: u64,
 }
 
-/// Streams a program to a listening planner and waits until it is executed. `make_source` opens the
-/// program for a machine at the given position; nothing is streamed if it refuses.
+/// Streams a program to a listening planner and waits until it is executed. `asked_ns` is when that was asked for, by
+/// the host's steady clock: a stop of the machine after it ends the stream, whenever its planner hears of it. `make_source`
+/// opens the program for a machine at the given position; nothing is streamed if it refuses.
 ///
 /// # Errors
 /// [`FeedError`]. If the source fails midway, the stream ends after the last good item, and that is
 /// executed before the error is returned.
 pub fn feed<S: ItemSource>(
     transport: &dyn Transport,
+    asked_ns: u64,
     make_source: impl FnOnce(AxisVector) -> Result<S, Refusal>,
     control: &mut Control<'_>,
 ) -> Result<Fed, FeedError> {
     let position = machine_position(transport, control)?;
     let mut source = make_source(position)?;
-    let mut feeder = Feeder::new(transport)?;
+    let mut feeder = Feeder::new(transport, asked_ns)?;
     feeder.open(position, control)?;
     let refusal = match feeder.stream(&mut source, control) {
         Err(error @ FeedError::RefusedByPlanner { .. }) => {
@@ -148,17 +150,19 @@ fn pause(time: Duration, control: &mut Control<'_>) -> Result<(), FeedError> {
 struct Feeder {
     client: Box<dyn Client<SegmentRequest, SegmentReply>>,
     session: u64,
+    open: StreamItem,
     /// Not yet known to be accepted; the first has the number `accepted`.
     outbox: VecDeque<StreamItem>,
     accepted: u64,
 }
 
 impl Feeder {
-    fn new(transport: &dyn Transport) -> Result<Self, LinkError> {
+    fn new(transport: &dyn Transport, asked_ns: u64) -> Result<Self, LinkError> {
         Ok(Self {
             client: transport.segment_client()?,
             // The hasher's keys are random: no two clients take each other's stream for theirs.
             session: RandomState::new().build_hasher().finish(),
+            open: StreamItem::Open { asked_ns },
             outbox: VecDeque::with_capacity(MAX_UNANSWERED),
             accepted: 0,
         })
@@ -169,7 +173,7 @@ impl Feeder {
     fn open(&mut self, position: AxisVector, control: &mut Control<'_>) -> Result<(), FeedError> {
         let mut waited = Duration::ZERO;
         loop {
-            let reply = match self.repeat(StreamItem::Open, control) {
+            let reply = match self.repeat(self.open, control) {
                 Err(FeedError::Link(LinkError::NoServer { .. })) if waited < PATIENCE => {
                     pause(RETRY, control)?;
                     waited += RETRY;
@@ -244,7 +248,7 @@ impl Feeder {
 
     /// Shows that this client lives, by a request that was accepted before.
     fn heartbeat(&mut self, control: &mut Control<'_>) -> Result<(), FeedError> {
-        let reply = self.repeat(StreamItem::Open, control)?;
+        let reply = self.repeat(self.open, control)?;
         match reply.outcome().map_err(LinkError::from)? {
             Ok(()) => Ok(()),
             Err(refusal) => Err(refused(0, refusal, &reply)),
@@ -257,7 +261,7 @@ impl Feeder {
         item: StreamItem,
         control: &mut Control<'_>,
     ) -> Result<SegmentReply, FeedError> {
-        let number = if item == StreamItem::Open {
+        let number = if item == self.open {
             0
         } else {
             self.accepted.saturating_sub(1)
@@ -312,7 +316,7 @@ impl Feeder {
 const fn line_of(item: &StreamItem) -> u32 {
     match item {
         StreamItem::Item(item) => item.line,
-        StreamItem::Open | StreamItem::End => 0,
+        StreamItem::Open { .. } | StreamItem::End => 0,
     }
 }
 

@@ -191,7 +191,7 @@ impl Current {
     /// Why it is to end, if it is.
     fn unwanted(&self) -> Option<&'static str> {
         if self.is_unwanted {
-            return Some("ended by its client");
+            return Some("the command that asked for it was ended");
         }
         let is_silent = self.silent >= CLIENT_SILENCE && self.gate != Gate::Open;
         is_silent.then_some("its client fell silent before anything moved")

@@ -10,7 +10,7 @@
 //! nothing to send repeats its last request.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use glidepath_geometry::AxisVector;
 use glidepath_kinematics::PathCaps;
@@ -28,9 +28,8 @@ use crate::{
 
 /// Requests served between two looks at the motion.
 const REQUESTS_PER_TURN: u32 = 256;
-/// A pause between two looks that takes longer is one of a process that was stopped, or of a host that stood still:
-/// what was asked meanwhile may be older than a stop that the machine was given.
-const HANG: Duration = Duration::from_secs(1);
+/// What a stream is called among jobs.
+const STREAM: &str = "a stream of segments";
 
 type Segments = dyn Server<SegmentRequest, SegmentReply>;
 
@@ -137,12 +136,10 @@ impl Listener<'_> {
         listening: &Listening,
         control: &mut Control<'_>,
     ) -> Result<Accepted, RunError> {
-        let mut paused = Instant::now();
         loop {
             if control.is_stopped() {
                 return Err(RunError::Interrupted);
             }
-            let has_hung = paused.elapsed() > HANG;
             let ready = match self.publisher.ready() {
                 Ok(Some(position)) => Ok(position),
                 Ok(None) => Err(self.publisher.why_not_ready()),
@@ -152,13 +149,6 @@ impl Listener<'_> {
             if let Some(accepted) = self.serve_jobs(control)? {
                 return Ok(accepted);
             }
-            // A job says when it was asked for, and a stop after that counts for it. A stream does not say so.
-            let ready = if has_hung {
-                let why = "the planner hung, and the machine may have been stopped meanwhile; start again";
-                Err((SegmentRefusal::Busy, why.to_owned()))
-            } else {
-                ready.map_err(|why| (SegmentRefusal::Stopped, why))
-            };
             let has_waiting = self.jobs.as_ref().is_some_and(JobDesk::has_waiting);
             if !has_waiting
                 && let Some((stream, position)) =
@@ -166,7 +156,6 @@ impl Listener<'_> {
             {
                 return Ok(Accepted::Stream(Box::new(stream), position));
             }
-            paused = Instant::now();
             self.publisher.idle(control)?;
         }
     }
@@ -219,7 +208,7 @@ impl Listener<'_> {
     /// Answers what came in; returns a stream if one was opened.
     fn serve_waiting(
         &mut self,
-        ready: &Result<AxisVector, (SegmentRefusal, String)>,
+        ready: &Result<AxisVector, String>,
         limits: Option<SoftLimits>,
         control: &mut Control<'_>,
     ) -> Result<Option<(Stream, AxisVector)>, RunError> {
@@ -234,9 +223,14 @@ impl Listener<'_> {
                     return last.answer(request);
                 }
                 let stopped = |why| (SegmentRefusal::Stopped, why);
+                // A stop after that counts for the stream, also if this planner has hung since.
+                let asked_ns = match Stream::asked_ns(request) {
+                    Ok(asked_ns) => asked_ns,
+                    Err(refused) => return refuse(request, &refused),
+                };
                 let taken = match ready {
-                    Ok(_) => publisher.take_now("a stream of segments", NEWS, control),
-                    Err(refused) => return refuse(request, refused),
+                    Ok(_) => publisher.take_now(STREAM, (asked_ns, NEWS), control),
+                    Err(why) => return refuse(request, &stopped(why.clone())),
                 };
                 let refused = match taken {
                     Ok(Some(position)) => match Stream::open(request, position, limits) {
@@ -248,6 +242,10 @@ impl Listener<'_> {
                         Err(refused) => refused,
                     },
                     Ok(None) => stopped(publisher.why_not_ready()),
+                    Err(RunError::Aborted) => {
+                        let refusal = SegmentRefusal::Aborted;
+                        (refusal, refusal.text().to_owned())
+                    }
                     Err(error) => stopped(error.to_string()),
                 };
                 publisher.release(control);

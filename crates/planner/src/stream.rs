@@ -85,6 +85,21 @@ pub(crate) struct Stream {
 pub(crate) type Refused = (SegmentRefusal, String);
 
 impl Stream {
+    /// When the stream was asked for that `request` opens; 0 if it does not say.
+    ///
+    /// # Errors
+    /// Why the request does not open a stream.
+    pub(crate) fn asked_ns(request: &SegmentRequest) -> Result<u64, Refused> {
+        match request.item() {
+            Ok(StreamItem::Open { asked_ns }) => Ok(asked_ns),
+            Ok(_) => Err((
+                SegmentRefusal::NotOpen,
+                "no stream is open: open one first".to_owned(),
+            )),
+            Err(error) => Err((SegmentRefusal::Malformed, error.to_string())),
+        }
+    }
+
     /// The stream that `request` opens for a machine at rest at `position`.
     ///
     /// # Errors
@@ -94,22 +109,16 @@ impl Stream {
         position: AxisVector,
         limits: Option<SoftLimits>,
     ) -> Result<Self, Refused> {
-        match request.item() {
-            Ok(StreamItem::Open) => Ok(Self {
-                session: request.session,
-                accepted: 0,
-                position,
-                limits,
-                queue: VecDeque::with_capacity(STREAM_QUEUE),
-                phase: Phase::Open,
-                closed_because: String::new(),
-            }),
-            Ok(_) => Err((
-                SegmentRefusal::NotOpen,
-                "no stream is open: open one first".to_owned(),
-            )),
-            Err(error) => Err((SegmentRefusal::Malformed, error.to_string())),
-        }
+        let _asked_ns = Self::asked_ns(request)?;
+        Ok(Self {
+            session: request.session,
+            accepted: 0,
+            position,
+            limits,
+            queue: VecDeque::with_capacity(STREAM_QUEUE),
+            phase: Phase::Open,
+            closed_because: String::new(),
+        })
     }
 
     /// Answers a request, taking over what it carries if it is acceptable.
@@ -198,13 +207,13 @@ impl Stream {
     /// Takes the content of the request that is due.
     fn take_next(&mut self, item: StreamItem) -> Result<(), Refused> {
         match (self.phase, item) {
-            (Phase::Open, StreamItem::Open) if self.accepted == 0 => Ok(()),
+            (Phase::Open, StreamItem::Open { .. }) if self.accepted == 0 => Ok(()),
             (Phase::Open, StreamItem::Item(item)) => self.enqueue(item),
             (Phase::Open, StreamItem::End) => {
                 self.phase = Phase::Ended;
                 Ok(())
             }
-            (_, StreamItem::Open) => Err((
+            (_, StreamItem::Open { .. }) => Err((
                 SegmentRefusal::OutOfOrder,
                 "the stream is open already".to_owned(),
             )),

@@ -6,8 +6,8 @@ Written by a test of the library: do not change it here.
 import ctypes
 import enum
 
-ABI = 4
-LAYOUT = 0x33e93fdeef351674
+ABI = 5
+LAYOUT = 0x17ec5f33c63ad7fe
 AXES = 9
 
 
@@ -328,6 +328,7 @@ class SegmentRefusal(enum.IntEnum):
     UNPLANNABLE = 8
     STOPPED = 9
     SHUTTING_DOWN = 10
+    ABORTED = 11
 
 
 class QuantilesRecord(ctypes.Structure):
@@ -581,6 +582,7 @@ class SegmentRecord(ctypes.Structure):
     _fields_ = [
         ("session", ctypes.c_uint64),
         ("number", ctypes.c_uint64),
+        ("asked_ns", ctypes.c_uint64),
         ("kind", ctypes.c_uint32),
         ("line", ctypes.c_uint32),
         ("rapid", ctypes.c_uint32),
@@ -889,27 +891,28 @@ PLACES = {
         "scale": 48,
         "value": 56,
     }),
-    SegmentRecord: (352, {
+    SegmentRecord: (360, {
         "session": 0,
         "number": 8,
-        "kind": 16,
-        "line": 20,
-        "rapid": 24,
-        "mode": 28,
-        "plane": 32,
-        "event_kind": 36,
-        "event_value": 40,
-        "feed_v": 48,
-        "tolerance_mm": 56,
-        "dwell_t": 64,
-        "sweep_rad": 72,
-        "center": 80,
-        "start": 96,
-        "end": 168,
-        "tangents": 240,
-        "bends": 288,
-        "length": 336,
-        "error_mm": 344,
+        "asked_ns": 16,
+        "kind": 24,
+        "line": 28,
+        "rapid": 32,
+        "mode": 36,
+        "plane": 40,
+        "event_kind": 44,
+        "event_value": 48,
+        "feed_v": 56,
+        "tolerance_mm": 64,
+        "dwell_t": 72,
+        "sweep_rad": 80,
+        "center": 88,
+        "start": 104,
+        "end": 176,
+        "tangents": 248,
+        "bends": 296,
+        "length": 344,
+        "error_mm": 352,
     }),
     SegmentReplyRecord: (232, {
         "session": 0,

@@ -7,7 +7,9 @@ use super::pointer::{Given, Room, check_size};
 use super::text::gp_now_ns;
 use crate::failure::{Code, Failure, remember};
 use core::time::Duration;
-use glidepath_link::{Client, Record as _, SegmentReply, SegmentRequest, Transport as _};
+use glidepath_link::{
+    Client, Record as _, RequestKind, SegmentReply, SegmentRequest, Transport as _,
+};
 use std::time::Instant;
 
 /// A stream of segments.
@@ -40,6 +42,11 @@ impl Segments {
         patience: Duration,
     ) -> Result<Option<SegmentReply>, Failure> {
         (piece.session, piece.number) = (self.session, self.next);
+        if piece.kind == RequestKind::Open.code() && piece.asked_ns == 0 {
+            // The same again, where the answer to it is still to come.
+            let asked = self.asked.as_ref().map(|asked| asked.asked_ns);
+            piece.asked_ns = asked.unwrap_or_else(|| gp_now_ns());
+        }
         piece.check()?;
         match &self.asked {
             None => {

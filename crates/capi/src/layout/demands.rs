@@ -35,11 +35,14 @@ structure! {
 
 structure! {
     /// A piece of a stream. Fields that a kind does not use are zero.
-    SEGMENT: "gp_segment" = SegmentRequest, SegmentRequest::NAME, 352 {
+    SEGMENT: "gp_segment" = SegmentRequest, SegmentRequest::NAME, 360 {
         /// The stream. Filled in.
         session: u64,
         /// Counts the pieces of a stream. Filled in.
         number: u64,
+        /// Of GP_SEGMENT_OPEN: when the stream was asked for, by gp_now_ns. An abort after that, or the loss of power, ends
+        /// the stream, also if its planner hangs until then. Filled in where it is 0.
+        asked_ns: u64,
         /// A GP_SEGMENT_.
         kind: u32,
         /// Line of a program, from 1; 0 for GP_SEGMENT_OPEN and GP_SEGMENT_END.

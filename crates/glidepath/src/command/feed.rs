@@ -10,6 +10,7 @@ use crate::interrupt::Interrupt;
 use crate::output;
 use crate::report::counted;
 use glidepath_planner::{Control, FeedError, FileSource, Notice, feed as stream};
+use glidepath_realtime::{Clock as _, Monotonic};
 use serde_json::json;
 
 /// Streams a program, and waits until it is executed.
@@ -17,6 +18,7 @@ use serde_json::json;
 /// # Errors
 /// The program is rejected, nobody listens, or the motion ended before the program did.
 pub(super) fn feed(args: &FeedArgs, config: &MachineConfig) -> Result<Exit, Failure> {
+    let asked_ns = Monotonic.now_ns();
     std::fs::File::open(args.file.path()).map_err(FileError::open(args.file.name()))?;
     let interrupt = Interrupt::install().map_err(Failure::Signals)?;
     let transport = session::join(&args.instance, config)?;
@@ -34,7 +36,7 @@ pub(super) fn feed(args: &FeedArgs, config: &MachineConfig) -> Result<Exit, Fail
             &config.settings(),
         )
     };
-    let fed = stream(&transport, open, &mut control).map_err(|error| match error {
+    let fed = stream(&transport, asked_ns, open, &mut control).map_err(|error| match error {
         FeedError::Refused(refusal) => Failure::refused(&name, refusal, false),
         error => error.into(),
     })?;

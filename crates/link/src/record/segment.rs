@@ -67,7 +67,11 @@ coded! {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum StreamItem {
     /// Start of a stream. The reply tells where the machine stands: the first segment starts there.
-    Open,
+    Open {
+        /// When the client asked for it, ns of the host's steady clock; 0 if it does not say. A stop of the machine after
+        /// that counts for the stream.
+        asked_ns: u64,
+    },
     /// A move, a dwell or an event.
     Item(Item),
     /// End of the stream: the machine comes to rest at the end of what was sent.
@@ -77,12 +81,14 @@ pub enum StreamItem {
 /// One piece of a stream on its way. Fields a kind does not use are zero.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.SegmentRequest.v2")]
+#[type_name("glidepath.SegmentRequest.v3")]
 pub struct SegmentRequest {
     /// Chosen by the client at random, the same for all of a stream.
     pub session: u64,
     /// Counts the requests of a stream from 0 (its `Open`), without gaps.
     pub number: u64,
+    /// For open: when the client asked for the stream, ns of `CLOCK_MONOTONIC`; 0 if it does not say.
+    pub asked_ns: u64,
     /// What this is: 1 open, 2 line, 3 arc, 4 dwell, 5 event, 6 end, 7 curve.
     pub kind: u32,
     /// Source line, from 1; 0 for open and end.
@@ -133,7 +139,10 @@ impl SegmentRequest {
             ..bytemuck::Zeroable::zeroed()
         };
         match item {
-            StreamItem::Open => record.kind = RequestKind::Open.code(),
+            StreamItem::Open { asked_ns } => {
+                record.kind = RequestKind::Open.code();
+                record.asked_ns = *asked_ns;
+            }
             StreamItem::End => record.kind = RequestKind::End.code(),
             StreamItem::Item(item) => {
                 record.line = item.line;
@@ -213,7 +222,10 @@ impl SegmentRequest {
         let fields = Fields(Self::NAME);
         self.check_finite(fields)?;
         let kind = match fields.code("kind", self.kind)? {
-            RequestKind::Open => return Ok(StreamItem::Open),
+            RequestKind::Open => {
+                let asked_ns = self.asked_ns;
+                return Ok(StreamItem::Open { asked_ns });
+            }
             RequestKind::End => return Ok(StreamItem::End),
             RequestKind::Line => {
                 let (start, end) = (AxisVector::from(self.start), AxisVector::from(self.end));
@@ -356,7 +368,7 @@ const fn plane_of(code: PlaneCode) -> Plane {
 }
 
 impl Record for SegmentRequest {
-    const NAME: &'static str = "glidepath.SegmentRequest.v2";
+    const NAME: &'static str = "glidepath.SegmentRequest.v3";
 
     fn check(&self) -> Result<(), RecordError> {
         self.item().map(|_| ())

@@ -29,6 +29,8 @@ coded! {
         Stopped = 9,
         /// The planner is ending.
         ShuttingDown = 10,
+        /// The machine was stopped after the stream was asked for.
+        Aborted = 11,
     }
 }
 

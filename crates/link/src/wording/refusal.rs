@@ -85,6 +85,7 @@ impl SegmentRefusal {
             Self::Unplannable => "it cannot be planned",
             Self::Stopped => "the machine stopped",
             Self::ShuttingDown => "the planner is ending",
+            Self::Aborted => "the machine was stopped after the stream was asked for; start again",
         }
     }
 }

@@ -178,7 +178,7 @@ fn numbers_that_are_not_finite_are_refused() {
             (672, 744),
         ],
     );
-    refuses_not_finite(&good_segment(), &[(40, 240)]);
+    refuses_not_finite(&good_segment(), &[(48, 248)]);
     refuses_not_finite(&CommandRequest::new(1, 1, Command::Ping), &[(16, 24)]);
     refuses_not_finite(&SegmentReply::zeroed(), &[(32, 104)]);
     refuses_not_finite(
@@ -305,7 +305,7 @@ fn unknown_codes_and_bits_are_refused() {
         refused(JogDemand::zeroed(), |j| j.mode = 5),
         refused(CommandRequest::new(1, 1, Command::Ping), |c| c.kind = 0),
         refused(CommandRequest::new(1, 1, Command::Ping), |c| c.kind = 23),
-        refused(SegmentReply::zeroed(), |r| r.refusal = 11),
+        refused(SegmentReply::zeroed(), |r| r.refusal = 12),
         refused(good_segment(), |s| s.kind = 0),
         refused(good_segment(), |s| s.mode = 5),
         refused(good_segment(), |s| s.rapid = 2),
@@ -393,7 +393,7 @@ fn codes_are_consecutive_and_known() {
     in_sequence(FrameRefusal::ALL.iter().map(|code| code.code()), 1, 12);
     in_sequence(CommandKind::ALL.iter().map(|code| code.code()), 1, 22);
     in_sequence(CommandRefusal::ALL.iter().map(|code| code.code()), 1, 5);
-    in_sequence(SegmentRefusal::ALL.iter().map(|code| code.code()), 1, 10);
+    in_sequence(SegmentRefusal::ALL.iter().map(|code| code.code()), 1, 11);
     in_sequence(Power::ALL.iter().map(|code| code.code()), 0, 3);
     in_sequence(MotionMode::ALL.iter().map(|code| code.code()), 0, 5);
     in_sequence(JogMode::ALL.iter().map(|code| code.code()), 0, 4);

@@ -157,7 +157,7 @@ pub(crate) fn item() -> impl Strategy<Value = StreamItem> {
         event().prop_map(ItemKind::Event),
     ];
     prop_oneof![
-        Just(StreamItem::Open),
+        any::<u64>().prop_map(|asked_ns| StreamItem::Open { asked_ns }),
         Just(StreamItem::End),
         (any::<u32>(), kind).prop_map(|(line, kind)| StreamItem::Item(Item {
             block: 0,

@@ -24,7 +24,7 @@ const PAUSES: u32 = 600;
 type Change = (u8, u16, Vec<u8>, Option<u8>);
 
 fn requests(changes: Vec<Change>) -> Vec<SegmentRequest> {
-    let mut items = vec![StreamItem::Open];
+    let mut items = vec![StreamItem::Open { asked_ns: 0 }];
     items.extend(staircase(6).into_iter().map(StreamItem::Item));
     items.push(StreamItem::End);
     let mut all: Vec<_> = (0..)

@@ -8,8 +8,8 @@ pub enum ResumeError {
     /// The interpolator has not executed any program since it was started.
     #[error("no program was under way: run it from its beginning, without --resume")]
     NothingToResume,
-    /// The last one was executed to its end.
-    #[error("the last program came to its end: there is nothing to resume")]
+    /// What was executed last came to its end.
+    #[error("what was executed last came to its end: there is nothing to resume")]
     Completed,
     /// The program that is under way goes back along its path.
     #[error(

@@ -36,7 +36,7 @@ fn line(from: f64, to: f64) -> StreamItem {
 }
 
 fn opened(limits: Option<SoftLimits>) -> Stream {
-    let open = request(SESSION, 0, StreamItem::Open);
+    let open = request(SESSION, 0, StreamItem::Open { asked_ns: 0 });
     let mut stream = Stream::open(&open, point(0.0), limits).unwrap();
     assert_eq!(stream.answer(&open).outcome(), Ok(Ok(())));
     stream
@@ -143,7 +143,7 @@ fn a_full_queue_gives_no_credit_until_something_is_taken() {
 #[test]
 fn one_client_at_a_time() {
     let mut stream = opened(None);
-    let reply = stream.answer(&request(SESSION + 1, 0, StreamItem::Open));
+    let reply = stream.answer(&request(SESSION + 1, 0, StreamItem::Open { asked_ns: 0 }));
     assert_eq!(reply.outcome(), Ok(Err(SegmentRefusal::Busy)));
     assert_eq!(reply.accepted, 0);
 }

@@ -90,8 +90,11 @@ impl Scripted {
     }
 }
 
+/// Of a client that does not say when it asked.
+const OPEN: StreamItem = StreamItem::Open { asked_ns: 0 };
+
 fn script(items: &[Item], end: bool) -> Vec<StreamItem> {
-    let mut script = vec![StreamItem::Open];
+    let mut script = vec![OPEN];
     script.extend(items.iter().copied().map(StreamItem::Item));
     script.extend(end.then_some(StreamItem::End));
     script
@@ -172,7 +175,7 @@ fn a_second_client_is_refused_while_the_first_is_served() {
     let items = staircase(12);
     let mut clients = [
         Scripted::new(&transport, 1, &script(&items, true)),
-        Scripted::new(&transport, 2, &[StreamItem::Open, StreamItem::End]),
+        Scripted::new(&transport, 2, &[OPEN, StreamItem::End]),
     ];
     let (interpolator, _) = listen_to(&transport, &mut clients, |i, _| {
         i.end() == EndOfEpoch::Completed
@@ -226,7 +229,7 @@ fn the_next_stream_starts_where_the_last_one_ended() {
 #[test]
 fn an_unready_machine_opens_no_stream() {
     let transport = InProcess::default();
-    let mut clients = [Scripted::new(&transport, 1, &[StreamItem::Open])];
+    let mut clients = [Scripted::new(&transport, 1, &[OPEN])];
     clients[0].impatient = true;
     let interpolator = RefCell::new(Interpolator::new(&transport, 128));
     interpolator
@@ -278,7 +281,7 @@ fn fed(
             notify: &mut |_| {},
         };
         let result = loop {
-            match feed(&transport, |_| Ok(source.clone()), &mut control) {
+            match feed(&transport, 0, |_| Ok(source.clone()), &mut control) {
                 // The planner's thread has not opened its port yet, or not seen the machine.
                 Err(FeedError::Link(glidepath_link::LinkError::NoServer { .. })) => {}
                 Err(FeedError::RefusedByPlanner {

@@ -151,7 +151,7 @@ pub(crate) fn segments_are_acknowledged_one_by_one<F: Fixture>(fixture: &F) {
     };
     for number in 0..20 {
         let item = if number == 0 {
-            StreamItem::Open
+            StreamItem::Open { asked_ns: 5 }
         } else {
             StreamItem::End
         };
