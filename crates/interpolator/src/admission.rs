@@ -33,6 +33,8 @@ pub(crate) enum Verdict {
     Known,
     /// Opens an epoch while the present one still moves: offer it again later.
     Later,
+    /// Of an epoch that has ended, or does not begin any more: it was on its way before its planner heard of that.
+    Late,
     /// The frame is not of the trajectory that is executed; that is nothing to stop for.
     Refused(FrameRefusal),
     /// The trajectory cannot go on.
@@ -133,7 +135,7 @@ impl Admission {
             return self.refuse(frame, refusal_of(&error));
         }
         if self.is_barred(frame.epoch) {
-            return Verdict::Refused(FrameRefusal::Epoch);
+            return Verdict::Late;
         }
         if frame.epoch > self.epoch {
             let verdict = self.open(frame, machine);
@@ -145,8 +147,11 @@ impl Admission {
         }
         // An epoch that passed its first frame but is not open any more has ended.
         let is_over = machine.epoch >= frame.epoch && !machine.is_open;
-        if frame.epoch < self.epoch || is_over || self.broken {
+        if frame.epoch < self.epoch {
             return Verdict::Refused(FrameRefusal::Epoch);
+        }
+        if is_over || self.broken {
+            return Verdict::Late;
         }
         let Some(last) = self.last else {
             return Verdict::Refused(FrameRefusal::Epoch);

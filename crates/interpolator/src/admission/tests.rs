@@ -149,11 +149,7 @@ fn a_fault_names_line_axis_and_limit_and_ends_the_epoch() {
         .map(|(i, f)| admission.judge(f, &if i == 0 { idle() } else { running(1) }))
         .collect();
     assert!(verdicts[..50].iter().all(|v| *v == Verdict::Pass));
-    assert!(
-        verdicts[51..]
-            .iter()
-            .all(|v| *v == Verdict::Refused(FrameRefusal::Epoch))
-    );
+    assert!(verdicts[51..].iter().all(|v| *v == Verdict::Late));
 }
 
 #[test]
@@ -186,7 +182,7 @@ fn a_new_epoch_waits_until_the_machine_stands() {
     assert_eq!(admission.judge(&frames(1)[1], &running(2)), refused);
     // An aborted epoch gets no more frames, and a fault lets none begin.
     let aborted = Machine { epoch: 2, ..idle() };
-    assert_eq!(admission.judge(&frames(2)[1], &aborted), refused);
+    assert_eq!(admission.judge(&frames(2)[1], &aborted), Verdict::Late);
     let faulted = Machine {
         state: MachineState::Faulted,
         ..aborted
@@ -194,7 +190,7 @@ fn a_new_epoch_waits_until_the_machine_stands() {
     admission.note(&faulted);
     assert_eq!(admission.judge(&frames(3)[0], &faulted), refused);
     // One whose first frame was refused does not begin any more: its planner was told so.
-    assert_eq!(admission.judge(&frames(3)[0], &aborted), refused);
+    assert_eq!(admission.judge(&frames(3)[0], &aborted), Verdict::Late);
     assert_eq!(admission.next_epoch(2), 4);
     assert_eq!(admission.judge(&frames(4)[0], &aborted), Verdict::Pass);
 }

@@ -55,6 +55,8 @@ impl Ports<'_> {
                     self.pending = Some(frame);
                     return Ok(());
                 }
+                // Nothing is wrong with it, and nobody has to hear of it.
+                Verdict::Late => {}
                 Verdict::Refused(refusal) => {
                     let cause = FaultCause::Frame(refusal);
                     let text = Fault::new(cause, frame.line, frame.sequence).to_string();
