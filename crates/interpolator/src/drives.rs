@@ -50,6 +50,20 @@ impl Consequence {
             ..Self::default()
         }
     }
+
+    /// What the drives said last is older than it may be.
+    fn outdated(age_ns: u64, allowed_ns: u64) -> Self {
+        #[allow(clippy::cast_precision_loss, reason = "for people")]
+        let seconds = |ns: u64| ns as f64 * 1e-9;
+        Self {
+            fault: Some(Fault {
+                value: seconds(age_ns),
+                limit: seconds(allowed_ns),
+                ..Fault::new(FaultCause::FeedbackLost, 0, 0)
+            }),
+            ..Self::default()
+        }
+    }
 }
 
 /// A search for home by the drives.
@@ -316,7 +330,7 @@ impl Drives {
             consequence
         };
         if self.age_ns() > self.off_ns {
-            return cut(Consequence::fault(FaultCause::FeedbackLost, 0, 0));
+            return cut(Consequence::outdated(self.age_ns(), self.off_ns));
         }
         // Nobody follows any more, so there is nothing to lead.
         if lost == self.all || (lost != 0 && rests) {
@@ -342,7 +356,7 @@ impl Drives {
             return Consequence::fault(FaultCause::EnableLost, lost, 0);
         }
         if self.age_ns() > self.stale_ns {
-            return Consequence::fault(FaultCause::FeedbackLost, 0, 0);
+            return Consequence::outdated(self.age_ns(), self.stale_ns);
         }
         if hit != 0 {
             return Consequence::fault(FaultCause::LimitSwitch, hit, 0);

@@ -67,8 +67,9 @@ impl FaultCause {
                 "read in the interpolator's log why; start it again: `glidepath interpolator`"
             }
             Self::FeedbackLost => {
-                "start the servo stack; `glidepath reset`, then `glidepath enable` where the power is \
-                 gone, and `glidepath home` where joints are not homed"
+                "see that the servo stack runs and nothing holds it up; `glidepath reset`, then \
+                 `glidepath enable` where the power is gone, and `glidepath home` where joints are not \
+                 homed"
             }
             Self::FollowingError => {
                 "look what keeps the joint back; `glidepath disable`, `glidepath reset`, \
@@ -184,7 +185,7 @@ pub struct FaultReport {
     pub drive_fault: u32,
     /// What was found, in the unit of the limit.
     pub value: f64,
-    /// What is allowed, mm or degrees by the time that the cause has, 0 for nothing.
+    /// What is allowed, mm or degrees by the time that the cause has, or s for an age; 0 for nothing.
     pub limit: f64,
     /// Source line, 0 for none.
     pub line: u32,
@@ -202,7 +203,13 @@ impl fmt::Display for FaultReport {
         if let Some(axis) = self.axis {
             write!(f, ", axis {axis}")?;
         }
-        if self.limit != 0.0 {
+        if self.limit != 0.0 && self.cause == FaultCause::FeedbackLost {
+            let (age, allowed) = apart(self.value, self.limit);
+            write!(
+                f,
+                ": what they said last is {age} s old, where {allowed} s is allowed"
+            )?;
+        } else if self.limit != 0.0 {
             let (value, limit) = apart(self.value, self.limit);
             // Which joints turn is known to the mechanism alone.
             let (unit, per_time) = (self.axis.map(unit), self.cause.per_time());
@@ -290,6 +297,13 @@ mod tests {
         assert_eq!(
             report.to_string(),
             "a joint is too far from where it is to be, joint J1, 3.21 where 0.5 mm or ° is allowed"
+        );
+        (report.cause, report.joint) = (FaultCause::FeedbackLost, None);
+        (report.value, report.limit, report.line) = (0.016_000_1, 0.012, 7);
+        assert_eq!(
+            report.to_string(),
+            "the drives no longer say where they are: what they said last is 0.016 s old, where 0.012 s \
+             is allowed, line 7"
         );
     }
 

@@ -25,6 +25,11 @@ fn feedback_that_stays_away_stops_the_motion_and_then_takes_the_power() {
     let off = (0..60).position(|_| bench.tick().enable == 0).unwrap() + after;
     assert!((25..=29).contains(&off), "{off} ticks");
     assert_eq!(bench.fault(), Some(FaultCause::FeedbackLost));
+    // The age that was found, and the one allowed: three periods.
+    let status = bench.status();
+    let (age_t, allowed_t) = (status.fault_value, status.fault_limit);
+    assert!((allowed_t - 0.012).abs() < 1e-9, "{allowed_t} s allowed");
+    assert!((allowed_t..0.025).contains(&age_t), "{age_t} s");
     assert!(bench.worst_ratio() <= 1.0 + 1e-6);
     // Nothing is reset while nothing is heard, but then it is on again by the operator alone.
     bench.upset(Upset::Dropout(false));
