@@ -80,28 +80,41 @@ impl<'a> Bench<'a> {
     }
 }
 
-/// A planner that hangs hears of it late.
+/// A planner that hangs hears of it late, however long it hangs.
 #[test]
 fn what_waits_at_a_planner_that_hangs_does_not_outlive_an_abort() {
     let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
     let bench = Bench::start(&instance);
     bench.goes_on();
     let part = instance.file("part.ngc", "G21 G90\nG1 X20 F600\nM2\n");
-    for command in [
-        &["mdi", "G1 X20 F600"][..],
-        &["run-file", &part],
-        &["feed", &part],
-    ] {
-        let service = bench.processes.last().unwrap();
+    for stall in [Duration::from_millis(700), Duration::from_secs(2)] {
+        for command in [
+            &["mdi", "G1 X20 F600"][..],
+            &["run-file", &part],
+            &["feed", &part],
+        ] {
+            let service = bench.processes.last().unwrap();
+            service.signal(Signal::STOP);
+            let before = bench.operated.wait(|_| true);
+            let client = bench.operated.process(command);
+            std::thread::sleep(stall);
+            bench.operated.operate(&["abort"]);
+            service.signal(Signal::CONT);
+            bench.stays(&before);
+            let output = client.wait();
+            assert_ne!(output.status.code(), Some(0), "{output:#?}");
+            bench.goes_on();
+        }
+    }
+    // Where the machine was not stopped meanwhile, what waited is executed.
+    let service = bench.processes.last().unwrap();
+    for command in [&["run-file", &part][..], &["feed", &part]] {
         service.signal(Signal::STOP);
-        let before = bench.operated.wait(|_| true);
         let client = bench.operated.process(command);
-        std::thread::sleep(Duration::from_secs(2));
-        bench.operated.operate(&["abort"]);
+        std::thread::sleep(Duration::from_millis(1500));
         service.signal(Signal::CONT);
-        bench.stays(&before);
-        let output = client.wait();
-        assert_ne!(output.status.code(), Some(0), "{output:#?}");
+        let _done = client.wait().expect(0);
+        assert!((bench.operated.position()[0] - 20.0).abs() < 1e-9);
         bench.goes_on();
     }
 }
@@ -292,11 +305,23 @@ fn a_service_goes_on_with_a_program_where_it_was_left() {
     bench
         .operated
         .refused(&["run-file", &other, "--resume"], 1, "not the program");
+    // Lines do not count: not what they leave in force, and not where they go, if they come back.
+    for line in ["G20 G90", "G21 G91 G1 Z2 F1000", "G4 P0.1"] {
+        bench.operated.operate(&["mdi", line]);
+    }
+    bench
+        .operated
+        .refused(&["run-file", &part, "--resume"], 1, "does not stand on");
+    bench.operated.operate(&["mdi", "G1 Z-2"]);
     let resumed = bench.operated.process(&["run-file", &part, "--resume"]);
     let turned = bench.operated.wait(|status| status.position[1] > 19.9);
     assert!(turned.position[0] > 40.0, "{:?}", turned.position);
     let _done = resumed.wait().expect(0);
     assert!(bench.operated.position()[0].abs() < 1e-9);
+    bench
+        .operated
+        .refused(&["run-file", &part, "--resume"], 1, "came to its end");
+    bench.operated.operate(&["mdi", "G0 X1"]);
     bench
         .operated
         .refused(&["run-file", &part, "--resume"], 1, "came to its end");

@@ -37,8 +37,20 @@ pub(super) struct Workshop<'c> {
     board: &'c Board,
     /// What the job before has left in force.
     in_force: Option<InForce>,
-    /// The program begun last, and what it began with.
-    begun: Option<(u64, Option<InForce>)>,
+    /// The program begun last.
+    begun: Option<Begun>,
+    /// Lines were executed since that program.
+    has_lines: bool,
+    /// Where it was left, if it ended early and lines were executed since.
+    left: Option<ResumePoint>,
+}
+
+/// A program, and what it began with.
+#[derive(Debug)]
+struct Begun {
+    program: u64,
+    start: AxisVector,
+    in_force: Option<InForce>,
 }
 
 /// The side of the service while a job runs.
@@ -67,6 +79,8 @@ impl<'c> Workshop<'c> {
             board,
             in_force: None,
             begun: None,
+            has_lines: false,
+            left: None,
         }
     }
 
@@ -128,6 +142,7 @@ impl<'c> Workshop<'c> {
         self.board.clear();
         let source = |options| LineSource::new(Cursor::new(text.clone()), options);
         let attended = source(options()).attended(attendant.attending());
+        self.keep_resume_point(bench.publisher);
         let pipeline = Pipeline::new(attended, config.settings(), start);
         let (run, in_force) = Self::publish(pipeline, (&config, &attendant), start, bench, |p| {
             Some(p.in_force())
@@ -169,6 +184,7 @@ impl<'c> Workshop<'c> {
                 let rest = bench.work("reading up to where it was left", find)?;
                 let rest = rest.map_err(|error| Stop::Refused(error.to_string()))?;
                 attendant.begin_here()?;
+                (self.has_lines, self.left) = (false, None);
                 // What an abort or a fault has stopped turns before anything moves.
                 let now = bench.publisher.auxiliary(bench.control);
                 let now = now.map_err(|error| Stop::Failed(error.to_string()))?;
@@ -179,7 +195,7 @@ impl<'c> Workshop<'c> {
                 })
             }
             (None, None) => {
-                self.begun = Some((fingerprint, config.program.in_force.clone()));
+                self.begin(fingerprint, start, &config);
                 let pipeline = Pipeline::new(source, settings, start);
                 Self::publish(pipeline, (&config, &attendant), start, bench, |source| {
                     source.in_force()
@@ -195,7 +211,7 @@ impl<'c> Workshop<'c> {
                     return Err(Stop::ToConfirm(agreement(from, &found, &approach, &config)));
                 }
                 attendant.begin_with(found.block())?;
-                self.begun = Some((fingerprint, config.program.in_force.clone()));
+                self.begin(fingerprint, start, &config);
                 let rest = found.approached(&approach);
                 let pipeline = Pipeline::resuming(rest, settings);
                 Self::publish(pipeline, (&config, &attendant), start, bench, |rest| {
@@ -221,6 +237,41 @@ impl<'c> Workshop<'c> {
         ))
     }
 
+    /// A program begins: no other one is resumed from now on.
+    fn begin(&mut self, program: u64, start: AxisVector, config: &MachineConfig) {
+        let in_force = config.program.in_force.clone();
+        self.begun = Some(Begun {
+            program,
+            start,
+            in_force,
+        });
+        (self.has_lines, self.left) = (false, None);
+    }
+
+    /// A line is about to take the place, at the interpolator, of a program that may have been left.
+    fn keep_resume_point(&mut self, publisher: &Publisher<'_>) {
+        if !self.has_lines {
+            self.left = publisher.resume_point().ok();
+        }
+        self.has_lines = true;
+    }
+
+    /// Where the program was left that ended early, for a machine that stands at `start`: lines that were executed since
+    /// do not count.
+    fn resume_point(
+        &self,
+        publisher: &Publisher<'_>,
+        start: AxisVector,
+    ) -> Result<ResumePoint, RunError> {
+        match self.left {
+            Some(left) => Ok(ResumePoint {
+                position: start,
+                ..left
+            }),
+            None => publisher.resume_point(),
+        }
+    }
+
     /// Where a program is read from. One that is resumed is read with what it began with.
     fn begins(
         &self,
@@ -232,10 +283,14 @@ impl<'c> Workshop<'c> {
         if !file.resumes {
             return Ok(Begins { start, point: None });
         }
-        let point = bench.publisher.resume_point();
-        let point = point.map_err(|error| Stop::Refused(error.to_string()))?;
-        let known = self.begun.as_ref().filter(|(of, _)| *of == point.program);
-        let in_force = known.and_then(|(_, in_force)| in_force.clone());
+        let point = self.resume_point(bench.publisher, start);
+        let mut point = point.map_err(|error| Stop::Refused(error.to_string()))?;
+        let known = self.begun.as_ref();
+        let known = known.filter(|begun| begun.program == point.program);
+        if let Some(begun) = known {
+            point.program_start = begun.start;
+        }
+        let in_force = known.and_then(|begun| begun.in_force.clone());
         if let Some(in_force) = in_force.as_ref().filter(|_| !attendant.keeps()) {
             config.program.offsets = in_force.work_offsets();
             config.program.tools = in_force.tools().cloned().or(config.program.tools.take());
@@ -332,7 +387,7 @@ impl<'c> Workshop<'c> {
         // Whoever wanted the job may not want it any more; what is in force is for the next one.
         let attend = &mut *bench.attend;
         let mut attend = |waited: Duration| {
-            let _ended = attend.attend(waited, "reading what is in force");
+            let _ended = attend.attend(waited, "");
         };
         let known = bench.publisher.work("", &mut attend, bench.control, read);
         match known {
