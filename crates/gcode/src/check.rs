@@ -7,11 +7,13 @@ use glidepath_program::{Item, ItemKind};
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::{Diagnostic, MAX_DIAGNOSTICS};
+use crate::execute::cycle_words::name;
 use crate::execute::program::Program;
 use crate::setup::options::Options;
 use crate::summary::survey::Survey;
 use crate::summary::totals::Totals;
 use crate::syntax::dialect::Dialect;
+use crate::syntax::modes::Motion;
 
 /// What [`check`] found.
 #[derive(Debug, Clone, PartialEq)]
@@ -125,9 +127,13 @@ fn read<R: BufRead>(program: &mut Program<R>, mut see: impl FnMut(&Item)) -> Dia
             break;
         }
         match program.next_line() {
-            Some(Ok(())) => program.items().iter().for_each(&mut see),
+            Some(Ok(())) => {
+                bred.is_series_in_doubt &= program.block().codes.motion.is_none();
+                program.items().iter().for_each(&mut see);
+            }
             Some(Err(diagnostic)) => {
-                let is_bred = bred.is_bred(&diagnostic, Program::position(program));
+                let lacks_words = bred.lacks_words_of_series(&diagnostic, program);
+                let is_bred = bred.is_bred(&diagnostic, Program::position(program)) || lacks_words;
                 program.read_on(&diagnostic);
                 let listed = found.diagnostics.len();
                 if is_bred || without_tools.is_told(&diagnostic, listed) {
@@ -156,9 +162,29 @@ struct Bred {
     is_in_doubt: bool,
     /// Where the machine was taken to be in front of the last of them.
     place: Option<AxisVector>,
+    /// A block was refused since the last one with a motion mode that was not: it may be the one with the words of a
+    /// series of holes.
+    is_series_in_doubt: bool,
 }
 
 impl Bred {
+    /// True for a hole of a series that lacks a word which a block before it may have had.
+    fn lacks_words_of_series<R: BufRead>(
+        &mut self,
+        diagnostic: &Diagnostic,
+        program: &Program<R>,
+    ) -> bool {
+        let was_in_doubt = core::mem::replace(&mut self.is_series_in_doubt, true);
+        let Some(Motion::Cycle(cycle)) = program.interpreter.state.modal.motion else {
+            return false;
+        };
+        let begins_series = program.block().codes.motion.is_some();
+        was_in_doubt
+            && !begins_series
+            && diagnostic.code == DiagnosticCode::MissingWord
+            && diagnostic.message.starts_with(name(cycle))
+    }
+
     /// True for a consequence of a diagnostic that was told; `place` is where the machine is taken
     /// to be.
     fn is_bred(&mut self, diagnostic: &Diagnostic, place: &AxisVector) -> bool {

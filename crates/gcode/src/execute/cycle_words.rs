@@ -178,7 +178,7 @@ fn check_haas_words(block: &Block, cycle: CannedCycle) -> Outcome<()> {
     Ok(())
 }
 
-const fn name(cycle: CannedCycle) -> &'static str {
+pub(crate) const fn name(cycle: CannedCycle) -> &'static str {
     match cycle {
         CannedCycle::ChipBreak => "G73",
         CannedCycle::TapLeft => "G74",

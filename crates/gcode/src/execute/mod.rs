@@ -21,7 +21,7 @@ pub(crate) mod block_words;
 pub(crate) mod canned_cycle;
 mod carry_over;
 pub(crate) mod compensation;
-mod cycle_words;
+pub(crate) mod cycle_words;
 pub(crate) mod dialect;
 mod execute_line;
 mod fanuc_thread;

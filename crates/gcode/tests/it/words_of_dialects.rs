@@ -211,6 +211,18 @@ fn a_diagnostic_does_not_breed_others() {
         [1]
     );
     assert_eq!(found(Dialect::Fanuc, "G90.1 G3 F100\nG1 X5\nX6"), [1]);
+    // The words of a series of holes stand in its first block, whether that one is right or not.
+    for first in [
+        "G83 X5 Z6 R2 Q1 F100",
+        "G83 X200 Z-6 R2 Q1 F100",
+        "G83 X5 Z-6 R2 F100",
+        "G83 X5 Z-6 R2 Q1 F1.2.3",
+    ] {
+        let text = format!("G90 G0 Z20\n{first}\nX10\nX20\nG80\nG1 F100 X1\nM2");
+        assert_eq!(found(Dialect::LinuxCnc, &text), [2], "{first}");
+    }
+    let two = "G90 G0 Z20\nG83 X5 Z6 R2 Q1 F100\nX10\nG80\nG81 X5 Z-6\nX6\nM2";
+    assert_eq!(found(Dialect::LinuxCnc, two), [2, 5]);
     // What is wrong by itself is told.
     assert_eq!(found(Dialect::LinuxCnc, "G1 X200 F100\nG2 X50 Y5"), [1, 2]);
 }

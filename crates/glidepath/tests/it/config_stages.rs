@@ -57,6 +57,36 @@ fn a_key_that_does_not_belong_there_hides_nothing_of_its_table() {
     );
 }
 
+/// What a joint can do on its way home is what its axis can do.
+#[test]
+fn a_limit_that_is_not_known_condemns_no_way_home() {
+    let homing = "[feedback]\nsource = \"drives\"\nhoming = \"controller\"\n[home.J0]\n\
+                  search_velocity = 20\nlatch_velocity = -2\nsearch_travel = 20\nclearance = 5\n";
+    for (right, wrong, told) in [
+        ("max_jerk", "max_jerc", "unknown key `max_jerc`"),
+        (
+            "max_velocity = 100",
+            "max_velocity = -100",
+            "axis.X.max_velocity = -100 mm/s",
+        ),
+        (
+            "search_velocity = 20",
+            "search_velocity = 2e9",
+            "home.J0.search_velocity",
+        ),
+    ] {
+        let found = messages(&format!("{AXIS}{homing}").replace(right, wrong));
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert!(found[0].starts_with(told), "{found:?}");
+    }
+    let short = format!("{AXIS}{homing}").replace("clearance = 5", "clearance = 0.01");
+    let found = messages(&short);
+    assert!(
+        found.len() == 1 && found[0].starts_with("J0 cannot come home"),
+        "{found:?}"
+    );
+}
+
 #[test]
 fn a_horizon_that_is_too_short_is_told_beside_what_does_not_concern_it() {
     let short = format!("{AXIS}[interpolator]\nhorizon_s = 0.5\n");

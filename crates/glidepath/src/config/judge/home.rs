@@ -188,7 +188,13 @@ impl Judge {
             acceleration: axis.max_acceleration,
             jerk: axis.max_jerk,
         };
-        if let Err(error) = homing.check(&bounds, period_t) {
+        // Where a limit is not known, what the joint can do is not known either.
+        let limits = format!("axis.{}", axis.axis);
+        let own = format!("home.{name}");
+        let is_known = !self.has_found(&[limits.as_str(), own.as_str(), "interpolator.period_us"]);
+        if let Err(error) = homing.check(&bounds, period_t)
+            && is_known
+        {
             let help = "see the table of velocities: glidepath config --explain home";
             self.refuse_home(
                 name,
