@@ -113,6 +113,14 @@ impl OutputFile {
             let reason = "the command reads it; give another file".to_owned();
             return Err(FileError::guarded(path, reason));
         }
+        let ending = path.extension();
+        let is_foreign = ending.is_some_and(|ending| !ending.eq_ignore_ascii_case("svg"));
+        if kind == OutputKind::Plot && is_foreign {
+            let reason = "it would be an SVG drawing: call it NAME.svg; `plan` and `run` write a page \
+                          instead, if it is called NAME.html";
+            let reason = reason.to_owned();
+            return Err(FileError::guarded(path, reason));
+        }
         // Memory for files is below `/dev` too, and no device.
         let is_stream = ["/dev", "/proc"].iter().any(|top| folder.starts_with(top))
             && !folder.starts_with("/dev/shm");

@@ -80,6 +80,10 @@ impl ProgramFile {
     pub fn open(&self) -> Result<(), FileError> {
         // What cannot be looked at is told where it is opened to be read.
         let there = self.name.metadata().ok();
+        if there.as_ref().is_some_and(std::fs::Metadata::is_dir) {
+            let error = io::Error::new(io::ErrorKind::InvalidInput, "it is a folder, no program");
+            return Err(FileError::open(&self.name)(error));
+        }
         let is_device = there.as_ref().is_some_and(|there| {
             let kind = there.file_type();
             kind.is_block_device() || (kind.is_char_device() && there.rdev() != NOTHING)

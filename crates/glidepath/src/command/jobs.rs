@@ -16,7 +16,8 @@ use glidepath_link::{
 };
 use glidepath_realtime::{Clock as _, Monotonic};
 use serde_json::json;
-use std::io::{BufRead as _, IsTerminal as _};
+use std::io::{self, BufRead as _, IsTerminal as _};
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 /// How long a service may take to start.
@@ -50,10 +51,18 @@ pub(super) fn mdi(args: &MdiArgs, config: &MachineConfig) -> Result<Exit, Failur
 /// # Errors
 /// As [`mdi`].
 pub(super) fn run_file(args: &RunFileArgs, config: &MachineConfig) -> Result<Exit, Failure> {
-    let path = args
-        .file
-        .canonicalize()
-        .map_err(FileError::open(&args.file))?;
+    let file = args.file.as_path();
+    if file == Path::new("-") {
+        return Err(Failure::Word(
+            "-".to_owned(),
+            "the service reads files; `glidepath planner -` reads standard input",
+        ));
+    }
+    let path = file.canonicalize().map_err(FileError::open(file))?;
+    if path.is_dir() {
+        let error = io::Error::new(io::ErrorKind::InvalidInput, "it is a folder, no program");
+        return Err(FileError::open(file)(error).into());
+    }
     let name = path.display().to_string();
     let mut request = JobRequest::new(client(), 1, JobKind::File, &name, Monotonic.now_ns());
     if request.text.as_str() != name {
@@ -258,7 +267,8 @@ impl Told {
 
     /// Says what is being done, now and then, if it takes long enough to be read.
     fn tell(&mut self, doing: &str) {
-        if self.since.elapsed() >= self.interval && self.last != doing {
+        let is_news = !doing.is_empty() && self.last != doing;
+        if is_news && self.since.elapsed() >= self.interval {
             output::note(doing);
             doing.clone_into(&mut self.last);
             (self.since, self.interval) = (Instant::now(), self.interval * 2);
@@ -274,13 +284,13 @@ impl Told {
 
 /// Shows what is to be agreed to, and asks, if somebody is there to be asked.
 fn agrees(text: &str) -> Result<bool, Failure> {
-    if !std::io::stdin().is_terminal() {
+    if !io::stdin().is_terminal() {
         return Ok(false);
     }
     output::note(text);
     output::note("go there and begin? (yes)");
     let mut answer = String::new();
-    std::io::stdin()
+    io::stdin()
         .lock()
         .read_line(&mut answer)
         .map_err(|_| Failure::Interrupted)?;

@@ -187,6 +187,38 @@ fn what_only_looks_like_a_device_is_a_file() {
 }
 
 #[test]
+fn a_plot_is_not_called_what_it_is_not() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    fs::write(here.join("part.ngc"), SQUARE).unwrap();
+    for name in ["out.png", "out.pdf", "new.v2"] {
+        let (code, text) = said(&glidepath(here, &["plan", "part.ngc", "--plot", name]));
+        assert_eq!(code, 2, "{text}");
+        assert!(text.contains("NAME.svg"), "{text}");
+    }
+    for name in ["OUT.SVG", "out.html", "out"] {
+        let (code, text) = said(&glidepath(here, &["plan", "part.ngc", "--plot", name]));
+        assert_eq!(code, 0, "{text}");
+    }
+    assert_eq!(names(here), ["OUT.SVG", "out", "out.html", "part.ngc"]);
+}
+
+#[test]
+fn a_folder_and_standard_input_are_told_from_programs() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    fs::create_dir(here.join("parts.ngc")).unwrap();
+    for command in ["check", "plan", "run", "run-file"] {
+        let (code, text) = said(&glidepath(here, &[command, "parts.ngc"]));
+        assert_eq!(code, 2, "{command}: {text}");
+        assert!(text.contains("it is a folder"), "{command}: {text}");
+    }
+    let (code, text) = said(&glidepath(here, &["run-file", "-"]));
+    assert_eq!(code, 2, "{text}");
+    assert!(text.contains("`glidepath planner -`"), "{text}");
+}
+
+#[test]
 fn an_interrupted_command_leaves_what_was_there() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
