@@ -7,6 +7,7 @@
 
 mod attack;
 mod chain;
+mod drives;
 mod faults;
 mod grbl;
 mod hal;
