@@ -86,7 +86,13 @@ impl<'a> Machine<'a> {
             self.has(command);
             return Ok(());
         }
-        let awaited = self.prepare(command);
+        let awaited = if command.contains("--resume") {
+            self.serve();
+            drop(self.stopped_by("abort").wait());
+            None
+        } else {
+            self.prepare(command)
+        };
         let result = if LASTING.iter().any(|lasting| command.starts_with(lasting)) {
             self.look_at(line)
         } else if command.contains("--from-line") {
@@ -95,6 +101,10 @@ impl<'a> Machine<'a> {
             let output = self.shell.run(&self.folder, line);
             told(output.status.success(), &output)
         };
+        if command == "glidepath step" {
+            self.wait(|status| status.state == MachineState::ProgramStop.code());
+            self.operate(&["resume"]);
+        }
         // What waited goes on, or has failed, as it was told.
         drop(awaited.map(Process::wait));
         if command.ends_with("abort --signal") {
@@ -134,6 +144,10 @@ impl<'a> Machine<'a> {
                 self.ready();
             }
             "mdi" | "run-file" | "feed" => self.serve(),
+            "resume" | "step" => {
+                self.serve();
+                return Some(self.stopped_by("hold"));
+            }
             "jog" => {
                 self.ready();
                 self.operate(&["override", "--jog", "100"]);
@@ -200,8 +214,21 @@ impl<'a> Machine<'a> {
             let begun = Instant::now();
             while self.start(&["mdi", "G90"]).wait().status.code() != Some(0) {
                 assert!(begun.elapsed() < PATIENCE, "the service does not answer");
+                // A busy host may have kept the drives from saying where they are.
+                self.ready();
             }
         }
+    }
+
+    /// A program is on its way, and an operator stops it by this command.
+    fn stopped_by(&self, command: &str) -> Process {
+        self.operate(&["override", "5"]);
+        let part = self.folder.join("part.ngc");
+        let program = self.start(&["run-file", part.to_str().unwrap()]);
+        self.wait(|status| status.state == MachineState::Running.code() && status.line > 12);
+        self.operate(&[command]);
+        self.operate(&["override", "100"]);
+        program
     }
 
     fn wait(&self, wanted: impl Fn(&Status) -> bool) -> Status {

@@ -150,7 +150,7 @@ pub enum Command {
     /// Have drives find the home of their joints, and wait for that
     #[command(after_help = "Examples: glidepath home · glidepath home J2")]
     Home(HomeArgs),
-    /// Do not believe any more that joints know where they are
+    /// Make joints count as not homed
     #[command(after_help = "Example: glidepath unhome J2")]
     Unhome(JointsArgs),
     /// Give the present position of a joint another number

@@ -54,7 +54,7 @@ pub(super) fn acknowledge(args: &AcknowledgeArgs, config: &MachineConfig) -> Res
     } else {
         let what = if done { "done" } else { "failed" };
         output::result(&format!(
-            "acknowledge: accepted, {what}; the machine was {state}\n"
+            "acknowledge: accepted, {what}; state before it: {state}\n"
         ));
     }
     Ok(Exit::Done)

@@ -145,7 +145,7 @@ fn commands(
             "state": state,
         }));
     } else {
-        output::result(&format!("{name}: accepted; the machine was {state}\n"));
+        output::result(&format!("{name}: accepted; state before it: {state}\n"));
     }
     Ok(Exit::Done)
 }

@@ -133,7 +133,7 @@ pub struct Servo<S: Subscriber<Setpoint> = Box<dyn Subscriber<Setpoint>>> {
     counts: ServoCounts,
     last: Option<Setpoint>,
     last_refusal: Option<RecordError>,
-    /// Whether setpoints are played. Not those of another life of the interpolator than the one
+    /// Whether setpoints are played. Not those of an interpolator that was started before or after the one
     /// this began with: it may take the machine to be elsewhere.
     armed: bool,
     /// Whether it has to be handed the position, by a setpoint at rest, before it plays any.

@@ -161,7 +161,7 @@ impl Objection {
             Self::NoJogNow => {
                 "axes are jogged while no program runs, or one is held; `glidepath hold` holds it"
             }
-            Self::OtherLife => "that event is of another life of the interpolator",
+            Self::OtherLife => "the interpolator was started again after that event",
             Self::Answered => "that event was answered already",
             Self::ByFeedback => "the drives' feedback answers that event, and nobody else",
             Self::TooEarly => {
