@@ -115,7 +115,8 @@ const fn motion_code(motion: Motion) -> &'static str {
         | Motion::TapIn
         | Motion::TapOut
         | Motion::Turning(_)
-        | Motion::Groove(_) => "G80",
+        | Motion::Groove(_)
+        | Motion::CirclePocket(_) => "G80",
     }
 }
 
