@@ -48,7 +48,8 @@ impl<R: BufRead> Program<R> {
     }
 
     /// Begins with what is in force, where the options say that the machine stands. Coordinate
-    /// systems and reference positions are those of the options.
+    /// systems, which of them is chosen, the offset G92.3 brings back and reference positions are those of
+    /// the options: somebody may have set them since.
     pub(crate) fn begin_with(&mut self, in_force: &InForce) {
         let InForceParts {
             state,
@@ -71,9 +72,7 @@ impl<R: BufRead> Program<R> {
         (interpreter.state.position, interpreter.state.path_end) = (place, place);
         (interpreter.axes_end, interpreter.is_mapped) = (start, map.is_some());
         interpreter.offsets.tool = offsets.tool;
-        interpreter.offsets.active = offsets.active;
         interpreter.offsets.shift = offsets.shift;
-        interpreter.offsets.saved_shift = offsets.saved_shift;
         interpreter.offsets.fanuc.external = offsets.fanuc.external;
         interpreter
             .offsets

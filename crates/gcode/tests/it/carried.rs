@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glidepath_gcode::{Connections, Dialect, InForce, Options, Program, Tool, ToolTable};
 use glidepath_geometry::AxisVector;
-use glidepath_program::Item;
+use glidepath_program::{Item, ItemKind};
 
 fn options(dialect: Dialect) -> Options {
     let mut tools = ToolTable::new();
@@ -79,6 +79,24 @@ fn a_program_means_the_same_behind_what_was_carried_as_text() {
         );
         assert_eq!(items(after, dialect, Some(carried)), wanted, "{text}");
     }
+}
+
+/// Between two programs somebody sets a system, chooses another and sets what G92.3 brings back.
+#[test]
+fn what_is_set_by_hand_meanwhile_counts() {
+    let left = left_by("G21 G90 G91 G54 F100\nG1 X1\n", Dialect::LinuxCnc);
+    let mut options = options(Dialect::LinuxCnc);
+    options.offsets = left.work_offsets();
+    options.offsets.systems[1].origin[0] = 50.0;
+    options.offsets.active = 1;
+    options.offsets.saved_shift[0] = 7.0;
+    options.in_force = Some(left);
+    let mut program = Program::new(&b"G90 G1 X0\nG92.3\nX0\n"[..], options);
+    let ends = program.by_ref().filter_map(|item| match item.ok()?.kind {
+        ItemKind::Move { segment, .. } => Some(segment.end()[0]),
+        _ => None,
+    });
+    assert_eq!(ends.collect::<Vec<_>>(), [50.0, 57.0]);
 }
 
 #[test]

@@ -21,7 +21,10 @@ impl Failure {
             | Self::HalConfiguration { .. }
             | Self::Hal(HalError::Joints { .. })
             | Self::State(
-                StateError::Damaged(_) | StateError::OtherMachine { .. } | StateError::NoFolder,
+                StateError::Damaged(_)
+                | StateError::Lost { .. }
+                | StateError::OtherMachine { .. }
+                | StateError::NoFolder,
             ) => Exit::Configuration,
             Self::Unchecked { .. }
             | Self::Refused(Refusal::Unchecked { .. })

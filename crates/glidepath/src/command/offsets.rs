@@ -12,7 +12,7 @@ use crate::kept::read::of_machine;
 use crate::output;
 use crate::text_file;
 use glidepath_kept::var::{self, Units};
-use glidepath_kept::{AXES, Directory, Kept, Offsets, Store};
+use glidepath_kept::{AXES, Directory, Kept, KeptError, Offsets, Store};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -82,7 +82,13 @@ pub(super) fn offsets(command: &OffsetsCommand, config: &MachineConfig) -> Resul
         }
         OffsetsCommand::Recover(_) => {
             let (mut store, _lock) = locked(folder)?;
-            let (generation, kept) = store.recover().map_err(StateError::from)?;
+            let (generation, kept) = store.recover().map_err(|error| match error {
+                source @ KeptError::Damaged { .. } => StateError::Lost {
+                    folder: folder.display().to_string(),
+                    source,
+                },
+                error => error.into(),
+            })?;
             show(folder, generation, &kept, as_json);
         }
     }

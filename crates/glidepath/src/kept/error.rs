@@ -15,6 +15,17 @@ pub(crate) enum StateError {
          generation that is whole, and shows it"
     )]
     Damaged(KeptError),
+    /// No file is whole.
+    #[error(
+        "{source}, and no other generation in {folder} is whole: what was kept is lost. Move the files kept.0 and \
+         kept.1 there away, and set it anew: `glidepath offsets set`, `use` or `import`"
+    )]
+    Lost {
+        /// The folder.
+        folder: String,
+        /// What is wrong with the last file that was read.
+        source: KeptError,
+    },
     /// What inputs and the probe answered is not known any more.
     #[error(
         "{0}. The program cannot be taken up again behind what it asked of inputs or the probe; run it \

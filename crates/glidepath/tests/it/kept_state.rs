@@ -186,6 +186,21 @@ fn damage_and_another_machine_need_the_operator() {
     assert_eq!(axes(&recovered, "G54")[0].to_bits(), 1.0_f64.to_bits());
     machine.object(&["check", &part]);
 
+    // With no file whole there is nothing to recover, and the way on is told.
+    let files = ["kept.0", "kept.1"].map(|name| machine.path(&format!("state/{name}")));
+    let whole = files.each_ref().map(|file| std::fs::read(file).unwrap());
+    for file in &files {
+        std::fs::write(file, "nothing").unwrap();
+    }
+    let told = machine.refused(&["offsets", "recover"], 3);
+    assert!(told.contains("what was kept is lost. Move"), "{told}");
+    assert!(!told.contains("offsets recover"), "{told}");
+    for (file, bytes) in files.iter().zip(&whole) {
+        std::fs::rename(file, file.with_extension("away")).unwrap();
+        std::fs::write(file, bytes).unwrap();
+    }
+    machine.object(&["check", &part]);
+
     let mill = std::fs::read_to_string(machine.path("mill.toml")).unwrap();
     machine.file("mill.toml", &mill.replace("[axis.Y]", "[axis.U]"));
     let told = machine.refused(&["check", &part], 3);
@@ -253,4 +268,58 @@ fn nothing_is_kept_without_a_folder() {
         told.contains("names no folder to keep anything in"),
         "{told}"
     );
+}
+
+/// Ends with its test.
+struct Running(std::process::Child);
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        self.0.kill().ok();
+        self.0.wait().ok();
+    }
+}
+
+#[test]
+fn a_service_begins_in_the_system_that_was_chosen_meanwhile() {
+    let machine = Machine::new();
+    let instance = format!("kept-use-{}", std::process::id());
+    let start = |args: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_glidepath"));
+        command.args(args).args(["--instance", &instance]);
+        command.arg("--config").arg(machine.path("mill.toml"));
+        command.stdout(Stdio::null()).stderr(Stdio::null());
+        Running(command.current_dir(machine.folder.path()).spawn().unwrap())
+    };
+    let _interpolator = start(&["interpolator", "--best-effort"]);
+    let _service = start(&["planner", "--listen"]);
+    let ask = |args: &[&str]| machine.glidepath(&[args, &["--instance", &instance]].concat());
+    let first = ["mdi", "G21 G90 G54 G10 L2 P1 X7"];
+    let begun = std::time::Instant::now();
+    while !ask(&first).status.success() {
+        assert!(begun.elapsed().as_secs() < 120, "{:?}", ask(&first));
+        std::thread::sleep(std::time::Duration::from_millis(100));
+    }
+    let x = || {
+        let told = ask(&["status", "--json"]).stdout;
+        let told: Value = serde_json::from_slice(&told).unwrap();
+        told["position"]["X"].as_f64().unwrap()
+    };
+    let goes = |args: &[&str], to: f64| {
+        let output = ask(args);
+        assert!(output.status.success(), "{output:?}");
+        assert!((x() - to).abs() < 1e-9, "{args:?}: X {}, not {to}", x());
+    };
+    let part = machine.file("part.ngc", "G21 G90\nG0 X0\nM2\n");
+    goes(&["mdi", "G10 L2 P2 X50"], 0.0);
+    machine.object(&["offsets", "use", "G55"]);
+    goes(&["run-file", &part], 50.0);
+    // M2 has left G54.
+    goes(&["mdi", "X0"], 7.0);
+    machine.object(&["offsets", "use", "G55"]);
+    goes(&["mdi", "X1"], 51.0);
+    goes(&["mdi", "X2"], 52.0);
+    goes(&["mdi", "G54 X0"], 7.0);
+    machine.object(&["offsets", "set", "G54", "X9"]);
+    goes(&["mdi", "X0"], 9.0);
 }
