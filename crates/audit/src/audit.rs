@@ -2,6 +2,7 @@
 
 use crate::along::AlongAudit;
 use crate::event_places::EventPlaces;
+use crate::judge::End;
 use crate::limits::LimitAudit;
 use crate::matching::Matching;
 use crate::report::Report;
@@ -98,10 +99,22 @@ impl Audit {
         self.events.sample(seen.position);
     }
 
-    /// The verdict, after the last sample: the machine rests there from now on.
+    /// The verdict, after the last sample: the machine rests there from now on, at the end of the
+    /// program.
     #[must_use]
-    pub fn finish(mut self) -> Report {
-        self.matching.finish();
+    pub fn finish(self) -> Report {
+        self.finish_at(End::OfProgram)
+    }
+
+    /// The verdict on a motion that was ended before its program, or was not seen to the end: it is
+    /// judged as far as it went, wherever that is.
+    #[must_use]
+    pub fn finish_early(self) -> Report {
+        self.finish_at(End::Anywhere)
+    }
+
+    fn finish_at(mut self, end: End) -> Report {
+        self.matching.finish(end);
         self.limits.finish();
         Report::new(
             (&self.limits, &self.travel),

@@ -15,6 +15,15 @@ const FEED_SLACK: f64 = 1.0 + 1e-3;
 /// Latest rests kept in mind.
 const RESTS: usize = 64;
 
+/// Where a motion is to end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum End {
+    /// Where the program does.
+    OfProgram,
+    /// Anywhere on the program: it was ended.
+    Anywhere,
+}
+
 impl Matching {
     /// The first sample must be where the program starts; false if that is not known yet.
     pub(crate) fn judge_start(&mut self, spot: &Spot) -> bool {
@@ -31,11 +40,12 @@ impl Matching {
         true
     }
 
-    /// The end of the program must have been reached, exactly.
-    pub(crate) fn judge_end(&mut self) {
+    /// The end of the program must have been reached, exactly, unless the motion was ended.
+    pub(crate) fn judge_end(&mut self, wanted: End) {
+        let must = wanted == End::OfProgram;
         let Some(at) = self.at else {
             self.is_complete = self.rows.reach(0) == Presence::Never;
-            if !self.is_complete {
+            if must && !self.is_complete {
                 self.violations.push(0, 0, ViolationKind::Incomplete);
             }
             return;
@@ -49,9 +59,11 @@ impl Matching {
             .back()
             .map_or((0, 0), |column| (column.tick, column.line));
         let is_reached = self.trouble.is_none() && self.includes_end(&self.reach.clone(), &at);
-        // Where the motion ends at the right place it is a question of deviation.
+        // Where the motion ends at the right place it is a question of deviation. One that was ended may
+        // be at that place before the program's end: where it began, say.
         let is_there = tolerance_norm(&(at - end)) <= EXACT_MM;
-        self.is_complete = is_reached || (is_there && self.widen(Goal::End) == Passage::Passed);
+        self.is_complete =
+            is_reached || (must && is_there && self.widen(Goal::End) == Passage::Passed);
         if self.trouble.is_some() {
             self.settle(if self.is_complete {
                 Goal::End
@@ -61,15 +73,22 @@ impl Matching {
         } else if self.is_complete {
             self.note_deviation(self.lambda_mm, tick, line);
         }
+        if !must {
+            return;
+        }
         if let Some(spot) = self.last_fed {
             self.note_rest(at, spot.tick.saturating_sub(self.since_tick));
             if self.is_complete {
                 self.judge_dwell(self.reach.end().saturating_sub(1), &spot);
             }
         }
-        if self.is_complete {
-            return;
+        if !self.is_complete {
+            self.judge_missed_end((tick, line), &at, is_there);
         }
+    }
+
+    /// The motion rests somewhere, and not at the end of the program.
+    fn judge_missed_end(&mut self, (tick, line): (u64, u32), at: &AxisVector, is_there: bool) {
         let last = self.reach.end().saturating_sub(1);
         let is_last = self.rows.reach(self.reach.end()) == Presence::Never;
         let row = self.rows.get(last);

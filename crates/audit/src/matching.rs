@@ -25,6 +25,7 @@
 
 use crate::column::{Column, Level, Passage, Reach, step};
 use crate::free_space::{Chord, Interval};
+use crate::judge::End;
 use crate::program::{DiagramRows, Presence, SMALLEST_TOLERANCE_MM};
 use crate::sample::Seen;
 use crate::settings::AuditSettings;
@@ -184,12 +185,12 @@ impl Matching {
         }
     }
 
-    pub(crate) fn finish(&mut self) {
+    pub(crate) fn finish(&mut self, end: End) {
         self.rows.end();
         self.advance();
         if !self.is_lost {
             self.still.finish(&mut self.tremors);
-            self.judge_end();
+            self.judge_end(end);
         }
     }
 

@@ -1,6 +1,6 @@
 //! The matching of motion and program.
 
-use crate::{audit, kinds, point, polygon, walk};
+use crate::{TOLERANCE, audit, audited, kinds, point, polygon, walk};
 use glidepath_audit::{Report, ViolationKind};
 use glidepath_geometry::AxisVector;
 
@@ -44,6 +44,39 @@ fn a_skipped_corner_is_found() {
         kinds(&report)
     );
     assert!(report.is_complete);
+}
+
+/// A path that ends where it begins, and motions that were ended: before they began, on the way, shortly
+/// before the end.
+#[test]
+fn a_motion_that_was_ended_is_judged_as_far_as_it_went() {
+    let way = walk(&square(), 0.3);
+    let early = |positions: &[AxisVector]| {
+        audited(TOLERANCE, &polygon(&square()), positions).finish_early()
+    };
+    let nearly = point(0.0, 0.015);
+    let stood = [way[0], way[0]];
+    let to_the_end = [&way[..way.len() - 1], &[nearly]].concat();
+    for motion in [&stood[..], &way[..9], &to_the_end, &[]] {
+        let report = early(motion);
+        assert!(report.is_clean(), "{:?}", report.violations);
+        assert!(!report.is_complete);
+        assert!(
+            report.max_deviation_mm < 1e-5,
+            "{}",
+            report.max_deviation_mm
+        );
+    }
+    assert!(early(&way).is_complete);
+    // What it went is judged all the same.
+    let mut aside = way[..9].to_vec();
+    aside[5] += point(0.0, 0.03);
+    assert!(matches!(
+        kinds(&early(&aside))[..],
+        [ViolationKind::Deviation { .. }]
+    ));
+    let cut_short = [way[0], point(0.0, 3.0)];
+    assert!(!early(&cut_short).is_clean());
 }
 
 #[test]

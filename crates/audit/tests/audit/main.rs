@@ -86,6 +86,11 @@ fn walk(points: &[AxisVector], step: f64) -> Vec<AxisVector> {
 
 /// Audits a motion with a tolerance of its own.
 fn audit_within(tolerance_mm: f64, program: &[Item], positions: &[AxisVector]) -> Report {
+    audited(tolerance_mm, program, positions).finish()
+}
+
+/// An audit that has seen a program and a motion.
+fn audited(tolerance_mm: f64, program: &[Item], positions: &[AxisVector]) -> Audit {
     let settings = AuditSettings {
         tolerance_mm,
         ..settings(Limits::UNLIMITED)
@@ -97,7 +102,7 @@ fn audit_within(tolerance_mm: f64, program: &[Item], positions: &[AxisVector]) -
     for (tick, &position) in (0..).zip(positions) {
         audit.sample(&sample(tick, position));
     }
-    audit.finish()
+    audit
 }
 
 fn kinds(report: &Report) -> Vec<ViolationKind> {

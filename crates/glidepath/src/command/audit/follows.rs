@@ -28,6 +28,8 @@ pub(super) struct Follows {
     plan: Option<Vec<AxisVector>>,
     passed: Passed,
     tolerance_mm: f64,
+    /// Program time of the setpoint before: a frame, and the part of a period past it.
+    time: (u64, f64),
     has_moved: bool,
     is_over: bool,
     led: Led,
@@ -74,6 +76,7 @@ impl Follows {
             plan,
             passed: Passed::default(),
             tolerance_mm: settings.tolerance_mm,
+            time: (0, 0.0),
             has_moved: false,
             is_over: false,
             led: Led::default(),
@@ -111,7 +114,7 @@ impl Follows {
                 self.audit.event(event, told.offset_ns);
             }
         }
-        let time = (setpoint.sequence, setpoint.fraction);
+        let time = self.go_on(setpoint);
         let behind_mm = (!is_idle).then(|| self.passed.off_mm(time, &sample.position));
         if let Some(off_mm) = behind_mm.flatten() {
             // Back along the path, or onward again.
@@ -129,7 +132,7 @@ impl Follows {
         let planned = self
             .plan
             .as_ref()
-            .filter(|_| setpoint.fraction == 0.0 && !is_idle)
+            .filter(|_| time.1 == 0.0 && !is_idle)
             .and_then(|plan| plan.get(at?));
         if let Some(planned) = planned {
             let off = AxisVector::from(setpoint.position) - planned;
@@ -138,6 +141,16 @@ impl Follows {
                 self.deviates(setpoint, off_mm, "the plan of the program");
             }
         }
+    }
+
+    /// Program time of a setpoint. In a fault the epoch is over: the machine stands where it ended, which
+    /// in general is between two frames, and setpoints tell the frame alone.
+    fn go_on(&mut self, setpoint: &Setpoint) -> (u64, f64) {
+        let stands = setpoint.state() == Ok(MachineState::Faulted);
+        if !stands || setpoint.sequence != self.time.0 || setpoint.fraction > 0.0 {
+            self.time = (setpoint.sequence, setpoint.fraction);
+        }
+        self.time
     }
 
     fn deviates(&mut self, setpoint: &Setpoint, off_mm: f64, from: &str) {
@@ -165,7 +178,11 @@ impl Follows {
     /// deviation, mm, too, and what there is to tell of the shape.
     pub(super) fn finish(mut self, is_whole: bool) -> (Findings, f64, ShapeReport) {
         while self.tell() {}
-        let report = self.audit.finish();
+        let report = if is_whole {
+            self.audit.finish()
+        } else {
+            self.audit.finish_early()
+        };
         let mut findings = Findings::default();
         // First, since only the first violations are listed, and others may come before it.
         if report.max_deviation_mm > report.tolerance_mm * (1.0 + 1e-6) {
@@ -191,10 +208,6 @@ impl Follows {
                 | ViolationKind::Inconsistent { .. }
                 | ViolationKind::NotFinite
                 | ViolationKind::Gap { .. } => {
-                    others += 1;
-                    continue;
-                }
-                ViolationKind::Incomplete if !is_whole => {
                     others += 1;
                     continue;
                 }

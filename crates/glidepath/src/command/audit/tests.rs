@@ -174,15 +174,18 @@ fn plant(fault: u64, setpoints: &mut Vec<Setpoint>, numbers: &mut Numbers) -> &'
     }
 }
 
-fn record(folder: &Path, name: &str, setpoints: &[Setpoint]) -> PathBuf {
-    let path = folder.join(name);
+fn recorder(path: &Path) -> Recorder<File> {
     let mut origin = Origin {
         configuration: config::EMBEDDED.to_owned(),
         ..Origin::default()
     };
     origin.tell("instance", "test");
-    let file = File::create(&path).unwrap();
-    let mut recorder = Recorder::new(file, &origin).unwrap();
+    Recorder::new(File::create(path).unwrap(), &origin).unwrap()
+}
+
+fn record(folder: &Path, name: &str, setpoints: &[Setpoint]) -> PathBuf {
+    let path = folder.join(name);
+    let mut recorder = recorder(&path);
     for setpoint in setpoints {
         recorder.setpoint(setpoint).unwrap();
     }
@@ -273,6 +276,79 @@ fn an_ordinary_fault_has_no_findings() {
     );
     let notes = verdict.notes.join("; ");
     assert!(notes.contains("ends before the program"), "{notes}");
+}
+
+/// The planner dies in mid-motion, the machine rests between two frames and keeps its power: what follows
+/// is the place where it rests, with the frame before it.
+#[test]
+fn a_rest_between_two_frames_in_a_fault_is_on_the_path_and_one_beside_it_is_not() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut config = config::parse("built-in machine", config::EMBEDDED).unwrap();
+    config.path.effort = Effort::Fast;
+    let path = folder.path().join("program.ngc");
+    let numbers = &mut Numbers(17);
+    std::fs::write(&path, program(numbers)).unwrap();
+    let setpoints = played(&path, &config);
+    let (at, _) = moving(&setpoints, numbers);
+    let found = |off_mm: f64| {
+        let mut setpoints = setpoints.clone();
+        let (before, after) = (setpoints[at].position, setpoints[at + 1].position);
+        let sequence = setpoints[at].sequence;
+        for (k, setpoint) in (0_u32..).zip(&mut setpoints[at + 1..]) {
+            setpoint.state = MachineState::Faulted.code();
+            (setpoint.epoch, setpoint.sequence) = (1, sequence);
+            setpoint.fraction = if k == 0 { 0.5 } else { 0.0 };
+            for (i, place) in setpoint.position.iter_mut().enumerate() {
+                *place = f64::midpoint(before[i], after[i]);
+            }
+            if k == 40 {
+                // Across the path, which lies in a plane there.
+                setpoint.position[2] += off_mm;
+            }
+        }
+        let recorded = record(folder.path(), "fault.mcap", &setpoints);
+        let verdict = judge(&ProgramFile::named(&recorded), &by(&config, &path)).unwrap();
+        let listed = verdict.findings.listed.into_iter();
+        listed
+            .filter(|finding| finding.kind == "deviation")
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(found(0.0), []);
+    assert_ne!(found(0.03), []);
+}
+
+/// A program that ends where it begins is held before it moves, and aborted.
+#[test]
+fn what_was_ended_before_it_moved_has_no_findings() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut config = config::parse("built-in machine", config::EMBEDDED).unwrap();
+    config.path.effort = Effort::Fast;
+    let path = folder.path().join("program.ngc");
+    std::fs::write(&path, "G21 G90 F600\nG1 X20\nY20\nX0\nY0\nM2\n").unwrap();
+    let mut setpoints = played(&path, &config);
+    let begin = setpoints.iter().position(|setpoint| setpoint.epoch == 1);
+    setpoints.truncate(begin.unwrap() + 50);
+    let begin = setpoints[begin.unwrap()];
+    for setpoint in setpoints.iter_mut().filter(|setpoint| setpoint.epoch == 1) {
+        setpoint.state = MachineState::Held.code();
+        (setpoint.sequence, setpoint.effective_override) = (0, 0.0);
+        setpoint.position = begin.position;
+        setpoint.velocity = begin.velocity;
+        setpoint.acceleration = begin.acceleration;
+    }
+    let folder = folder.path();
+    let mut recorder = recorder(&folder.join("held.mcap"));
+    for setpoint in &setpoints {
+        recorder.setpoint(setpoint).unwrap();
+    }
+    let mut status = glidepath_link::Status::zeroed();
+    status.end_of_epoch = EndOfEpoch::Aborted.code();
+    recorder.status(&status).unwrap();
+    recorder.finish().unwrap();
+    let held = ProgramFile::named(&folder.join("held.mcap"));
+    let verdict = judge(&held, &by(&config, &path)).unwrap();
+    assert_eq!(verdict.findings.listed, []);
+    assert!(verdict.max_deviation_mm.is_some_and(|mm| mm < 1e-5));
 }
 
 #[test]
