@@ -82,7 +82,7 @@ impl<S: ItemSource> Remainder<S> {
                     let line = before.map_or(0, |item| item.line);
                     return Err(Refusal::AnswerUnknown { line }.into());
                 }
-                Supply::End => return Err(off_path(&point, 0, f64::INFINITY)),
+                Supply::End => return Err(off_path(&point, 0, None)),
             }
         }
         let mut search = MachineSearch::new(point, tolerance_mm);
@@ -163,7 +163,7 @@ impl<S: ItemSource> Remainder<S> {
             Some(ItemKind::Move { .. }) | None => {}
         }
         let Some(found) = search.best else {
-            return Err(off_path(&self.point, line, search.nearest_mm));
+            return Err(off_path(&self.point, line, search.away()));
         };
         for passed in self.ahead.drain(..found.item) {
             self.outputs.take(&passed);
@@ -204,13 +204,13 @@ impl<S: ItemSource> Remainder<S> {
             Supply::Item(item) => item,
             Supply::Refused(refusal) => return Err(refusal.into()),
             Supply::Pending | Supply::Probe | Supply::End => {
-                return Err(off_path(&self.point, event.line, f64::INFINITY));
+                return Err(off_path(&self.point, event.line, None));
             }
         };
         let mut search = MachineSearch::new(self.point, tolerance_mm);
         search.look_at(&way);
         let (ItemKind::Move { segment, rate, .. }, Some(found)) = (way.kind, search.best) else {
-            return Err(off_path(&self.point, way.line, search.nearest_mm));
+            return Err(off_path(&self.point, way.line, search.away()));
         };
         let to = |segment| Item {
             kind: ItemKind::Move {
@@ -231,9 +231,10 @@ impl<S: ItemSource> Remainder<S> {
         let known = self.point.found.or(nothing).map(Answer::Probe);
         match self.source.settle(known)? {
             Settled::Answered(Answer::Probe(Probed { stands: then, .. })) => {
-                let away_mm = distance(&(then - stands));
+                let away = stands - then;
+                let away_mm = distance(&away);
                 if away_mm > tolerance_mm + ROUNDING_MM {
-                    return Err(off_path(&self.point, way.line, away_mm));
+                    return Err(off_path(&self.point, way.line, Some(away)));
                 }
                 if away_mm > 0.0 {
                     self.ahead = VecDeque::from([to(Segment::line(stands, then))]);
@@ -285,11 +286,11 @@ const fn is_probe(item: &Item) -> bool {
     matches!(item.kind, ItemKind::Event(Event::Probe { .. }))
 }
 
-const fn off_path(point: &ResumePoint, line: u32, distance_mm: f64) -> RunError {
+const fn off_path(point: &ResumePoint, line: u32, away: Option<AxisVector>) -> RunError {
     RunError::Resume(ResumeError::OffPath {
         block: point.block,
         line,
-        distance_mm,
+        away,
     })
 }
 

@@ -1,6 +1,11 @@
 //! Why a program cannot be taken up again.
 
+use core::fmt::{Display, Formatter, Result as FmtResult};
+use glidepath_geometry::{Axis, AxisVector};
 use thiserror::Error;
+
+use super::point::ROUNDING_MM;
+use super::search::distance;
 
 /// Why a program cannot be taken up again. Nothing has moved.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
@@ -34,17 +39,46 @@ pub enum ResumeError {
     },
     /// The machine does not stand where the program says.
     #[error(
-        "the machine does not stand on this program's path at block {block} (line {line}): the \
-         nearest point there is {distance_mm:.4} mm away; it was moved, or another configuration was \
-         used"
+        "the machine does not stand on this program's path at block {block} (line {line}){}",
+        WayBack(*.away)
     )]
     OffPath {
         /// The block.
         block: u32,
         /// Its line, 0 if the program ends before.
         line: u32,
-        /// Distance to the nearest point that comes into question, mm or degrees; infinite if there
-        /// is none.
-        distance_mm: f64,
+        /// From where the program was left to the machine, mm or degrees; `None` if no point of the program
+        /// comes into question.
+        away: Option<AxisVector>,
     },
+}
+
+/// How far the machine is from where the program was left, and what leads back.
+struct WayBack(Option<AxisVector>);
+
+impl Display for WayBack {
+    fn fmt(&self, f: &mut Formatter<'_>) -> FmtResult {
+        let Some(away) = self.0 else {
+            return f.write_str(
+                ", and no point there comes into question: another configuration was used",
+            );
+        };
+        let axes = Axis::ALL.into_iter().zip(away.iter());
+        let moved = || axes.clone().filter(|(_, away)| away.abs() > ROUNDING_MM);
+        let far = distance(&away);
+        write!(f, ": it is {far:.4} mm away from where that was left (")?;
+        for (k, (axis, away)) in moved().enumerate() {
+            let space = if k == 0 { "" } else { " " };
+            write!(f, "{space}{axis}{away:+.4}")?;
+        }
+        f.write_str(
+            "). It was moved, as `lift` of [jog] does after an abort, or another configuration was used. \
+             Where nothing is in the way, `glidepath jog",
+        )?;
+        for (axis, away) in moved() {
+            let rounded = (-away * 1e6).round() / 1e6;
+            write!(f, " {axis}{rounded}")?;
+        }
+        f.write_str("` leads back")
+    }
 }

@@ -35,8 +35,11 @@ pub(super) struct MachineSearch {
     passed_mm: f64,
     items: usize,
     pub(super) best: Option<Standpoint>,
-    /// The distance of the nearest point that came into question, mm.
-    pub(super) nearest_mm: f64,
+    /// From the nearest point that came into question to the machine.
+    nearest: Option<AxisVector>,
+    /// The same from the point to which it has travelled, and from the nearest of all.
+    travelled_to: Option<AxisVector>,
+    nearest_of_all: Option<AxisVector>,
     ended: bool,
 }
 
@@ -49,9 +52,17 @@ impl MachineSearch {
             passed_mm: 0.0,
             items: 0,
             best: None,
-            nearest_mm: f64::INFINITY,
+            nearest: None,
+            travelled_to: None,
+            nearest_of_all: None,
             ended: false,
         }
+    }
+
+    /// From where the program was left to the machine: from the nearest point that comes into question by
+    /// the distance travelled; a machine that was moved along the path may be near none of them.
+    pub(super) fn away(&self) -> Option<AxisVector> {
+        self.nearest.or(self.travelled_to).or(self.nearest_of_all)
     }
 
     /// Whether what follows may be nearer.
@@ -83,7 +94,12 @@ impl MachineSearch {
                     // Its pieces turn little.
                     Segment::Curve(_) => self.look_along(place, segment, 0.0),
                 }
-                self.passed_mm += segment.length();
+                let length_mm = segment.length();
+                let part = (self.travelled_mm - self.passed_mm) / length_mm;
+                if (0.0..=1.0).contains(&part) {
+                    self.travelled_to = Some(self.position - point_of(segment, part));
+                }
+                self.passed_mm += length_mm;
             }
             // The motion does not go on without resting here, and telling so by the block.
             ItemKind::Dwell(_) => self.ended = true,
@@ -115,13 +131,15 @@ impl MachineSearch {
     }
 
     fn consider(&mut self, item: usize, segment: &Segment, part: f64) {
-        let distance_mm = distance(&(point_of(segment, part) - self.position));
+        let away = self.position - point_of(segment, part);
+        let distance_mm = distance(&away);
+        keep_nearer(&mut self.nearest_of_all, away);
         let along_mm = self.passed_mm + part * segment.length();
         let mismatch_mm = (along_mm - self.travelled_mm).abs();
         if mismatch_mm > SLACK_MM + SLACK_R * self.travelled_mm {
             return;
         }
-        self.nearest_mm = self.nearest_mm.min(distance_mm);
+        keep_nearer(&mut self.nearest, away);
         if distance_mm > self.tolerance_mm + ROUNDING_MM {
             return;
         }
@@ -149,6 +167,12 @@ impl Standpoint {
         } else {
             self.mismatch_mm < other.mismatch_mm
         }
+    }
+}
+
+fn keep_nearer(kept: &mut Option<AxisVector>, away: AxisVector) {
+    if kept.is_none_or(|kept| distance(&away) < distance(&kept)) {
+        *kept = Some(away);
     }
 }
 

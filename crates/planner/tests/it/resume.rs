@@ -227,7 +227,7 @@ fn what_cannot_be_resumed_is_refused() {
     moved.position[2] += 0.1;
     let error = refused(moved);
     assert!(
-        matches!(error, ResumeError::OffPath { distance_mm, .. } if (distance_mm - 0.1).abs() < 1e-3),
+        matches!(error, ResumeError::OffPath { away: Some(away), .. } if (away.norm() - 0.1).abs() < 1e-3),
         "{error}"
     );
     let beyond = ResumePoint { block: 900, ..good };
@@ -235,4 +235,32 @@ fn what_cannot_be_resumed_is_refused() {
         refused(beyond),
         ResumeError::OffPath { line: 0, .. }
     ));
+}
+
+/// Lifted by an abort, jogged along the path, or both: the refusal tells how far, and what leads back.
+#[test]
+fn a_machine_that_was_moved_is_told_what_leads_back() {
+    const LINE: &str = "G21 G90 F6000\nG1 X60\nY5\nM2\n";
+    let start = AxisVector::zeros();
+    let (frames, _) = run(Pipeline::new(Text::new(LINE, start), settings(), start));
+    let stop = frames
+        .iter()
+        .position(|(frame, _)| frame.position[0] > 20.0);
+    let left = left_at(&frames, stop.unwrap());
+    let find = |point: ResumePoint| Remainder::find(Text::new(LINE, start), point, 0.02);
+    for (moves, words) in [
+        ([0.0, 3.0], &["jog Z-3`"][..]),
+        ([5.0, 0.0], &["jog X-5.00", "` leads back"]),
+        ([-6.5, 3.0], &["jog X6.49", " Z-3` leads back"]),
+    ] {
+        let mut moved = left;
+        moved.position[0] += moves[0];
+        moved.position[2] += moves[1];
+        let error = find(moved).err().map(|error| error.to_string()).unwrap();
+        for word in words.iter().chain(&["`lift`"]) {
+            assert!(error.contains(word), "{word}: {error}");
+        }
+        assert!(!error.contains("inf"), "{error}");
+    }
+    assert!(find(left).is_ok());
 }
