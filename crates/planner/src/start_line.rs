@@ -20,7 +20,7 @@ use crate::{Answer, ItemSource, Refusal, Remainder, ResumePoint, Settled, Supply
 
 /// What is no way, mm or degrees.
 const NO_WAY: f64 = 1e-6;
-/// The way down where the program has no feed move ahead, mm/s.
+/// The way down where the program has no feed move, neither ahead nor before, mm/s.
 const SLOW_V: f64 = 5.0;
 /// Items looked ahead for the feed.
 const LOOK_AHEAD: usize = 64;
@@ -79,6 +79,8 @@ pub struct LineStart<S> {
     expected: Auxiliary,
     begins_at: AxisVector,
     told: u32,
+    /// The feed of the last feed move before the line, mm/s.
+    before_v: Option<f64>,
     /// What M52 has last made of the adaptive feed, as its P word.
     adaptive: Option<f64>,
 }
@@ -109,7 +111,7 @@ impl<S: ItemSource> LineStart<S> {
     ) -> Result<Self, StartLineError> {
         let mut expected = approach.now;
         let (mut begins_at, mut before, mut passes, mut block) = (approach.position, 0, 0, 1);
-        let (mut told, mut word, mut adaptive) = (0, None, None);
+        let (mut told, mut word, mut adaptive, mut before_v) = (0, None, None, None);
         let mut next = None;
         loop {
             let item = match source.next_item() {
@@ -140,11 +142,15 @@ impl<S: ItemSource> LineStart<S> {
                     expected,
                     begins_at,
                     told,
+                    before_v,
                     adaptive,
                 });
             }
             match item.kind {
-                ItemKind::Move { segment, .. } => begins_at = segment.end(),
+                ItemKind::Move { segment, rate, .. } => {
+                    begins_at = segment.end();
+                    before_v = rate.feed_v().or(before_v);
+                }
                 ItemKind::Event(event) => {
                     match event {
                         Event::CodeWord { value, .. } => word = Some(value),
@@ -209,7 +215,7 @@ impl<S: ItemSource> LineStart<S> {
         items.extend(events.into_iter().map(ItemKind::Event));
         push_move(&mut items, up, over, Rate::Rapid);
         items.extend(awaited.into_iter().map(ItemKind::Event));
-        let feed_v = self.feed_ahead();
+        let feed_v = self.way_down_v();
         push_move(&mut items, over, self.begins_at, Rate::Feed(feed_v));
         let line = self.ahead.front().map_or(0, |item| item.line);
         let count = u32::try_from(items.len()).unwrap_or(u32::MAX);
@@ -233,8 +239,9 @@ impl<S: ItemSource> LineStart<S> {
         Remainder::beginning_with(self.source, point, first_block, (self.ahead, self.last))
     }
 
-    /// The feed of the first feed move ahead.
-    fn feed_ahead(&mut self) -> f64 {
+    /// How fast the tool axis goes down, mm/s: at the feed of the first feed move ahead; where there is none, of
+    /// the last one before.
+    pub fn way_down_v(&mut self) -> f64 {
         let feed_of = |item: &Item| match item.kind {
             ItemKind::Move { rate, .. } => rate.feed_v(),
             _ => None,
@@ -256,7 +263,7 @@ impl<S: ItemSource> LineStart<S> {
                 return feed_v;
             }
         }
-        SLOW_V
+        self.before_v.unwrap_or(SLOW_V)
     }
 }
 

@@ -32,10 +32,11 @@ pub(super) fn approach(
 /// What has to be agreed to before the machine moves.
 pub(super) fn agreement<S: glidepath_planner::ItemSource>(
     from: StartLine,
-    found: &LineStart<S>,
+    found: &mut LineStart<S>,
     approach: &Approach,
     config: &MachineConfig,
 ) -> String {
+    let down_mm_min = found.way_down_v() * 60.0;
     let (now, then) = (&approach.now, found.expected());
     let mut text = format!("begins with line {}, time {}", from.line, from.pass);
     // Writing to a String does not fail.
@@ -76,7 +77,7 @@ pub(super) fn agreement<S: glidepath_planner::ItemSource>(
     }
     let _ = write!(
         text,
-        "\nthe way: {} up, what differs, the other axes at rapid, {} down at the feed",
+        "\nthe way: {} up, what differs, the other axes at rapid, {} down at {down_mm_min:.0} mm/min",
         approach.tool_axis, approach.tool_axis
     );
     text

@@ -206,9 +206,10 @@ impl<'c> Workshop<'c> {
                 attendant.recall(fingerprint)?;
                 let find = || LineStart::find(source, from, &approach);
                 let found = bench.work("reading up to its line", find)?;
-                let found = found.map_err(|error| Stop::Refused(error.to_string()))?;
+                let mut found = found.map_err(|error| Stop::Refused(error.to_string()))?;
                 if !file.confirmed {
-                    return Err(Stop::ToConfirm(agreement(from, &found, &approach, &config)));
+                    let text = agreement(from, &mut found, &approach, &config);
+                    return Err(Stop::ToConfirm(text));
                 }
                 attendant.begin_with(found.block())?;
                 self.begin(fingerprint, start, &config);

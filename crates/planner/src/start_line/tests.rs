@@ -91,6 +91,19 @@ fn the_way_goes_up_restores_and_comes_down() {
 }
 
 #[test]
+fn the_way_down_is_at_the_feed_ahead_and_else_at_the_one_before() {
+    let down_v = |text: &'static str, line: u32| {
+        let source = ProgramSource::new(text.as_bytes(), Options::default());
+        let start = StartLine { line, pass: 1 };
+        let mut found = LineStart::find(source, start, &approach(AxisVector::zeros())).unwrap();
+        found.way_down_v()
+    };
+    let text = "G21 G90\nG1 X1 F600\nG1 X2 F2400\nG0 X3\nM5 M9\nM2\n";
+    assert_eq!([2, 3, 5].map(|line| down_v(text, line)), [10.0, 40.0, 40.0]);
+    assert_eq!(down_v("G21 G90\nG0 X3\nM5 M9\nM2\n", 3), SLOW_V);
+}
+
+#[test]
 fn what_the_program_does_not_name_stays_as_it_is() {
     let mut approach = approach(AxisVector::zeros());
     for event in [
