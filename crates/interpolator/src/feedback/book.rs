@@ -100,12 +100,12 @@ impl DriveBook {
         }
     }
 
-    /// Takes what a stack sends.
+    /// Takes what a stack sends. Gives what there is to log of it; as a rule an empty text.
     ///
     /// # Errors
-    /// Why it is not used, for the log; an empty text if that was said before.
-    pub(crate) fn take(&mut self, feedback: &Feedback, now_ns: u64) -> Result<(), String> {
-        self.claims.take(feedback, now_ns)?;
+    /// Why it is not used, for the log; an empty text if that was said before, or is not certain yet.
+    pub(crate) fn take(&mut self, feedback: &Feedback, now_ns: u64) -> Result<String, String> {
+        let news = self.claims.take(feedback, now_ns)?;
         self.spindle.take(feedback);
         self.adaptive.look(feedback);
         self.probe
@@ -113,7 +113,7 @@ impl DriveBook {
         if self.probe.is_searching() {
             self.probe.look(feedback, &self.claims.joints());
         }
-        Ok(())
+        Ok(news)
     }
 
     /// Takes note of a setpoint that was published.

@@ -70,8 +70,10 @@ impl Joints {
 struct Stack {
     last: Feedback,
     heard_ns: u64,
-    /// Whether it was told that it claims what is not its own.
-    is_refused: bool,
+    /// Since when it claims what is another's, if it does.
+    refused_ns: Option<u64>,
+    /// Whether that was told.
+    is_told: bool,
     edges: [Edges; JOINTS],
 }
 
@@ -90,6 +92,10 @@ pub(super) struct Claims {
 }
 
 impl Stack {
+    const fn is_refused(&self) -> bool {
+        self.refused_ns.is_some()
+    }
+
     /// Looks whether home switches have changed with a newer record.
     fn find_edges(&mut self, newer: &Feedback) {
         let (before, after) = (self.last.home_switch, newer.home_switch);
@@ -132,11 +138,11 @@ impl Claims {
         }
     }
 
-    /// Takes what a stack sends.
+    /// Takes what a stack sends. Gives what there is to log of it; as a rule an empty text.
     ///
     /// # Errors
-    /// Why it is not used, for the log; an empty text if that was said before.
-    pub(super) fn take(&mut self, feedback: &Feedback, now_ns: u64) -> Result<(), String> {
+    /// Why it is not used, for the log; an empty text if that was said before, or is not certain yet.
+    pub(super) fn take(&mut self, feedback: &Feedback, now_ns: u64) -> Result<String, String> {
         if let Some(why) = self.unusable(feedback, now_ns) {
             // Once: such records come a thousand times a second.
             let is_new = !core::mem::replace(&mut self.has_told, true);
@@ -146,44 +152,65 @@ impl Claims {
         self.stacks
             .retain(|stack| now_ns.saturating_sub(stack.heard_ns) <= lasts_ns);
         let claimed = feedback.joints & self.all;
-        let others = self
-            .stacks
-            .iter()
-            .filter(|stack| stack.last.boot_id != feedback.boot_id && !stack.is_refused);
-        let taken = others.fold(0, |all, stack| all | stack.last.joints);
-        let is_refused = claimed & taken != 0;
-        let known = self
-            .stacks
-            .iter()
-            .position(|stack| stack.last.boot_id == feedback.boot_id);
-        let was_refused = known
-            .and_then(|index| self.stacks.get(index))
-            .is_some_and(|stack| stack.is_refused);
-        if let Some(stack) = known.and_then(|index| self.stacks.get_mut(index)) {
-            // Records overtake each other nowhere; an older one is a stack that is confused.
-            if feedback.sample_ns >= stack.last.sample_ns {
-                stack.find_edges(feedback);
-                stack.last = *feedback;
-                stack.heard_ns = now_ns;
-                stack.is_refused = is_refused;
+        let others = |stack: &&Stack| {
+            let is_other = stack.last.boot_id != feedback.boot_id && !stack.is_refused();
+            is_other && stack.last.joints & claimed != 0
+        };
+        let owners = self.stacks.iter().filter(others);
+        let (taken, heard_ns) = owners.fold((0, 0), |(taken, heard_ns), owner| {
+            (
+                taken | owner.last.joints & claimed,
+                owner.heard_ns.max(heard_ns),
+            )
+        });
+        let is_refused = taken != 0;
+        let Some(stack) = self.stack(feedback, now_ns) else {
+            return Err(String::new());
+        };
+        // Records overtake each other nowhere; an older one is a stack that is confused.
+        if feedback.sample_ns >= stack.last.sample_ns {
+            stack.find_edges(feedback);
+            stack.last = *feedback;
+            stack.heard_ns = now_ns;
+            stack.refused_ns = is_refused.then(|| stack.refused_ns.unwrap_or(now_ns));
+        }
+        if !is_refused {
+            let was_told = core::mem::take(&mut stack.is_told);
+            if !was_told {
+                return Ok(String::new());
             }
-        } else if self.stacks.len() < STACKS {
+            let names = names(claimed);
+            return Ok(format!(
+                "nobody else drives {names} any more: the servo stack that was refused does now"
+            ));
+        }
+        // A stack that has died is silent for a while before the joints are free for the one that was
+        // started again; only one that goes on to send is another.
+        let lives = stack.refused_ns.is_some_and(|since_ns| heard_ns > since_ns);
+        if !lives || core::mem::replace(&mut stack.is_told, true) {
+            return Err(String::new());
+        }
+        Err(format!(
+            "a servo stack says that it drives {}, which another drives already: what it sends is not used",
+            names(taken)
+        ))
+    }
+
+    /// What is kept of the stack that has sent a record; `None` if there are too many.
+    fn stack(&mut self, feedback: &Feedback, now_ns: u64) -> Option<&mut Stack> {
+        let mut stacks = self.stacks.iter();
+        let known = stacks.position(|stack| stack.last.boot_id == feedback.boot_id);
+        let place = known.unwrap_or(self.stacks.len());
+        if place == self.stacks.len() && place < STACKS {
             self.stacks.push(Stack {
                 last: *feedback,
                 heard_ns: now_ns,
-                is_refused,
+                refused_ns: None,
+                is_told: false,
                 edges: [Edges::default(); JOINTS],
             });
         }
-        match (is_refused, was_refused) {
-            (false, _) => Ok(()),
-            (true, true) => Err(String::new()),
-            (true, false) => Err(format!(
-                "a servo stack says that it drives {}, which another drives already: what it sends is not \
-                 used",
-                names(claimed & taken)
-            )),
-        }
+        self.stacks.get_mut(place)
     }
 
     /// Why a record cannot be used whoever sent it, if it cannot.
@@ -214,12 +241,12 @@ impl Claims {
     /// What is known of the joints.
     pub(super) fn joints(&self) -> Joints {
         let mut joints = Joints::NONE;
-        let heard = self.stacks.iter().filter(|stack| !stack.is_refused);
+        let heard = self.stacks.iter().filter(|stack| !stack.is_refused());
         joints.played = heard
             .map(|stack| stack.last.setpoint_number)
             .min()
             .unwrap_or(0);
-        for stack in self.stacks.iter().filter(|stack| !stack.is_refused) {
+        for stack in self.stacks.iter().filter(|stack| !stack.is_refused()) {
             let said = &stack.last;
             let claimed = said.joints & self.all;
             joints.claimed |= claimed;
@@ -257,7 +284,7 @@ impl Claims {
     /// How often an input was latched by the stack that drives a joint, and where the joint was
     /// then; `None` if it latches no such input.
     pub(super) fn latched(&self, joint: usize, input: u32) -> Option<(u64, f64)> {
-        let mine = |stack: &&Stack| !stack.is_refused && stack.last.joints & (1 << joint) != 0;
+        let mine = |stack: &&Stack| !stack.is_refused() && stack.last.joints & (1 << joint) != 0;
         let said = &self.stacks.iter().find(mine)?.last;
         let is_asked = |latch: &&Latch| latch.input == input && latch.rising == 1;
         let latch = said.latch.iter().find(is_asked)?;

@@ -1,10 +1,12 @@
 //! Commands about drives and joints: whether they are possible, and what concerns the count.
 
 use super::book::DriveBook;
-use super::claims::FARTHEST;
 use crate::message::Report;
 use glidepath_kinematics::JOINTS;
 use glidepath_link::{Command, MachineState, Objection, Power};
+
+/// How far from zero a joint may be said to be, mm or degrees: as far as the ends of a travel may be.
+const FARTHEST_SAID: f64 = 1e6;
 
 impl DriveBook {
     /// Judges a command about drives and joints, and carries out what concerns their count. Returns
@@ -105,7 +107,7 @@ impl DriveBook {
     ) -> Result<(), Objection> {
         refuse_at_fault(report)?;
         refuse(rests(report), Objection::NotAtRest)?;
-        refuse(position.abs() <= FARTHEST, Objection::NoSuchPosition)?;
+        refuse(position.abs() <= FARTHEST_SAID, Objection::NoSuchPosition)?;
         let is_own = joint < JOINTS && self.all & (1 << joint) != 0;
         refuse(is_own, Objection::NoSuchJoint)?;
         let is_second = self.pairs.iter().any(|pair| pair.joints.1 == joint);
@@ -132,10 +134,10 @@ impl DriveBook {
 
     fn home(&mut self, mask: u32, report: &Report, now_ns: u64) -> Result<bool, Objection> {
         refuse_at_fault(report)?;
-        refuse(
-            matches!(report.state, MachineState::NotHomed | MachineState::Idle),
-            Objection::NeedsPower,
-        )?;
+        let is_homing = report.state == MachineState::Homing;
+        refuse(!is_homing, Objection::HomingAlready)?;
+        refuse(report.state != MachineState::Off, Objection::NeedsPower)?;
+        refuse(rests(report), Objection::NotAtRest)?;
         let can = mask != 0 && mask & !self.homes == 0;
         refuse(can, Objection::NoHome)?;
         let here = mask & self.conductor.joints();

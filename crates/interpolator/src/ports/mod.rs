@@ -240,9 +240,9 @@ impl<'a> Ports<'a> {
             let Some(feedback) = source.take()? else {
                 return Ok(());
             };
-            let taken = drives.take(&feedback, now_ns);
-            if let Some(why) = taken.err().filter(|why| !why.is_empty()) {
-                self.tell(&why);
+            let (Ok(told) | Err(told)) = drives.take(&feedback, now_ns);
+            if !told.is_empty() {
+                self.tell(&told);
             }
         }
         Ok(())

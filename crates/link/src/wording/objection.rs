@@ -45,7 +45,7 @@ pub enum Objection {
     SecondJoint,
     /// A joint that nobody reports.
     Unreported,
-    /// A search for home without power, or while something moves.
+    /// A search for home without power.
     NeedsPower,
     /// A search for home of a joint that has none.
     NoHome,
@@ -149,12 +149,14 @@ impl Objection {
             Self::NotAtRest => {
                 "the machine has to be at rest without a program; `glidepath abort` ends one"
             }
-            Self::NoSuchPosition => "that is no position of a joint",
+            Self::NoSuchPosition => {
+                "that is no position of a joint; it is within 1e6 mm or degrees of zero"
+            }
             Self::NoSuchJoint => "the machine has no such joint",
             Self::SecondJoint => "it is the second joint of its axis, and goes with the first",
             Self::Unreported => "nobody says where the joint is; start the servo stack",
             Self::NeedsPower => {
-                "the drives have to be on and at rest, without a program; `glidepath enable` switches them on"
+                "the drives have to be on, and are not; `glidepath enable` switches them on"
             }
             Self::NoHome => "not all of these joints have a home to find",
             Self::HomingAlready => "joints are on their way home; `glidepath abort` ends it",

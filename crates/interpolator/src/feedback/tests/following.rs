@@ -163,6 +163,38 @@ fn a_second_stack_that_claims_a_joint_is_refused() {
     assert!(!text.contains("0x") && text.contains(" J0"), "{text}");
 }
 
+/// Two at once, of which one dies: the other was refused until then, and both is told. One that begins
+/// when the other is dead was refused by nobody.
+#[test]
+fn a_stack_that_follows_another_is_told_of_as_it_is() {
+    for is_dead in [false, true] {
+        let mut bench = Bench::mill();
+        bench.run(20);
+        let mut next = Plant::new(9, &[JointSettings::default(); 3]);
+        let mut sink = bench.link.feedback_sink().unwrap();
+        let mut heard = Vec::new();
+        for tick in 0..200 {
+            if tick == 50 || tick == 0 && is_dead {
+                bench.upset(Upset::Dropout(true));
+            }
+            bench.tick();
+            next.step(bench.now_ns() + 1_000_000, None, None);
+            let mut feedback = next.feedback().unwrap();
+            feedback.position[1] = 7.0;
+            sink.publish(&feedback).unwrap();
+            let said = bench.status().last_error.as_str().to_owned();
+            if heard.last() != Some(&said) {
+                heard.push(said);
+            }
+        }
+        assert_eq!(bench.last().position[1], 7.0);
+        let drives = |words: &str| heard.iter().filter(|said| said.contains(words)).count();
+        let wanted = usize::from(!is_dead);
+        assert_eq!(drives("another drives already"), wanted, "{heard:?}");
+        assert_eq!(drives("that was refused does now"), wanted, "{heard:?}");
+    }
+}
+
 #[test]
 fn two_stacks_share_the_joints() {
     let mut bench = Bench::mill();

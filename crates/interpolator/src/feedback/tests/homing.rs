@@ -50,7 +50,7 @@ fn among_others(first: JointSettings) -> [JointSettings; 3] {
     [first, others, others]
 }
 
-fn mill(homing: JointHoming, start: f64) -> Bench {
+pub(super) fn mill(homing: JointHoming, start: f64) -> Bench {
     homed_by(homing, joint(start))
 }
 

@@ -1,6 +1,7 @@
 //! Off, hand-over, home, and back.
 
 use super::bench::{Bench, config, is_on};
+use super::homing;
 use crate::config::Config;
 use crate::testing::hexapod;
 use glidepath_geometry::AxisVector;
@@ -244,6 +245,39 @@ fn a_fault_is_what_keeps_joints_from_their_home_and_from_another_number() {
         let why = bench.command(command).unwrap_err();
         assert!(why.contains("a fault is latched"), "{command:?}: {why}");
     }
+}
+
+#[test]
+fn a_position_beyond_any_travel_is_no_position() {
+    let mut bench = Bench::mill();
+    bench.enable(MachineState::Idle);
+    for (position, is_one) in [(1e9, false), (-1_000_001.0, false), (-1e6, true)] {
+        let set = Command::SetPosition { joint: 0, position };
+        let refused = bench.command(set).err().unwrap_or_default();
+        assert_eq!(
+            refused.contains("no position of a joint"),
+            !is_one,
+            "{refused}"
+        );
+    }
+}
+
+#[test]
+fn what_keeps_joints_from_their_way_home_is_told() {
+    let mut bench = Bench::mill();
+    let why = |bench: &mut Bench| bench.command(Command::Home(1)).unwrap_err();
+    bench.run(20);
+    assert!(why(&mut bench).contains("`glidepath enable`"));
+    bench.enable(MachineState::Idle);
+    bench.load(3, 300);
+    assert!(bench.run_to(MachineState::Running, 50));
+    assert!(why(&mut bench).contains("`glidepath abort` ends one"));
+    bench.command(Command::Hold).unwrap();
+    assert!(bench.run_to(MachineState::Held, 200));
+    assert!(why(&mut bench).contains("`glidepath abort` ends one"));
+    let mut bench = homing::mill(homing::SWITCH, 5.0);
+    homing::set_out(&mut bench, 1);
+    assert!(why(&mut bench).contains("on their way home"));
 }
 
 #[test]
