@@ -228,6 +228,29 @@ fn a_job_begins_held_and_nothing_else_has_the_machine() {
     bench.goes_on();
 }
 
+/// It lives: to start another would fail.
+#[test]
+fn an_interpolator_that_hangs_is_not_told_as_gone() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let mut bench = Bench::start(&instance);
+    let part = instance.file("part.ngc", "G21 G90\nG1 X60 F600\nM2\n");
+    let client = bench.operated.process(&["run-file", &part]);
+    let _moving = bench.operated.wait(|status| status.position[0] > 3.0);
+    let interpolator = bench.processes.remove(0);
+    interpolator.signal(Signal::STOP);
+    let output = client.wait().expect(5);
+    let told = format!("(process {}) lives and does not answer", interpolator.id());
+    assert!(output.stderr.contains(&told), "{output:#?}");
+    // The last resort says at once what it waits for.
+    let abort = bench.operated.process(&["abort", "--signal"]);
+    std::thread::sleep(Duration::from_millis(1500));
+    interpolator.signal(Signal::CONT);
+    let output = abort.wait().expect(0);
+    let waits = output.stderr.contains("was signalled; waiting");
+    assert!(waits, "{output:#?}");
+    let _interpolator = interpolator.wait();
+}
+
 #[test]
 fn a_planner_without_a_service_is_answerable_too() {
     let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));

@@ -71,6 +71,13 @@ fn a_machine_is_switched_on_homed_used_and_recovers_from_the_loss_of_its_drives(
     let status = machine.wait_for(MachineState::Idle);
     assert_eq!(status.position[..3], [-4.0, -3.0, -2.0]);
     machine.operate(&["planner", &program]);
+    // What is typed behind it finds the machine off, also out of a motion.
+    let planner = machine.process(&["planner", &back]);
+    let running = MachineState::Running.code();
+    let _under_way = machine.wait(|status| status.state == running && status.frames_executed > 100);
+    machine.operate(&["disable"]);
+    machine.operate(&["enable"]);
+    let _planner = planner.wait().expect(5);
     machine.operate(&["disable"]);
     let _off = machine.wait_for(MachineState::Off);
     let _servo = servo.end().expect(0);

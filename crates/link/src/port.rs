@@ -220,4 +220,8 @@ pub trait Transport {
     ///
     /// A failure of the transport.
     fn clean_up_dead_peers(&self) -> Result<usize, LinkError>;
+
+    /// The number of the process that is the interpolator, if one lives, whether it answers or not; `None`
+    /// also for one in this process.
+    fn interpolator_process(&self) -> Option<i32>;
 }

@@ -42,8 +42,19 @@ impl Publisher<'_> {
     ) -> Result<Statistics, RunError> {
         let published = self.publish_epochs(pipeline, attend, control);
         self.remarks = None;
+        let published = published.map_err(|error| self.lost(error));
         self.release(control);
         published
+    }
+
+    /// An interpolator that gives no sign of life may hang, which is another thing than its death.
+    fn lost(&self, error: RunError) -> RunError {
+        let is_silent = self.machine.status().is_none();
+        let process = self.transport.interpolator_process();
+        match (error, process.filter(|_| is_silent)) {
+            (RunError::InterpolatorLost, Some(process)) => RunError::InterpolatorSilent { process },
+            (error, _) => error,
+        }
     }
 
     /// One epoch, and one more behind each probing move.

@@ -44,6 +44,15 @@ pub enum RunError {
     /// The interpolator gave no sign of life, or was started anew.
     #[error("the interpolator is gone; start it again: `glidepath interpolator`")]
     InterpolatorLost,
+    /// The interpolator gives no sign of life, and its process lives.
+    #[error(
+        "the interpolator (process {process}) lives and does not answer; `glidepath abort --signal` has it bring \
+         the machine to rest and end; then start it again: `glidepath interpolator`"
+    )]
+    InterpolatorSilent {
+        /// The process.
+        process: i32,
+    },
     /// Planner and interpolator are configured differently.
     #[error(
         "the interpolator runs with a period of {} µs, the planner was configured for {} µs; give both \

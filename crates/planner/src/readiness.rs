@@ -65,10 +65,13 @@ impl Publisher<'_> {
     /// Why the machine is not ready, for people.
     pub(crate) fn why_not_ready(&self) -> String {
         let state = self.machine.status().and_then(|status| status.state().ok());
-        let why = match state {
-            None => "no interpolator runs",
-            Some(MachineState::Idle) => "it became ready just now; ask again",
-            Some(state) => state.text(),
+        let why = match (state, self.transport.interpolator_process()) {
+            (None, None) => "no interpolator runs",
+            (None, Some(process)) => {
+                &format!("the interpolator (process {process}) lives and does not answer")
+            }
+            (Some(MachineState::Idle), _) => "it became ready just now; ask again",
+            (Some(state), _) => state.text(),
         };
         format!("the machine is not ready for a program: {why}")
     }

@@ -185,7 +185,12 @@ impl Attendant {
             }
             (Err(error), Ok(point)) if self.has_started.get() => {
                 // Where nobody answers any more, nobody knows whether the machine rests.
-                let is_lost = matches!(error, RunError::InterpolatorLost | RunError::Link(_));
+                let is_lost = matches!(
+                    error,
+                    RunError::InterpolatorLost
+                        | RunError::InterpolatorSilent { .. }
+                        | RunError::Link(_)
+                );
                 let position = (!is_lost).then_some(point.position);
                 keeper.left(point.block, position, config)
             }

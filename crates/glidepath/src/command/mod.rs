@@ -147,9 +147,7 @@ fn dispatch(command: &Command) -> Result<Exit, Failure> {
         Command::Abort(args) => rest::abort(args, &config()?),
         Command::Reset(args) => operator::command(args, &config()?, "reset", link::Command::Reset),
         Command::Enable(args) => operator::enable(args, &config()?),
-        Command::Disable(args) => {
-            operator::command(args, &config()?, "disable", link::Command::Disable)
-        }
+        Command::Disable(args) => rest::disable(args, &config()?),
         Command::Home(args) => home::home(args, &config()?),
         Command::Unhome(args) => {
             operator::joints(args, &config()?, "unhome", link::Command::Unhome)

@@ -1,4 +1,4 @@
-//! `glidepath hold`, `abort` and `return`: what is typed next finds the machine where the command was to bring it.
+//! `glidepath hold`, `abort`, `disable` and `return`: what is typed next finds the machine where the command was to bring it.
 
 use super::jog::lift;
 use super::operator::{PATIENCE, command_and_wait, reach, read_status, send};
@@ -12,13 +12,15 @@ use crate::interrupt::Interrupt;
 use crate::output;
 use glidepath_link::{
     Command, EndOfEpoch, InterpolatorProcess, JobStage, LinkConfig, LinkError, MachineState,
-    Operator, RecordError, Status,
+    Operator, Power, RecordError, Status,
 };
 use serde_json::json;
 use std::time::{Duration, Instant};
 
 /// Between two looks at the machine.
 const POLL: Duration = Duration::from_millis(10);
+/// When it is said that the end of an interpolator is waited for.
+const TELL_AFTER: Duration = Duration::from_millis(500);
 /// How long an interpolator that was signalled may take to end: 5 s to come to rest, and to clean up.
 const END_PATIENCE: Duration = Duration::from_secs(10);
 
@@ -49,8 +51,16 @@ pub(super) fn abort(args: &AbortArgs, config: &MachineConfig) -> Result<Exit, Fa
     })?;
     let pid = process.id();
     process.terminate()?;
-    let started = Instant::now();
+    let (started, mut is_told) = (Instant::now(), args.operator.basic.json);
     while process.lives()? {
+        if !is_told && started.elapsed() >= TELL_AFTER {
+            is_told = true;
+            output::note(&format!(
+                "abort: the interpolator (process {pid}) was signalled; waiting up to {} s for the machine to \
+                 rest and the process to end. One that was stopped ends when `kill -CONT {pid}` lets it go on",
+                END_PATIENCE.as_secs()
+            ));
+        }
         if started.elapsed() >= END_PATIENCE {
             let waited_s = END_PATIENCE.as_secs();
             return Err(Failure::DoesNotEnd { pid, waited_s });
@@ -95,13 +105,33 @@ fn abort_and_lift(args: &AbortArgs, config: &MachineConfig) -> Result<Exit, Fail
 fn abort_and_wait(args: &OperatorArgs, config: &MachineConfig) -> Result<Exit, Failure> {
     command_and_wait(args, config, "abort", Command::Abort, |operator, link| {
         wait(operator, link, |status| {
-            let has_job = matches!(
-                status.job_stage()?,
-                JobStage::Waiting | JobStage::Preparing | JobStage::Begun
-            );
-            Ok(!has_job && !status.state()?.is_moving())
+            Ok(!has_job(status)? && !status.state()?.is_moving())
         })
     })
+}
+
+/// Switches the drives off, and waits until the motion has ended, its planner has let go of it and the drives
+/// have no power; not longer than an answer may take.
+///
+/// # Errors
+/// The errors of a command.
+pub(super) fn disable(args: &OperatorArgs, config: &MachineConfig) -> Result<Exit, Failure> {
+    let command = Command::Disable;
+    command_and_wait(args, config, "disable", command, |operator, link| {
+        wait(operator, link, |status| {
+            let is_off = status.power()? == Power::Off && !status.state()?.is_moving();
+            Ok(is_off && !has_job(status)?)
+        })
+    })
+}
+
+/// Whether a job has the machine, or waits for it.
+fn has_job(status: &Status) -> Result<bool, RecordError> {
+    let stage = status.job_stage()?;
+    Ok(matches!(
+        stage,
+        JobStage::Waiting | JobStage::Preparing | JobStage::Begun
+    ))
 }
 
 /// Waits for something, but no longer than an answer may take: the command was accepted all the same.

@@ -156,4 +156,8 @@ impl Transport for InProcess {
     fn clean_up_dead_peers(&self) -> Result<usize, LinkError> {
         Ok(0) // A port that ends says so when it is dropped, and nothing ends without that here.
     }
+
+    fn interpolator_process(&self) -> Option<i32> {
+        None
+    }
 }

@@ -267,6 +267,11 @@ impl Transport for Ipc {
     fn clean_up_dead_peers(&self) -> Result<usize, LinkError> {
         Ok(self.session.clean_up())
     }
+
+    fn interpolator_process(&self) -> Option<i32> {
+        let found = InterpolatorProcess::find(self.session.config());
+        Some(found.ok()??.id())
+    }
 }
 
 /// The status for everybody, and on the panel.
