@@ -40,6 +40,9 @@ fn remedy(error: &io::Error) -> &'static str {
     match error.kind() {
         io::ErrorKind::FileTooLarge => "; raise the limit of the size of files (ulimit -f)",
         io::ErrorKind::StorageFull => "; free some room on its file system (df -h)",
+        io::ErrorKind::QuotaExceeded => {
+            "; delete files, or have the quota of this user raised (quota)"
+        }
         _ => "",
     }
 }

@@ -5,7 +5,7 @@ use crate::origin::{CONFIGURATION, FACTS, Origin, PROGRAM};
 use crate::table::Message;
 use glidepath_link::{Setpoint, Status};
 use mcap::records::{MessageHeader, Metadata};
-use mcap::{Attachment, Compression, McapResult, WriteOptions, Writer};
+use mcap::{Attachment, Compression, McapError, McapResult, WriteOptions, Writer};
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{self, Seek, Write};
@@ -36,7 +36,7 @@ impl<W: Write + Seek> Recorder<W> {
     ///
     /// The writer's.
     pub fn new(writer: W, origin: &Origin) -> io::Result<Self> {
-        Self::begin(writer, origin).map_err(io::Error::other)
+        Self::begin(writer, origin).map_err(of_writer)
     }
 
     fn begin(writer: W, origin: &Origin) -> McapResult<Self> {
@@ -104,7 +104,7 @@ impl<W: Write + Seek> Recorder<W> {
     ///
     /// The writer's.
     pub fn begun(&mut self, begun: &Begun) -> io::Result<()> {
-        self.add_begun(begun).map_err(io::Error::other)
+        self.add_begun(begun).map_err(of_writer)
     }
 
     fn add_begun(&mut self, begun: &Begun) -> McapResult<()> {
@@ -150,7 +150,7 @@ impl<W: Write + Seek> Recorder<W> {
         self.written += 1;
         self.writer
             .write_to_known_channel(&header, &self.message)
-            .map_err(io::Error::other)
+            .map_err(of_writer)
     }
 
     /// Hands over to the writer what is in memory: whatever happens to this process, it is there.
@@ -159,7 +159,7 @@ impl<W: Write + Seek> Recorder<W> {
     ///
     /// The writer's.
     pub fn flush(&mut self) -> io::Result<()> {
-        self.writer.flush().map_err(io::Error::other)
+        self.writer.flush().map_err(of_writer)
     }
 
     /// Messages written.
@@ -174,8 +174,16 @@ impl<W: Write + Seek> Recorder<W> {
     ///
     /// The writer's.
     pub fn finish(mut self) -> io::Result<W> {
-        self.writer.finish().map_err(io::Error::other)?;
+        self.writer.finish().map_err(of_writer)?;
         Ok(self.writer.into_inner())
+    }
+}
+
+/// What the writer said, where it said something: what can be done about it follows from that.
+fn of_writer(error: McapError) -> io::Error {
+    match error {
+        McapError::Io(error) => error,
+        error => io::Error::other(error),
     }
 }
 

@@ -72,6 +72,38 @@ fn a_length_is_believed_as_far_as_there_are_bytes() {
     assert_eq!(reader.origin().program, origin.program);
 }
 
+/// A disk with little room.
+struct Little(Cursor<Vec<u8>>);
+
+impl std::io::Write for Little {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        if self.0.get_ref().len() > 20_000 {
+            return Err(std::io::ErrorKind::StorageFull.into());
+        }
+        self.0.write(bytes)
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
+}
+
+impl std::io::Seek for Little {
+    fn seek(&mut self, to: std::io::SeekFrom) -> std::io::Result<u64> {
+        self.0.seek(to)
+    }
+}
+
+#[test]
+fn a_full_disk_is_told_as_one() {
+    let mut recorder = Recorder::new(Little(Cursor::new(Vec::new())), &origin()).unwrap();
+    let failed = (0..100_000).find_map(|number| {
+        let recorded = recorder.setpoint(&setpoint(number));
+        recorded.and_then(|()| recorder.flush()).err()
+    });
+    assert_eq!(failed.unwrap().kind(), std::io::ErrorKind::StorageFull);
+}
+
 fn recorded(count: u64) -> Vec<u8> {
     let mut recorder = Recorder::new(Cursor::new(Vec::new()), &origin()).unwrap();
     for number in 0..count {
