@@ -55,6 +55,7 @@ pub mod machine_options;
 pub mod output;
 pub mod output_file;
 pub mod page;
+mod part_file;
 pub mod picture;
 mod plan_steps;
 pub mod play_time;

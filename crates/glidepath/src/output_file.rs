@@ -7,12 +7,12 @@
 
 use crate::file_error::FileError;
 use crate::output;
+use crate::part_file::PartFile;
 use std::fs::{File, OpenOptions};
 use std::io::{self, BufWriter, Read as _, Write};
 use std::os::fd::AsFd as _;
 use std::os::unix::fs::{MetadataExt as _, PermissionsExt};
 use std::path::{Path, PathBuf};
-use tempfile::NamedTempFile;
 
 /// What a file is, by how it begins.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -76,9 +76,9 @@ pub struct OutputFile {
 enum Target {
     /// A device or a pipe.
     Direct(File),
-    /// A file beside the place it will have.
+    /// A file without a name, beside the place it will have.
     Beside {
-        file: BufWriter<NamedTempFile>,
+        file: BufWriter<PartFile>,
         place: PathBuf,
     },
 }
@@ -151,13 +151,7 @@ impl OutputFile {
             place = path.canonicalize().map_err(FileError::open(path))?;
         }
         let folder = place.parent().unwrap_or(&folder);
-        let name = place.file_name().unwrap_or_default().to_string_lossy();
-        let file = tempfile::Builder::new()
-            .prefix(&format!(".{name}."))
-            .suffix(".part")
-            .permissions(PermissionsExt::from_mode(mode))
-            .tempfile_in(folder)
-            .map_err(FileError::open(path))?;
+        let file = PartFile::create(folder, &place, mode).map_err(FileError::open(path))?;
         Ok(Self {
             path: path.to_owned(),
             target: Target::Beside {
@@ -192,7 +186,7 @@ impl OutputFile {
             Target::Direct(mut file) => file.flush(),
             Target::Beside { file, place } => {
                 let file = file.into_inner().map_err(io::IntoInnerError::into_error)?;
-                file.persist(place).map(drop).map_err(|error| error.error)
+                file.persist(&place)
             }
         };
         whole().map_err(FileError::file("write", &self.path))

@@ -406,3 +406,34 @@ fn a_limit_of_the_size_of_files_is_told_where_it_is_met() {
     );
     assert_eq!(names(here), ["part.ngc"]);
 }
+
+/// Whatever is being written has no name before it is whole.
+#[test]
+fn a_run_that_is_killed_leaves_no_file_behind() {
+    let folder = tempfile::tempdir_in("/dev/shm").unwrap();
+    let here = folder.path();
+    let long = "G21 G90\nG1 X100 F60\nM2\n";
+    fs::write(here.join("part.ngc"), long).unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_glidepath"));
+    command
+        .current_dir(here)
+        .args(["run", "part.ngc", "--best-effort"]);
+    command.args(["--plot", "r.svg", "--setpoints", "r.csv"]);
+    command.stdout(Stdio::null()).stderr(Stdio::null());
+    let mut run = command.spawn().unwrap();
+    // Both are begun when the processes that it starts are.
+    let children = format!("/proc/{0}/task/{0}/children", run.id());
+    let begun = Instant::now();
+    while fs::read_to_string(&children)
+        .unwrap()
+        .split_whitespace()
+        .count()
+        < 2
+    {
+        assert!(begun.elapsed() < Duration::from_secs(60));
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    run.kill().unwrap();
+    run.wait().unwrap();
+    assert_eq!(names(here), ["part.ngc"]);
+}
