@@ -315,9 +315,9 @@ fn a_service_begins_in_the_system_that_was_chosen_meanwhile() {
     machine.object(&["offsets", "use", "G55"]);
     goes(&["run-file", &part], 50.0);
     // M2 has left G54.
-    goes(&["mdi", "X0"], 7.0);
+    goes(&["mdi", "G0 X0"], 7.0);
     machine.object(&["offsets", "use", "G55"]);
-    goes(&["mdi", "X1"], 51.0);
+    goes(&["mdi", "G0 X1"], 51.0);
     goes(&["mdi", "X2"], 52.0);
     goes(&["mdi", "G54 X0"], 7.0);
     machine.object(&["offsets", "set", "G54", "X9"]);

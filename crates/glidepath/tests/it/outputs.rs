@@ -421,15 +421,17 @@ fn a_run_that_is_killed_leaves_no_file_behind() {
     command.args(["--plot", "r.svg", "--setpoints", "r.csv"]);
     command.stdout(Stdio::null()).stderr(Stdio::null());
     let mut run = command.spawn().unwrap();
-    // Both are begun when the processes that it starts are.
-    let children = format!("/proc/{0}/task/{0}/children", run.id());
+    let descriptors = format!("/proc/{}/fd", run.id());
+    let is_output = |entry: &fs::DirEntry| {
+        let link = fs::read_link(entry.path()).unwrap_or_default();
+        link.starts_with(here) && !link.ends_with("part.ngc")
+    };
     let begun = Instant::now();
-    while fs::read_to_string(&children)
-        .unwrap()
-        .split_whitespace()
-        .count()
-        < 2
-    {
+    let outputs = || {
+        let entries = fs::read_dir(&descriptors).unwrap().flatten();
+        entries.filter(is_output).count()
+    };
+    while outputs() < 2 {
         assert!(begun.elapsed() < Duration::from_secs(60));
         std::thread::sleep(Duration::from_millis(5));
     }
