@@ -84,7 +84,7 @@ fn a_program_means_the_same_behind_what_was_carried_as_text() {
 /// Between two programs somebody sets a system, chooses another and sets what G92.3 brings back.
 #[test]
 fn what_is_set_by_hand_meanwhile_counts() {
-    let left = left_by("G21 G90 G91 G54 F100\nG1 X1\n", Dialect::LinuxCnc);
+    let left = left_by("G21 G91 G54 F100\nG1 X1\n", Dialect::LinuxCnc);
     let mut options = options(Dialect::LinuxCnc);
     options.offsets = left.work_offsets();
     options.offsets.systems[1].origin[0] = 50.0;
