@@ -1,8 +1,8 @@
 //! An audit under way: samples and items in, verdict out.
 
 use crate::along::AlongAudit;
+use crate::end::End;
 use crate::event_places::EventPlaces;
-use crate::judge::End;
 use crate::limits::LimitAudit;
 use crate::matching::Matching;
 use crate::report::Report;

@@ -1,6 +1,7 @@
 //! Verdicts that come with the matching: start, end, feed, and tremor.
 
 use crate::column::{EXACT_MM, Level, Passage, Reach};
+use crate::end::End;
 use crate::free_space::Interval;
 use crate::matching::{Matching, Spot};
 use crate::program::Presence;
@@ -14,15 +15,6 @@ use glidepath_program::tolerance_norm;
 const FEED_SLACK: f64 = 1.0 + 1e-3;
 /// Latest rests kept in mind.
 const RESTS: usize = 64;
-
-/// Where a motion is to end.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum End {
-    /// Where the program does.
-    OfProgram,
-    /// Anywhere on the program: it was ended.
-    Anywhere,
-}
 
 impl Matching {
     /// The first sample must be where the program starts; false if that is not known yet.

@@ -43,6 +43,7 @@ mod amount;
 mod audit;
 mod column;
 pub mod diagnosis;
+mod end;
 mod event_places;
 mod flatten;
 mod follow;

@@ -24,8 +24,8 @@
 //! back on the path: that is reported, with the width that was needed.
 
 use crate::column::{Column, Level, Passage, Reach, step};
+use crate::end::End;
 use crate::free_space::{Chord, Interval};
-use crate::judge::End;
 use crate::program::{DiagramRows, Presence, SMALLEST_TOLERANCE_MM};
 use crate::sample::Seen;
 use crate::settings::AuditSettings;

@@ -24,6 +24,7 @@
 //! ([`ItemSource::settle`]); a probing move that was left on its way goes on looking.
 
 mod error;
+mod nearness;
 mod outputs;
 mod point;
 mod search;
@@ -41,9 +42,9 @@ use glidepath_motion::PlanError;
 use glidepath_program::{Event, Item, ItemKind, PathMode};
 
 use crate::{Answer, ItemSource, Refusal, RunError, Settled, Supply};
+use nearness::{ROUNDING_MM, distance};
 use outputs::SaidOutputs;
-use point::ROUNDING_MM;
-use search::{MachineSearch, distance};
+use search::MachineSearch;
 
 /// The rest of a program: what follows the point at which it was left.
 #[derive(Debug)]

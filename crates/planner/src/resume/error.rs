@@ -4,8 +4,7 @@ use core::fmt::{Display, Formatter, Result as FmtResult};
 use glidepath_geometry::{Axis, AxisVector};
 use thiserror::Error;
 
-use super::point::ROUNDING_MM;
-use super::search::distance;
+use super::nearness::{ROUNDING_MM, distance};
 
 /// Why a program cannot be taken up again. Nothing has moved.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]

@@ -7,9 +7,6 @@ use glidepath_link::{ContactKind, EndOfEpoch, LinkError, MotionMode, Status};
 use super::error::ResumeError;
 use crate::RunError;
 
-/// How far from the program a machine that stands on it may be on top of the tolerance: rounding.
-pub(super) const ROUNDING_MM: f64 = 1e-6;
-
 /// Where a program was left.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ResumePoint {

@@ -1,9 +1,10 @@
 //! The search for the machine along a program.
 
-use glidepath_geometry::{AxisVector, LINEAR_XYZ, ROTARY_ABC, Segment, UVW};
+use glidepath_geometry::{AxisVector, Segment};
 use glidepath_program::{Item, ItemKind, PathMode};
 
-use super::point::{ROUNDING_MM, ResumePoint};
+use super::nearness::{ROUNDING_MM, distance};
+use super::point::ResumePoint;
 
 /// Angle between two looks at an arc.
 const ARC_STEP_RAD: f64 = 0.05;
@@ -203,17 +204,4 @@ fn nearest_between(mut low: f64, mut high: f64, of: impl Fn(f64) -> f64) -> f64 
         .into_iter()
         .find(|edge| of(*edge) <= of(middle))
         .unwrap_or(middle)
-}
-
-/// Distance in the groups that a tolerance is for.
-pub(super) fn distance(difference: &AxisVector) -> f64 {
-    let norm = |axes: core::ops::Range<usize>| {
-        difference.as_slice()[axes]
-            .iter()
-            .map(|x| x * x)
-            .sum::<f64>()
-            .sqrt()
-    };
-    let rotary = ROTARY_ABC.map(|i| difference[i].abs()).fold(0.0, f64::max);
-    norm(LINEAR_XYZ).max(norm(UVW)).max(rotary)
 }
