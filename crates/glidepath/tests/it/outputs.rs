@@ -11,7 +11,7 @@ use std::fs::{self, File};
 use std::os::unix::fs::FileTypeExt as _;
 use std::os::unix::process::ExitStatusExt as _;
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
 const SQUARE: &str = "G21 G90\nG0 X1\nG1 X11 F3000\nY10\nX1\nY0\nM2\n";
@@ -244,13 +244,7 @@ fn an_interrupted_command_leaves_what_was_there() {
         .spawn()
         .unwrap();
     // Both files have been begun; nothing that was there has been touched.
-    let started = Instant::now();
-    let is_kept = || fs::read_to_string(here.join("out.csv")).unwrap() == old;
-    while names(here).len() < 4 && is_kept() {
-        assert!(child.try_wait().unwrap().is_none() && started.elapsed().as_secs() < 60);
-        std::thread::sleep(Duration::from_millis(5));
-    }
-    std::thread::sleep(Duration::from_millis(100));
+    wait_for_outputs(&mut child, here, "long.ngc");
     let pid = child.id().to_string();
     assert!(
         Command::new("kill")
@@ -407,6 +401,27 @@ fn a_limit_of_the_size_of_files_is_told_where_it_is_met() {
     assert_eq!(names(here), ["part.ngc"]);
 }
 
+/// Waits until a command that reads a program of a folder has two more of its files open, named or not.
+fn wait_for_outputs(command: &mut Child, folder: &Path, program: &str) {
+    let descriptors = format!("/proc/{}/fd", command.id());
+    let is_output = |entry: &fs::DirEntry| {
+        let link = fs::read_link(entry.path()).unwrap_or_default();
+        link.starts_with(folder) && !link.ends_with(program)
+    };
+    let begun = Instant::now();
+    while fs::read_dir(&descriptors)
+        .unwrap()
+        .flatten()
+        .filter(is_output)
+        .count()
+        < 2
+    {
+        assert!(command.try_wait().unwrap().is_none());
+        assert!(begun.elapsed() < Duration::from_secs(60));
+        std::thread::sleep(Duration::from_millis(5));
+    }
+}
+
 /// Whatever is being written has no name before it is whole.
 #[test]
 fn a_run_that_is_killed_leaves_no_file_behind() {
@@ -421,20 +436,7 @@ fn a_run_that_is_killed_leaves_no_file_behind() {
     command.args(["--plot", "r.svg", "--setpoints", "r.csv"]);
     command.stdout(Stdio::null()).stderr(Stdio::null());
     let mut run = command.spawn().unwrap();
-    let descriptors = format!("/proc/{}/fd", run.id());
-    let is_output = |entry: &fs::DirEntry| {
-        let link = fs::read_link(entry.path()).unwrap_or_default();
-        link.starts_with(here) && !link.ends_with("part.ngc")
-    };
-    let begun = Instant::now();
-    let outputs = || {
-        let entries = fs::read_dir(&descriptors).unwrap().flatten();
-        entries.filter(is_output).count()
-    };
-    while outputs() < 2 {
-        assert!(begun.elapsed() < Duration::from_secs(60));
-        std::thread::sleep(Duration::from_millis(5));
-    }
+    wait_for_outputs(&mut run, here, "part.ngc");
     run.kill().unwrap();
     run.wait().unwrap();
     assert_eq!(names(here), ["part.ngc"]);
