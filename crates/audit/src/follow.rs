@@ -70,7 +70,13 @@ pub(crate) struct Follow {
     /// The points of the program between the frame before and the last one: the ends of its moves, and some of
     /// what is no line.
     passed: Vec<ProgramPoint>,
+    /// Up to where what is no line was looked at: the move by its number, and path position on it, mm.
+    noted: (u64, f64),
 }
+
+/// Points of what is no line are noted no nearer to each other than for this length of path, mm. At a slow feed the
+/// motion takes thousands of frames to leave a micrometre behind, and every point stays in mind until it has.
+const LEAST_NOTED_S: f64 = 1e-3;
 
 /// A place on the program: moves before it, and path position on its move.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
@@ -109,6 +115,7 @@ impl Follow {
             distance_mm: 0.0,
             least_mm: 0.0,
             passed: Vec::new(),
+            noted: (u64::MAX, 0.0),
         }
     }
 
@@ -170,10 +177,14 @@ impl Follow {
                 place: Place(passed.number, s),
                 position: passed.segment.position(s),
             };
-            if !matches!(passed.segment, Prepared::Line(_)) && to_s > from_s {
-                let quarter_s = 0.25 * (to_s - from_s);
-                let between = [1.0, 2.0, 3.0].map(|i| point(from_s + i * quarter_s));
+            let noted_s = Some(self.noted.1).filter(|_| self.noted.0 == passed.number);
+            let since_s = noted_s.unwrap_or(from_s);
+            let is_straight = matches!(passed.segment, Prepared::Line(_));
+            if !is_straight && to_s > since_s && to_s - since_s >= LEAST_NOTED_S {
+                let quarter_s = 0.25 * (to_s - since_s);
+                let between = [1.0, 2.0, 3.0].map(|i| point(since_s + i * quarter_s));
                 self.passed.extend(between);
+                self.noted = (passed.number, to_s);
             }
             if is_here {
                 break;
