@@ -28,6 +28,7 @@ mod operated;
 mod pocket;
 mod process;
 mod seats;
+mod served;
 mod services;
 mod setpoint_file;
 mod stack;
@@ -42,6 +43,7 @@ pub use machine::{Machine, Recording, Watch, audit, plan, program, program_from,
 pub use operated::Operated;
 pub use pocket::pocket;
 pub use process::{Output, Process};
+pub use served::served;
 pub use services::{Services, planned};
 pub use setpoint_file::SetpointFile;
 pub use stack::ServoStack;

@@ -1,14 +1,13 @@
 //! A plain sender with character counting, and the endpoint that it connects to.
 
 use std::collections::VecDeque;
-use std::io::{BufRead as _, BufReader, ErrorKind, Read as _, Write as _};
+use std::io::{ErrorKind, Read as _, Write as _};
 use std::net::TcpStream;
-use std::process::{Child, Command, Stdio};
+use std::process::Child;
 use std::time::{Duration, Instant};
 
-use glidepath_tests::{Instance, glidepath};
+use glidepath_tests::{Instance, served};
 use rustix::process::{Pid, Signal, kill_process};
-use serde_json::Value;
 
 /// How long anything may take.
 const PATIENCE: Duration = Duration::from_secs(30);
@@ -25,31 +24,18 @@ pub(crate) struct Endpoint {
 
 impl Endpoint {
     pub(crate) fn start(instance: &Instance, arguments: &[&str]) -> Self {
-        let mut child = Command::new(glidepath())
-            .args(["grbl", "--json", "--port", "0"])
-            .args(["--instance", &instance.config().instance])
-            .args(arguments)
-            .env("XDG_RUNTIME_DIR", instance.directory())
-            .current_dir(instance.directory())
-            .stdout(Stdio::piped())
-            .spawn()
-            .unwrap();
-        let mut text = String::new();
-        for line in BufReader::new(child.stdout.take().unwrap()).lines() {
-            let line = line.unwrap();
-            text.push_str(&line);
-            if line == "}" {
-                break;
-            }
-        }
-        let told: Value = serde_json::from_str(&text).unwrap();
+        let (child, told) = served(instance, "grbl", arguments);
         let port = told["port"].as_u64().unwrap().try_into().unwrap();
         Self { child, port }
     }
 
-    pub(crate) fn end(mut self) {
+    pub(crate) fn signal(&self, signal: Signal) {
         let pid = Pid::from_raw(self.child.id().try_into().unwrap()).unwrap();
-        kill_process(pid, Signal::TERM).unwrap();
+        kill_process(pid, signal).unwrap();
+    }
+
+    pub(crate) fn end(mut self) {
+        self.signal(Signal::TERM);
         assert!(self.child.wait().unwrap().success());
     }
 }

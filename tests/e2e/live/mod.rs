@@ -6,14 +6,14 @@ mod life;
 
 use std::io::{BufRead as _, BufReader, Read as _, Write as _};
 use std::net::TcpStream;
-use std::process::{Child, Command, Stdio};
+use std::process::Child;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use glidepath_link::MachineState;
 use glidepath_realtime::{Clock as _, Monotonic};
-use glidepath_tests::{Browser, Instance, Process, Services, Watchdog, glidepath};
+use glidepath_tests::{Browser, Instance, Process, Services, Watchdog, served};
 use rustix::process::{Pid, Signal, kill_process};
 use serde_json::Value;
 
@@ -40,24 +40,7 @@ fn given_now(order: &Value) -> String {
 
 impl Live {
     pub(crate) fn start(instance: &Instance, arguments: &[&str]) -> Self {
-        let mut child = Command::new(glidepath())
-            .args(["live", "--json", "--port", "0"])
-            .args(["--instance", &instance.config().instance])
-            .args(arguments)
-            .env("XDG_RUNTIME_DIR", instance.directory())
-            .current_dir(instance.directory())
-            .stdout(Stdio::piped())
-            .spawn()
-            .unwrap();
-        let mut text = String::new();
-        for line in BufReader::new(child.stdout.take().unwrap()).lines() {
-            let line = line.unwrap();
-            text.push_str(&line);
-            if line == "}" {
-                break;
-            }
-        }
-        let told: Value = serde_json::from_str(&text).unwrap();
+        let (child, told) = served(instance, "live", arguments);
         Self {
             child,
             url: told["url"].as_str().unwrap().to_owned(),
