@@ -178,8 +178,8 @@ pub(super) enum Failure {
     },
     /// A command that brings the machine to rest was not answered.
     #[error(
-        "{command}: no answer: {source}. An interpolator that goes on still obeys. If the machine moves meanwhile, the last resort is \
-         `glidepath abort --signal`, or SIGTERM to the interpolator: it comes to rest on the path \
+        "{command}: no answer: {source}. An interpolator that goes on still obeys. If the machine moves \
+         meanwhile, the last resort is `glidepath abort --signal`, or SIGTERM to the interpolator: it comes to rest on the path \
          and ends"
     )]
     NotStopped {

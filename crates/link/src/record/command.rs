@@ -171,9 +171,7 @@ impl Command {
             Self::Job { .. } => CommandKind::Job,
         }
     }
-}
 
-impl Command {
     /// Whether it brings the machine to rest.
     #[must_use]
     pub const fn stops(self) -> bool {
