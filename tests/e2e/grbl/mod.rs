@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 
 use glidepath_link::MachineState;
 use glidepath_tests::{Instance, Operated, Process, Services, SetpointFile, Watchdog, planned};
+use rustix::process::Signal;
 use sender::{Endpoint, Sender};
 
 const PATIENCE: Duration = Duration::from_secs(400);
@@ -331,6 +332,32 @@ fn jogs_come_to_their_ends_and_are_ended() {
     drop(sender);
     let [end, _] = bench.rests();
     assert!(end < x + 100.0, "{x} {end}");
+    bench.end();
+}
+
+/// What waited at an endpoint that stood still.
+#[test]
+fn what_came_before_an_abort_and_is_heard_behind_it_moves_nothing() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let bench = Bench::start(&instance);
+    let mut sender = bench.sender();
+    assert_eq!(sender.answers(&["G21 G90", "G0 X4 Y0"]), ["ok"; 2]);
+    bench.rests_at([4.0, 0.0]);
+    for line in ["G1 X20 F600\n", "$J=G91 X5 F3000\n"] {
+        bench.endpoint.signal(Signal::STOP);
+        sender.send(line.as_bytes());
+        std::thread::sleep(Duration::from_secs(2));
+        let _aborted = Process::join(&instance, &["abort"]).wait().expect(0);
+        bench.endpoint.signal(Signal::CONT);
+        std::thread::sleep(Duration::from_secs(1));
+        bench.rests_at([4.0, 0.0]);
+        sender.send(b"$X\n");
+        sender.wait_for_state("Idle");
+    }
+    sender.send(b"G90 G0 X6\n");
+    let _there = bench
+        .services
+        .wait(|status| (status.position[0] - 6.0).abs() < 1e-9);
     bench.end();
 }
 

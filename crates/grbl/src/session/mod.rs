@@ -166,6 +166,13 @@ impl Session {
         self.process(now);
     }
 
+    /// Nobody knows when what was heard just now was sent: its reader stood still. A jog of before is not begun.
+    pub fn stood_still(&mut self) {
+        if self.cancel_jogs() {
+            self.message("The endpoint stood still: the jog is not begun, or ends");
+        }
+    }
+
     /// What is known of the machine now. To be called every few milliseconds.
     pub fn see(&mut self, machine: &Machine, now: Duration) {
         let before = core::mem::replace(&mut self.machine, machine.clone());

@@ -16,10 +16,12 @@ use std::time::Duration;
 const PATIENCE: Duration = Duration::from_secs(2);
 
 type Refusal = (Act, String);
+/// What is to be done, by which command, and when it was asked for, ns of the host's steady clock.
+type Order = (Act, Command, u64);
 
 /// The ways to the machine.
 pub(super) struct Hands {
-    commands: Sender<(Act, Command)>,
+    commands: Sender<Order>,
     refusals: Receiver<Refusal>,
     jogger: Jogger,
     /// The joints of each axis, and of all, one bit each.
@@ -52,8 +54,8 @@ impl Hands {
         })
     }
 
-    /// Has something done.
-    pub(super) fn act(&mut self, act: Act, status: Option<&Status>, _link: &LinkConfig) {
+    /// Has something done that was asked for at a time, ns of the host's steady clock.
+    pub(super) fn act(&mut self, act: Act, status: Option<&Status>, asked_ns: u64) {
         let command = match &act {
             Act::Hold => Command::Hold,
             Act::Resume => Command::Resume,
@@ -90,8 +92,8 @@ impl Hands {
             }
             Act::Judge(_) => return,
         };
-        if let Err(unsent) = self.commands.send((act, command)) {
-            let (act, _) = unsent.0;
+        if let Err(unsent) = self.commands.send((act, command, asked_ns)) {
+            let (act, ..) = unsent.0;
             self.untold
                 .push((act, "nobody gives commands any more".to_owned()));
         }
@@ -111,14 +113,13 @@ impl Hands {
 }
 
 /// Gives commands until nobody has any more.
-fn give(link: &LinkConfig, commands: &Receiver<(Act, Command)>, refusals: &Sender<Refusal>) {
+fn give(link: &LinkConfig, commands: &Receiver<Order>, refusals: &Sender<Refusal>) {
     while let Ok(first) = commands.recv() {
-        let mut waiting: Vec<(Act, Command)> =
-            core::iter::once(first).chain(commands.try_iter()).collect();
+        let mut waiting: Vec<Order> = core::iter::once(first).chain(commands.try_iter()).collect();
         // A stop waits for no override.
-        waiting.sort_by_key(|(_, command)| !matches!(command, Command::Abort | Command::Hold));
-        for (act, command) in waiting {
-            let Err(why) = give_one(link, command) else {
+        waiting.sort_by_key(|(_, command, _)| !command.stops());
+        for (act, command, asked_ns) in waiting {
+            let Err(why) = give_one(link, command, asked_ns) else {
                 continue;
             };
             if refusals.send((act, why)).is_err() {
@@ -128,9 +129,10 @@ fn give(link: &LinkConfig, commands: &Receiver<(Act, Command)>, refusals: &Sende
     }
 }
 
-fn give_one(link: &LinkConfig, command: Command) -> Result<(), String> {
+fn give_one(link: &LinkConfig, command: Command, asked_ns: u64) -> Result<(), String> {
     let told = |error: LinkError| error.to_string();
     let request = CommandRequest::new(u64::from(std::process::id()), 1, command);
+    let request = request.asked_at(asked_ns);
     let operator = Operator::find(link).map_err(told)?;
     let reply = operator.call(&request, PATIENCE).map_err(told)?;
     let Some(reply) = reply else {

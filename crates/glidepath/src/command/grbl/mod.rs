@@ -30,7 +30,8 @@ use checking::Checking;
 use error::EndpointError;
 use glidepath_geometry::AXES;
 use glidepath_grbl::{Act, MachineSettings, Session};
-use glidepath_link::{Auxiliary, Ipc, LinkConfig, Record as _, Status, Subscriber, Transport as _};
+use glidepath_link::{Auxiliary, Ipc, Record as _, Status, Subscriber, Transport as _};
+use glidepath_realtime::{Clock as _, Monotonic};
 use hands::Hands;
 use sent::Sent;
 use serde_json::json;
@@ -44,6 +45,8 @@ const BUSY_POLL: Duration = Duration::from_millis(2);
 const QUIET_POLL: Duration = Duration::from_millis(10);
 /// How long an interpolator may take to tell what the machine does, before senders are told that nobody knows.
 const PATIENCE: Duration = Duration::from_secs(2);
+/// An endpoint that stood still for longer does not know when a sender sent what has come meanwhile.
+const STALL_NS: u64 = 500_000_000;
 /// Between two looks for what dead processes hold.
 const CLEAN_UP_EVERY: Duration = Duration::from_secs(1);
 
@@ -80,9 +83,9 @@ pub(super) fn grbl(args: &GrblArgs, config: &MachineConfig) -> Result<Exit, Fail
         checking: Checking::new(config),
         transport,
         wire,
-        link,
         started: Instant::now(),
         cleaned_up: Instant::now(),
+        looked_ns: Monotonic.now_ns(),
     };
     endpoint.serve(&interrupt)?;
     Ok(interrupt.exit())
@@ -150,9 +153,10 @@ struct Endpoint {
     checking: Checking,
     transport: Ipc,
     wire: Wire,
-    link: LinkConfig,
     started: Instant,
     cleaned_up: Instant,
+    /// When it looked last, ns of the host's steady clock.
+    looked_ns: u64,
 }
 
 impl Endpoint {
@@ -164,9 +168,10 @@ impl Endpoint {
         }
         // What a sender sent last is not to be executed by nobody's leave.
         self.session.lost();
-        self.act();
-        self.sent
-            .turn(&self.transport, &mut self.session, self.started.elapsed());
+        let asked_ns = Monotonic.now_ns();
+        self.act(asked_ns);
+        let now = (self.started.elapsed(), asked_ns);
+        self.sent.turn(&self.transport, &mut self.session, now);
         Ok(())
     }
 
@@ -186,24 +191,38 @@ impl Endpoint {
             self.transport.clean_up_dead_peers()?;
         }
         let now = self.started.elapsed();
+        let (asked_ns, stood_still) = self.asked_ns();
         let machine = self.view.machine(self.sent.zero());
         self.session.see(&machine, now);
         self.wire.turn(&mut self.session, now);
-        self.sent.turn(&self.transport, &mut self.session, now);
-        self.act();
+        if stood_still {
+            self.session.stood_still();
+        }
+        self.sent
+            .turn(&self.transport, &mut self.session, (now, asked_ns));
+        self.act(asked_ns);
         self.wire.send(&mut self.session);
         Ok(())
     }
 
-    /// Has done what the machine is to do at once.
-    fn act(&mut self) {
+    /// When what is heard now was asked for at the earliest, ns of the host's steady clock, and whether this endpoint
+    /// stood still until now.
+    fn asked_ns(&mut self) -> (u64, bool) {
+        let now_ns = Monotonic.now_ns();
+        let looked_ns = core::mem::replace(&mut self.looked_ns, now_ns);
+        let stood_still = now_ns.saturating_sub(looked_ns) > STALL_NS;
+        (if stood_still { looked_ns } else { now_ns }, stood_still)
+    }
+
+    /// Has done what the machine is to do at once, and was asked for at that time.
+    fn act(&mut self, asked_ns: u64) {
         for act in self.session.take_acts() {
             if let Act::Judge(line) = &act {
                 let refused = self.checking.judge(line, self.view.position());
                 self.session.judged(refused.as_ref());
                 continue;
             }
-            self.hands.act(act, self.view.status(), &self.link);
+            self.hands.act(act, self.view.status(), asked_ns);
         }
         for (act, why) in self.hands.refusals() {
             self.session.refused(&act, &why);

@@ -8,7 +8,6 @@ use glidepath_link::{
     Client, Ipc, LinesReply, LinesRequest, LinesState, LinesWish, LinkError, LongText, Record as _,
     Text, Transport as _,
 };
-use glidepath_realtime::{Clock as _, Monotonic};
 use std::time::Duration;
 
 /// Between two questions while no line is executed.
@@ -57,9 +56,15 @@ impl Sent {
         self.zero
     }
 
-    /// Takes answers, and asks when it is time to.
-    pub(super) fn turn(&mut self, transport: &Ipc, session: &mut Session, now: Duration) {
-        if let Err(error) = self.try_turn(transport, session, now) {
+    /// Takes answers, and asks when it is time to. Lines that begin a job were asked for at `asked_ns`, ns of the
+    /// host's steady clock.
+    pub(super) fn turn(
+        &mut self,
+        transport: &Ipc,
+        session: &mut Session,
+        (now, asked_ns): (Duration, u64),
+    ) {
+        if let Err(error) = self.try_turn(transport, session, (now, asked_ns)) {
             (self.port, self.asked) = (None, None);
             self.next = now + ASK_EVERY;
             let why = match error {
@@ -79,7 +84,7 @@ impl Sent {
         &mut self,
         transport: &Ipc,
         session: &mut Session,
-        now: Duration,
+        (now, asked_ns): (Duration, u64),
     ) -> Result<(), LinkError> {
         let port = match &mut self.port {
             Some(port) => port,
@@ -108,7 +113,7 @@ impl Sent {
         }
         let request = session.request();
         if request.job != self.job.0 {
-            self.job = (request.job, Monotonic.now_ns());
+            self.job = (request.job, asked_ns);
         }
         let record = LinesRequest {
             client: self.client,
