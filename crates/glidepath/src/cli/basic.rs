@@ -19,7 +19,8 @@ pub struct BasicArgs {
 /// Which files may be overwritten.
 #[derive(Debug, Clone, Copy, Args)]
 pub struct OverwriteArgs {
-    /// Overwrite files that are not of the kind that is written; never one that is read
+    /// Overwrite files even of another kind than the one written, but never a file that the command
+    /// reads
     #[arg(long)]
     pub force: bool,
 }

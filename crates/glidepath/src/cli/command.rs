@@ -29,34 +29,35 @@ pub enum Command {
     /// Plan a program, play it with a mock servo, and report
     #[command(after_help = "Example: glidepath run part.ngc --best-effort --plot part.svg")]
     Run(RunArgs),
-    /// Compute the same motion without waiting for the clock
+    /// Plan a program without waiting for the clock, and report
     #[command(
         after_help = "Example: glidepath plan part.ngc --setpoints part.csv --plot part.html"
     )]
     Plan(PlanArgs),
-    /// List everything wrong with programs; no motion
+    /// List all errors in programs, without motion
     #[command(after_help = "Example: glidepath check part.ngc relief.ngc --json")]
     Check(CheckArgs),
-    /// The real-time process: frames in, setpoints out
+    /// The real-time process: turns frames into setpoints
     #[command(after_help = "Example: glidepath interpolator --config mill.toml --instance mill-1")]
     Interpolator(InterpolatorArgs),
-    /// The planner process: a program, standard input, or segments of other processes to frames
+    /// The planner process: reads a program, standard input, or segments of other processes, and
+    /// plans frames
     #[command(
         after_help = "Examples: glidepath planner part.ngc · glidepath planner - < part.ngc · \
                             glidepath planner --listen · glidepath planner part.ngc --resume"
     )]
     Planner(PlannerArgs),
-    /// Have the planner's service execute a program
+    /// Run a program with the planner's service
     #[command(after_help = "Examples: glidepath run-file part.ngc · \
                             glidepath run-file part.ngc --from-line 120 --pass 2")]
     RunFile(RunFileArgs),
-    /// Have the planner's service execute a line
+    /// Execute a line of G-code with the planner's service
     #[command(after_help = "Example: glidepath mdi 'G54 G0 X0 Y0'")]
     Mdi(MdiArgs),
-    /// A servo: plays setpoints on a machine that is not there, or on LinuxCNC's HAL
+    /// A servo: plays setpoints on a simulated machine, or on LinuxCNC's HAL
     #[command(after_help = "Example: glidepath servo --setpoints received.csv")]
     Servo(ServoArgs),
-    /// Drives on EtherCAT: setpoints to targets, and where the joints are back
+    /// The bridge to drives on EtherCAT: sends setpoints to them, and reports where the joints are
     #[command(
         after_help = "Examples: glidepath ethercat --drives drives.toml --config mill.toml · \
                             glidepath ethercat scan enp3s0 > drives.toml · \
@@ -69,7 +70,7 @@ pub enum Command {
     /// Show the state of a running interpolator
     #[command(after_help = "Examples: glidepath status --json · glidepath status --watch part.ngc")]
     Status(StatusArgs),
-    /// Show the machine in a browser of this host, and operate it there if that is allowed
+    /// Show the machine in a browser of this host, and operate it there with `--may operate`
     #[command(
         after_help = "Examples: glidepath live · glidepath live --may operate --programs programs"
     )]
@@ -79,7 +80,8 @@ pub enum Command {
         after_help = "Examples: glidepath grbl · glidepath grbl --pty /run/user/1000/mill.grbl"
     )]
     Grbl(GrblArgs),
-    /// Record every setpoint and status in a file that others can open (MCAP), or be a black box
+    /// Record every setpoint and status in a file that other tools can open (MCAP), or be a black
+    /// box
     #[command(
         after_help = "Examples: glidepath record run.mcap --program part.ngc · \
                             glidepath record box.mcap --ring 10min"
@@ -88,72 +90,73 @@ pub enum Command {
     /// Play a recording into a servo stack, in place of an interpolator
     #[command(after_help = "Example: glidepath replay run.mcap --instance bench-1")]
     Replay(ReplayArgs),
-    /// Judge a recording or a CSV file of setpoints: limits, order, gaps, and the path by its program
+    /// Check a recording or a CSV file of setpoints: limits, order, gaps, and the path against its
+    /// program
     #[command(after_help = "Examples: glidepath audit run.mcap · \
                             glidepath audit received.csv --program part.ngc --config mill.toml")]
     Audit(AuditArgs),
-    /// Tell an MQTT broker what the machine does
+    /// Report to an MQTT broker what the machine does
     #[command(
         after_help = "Example: glidepath telemetry --broker broker.shop:1883 --instance mill-1"
     )]
     Telemetry(TelemetryArgs),
-    /// Feed hold: come to rest on the path
+    /// Feed hold: stop on the path; `resume` continues
     #[command(after_help = "Example: glidepath hold")]
     Hold(OperatorArgs),
-    /// Go on after a hold, a program stop or the end of a block
+    /// Continue after a hold, a program stop or the end of a block
     #[command(after_help = "Example: glidepath resume")]
     Resume(OperatorArgs),
-    /// Go on to the end of the block, and rest there
+    /// Continue to the end of the block, and rest there
     #[command(after_help = "Example: glidepath stop-at-block-end && glidepath step")]
     Step(OperatorArgs),
-    /// Come to rest at the end of the present block, or of the first at which that is possible
+    /// Stop at the end of the present block, or of the first block where that is possible
     #[command(after_help = "Example: glidepath stop-at-block-end")]
     StopAtBlockEnd(OperatorArgs),
-    /// Go back along the path that was run: at most a minute, and not past what cannot be undone
+    /// Go back along the path: at most a minute, and not past what cannot be undone
     #[command(after_help = "Example: glidepath hold && glidepath reverse && glidepath resume")]
     Reverse(OperatorArgs),
-    /// Go onward along the path, after `reverse`
+    /// Go forward along the path again, after `reverse`
     #[command(after_help = "Example: glidepath forward")]
     Forward(OperatorArgs),
-    /// Rest at the end of every block, or do so no longer; `resume` or `step` goes on
+    /// Turn single block on or off: rest at the end of every block; `resume` or `step` continues
     #[command(after_help = "Example: glidepath single-block on")]
     SingleBlock(SingleBlockArgs),
-    /// Set the override of the feed, of rapids, or of jogs
+    /// Set the override of the feed, of rapids or of jogs
     #[command(
         after_help = "Examples: glidepath override 80 · glidepath override -50 · \
                             glidepath override --rapid 25 · \
                             glidepath override --jog 10"
     )]
     Override(OverrideArgs),
-    /// Move axes by hand: by steps, or by the keys of the terminal
+    /// Move axes by hand, by steps or by the keys of the terminal
     #[command(after_help = "Examples: glidepath jog X10 Y-2.5 --feed 600 · glidepath jog")]
     Jog(JogArgs),
-    /// Go back to the path, after a jog in a hold
+    /// Return to the path after a jog in a hold
     #[command(after_help = "Example: glidepath return && glidepath resume")]
     Return(OperatorArgs),
-    /// Say that what an M code asked for is done, or has failed: the motion waits for it
+    /// Answer an M code that waits: it is done, or has failed
     #[command(after_help = "Examples: glidepath acknowledge · \
                             glidepath acknowledge --fail \"no tool 7 in the magazine\"")]
     Acknowledge(AcknowledgeArgs),
-    /// Come to rest on the path and drop the rest of the program
+    /// Stop on the path and drop the rest of the program
     #[command(after_help = "Examples: glidepath abort · glidepath abort --signal")]
     Abort(AbortArgs),
-    /// Take note of a fault, whatever its cause: the machine is idle again
+    /// Clear a fault, whatever its cause; the machine is then idle
     #[command(after_help = "Example: glidepath status && glidepath reset")]
     Reset(OperatorArgs),
     /// Give the drives power, and take the position over from them
     #[command(after_help = "Example: glidepath enable && glidepath home")]
     Enable(OperatorArgs),
-    /// Come to rest on the path, drop the rest of the program, and take the power from the drives
+    /// Stop on the path, drop the rest of the program, and remove the power from the drives
     #[command(after_help = "Example: glidepath disable")]
     Disable(OperatorArgs),
-    /// Have drives find the home of their joints, and wait for that
+    /// Home joints, and wait until they are homed
     #[command(after_help = "Examples: glidepath home · glidepath home J2")]
     Home(HomeArgs),
-    /// Make joints count as not homed
+    /// Mark joints as not homed
     #[command(after_help = "Example: glidepath unhome J2")]
     Unhome(JointsArgs),
-    /// Give the present position of a joint another number
+    /// Set the present position of a joint to a new value
     #[command(after_help = "Example: glidepath set-position J1 200")]
     SetPosition(SetPositionArgs),
     /// Find where a NURBS is too sharp for its feedrate
@@ -162,7 +165,7 @@ pub enum Command {
                             --period-us 1000 --chord-error 0.001 --json"
     )]
     Preview(PreviewArgs),
-    /// Plan the benchmark programs, and compare with what is known of them
+    /// Plan the benchmark programs, and compare them with bounds and another control
     #[command(after_help = "Example: glidepath bench tests/data/bench --config-dir config --json")]
     Bench(BenchArgs),
     /// Fit NURBS to the dense runs of short lines of a program
@@ -171,19 +174,19 @@ pub enum Command {
                             glidepath fit part.ngc --tolerance 0.01 --method hybrid --seed 7 --json"
     )]
     Fit(FitArgs),
-    /// What the machine keeps over a restart: work offsets, G28, G30, G92, tools
+    /// Show and change what the machine keeps over a restart: work offsets, G28, G30, G92, tools
     #[command(
         subcommand,
         after_help = "Example: glidepath offsets set G54 X100 Y50 Z-20 --config mill.toml"
     )]
     Offsets(OffsetsCommand),
-    /// The configuration: print one, explain its keys, check one, convert one of another control
+    /// Print, explain or check a configuration, or convert that of another control
     #[command(after_help = "Examples: glidepath config --default > mill.toml · \
                             glidepath config --explain path.tolerance · \
                             glidepath config --check mill.toml · \
                             glidepath config from-linuxcnc machine.ini > machine.toml")]
     Config(ConfigArgs),
-    /// Is this host fit for real time? With the fix for each no
+    /// Check whether this host is fit for real time, and give the fix for each shortcoming
     #[command(after_help = "Examples: glidepath doctor --config mill.toml · \
                             glidepath doctor --interface enp3s0")]
     Doctor(DoctorArgs),

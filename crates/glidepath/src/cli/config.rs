@@ -36,7 +36,7 @@ pub struct ConfigAction {
         reason = "clap's form of an option with a value that may be left out"
     )]
     pub explain: Option<Option<String>>,
-    /// List everything that has to be mended in a configuration
+    /// List all errors in a configuration
     #[arg(long, value_name = "FILE")]
     pub check: Option<PathBuf>,
 }
@@ -44,13 +44,13 @@ pub struct ConfigAction {
 /// The control whose configuration is converted.
 #[derive(Debug, Subcommand)]
 pub enum ConfigSource {
-    /// From LinuxCNC's machine configuration
+    /// Convert LinuxCNC's machine configuration
     #[command(after_help = "Example: glidepath config from-linuxcnc machine.ini > machine.toml")]
     FromLinuxcnc(ConvertArgs),
-    /// From grbl's or grblHAL's settings, as `$$` and `$#` print them
+    /// Convert grbl's or grblHAL's settings, as `$$` and `$#` print them
     #[command(after_help = "Example: glidepath config from-grbl settings.txt > machine.toml")]
     FromGrbl(ConvertArgs),
-    /// From Klipper's printer.cfg
+    /// Convert Klipper's printer.cfg
     #[command(after_help = "Example: glidepath config from-klipper printer.cfg > machine.toml")]
     FromKlipper(ConvertArgs),
 }

@@ -11,9 +11,9 @@ use std::path::PathBuf;
 pub enum PreviewMethod {
     /// Tick by tick
     Traditional,
-    /// By growing steps, and back where they meet something
+    /// By growing steps that go back where they find something
     AdvanceRetreat,
-    /// By bounds and roots of polynomials: misses nothing
+    /// By bounds and roots of polynomials; misses nothing
     Certified,
 }
 
@@ -35,7 +35,7 @@ pub struct PreviewArgs {
     /// Feedrate, mm/min
     #[arg(long, value_name = "MM_PER_MIN", value_parser = positive)]
     pub feed: Option<f64>,
-    /// Chord error of one tick, mm; without it the path tolerance
+    /// Chord error of one period, mm; without it, the path tolerance
     #[arg(long, value_name = "MM", value_parser = positive)]
     pub chord_error: Option<f64>,
     /// Write a plot of the curve, coloured by the speed it allows (SVG)
@@ -78,7 +78,7 @@ pub struct FitArgs {
     /// Configuration and form of the report.
     #[command(flatten)]
     pub basic: BasicArgs,
-    /// Largest distance between curve and lines, both ways, mm
+    /// Largest distance between curve and lines, in both directions, mm
     #[arg(long, value_name = "MM", value_parser = positive)]
     pub tolerance: f64,
     /// How to find the curve

@@ -11,7 +11,7 @@ pub struct EthercatArgs {
     /// Something else than driving.
     #[command(subcommand)]
     pub action: Option<EthercatAction>,
-    /// What hangs on the bus, and which joint each drive moves
+    /// File with the devices on the bus, and the joint that each drive moves
     #[arg(long, value_name = "TOML", required_unless_present = "emulated")]
     pub drives: Option<PathBuf>,
     /// Configuration and form of the report.
@@ -20,21 +20,21 @@ pub struct EthercatArgs {
     /// The instance, by which processes find each other.
     #[command(flatten)]
     pub instance: InstanceArgs,
-    /// Drive without real-time privileges too
+    /// Run even without real-time privileges
     #[arg(long)]
     pub best_effort: bool,
-    /// CPU the thread of the bus is pinned to
+    /// CPU to which the thread of the bus is pinned
     #[arg(long, value_name = "N")]
     pub cpu: Option<usize>,
     /// SCHED_FIFO priority of the thread of the bus, 1 to 99
     #[arg(long, value_name = "N", default_value_t = 70,
           value_parser = clap::value_parser!(u8).range(1..=99))]
     pub priority: u8,
-    /// Drive drives that are not there, over a pair of virtual interfaces in a network namespace of
-    /// their own; without --drives three drives, or as many as the machine has joints
+    /// Use emulated drives, over a pair of virtual interfaces in a network namespace of their own.
+    /// Without --drives there are three drives, or as many as the machine has joints
     #[arg(long)]
     pub emulated: bool,
-    /// Period of the bus to the emulated drives, µs
+    /// Period of the bus of the emulated drives, µs
     #[arg(long, value_name = "N", default_value_t = 2000, requires = "emulated",
           value_parser = clap::value_parser!(u32).range(250..=20_000))]
     pub emulated_period_us: u32,
@@ -52,7 +52,7 @@ pub struct EthercatArgs {
 /// What else `ethercat` does.
 #[derive(Debug, Subcommand)]
 pub enum EthercatAction {
-    /// List what hangs on the wire, as a first drives.toml; nothing moves
+    /// List the devices on the bus, as a first drives.toml; nothing moves
     #[command(after_help = "Example: glidepath ethercat scan enp3s0 > drives.toml")]
     Scan(ScanArgs),
 }

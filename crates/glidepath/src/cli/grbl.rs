@@ -10,16 +10,17 @@ const PORT: u16 = 2323;
 /// Arguments of `grbl`.
 #[derive(Debug, Args)]
 pub struct GrblArgs {
-    /// The TCP port on 127.0.0.1, 2323 if no pseudo-terminal is asked for; 0 takes any that is free
+    /// The TCP port on 127.0.0.1; 0 selects any free one. Without --port and --pty it is 2323
     #[arg(long)]
     pub port: Option<u16>,
-    /// A link to be made to a pseudo-terminal, for senders that open serial ports
+    /// Create this link to a pseudo-terminal, for senders that open serial ports
     #[arg(long, value_name = "LINK", value_hint = clap::ValueHint::AnyPath)]
     pub pty: Option<PathBuf>,
-    /// Another user, by number, whose programs may connect by TCP besides this one's and root's
+    /// Another user, by number, whose programs may connect by TCP, in addition to this one's and
+    /// root's
     #[arg(long, value_name = "UID")]
     pub user: Option<u32>,
-    /// Seconds of motion that are planned before a line has to wait for its ok
+    /// Seconds of planned motion before ok is withheld
     #[arg(long, value_name = "SECONDS", default_value_t = 3.0, value_parser = ahead)]
     pub ahead: f64,
     /// Bytes that a sender may have unanswered

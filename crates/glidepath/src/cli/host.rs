@@ -7,11 +7,11 @@ use std::path::PathBuf;
 /// Arguments of `bench`.
 #[derive(Debug, Args)]
 pub struct BenchArgs {
-    /// Folder with the programs and bench.json, the catalogue of them
+    /// Folder with the programs and their catalogue, bench.json
     #[arg(default_value = "tests/data/bench")]
     pub folder: PathBuf,
     /// Folder with the configuration of each machine that the catalogue names, such as mill.toml;
-    /// without it the built-in ones
+    /// without it, the built-in ones
     #[arg(long, value_name = "FOLDER", conflicts_with = "config")]
     pub config_dir: Option<PathBuf>,
     /// Configuration and form of the report. A configuration given holds for all programs.
@@ -22,7 +22,7 @@ pub struct BenchArgs {
 /// Arguments of `doctor`.
 #[derive(Debug, Args)]
 pub struct DoctorArgs {
-    /// Look at a network interface that drives hang on, too
+    /// Also check this network interface of drives
     #[arg(long, value_name = "NAME")]
     pub interface: Option<String>,
     /// Configuration and form of the report.
@@ -43,19 +43,19 @@ pub struct JitterArgs {
     #[arg(long, value_name = "S", default_value_t = 10,
           value_parser = clap::value_parser!(u32).range(1..=604_800))]
     pub seconds: u32,
-    /// CPU the loop is pinned to
+    /// CPU to which the loop is pinned
     #[arg(long, value_name = "N")]
     pub cpu: Option<usize>,
     /// SCHED_FIFO priority, 1 to 99
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=99))]
     pub priority: Option<u8>,
-    /// Measure without real-time privileges too
+    /// Measure even without real-time privileges
     #[arg(long)]
     pub best_effort: bool,
     /// Do the interpolator's work in every period, on a synthetic motion
     #[arg(long)]
     pub full_tick: bool,
-    /// Run cyclictest in the same time on the same CPU, half a period apart, and compare
+    /// Run cyclictest at the same time on the same CPU, half a period apart, and compare
     #[arg(long)]
     pub against_cyclictest: bool,
     /// Write a plot of the latency (SVG)

@@ -7,14 +7,14 @@ use glidepath_geometry::Axis;
 /// Arguments of `jog`.
 #[derive(Debug, Args)]
 pub struct JogArgs {
-    /// How far each axis is to go: X10 or Y-2.5, in mm or degrees. Without any, the keys of the
+    /// How far to move each axis: X10 or Y-2.5, in mm or degrees. Without a step, the keys of the
     /// terminal move the axes
     #[arg(value_name = "STEP", value_parser = step)]
     pub steps: Vec<Step>,
-    /// How fast along the way, in mm/min or °/min; not above the jog's speed of any axis
+    /// Speed along the move, in mm/min or °/min; limited by the jog speed of each axis
     #[arg(long, value_name = "MM_MIN", value_parser = feed)]
     pub feed: Option<f64>,
-    /// The letters mean the joints of these axes, of a machine whose joints are its axes
+    /// The letters mean the joints of these axes; only on a machine whose joints are its axes
     #[arg(long)]
     pub by_joint: bool,
     /// The interpolator that is meant.

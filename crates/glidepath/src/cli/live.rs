@@ -11,16 +11,17 @@ use std::path::PathBuf;
 /// Arguments of `live`.
 #[derive(Debug, Args)]
 pub struct LiveArgs {
-    /// A program to show until the machine executes another one; what runs is shown without it, too
+    /// A program to show until the machine executes another one. The running program is shown even
+    /// without it
     #[arg(value_name = "PROGRAM", value_parser = program_file(), value_hint = clap::ValueHint::AnyPath)]
     pub file: Option<ProgramFile>,
-    /// The port on 127.0.0.1; 0 takes any that is free
+    /// The port on 127.0.0.1; 0 selects any free one
     #[arg(long, default_value_t = 8420)]
     pub port: u16,
-    /// What the page may: look; hold and abort; or operate the machine
+    /// What the page may do: only look; hold and abort; or operate the machine
     #[arg(long, value_name = "ROLE", value_enum, default_value_t = May::Look)]
     pub may: May,
-    /// Folder of the programs that the page lists, runs and puts there
+    /// Folder of the programs that the page lists, runs and stores
     #[arg(long, value_name = "FOLDER", value_hint = clap::ValueHint::DirPath)]
     pub programs: Option<PathBuf>,
     /// How the program is read.
@@ -39,9 +40,9 @@ pub struct LiveArgs {
 pub enum May {
     /// See the machine
     Look,
-    /// Bring it to rest, too: hold and abort
+    /// See it and stop it: hold and abort
     Hold,
-    /// Do whatever an operator does
+    /// Do all that an operator does
     Operate,
 }
 

@@ -36,25 +36,25 @@ pub struct RunArgs {
     /// The instance, by which processes find each other.
     #[command(flatten)]
     pub instance: RunInstanceArgs,
-    /// Run without real-time privileges too; the report says what was granted
+    /// Run even without real-time privileges; the report says what was granted
     #[arg(long)]
     pub best_effort: bool,
-    /// What is moved: "mock", a servo that does exactly what it is told, or "emulated", drives on an
-    /// EtherCAT that is not there, with the bridge that real ones are driven by
+    /// What is moved: "mock", a servo that moves exactly as commanded, or "emulated", emulated
+    /// drives on EtherCAT, with the same bridge as real ones
     #[arg(long, value_name = "DRIVES", default_value = "mock")]
     pub drives: RunDrives,
-    /// Period of the bus to emulated drives, µs
+    /// Period of the bus of the emulated drives, µs
     #[arg(long, value_name = "N", default_value_t = 2000,
           value_parser = clap::value_parser!(u32).range(250..=20_000))]
     pub bus_period_us: u32,
     /// Write what the emulated drives recorded at every SYNC0 as CSV
     #[arg(long, value_name = "CSV")]
     pub drives_record: Option<PathBuf>,
-    /// Write the setpoints the mock servo received as CSV
+    /// Write the setpoints that the mock servo received as CSV
     #[arg(long, value_name = "CSV")]
     pub setpoints: Option<PathBuf>,
-    /// Write a plot of the motion: NAME.svg, or a page to look closer, NAME.html; without it the plot
-    /// goes to NAME.svg in the present folder, if no other file has that name
+    /// Write a plot of the motion: NAME.svg, or an interactive page, NAME.html. Without this option
+    /// the plot goes to NAME.svg in the present folder, if no other file has that name
     #[arg(long, value_name = "FILE")]
     pub plot: Option<PathBuf>,
     /// Which files may be overwritten.
@@ -80,10 +80,10 @@ pub struct PlanArgs {
     /// Write every setpoint as CSV
     #[arg(long, value_name = "CSV")]
     pub setpoints: Option<PathBuf>,
-    /// Write a plot of the motion: NAME.svg, or a page to look closer, NAME.html
+    /// Write a plot of the motion: NAME.svg, or an interactive page, NAME.html
     #[arg(long, value_name = "FILE")]
     pub plot: Option<PathBuf>,
-    /// Refuse programs whose feeds and dwells take longer than that; such as 90s, 10min, 8h or 30d
+    /// Refuse programs whose feeds and dwells take longer than this, such as 90s, 10min, 8h or 30d
     #[arg(long, value_name = "TIME", value_parser = time, default_value = "7d")]
     pub longest: Duration,
     /// Which files may be overwritten.
@@ -114,7 +114,7 @@ pub struct InterpolatorArgs {
     /// The instance, by which processes find each other.
     #[command(flatten)]
     pub instance: InstanceArgs,
-    /// Move without real-time privileges too
+    /// Run even without real-time privileges
     #[arg(long)]
     pub best_effort: bool,
     /// Expect drives to answer, whatever the configuration says
@@ -131,15 +131,15 @@ pub struct PlannerArgs {
     /// The G-code program, or `-` for standard input
     #[arg(required_unless_present = "listen", conflicts_with = "listen", value_parser = program_file(), value_hint = clap::ValueHint::AnyPath)]
     pub file: Option<ProgramFile>,
-    /// Be the service of the machine: execute lines (`mdi`), programs (`run-file`) and segments of
-    /// other processes (`feed`), one at a time
+    /// Run as the service of the machine: execute lines (`mdi`), programs (`run-file`) and segments
+    /// of other processes (`feed`), one at a time
     #[arg(long)]
     pub listen: bool,
-    /// Go on with the program from where the machine stands on its path
+    /// Continue the program from where the machine stands on its path
     ///
-    /// For a program whose planner died, or that was aborted. Motion starts at once. Refused if
-    /// the machine does not stand on the path, or the text is not that of the program that was
-    /// under way.
+    /// For a program that was aborted, or whose planner died. Motion starts at once. It is refused
+    /// if the machine does not stand on the path, or if the text is not that of the program that
+    /// was running.
     #[arg(long, conflicts_with = "listen")]
     pub resume: bool,
     /// How the program is read.
@@ -171,8 +171,8 @@ pub struct ServoArgs {
     /// Write the setpoints received as CSV
     #[arg(long, value_name = "CSV")]
     pub setpoints: Option<PathBuf>,
-    /// Where the joints of its machine stand at the start, mm or degrees, such as 12.5,-3,40; where
-    /// programs begin if not given
+    /// Where the joints of the simulated machine are at the start, mm or degrees, such as
+    /// 12.5,-3,40. Without it, they are where programs begin
     #[arg(
         long,
         value_name = "POSITIONS",
@@ -180,8 +180,8 @@ pub struct ServoArgs {
         allow_hyphen_values = true
     )]
     pub stands: Vec<f64>,
-    /// Imitate a probe, which touches where a joint is at a position or below: J2=-10. Its contact
-    /// is input 0
+    /// Simulate a probe that makes contact when a joint is at a position or below, such as J2=-10.
+    /// The contact is input 0
     #[arg(long, value_name = "JOINT=POSITION", value_parser = touches_at)]
     pub probe: Option<(usize, f64)>,
     /// LinuxCNC's HAL as consumer.
@@ -204,10 +204,10 @@ pub struct ServoArgs {
 /// How LinuxCNC's HAL takes the place of the machine that is not there.
 #[derive(Debug, Args)]
 pub struct HalArgs {
-    /// Play on LinuxCNC's HAL: lines for `streamer`, feedback from `sampler`
+    /// Play on LinuxCNC's HAL: send lines to `streamer`, take feedback from `sampler`
     #[arg(long, conflicts_with_all = ["stands", "probe"])]
     pub hal: bool,
-    /// The period of the thread of HAL, µs
+    /// Period of HAL's thread, µs
     #[arg(
         long,
         requires = "hal",
@@ -216,7 +216,7 @@ pub struct HalArgs {
         value_parser = clap::value_parser!(u32).range(50..=100_000)
     )]
     pub hal_period_us: u32,
-    /// How many periods HAL is behind the setpoints, and this process may be late by
+    /// How many periods HAL lags behind the setpoints, and this process may be late
     #[arg(
         long,
         requires = "hal",
@@ -225,7 +225,8 @@ pub struct HalArgs {
         value_parser = clap::value_parser!(u32).range(2..=256)
     )]
     pub hal_prefill: u32,
-    /// How late setpoints may come, µs: HAL plays them so much later; a period of theirs if not given
+    /// How late setpoints may arrive, µs; HAL plays them later by that time. Without it, a period
+    /// of the setpoints
     #[arg(
         long,
         requires = "hal",

@@ -10,29 +10,29 @@ pub enum OffsetsCommand {
     /// Show everything that is kept
     #[command(after_help = "Example: glidepath offsets show --config mill.toml")]
     Show(ShowArgs),
-    /// Set a coordinate system, or the position of G28 or G30, or the offset of G92 that is kept
+    /// Set a coordinate system, the position of G28 or G30, or the kept offset of G92
     #[command(
         after_help = "Examples: glidepath offsets set G55 X120 Y-35.5 R2 --config mill.toml · \
                             glidepath offsets set G30 Z-1 --config mill.toml"
     )]
     Set(SetArgs),
-    /// Choose the coordinate system that programs begin in
+    /// Choose the coordinate system in which programs start
     #[command(after_help = "Example: glidepath offsets use G55 --config mill.toml")]
     Use(UseArgs),
-    /// Take over coordinates from LinuxCNC's parameter file (.var)
+    /// Import coordinates from LinuxCNC's parameter file (.var)
     #[command(
         after_help = "Example: glidepath offsets import linuxcnc.var --linear-units inch --config mill.toml"
     )]
     Import(ImportArgs),
-    /// Print coordinates as LinuxCNC's parameter file
+    /// Print coordinates in the format of LinuxCNC's parameter file
     #[command(
         after_help = "Example: glidepath offsets export --linear-units mm --config mill.toml > linuxcnc.var"
     )]
     Export(ExportArgs),
-    /// Take over for this machine what is kept of one with other axes or kinematics
+    /// Use the kept state of a machine with other axes or kinematics for this machine
     #[command(after_help = "Example: glidepath offsets adopt --config mill.toml")]
     Adopt(ShowArgs),
-    /// After a file was damaged: take the newest generation that is whole
+    /// After a file was damaged: use the newest intact generation
     #[command(after_help = "Example: glidepath offsets recover --config mill.toml")]
     Recover(ShowArgs),
 }

@@ -18,13 +18,13 @@ pub struct OperatorArgs {
 /// Arguments of `status`.
 #[derive(Debug, Args)]
 pub struct StatusArgs {
-    /// The program that runs, to show its lines, how far it is and how long it takes yet
+    /// The running program, to show its lines, its progress and the time left
     #[arg(value_name = "PROGRAM", requires = "watch")]
     pub program: Option<PathBuf>,
-    /// Show it again and again until Ctrl-C; with --json one object a line
+    /// Repeat until Ctrl-C; with --json, print one object per line
     #[arg(long)]
     pub watch: bool,
-    /// Time between two looks
+    /// Time between two displays, s
     #[arg(long, value_name = "SECONDS", default_value_t = 0.25, value_parser = seconds, requires = "watch")]
     pub every: f64,
     /// The interpolator that is meant.
@@ -44,10 +44,10 @@ fn seconds(text: &str) -> Result<f64, &'static str> {
 /// Arguments of `abort`.
 #[derive(Debug, Args)]
 pub struct AbortArgs {
-    /// By SIGTERM: needs no shared memory, and the interpolator ends. The last resort
+    /// The last resort: end the interpolator by SIGTERM, which needs no shared memory
     #[arg(long)]
     pub signal: bool,
-    /// Do not take the tool axis up by `jog.lift` of the configuration
+    /// Do not raise the tool axis by `jog.lift` of the configuration
     #[arg(long)]
     pub no_lift: bool,
     /// The interpolator that is meant.
@@ -59,7 +59,7 @@ pub struct AbortArgs {
 #[derive(Debug, Args)]
 #[group(id = "factor", required = true, multiple = true)]
 pub struct OverrideArgs {
-    /// Percent of the programmed feedrate, up to 200; below 0 the motion goes back along the path
+    /// Percent of the programmed feedrate, up to 200; negative to go back along the path
     #[arg(value_parser = percent, group = "factor", allow_negative_numbers = true)]
     pub percent: Option<f64>,
     /// Percent of the speed of rapids, 0 to 100
@@ -76,10 +76,10 @@ pub struct OverrideArgs {
 /// Arguments of `acknowledge`.
 #[derive(Debug, Args)]
 pub struct AcknowledgeArgs {
-    /// What the event asked for has failed: the reason, for people
+    /// Report that the M code has failed, with the reason as a text
     #[arg(long, value_name = "TEXT")]
     pub fail: Option<String>,
-    /// Only this event, as `awaited` of `status --json` has it: EPOCH/SEQUENCE
+    /// Answer only this event: EPOCH/SEQUENCE, from `awaited` of `status --json`
     #[arg(long, value_name = "EVENT", value_parser = event)]
     pub event: Option<(u64, u64)>,
     /// The interpolator that is meant.
@@ -105,21 +105,21 @@ pub struct MdiArgs {
 pub struct RunFileArgs {
     /// The G-code program, where the service can read it
     pub file: PathBuf,
-    /// Begin with this line, as if all before it had been executed
+    /// Start at this line, as if all lines before it had been executed
     ///
-    /// What differs from what the program expects there is shown first: position, tool, spindle,
-    /// coolant, outputs. Agreed to, the tool axis goes up, what differs is made so, the other axes
-    /// go there, and the tool axis down at the feed.
+    /// First shows what differs from what the program expects there: position, tool, spindle,
+    /// coolant, outputs. When you agree, the tool axis moves up, M codes set what differs, the
+    /// other axes move there, and the tool axis moves down at the feed.
     #[arg(long, value_name = "LINE", value_parser = clap::value_parser!(u32).range(1..))]
     pub from_line: Option<u32>,
-    /// At which of the times that the line is executed
+    /// Start at this pass, if the line is executed several times
     #[arg(long, value_name = "COUNT", default_value_t = 1, requires = "from_line",
           value_parser = clap::value_parser!(u32).range(1..))]
     pub pass: u32,
-    /// Agree to what would be asked
+    /// Answer yes to the question
     #[arg(long, requires = "from_line")]
     pub yes: bool,
-    /// Go on with this program where it was left, after an abort or a fault
+    /// Continue this program where it was left, after an abort or a fault
     #[arg(long, conflicts_with = "from_line")]
     pub resume: bool,
     /// Configuration and form of the report.
@@ -152,7 +152,7 @@ pub struct SingleBlockArgs {
 /// Arguments of `home`.
 #[derive(Debug, Args)]
 pub struct HomeArgs {
-    /// Return when the drives were told, without waiting for the end
+    /// Return at once, without waiting until the joints are homed
     #[arg(long)]
     pub no_wait: bool,
     /// The joints.
@@ -177,7 +177,7 @@ pub struct SetPositionArgs {
     /// The joint, such as J1
     #[arg(value_parser = joint)]
     pub joint: u32,
-    /// Where it stands, mm or degrees
+    /// The new value of its present position, mm or degrees
     #[arg(allow_hyphen_values = true, value_parser = position)]
     pub position: f64,
     /// The interpolator that is meant.

@@ -12,15 +12,16 @@ pub struct ProgramArgs {
     /// Tool table (LinuxCNC's .tbl); overrides `program.tool_table` of the configuration
     #[arg(long, value_name = "TBL", value_parser = program_file(), value_hint = clap::ValueHint::AnyPath)]
     pub tool_table: Option<ProgramFile>,
-    /// Folder to look in for subroutines in files of their own, behind that of the program; may be
-    /// given several times, and comes before `program.subroutine_path` of the configuration
+    /// Folder to search for subroutines in files of their own, after the folder of the program and
+    /// before `program.subroutine_path` of the configuration; may be given several times
     #[arg(long, value_name = "FOLDER")]
     pub subroutine_path: Vec<PathBuf>,
-    /// Language of the program: linuxcnc, marlin, fanuc or siemens; else told by its beginning
+    /// Language of the program: linuxcnc, marlin, fanuc or siemens. Without it, the configuration
+    /// or the beginning of the program decides
     #[arg(long, value_name = "NAME", value_parser = dialect)]
     pub dialect: Option<Dialect>,
-    /// Take a program whose loops go on for too long to be checked to their end (20 million lines):
-    /// what it does behind that is judged only when it comes to it
+    /// Accept a program whose loops are too long to be checked to their end (20 million lines). The
+    /// rest is checked only when the machine comes to it
     #[arg(long)]
     pub allow_unchecked: bool,
 }

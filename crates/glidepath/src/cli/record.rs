@@ -13,16 +13,16 @@ use std::time::Duration;
 /// Arguments of `record`.
 #[derive(Debug, Args)]
 pub struct RecordArgs {
-    /// The recording (MCAP); while it grows it is called FILE.part
+    /// The recording (MCAP); while it grows, its name is FILE.part
     pub file: PathBuf,
-    /// The program that runs, to be part of the recording: `audit` then judges by it
+    /// The running program, to be part of the recording, so that `audit` can check against it
     #[arg(long, value_name = "PROGRAM", value_parser = program_file(), value_hint = clap::ValueHint::AnyPath)]
     pub program: Option<ProgramFile>,
-    /// Be a black box: keep the last minutes in memory, and write them when a fault stops the
-    /// machine, to FILE with the time in its name; such as 10min or 90s
+    /// Be a black box: keep the last minutes (such as 10min or 90s) in memory, and write them to
+    /// FILE, with the time in its name, when a fault stops the machine
     #[arg(long, value_name = "TIME", value_parser = duration, conflicts_with = "seconds")]
     pub ring: Option<Duration>,
-    /// End after so many seconds; without it, when asked to
+    /// End after this many seconds; without it, record until Ctrl-C
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub seconds: Option<f64>,
     /// How the path is followed: what the planner was told.
@@ -52,7 +52,7 @@ pub struct AuditArgs {
     /// The recording (MCAP), or setpoints (CSV) of `plan`, `run` or `servo`; `-` is standard input
     #[arg(value_parser = program_file(), value_hint = clap::ValueHint::AnyPath)]
     pub file: ProgramFile,
-    /// The program that it has to follow; a recording may have one of its own
+    /// The program that the motion has to follow; a recording may contain its own
     #[arg(long, value_name = "PROGRAM", value_parser = program_file(), value_hint = clap::ValueHint::AnyPath)]
     pub program: Option<ProgramFile>,
     /// How the program is read, where a recording does not tell it.

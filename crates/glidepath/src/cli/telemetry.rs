@@ -9,13 +9,13 @@ pub struct TelemetryArgs {
     /// The broker, as HOST or HOST:PORT
     #[arg(long, value_name = "HOST:PORT", default_value = "localhost:1883", value_parser = broker)]
     pub broker: (String, u16),
-    /// What topics begin with: TOPIC/INSTANCE/status and so on
+    /// First part of all topics: TOPIC/INSTANCE/status and so on
     #[arg(long, value_name = "TOPIC", default_value = "glidepath", value_parser = topic)]
     pub topic: String,
-    /// User at the broker; the password is taken from the environment, GLIDEPATH_MQTT_PASSWORD
+    /// User at the broker; the password comes from the environment variable GLIDEPATH_MQTT_PASSWORD
     #[arg(long, value_name = "NAME")]
     pub user: Option<String>,
-    /// Messages a second about a machine that moves
+    /// Messages per second while the machine moves
     #[arg(long, value_name = "HZ", default_value_t = 10,
           value_parser = clap::value_parser!(u32).range(1..=50))]
     pub rate: u32,
