@@ -25,14 +25,14 @@ fn slow_to_check() -> String {
 }
 
 /// A machine with drives, its service, and a program that takes long to be checked.
-struct Bench<'a> {
-    operated: Operated<'a>,
-    slow: String,
-    processes: Vec<Process>,
+pub(crate) struct Bench<'a> {
+    pub(crate) operated: Operated<'a>,
+    pub(crate) slow: String,
+    pub(crate) processes: Vec<Process>,
 }
 
 impl<'a> Bench<'a> {
-    fn start(instance: &'a Instance) -> Self {
+    pub(crate) fn start(instance: &'a Instance) -> Self {
         let mut bench = Self::without_service(instance);
         let service = bench.operated.process(&["planner", "--listen"]);
         bench.processes.push(service);
@@ -62,7 +62,7 @@ impl<'a> Bench<'a> {
     }
 
     /// Nothing moves, for longer than a job would take to begin.
-    fn stays(&self, before: &Status) {
+    pub(crate) fn stays(&self, before: &Status) {
         std::thread::sleep(Duration::from_millis(2500));
         let after = self.operated.wait(|_| true);
         assert_eq!(
@@ -73,7 +73,7 @@ impl<'a> Bench<'a> {
     }
 
     /// The next job is executed.
-    fn goes_on(&self) {
+    pub(crate) fn goes_on(&self) {
         self.operated.operate(&["mdi", "G21 G90 G1 X3 F6000"]);
         self.operated.operate(&["mdi", "G0 X0"]);
         assert!(self.operated.position()[0].abs() < 1e-9);
@@ -142,7 +142,7 @@ fn a_planner_that_dies_while_its_program_rests_ends_it() {
     bench.goes_on();
 }
 
-fn ended_within(process: Process, patience: Duration) -> Output {
+pub(crate) fn ended_within(process: Process, patience: Duration) -> Output {
     let begun = Instant::now();
     let output = process.wait();
     assert!(

@@ -28,6 +28,7 @@ mod resume;
 mod run;
 mod service;
 mod services;
+mod streams;
 mod subscribers;
 mod telemetry;
 mod threading;

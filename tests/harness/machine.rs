@@ -170,7 +170,7 @@ impl Machine<'_> {
             notify: &mut |_| {},
         };
         let mut publisher = Publisher::connect(&transport, Pace::new(PERIOD_NS, 0.5))?;
-        let start = publisher.wait_until_ready("part", &mut control)?;
+        let start = publisher.wait_until_ready(("part", 0), &mut control)?;
         let mut pipeline = Pipeline::new(make_source(start), settings(), start);
         publisher.publish(&mut pipeline, &mut control)
     }

@@ -1310,7 +1310,8 @@ int gp_segments_open(gp_link *link, gp_segments **segments);
 int gp_segments_send(gp_segments *segments, const gp_segment *segment, size_t size,
                      uint32_t patience_ms, gp_segment_reply *reply, size_t reply_size);
 
-/* A stream that was not ended is given up: the machine comes to rest behind what was sent. */
+/* A stream that was not ended is given up: the machine comes to rest behind what was sent, or does not move if it has not
+ * begun to. */
 int gp_segments_close(gp_segments *segments);
 
 /* ---- the servo ---- */

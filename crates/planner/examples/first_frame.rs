@@ -107,7 +107,7 @@ fn publish(path: &Path, effort: Effort) -> Result<Duration, Box<dyn Error>> {
     let mut publisher = Publisher::connect(&transport, Pace::new(PERIOD_NS, 0.6))?;
     let mut none = |_: &Notice<'_>| {};
     let position = publisher.wait_until_ready(
-        "part",
+        ("part", 0),
         &mut Control {
             stop: &stop,
             pause: &mut pause,

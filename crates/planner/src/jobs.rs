@@ -6,13 +6,13 @@
 //! whatever made it ready just now.
 //!
 //! A job that has not begun lives by its client, which asks again and again. One that says that it does
-//! not want it any more, or of which nothing is heard for [`CLIENT_SILENCE`], ends it; and before the
+//! not want it any more, or of which nothing is heard for [`CLIENT_SILENCE`](crate::CLIENT_SILENCE), ends it; and before the
 //! first frame it has to ask once more, so that nothing begins for a client that ended while this
 //! process could not notice. Once the machine moves, the motion goes on without its client.
 
 use std::collections::VecDeque;
 use std::path::PathBuf;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use glidepath_geometry::AxisVector;
 use glidepath_link::{
@@ -21,14 +21,9 @@ use glidepath_link::{
 };
 
 use crate::attend::{Attend, Attended};
+use crate::client_watch::ClientWatch;
 use crate::sent::{Begun, Counter, LinesEnd};
 use crate::{Control, Followed, LineFacts, LineInbox, Publisher, StartLine};
-
-/// A client from which nothing was heard for so long is taken for dead.
-pub const CLIENT_SILENCE: Duration = Duration::from_secs(2);
-
-/// A turn counts for so long at most towards that silence.
-const LONGEST_TURN: Duration = Duration::from_millis(50);
 
 /// Requests served between two looks at the motion.
 const REQUESTS_PER_TURN: u32 = 32;
@@ -125,67 +120,39 @@ pub trait JobRunner {
     }
 }
 
-/// What a job waits for before its first frame.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Gate {
-    /// The first frame is not ready.
-    Closed,
-    /// It is, and the client has not asked since.
-    Ready,
-    /// The client has asked since.
-    Open,
-}
-
 /// The job that was taken.
 #[derive(Debug)]
 struct Current {
     client: (u64, u64),
-    /// Since when its client was not heard, without what this process slept through.
-    silent: Duration,
-    /// The last look at that.
-    looked: Instant,
+    watch: ClientWatch,
     is_unwanted: bool,
-    gate: Gate,
     /// The lines that it is made of.
     lines: Option<LineInbox>,
 }
 
 impl Current {
-    /// So long was meant to pass since the last look; on a busy host it was more. A look that is
-    /// much too late says that this process stood still, and that says nothing of the client.
-    fn wait(&mut self, meant: Duration) {
-        let now = Instant::now();
-        let passed = now.duration_since(core::mem::replace(&mut self.looked, now));
-        let passed = passed.min(LONGEST_TURN).max(meant);
-        self.silent = self.silent.saturating_add(passed);
-        if let Some(lines) = self
-            .lines
-            .as_ref()
-            .filter(|_| self.silent >= CLIENT_SILENCE)
-        {
-            lines.close();
-        }
-    }
-
     /// Of a job of which nothing is known yet.
     fn new(client: (u64, u64), lines: Option<LineInbox>) -> Self {
         Self {
             client,
-            silent: Duration::ZERO,
-            looked: Instant::now(),
+            watch: ClientWatch::new(),
             is_unwanted: false,
-            gate: Gate::Closed,
             lines,
         }
     }
 
-    /// Its client asks.
-    fn hear(&mut self, wish: JobWish) {
-        self.silent = Duration::ZERO;
-        self.is_unwanted |= wish == JobWish::Cancel;
-        if self.gate == Gate::Ready {
-            self.gate = Gate::Open;
+    /// So long was meant to pass since the last look.
+    fn wait(&mut self, meant: Duration) {
+        self.watch.wait(meant);
+        if let Some(lines) = self.lines.as_ref().filter(|_| self.watch.is_silent()) {
+            lines.close();
         }
+    }
+
+    /// Its client asks.
+    const fn hear(&mut self, wish: JobWish) {
+        self.watch.hear();
+        self.is_unwanted |= matches!(wish, JobWish::Cancel);
     }
 
     /// Why it is to end, if it is.
@@ -193,8 +160,7 @@ impl Current {
         if self.is_unwanted {
             return Some("the command that asked for it was ended");
         }
-        let is_silent = self.silent >= CLIENT_SILENCE && self.gate != Gate::Open;
-        is_silent.then_some("its client fell silent before anything moved")
+        self.watch.why_not_begun()
     }
 }
 
@@ -342,13 +308,8 @@ impl JobDesk {
     /// The first frame of the job is ready. Returns whether it may be published: its client has asked
     /// since.
     pub(crate) fn may_begin(&mut self) -> bool {
-        let Some(current) = &mut self.current else {
-            return true;
-        };
-        if current.gate == Gate::Closed {
-            current.gate = Gate::Ready;
-        }
-        current.gate == Gate::Open
+        let current = self.current.as_mut();
+        current.is_none_or(|current| current.watch.may_begin())
     }
 
     /// The job has ended.
@@ -452,41 +413,5 @@ impl Attend for JobAttendant<'_> {
 
     fn may_begin(&mut self) -> bool {
         self.jobs.may_begin()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn looked_before(time: Duration) -> Current {
-        Current {
-            client: (1, 1),
-            silent: Duration::ZERO,
-            looked: Instant::now().checked_sub(time).unwrap(),
-            is_unwanted: false,
-            gate: Gate::Closed,
-            lines: None,
-        }
-    }
-
-    #[test]
-    fn silence_is_the_time_that_passed_and_not_the_turns_that_were_meant() {
-        let meant = Duration::from_millis(1);
-        let mut busy = looked_before(Duration::from_millis(8));
-        busy.wait(meant);
-        assert!(busy.silent >= Duration::from_millis(8), "{busy:?}");
-        // A turn that was meant to be long counts as such.
-        let mut at_once = looked_before(Duration::ZERO);
-        at_once.wait(CLIENT_SILENCE);
-        assert!(at_once.unwanted().is_some());
-    }
-
-    #[test]
-    fn a_process_that_stood_still_holds_nothing_against_the_client() {
-        let mut stopped = looked_before(Duration::from_secs(60));
-        stopped.wait(Duration::from_millis(1));
-        assert_eq!(stopped.silent, LONGEST_TURN);
-        assert_eq!(stopped.unwanted(), None);
     }
 }

@@ -5,9 +5,10 @@
 //! ports.
 //!
 //! A client that dies leaves no trace in the transport that would be noticed in time, and one that
-//! hangs leaves none at all. So a stream lives by its requests: after [`CLIENT_SILENCE`] without
-//! one it is over, and the machine comes to rest at the end of what was accepted. A client with
-//! nothing to send repeats its last request.
+//! hangs leaves none at all. So a stream lives by its requests: after [`CLIENT_SILENCE`](crate::CLIENT_SILENCE) without
+//! one it is over. If it has moved by then, the machine comes to rest at the end of what was accepted; if not, nothing
+//! of it moves. A client with nothing to send repeats its last request. The motion begins with the end of the stream, or
+//! with a request that comes when its first frame is ready.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
@@ -18,7 +19,9 @@ use glidepath_link::{LinkError, SegmentRefusal, SegmentReply, SegmentRequest, Se
 use glidepath_motion::PlanError;
 use glidepath_program::Settings;
 
-use crate::jobs::{BUSY, CLIENT_SILENCE, Job, JobAttendant, JobDesk, JobEnd, JobRunner, NEWS};
+use crate::attend::{Attend, Attended};
+use crate::client_watch::ClientWatch;
+use crate::jobs::{BUSY, Job, JobAttendant, JobDesk, JobEnd, JobRunner, NEWS};
 use crate::machine::POLL;
 use crate::stream::refuse;
 use crate::{
@@ -308,23 +311,15 @@ impl Listener<'_> {
         let mut attendant = Attendant {
             server: self.server.as_mut(),
             received: &received,
-            silent: Duration::ZERO,
+            client: ClientWatch::new(),
+            jobs: self.jobs.as_mut(),
         };
         let mut pipeline = Pipeline::new(StreamSource(&received), listening.settings, position)
             .with_joints(listening.joints)
             .of_stream();
-        let jobs = &mut self.jobs;
-        let mut attend = |waited: Duration| {
-            attendant.attend(waited);
-            if let Some(jobs) = jobs {
-                // A port that fails is told when the stream is over.
-                let busy = ("", "another program streams segments");
-                jobs.serve_busy(waited, busy).ok();
-            }
-        };
         let outcome = self
             .publisher
-            .publish_and_attend(&mut pipeline, &mut attend, control);
+            .publish_and_attend(&mut pipeline, &mut attendant, control);
         let received = received.into_inner();
         let mut stream = received.unwrap_or_else(PoisonError::into_inner).stream;
         match &outcome {
@@ -369,14 +364,20 @@ fn lock(received: &Mutex<Received>) -> MutexGuard<'_, Received> {
 struct Attendant<'s> {
     server: &'s mut Segments,
     received: &'s Mutex<Received>,
-    /// Time since the last request of the stream.
-    silent: Duration,
+    client: ClientWatch,
+    /// Where others ask for lines and files.
+    jobs: Option<&'s mut JobDesk>,
 }
 
-impl Attendant<'_> {
+impl Attend for Attendant<'_> {
     /// Answers the client, and notices when it is gone.
-    fn attend(&mut self, waited: Duration) {
-        self.silent = self.silent.saturating_add(waited);
+    fn attend(&mut self, waited: Duration, _doing: &str) -> Attended {
+        self.client.wait(waited);
+        if let Some(jobs) = &mut self.jobs {
+            // A port that fails is told when the stream is over.
+            let busy = ("", "another program streams segments");
+            jobs.serve_busy(waited, busy).ok();
+        }
         let before = lock(self.received).stream.accepted();
         let served = self.serve();
         let mut received = lock(self.received);
@@ -387,24 +388,38 @@ impl Attendant<'_> {
         };
         if let Err(error) = served {
             received.give_up(Refusal::StreamFailed(error));
-        } else if received.stream.is_open() && self.silent >= CLIENT_SILENCE {
+        } else if !received.stream.is_open() {
+            return Attended::GoesOn;
+        } else if let Some(why) = self.client.why_not_begun() {
+            return Attended::End(why.to_owned());
+        } else if self.client.is_silent() {
             let accepted = received.stream.accepted();
             received.give_up(Refusal::ClientLost { accepted });
         }
+        Attended::GoesOn
     }
 
+    fn may_begin(&mut self) -> bool {
+        let received = lock(self.received);
+        // The first frame is at rest, and there before anything is known that moves.
+        received.stream.is_ended() || (received.stream.has_items() && self.client.may_begin())
+    }
+}
+
+impl Attendant<'_> {
     /// Answers what came in.
     fn serve(&mut self) -> Result<(), LinkError> {
         let Self {
             server,
             received,
-            silent,
+            client,
+            ..
         } = self;
         for _ in 0..REQUESTS_PER_TURN {
             let any = server.serve(&mut |request| {
                 let stream = &mut lock(received).stream;
                 if request.session == stream.session() {
-                    *silent = Duration::ZERO;
+                    client.hear();
                 }
                 stream.answer(request)
             })?;

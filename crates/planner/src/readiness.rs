@@ -16,19 +16,19 @@ const NOTICE_AFTER: Duration = Duration::from_secs(1);
 const CLEAN_UP_INTERVAL: Duration = Duration::from_secs(1);
 
 impl Publisher<'_> {
-    /// Tells the interpolator of a job, and waits until that has the machine; returns where the machine
-    /// stands. No fault is reset: that is for whoever has looked at its cause.
+    /// Tells the interpolator of a job by its name and when it was asked for (as [`Publisher::claim`] has it), and waits
+    /// until that has the machine; returns where the machine stands. No fault is reset: that is for whoever has looked at its cause.
     ///
     /// # Errors
     /// [`RunError::Interrupted`] by the stop flag, [`RunError::Fault`] if a fault is latched, the job
     /// was aborted while it waited, [`RunError::PeriodMismatch`], or a failure of the link.
     pub fn wait_until_ready(
         &mut self,
-        name: &str,
+        (name, asked_ns): (&str, u64),
         control: &mut Control<'_>,
     ) -> Result<AxisVector, RunError> {
         let mut told = None;
-        self.claim(name, 0, control);
+        self.claim(name, asked_ns, control);
         loop {
             if control.is_stopped() {
                 return Err(RunError::Interrupted);

@@ -13,8 +13,9 @@
 //! repeats its last request to show that it lives. A refused request changes nothing; the client
 //! may mend it and send it under the same number.
 //!
-//! What was accepted is executed: if the client dies or falls silent, the stream ends where it is,
-//! and the machine comes to rest on the path at the last accepted segment.
+//! The motion begins with the end of the stream, or once a request comes when its first frame is ready, so that nothing
+//! begins for a client that has died meanwhile. From then on what was accepted is executed: if the client dies or falls
+//! silent, the stream ends where it is, and the machine comes to rest on the path at the last accepted segment.
 
 use std::cmp::Ordering::Equal;
 use std::collections::VecDeque;
@@ -151,6 +152,16 @@ impl Stream {
     /// Whether more items may come.
     pub(crate) fn is_open(&self) -> bool {
         self.phase == Phase::Open
+    }
+
+    /// Whether the client said that this was all.
+    pub(crate) fn is_ended(&self) -> bool {
+        self.phase == Phase::Ended
+    }
+
+    /// Whether anything was accepted that is to be done.
+    pub(crate) const fn has_items(&self) -> bool {
+        self.accepted > 1
     }
 
     /// Requests accepted so far, that which opened the stream included.

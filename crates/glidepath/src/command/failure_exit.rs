@@ -56,7 +56,9 @@ impl Failure {
             | Self::Jitter(JitterError::NotRealTime(_))
             | Self::Interpolator(interpolator::RunError::NotRealTime(_)) => Exit::NotRealTime,
             Self::Planner(planner::RunError::Interrupted)
-            | Self::Feed(FeedError::Interrupted)
+            | Self::Feed(
+                FeedError::Interrupted | FeedError::CalledOff { .. } | FeedError::NotEnded,
+            )
             | Self::Interrupted
             | Self::NoAnswer => Exit::Interrupted,
             Self::File(_)

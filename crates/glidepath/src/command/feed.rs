@@ -1,6 +1,6 @@
 //! `glidepath feed`: a client of a listening planner.
 
-use super::session;
+use super::{jobs, session};
 use crate::cli::FeedArgs;
 use crate::command::failure::Failure;
 use crate::config::MachineConfig;
@@ -9,16 +9,19 @@ use crate::file_error::FileError;
 use crate::interrupt::Interrupt;
 use crate::output;
 use crate::report::counted;
-use glidepath_planner::{Control, FeedError, FileSource, Notice, feed as stream};
-use glidepath_realtime::{Clock as _, Monotonic};
+use glidepath_planner::{Control, FeedError, Feeding, FileSource, Notice, feed as stream};
 use serde_json::json;
 
-/// Streams a program, and waits until it is executed.
+/// Streams a program that was asked for at `asked_ns`, ns of the host's steady clock, and waits until it is executed. An
+/// interrupt ends the motion.
 ///
 /// # Errors
 /// The program is rejected, nobody listens, or the motion ended before the program did.
-pub(super) fn feed(args: &FeedArgs, config: &MachineConfig) -> Result<Exit, Failure> {
-    let asked_ns = Monotonic.now_ns();
+pub(super) fn feed(
+    args: &FeedArgs,
+    config: &MachineConfig,
+    asked_ns: u64,
+) -> Result<Exit, Failure> {
     std::fs::File::open(args.file.path()).map_err(FileError::open(args.file.name()))?;
     let interrupt = Interrupt::install().map_err(Failure::Signals)?;
     let transport = session::join(&args.instance, config)?;
@@ -29,17 +32,22 @@ pub(super) fn feed(args: &FeedArgs, config: &MachineConfig) -> Result<Exit, Fail
         notify: &mut notify,
     };
     let name = args.file.name().display().to_string();
-    let open = |start| {
-        FileSource::open(
-            args.file.path(),
-            config.program_options(start),
-            &config.settings(),
-        )
+    let open = |start, watch| {
+        let mut config = config.clone();
+        config.program.watch = Some(watch);
+        let options = config.program_options(start);
+        FileSource::open(args.file.path(), options, &config.settings())
     };
-    let fed = stream(&transport, asked_ns, open, &mut control).map_err(|error| match error {
-        FeedError::Refused(refusal) => Failure::refused(&name, refusal, false),
-        error => error.into(),
-    })?;
+    let link = session::link(&session::instance(&args.instance, config), config);
+    let mut feeding = Feeding {
+        asked_ns,
+        abort: &mut || jobs::abort(&link),
+    };
+    let fed =
+        stream(&transport, &mut feeding, open, &mut control).map_err(|error| match error {
+            FeedError::Refused(refusal) => Failure::refused(&name, refusal, false),
+            error => error.into(),
+        })?;
     if args.basic.json {
         output::object(&json!({ "program": name, "lines": fed.lines, "items": fed.items }));
     } else {

@@ -14,7 +14,6 @@ use glidepath_link::{
     Client, Command, CommandRequest, JobKind, JobReply, JobRequest, JobState, JobWish, LinkConfig,
     LinkError, Record as _, Transport as _,
 };
-use glidepath_realtime::{Clock as _, Monotonic};
 use serde_json::json;
 use std::io::{self, BufRead as _, IsTerminal as _};
 use std::path::Path;
@@ -31,12 +30,12 @@ const TELL_INTERVAL: Duration = Duration::from_secs(1);
 /// Between two looks at how a job stands.
 const POLL: Duration = Duration::from_millis(20);
 
-/// Has a line executed.
+/// Has a line executed that was asked for at `asked_ns`, ns of the host's steady clock.
 ///
 /// # Errors
 /// No service runs, it refuses, or the motion ended before the line did.
-pub(super) fn mdi(args: &MdiArgs, config: &MachineConfig) -> Result<Exit, Failure> {
-    let request = JobRequest::new(client(), 1, JobKind::Line, &args.line, Monotonic.now_ns());
+pub(super) fn mdi(args: &MdiArgs, config: &MachineConfig, asked_ns: u64) -> Result<Exit, Failure> {
+    let request = JobRequest::new(client(), 1, JobKind::Line, &args.line, asked_ns);
     if request.text.as_str() != args.line {
         let line = args.line.clone();
         return Err(Failure::Word(line, "a line has at most 1024 bytes"));
@@ -46,11 +45,15 @@ pub(super) fn mdi(args: &MdiArgs, config: &MachineConfig) -> Result<Exit, Failur
     Ok(Exit::Done)
 }
 
-/// Has a program in a file executed.
+/// Has a program in a file executed that was asked for at `asked_ns`.
 ///
 /// # Errors
 /// As [`mdi`].
-pub(super) fn run_file(args: &RunFileArgs, config: &MachineConfig) -> Result<Exit, Failure> {
+pub(super) fn run_file(
+    args: &RunFileArgs,
+    config: &MachineConfig,
+    asked_ns: u64,
+) -> Result<Exit, Failure> {
     let file = args.file.as_path();
     if file == Path::new("-") {
         return Err(Failure::Word(
@@ -64,7 +67,7 @@ pub(super) fn run_file(args: &RunFileArgs, config: &MachineConfig) -> Result<Exi
         return Err(FileError::open(file)(error).into());
     }
     let name = path.display().to_string();
-    let mut request = JobRequest::new(client(), 1, JobKind::File, &name, Monotonic.now_ns());
+    let mut request = JobRequest::new(client(), 1, JobKind::File, &name, asked_ns);
     if request.text.as_str() != name {
         return Err(Failure::Word(
             name,
@@ -200,11 +203,7 @@ impl Desk<'_> {
     }
 
     fn abort(&self) {
-        let request = CommandRequest::new(u64::from(std::process::id()), 1, Command::Abort);
-        // What it comes to is seen by how the job ends.
-        if let Ok(operator) = reach(self.link) {
-            let _answer = operator.call(&request, ABORT_PATIENCE);
-        }
+        abort(self.link);
     }
 
     /// Asks until there is an answer, or nobody is there who could give one.
@@ -246,6 +245,14 @@ impl Desk<'_> {
             self.give_up()?;
             std::thread::sleep(Duration::from_millis(1));
         }
+    }
+}
+
+/// Has the motion of a job or a stream aborted that was given up. What it comes to is seen by how that ends.
+pub(super) fn abort(link: &LinkConfig) {
+    let request = CommandRequest::new(u64::from(std::process::id()), 1, Command::Abort);
+    if let Ok(operator) = reach(link) {
+        let _answer = operator.call(&request, ABORT_PATIENCE);
     }
 }
 

@@ -57,6 +57,7 @@ use crate::output;
 use crate::program_file::ProgramFile;
 use failure::Failure;
 use glidepath_link as link;
+use glidepath_realtime::{Clock as _, Monotonic};
 use serde_json::json;
 
 /// Does what the command line asks for, and prints its result.
@@ -101,6 +102,8 @@ pub fn usage(error: &clap::Error) -> Exit {
 
 fn dispatch(command: &Command) -> Result<Exit, Failure> {
     let config = || machine(command);
+    // However long the configuration, the tool table or the program takes to be read.
+    let asked_ns = Monotonic.now_ns();
     match command {
         Command::Offsets(command) => offsets::offsets(command, &config()?),
         Command::Config(args) => configuration::configuration(args),
@@ -108,12 +111,12 @@ fn dispatch(command: &Command) -> Result<Exit, Failure> {
         Command::Plan(args) => plan::plan(args, &config()?),
         Command::Check(args) => check::check(args, &config()?),
         Command::Interpolator(args) => interpolator::interpolator(args, &config()?),
-        Command::Planner(args) => planner::planner(args, &config()?),
-        Command::RunFile(args) => jobs::run_file(args, &config()?),
-        Command::Mdi(args) => jobs::mdi(args, &config()?),
+        Command::Planner(args) => planner::planner(args, &config()?, asked_ns),
+        Command::RunFile(args) => jobs::run_file(args, &config()?, asked_ns),
+        Command::Mdi(args) => jobs::mdi(args, &config()?, asked_ns),
         Command::Ethercat(args) => ethercat::ethercat(args, &config()?),
         Command::Servo(args) => servo::servo(args, &config()?),
-        Command::Feed(args) => feed::feed(args, &config()?),
+        Command::Feed(args) => feed::feed(args, &config()?, asked_ns),
         Command::Status(args) if args.watch => watch::watch(args, &config()?),
         Command::Status(args) => operator::status(&args.operator, &config()?),
         Command::Live(args) => live::live(args, &config()?),

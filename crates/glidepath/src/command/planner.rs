@@ -26,11 +26,16 @@ use glidepath_planner::{
 use serde_json::{Value, json};
 use std::time::Duration;
 
-/// Plans and publishes until the motion is executed, or, with `--listen`, until asked to end.
+/// Plans and publishes until the motion is executed that was asked for at `asked_ns`, ns of the host's steady clock, or,
+/// with `--listen`, until asked to end.
 ///
 /// # Errors
 /// The program is rejected, the motion was aborted or stopped by a fault, or the link failed.
-pub(super) fn planner(args: &PlannerArgs, config: &MachineConfig) -> Result<Exit, Failure> {
+pub(super) fn planner(
+    args: &PlannerArgs,
+    config: &MachineConfig,
+    asked_ns: u64,
+) -> Result<Exit, Failure> {
     let interrupt = Interrupt::install().map_err(Failure::Signals)?;
     end_with(args.end_with).map_err(Failure::Signals)?;
     // Where that is not allowed, `glidepath doctor` says so; planning goes on as an ordinary process.
@@ -86,6 +91,7 @@ pub(super) fn planner(args: &PlannerArgs, config: &MachineConfig) -> Result<Exit
         attendant: &attendant,
         board: &board,
         file,
+        asked_ns,
         note: ProgramNote::of_file(&link, file.name()),
     };
     let executed = match (file.is_standard_input(), args.resume) {
@@ -122,6 +128,8 @@ struct Job<'a> {
     attendant: &'a Attendant,
     board: &'a Board,
     file: &'a ProgramFile,
+    /// When it was asked for, ns of the host's steady clock.
+    asked_ns: u64,
     note: ProgramNote<'a>,
 }
 
@@ -138,6 +146,13 @@ impl Job<'_> {
         let name = self.file.name();
         let last = name.file_name().unwrap_or(name.as_os_str());
         last.to_string_lossy().into_owned()
+    }
+
+    /// Takes the machine; where that stands.
+    fn wait_until_ready(&mut self, control: &mut Control<'_>) -> Result<AxisVector, RunError> {
+        let name = self.short_name();
+        let job = (name.as_str(), self.asked_ns);
+        self.publisher.wait_until_ready(job, control)
     }
 
     /// The configuration for a program whose reading the interpolator can end.
@@ -183,8 +198,7 @@ impl Job<'_> {
             );
         }
         self.board.clear();
-        let name = self.short_name();
-        let start = self.publisher.wait_until_ready(&name, control)?;
+        let start = self.wait_until_ready(control)?;
         let options = self.watched().program_options(start);
         let source = PipeSource::spawn(std::io::stdin(), options, self.attendant.attending())
             .map_err(|refusal| Failure::refused(&self.name(), refusal, true))?;
@@ -194,8 +208,7 @@ impl Job<'_> {
 
     /// One program, from where the machine stands.
     fn run(&mut self, control: &mut Control<'_>) -> Result<Statistics, Failure> {
-        let name = self.short_name();
-        let start = self.publisher.wait_until_ready(&name, control)?;
+        let start = self.wait_until_ready(control)?;
         let config = self.watched();
         let source = self.open(start, &config, control)?;
         self.tell_begun(&config, source.fingerprint(), Part::Whole);
@@ -234,8 +247,7 @@ impl Job<'_> {
 
     /// The rest of a program, from where the machine stands on its path.
     fn resume(&mut self, control: &mut Control<'_>) -> Result<Statistics, Failure> {
-        let name = self.short_name();
-        let start = self.publisher.wait_until_ready(&name, control)?;
+        let start = self.wait_until_ready(control)?;
         let point = self.publisher.resume_point()?;
         // What it began with, not what it has made of that meanwhile.
         let mut config = self.watched();

@@ -7,20 +7,22 @@
 
 use crate::support;
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use crate::support::attended;
 use crate::support::interpolator::Interpolator;
 use crate::support::items::{Listed, PERIOD_NS, point, records, settings, staircase};
+use glidepath_gcode::ReadingWatch;
 use glidepath_geometry::AxisVector;
 use glidepath_link::{
     Client, EndOfEpoch, InProcess, SegmentRefusal, SegmentReply, SegmentRequest, SetpointFrame,
     StreamItem, Transport,
 };
 use glidepath_planner::{
-    Control, FeedError, Listening, Pace, Refusal, RunError, SoftLimits, feed, listen,
+    CLIENT_SILENCE, Control, FeedError, Feeding, ItemSource, Listening, Pace, Refusal, RunError,
+    SoftLimits, Supply, feed, listen,
 };
 use glidepath_program::{Item, ItemKind};
 
@@ -39,7 +41,7 @@ fn listening() -> Listening {
     }
 }
 
-/// A client that sends its requests one after the other, then is silent for ever.
+/// A client that sends its requests one after the other, then repeats the last one as long as it lives.
 struct Scripted {
     port: Box<dyn Client<SegmentRequest, SegmentReply>>,
     requests: Vec<SegmentRequest>,
@@ -47,6 +49,7 @@ struct Scripted {
     replies: Vec<SegmentReply>,
     /// Takes a planner that is not ready for an answer.
     impatient: bool,
+    lives: Cell<bool>,
 }
 
 impl Scripted {
@@ -62,10 +65,18 @@ impl Scripted {
             sent: 0,
             replies: Vec::new(),
             impatient: false,
+            lives: Cell::new(true),
         }
     }
 
     fn go_on(&mut self) {
+        let is_said = self.sent == self.requests.len() && self.replies.len() == self.sent;
+        if let Some(last) = self.requests.last().filter(|_| is_said && self.lives.get()) {
+            // What is answered to that was answered before.
+            while let Some(_again) = self.port.reply().unwrap() {}
+            self.port.ask(last).unwrap();
+            return;
+        }
         while let Some(reply) = self.port.reply().unwrap() {
             let not_ready = reply.number == 0 && reply.refusal == SegmentRefusal::Stopped.code();
             if not_ready && !self.impatient {
@@ -145,7 +156,8 @@ fn a_client_that_dies_leaves_the_machine_at_the_last_accepted_segment() {
     let transport = InProcess::default();
     let items = staircase(12);
     let mut clients = [Scripted::new(&transport, 1, &script(&items[..7], false))];
-    let (interpolator, notices) = listen_to(&transport, &mut clients, |i, _| {
+    let (interpolator, notices) = listen_to(&transport, &mut clients, |i, clients| {
+        clients[0].lives.set(i.executed.is_empty());
         i.end() == EndOfEpoch::Completed
     });
     // Where nothing more comes the motion rests, as behind an exact stop.
@@ -167,6 +179,30 @@ fn a_client_that_dies_leaves_the_machine_at_the_last_accepted_segment() {
     );
     assert_eq!(interpolator.position, point(20.0, 15.0));
     assert_eq!(notices.len(), 3, "{notices:?}");
+}
+
+/// Its planner may have hung meanwhile.
+#[test]
+fn a_client_that_is_silent_when_the_first_frame_is_ready_moves_nothing() {
+    let transport = InProcess::default();
+    let mut clients = [Scripted::new(&transport, 1, &script(&staircase(1), false))];
+    clients[0].lives.set(false);
+    let looks = Cell::new(0);
+    let (interpolator, notices) = listen_to(&transport, &mut clients, |_, _| {
+        looks.set(looks.get() + 1);
+        looks.get() > 20_000
+    });
+    assert_eq!(clients[0].refusals(), []);
+    assert!(
+        interpolator.executed.is_empty(),
+        "it moves: {} frames, {notices:?}",
+        interpolator.executed.len()
+    );
+    assert_eq!(notices.len(), 4, "{notices:?}");
+    assert!(
+        notices[2].contains("fell silent before anything moved"),
+        "{notices:?}"
+    );
 }
 
 #[test]
@@ -249,13 +285,20 @@ fn an_unready_machine_opens_no_stream() {
     assert_eq!(clients[0].refusals(), [SegmentRefusal::Stopped]);
 }
 
+type FedResult = Result<glidepath_planner::Fed, FeedError>;
+
 /// Feeds a source to a listening planner in another thread, both at the speed of the clock.
-fn fed(
-    source: &Listed,
-) -> (
-    Result<glidepath_planner::Fed, FeedError>,
-    Vec<SetpointFrame>,
-) {
+fn fed(source: &Listed) -> (FedResult, Vec<SetpointFrame>) {
+    let goes_on = AtomicBool::new(false);
+    fed_until(&goes_on, &mut || {}, &|_| source.clone())
+}
+
+/// The same with a source that knows when its reading is to end, until the flag is set.
+fn fed_until<S: ItemSource>(
+    client_stop: &AtomicBool,
+    abort: &mut dyn FnMut(),
+    make_source: &(dyn Fn(ReadingWatch) -> S + Sync),
+) -> (FedResult, Vec<SetpointFrame>) {
     let transport = InProcess::default();
     let stop = AtomicBool::new(false);
     std::thread::scope(|scope| {
@@ -276,12 +319,14 @@ fn fed(
             interpolator.executed
         });
         let mut control = Control {
-            stop: &AtomicBool::new(false),
+            stop: client_stop,
             pause: &mut std::thread::sleep,
             notify: &mut |_| {},
         };
         let result = loop {
-            match feed(&transport, 0, |_| Ok(source.clone()), &mut control) {
+            let mut feeding = Feeding { asked_ns: 0, abort };
+            let make_source = |_, watch| Ok(make_source(watch));
+            match feed(&transport, &mut feeding, make_source, &mut control) {
                 // The planner's thread has not opened its port yet, or not seen the machine.
                 Err(FeedError::Link(glidepath_link::LinkError::NoServer { .. })) => {}
                 Err(FeedError::RefusedByPlanner {
@@ -295,6 +340,48 @@ fn fed(
         stop.store(true, Ordering::Relaxed);
         (result, planner.join().unwrap())
     })
+}
+
+/// A program whose last loop goes on and on.
+struct Turning {
+    items: Listed,
+    watch: ReadingWatch,
+}
+
+impl ItemSource for Turning {
+    fn next_item(&mut self) -> Supply {
+        let supply = self.items.next_item();
+        while matches!(supply, Supply::End) && !self.watch.is_to_end() {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        supply
+    }
+
+    fn lines_read(&self) -> u64 {
+        self.items.lines_read()
+    }
+}
+
+#[test]
+fn the_bundled_client_lives_and_is_ended_however_long_its_program_gives_nothing() {
+    let items = staircase(3);
+    let stop = AtomicBool::new(false);
+    let mut aborts = 0;
+    let (result, executed) = std::thread::scope(|scope| {
+        scope.spawn(|| {
+            std::thread::sleep(CLIENT_SILENCE + Duration::from_millis(500));
+            stop.store(true, Ordering::Relaxed);
+        });
+        fed_until(&stop, &mut || aborts += 1, &|watch| Turning {
+            items: Listed::new(&items),
+            watch,
+        })
+    });
+    // Nobody obeys the abort here.
+    assert!(matches!(result, Err(FeedError::NotEnded)), "{result:?}");
+    assert!(aborts > 0);
+    let position = executed.last().map(|frame| frame.position[0]);
+    assert_eq!(position, Some(10.0), "what has come is done");
 }
 
 #[test]

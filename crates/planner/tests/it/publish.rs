@@ -34,7 +34,7 @@ fn run(
     control: &mut Control<'_>,
 ) -> Result<Statistics, RunError> {
     let mut publisher = Publisher::connect(transport, pace)?;
-    let start = publisher.wait_until_ready("part", control)?;
+    let start = publisher.wait_until_ready(("part", 0), control)?;
     publisher.publish(&mut Pipeline::new(source, settings(), start), control)
 }
 
@@ -81,7 +81,7 @@ fn what_a_program_says_is_told_when_the_machine_comes_to_it() {
         },
         |control| {
             let mut publisher = Publisher::connect(&transport, pace())?;
-            let start = publisher.wait_until_ready("part", control)?;
+            let start = publisher.wait_until_ready(("part", 0), control)?;
             let log = RemarkLog::default();
             publisher.attend_remarks(log.clone());
             let source = ProgramSource::new(TEXT.as_bytes(), Options::default());
@@ -408,7 +408,7 @@ fn interfered(
         },
         |control| {
             let mut publisher = Publisher::connect(&transport, pace())?;
-            let start = publisher.wait_until_ready("part", control)?;
+            let start = publisher.wait_until_ready(("part", 0), control)?;
             let watch = publisher.watch();
             let check = || {
                 while !is_checked.load(Ordering::Relaxed) && !watch.is_to_end() {

@@ -1,0 +1,113 @@
+//! A stream of segments obeys whoever streams it and every stop, from when it was asked for to its end.
+
+use std::process::Stdio;
+use std::time::{Duration, Instant};
+
+use glidepath_link::MachineState;
+use glidepath_tests::{Instance, Process, Watchdog};
+use rustix::process::Signal;
+
+use crate::jobs::{Bench, ended_within};
+
+const PATIENCE: Duration = Duration::from_secs(400);
+/// How soon a command ends that is told to, on a host that is busy.
+const SOON: Duration = Duration::from_secs(2);
+
+const SIGNALS: [Signal; 3] = [Signal::INT, Signal::TERM, Signal::HUP];
+
+#[test]
+fn the_end_of_its_client_ends_a_stream_and_its_motion() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let bench = Bench::start(&instance);
+    let part = instance.file("part.ngc", "G21 G90\nG1 X200 F1200\nX0\nM2\n");
+    for signal in SIGNALS {
+        let client = bench.operated.process(&["feed", &part]);
+        let _moving = bench.operated.wait(|status| status.position[0] > 2.0);
+        client.signal(signal);
+        let output = ended_within(client, SOON).expect(130);
+        let told = output.stderr.contains("the stream has ended");
+        assert!(told, "{output:#?}");
+        let rests = bench.operated.wait_for(MachineState::Idle);
+        assert!(rests.position[0] < 100.0, "{:?}", rests.position);
+        bench.stays(&rests);
+        bench.goes_on();
+
+        // So it is where its program has not come to its end.
+        let before = bench.operated.wait(|_| true);
+        let arguments = ["feed", "-", "--config", bench.operated.config()];
+        let mut client = Process::join_with(&instance, &arguments, Stdio::piped());
+        client.write("G21 G90\nG1 X20 F600\n");
+        std::thread::sleep(Duration::from_millis(500));
+        client.signal(signal);
+        ends_within(&mut client, SOON);
+        bench.stays(&before);
+
+        // While the client checks its program nothing is streamed.
+        let client = bench.operated.process(&["feed", &bench.slow]);
+        std::thread::sleep(Duration::from_millis(500));
+        client.signal(signal);
+        let output = ended_within(client, SOON).expect(130);
+        let told = output.stderr.contains("nothing was streamed");
+        assert!(told, "{output:#?}");
+        bench.stays(&before);
+        bench.goes_on();
+    }
+}
+
+/// The planner hangs: what tells the machine is the interpolator.
+#[test]
+fn a_stream_whose_planner_hangs_is_ended_all_the_same() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let bench = Bench::start(&instance);
+    let part = instance.file("part.ngc", "G21 G90\nG1 X200 F1200\nX0\nM2\n");
+    let client = bench.operated.process(&["feed", &part]);
+    let _moving = bench.operated.wait(|status| status.position[0] > 2.0);
+    let service = &bench.processes[2];
+    service.signal(Signal::STOP);
+    client.signal(Signal::TERM);
+    let output = ended_within(client, SOON).expect(130);
+    let told = output.stderr.contains("has not said yet");
+    assert!(told, "{output:#?}");
+    let rests = bench.operated.wait_for(MachineState::Idle);
+    assert!(rests.position[0] < 100.0, "{:?}", rests.position);
+    service.signal(Signal::CONT);
+    bench.stays(&rests);
+    bench.goes_on();
+}
+
+/// However long the program takes to come through its pipe.
+#[test]
+fn an_abort_counts_for_what_still_reads_its_program() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let mut bench = Bench::start(&instance);
+    for command in ["feed", "planner"] {
+        if command == "planner" {
+            // It plans by itself.
+            let service = bench.processes.remove(2);
+            let _ended = service.end().expect(0);
+        }
+        let before = bench.operated.wait(|_| true);
+        let arguments = [command, "/dev/stdin", "--config", bench.operated.config()];
+        let mut client = Process::join_with(&instance, &arguments, Stdio::piped());
+        client.write("G21 G90\nG1 X20 F600\n");
+        std::thread::sleep(Duration::from_secs(1));
+        bench.operated.operate(&["abort"]);
+        client.write("M2\n");
+        client.close();
+        let output = client.wait();
+        assert_ne!(output.status.code(), Some(0), "{output:#?}");
+        let words = ["was stopped after", "abort"];
+        let told = words.iter().any(|words| output.stderr.contains(words));
+        assert!(told, "{output:#?}");
+        bench.stays(&before);
+    }
+}
+
+/// A process whose standard input is still open ends.
+fn ends_within(process: &mut Process, patience: Duration) {
+    let begun = Instant::now();
+    while process.runs() {
+        assert!(begun.elapsed() < patience, "it goes on");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+}
