@@ -92,7 +92,8 @@ pub struct Told {
     pub read: u64,
     /// The line behind those was refused.
     pub refused: Option<Refused>,
-    /// Motion that is planned ahead of what is executed, s.
+    /// Motion that is planned ahead of what is executed, s; above 0 as long as anything that was read is not
+    /// executed.
     pub ahead_t: f64,
     /// How the machine is set up.
     pub facts: Facts,

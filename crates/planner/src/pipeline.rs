@@ -238,6 +238,11 @@ impl<S: ItemSource> Pipeline<S> {
         self.may_rest = may_rest;
     }
 
+    /// Whether the motion would go on, in whatever comes next, behind the item taken last: it may not be planned yet.
+    pub(crate) const fn goes_on(&self) -> bool {
+        self.goes_on
+    }
+
     /// From now on keeps what [`Pipeline::replan`] needs.
     pub(crate) fn keep_history(&mut self) {
         self.history = Some(History::new(&self.planning, self.settings.period_t));

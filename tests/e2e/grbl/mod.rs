@@ -335,6 +335,31 @@ fn jogs_come_to_their_ends_and_are_ended() {
     bench.end();
 }
 
+/// A sender takes the machine that is idle for the end of its lines.
+#[test]
+fn between_ok_and_the_end_of_its_motion_no_line_is_told_as_done() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let bench = Bench::start(&instance);
+    let mut sender = bench.sender();
+    assert_eq!(sender.answers(&["G21 G90", "G1 X0 F2400"]), ["ok"; 2]);
+    for round in 1..=12_u32 {
+        let wanted = if round.is_multiple_of(2) { 1.0 } else { 6.0 };
+        assert_eq!(sender.answers(&[&format!("G1 X{wanted}")]), ["ok"]);
+        loop {
+            sender.send(b"?");
+            let state = sender.state();
+            let x = sender.position()[0];
+            if (x - wanted).abs() < 1e-3 {
+                break;
+            }
+            assert_ne!(state, "Idle", "in round {round}, at X {x}");
+        }
+        // Into a job that lives on, and into a new one.
+        std::thread::sleep(Duration::from_millis(u64::from(round) * 20));
+    }
+    bench.end();
+}
+
 /// What waited at an endpoint that stood still.
 #[test]
 fn what_came_before_an_abort_and_is_heard_behind_it_moves_nothing() {

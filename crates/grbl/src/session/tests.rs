@@ -23,6 +23,7 @@ struct Desk {
     idle: u32,
     over: Option<End>,
     refused: Option<Refused>,
+    ahead_t: f64,
 }
 
 impl Desk {
@@ -48,6 +49,7 @@ impl Desk {
             idle: 0,
             over: None,
             refused: None,
+            ahead_t: 0.0,
         };
         desk.look();
         desk.session.connected(desk.now);
@@ -123,7 +125,7 @@ impl Desk {
             taken: self.taken,
             read: self.read,
             refused: self.refused.clone(),
-            ahead_t: 0.0,
+            ahead_t: self.ahead_t,
             facts: self.facts.clone(),
         };
         self.session.told(&told, self.now);
@@ -275,6 +277,20 @@ fn a_reset_in_motion_ends_the_job_and_keeps_what_comes_behind_it() {
     assert_eq!(answers(&said[welcome..]), ["ok"]);
     assert_eq!(desk.executed, ["G1 X100 F100", "G55"]);
     assert!(!said.iter().any(|line| line.contains("ALARM")));
+}
+
+#[test]
+fn a_machine_that_is_about_to_move_is_not_idle() {
+    let mut desk = Desk::new();
+    desk.ahead_t = 0.5;
+    desk.session.hear(b"G0 X1\n", desk.now);
+    desk.machine.doing = Doing::Waiting;
+    desk.looks(5);
+    assert_eq!(answers(&desk.said()), ["ok"]);
+    assert_eq!(desk.state(), "Run");
+    desk.ahead_t = 0.0;
+    desk.looks(2);
+    assert_eq!(desk.state(), "Idle");
 }
 
 #[test]

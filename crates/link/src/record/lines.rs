@@ -130,7 +130,8 @@ pub struct LinesReply {
     pub refused_column: u32,
     /// 1 if lines in front of it were still to be executed when it was refused.
     pub refused_in_motion: u32,
-    /// How much motion is planned ahead of what is executed, s.
+    /// How much motion is planned ahead of what is executed, s; above 0 as long as anything that was read is not
+    /// executed.
     pub ahead_t: f64,
     /// Where the zero of programs is for what is executed now: machine coordinates, with all offsets.
     pub zero: [f64; AXES],

@@ -53,7 +53,10 @@ pub(crate) enum Work {
 enum Activity {
     Planning,
     /// The source has nothing; it is asked again when the publishing thread says so.
-    Pending,
+    Pending {
+        /// What was taken is planned to a rest.
+        rests: bool,
+    },
     Ended(Result<(), Refusal>),
     Died,
 }
@@ -151,7 +154,7 @@ impl FrameQueue {
         }
         match &mut shared.activity {
             Activity::Planning => Next::Busy,
-            Activity::Pending => Next::Pending,
+            Activity::Pending { .. } => Next::Pending,
             Activity::Ended(end) => Next::End(std::mem::replace(end, Ok(()))),
             Activity::Died => Next::Died,
         }
@@ -180,18 +183,18 @@ impl FrameQueue {
     /// Has a source asked again that had nothing.
     pub(crate) fn ask_again(&self) {
         let mut shared = self.lock();
-        if matches!(shared.activity, Activity::Pending) {
+        if matches!(shared.activity, Activity::Pending { .. }) {
             shared.activity = Activity::Planning;
             self.work.notify_one();
         }
     }
 
-    /// Whether the source has nothing, and every frame before was given out.
+    /// Whether the source has nothing, and every frame of what came before was given out, up to a rest.
     pub(crate) fn is_dry(&self) -> bool {
         let shared = self.lock();
         shared.frames.is_empty()
             && shared.wanted.is_none()
-            && matches!(shared.activity, Activity::Pending)
+            && matches!(shared.activity, Activity::Pending { rests: true })
     }
 
     /// Frames that wait.
@@ -262,9 +265,9 @@ impl FrameQueue {
         }
     }
 
-    /// The source has nothing.
-    pub(crate) fn pending(&self) {
-        self.rest(Activity::Pending);
+    /// The source has nothing; what was taken before is planned to a rest, or not yet.
+    pub(crate) fn pending(&self, rests: bool) {
+        self.rest(Activity::Pending { rests });
     }
 
     /// There are no more frames, or no more because of an error.
@@ -295,7 +298,7 @@ impl Activity {
     fn begin_anew(&mut self) -> Option<Refusal> {
         match std::mem::replace(self, Self::Planning) {
             Self::Ended(end) => end.err(),
-            Self::Planning | Self::Pending | Self::Died => None,
+            Self::Planning | Self::Pending { .. } | Self::Died => None,
         }
     }
 }

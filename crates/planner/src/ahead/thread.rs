@@ -43,7 +43,7 @@ fn plan<S: ItemSource>(pipeline: &mut Pipeline<S>, queue: &FrameQueue) {
                 match pipeline.step() {
                     Ok(Step::Frame) => queue.add(pipeline.frame(), pipeline.statistics()),
                     Ok(Step::Item) => {}
-                    Ok(Step::Pending) => queue.pending(),
+                    Ok(Step::Pending) => queue.pending(!pipeline.goes_on()),
                     Ok(Step::End) => queue.end(Ok(())),
                     Err(refusal) => queue.end(Err(refusal)),
                 }

@@ -21,6 +21,9 @@ const FLUSH: Duration = Duration::from_millis(20);
 /// How long no line comes before the job ends, when all is executed.
 const LINGER: Duration = Duration::from_millis(100);
 
+/// What is told of motion that is to come and is not planned, s.
+const UNPLANNED_T: f64 = 1e-3;
+
 /// How a job of lines has ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum LinesEnd {
@@ -76,6 +79,17 @@ struct Inbox {
     /// What is in force behind a block, likewise.
     states: VecDeque<(u32, InForce)>,
     state: Option<InForce>,
+}
+
+impl Inbox {
+    /// Motion that is to come, s: above 0 as long as anything that was given out is not executed, also where it is
+    /// not planned yet.
+    const fn ahead_t(&self) -> f64 {
+        match self.followed {
+            Followed { rests: true, .. } => 0.0,
+            Followed { ahead_t, .. } => ahead_t.max(UNPLANNED_T),
+        }
+    }
 }
 
 impl LineInbox {
@@ -168,6 +182,10 @@ impl LineInbox {
     pub(crate) fn end(&self, end: LinesEnd, text: &str) {
         let mut inbox = self.lock();
         inbox.is_over = true;
+        inbox.followed = Followed {
+            rests: true,
+            ..Followed::default()
+        };
         if let (LinesEnd::Done, Some(line)) = (end, inbox.program_end) {
             inbox.read = line;
         }
@@ -199,7 +217,7 @@ impl LineInbox {
             is_refused: inbox.refused.is_some().into(),
             refused_column: refused.column,
             refused_in_motion: refused.in_motion.into(),
-            ahead_t: inbox.followed.ahead_t,
+            ahead_t: inbox.ahead_t(),
             zero: inbox.zero.into(),
             diagnostic: Text::new(&refused.diagnostic),
             text: LongText::new(text),

@@ -113,6 +113,18 @@ fn what_ends_at_rest_counts_when_it_is_executed() {
 }
 
 #[test]
+fn what_was_read_is_told_to_be_ahead_until_it_is_executed() {
+    let mut desk = Desk::new();
+    assert!(desk.reply().ahead_t <= 0.0);
+    desk.inbox.take(&request(1, "G0 X1\n"));
+    assert_eq!(desk.items().len(), 1);
+    assert_eq!(desk.reply().read, 1);
+    assert!(desk.reply().ahead_t > 0.0, "nothing is planned yet");
+    desk.executed(1);
+    assert!(desk.reply().ahead_t <= 0.0);
+}
+
+#[test]
 fn lines_wait_while_enough_is_planned() {
     let mut desk = Desk::new();
     desk.inbox.follow(&Followed {
