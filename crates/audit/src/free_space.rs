@@ -72,6 +72,12 @@ impl Chord {
         }
     }
 
+    /// A part of it.
+    pub(crate) fn part(&self, part: Interval) -> Self {
+        let along = self.displacement();
+        Self::new(self.from + along * part.low, self.from + along * part.high)
+    }
+
     pub(crate) fn displacement(&self) -> AxisVector {
         self.to - self.from
     }

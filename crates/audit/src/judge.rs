@@ -2,17 +2,16 @@
 
 use crate::column::{EXACT_MM, Level, Passage, Reach};
 use crate::end::End;
+use crate::feed::FEED_SLACK;
 use crate::free_space::Interval;
 use crate::matching::{Matching, Spot};
 use crate::program::Presence;
 use crate::tremor::Place;
 use crate::trouble::Goal;
 use crate::violation::{ViolationKind, Worst};
-use glidepath_geometry::{AxisVector, feed_length};
+use glidepath_geometry::AxisVector;
 use glidepath_program::tolerance_norm;
 
-/// The programmed feed counts as kept up to this factor.
-const FEED_SLACK: f64 = 1.0 + 1e-3;
 /// Latest rests kept in mind.
 const RESTS: usize = 64;
 
@@ -98,32 +97,12 @@ impl Matching {
         self.violations.push(tick, line, kind);
     }
 
-    /// Path speed against the feed of the chords the motion may be on.
-    ///
-    /// At the level the motion is matched at, those are fewer than the tolerance allows: next to a
-    /// vertex it may be on the chord behind it already, or still on the one before it. So what
-    /// seems too fast is judged at the tolerance: by the chords from where the period may have
-    /// begun to where it may have ended.
-    pub(crate) fn judge_feed(&mut self, spot: &Spot, ticks: u64, first: usize) {
-        let Some(column) = self.history.back() else {
+    /// Judges the path speed of the last column against its feed, mm/s, which is infinite on a rapid.
+    pub(crate) fn judge_feed(&mut self, spot: &Spot, ticks: u64, feed_v: f64) {
+        let Some(column) = self.history.back().filter(|_| feed_v > 0.0) else {
             return;
         };
-        #[expect(clippy::cast_precision_loss, reason = "a few")]
-        let elapsed_t = self.period_t * ticks as f64;
-        let speed_v = feed_length(&column.chord.displacement()) / elapsed_t;
-        let mut feed_v = self.most_feed_v(first, self.reach.end());
-        if feed_v <= 0.0 {
-            return;
-        }
-        if speed_v > FEED_SLACK * feed_v * self.feed_factor {
-            let widest = Level::up_to(self.cap());
-            if self.replay(0, &widest, Goal::Anything) == Passage::Passed {
-                let [after, before] = &self.scratch;
-                let (first, end) = (first.min(before.low), after.end());
-                feed_v = feed_v.max(self.most_feed_v(first, end));
-            }
-        }
-        let ratio = speed_v / (feed_v * self.feed_factor);
+        let ratio = self.speed_v(&column.chord, ticks) / (feed_v * self.feed_factor);
         if ratio > self.max_feed.ratio {
             self.max_feed = Worst {
                 ratio,
@@ -157,8 +136,7 @@ impl Matching {
             self.cruise.lose();
             return;
         }
-        #[expect(clippy::cast_precision_loss, reason = "a few")]
-        let elapsed_t = self.period_t * ticks as f64;
+        let speed_v = self.speed_v(&column.chord, ticks);
         let mut place = Place {
             tick: spot.tick,
             line: spot.line,
@@ -168,7 +146,7 @@ impl Matching {
             still: row.piece.still,
             level: row.chord.from,
             piece: Some(row.piece),
-            speed_v: feed_length(&column.chord.displacement()) / elapsed_t,
+            speed_v,
             feed_v: row.feed_v,
         };
         let mut number = row.piece.number;
@@ -184,12 +162,6 @@ impl Matching {
         }
         self.still.next(&place, &mut self.tremors);
         self.cruise.next(&place, &mut self.tremors);
-    }
-
-    /// The fastest feed of some chords, mm/s; 0 if there are none.
-    fn most_feed_v(&self, first: usize, end: usize) -> f64 {
-        let rows = (first..end).filter_map(|index| self.rows.get(index));
-        rows.fold(0.0, |most, row| row.feed_v.max(most))
     }
 
     pub(crate) fn is_reached(&mut self, goal: Goal, reach: &Reach) -> bool {

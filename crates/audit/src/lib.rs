@@ -45,6 +45,7 @@ mod column;
 pub mod diagnosis;
 mod end;
 mod event_places;
+mod feed;
 mod flatten;
 mod follow;
 mod free_space;

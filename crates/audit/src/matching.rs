@@ -251,7 +251,16 @@ impl Matching {
             }
         };
         match passage {
-            Passage::Passed => self.commit(waiting, first),
+            Passage::Passed => {
+                let is_followed = self.trouble.is_none();
+                let feed_v = is_followed.then(|| self.feed_v(waiting.ticks, first));
+                // Behind an exact stop that was missed nothing is gone back to.
+                if feed_v == Some(None) && !self.is_history_void {
+                    self.take_back();
+                    return false;
+                }
+                self.commit(waiting, first, feed_v.flatten());
+            }
             Passage::Blocked => self.lose(spot),
             Passage::NotYet => {
                 self.drop_column(VecDeque::pop_back);
@@ -259,6 +268,14 @@ impl Matching {
             }
         }
         true
+    }
+
+    /// The last column has not been passed yet.
+    fn take_back(&mut self) {
+        if let Some(column) = self.history.back_mut() {
+            core::mem::swap(&mut self.reach, &mut column.reach);
+        }
+        self.drop_column(VecDeque::pop_back);
     }
 
     /// The last column does not pass at the present level, or the motion is out of tolerance. What
@@ -277,8 +294,9 @@ impl Matching {
         self.widen(Goal::Anything)
     }
 
-    /// What follows from a sample that was matched; `first` is the first chord it may have been on.
-    fn commit(&mut self, waiting: &Waiting, first: usize) {
+    /// What follows from a sample that was matched; `first` is the first chord it may have been on,
+    /// `feed_v` the feed there, mm/s, if that is known.
+    fn commit(&mut self, waiting: &Waiting, first: usize, feed_v: Option<f64>) {
         let spot = &waiting.spot;
         let from = self.at.replace(spot.position);
         if let Some(at) = from {
@@ -292,7 +310,9 @@ impl Matching {
                 self.settle(Goal::WithinTolerance);
             }
         } else {
-            self.judge_feed(spot, waiting.ticks, first);
+            if let Some(feed_v) = feed_v {
+                self.judge_feed(spot, waiting.ticks, feed_v);
+            }
             self.note_deviation(self.lambda_mm, spot.tick, spot.line);
         }
         if core::mem::take(&mut self.is_history_void) {

@@ -52,6 +52,8 @@ pub(crate) struct DiagramRow {
     pub(crate) tolerance_mm: f64,
     /// Tolerance at its end, mm.
     pub(crate) end_tolerance_mm: f64,
+    /// Tolerance of its move, whatever that of the move before is, mm.
+    pub(crate) own_tolerance_mm: f64,
     /// Its end must be met.
     pub(crate) exact_end: Option<ExactEnd>,
     /// Time to rest at its end, s.
@@ -307,6 +309,7 @@ impl DiagramRows {
                 } else {
                     next.tolerance_mm
                 },
+                own_tolerance_mm: next.end_tolerance_mm,
                 exact_end: next.exact_end.filter(|_| is_last),
                 dwell_t: if is_last { next.dwell_t } else { 0.0 },
                 feed_v: next.feed_v,

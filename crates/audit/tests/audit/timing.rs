@@ -2,8 +2,8 @@
 
 use crate::{PERIOD, audit, kinds, point, polygon, sample, settings, walk};
 use glidepath_audit::{Audit, Report, ViolationKind};
-use glidepath_geometry::AxisVector;
-use glidepath_program::{Item, ItemKind, Limits, Rate};
+use glidepath_geometry::{AxisVector, Segment};
+use glidepath_program::{Item, ItemKind, Limits, PathMode, Rate};
 
 fn at_speed(program: &[Item], v: f64) -> Report {
     let mut audit = Audit::new(&settings(Limits::UNLIMITED));
@@ -217,13 +217,13 @@ fn the_tolerance_told_is_that_of_the_moves_and_degrees_are_no_millimetres() {
         turned[3] = 90.0;
         turned
     };
-    let turn = glidepath_geometry::Segment::line(point(10.0, 0.0), turned);
+    let turn = Segment::line(point(10.0, 0.0), turned);
     program.push(crate::item(3, turn));
     let told = |tolerances: [Option<f64>; 3]| {
         let mut program = program.clone();
         for (item, given) in program.iter_mut().zip(tolerances) {
             if let ItemKind::Move { mode, .. } = &mut item.kind {
-                *mode = glidepath_program::PathMode::Continuous {
+                *mode = PathMode::Continuous {
                     tolerance_mm: given,
                 };
             }
@@ -244,4 +244,107 @@ fn the_tolerance_told_is_that_of_the_moves_and_degrees_are_no_millimetres() {
         are([0.005, 0.1])
     );
     assert_eq!(told([None; 3]), are([crate::TOLERANCE; 2]));
+}
+
+/// A rapid along X, and a cut at 50 mm/s, straight on or along Y, each within 5 mm.
+fn rapid_and_cut(corner: AxisVector, end: AxisVector, is_cut_first: bool) -> [Item; 2] {
+    let mode = PathMode::Continuous {
+        tolerance_mm: Some(5.0),
+    };
+    let rates = [Rate::Rapid, Rate::Feed(50.0)];
+    let item = |k: usize, from, to| Item {
+        block: 0,
+        line: 1,
+        kind: ItemKind::Move {
+            segment: Segment::line(from, to),
+            rate: rates[(k + usize::from(is_cut_first)) % 2],
+            mode,
+        },
+    };
+    [item(0, AxisVector::zeros(), corner), item(1, corner, end)]
+}
+
+/// However wide the tolerance is: a rapid that runs on into a cut breaks the tool.
+#[test]
+fn a_rapid_ends_where_it_is_programmed_to_end() {
+    let corner = point(40.0, 0.0);
+    for end in [point(80.0, 0.0), point(40.0, 40.0)] {
+        let program = rapid_and_cut(corner, end, false);
+        let away = (end - corner).normalize();
+        // At 100 mm/s so far into the cut, and on at 50 mm/s.
+        for (beyond_mm, clean) in [(0.0, true), (0.08, true), (1.0, false), (3.0, false)] {
+            let slow_at = corner + away * beyond_mm;
+            let mut motion = walk(&[AxisVector::zeros(), corner, slow_at], 0.4);
+            motion.extend(&walk(&[slow_at, end], 0.2)[1..]);
+            for (name, report) in fed_in_every_way(&program, &motion) {
+                assert_eq!(
+                    report.is_clean(),
+                    clean,
+                    "{beyond_mm} mm, {name}: {report:#?}"
+                );
+                let is_feed = |kind: &ViolationKind| matches!(kind, ViolationKind::Feed { .. });
+                assert!(kinds(&report).iter().all(is_feed), "{report:#?}");
+            }
+        }
+    }
+}
+
+/// A corner cut short has both feeds where it is as near to the one as to the other.
+#[test]
+fn a_corner_between_two_rates_changes_the_rate_half_way() {
+    let (corner, end) = (point(40.0, 0.0), point(40.0, 40.0));
+    let (from, to) = (point(37.0, 0.0), point(40.0, 3.0));
+    let middle = (from + to) * 0.5;
+    for is_cut_first in [false, true] {
+        let program = rapid_and_cut(corner, end, is_cut_first);
+        for (moved_mm, clean) in [(-1.5, !is_cut_first), (0.0, true), (1.5, is_cut_first)] {
+            let change = middle + (to - from).normalize() * moved_mm;
+            let mut steps = [0.4, 0.2];
+            if is_cut_first {
+                steps.reverse();
+            }
+            let mut motion = walk(&[AxisVector::zeros(), from, change], steps[0]);
+            motion.extend(&walk(&[change, to, end], steps[1])[1..]);
+            for (name, report) in fed_in_every_way(&program, &motion) {
+                let what = format!("cut first: {is_cut_first}, {moved_mm} mm, {name}");
+                assert_eq!(report.is_clean(), clean, "{what}: {report:#?}");
+            }
+        }
+    }
+}
+
+/// The verdicts where the program comes before the motion, with it, and behind it.
+fn fed_in_every_way(program: &[Item], motion: &[AxisVector]) -> [(&'static str, Report); 3] {
+    let verdict = |wait: usize| {
+        let mut audit = Audit::new(&settings(Limits::UNLIMITED));
+        let mut items = program.iter();
+        let mut due = 0;
+        for (tick, position) in (0..).zip(motion) {
+            if tick == due
+                && let Some(item) = items.next()
+            {
+                audit.program(item);
+                due += wait;
+            }
+            audit.sample(&sample(tick as u64, *position));
+        }
+        for item in items {
+            audit.program(item);
+        }
+        audit.finish()
+    };
+    let before = {
+        let mut audit = Audit::new(&settings(Limits::UNLIMITED));
+        program.iter().for_each(|item| audit.program(item));
+        for (tick, position) in (0..).zip(motion) {
+            audit.sample(&sample(tick, *position));
+        }
+        audit.finish()
+    };
+    let late = motion.len() + 1;
+    [
+        ("before", before),
+        ("with it", verdict(95)),
+        ("behind", verdict(late)),
+    ]
 }
