@@ -12,6 +12,7 @@ mod overrides;
 mod plan;
 mod planned;
 mod preview;
+mod rates;
 mod refusals;
 mod scurve;
 mod straight_walls;

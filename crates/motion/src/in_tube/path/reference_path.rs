@@ -69,6 +69,11 @@ impl Displacement {
         }
     }
 
+    /// The largest of all, mm or degrees.
+    pub(crate) const fn size(self) -> f64 {
+        self.linear_mm.max(self.rotary_deg)
+    }
+
     /// The larger one of each kind.
     pub(crate) const fn max(self, other: Self) -> Self {
         Self {

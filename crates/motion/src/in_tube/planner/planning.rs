@@ -14,6 +14,7 @@ use super::state::{ActiveMotion, MOST_LEGS, PlannerState};
 use super::worth::{Candidate, commit};
 use crate::in_tube::fallback::{Baseline, StopLeg};
 use crate::in_tube::path::{Bounds, TubePiece, directional};
+use crate::in_tube::verify::NearPieces;
 use crate::in_tube::window::{
     FEED_INTERVALS, FIRST_WORK, Grid, LEAST_INTERVALS, PLAN_WORK, Search, View, WindowContext,
 };
@@ -153,7 +154,10 @@ impl PlannerState {
             self.is_over = true;
             return None;
         }
-        let leg = self.leg_from(self.history.last(), self.follower.reachable.last())?;
+        // What is only within a wide tolerance is driven to when the feed before it has ended.
+        let from = self.history.last();
+        let near = NearPieces::of(&self.reference_path, &self.follower.reachable, &from);
+        let leg = self.leg_from(from, near.last)?;
         if self.baseline.is_none() {
             let end_t = self.clock_t() + leg.duration_t();
             self.baseline = Some(Baseline::new(leg.piece, end_t));

@@ -95,6 +95,27 @@ impl Reachable {
         best.1
     }
 
+    /// How far a position is from the program along the part of piece `index` that has been reached, mm or
+    /// degrees; `None` if none of it has.
+    pub(super) fn away_mm(
+        &self,
+        reference_path: &ReferencePath,
+        index: usize,
+        position: &AxisVector,
+    ) -> Option<f64> {
+        let range = self.ranges.get(index.checked_sub(self.first)?)?;
+        let piece = reference_path.get(index).filter(|_| !range.is_empty())?;
+        let along = piece.end - piece.start;
+        let foot = (position - piece.start).dot(&along) / along.norm_squared();
+        let u = if foot.is_finite() {
+            foot.clamp(range.from, range.to)
+        } else {
+            range.to
+        };
+        let program = piece.start + along * u + piece.bow * (4.0 * u * (1.0 - u));
+        Some(Displacement::of(&(position - program)).size())
+    }
+
     fn trim(&mut self) {
         while self.ranges.last().is_some_and(|range| range.is_empty()) {
             self.ranges.pop();

@@ -6,6 +6,7 @@
 
 use super::between_periods::BetweenPeriods;
 use super::follow::Follower;
+use super::near_pieces::NearPieces;
 use super::travel;
 use crate::in_tube::path::{ReferencePath, counted_length};
 use crate::in_tube::period::State;
@@ -83,23 +84,25 @@ impl History {
         (reference_path, follower): (&ReferencePath, &mut Follower),
         next: &State,
     ) -> bool {
-        let from = follower.reachable.first;
         let position = next.position;
         let bend = BetweenPeriods {
             from: &self.state,
             to: next,
             period_t,
         };
-        if !self.allows(limits, period_t, &position)
-            || !travel::is_inside(limits, &bend)
-            || !follower.step(reference_path, &bend)
-        {
+        if !self.allows(limits, period_t, &position) || !travel::is_inside(limits, &bend) {
             return false;
         }
+        let from = follower.reachable.first;
+        let near_start = NearPieces::of(reference_path, &follower.reachable, &self.recent[0]);
+        if !follower.step(reference_path, &bend) {
+            return false;
+        }
+        let near_end = NearPieces::of(reference_path, &follower.reachable, &position);
         let step = position - self.recent[0];
         let speed_v = feed_length(&step) / period_t;
-        let pieces =
-            (from..=follower.reachable.last()).filter_map(|index| reference_path.get(index));
+        let reached = (from, follower.reachable.last());
+        let pieces = near_start.of_period(&near_end, reference_path, reached);
         let feed_v = pieces
             .clone()
             .fold(0.0_f64, |most, piece| most.max(piece.top_v));

@@ -5,6 +5,7 @@ mod beside;
 mod between_periods;
 mod follow;
 mod history;
+mod near_pieces;
 mod parameter_range;
 mod travel;
 
@@ -12,3 +13,4 @@ mod travel;
 pub(crate) use between_periods::BetweenPeriods;
 pub(crate) use follow::{Follower, Reachable};
 pub(crate) use history::{FEED_SLACK, History};
+pub(crate) use near_pieces::{FEED_CHANGE_MM, NearPieces};

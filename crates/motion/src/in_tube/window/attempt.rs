@@ -18,6 +18,11 @@ pub(crate) const LEAST_INTERVALS: usize = 60;
 const MOST_INTERVALS: usize = 160;
 /// The same where the motion goes on at the feed: most of them are then handed out.
 pub(crate) const FEED_INTERVALS: usize = MOST_INTERVALS;
+/// Jerk between control points counts as kept up to this factor. Where most of them are given, positions
+/// at the periods can keep it though they do not.
+const JERK_SLACK: f64 = 1.0 + 1e-4;
+/// What rounding makes of an acceleration, mm/s².
+const ROUNDING_A: f64 = 1e-3;
 /// Length of a window in times to stop from the top speed.
 const STOPS: f64 = 2.4;
 
@@ -273,6 +278,11 @@ fn passes<const D: usize>(
             }
         }
         let before = history.last();
+        let step_a = next.acceleration - history.state().acceleration;
+        let most_a = context.limits.jerk * (context.period_t * JERK_SLACK);
+        if (0..AXES).any(|i| step_a[i].abs() > most_a[i] + ROUNDING_A) {
+            return false;
+        }
         if !history.follow(context.limits, context.period_t, way, &next) {
             return false;
         }

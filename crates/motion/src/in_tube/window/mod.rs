@@ -31,6 +31,7 @@ mod one_sided;
 mod optimiser;
 mod pins;
 mod place;
+mod rate_changes;
 mod rounds;
 mod samples;
 mod scaled_path;

@@ -137,7 +137,8 @@ impl Samples {
         for k in 1..self.progress.len() {
             while i + 1 < segments.len() {
                 let segment = &segments[i];
-                let hop = if path.slows_after(i) || self.is_too_fast[k] {
+                let waits = path.slows_after(i) || path.changes_rate_after(i);
+                let hop = if waits || self.is_too_fast[k] {
                     -AT_END_R * segment.radius
                 } else {
                     HOP_R * segment.radius.min(segment.length)
@@ -306,7 +307,8 @@ fn nearest<const D: usize>(path: &ScaledPath<D>, y: &[f64; D], at: Place, ahead:
 
 /// A sample near the end of a piece that is in the tube of the next one as well.
 fn leads<const D: usize>(path: &ScaledPath<D>, y: &[f64; D], piece: usize, s: f64) -> bool {
-    let Some(next) = path.segments.get(piece + 1) else {
+    let next = path.segments.get(piece + 1);
+    let Some(next) = next.filter(|_| !path.changes_rate_after(piece)) else {
         return false;
     };
     let turn = path.turn(piece, piece + 1);

@@ -9,6 +9,7 @@ use super::sides::Sides;
 use super::solver::dot;
 use crate::feed_axes::counted_axes;
 use crate::in_tube::path::{ReferencePath, TubePiece, directional};
+use crate::in_tube::verify::FEED_CHANGE_MM;
 use crate::joints::SharedJoints;
 use crate::scurve::PathLimits;
 use glidepath_geometry::{AXES, Axis, AxisVector};
@@ -19,7 +20,7 @@ use glidepath_program::Limits;
 pub(crate) const SHARP: f64 = 0.3;
 
 /// A speed that is slower than another, in shares of it.
-const SLOWER: f64 = 0.999;
+pub(super) const SLOWER: f64 = 0.999;
 
 /// A piece of the path in the space of the window.
 #[derive(Debug, Clone)]
@@ -51,6 +52,8 @@ pub(crate) struct ScaledSegment<const D: usize> {
     pub(crate) normals: [[f64; D]; D],
     /// On which the motion is to stay.
     pub(crate) sides: Sides<D>,
+    /// It has no feed.
+    pub(crate) is_rapid: bool,
 }
 
 impl<const D: usize> ScaledSegment<D> {
@@ -83,6 +86,8 @@ pub(crate) struct ScaledPath<const D: usize> {
     pub(crate) jerk: [f64; D],
     /// Ends of travel, lowest and highest, in the space of the window; infinite where there is none.
     pub(crate) walls: [[f64; 2]; D],
+    /// How far a rate may go on beyond where another one begins.
+    pub(super) rate_change: f64,
     joints: SharedJoints,
 }
 
@@ -128,6 +133,7 @@ impl<const D: usize> ScaledPath<D> {
             acceleration: [1.0; D],
             jerk: [1.0; D],
             walls: [[f64::NEG_INFINITY, f64::INFINITY]; D],
+            rate_change: FEED_CHANGE_MM / tolerances[0],
             joints: None,
         };
         for axis in Axis::ALL
@@ -236,6 +242,7 @@ impl<const D: usize> ScaledPath<D> {
             level,
             normals: [[0.0; D]; D],
             sides: Sides::none(),
+            is_rapid: piece.is_rapid,
         });
     }
 
@@ -314,8 +321,13 @@ impl<const D: usize> ScaledPath<D> {
     /// How the direction of the program jumps from piece `i` to the next. Pieces that stand for a curve
     /// are chords of it: the turn between two of them is none of the curve.
     pub(crate) fn corner(&self, i: usize) -> [f64; D] {
-        let (leaving, entering) = (self.heading_at(i, 1.0), self.heading_at(i + 1, 0.0));
+        let [leaving, entering] = self.headings(i);
         core::array::from_fn(|k| entering[k] - leaving[k])
+    }
+
+    /// The direction of the program at the end of piece `i`, and at the start of the next.
+    pub(crate) fn headings(&self, i: usize) -> [[f64; D]; 2] {
+        [self.heading_at(i, 1.0), self.heading_at(i + 1, 0.0)]
     }
 
     /// The direction of what piece `i` stands for at a progress on it.

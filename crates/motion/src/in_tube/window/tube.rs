@@ -21,6 +21,7 @@
 
 use super::cuts::{CLOSE_R, Cuts, HALF_WAY, Passing, Plane, nearest_to_corner};
 use super::one_sided;
+use super::rate_changes;
 use super::samples::Samples;
 use super::scaled_path::{SHARP, ScaledPath};
 use super::solver::{FAR, Problem, dot};
@@ -265,6 +266,7 @@ fn add_tube<const D: usize>(
     }
     let progress = layout.samples.progress[k];
     one_sided::keep(problem, layout.path, (piece, progress), radius);
+    rate_changes::keep(problem, layout.path, (piece, progress), radius);
     if layout.samples.has_middle(k) {
         add_middle(problem, layout, k, radius);
     }
