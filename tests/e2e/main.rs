@@ -24,6 +24,7 @@ mod operator;
 mod probing;
 mod programs;
 mod recordings;
+mod removed;
 mod resume;
 mod run;
 mod service;

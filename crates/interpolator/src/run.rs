@@ -21,14 +21,14 @@ const LEAD_NS: u64 = 5_000_000;
 const FAREWELL_NS: u64 = 5_000_000_000;
 
 /// Runs an interpolator until `stop` is set; then the motion comes to rest on the path, and the
-/// last status is returned.
+/// last status is returned. So it does where nobody finds the interpolator any more, which is an error.
 ///
 /// The calling thread becomes the ports thread: it makes the ports with `transport`, serves them,
 /// and passes lines for the log to `log`. A second thread is the real-time thread.
 ///
 /// # Errors
 /// The real-time thread could not be set up, or a port could not be made. Nothing has moved then.
-/// Later failures stop the motion and are in the status.
+/// Later failures stop the motion and are in the status; [`LinkError::Removed`] ends the interpolator, too.
 pub fn run(
     config: &Config,
     transport: impl FnOnce() -> Result<Box<dyn Transport>, LinkError>,
@@ -68,7 +68,10 @@ pub fn run(
             serve(config, &mut ports, origin_ns, &grants, stop, &lives);
         }
         thread.join().map_err(|_| RunError::Thread("real-time"))??;
-        Ok(*ports.status())
+        match ports.removed() {
+            Some(path) => Err(LinkError::Removed { path: path.clone() }.into()),
+            None => Ok(*ports.status()),
+        }
     })
 }
 
@@ -113,8 +116,8 @@ fn sleep_on(timer: &mut DeadlineTimer<Monotonic>) -> ! {
     }
 }
 
-/// Serves the ports on the grid until `stop` is set and the motion has come to rest, or until the
-/// real-time thread lives no more: then nothing commands the drives, and that is said at once.
+/// Serves the ports on the grid until `stop` is set, or nobody finds this process any more, and the motion has come to
+/// rest; or until the real-time thread lives no more: then nothing commands the drives, and that is said at once.
 fn serve(
     config: &Config,
     ports: &mut Ports<'_>,
@@ -136,7 +139,7 @@ fn serve(
         ports.turn(&now);
         now()
     };
-    while !stop.load(Ordering::Relaxed) {
+    while !stop.load(Ordering::Relaxed) && ports.removed().is_none() {
         let now_ns = turn(ports);
         if !lives() {
             ports.real_time_died(now_ns);

@@ -42,6 +42,15 @@ pub enum LinkError {
         /// What the system says.
         source: io::Error,
     },
+    /// What an instance is found by is gone: processes that are connected stay so, and nobody else finds them.
+    #[error(
+        "{path}: it was removed while processes of this instance ran, so that nobody finds them any more; end all of \
+         them, and start them again"
+    )]
+    Removed {
+        /// What was removed.
+        path: String,
+    },
     /// A name in the configuration has characters or a length that file names cannot have.
     #[error(
         "{what} \"{name}\": only letters, digits, '-' and '_' are allowed, 1 to {longest} of them"

@@ -221,6 +221,14 @@ pub trait Transport {
     /// A failure of the transport.
     fn clean_up_dead_peers(&self) -> Result<usize, LinkError>;
 
+    /// Looks whether other processes still find this instance. To be called now and then by a process that moves the
+    /// machine: where nobody finds it, nobody can stop it.
+    ///
+    /// # Errors
+    ///
+    /// [`LinkError::Removed`]: its directory, or what it is found by, was removed.
+    fn stands(&self) -> Result<(), LinkError>;
+
     /// The number of the process that is the interpolator, if one lives, whether it answers or not; `None`
     /// also for one in this process.
     fn interpolator_process(&self) -> Option<i32>;

@@ -71,6 +71,20 @@ pub fn listen(
 pub fn serve(
     transport: &dyn Transport,
     listening: &Listening,
+    runner: Option<&mut dyn JobRunner>,
+    control: &mut Control<'_>,
+) -> Result<(), RunError> {
+    let served = serve_all(transport, listening, runner, control);
+    served.map_err(|error| match (&error, transport.stands()) {
+        // Ports fail by that, too.
+        (RunError::Link(_), Err(removed)) => removed.into(),
+        _ => error,
+    })
+}
+
+fn serve_all(
+    transport: &dyn Transport,
+    listening: &Listening,
     mut runner: Option<&mut dyn JobRunner>,
     control: &mut Control<'_>,
 ) -> Result<(), RunError> {

@@ -58,6 +58,7 @@ impl Publisher<'_> {
             .is_multiple_of(CLEAN_UP_INTERVAL.as_nanos())
         {
             self.transport.clean_up_dead_peers()?;
+            self.transport.stands()?;
         }
         Ok(())
     }

@@ -63,7 +63,7 @@ pub(crate) struct Ports<'a> {
     book: StatusBook,
     auxiliary: AuxiliaryBook,
     acknowledgements: Acknowledgements,
-    /// Somebody said why an event has failed, and the fault that comes of it is not told yet.
+    /// It was said why an event or a port has failed, and the fault that comes of it is not told yet.
     failure_is_explained: bool,
     jobs: JobBook,
     /// Number of the setpoint after which an order was passed on that a job waits for.
@@ -72,6 +72,8 @@ pub(crate) struct Ports<'a> {
     status_due_ns: u64,
     clean_up_due_ns: u64,
     failing: bool,
+    /// Nobody finds this instance any more: what was removed.
+    removed: Option<String>,
     has_told_ready: bool,
 }
 
@@ -110,6 +112,7 @@ impl<'a> Ports<'a> {
             status_due_ns: 0,
             clean_up_due_ns: 0,
             failing: false,
+            removed: None,
             has_told_ready: false,
         })
     }
@@ -125,6 +128,11 @@ impl<'a> Ports<'a> {
     /// What the real-time thread last reported.
     pub(crate) fn state(&self) -> Option<MachineState> {
         self.report.map(|report| report.state)
+    }
+
+    /// What was removed by which others found this process: nobody can stop a motion any more, or clear a fault.
+    pub(crate) const fn removed(&self) -> Option<&String> {
+        self.removed.as_ref()
     }
 
     /// Asks the motion to end.
@@ -175,7 +183,10 @@ impl<'a> Ports<'a> {
         if let Some(error) = &error
             && !self.failing
         {
-            self.tell(&error.to_string());
+            // Where the instance was removed, other ports may fail by that first.
+            let removed = self.look_whether_it_stands().err();
+            self.tell(&removed.as_ref().unwrap_or(error).to_string());
+            self.failure_is_explained = true;
             self.fault(Fault::new(FaultCause::Ports, 0, 0));
         }
         self.failing = error.is_some();
@@ -208,7 +219,7 @@ impl<'a> Ports<'a> {
                     .as_mut()
                     .and_then(|drives| drives.explain(&fault));
                 let is_explained = core::mem::take(&mut self.failure_is_explained)
-                    && fault.cause == FaultCause::AuxFailed;
+                    && matches!(fault.cause, FaultCause::AuxFailed | FaultCause::Ports);
                 match why {
                     // What was said is the last error already, and stands behind the fault.
                     None if is_explained => (self.log)(&fault.to_string()),
@@ -414,7 +425,19 @@ impl<'a> Ports<'a> {
         if dead > 0 {
             (self.log)(&format!("cleaned up after {dead} dead process(es)"));
         }
-        Ok(())
+        if self.removed.is_some() {
+            return Ok(());
+        }
+        self.look_whether_it_stands()
+    }
+
+    /// Looks whether others still find this process.
+    fn look_whether_it_stands(&mut self) -> Result<(), LinkError> {
+        let stands = self.links.transport.stands();
+        if let Err(LinkError::Removed { path }) = &stands {
+            self.removed = Some(path.clone());
+        }
+        stands
     }
 
     fn write_log(&mut self) {

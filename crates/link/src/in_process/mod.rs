@@ -157,6 +157,10 @@ impl Transport for InProcess {
         Ok(0) // A port that ends says so when it is dropped, and nothing ends without that here.
     }
 
+    fn stands(&self) -> Result<(), LinkError> {
+        Ok(()) // It is found by clones of itself.
+    }
+
     fn interpolator_process(&self) -> Option<i32> {
         None
     }

@@ -108,14 +108,43 @@ pub(super) fn open(path: &Path) -> io::Result<File> {
     options().create(true).truncate(false).open(path)
 }
 
+/// Which file it is, whatever its name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Identity {
+    device: u64,
+    number: u64,
+}
+
+impl Identity {
+    /// That of an open file.
+    pub(super) fn of(file: &File) -> io::Result<Self> {
+        Ok(Self::in_metadata(&file.metadata()?))
+    }
+
+    fn in_metadata(found: &Metadata) -> Self {
+        Self {
+            device: found.dev(),
+            number: found.ino(),
+        }
+    }
+
+    /// Whether a name stands for it, as far as the system tells.
+    pub(super) fn is_at(self, path: &Path) -> bool {
+        self.is_named(path).unwrap_or(true)
+    }
+
+    fn is_named(self, path: &Path) -> io::Result<bool> {
+        match path.symlink_metadata() {
+            Ok(named) => Ok(Self::in_metadata(&named) == self),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),
+            Err(error) => Err(error),
+        }
+    }
+}
+
 /// Whether a name still stands for an open file.
 pub(super) fn is_still(file: &File, path: &Path) -> io::Result<bool> {
-    let open = file.metadata()?;
-    match path.symlink_metadata() {
-        Ok(named) => Ok((named.dev(), named.ino()) == (open.dev(), open.ino())),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),
-        Err(error) => Err(error),
-    }
+    Identity::of(file)?.is_named(path)
 }
 
 /// Whether a path is on a file system that is memory: what is mapped from another is written to a

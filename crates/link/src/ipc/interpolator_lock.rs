@@ -36,7 +36,8 @@ fn failed(path: &Path) -> impl Fn(io::Error) -> LinkError {
 /// else in the interpolator's process may open it.
 #[derive(Debug)]
 pub(super) struct InterpolatorLock {
-    _file: File,
+    file: File,
+    path: PathBuf,
 }
 
 impl InterpolatorLock {
@@ -46,13 +47,21 @@ impl InterpolatorLock {
         let failed = failed(&path);
         let file = directory::open(&path).map_err(&failed)?;
         match fcntl_lock(&file, FlockOperation::NonBlockingLockExclusive) {
-            Ok(()) => Ok(Self { _file: file }),
+            Ok(()) => Ok(Self {
+                file,
+                path: path.clone(),
+            }),
             Err(Errno::AGAIN | Errno::ACCESS) => Err(LinkError::Taken {
                 service,
                 role: "interpolator",
             }),
             Err(error) => Err(failed(error.into())),
         }
+    }
+
+    /// The file, by whose name the interpolator is found.
+    pub(super) const fn file(&self) -> (&PathBuf, &File) {
+        (&self.path, &self.file)
     }
 }
 

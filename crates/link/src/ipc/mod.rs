@@ -236,8 +236,14 @@ impl Transport for Ipc {
         // Last: it is released if anything after it opens the file once more.
         let config = self.session.config();
         let panel = Panel::make(config)?;
-        let _lock = InterpolatorLock::take(config, COMMANDS)?;
-        Ok(Box::new(CommandServer { panel, port, _lock }))
+        let lock = InterpolatorLock::take(config, COMMANDS)?;
+        let (path, file) = lock.file();
+        self.session.is_found_by(path, file)?;
+        Ok(Box::new(CommandServer {
+            panel,
+            port,
+            _lock: lock,
+        }))
     }
 
     fn segment_client(&self) -> Result<Box<dyn Client<SegmentRequest, SegmentReply>>, LinkError> {
@@ -266,6 +272,10 @@ impl Transport for Ipc {
 
     fn clean_up_dead_peers(&self) -> Result<usize, LinkError> {
         Ok(self.session.clean_up())
+    }
+
+    fn stands(&self) -> Result<(), LinkError> {
+        self.session.stands()
     }
 
     fn interpolator_process(&self) -> Option<i32> {

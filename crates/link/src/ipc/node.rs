@@ -16,6 +16,7 @@ use iceoryx2::service::builder::publish_subscribe::PublishSubscribeOpenOrCreateE
 use iceoryx2::service::builder::request_response::RequestResponseOpenOrCreateError as ExchangeError;
 use iceoryx2::service::port_factory::{publish_subscribe, request_response};
 use std::fs::File;
+use std::path::Path;
 use std::time::Instant;
 
 pub(super) type TopicService<R> = publish_subscribe::PortFactory<PrivateIpc, R, ()>;
@@ -97,6 +98,17 @@ impl Session {
         self.presence.config()
     }
 
+    /// From now on others find this process by a file, too.
+    pub(super) fn is_found_by(&self, path: &Path, file: &File) -> Result<(), LinkError> {
+        let noted = self.presence.is_found_by(path.to_owned(), file);
+        noted.map_err(|error| LinkError::no_file(path, 0, error))
+    }
+
+    /// Looks whether others still find this process.
+    pub(super) fn stands(&self) -> Result<(), LinkError> {
+        self.presence.stands()
+    }
+
     /// Claims a part in a service that one process at a time may play.
     pub(super) fn claim_part(
         &self,
@@ -113,6 +125,8 @@ impl Session {
         service: &'static str,
         settings: TopicSettings,
     ) -> Result<TopicService<R>, LinkError> {
+        // A directory that was removed would be made anew, for this process alone.
+        self.stands()?;
         let name = service_name(service)?;
         let open = || {
             self.node
@@ -138,6 +152,7 @@ impl Session {
         &self,
         service: &'static str,
     ) -> Result<ExchangeService<Q, A>, LinkError> {
+        self.stands()?;
         let name = service_name(service)?;
         let open = || {
             self.node

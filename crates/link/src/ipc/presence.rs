@@ -4,10 +4,14 @@
 //! ports; the kernel releases it however the process ends. Whoever gets the exclusive lock knows
 //! that no other is there, and removes what the instance left in its directory. The lock file is removed last, under the lock, and a newcomer makes sure that the file it locked
 //! still is the one the name stands for.
+//!
+//! Somebody may remove the directory, or a file of it, while processes live. Those that are connected go on, and nobody
+//! else finds them: so they look now and then whether the names by which they are found still stand for their files.
 
 use super::config::LinkConfig;
-use super::directory::{is_still, open};
+use super::directory::{Identity, is_still, open};
 use crate::LinkError;
+use core::cell::RefCell;
 use std::fs::{File, TryLockError};
 use std::io;
 use std::path::PathBuf;
@@ -21,6 +25,8 @@ const PATIENCE: Duration = Duration::from_secs(2);
 pub(super) struct Presence {
     lock: File,
     config: LinkConfig,
+    /// By what others find this process.
+    found_by: RefCell<Vec<(PathBuf, Identity)>>,
 }
 
 impl Presence {
@@ -50,9 +56,11 @@ impl Presence {
         lock.try_lock_shared()
             .map_err(|error| failed(error.into()))?;
         if is_still(&lock, &path).map_err(failed)? {
+            let identity = Identity::of(&lock).map_err(failed)?;
             Ok(Self {
                 lock,
                 config: config.clone(),
+                found_by: RefCell::new(vec![(path, identity)]),
             })
         } else {
             Err(failed(io::ErrorKind::NotFound.into()))
@@ -64,6 +72,25 @@ impl Presence {
     /// Which instance it is.
     pub(super) const fn config(&self) -> &LinkConfig {
         &self.config
+    }
+
+    /// From now on others find this process by a file, too.
+    pub(super) fn is_found_by(&self, path: PathBuf, file: &File) -> io::Result<()> {
+        let identity = Identity::of(file)?;
+        self.found_by.borrow_mut().push((path, identity));
+        Ok(())
+    }
+
+    /// Looks whether others still find this process.
+    pub(super) fn stands(&self) -> Result<(), LinkError> {
+        let found_by = self.found_by.borrow();
+        let gone = found_by.iter().find(|(path, file)| !file.is_at(path));
+        match gone {
+            Some((path, _)) => Err(LinkError::Removed {
+                path: path.display().to_string(),
+            }),
+            None => Ok(()),
+        }
     }
 
     /// Claims a part that one process at a time may play, until the file is dropped or the process
@@ -87,8 +114,10 @@ impl Presence {
 
 impl Drop for Presence {
     fn drop(&mut self) {
-        // The last one out removes the files. If that fails they do no harm: the next one does.
-        if self.lock.try_lock().is_ok() {
+        // The last one out removes the files. If that fails they do no harm: the next one does. Where the directory was
+        // removed meanwhile, the one of that name is another instance's.
+        let is_last = self.lock.try_lock().is_ok();
+        if is_last && is_still(&self.lock, &lock_path(&self.config)).unwrap_or(false) {
             let _ = sweep(&self.config);
         }
     }

@@ -172,7 +172,7 @@ pub enum FaultCause {
     MissedTicks,
     /// A computed setpoint was not finite or broke a limit.
     Output,
-    /// The thread that serves the ports died or hangs.
+    /// A port to other processes failed, or the thread that serves the ports died or hangs.
     Ports,
     /// The real-time thread died: nothing commands the drives any more.
     RealTime,

@@ -19,7 +19,9 @@ impl FaultCause {
             Self::PlannerLost => "no more frames came: the planner died or hangs",
             Self::MissedTicks => "too many ticks were missed",
             Self::Output => "a computed setpoint broke a limit",
-            Self::Ports => "the thread that serves the ports died or hangs",
+            Self::Ports => {
+                "a port to other processes failed, or the thread that serves the ports hangs"
+            }
             Self::RealTime => "the real-time thread died",
             Self::FeedbackLost => "the drives no longer say where they are",
             Self::FollowingError => "a joint is too far from where it is to be",
@@ -147,7 +149,7 @@ impl FaultCause {
 
     /// Whether whoever found it has said more in the status' last error.
     const fn is_explained(self) -> bool {
-        matches!(self, Self::AuxFailed | Self::Homing)
+        matches!(self, Self::AuxFailed | Self::Homing | Self::Ports)
     }
 }
 

@@ -189,6 +189,7 @@ impl Endpoint {
         if self.cleaned_up.elapsed() >= CLEAN_UP_EVERY {
             self.cleaned_up = Instant::now();
             self.transport.clean_up_dead_peers()?;
+            self.transport.stands()?;
         }
         let now = self.started.elapsed();
         let (asked_ns, stood_still) = self.asked_ns();

@@ -243,6 +243,7 @@ impl Machine<'_> {
             }
             if is_due(0, LOOK_EVERY) {
                 self.transport.clean_up_dead_peers()?;
+                self.transport.stands()?;
                 self.receivers = receivers(&self.transport.setpoint_receivers()?);
             }
             // A status first: a page needs it to show a batch.

@@ -60,6 +60,7 @@ pub(super) fn telemetry(args: &TelemetryArgs, config: &MachineConfig) -> Result<
         if cleaned.elapsed() >= CLEAN_EVERY {
             cleaned = Instant::now();
             link.clean_up_dead_peers()?;
+            link.stands()?;
         }
         std::thread::sleep(POLL);
     }
