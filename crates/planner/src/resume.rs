@@ -20,6 +20,9 @@
 //! enough, the one is taken that is as far from the beginning of the block as the machine has
 //! travelled on it, or next to that.
 //!
+//! The interpolator tells a block up to a period late, so that a machine whose block is an event or a dwell may be on
+//! the move behind it already. Whatever the block is, the first move begins where the machine stands.
+//!
 //! What the program asked of inputs and of the probe up to there is answered as it was answered then
 //! ([`ItemSource::settle`]); a probing move that was left on its way goes on looking.
 
@@ -44,7 +47,7 @@ use glidepath_program::{Event, Item, ItemKind, PathMode};
 use crate::{Answer, ItemSource, Refusal, RunError, Settled, Supply};
 use nearness::{ROUNDING_MM, distance};
 use outputs::SaidOutputs;
-use search::MachineSearch;
+use search::{MachineSearch, Standpoint};
 
 /// The rest of a program: what follows the point at which it was left.
 #[derive(Debug)]
@@ -58,7 +61,12 @@ pub struct Remainder<S> {
     last: Option<Supply>,
     /// What was said of spindle and coolant before that.
     outputs: SaidOutputs,
+    /// Where the first move begins, if it is not known yet and may begin elsewhere by itself.
+    stands: Option<AxisVector>,
 }
+
+/// Items in front of the first move that are looked at.
+const LOOK_AHEAD: usize = 64;
 
 impl<S: ItemSource> Remainder<S> {
     /// Reads a program, opened for a machine at [`ResumePoint::program_start`], up to the point at
@@ -71,11 +79,18 @@ impl<S: ItemSource> Remainder<S> {
             return Err(ResumeError::OtherProgram.into());
         }
         let mut before: Option<Item> = None;
+        // Behind a probing move it is where that ended.
+        let mut place = Some(point.program_start);
         let mut outputs = SaidOutputs::default();
         for _ in 1..point.block {
             match source.next_item() {
                 Supply::Item(item) => {
                     outputs.take(&item);
+                    match item.kind {
+                        ItemKind::Move { segment, .. } => place = place.map(|_| segment.end()),
+                        ItemKind::Event(Event::Probe { .. }) => place = None,
+                        ItemKind::Event(_) | ItemKind::Dwell(_) => {}
+                    }
                     before = Some(item);
                 }
                 Supply::Refused(refusal) => return Err(refusal.into()),
@@ -94,8 +109,10 @@ impl<S: ItemSource> Remainder<S> {
             ahead: VecDeque::new(),
             last: None,
             outputs,
+            stands: None,
         };
         if point.block == 0 {
+            rest.meet_machine(place, tolerance_mm)?;
             return Ok(rest);
         }
         if let Some(event) = before.filter(is_probe) {
@@ -122,7 +139,7 @@ impl<S: ItemSource> Remainder<S> {
             rest.go_on_looking(event, tolerance_mm)?;
             return Ok(rest);
         }
-        rest.cut(search)?;
+        rest.cut(search, place)?;
         Ok(rest)
     }
 
@@ -140,25 +157,28 @@ impl<S: ItemSource> Remainder<S> {
             ahead,
             last,
             outputs: SaidOutputs::default(),
+            stands: None,
         }
     }
 
     /// Drops what lies before the point.
-    fn cut(&mut self, search: MachineSearch) -> Result<(), RunError> {
+    fn cut(&mut self, search: MachineSearch, place: Option<AxisVector>) -> Result<(), RunError> {
+        let tolerance_mm = search.tolerance_mm();
         let line = self.ahead.front().map_or(0, |item| item.line);
         match self.ahead.front().map(|item| item.kind) {
             // A dwell begins again; an event has happened.
-            Some(ItemKind::Dwell(_)) => return Ok(()),
+            Some(ItemKind::Dwell(_)) => return self.meet_machine(place, tolerance_mm),
             // So does a wait for an input that was not answered.
             Some(ItemKind::Event(Event::MCode(66)))
                 if self.source.settle(None)? == Settled::Open =>
             {
-                return Ok(());
+                return self.meet_machine(place, tolerance_mm);
             }
             Some(ItemKind::Event(_)) => {
                 let told = self.ahead.pop_front();
                 told.iter().for_each(|item| self.outputs.take(item));
                 self.first_block += 1;
+                self.meet_machine(place, tolerance_mm)?;
                 return self.refuse_thread();
             }
             Some(ItemKind::Move { .. }) | None => {}
@@ -166,25 +186,92 @@ impl<S: ItemSource> Remainder<S> {
         let Some(found) = search.best else {
             return Err(off_path(&self.point, line, search.away()));
         };
-        for passed in self.ahead.drain(..found.item) {
-            self.outputs.take(&passed);
-        }
-        self.first_block += u32::try_from(found.item).unwrap_or(u32::MAX);
-        let is_done = match self.ahead.front_mut().map(|item| &mut item.kind) {
-            Some(ItemKind::Move { segment, mode, .. }) => {
-                *segment = rest_of(segment, &self.point.position, found.part);
-                if found.distance_mm > ROUNDING_MM {
-                    *mode = PathMode::ExactStop;
-                }
-                distance(&(segment.end() - segment.start())) <= 0.0 && found.part > 0.5
-            }
-            _ => false,
-        };
-        if is_done {
-            self.ahead.pop_front();
-            self.first_block += 1;
+        self.pass(found.item);
+        if self.begin_move(0, &found) {
+            self.pass(1);
         }
         self.refuse_thread()
+    }
+
+    /// Leaves out so many items that are executed already.
+    fn pass(&mut self, count: usize) {
+        for passed in self.ahead.drain(..count) {
+            self.outputs.take(&passed);
+        }
+        self.first_block += u32::try_from(count).unwrap_or(u32::MAX);
+    }
+
+    /// Has a move begin where the machine stands on it. Returns whether nothing is left of it.
+    fn begin_move(&mut self, index: usize, found: &Standpoint) -> bool {
+        let Some(ItemKind::Move { segment, mode, .. }) =
+            self.ahead.get_mut(index).map(|item| &mut item.kind)
+        else {
+            return false;
+        };
+        *segment = rest_of(segment, &self.point.position, found.part);
+        if found.distance_mm > ROUNDING_MM {
+            *mode = PathMode::ExactStop;
+        }
+        distance(&(segment.end() - segment.start())) <= 0.0 && found.part > 0.5
+    }
+
+    /// Has the first move behind events and dwells begin where the machine stands. One that is on that move already has
+    /// passed them. `place` is where the program is in front of them, if that is known.
+    fn meet_machine(
+        &mut self,
+        place: Option<AxisVector>,
+        tolerance_mm: f64,
+    ) -> Result<(), RunError> {
+        let stands = self.point.position;
+        let Some((index, way)) = self.first_move() else {
+            let away = place.map_or_else(AxisVector::zeros, |place| stands - place);
+            if distance(&away) > tolerance_mm + ROUNDING_MM {
+                return Err(off_path(&self.point, 0, Some(away)));
+            }
+            self.stands = (away.amax() > 0.0).then_some(stands);
+            return Ok(());
+        };
+        let ItemKind::Move { segment, rate, .. } = way.kind else {
+            return Ok(());
+        };
+        if segment.start() == stands {
+            return Ok(());
+        }
+        if rate.is_synchronised() {
+            return Err(ResumeError::InThread { line: way.line }.into());
+        }
+        let mut search = MachineSearch::new(self.point, tolerance_mm);
+        search.look_at(&way);
+        let Some(found) = search.best else {
+            return Err(off_path(&self.point, way.line, search.away()));
+        };
+        if found.part > 0.0 {
+            self.pass(index);
+            if self.begin_move(0, &found) {
+                self.pass(1);
+            }
+        } else {
+            self.begin_move(index, &found);
+        }
+        Ok(())
+    }
+
+    /// The first move that is known, and its place in what was read. What is asked in front of it is asked again first.
+    fn first_move(&mut self) -> Option<(usize, Item)> {
+        let is_move = |item: &Item| matches!(item.kind, ItemKind::Move { .. });
+        loop {
+            if let Some(index) = self.ahead.iter().position(is_move) {
+                return Some((index, self.ahead[index]));
+            }
+            if self.last.is_some() || self.ahead.len() >= LOOK_AHEAD {
+                return None;
+            }
+            match self.source.next_item() {
+                Supply::Item(item) => self.ahead.push_back(item),
+                Supply::Pending => return None,
+                last @ (Supply::Probe | Supply::End | Supply::Refused(_)) => self.last = Some(last),
+            }
+        }
     }
 
     /// Nothing goes on in the middle of a pass: the angle at which it began is not known any more.
@@ -297,10 +384,19 @@ const fn off_path(point: &ResumePoint, line: u32, away: Option<AxisVector>) -> R
 
 impl<S: ItemSource> ItemSource for Remainder<S> {
     fn next_item(&mut self) -> Supply {
-        if let Some(item) = self.ahead.pop_front() {
-            return Supply::Item(item);
+        let known = self.ahead.pop_front().map(Supply::Item);
+        let known = known.or_else(|| self.last.take());
+        let mut supply = known.unwrap_or_else(|| self.source.next_item());
+        if let Supply::Item(Item {
+            kind: ItemKind::Move { segment, mode, .. },
+            ..
+        }) = &mut supply
+            && let Some(stands) = self.stands.take()
+        {
+            *segment = rest_of(segment, &stands, 0.0);
+            *mode = PathMode::ExactStop;
         }
-        self.last.take().unwrap_or_else(|| self.source.next_item())
+        supply
     }
 
     fn settle(&mut self, known: Option<Answer>) -> Result<Settled, Refusal> {

@@ -66,6 +66,11 @@ impl MachineSearch {
         self.nearest.or(self.travelled_to).or(self.nearest_of_all)
     }
 
+    /// How far from the program the machine may be, mm.
+    pub(super) const fn tolerance_mm(&self) -> f64 {
+        self.tolerance_mm
+    }
+
     /// Whether what follows may be nearer.
     pub(super) fn goes_on(&self) -> bool {
         let reach_mm = self.travelled_mm + SLACK_MM + SLACK_R * self.travelled_mm;

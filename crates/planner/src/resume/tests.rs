@@ -5,9 +5,9 @@ use std::sync::{Arc, Mutex};
 
 use glidepath_gcode::{Connections, Options, Probed};
 use glidepath_geometry::AxisVector;
-use glidepath_program::{Effort, Event, FrameFlags, Limits, Settings, Smoothing};
+use glidepath_program::{Effort, Event, Frame, FrameFlags, Limits, Settings, Smoothing};
 
-use super::{Remainder, ResumePoint};
+use super::{Remainder, ResumeError, ResumePoint};
 use crate::{
     Answer, AnswerJournal, Answered, Approach, Attending, InputDesk, ItemSource, LineStart,
     Pipeline, ProgramSource, Refusal, RunError, Settled, StartLine, StartLineError, Step, Supply,
@@ -422,5 +422,129 @@ fn what_was_stopped_turns_again_before_anything_moves() {
             whole.last().unwrap().block,
             "blocks keep their numbers"
         );
+    }
+}
+
+/// Events, dwells and moves in turn, so that the machine is told to be in blocks that do not move.
+const IN_TURN: &str = "G21 G90 F600\nS8000 M3\nG4 P0.02\nG1 X10\nM8\nG1 X20 Y3\nG4 P0.02\nG2 X30 Y3 I5 J0\nM9\nG4 P0.02\n\
+                       M2\n";
+
+fn in_turn() -> Kept {
+    Kept(ProgramSource::new(IN_TURN.as_bytes(), Options::default()))
+}
+
+fn frames_of<S: ItemSource>(mut pipeline: Pipeline<S>) -> Vec<Frame> {
+    let mut frames = Vec::new();
+    while let Some(frame) = pipeline.next_frame().unwrap() {
+        frames.push(frame);
+    }
+    frames
+}
+
+/// The point of a machine that stands somewhere at the time of a frame.
+fn point_at(frames: &[Frame], of: &Frame, position: AxisVector, path_s: f64) -> ResumePoint {
+    let first = frames.iter().find(|frame| frame.block == of.block).unwrap();
+    ResumePoint {
+        position,
+        program_start: AxisVector::zeros(),
+        program: 7,
+        block: of.block,
+        path_s,
+        block_path_s: first.path_s,
+        found: None,
+    }
+}
+
+/// Goes on from a point to the end of the program.
+fn goes_on_from(point: ResumePoint, end: &Frame) {
+    let rest = Remainder::find(in_turn(), point, settings().tolerance_mm)
+        .unwrap_or_else(|error| panic!("{point:?}: {error}"));
+    let frames = frames_of(Pipeline::resuming(rest, settings()));
+    assert_eq!(frames[0].position, point.position, "{point:?}");
+    let last = frames.last().unwrap();
+    assert_eq!(last.position, end.position, "{point:?}");
+    assert_eq!(last.block, end.block, "{point:?}");
+}
+
+#[test]
+fn it_goes_on_from_between_two_frames_whatever_block_is_told() {
+    let start = AxisVector::zeros();
+    let frames = frames_of(Pipeline::new(in_turn(), settings(), start));
+    let end = frames.last().unwrap();
+    for pair in frames.windows(2) {
+        let [before, after] = pair else { continue };
+        // The curve between both is off their chord by far less than the tolerance.
+        for part in [0.001, 0.5] {
+            let position = before.position + part * (after.position - before.position);
+            let path_s = before.path_s + part * (after.path_s - before.path_s);
+            goes_on_from(point_at(&frames, before, position, path_s), end);
+        }
+    }
+}
+
+#[test]
+fn it_goes_on_from_beside_the_path_and_not_from_elsewhere() {
+    let start = AxisVector::zeros();
+    let frames = frames_of(Pipeline::new(in_turn(), settings(), start));
+    let end = frames.last().unwrap();
+    let none = Frame {
+        block: 0,
+        ..frames[0]
+    };
+    let blocks = frames.chunk_by(|a, b| a.block == b.block);
+    for frame in blocks.map(|block| &block[0]).chain([&none]) {
+        if frame.block == end.block {
+            continue;
+        }
+        let mut place = frame.position;
+        (place[0], place[2]) = (place[0] - 4e-6, place[2] + 0.004);
+        let mut point = point_at(&frames, &frames[0], place, frame.path_s);
+        (point.block, point.block_path_s) = (frame.block, frame.path_s);
+        goes_on_from(point, end);
+        point.position[2] += 1.0;
+        let refused = Remainder::find(in_turn(), point, settings().tolerance_mm);
+        let refused = refused.map(drop).unwrap_err();
+        assert!(
+            matches!(refused, RunError::Resume(ResumeError::OffPath { .. })),
+            "block {}: {refused}",
+            frame.block
+        );
+    }
+}
+
+/// What comes behind the question is not known before it is answered.
+#[test]
+fn it_asks_again_from_beside_the_path() {
+    let all = whole();
+    let asked = all.stands.iter().position(|stand| {
+        // The first block behind the rapid, which is the M66.
+        stand.point.block == 2
+    });
+    let mut stand = all.stands[asked.unwrap()].clone();
+    assert!(stand.answers.is_empty(), "{stand:?}");
+    for (away, is_near) in [(0.004, true), (1.0, false)] {
+        stand.point.position[2] = away;
+        let (desk, journal) = (InputDesk::default(), Journal::of(&[]));
+        desk.keep_in(Box::new(journal.clone()), true);
+        let source = Text::new(AxisVector::zeros(), &desk);
+        let rest = Remainder::find(source, stand.point, settings().tolerance_mm);
+        if !is_near {
+            let refused = rest.map(drop).unwrap_err();
+            assert!(matches!(
+                refused,
+                RunError::Resume(ResumeError::OffPath { .. })
+            ));
+            continue;
+        }
+        desk.begin_here().unwrap();
+        let mut machine = Machine::new(desk, journal.clone());
+        machine.execute(&mut Pipeline::resuming(rest.unwrap(), settings()));
+        assert_eq!(machine.stands[0].point.position, stand.point.position);
+        let last = machine.stands.last().unwrap();
+        assert_eq!(
+            last.point.position,
+            all.stands.last().unwrap().point.position
+        );
+        assert_eq!(journal.answers(), all.journal.answers());
     }
 }
