@@ -26,6 +26,10 @@ pub(crate) struct Line {
     /// What of the sender's room it takes, bytes, with one for its end.
     pub(crate) bytes: usize,
     pub(crate) is_too_long: bool,
+    /// When it was sent at the earliest, ns of the clock of [`Session::ask_at`](crate::Session::ask_at).
+    pub(crate) asked_ns: u64,
+    /// Its reader stood still before it was heard.
+    pub(crate) is_late: bool,
 }
 
 /// Where telnet is.
@@ -89,6 +93,8 @@ impl Intake {
             is_too_long: text.len() > MOST_LINE,
             text: String::from_utf8(text).unwrap_or_default(),
             bytes: bytes + 1,
+            asked_ns: 0,
+            is_late: false,
         }
     }
 

@@ -40,6 +40,9 @@ pub struct Request {
     pub first: u64,
     /// Lines of the job.
     pub lines: Vec<String>,
+    /// When the line that began the job was sent at the earliest, ns of the clock of
+    /// [`Session::ask_at`](crate::Session::ask_at).
+    pub asked_ns: u64,
 }
 
 /// A line that was refused. It has no effect, and ends its job behind the line before.
@@ -126,12 +129,21 @@ enum Phase {
     Cancelling,
 }
 
+/// A line that is not read.
+#[derive(Debug)]
+struct Unread {
+    text: String,
+    asked_ns: u64,
+}
+
 /// The lines of a sender, and the job they belong to.
 #[derive(Debug, Default)]
 pub(crate) struct Stream {
     job: u64,
     phase: Phase,
-    unread: VecDeque<String>,
+    /// When the line that began the job was sent.
+    asked_ns: u64,
+    unread: VecDeque<Unread>,
     taken: u64,
     read: u64,
     /// Lines of jobs before.
@@ -157,8 +169,10 @@ impl Stream {
         self.before + line
     }
 
-    pub(crate) fn push(&mut self, text: &str) {
-        self.unread.push_back(text.to_owned());
+    /// Takes a line that was sent at `asked_ns` at the earliest.
+    pub(crate) fn push(&mut self, text: &str, asked_ns: u64) {
+        let text = text.to_owned();
+        self.unread.push_back(Unread { text, asked_ns });
     }
 
     /// What was read is executed, and nothing more.
@@ -189,7 +203,12 @@ impl Stream {
 
     /// What to ask. `may_begin`: lines may begin a job.
     pub(crate) fn request(&mut self, may_begin: bool) -> Request {
-        if self.phase == Phase::None && may_begin && self.has_unread() {
+        if let Some(first) = self.unread.front()
+            && self.phase == Phase::None
+            && may_begin
+        {
+            // It may have come while the job before was under way.
+            self.asked_ns = first.asked_ns;
             self.before += self.read;
             (self.job, self.phase) = (self.job + 1, Phase::Open);
             (self.taken, self.read) = (0, 0);
@@ -201,6 +220,7 @@ impl Stream {
                     wish: Wish::Ask,
                     first: 1,
                     lines: Vec::new(),
+                    asked_ns: 0,
                 };
             }
             Phase::Open => Wish::Execute,
@@ -211,11 +231,11 @@ impl Stream {
         let mut lines = Vec::new();
         let mut bytes = 0;
         for line in self.unread.iter().skip(given) {
-            bytes += line.len() + 1;
+            bytes += line.text.len() + 1;
             if wish != Wish::Execute || bytes > MOST_TEXT {
                 break;
             }
-            lines.push(line.clone());
+            lines.push(line.text.clone());
         }
         Request {
             job: self.job,
@@ -226,6 +246,7 @@ impl Stream {
             },
             first: self.taken + 1,
             lines,
+            asked_ns: self.asked_ns,
         }
     }
 
@@ -305,7 +326,7 @@ mod tests {
     #[test]
     fn lines_are_given_until_they_have_come_and_read_once() {
         let mut stream = Stream::default();
-        ["a", "b", "c"].iter().for_each(|line| stream.push(line));
+        ["a", "b", "c"].iter().for_each(|line| stream.push(line, 7));
         let first = stream.request(true);
         assert_eq!((first.job, first.first, first.lines.len()), (1, 1, 3));
         // The answer was lost: the same again.
@@ -326,7 +347,7 @@ mod tests {
     #[test]
     fn what_a_job_leaves_is_given_to_the_next() {
         let mut stream = Stream::default();
-        ["M2", "G0 X1"].iter().for_each(|line| stream.push(line));
+        ["M2", "G0 X1"].iter().for_each(|line| stream.push(line, 7));
         stream.request(true);
         let outcomes = stream.hear(&told(1, Stage::Over(End::ProgramEnd), 2, 1));
         assert_eq!(outcomes, [Outcome::ProgramEnd, Outcome::Read]);
@@ -337,11 +358,26 @@ mod tests {
     }
 
     #[test]
+    fn a_job_was_asked_for_when_its_first_line_was_sent() {
+        let mut stream = Stream::default();
+        stream.push("G0 X1", 1);
+        assert_eq!(stream.request(true).asked_ns, 1);
+        // It came while the job before had not been told to be over.
+        stream.hear(&told(1, Stage::Open, 1, 1));
+        stream.push("G0 X2", 2);
+        assert_eq!(stream.request(true).asked_ns, 1);
+        stream.hear(&told(1, Stage::Over(End::Done), 1, 1));
+        stream.push("G0 X3", 3);
+        let next = stream.request(true);
+        assert_eq!((next.job, next.asked_ns, next.lines.len()), (2, 2, 2));
+    }
+
+    #[test]
     fn a_line_that_was_refused_is_told_at_once_and_ends_its_job() {
         let mut stream = Stream::default();
         ["G1 X1", "G999", "G1 X2"]
             .iter()
-            .for_each(|line| stream.push(line));
+            .for_each(|line| stream.push(line, 7));
         stream.request(true);
         let refused = Refused {
             column: 1,
@@ -363,11 +399,11 @@ mod tests {
     #[test]
     fn a_cancelled_job_says_nothing_more() {
         let mut stream = Stream::default();
-        stream.push("G1 X1");
+        stream.push("G1 X1", 7);
         stream.request(true);
         stream.cancel();
         assert_eq!(stream.request(true).wish, Wish::Cancel);
-        stream.push("G55");
+        stream.push("G55", 7);
         let failed = Stage::Over(End::Failed("aborted".to_owned()));
         assert_eq!(stream.hear(&told(1, failed, 1, 0)), []);
         assert_eq!(stream.request(true).lines, ["G55"]);

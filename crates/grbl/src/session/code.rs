@@ -31,21 +31,26 @@ impl Session {
             }
             return is_first;
         }
-        let text = line.text.clone();
+        let (text, asked_ns, is_late) = (line.text.clone(), line.asked_ns, line.is_late);
         match wanted(&text) {
             Wanted::Nothing if is_first => {
                 self.answer_ok();
                 true
             }
-            Wanted::Nothing => self.give(""),
-            Wanted::Code => self.process_code(&text),
+            Wanted::Nothing => self.give("", asked_ns),
+            Wanted::Code => self.process_code(&text, asked_ns),
+            Wanted::Jog(_) | Wanted::Home(_) if is_first && is_late => {
+                let why = "the endpoint stood still: nobody knows when this was sent";
+                self.answer_error(ErrorNumber::NOT_IDLE, why);
+                true
+            }
             statement if is_first => self.process_statement(statement, now),
             // Answers come in order.
             _ => false,
         }
     }
 
-    fn process_code(&mut self, text: &str) -> bool {
+    fn process_code(&mut self, text: &str, asked_ns: u64) -> bool {
         let is_first = self.given == 0;
         match self.state() {
             State::Alarm | State::Sleep | State::Jog | State::Home if !is_first => false,
@@ -63,17 +68,17 @@ impl Session {
                 false
             }
             State::Idle | State::Run | State::Hold { .. } | State::Door { .. } => {
-                self.latch == Latch::Free && self.give(text)
+                self.latch == Latch::Free && self.give(text, asked_ns)
             }
         }
     }
 
     /// Gives a line to the stream, if there is room.
-    fn give(&mut self, text: &str) -> bool {
+    fn give(&mut self, text: &str, asked_ns: u64) -> bool {
         if !self.stream.has_room() {
             return false;
         }
-        self.stream.push(text);
+        self.stream.push(text, asked_ns);
         self.given += 1;
         true
     }

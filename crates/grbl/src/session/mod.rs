@@ -68,6 +68,8 @@ pub struct Session {
     overrides: Overrides,
     reporter: Reporter,
     heard_at: Duration,
+    /// When what is heard now was sent at the earliest.
+    asked_ns: u64,
     reports: u32,
     spindle_was_told: bool,
     /// For the next sender.
@@ -102,6 +104,7 @@ impl Session {
             overrides: Overrides::WHOLE,
             reporter: Reporter::default(),
             heard_at: Duration::ZERO,
+            asked_ns: 0,
             reports: 0,
             spindle_was_told: false,
             note: None,
@@ -147,6 +150,12 @@ impl Session {
         self.out.clear();
     }
 
+    /// When what is heard from now on was sent at the earliest, ns of any one clock. What is asked of the planner's
+    /// service says it ([`Request::asked_ns`]).
+    pub const fn ask_at(&mut self, asked_ns: u64) {
+        self.asked_ns = asked_ns;
+    }
+
     /// What a sender has sent.
     pub fn hear(&mut self, bytes: &[u8], now: Duration) {
         if !bytes.is_empty() {
@@ -155,7 +164,10 @@ impl Session {
         for byte in bytes {
             match self.intake.take(*byte) {
                 None => {}
-                Some(Heard::Line(line)) => self.lines.push_back(line),
+                Some(Heard::Line(line)) => self.lines.push_back(Line {
+                    asked_ns: self.asked_ns,
+                    ..line
+                }),
                 Some(Heard::RealTime(real_time)) => {
                     // What stands in front of it comes first.
                     self.process(now);
@@ -166,8 +178,12 @@ impl Session {
         self.process(now);
     }
 
-    /// Nobody knows when what was heard just now was sent: its reader stood still. A jog of before is not begun.
+    /// Nobody knows when what was heard just now was sent: its reader stood still. A jog of before is not begun,
+    /// nor is what waits to be moved by hand.
     pub fn stood_still(&mut self) {
+        for line in &mut self.lines {
+            line.is_late = true;
+        }
         if self.cancel_jogs() {
             self.message("The endpoint stood still: the jog is not begun, or ends");
         }

@@ -170,7 +170,7 @@ impl Endpoint {
         self.session.lost();
         let asked_ns = Monotonic.now_ns();
         self.act(asked_ns);
-        let now = (self.started.elapsed(), asked_ns);
+        let now = self.started.elapsed();
         self.sent.turn(&self.transport, &mut self.session, now);
         Ok(())
     }
@@ -195,12 +195,12 @@ impl Endpoint {
         let (asked_ns, stood_still) = self.asked_ns();
         let machine = self.view.machine(self.sent.zero());
         self.session.see(&machine, now);
+        self.session.ask_at(asked_ns);
         self.wire.turn(&mut self.session, now);
         if stood_still {
             self.session.stood_still();
         }
-        self.sent
-            .turn(&self.transport, &mut self.session, (now, asked_ns));
+        self.sent.turn(&self.transport, &mut self.session, now);
         self.act(asked_ns);
         self.wire.send(&mut self.session);
         Ok(())

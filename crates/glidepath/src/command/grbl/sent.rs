@@ -24,8 +24,6 @@ pub(super) struct Sent {
     port: Option<Port>,
     client: u64,
     ahead_t: f64,
-    /// The job that was asked for last, and when it was asked for first.
-    job: (u64, u64),
     /// Since when an answer is waited for.
     asked: Option<Duration>,
     next: Duration,
@@ -42,7 +40,6 @@ impl Sent {
             port: None,
             client: client(),
             ahead_t,
-            job: (0, 0),
             asked: None,
             next: Duration::ZERO,
             missed: None,
@@ -56,15 +53,9 @@ impl Sent {
         self.zero
     }
 
-    /// Takes answers, and asks when it is time to. Lines that begin a job were asked for at `asked_ns`, ns of the
-    /// host's steady clock.
-    pub(super) fn turn(
-        &mut self,
-        transport: &Ipc,
-        session: &mut Session,
-        (now, asked_ns): (Duration, u64),
-    ) {
-        if let Err(error) = self.try_turn(transport, session, (now, asked_ns)) {
+    /// Takes answers, and asks when it is time to.
+    pub(super) fn turn(&mut self, transport: &Ipc, session: &mut Session, now: Duration) {
+        if let Err(error) = self.try_turn(transport, session, now) {
             (self.port, self.asked) = (None, None);
             self.next = now + ASK_EVERY;
             let why = match error {
@@ -84,7 +75,7 @@ impl Sent {
         &mut self,
         transport: &Ipc,
         session: &mut Session,
-        (now, asked_ns): (Duration, u64),
+        now: Duration,
     ) -> Result<(), LinkError> {
         let port = match &mut self.port {
             Some(port) => port,
@@ -112,13 +103,10 @@ impl Sent {
             return Ok(());
         }
         let request = session.request();
-        if request.job != self.job.0 {
-            self.job = (request.job, asked_ns);
-        }
         let record = LinesRequest {
             client: self.client,
             number: request.job,
-            asked_ns: self.job.1,
+            asked_ns: request.asked_ns,
             first: request.first,
             ahead_t: self.ahead_t,
             wish: wish(request.wish).code(),
