@@ -23,6 +23,8 @@ use judge::{COUNTS, Row, judge, rows, was_left_alone};
 
 /// What is left out where the host was not in time.
 const LIMITS: &str = "limits of the chain over emulated drives";
+/// How a following error is told.
+const TOO_FAR: &str = "a joint is too far from where it is to be";
 /// Time constant of their lag, s.
 const LAG_T: f64 = 0.002;
 
@@ -89,7 +91,7 @@ fn chain(seconds: u32, period_us: u32) -> bool {
     let recorded = std::fs::read_to_string(&csv);
     assert!(recorded.is_ok(), "{csv}: {recorded:?}; {output:?}");
     let rows = rows(&recorded.unwrap());
-    if output.stdout.contains("FollowingError") && was_left_alone(&rows[0]) {
+    if output.stdout.contains(TOO_FAR) && was_left_alone(&rows[0]) {
         leave_out(LIMITS, "the host stood still, and nobody led the drives");
         return false;
     }
