@@ -83,8 +83,6 @@ impl<'a> Bench<'a> {
     fn start(instance: &'a Instance, seed: u64) -> Self {
         let changes = [
             ("homing = \"none\"", "homing = \"drive\""),
-            ("stale_s = 0.25 ", "stale_s = 0.6 "),
-            ("off_s = 0.5 ", "off_s = 1.0 "),
             ("\nfollowing_error = 50.0 ", "\nfollowing_error = 5.0 "),
             ("min_following_error = 50.0 ", "min_following_error = 5.0 "),
         ];

@@ -24,9 +24,9 @@ impl<'a> Operated<'a> {
         let mut text = printed.expect(0).stdout;
         let drives = [
             ("source = \"none\"", "source = \"drives\""),
-            // A host of tests stands still for tens of milliseconds, and its drives with it.
-            ("# stale_s = 0.012 ", "stale_s = 0.25 "),
-            ("off_s = 0.1 ", "off_s = 0.5 "),
+            // A host of tests may stand still for some tenths of a second, and its drives with it.
+            ("# stale_s = 0.012 ", "stale_s = 0.6 "),
+            ("off_s = 0.1 ", "off_s = 1.0 "),
             ("\nfollowing_error = 1.0 ", "\nfollowing_error = 50.0 "),
             ("min_following_error = 0.1 ", "min_following_error = 50.0 "),
         ];
