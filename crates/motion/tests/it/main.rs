@@ -15,6 +15,7 @@ mod preview;
 mod rates;
 mod refusals;
 mod scurve;
+mod small_arcs;
 mod straight_walls;
 #[path = "../support/mod.rs"]
 mod support;

@@ -6,6 +6,7 @@ use super::search_bias::SearchBias;
 use super::spline::Grid;
 use super::window_start::WindowStart;
 use crate::in_tube::path::{ReferencePath, directional};
+use crate::in_tube::period::State;
 use crate::in_tube::verify::{Follower, History};
 use crate::joints::SharedJoints;
 use glidepath_geometry::{AXES, AxisVector};
@@ -21,8 +22,8 @@ pub(crate) const FEED_INTERVALS: usize = MOST_INTERVALS;
 /// Jerk between control points counts as kept up to this factor. Where most of them are given, positions
 /// at the periods can keep it though they do not.
 const JERK_SLACK: f64 = 1.0 + 1e-4;
-/// What rounding makes of an acceleration, mm/s².
-const ROUNDING_A: f64 = 1e-3;
+/// What rounding makes of a position, mm.
+const ROUNDING_MM: f64 = 1e-11;
 /// Length of a window in times to stop from the top speed.
 const STOPS: f64 = 2.4;
 
@@ -278,9 +279,11 @@ fn passes<const D: usize>(
             }
         }
         let before = history.last();
-        let step_a = next.acceleration - history.state().acceleration;
-        let most_a = context.limits.jerk * (context.period_t * JERK_SLACK);
-        if (0..AXES).any(|i| step_a[i].abs() > most_a[i] + ROUNDING_A) {
+        if !keeps_jerk(
+            &context.limits.jerk,
+            context.period_t,
+            [history.state(), &next],
+        ) {
             return false;
         }
         if !history.follow(context.limits, context.period_t, way, &next) {
@@ -298,4 +301,18 @@ fn passes<const D: usize>(
     let may_set_out = follower.least_reach() >= follower.reachable.last();
     may_set_out
         && (question == Question::IsValid || follower.reachable.is_at_end_of(context.end - 1))
+}
+
+/// True if a motion with no more jerk than that of each axis can lead from one state to the next.
+fn keeps_jerk(jerk: &AxisVector, t: f64, [from, to]: [&State; 2]) -> bool {
+    let step_a = to.acceleration - from.acceleration;
+    let step_v = to.velocity - from.velocity - from.acceleration * t;
+    let gone = from.velocity * t + from.acceleration * (0.5 * t * t);
+    let step = to.position - from.position - gone;
+    (0..AXES).all(|i| {
+        let most = JERK_SLACK * jerk[i] * t * t * t;
+        step[i].abs() <= most / 6.0 + ROUNDING_MM
+            && step_v[i].abs() * t <= most / 2.0 + ROUNDING_MM
+            && step_a[i].abs() * t * t <= most + ROUNDING_MM
+    })
 }
