@@ -34,3 +34,4 @@ mod subscribers;
 mod telemetry;
 mod threading;
 mod told;
+mod unanswered;

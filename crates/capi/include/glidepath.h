@@ -49,7 +49,7 @@ extern "C" {
 /* The version of the ABI: functions and structures. */
 #define GP_ABI 5u
 /* What the structures of this header are, as one number. */
-#define GP_LAYOUT UINT64_C(0x17ec5f33c63ad7fe)
+#define GP_LAYOUT UINT64_C(0x78768845dc1d4dd9)
 /* Axes X Y Z A B C U V W, and joints J0 to J8. */
 #define GP_AXES 9
 
@@ -553,7 +553,7 @@ GP_FIELD(gp_setpoint, away, 576, 72);
 GP_FIELD(gp_setpoint, events, 648, 512);
 
 /* What the interpolator does and how well. Counts are of this life of it. The record
-   glidepath.Status.v10. */
+   glidepath.Status.v11. */
 typedef struct gp_status {
     /* Identifies one life of the interpolator. */
     uint64_t boot_id;
@@ -655,8 +655,10 @@ typedef struct gp_status {
     double contact[9];
     /* A GP_CONTACT_. */
     uint32_t contact_kind;
-    /* Must be zero. */
-    uint32_t reserved;
+    /* 1 if the last epoch was left before the event of its block was done: an M code that
+       nobody answered, or a program stop that nobody let pass. 0 if not, and while one is
+       open. */
+    uint32_t unanswered;
     /* Path position, mm. */
     double path_s;
     /* Path position of the first setpoint of the block, mm. */
@@ -771,7 +773,7 @@ GP_FIELD(gp_status, awaited_line, 644, 4);
 GP_FIELD(gp_status, awaited_words, 648, 24);
 GP_FIELD(gp_status, contact, 672, 72);
 GP_FIELD(gp_status, contact_kind, 744, 4);
-GP_FIELD(gp_status, reserved, 748, 4);
+GP_FIELD(gp_status, unanswered, 748, 4);
 GP_FIELD(gp_status, path_s, 752, 8);
 GP_FIELD(gp_status, block_path_s, 760, 8);
 GP_FIELD(gp_status, feed_v, 768, 8);

@@ -113,6 +113,12 @@ impl Admission {
         is_opening.then_some(self.epoch)
     }
 
+    /// The same, also where no more frames of it pass: what did pass is still under way.
+    pub(crate) fn entering(&self, machine_epoch: u64) -> Option<u64> {
+        let is_entering = self.epoch > machine_epoch && !self.is_barred(self.epoch);
+        is_entering.then_some(self.epoch)
+    }
+
     /// Whether an epoch does not begin any more.
     pub(crate) const fn is_barred(&self, epoch: u64) -> bool {
         epoch <= self.barred
@@ -292,11 +298,8 @@ impl Admission {
                 return Err(on_axis(refusal, found));
             }
         }
-        if let Some(axis) = self.jump(frame, &last.frame) {
-            return Err(Fault {
-                axis: Some(axis),
-                ..fault(FrameRefusal::Discontinuous)
-            });
+        if let Some((refusal, found)) = self.jump(frame, &last.frame) {
+            return Err(on_axis(refusal, found));
         }
         Ok(Last {
             frame: *frame,
@@ -352,9 +355,10 @@ impl Admission {
     }
 
     /// The first axis whose velocity or acceleration does not belong to its positions: with jerk
-    /// inside its limit J, Taylor's formula leaves no more than these remainders over a period.
+    /// inside its limit J, Taylor's formula leaves no more than these remainders over a period. Where
+    /// velocity and position are what the acceleration makes of them, it is the jerk that is too high.
     #[allow(clippy::indexing_slicing, reason = "the index runs over the axes")]
-    fn jump(&self, frame: &SetpointFrame, last: &SetpointFrame) -> Option<Axis> {
+    fn jump(&self, frame: &SetpointFrame, last: &SetpointFrame) -> Option<(FrameRefusal, Found)> {
         let t = self.period_t;
         (0..AXES).find_map(|i| {
             let (p0, v0, a0) = (last.position[i], last.velocity[i], last.acceleration[i]);
@@ -366,9 +370,12 @@ impl Admission {
             let of_v = (v1 - v0 - 0.5 * t * (a0 + a1)).abs() - 0.25 * j * t * t;
             let of_p = (p1 - p0 - 0.5 * t * (v0 + v1) + t * t * (a1 - a0) / 12.0).abs()
                 - 0.065 * j * t * t * t;
-            let jumps = of_a > ROUNDING / (t * t) || of_v > ROUNDING / t || of_p > ROUNDING;
-            if jumps {
-                Axis::ALL.get(i).copied()
+            let axis = Axis::ALL.get(i).copied();
+            if of_v > ROUNDING / t || of_p > ROUNDING {
+                Some((FrameRefusal::Discontinuous, (axis, 0.0, 0.0)))
+            } else if of_a > ROUNDING / (t * t) {
+                let found = (axis, (a1 - a0) / t, self.limits.jerk[i]);
+                Some((FrameRefusal::Jerk, found))
             } else {
                 None
             }

@@ -5,8 +5,12 @@ use crate::code_words::CodeWordsBook;
 use crate::gates::Gates;
 use crate::message::{Awaited, Report};
 use crate::stops::{StopCause, StopSettings};
+use crate::tool_change::ToolChange;
 use glidepath_link::{Auxiliary, CodeWords, EventId, EventRecord};
 use glidepath_program::Event;
+
+/// The change of a tool.
+const CHANGE: Event = Event::MCode(6);
 
 /// The record, and what it was when it was published last.
 #[derive(Debug)]
@@ -15,6 +19,8 @@ pub(crate) struct AuxiliaryBook {
     published: Option<Auxiliary>,
     gates: Gates,
     words: CodeWordsBook,
+    /// The tool change that is not answered yet.
+    tool_change: Option<ToolChange>,
     stops: StopSettings,
 }
 
@@ -28,6 +34,7 @@ impl AuxiliaryBook {
             published: None,
             gates,
             words: CodeWordsBook::default(),
+            tool_change: None,
             stops,
         }
     }
@@ -44,12 +51,19 @@ impl AuxiliaryBook {
     pub(crate) fn note(&mut self, report: &Report) {
         let setpoint = &report.setpoint;
         for event in setpoint.events().iter().flat_map(EventRecord::event) {
+            if event == CHANGE && self.gates.of(6).is_some() {
+                let change = ToolChange::new(&self.record, self.tool_change.as_ref());
+                self.tool_change = Some(change);
+            }
             self.record.take(event);
             self.words.note(setpoint, event);
             (self.record.epoch, self.record.sequence) = (setpoint.epoch, setpoint.sequence);
             self.record.line = setpoint.line;
         }
         self.await_event(report.awaited);
+        if let Some(change) = self.tool_change {
+            self.tool_change = change.follow(report, &mut self.record);
+        }
     }
 
     fn await_event(&mut self, awaited: Option<Awaited>) {

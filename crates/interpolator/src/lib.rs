@@ -145,6 +145,7 @@ mod supply;
 mod testing;
 mod tick;
 mod told_by_hand;
+mod tool_change;
 mod track;
 mod tracker;
 mod wait;

@@ -146,6 +146,8 @@ pub(crate) struct Report {
     pub(crate) end_of_epoch: EndOfEpoch,
     pub(crate) fault: Option<Fault>,
     pub(crate) awaited: Option<Awaited>,
+    /// The last epoch was left before the event of its block was done.
+    pub(crate) is_unanswered: bool,
     /// On the way back to the path, after a jog in a hold.
     pub(crate) is_returning: bool,
     /// The axes are not where the program is held.
@@ -179,6 +181,7 @@ impl Report {
             end_of_epoch: EndOfEpoch::None,
             fault: None,
             awaited: None,
+            is_unanswered: false,
             is_returning: false,
             is_away: false,
             frames_executed: 0,

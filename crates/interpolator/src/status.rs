@@ -6,6 +6,7 @@ use crate::config::Config;
 use crate::message::{FRAMES, Report};
 use crate::retrace::frames_kept;
 use crate::track::TRACK_CAPACITY;
+use glidepath_geometry::AXES;
 use glidepath_link::{
     EndOfEpoch, FrameRefusal, Grants, MachineState, MotionMode, Quantiles, Setpoint, SetpointFrame,
     Status, Text,
@@ -18,6 +19,8 @@ pub(crate) struct StatusBook {
     block_starts: BlockStarts,
     /// The first frame of an epoch that the real-time thread has not opened.
     entering: Option<SetpointFrame>,
+    /// The file that was begun last, and where the machine stood then: lines may have been executed since.
+    begun: Option<(u64, [f64; AXES])>,
     lateness: Histogram,
     work: Histogram,
     latency: Histogram,
@@ -44,6 +47,7 @@ impl StatusBook {
             status,
             block_starts: BlockStarts::new(frames_kept(config.period_t())),
             entering: None,
+            begun: None,
             lateness: Histogram::new(),
             work: Histogram::new(),
             latency: Histogram::new(),
@@ -103,13 +107,19 @@ impl StatusBook {
     }
 
     /// An epoch has begun. The first frame of a program tells which program that is, and where it
-    /// starts; that of a planner that goes on with one tells of a block of the same. One that is
+    /// starts; that of a planner that goes on with one tells of a block of the same, also behind lines. One that is
     /// aborted before it begins leaves what can be resumed as it was.
     fn enter(&mut self, frame: &SetpointFrame) {
-        if frame.block == 0 || frame.program != self.status.program {
+        let begins = frame.block == 0 || frame.path_s <= 0.0;
+        let begun = self.begun.filter(|_| !begins);
+        let begun = begun.filter(|(program, _)| *program == frame.program);
+        if begins || frame.program != self.status.program {
             self.block_starts.forget();
             self.status.program = frame.program;
-            self.status.program_start = frame.position;
+            self.status.program_start = begun.map_or(frame.position, |(_, start)| start);
+        }
+        if begins && frame.program != 0 {
+            self.begun = Some((frame.program, frame.position));
         }
     }
 
@@ -135,7 +145,7 @@ impl StatusBook {
         now_ns: u64,
     ) {
         let setpoint = &report.setpoint;
-        let opening = admission.opening(setpoint.epoch);
+        let opening = admission.entering(setpoint.epoch);
         let is_newer = opening.is_some();
         let status = &mut self.status;
         status.updated_ns = now_ns;
@@ -176,6 +186,7 @@ impl StatusBook {
         status.work = quantiles(&self.work);
         status.latency = quantiles(&self.latency);
         status.response = quantiles(&self.response);
+        status.unanswered = (report.is_unanswered && !is_newer).into();
         let awaited = report.awaited;
         status.awaited_sequence = awaited.map_or(0, |awaited| awaited.sequence);
         status.awaited_since_ns = awaited.map_or(0, |awaited| awaited.since_ns);

@@ -180,6 +180,13 @@ impl StopRequests {
         self.hold = self.hold && (is_open || is_prepared);
     }
 
+    /// The job that has the machine does not begin: a hold of it is over, too.
+    pub(crate) const fn give_machine_back(&mut self) {
+        if self.is_prepared {
+            self.prepare(false, false);
+        }
+    }
+
     /// Whether a job has the machine, of which no frame has come.
     pub(crate) const fn is_prepared(&self) -> bool {
         self.is_prepared

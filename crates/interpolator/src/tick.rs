@@ -161,6 +161,7 @@ impl Interpolator<'_> {
         report.end_of_epoch = self.end_of_epoch;
         report.fault = self.requests.fault().copied();
         report.awaited = self.wait.awaited();
+        report.is_unanswered = self.is_unanswered;
         report.is_returning = self.jog.is_returning();
         report.is_away = self.jog.owns_axes() && self.is_open();
         report.frames_executed = if self.epoch == 0 {

@@ -36,7 +36,7 @@ layout!(setpoint, Setpoint, "glidepath.Setpoint.v4", 1160, {
     acceleration: 288, joint_position: 360, joint_velocity: 432, joint_acceleration: 504,
     away: 576, events: 648,
 });
-layout!(status, Status, "glidepath.Status.v10", 1776, {
+layout!(status, Status, "glidepath.Status.v11", 1776, {
     boot_id: 0, updated_ns: 8, period_ns: 16, tick: 24, epoch: 32, frames_received: 40,
     frames_executed: 48, queue_depth: 56, queue_capacity: 60, pid: 64, state: 68, end_of_epoch: 72,
     fault: 76, fault_line: 80, fault_axis: 84, fault_joint: 88, drive_fault: 92,
@@ -45,7 +45,7 @@ layout!(status, Status, "glidepath.Status.v10", 1776, {
     mode: 364, joints: 368, enabled: 372, homed: 376, drive_faults: 380, reference: 384,
     feedback_age_ns: 392, joint_actual: 400, following_error: 472, following_peak: 544,
     awaited_sequence: 616, awaited_since_ns: 624, awaited_value: 632,
-    awaited_kind: 640, awaited_line: 644, awaited_words: 648, contact: 672, contact_kind: 744, reserved: 748, path_s: 752, block_path_s: 760, feed_v: 768,
+    awaited_kind: 640, awaited_line: 644, awaited_words: 648, contact: 672, contact_kind: 744, unanswered: 748, path_s: 752, block_path_s: 760, feed_v: 768,
     feed_override: 776, rapid_override: 784, jog_override: 792, effective_override: 800, adaptive_feed: 808, ticks: 816,
     missed_ticks: 824, late_ticks: 832, setpoints_published: 840, setpoints_lost: 848,
     reserve_stops: 856, starved_ticks: 864, commands_served: 872, commands_refused: 880,

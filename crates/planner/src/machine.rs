@@ -24,6 +24,9 @@ pub(crate) const SILENCE: Duration = Duration::from_secs(3);
 /// How long a command may wait for its answer.
 const COMMAND_PATIENCE: Duration = Duration::from_secs(2);
 
+/// Why an epoch does not begin of which nobody says why.
+const GIVEN_AWAY: &str = "the machine was given to something else before the first frame came";
+
 /// How the epoch of this planner stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Standing {
@@ -283,9 +286,22 @@ fn why_not_begun(status: &Status, end: EndOfEpoch) -> RunError {
         Ok(JobStage::Refused) => RunError::NotBegun {
             why: status.job_end.as_str().to_owned(),
         },
-        _ if end == EndOfEpoch::Aborted => RunError::Aborted,
-        _ => RunError::NotBegun {
-            why: status.last_error.as_str().to_owned(),
-        },
+        Ok(
+            JobStage::None
+            | JobStage::Waiting
+            | JobStage::Preparing
+            | JobStage::Begun
+            | JobStage::Over,
+        )
+        | Err(_) => {
+            if end == EndOfEpoch::Aborted {
+                return RunError::Aborted;
+            }
+            let told = status.last_error.as_str();
+            let why = if told.is_empty() { GIVEN_AWAY } else { told };
+            RunError::NotBegun {
+                why: why.to_owned(),
+            }
+        }
     }
 }

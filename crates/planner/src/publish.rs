@@ -224,6 +224,8 @@ impl<'t> Publisher<'t> {
                 self.abort(&epoch, control)?;
                 return Err(RunError::Ended { why });
             }
+            // A fault tells more than that the job is over.
+            epoch.follow(self.standing(&epoch)?);
             if epoch.is_known() {
                 self.say("");
             }
@@ -232,7 +234,6 @@ impl<'t> Publisher<'t> {
                 self.abort(&epoch, control)?;
                 return Err(error);
             }
-            epoch.follow(self.standing(&epoch)?);
             attend.follow(&self.followed(&plan, &epoch));
             if epoch.is_over() {
                 self.report(&epoch, &plan, control);

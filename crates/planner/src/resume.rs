@@ -23,6 +23,9 @@
 //! The interpolator tells a block up to a period late, so that a machine whose block is an event or a dwell may be on
 //! the move behind it already. Whatever the block is, the first move begins where the machine stands.
 //!
+//! What waits is not done before it is answered: an M code, or a program stop, at which the program was
+//! left without its answer is told again, and waited for again.
+//!
 //! What the program asked of inputs and of the probe up to there is answered as it was answered then
 //! ([`ItemSource::settle`]); a probing move that was left on its way goes on looking.
 
@@ -31,6 +34,7 @@ mod nearness;
 mod outputs;
 mod point;
 mod search;
+mod told_codes;
 
 pub use error::ResumeError;
 pub use point::ResumePoint;
@@ -48,6 +52,7 @@ use crate::{Answer, ItemSource, Refusal, RunError, Settled, Supply};
 use nearness::{ROUNDING_MM, distance};
 use outputs::SaidOutputs;
 use search::{MachineSearch, Standpoint};
+use told_codes::ToldCodes;
 
 /// The rest of a program: what follows the point at which it was left.
 #[derive(Debug)]
@@ -59,10 +64,11 @@ pub struct Remainder<S> {
     ahead: VecDeque<Item>,
     /// What ended the search.
     last: Option<Supply>,
-    /// What was said of spindle and coolant before that.
+    /// What was said of spindle, coolant and tool before that.
     outputs: SaidOutputs,
     /// Where the first move begins, if it is not known yet and may begin elsewhere by itself.
     stands: Option<AxisVector>,
+    codes: ToldCodes,
 }
 
 /// Items in front of the first move that are looked at.
@@ -81,7 +87,7 @@ impl<S: ItemSource> Remainder<S> {
         let mut before: Option<Item> = None;
         // Behind a probing move it is where that ended.
         let mut place = Some(point.program_start);
-        let mut outputs = SaidOutputs::default();
+        let (mut outputs, mut codes) = (SaidOutputs::default(), ToldCodes::default());
         for _ in 1..point.block {
             match source.next_item() {
                 Supply::Item(item) => {
@@ -91,6 +97,7 @@ impl<S: ItemSource> Remainder<S> {
                         ItemKind::Event(Event::Probe { .. }) => place = None,
                         ItemKind::Event(_) | ItemKind::Dwell(_) => {}
                     }
+                    codes.take(&item);
                     before = Some(item);
                 }
                 Supply::Refused(refusal) => return Err(refusal.into()),
@@ -110,6 +117,7 @@ impl<S: ItemSource> Remainder<S> {
             last: None,
             outputs,
             stands: None,
+            codes,
         };
         if point.block == 0 {
             rest.meet_machine(place, tolerance_mm)?;
@@ -158,6 +166,7 @@ impl<S: ItemSource> Remainder<S> {
             last,
             outputs: SaidOutputs::default(),
             stands: None,
+            codes: ToldCodes::default(),
         }
     }
 
@@ -166,15 +175,13 @@ impl<S: ItemSource> Remainder<S> {
         let tolerance_mm = search.tolerance_mm();
         let line = self.ahead.front().map_or(0, |item| item.line);
         match self.ahead.front().map(|item| item.kind) {
-            // A dwell begins again; an event has happened.
+            // A dwell begins again; an event has happened, unless it is not answered yet.
             Some(ItemKind::Dwell(_)) => return self.meet_machine(place, tolerance_mm),
-            // So does a wait for an input that was not answered.
-            Some(ItemKind::Event(Event::MCode(66)))
-                if self.source.settle(None)? == Settled::Open =>
-            {
-                return self.meet_machine(place, tolerance_mm);
-            }
-            Some(ItemKind::Event(_)) => {
+            Some(ItemKind::Event(event)) => {
+                if self.is_open(event)? {
+                    self.tell_again(event);
+                    return self.meet_machine(place, tolerance_mm);
+                }
                 let told = self.ahead.pop_front();
                 told.iter().for_each(|item| self.outputs.take(item));
                 self.first_block += 1;
@@ -245,7 +252,11 @@ impl<S: ItemSource> Remainder<S> {
         let Some(found) = search.best else {
             return Err(off_path(&self.point, way.line, search.away()));
         };
-        if found.part > 0.0 {
+        // At an event at rest it would have stood, and told so: rounding alone puts it behind one that is to come.
+        let is_at_rest =
+            |item: &Item| matches!(item.kind, ItemKind::Event(event) if event.is_at_rest());
+        let stands_before = self.ahead.iter().take(index).any(is_at_rest);
+        if found.part > 0.0 && !stands_before {
             self.pass(index);
             if self.begin_move(0, &found) {
                 self.pass(1);
@@ -272,6 +283,24 @@ impl<S: ItemSource> Remainder<S> {
                 last @ (Supply::Probe | Supply::End | Supply::Refused(_)) => self.last = Some(last),
             }
         }
+    }
+
+    /// Whether an event, at which the program was left, is not done. A wait for an input is, as soon as the
+    /// program has its answer.
+    fn is_open(&mut self, event: Event) -> Result<bool, RunError> {
+        Ok(match event {
+            Event::MCode(66) => self.source.settle(None)? == Settled::Open,
+            _ => self.point.unanswered,
+        })
+    }
+
+    /// Puts in front of an event, with which the rest begins, what belongs to it.
+    fn tell_again(&mut self, event: Event) {
+        let mut items = self.codes.again(event);
+        let count = u32::try_from(items.len()).unwrap_or(u32::MAX);
+        self.first_block = self.first_block.saturating_sub(count).max(1);
+        items.append(&mut self.ahead);
+        self.ahead = items;
     }
 
     /// Nothing goes on in the middle of a pass: the angle at which it began is not known any more.
@@ -346,10 +375,18 @@ impl<S: ItemSource> Remainder<S> {
     }
 
     /// The events that make spindle and coolant what the program had made them, from what they are
-    /// `now`: an abort and a fault stop them.
-    #[must_use]
-    pub fn restoring(&self, now: &Auxiliary) -> Vec<Event> {
-        self.outputs.restoring(now)
+    /// `now`: an abort and a fault stop them. The tool that the program has selected last is selected again.
+    ///
+    /// # Errors
+    /// [`ResumeError::OtherTool`].
+    pub fn restoring(&self, now: &Auxiliary) -> Result<Vec<Event>, ResumeError> {
+        match self.outputs.tool() {
+            Some(expected) if expected != now.tool => Err(ResumeError::OtherTool {
+                tool: now.tool,
+                expected,
+            }),
+            _ => Ok(self.outputs.restoring(now)),
+        }
     }
 
     /// The line that the rest of the program begins with, 0 if that is not known.

@@ -234,6 +234,7 @@ impl<S: ItemSource> LineStart<S> {
             block: first_block,
             path_s: 0.0,
             block_path_s: 0.0,
+            unanswered: false,
             found: None,
         };
         Remainder::beginning_with(self.source, point, first_block, (self.ahead, self.last))

@@ -119,7 +119,7 @@ message!(Status, "glidepath.Status", {
     68 message,
     69 contact,
     70 contact_kind,
-    71 reserved,
+    71 unanswered,
     72 awaited_words,
     73 adaptive_feed,
     74 job_number,

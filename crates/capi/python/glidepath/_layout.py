@@ -7,7 +7,7 @@ import ctypes
 import enum
 
 ABI = 5
-LAYOUT = 0x17ec5f33c63ad7fe
+LAYOUT = 0x78768845dc1d4dd9
 AXES = 9
 
 
@@ -479,7 +479,7 @@ class StatusRecord(ctypes.Structure):
         ("awaited_words", CodeWordsRecord),
         ("contact", ctypes.c_double * 9),
         ("contact_kind", ctypes.c_uint32),
-        ("reserved", ctypes.c_uint32),
+        ("unanswered", ctypes.c_uint32),
         ("path_s", ctypes.c_double),
         ("block_path_s", ctypes.c_double),
         ("feed_v", ctypes.c_double),
@@ -812,7 +812,7 @@ PLACES = {
         "awaited_words": 648,
         "contact": 672,
         "contact_kind": 744,
-        "reserved": 748,
+        "unanswered": 748,
         "path_s": 752,
         "block_path_s": 760,
         "feed_v": 768,

@@ -263,8 +263,9 @@ structure! {
         contact: Each<f64>,
         /// A GP_CONTACT_.
         contact_kind: u32,
-        /// Must be zero.
-        reserved: u32,
+        /// 1 if the last epoch was left before the event of its block was done: an M code that nobody
+        /// answered, or a program stop that nobody let pass. 0 if not, and while one is open.
+        unanswered: u32,
         /// Path position, mm.
         path_s: f64,
         /// Path position of the first setpoint of the block, mm.

@@ -116,6 +116,7 @@ impl Interpreter {
                 overrides_off: false,
                 selected_tool: 0,
                 tool: 0,
+                tool_before: (0, AxisVector::zeros()),
                 cycles: CycleSeries::default(),
                 probe: ProbeResult::default(),
                 input: 0.0,

@@ -27,6 +27,7 @@ mod jitter;
 mod jobs;
 mod jog;
 mod kept_offsets;
+mod left_in_force;
 mod live;
 mod offsets;
 mod operator;

@@ -257,10 +257,11 @@ impl Job<'_> {
         let settings = config.settings();
         let find = || Remainder::find(source, point, settings.tolerance_mm);
         let remainder = self.work("reading up to where it was left", control, find)??;
-        self.attendant.begin_here()?;
         // What an abort or a fault has stopped turns before anything moves.
         let now = self.publisher.auxiliary(control)?;
-        let (restoring, line) = (remainder.restoring(&now), remainder.line());
+        let restoring = remainder.restoring(&now).map_err(RunError::from)?;
+        self.attendant.begin_here()?;
+        let line = remainder.line();
         let pipeline = Pipeline::resuming(remainder, settings).beginning_with(restoring, line);
         self.publish(pipeline, start, false, control)
     }

@@ -3,6 +3,7 @@
 use super::attendant::{Attendant, recalling};
 use super::differences::{agreement, approach};
 use super::failure::Failure;
+use super::left_in_force::JobLeft;
 use super::program_diagnostics::refusal_text;
 use super::program_note::ProgramNote;
 use super::reading::for_program;
@@ -20,7 +21,7 @@ use glidepath_link::{LinkConfig, refused};
 use glidepath_planner::{
     Attend, Control, FileSource, ItemSource, Job, JobEnd, JobRunner, LineFacts, LineInbox,
     LineStart, Notice, Pipeline, ProgramSource, Publisher, Refusal, Remainder, ResumePoint,
-    RunError, SentLines, StartLine, Statistics, Supply,
+    RunError, SentLines, StartLine, Statistics,
 };
 use std::io::{self, Cursor};
 use std::path::Path;
@@ -114,7 +115,12 @@ impl<'c> Workshop<'c> {
             Some(s.in_force())
         });
         // Where the motion ended before the lines did, what its executed part has left.
-        let left = in_force.or_else(|| inbox.in_force_at(bench.publisher.block()));
+        let left = in_force.or_else(|| {
+            let ended = JobLeft::of(bench.publisher, bench.control);
+            let in_force = inbox.in_force_at(bench.publisher.block())?;
+            let began = self.in_force.as_ref().map_or(0, InForce::tool);
+            Some(ended.with_its_tool(in_force, began))
+        });
         self.in_force = left.or_else(|| self.in_force.take());
         let statistics = run?;
         Ok(format!(
@@ -183,12 +189,14 @@ impl<'c> Workshop<'c> {
                 let find = || Remainder::find(source, point, settings.tolerance_mm);
                 let rest = bench.work("reading up to where it was left", find)?;
                 let rest = rest.map_err(|error| Stop::Refused(error.to_string()))?;
-                attendant.begin_here()?;
-                (self.has_lines, self.left) = (false, None);
                 // What an abort or a fault has stopped turns before anything moves.
                 let now = bench.publisher.auxiliary(bench.control);
                 let now = now.map_err(|error| Stop::Failed(error.to_string()))?;
-                let (restoring, line) = (rest.restoring(&now), rest.line());
+                let restoring = rest.restoring(&now);
+                let restoring = restoring.map_err(|error| Stop::Refused(error.to_string()))?;
+                attendant.begin_here()?;
+                (self.has_lines, self.left) = (false, None);
+                let line = rest.line();
                 let pipeline = Pipeline::resuming(rest, settings).beginning_with(restoring, line);
                 Self::publish(pipeline, (&config, &attendant), start, bench, |rest| {
                     rest.source().in_force()
@@ -371,20 +379,8 @@ impl<'c> Workshop<'c> {
         if run.is_ok() || !attendant.has_started() {
             return;
         }
-        let block = bench.publisher.block();
-        let read = || {
-            let Some(mut source) = again()? else {
-                return Ok(None);
-            };
-            for _ in 0..block {
-                match source.next_item() {
-                    Supply::Item(_) => {}
-                    Supply::Refused(error) => return Err(error),
-                    Supply::Pending | Supply::Probe | Supply::End => break,
-                }
-            }
-            Ok(Some(source.in_force()))
-        };
+        let ended = JobLeft::of(bench.publisher, bench.control);
+        let read = || again()?.map(|source| ended.read(source)).transpose();
         // Whoever wanted the job may not want it any more; what is in force is for the next one.
         let attend = &mut *bench.attend;
         let mut attend = |waited: Duration| {

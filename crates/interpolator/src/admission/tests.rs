@@ -100,6 +100,14 @@ fn each_defect_has_its_reason() {
     );
     assert_eq!(of(50, |f| f.position[0] += 0.2).0, 50);
     assert_eq!(of(50, |f| f.position[5] += 0.004), (50, FrameRefusal::Jerk));
+    // The limits of its planner are others: all of it follows from a jerk that is four times as high.
+    let steep = |f: &mut SetpointFrame| {
+        let (jerk_j, t) = (4.0 * config().limits.jerk[5], 0.004);
+        f.acceleration[5] += jerk_j * t;
+        f.velocity[5] += jerk_j * t * t / 2.0;
+        f.position[5] += jerk_j * t * t * t / 6.0;
+    };
+    assert_eq!(of(50, steep), (50, FrameRefusal::Jerk));
     assert_eq!(
         of(50, |f| f.velocity[1] += 2.0),
         (50, FrameRefusal::Discontinuous)

@@ -27,4 +27,5 @@ mod revolutions;
 mod stops;
 mod tapping;
 mod threading;
+mod unanswered;
 mod upsets;

@@ -68,6 +68,10 @@ impl Ports<'_> {
                     }
                 }
                 Verdict::Fault(fault) => {
+                    if self.admission.entering(machine.epoch).is_some() {
+                        let text = fault.to_string();
+                        self.jobs.does_not_begin(JobStage::Refused, &text);
+                    }
                     if let FaultCause::Frame(refusal) = fault.cause {
                         self.book.refused(refusal);
                     }
@@ -84,14 +88,17 @@ impl Ports<'_> {
             return Ok(());
         };
         let machine_epoch = report.setpoint.epoch;
-        if let Some(epoch) = self.admission.opening(machine_epoch)
+        // One that broke on its way begins no more than one that came too late.
+        if let Some(epoch) = self.admission.entering(machine_epoch)
             && epoch <= report.barred
         {
-            let why = unfit(report.state).unwrap_or("the machine was given another order");
+            let fault = report.fault.map(|fault| fault.to_string());
+            let unfit = unfit(report.state).unwrap_or("the machine was given another order");
+            let why = fault.as_deref().unwrap_or(unfit);
             self.jobs.does_not_begin(JobStage::Refused, why);
         }
         self.admission.bar(report.barred);
-        let is_opening = self.admission.opening(machine_epoch).is_some();
+        let is_opening = self.admission.entering(machine_epoch).is_some();
         if self.jobs.watch(&report, is_opening, now_ns) {
             self.give_machine_back();
         }

@@ -50,6 +50,7 @@ impl Interpolator<'_> {
             } else if is_first {
                 // Its planner has no other first frame, and hears of it.
                 self.barred = next.epoch;
+                self.requests.give_machine_back();
             }
             let _taken = inputs.frames.dequeue();
         }
@@ -65,6 +66,7 @@ impl Interpolator<'_> {
         let away = AxisVector::from(frame.position) - self.output.published().position();
         if away.amax() > SAME_POSITION || !self.output.published().is_at_rest() {
             self.barred = frame.epoch;
+            self.requests.give_machine_back();
             let cause = FaultCause::Frame(FrameRefusal::Elsewhere);
             self.requests
                 .fail(Fault::new(cause, frame.line, frame.sequence));
@@ -76,6 +78,7 @@ impl Interpolator<'_> {
         self.rate.begin_at(ProgramTime::at(frame.sequence));
         self.epoch = frame.epoch;
         self.end_of_epoch = EndOfEpoch::Open;
+        self.is_unanswered = false;
         self.output.begin_epoch();
         self.block_stop = BlockStop::none();
         self.supply.begin_epoch();

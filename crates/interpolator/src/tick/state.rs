@@ -56,6 +56,8 @@ pub(crate) struct Interpolator<'a> {
     /// No epoch up to this number begins any more.
     pub(super) barred: u64,
     pub(super) end_of_epoch: EndOfEpoch,
+    /// It was left before the event of its block was done.
+    pub(super) is_unanswered: bool,
     /// What is kept of the last frame passed.
     pub(super) passed: FrameSummary,
     /// The machine has moved in the present epoch.
@@ -92,6 +94,7 @@ impl<'a> Interpolator<'a> {
             epoch: 0,
             barred: 0,
             end_of_epoch: EndOfEpoch::None,
+            is_unanswered: false,
             passed: FrameSummary::NONE,
             has_moved: false,
             account: Account::new(config, happenings),
@@ -145,6 +148,7 @@ impl<'a> Interpolator<'a> {
     }
 
     pub(super) fn close(&mut self, end: EndOfEpoch) {
+        self.is_unanswered = self.is_before_event();
         if self.requests.heading().is_back() {
             self.leave_way_back();
         }
@@ -168,6 +172,15 @@ impl<'a> Interpolator<'a> {
         self.end_of_epoch = end;
         self.supply.end_epoch();
         self.requests.forget_epoch(self.probing.goes_on());
+    }
+
+    /// Whether the event of the present block, for which the motion stands, is still to be answered or
+    /// to be let pass.
+    fn is_before_event(&self) -> bool {
+        let block_at = |sequence| self.track.frame(sequence).map(|frame| frame.block);
+        let here = block_at(self.rate.now().time.sequence);
+        let waits_at = self.track.waits_at().and_then(block_at);
+        here.is_some() && here == waits_at
     }
 
     /// Writes the setpoint of a machine that stays where it is.

@@ -79,7 +79,8 @@ pub struct Auxiliary {
     pub spindle: u32,
     /// Bits of [`Coolant`].
     pub coolant: u32,
-    /// The tool that M6 put into the spindle last, 0 for none or if nothing was said yet.
+    /// The tool that M6 put into the spindle last, 0 for none or if nothing was said yet. Where the motion
+    /// ended before that M6 was answered, it is the one before again.
     pub tool: u32,
     /// The tool that was selected last.
     pub prepared_tool: u32,

@@ -61,7 +61,7 @@ pub struct Quantiles {
 /// What the interpolator does and how well. Counts are of this life of it.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.Status.v10")]
+#[type_name("glidepath.Status.v11")]
 pub struct Status {
     /// Identifies one life of the interpolator.
     pub boot_id: u64,
@@ -163,8 +163,9 @@ pub struct Status {
     pub contact: [f64; AXES],
     /// Code of a [`ContactKind`].
     pub contact_kind: u32,
-    /// Must be zero.
-    pub reserved: u32,
+    /// 1 if the last epoch was left before the event of its block was done: an M code that nobody
+    /// answered, or a program stop that nobody let pass. 0 if not, and while one is open.
+    pub unanswered: u32,
     /// Path position, mm.
     pub path_s: f64,
     /// Path position of the first setpoint of the block, mm.
@@ -329,7 +330,7 @@ impl Status {
 }
 
 impl Record for Status {
-    const NAME: &'static str = "glidepath.Status.v10";
+    const NAME: &'static str = "glidepath.Status.v11";
 
     fn check(&self) -> Result<(), RecordError> {
         let fields = Fields(Self::NAME);
@@ -365,7 +366,7 @@ impl Record for Status {
             fields.flags(field, mask, ALL_JOINTS)?;
         }
         fields.all_finite("contact", &self.contact)?;
-        fields.flags("reserved", self.reserved, 0)?;
+        fields.flags("unanswered", self.unanswered, 1)?;
         self.power()?;
         self.mode()?;
         self.contact()?;

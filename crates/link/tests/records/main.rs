@@ -297,6 +297,7 @@ fn unknown_codes_and_bits_are_refused() {
         refused(good_status(), |s| s.fault_axis = u32::MAX),
         refused(good_status(), |s| s.end_of_epoch = 6),
         refused(good_status(), |s| s.contact_kind = 3),
+        refused(good_status(), |s| s.unanswered = 2),
         refused(good_status(), |s| s.fault_joint = 10),
         refused(good_status(), |s| s.power = 4),
         refused(good_status(), |s| s.mode = 6),

@@ -50,6 +50,7 @@ fuzz_target!(|left: Left<'_>| {
         block: block.into(),
         path_s,
         block_path_s,
+        unanswered: block % 2 == 1,
         found: None,
     };
     let source = Text(ProgramSource::new(text, Options::default()));

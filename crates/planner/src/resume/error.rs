@@ -36,6 +36,18 @@ pub enum ResumeError {
         /// The line.
         line: u32,
     },
+    /// Another tool is in the spindle than the program has put there.
+    #[error(
+        "the program was left with {} in the spindle, and now there is {}: put that back, by \
+         `glidepath mdi 'T{expected} M6'`",
+        ToolName(*.expected), ToolName(*.tool)
+    )]
+    OtherTool {
+        /// The tool in the spindle, 0 for none.
+        tool: u32,
+        /// The one that the program has put there, 0 for none.
+        expected: u32,
+    },
     /// The machine does not stand where the program says.
     #[error(
         "the machine does not stand on this program's path at block {block} (line {line}){}",
@@ -50,6 +62,18 @@ pub enum ResumeError {
         /// comes into question.
         away: Option<AxisVector>,
     },
+}
+
+/// A tool, for people.
+struct ToolName(u32);
+
+impl Display for ToolName {
+    fn fmt(&self, f: &mut Formatter<'_>) -> FmtResult {
+        match self.0 {
+            0 => f.write_str("no tool"),
+            tool => write!(f, "T{tool}"),
+        }
+    }
 }
 
 /// How far the machine is from where the program was left, and what leads back.

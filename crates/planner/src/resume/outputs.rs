@@ -1,16 +1,18 @@
-//! What a program has said of spindle and coolant up to where it was left.
+//! What a program has said of spindle, coolant and tool up to where it was left.
 
 use glidepath_link::Auxiliary;
 use glidepath_program::{Event, Item, ItemKind};
 
 use crate::restoring::restoring;
 
-/// What a program has said of spindle and coolant.
+/// What a program has said of spindle, coolant and tool.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct SaidOutputs {
     said: Auxiliary,
     has_told_spindle: bool,
     has_told_coolant: bool,
+    has_selected_tool: bool,
+    has_changed_tool: bool,
 }
 
 impl SaidOutputs {
@@ -25,10 +27,21 @@ impl SaidOutputs {
             Event::SpindleSpeed(_) | Event::MCode(3 | 4 | 5 | 6 | 19)
         );
         self.has_told_coolant |= matches!(event, Event::MCode(7..=9) | Event::PassingCode(7..=9));
+        self.has_selected_tool |= matches!(event, Event::SelectTool(_));
+        self.has_changed_tool |= event == Event::MCode(6);
     }
 
-    /// The events that make spindle and coolant what the program has made them, from what they are
-    /// `now`. What it has said nothing of stays as it is.
+    /// The tool that it has put into the spindle, if it has changed it.
+    pub(crate) const fn tool(&self) -> Option<u32> {
+        if self.has_changed_tool {
+            Some(self.said.tool)
+        } else {
+            None
+        }
+    }
+
+    /// The events that make spindle, coolant and the selected tool what the program has made them, from
+    /// what they are `now`. What it has said nothing of stays as it is.
     pub(crate) fn restoring(&self, now: &Auxiliary) -> Vec<Event> {
         let mut wanted = *now;
         if self.has_told_spindle {
@@ -37,6 +50,9 @@ impl SaidOutputs {
         }
         if self.has_told_coolant {
             wanted.coolant = self.said.coolant;
+        }
+        if self.has_selected_tool {
+            wanted.prepared_tool = self.said.prepared_tool;
         }
         restoring(now, &wanted)
     }

@@ -22,6 +22,8 @@ pub struct ResumePoint {
     pub path_s: f64,
     /// The same at the beginning of the block.
     pub block_path_s: f64,
+    /// The event of that block was not answered, or not let pass: it is not done.
+    pub unanswered: bool,
     /// What the probe has found in the motion that was left, for a machine that stands there.
     pub found: Option<Probed>,
 }
@@ -51,6 +53,7 @@ impl ResumePoint {
             block: status.block,
             path_s: status.path_s,
             block_path_s: status.block_path_s,
+            unanswered: status.unanswered == 1,
             found,
         })
     }

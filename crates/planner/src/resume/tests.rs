@@ -149,6 +149,7 @@ impl Machine {
                 block,
                 path_s,
                 block_path_s: self.block_path_s,
+                unanswered: false,
                 found,
             },
             answers: self.journal.answers(),
@@ -397,13 +398,14 @@ fn what_was_stopped_turns_again_before_anything_moves() {
             block: left.block,
             path_s: left.path_s,
             block_path_s: first.path_s,
+            unanswered: false,
             found: None,
         };
         let rest = Remainder::find(source(), point, settings().tolerance_mm).unwrap();
         // What the program has told, but for what an abort has stopped.
         let mut now = glidepath_link::Auxiliary::default();
         now.take(Event::SpindleSpeed(8000.0));
-        let (events, line) = (rest.restoring(&now), rest.line());
+        let (events, line) = (rest.restoring(&now).unwrap(), rest.line());
         assert_eq!(events, told);
         let mut pipeline = Pipeline::resuming(rest, settings()).beginning_with(events, line);
         let mut before = Vec::new();
@@ -451,6 +453,7 @@ fn point_at(frames: &[Frame], of: &Frame, position: AxisVector, path_s: f64) -> 
         block: of.block,
         path_s,
         block_path_s: first.path_s,
+        unanswered: false,
         found: None,
     }
 }

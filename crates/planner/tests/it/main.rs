@@ -20,3 +20,4 @@ mod slow_feed;
 mod smooth;
 mod support;
 mod travel;
+mod unanswered;

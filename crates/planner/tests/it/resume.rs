@@ -100,6 +100,7 @@ fn left_at(frames: &[(Frame, u32)], stop: usize) -> ResumePoint {
         block,
         path_s: frame.path_s,
         block_path_s: begun.0.path_s,
+        unanswered: false,
         found: None,
     }
 }

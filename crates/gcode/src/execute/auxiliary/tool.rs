@@ -36,20 +36,28 @@ impl Interpreter {
         }
         let Some(Coded { code, span }) = block.codes.tool_change else {
             if block.get(b'T').is_some() && self.changes_tool_by_t(block) {
-                self.state.tool = self.state.selected_tool;
-                self.push(out, ItemKind::Event(Event::MCode(6)));
+                self.change_tool(self.state.selected_tool, self.offsets.tool, out);
             }
             return Ok(());
         };
-        self.state.tool = if code == 61 {
-            whole(block, b'Q', MAX_TOOL)?
-                .ok_or_else(|| missing(span, "M61", "Q", "the tool in the spindle"))?
+        if code == 61 {
+            self.state.tool = whole(block, b'Q', MAX_TOOL)?
+                .ok_or_else(|| missing(span, "M61", "Q", "the tool in the spindle"))?;
+            // Nothing is changed: there is no change to take back.
+            self.state.tool_before = (self.state.tool, self.offsets.tool);
+            self.push(out, ItemKind::Event(Event::MCode(code)));
         } else {
             self.state.spindle.turning = None;
-            self.state.selected_tool
-        };
-        self.push(out, ItemKind::Event(Event::MCode(code)));
+            self.change_tool(self.state.selected_tool, self.offsets.tool, out);
+        }
         Ok(())
+    }
+
+    /// M6 with a tool, where an offset is in force for the tool before.
+    pub(crate) fn change_tool(&mut self, tool: u32, offset: AxisVector, out: &mut Vec<Item>) {
+        self.state.tool_before = (self.state.tool, offset);
+        self.state.tool = tool;
+        self.push(out, ItemKind::Event(Event::MCode(6)));
     }
 
     /// A tool of the table; tool 0 is no tool: without length, diameter or offset.

@@ -20,7 +20,7 @@ use crate::setup::work_offsets::WorkOffsets;
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct InForce(pub(crate) Arc<InForceParts>);
 
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct InForceParts {
     pub(crate) state: State,
     pub(crate) offsets: Offsets,
@@ -51,6 +51,21 @@ impl InForce {
     #[must_use]
     pub fn words(&self) -> String {
         words_in_force(&self.0.state, &self.0.offsets)
+    }
+
+    /// The same, for a machine at which the last M6 was not done: the tool before is in the spindle, and
+    /// its offset (G43) is in force.
+    #[must_use]
+    pub fn before_tool_change(&self) -> Self {
+        let mut parts = self.0.as_ref().clone();
+        (parts.state.tool, parts.offsets.tool) = parts.state.tool_before;
+        Self(Arc::new(parts))
+    }
+
+    /// The tool in the spindle; 0: none.
+    #[must_use]
+    pub fn tool(&self) -> u32 {
+        self.0.state.tool
     }
 
     /// The tool table with what G10 has made of it.

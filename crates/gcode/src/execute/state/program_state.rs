@@ -35,6 +35,9 @@ pub(crate) struct State {
     pub(crate) selected_tool: u32,
     /// Tool number in the spindle; 0: none.
     pub(crate) tool: u32,
+    /// The tool before the last M6, with the offset (G43) that was in force there.
+    #[serde(skip)]
+    pub(crate) tool_before: (u32, AxisVector),
     pub(crate) cycles: CycleSeries,
     pub(crate) probe: ProbeResult,
     /// Value of the input M66 read last.

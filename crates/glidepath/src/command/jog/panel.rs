@@ -97,7 +97,8 @@ impl Panel {
             MachineState::Idle
             | MachineState::NotHomed
             | MachineState::Held
-            | MachineState::ProgramStop => None,
+            | MachineState::ProgramStop
+            | MachineState::Awaiting => None,
             MachineState::Faulted => Some(Objection::FaultLatched),
             MachineState::Off => Some(Objection::NeedsPower),
             MachineState::Preparing => Some(Objection::JobHasMachine),
@@ -108,7 +109,6 @@ impl Panel {
             | MachineState::Starved
             | MachineState::Stopping
             | MachineState::Waiting
-            | MachineState::Awaiting
             | MachineState::Jogging => Some(Objection::NoJogNow),
         }
     }

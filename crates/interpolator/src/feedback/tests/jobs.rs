@@ -272,6 +272,79 @@ fn a_first_frame_that_is_refused_ends_the_job_with_its_reason() {
     goes_on(&mut bench, 2);
 }
 
+/// Behind a job that did not begin: nobody has the machine, and a hold of nothing is no hold.
+fn is_free(machine: &mut Machine, why: &str) {
+    let bench = &mut machine.bench;
+    bench.feed.clear();
+    let status = bench.status();
+    assert_eq!(status.job_stage(), Ok(JobStage::Refused), "{why}");
+    assert!(!status.job_end.as_str().is_empty(), "{why}");
+    assert_eq!(status.epoch, 0, "{why}");
+    tell(bench, 1, JobPhase::Over).unwrap();
+    bench.run(5);
+    assert_eq!(bench.state(), MachineState::Idle, "{why}");
+    bench.command(Command::Hold).unwrap();
+    bench.run(5);
+    let stands = bench.last().position;
+    machine.jog([30.0, 0.0, 0.0], 20);
+    assert_eq!(machine.bench.state(), MachineState::Jogging, "{why}");
+    assert_ne!(machine.bench.last().position, stands, "{why}");
+    machine.let_go();
+    assert!(machine.bench.run_to(MachineState::Idle, 200), "{why}");
+    goes_on(&mut machine.bench, 2);
+}
+
+#[test]
+fn a_second_frame_that_is_refused_gives_the_machine_back() {
+    for is_held in [false, true] {
+        let mut machine = Machine::with(config(false), &[JointSettings::default(); 3]);
+        machine.bench.enable(MachineState::Idle);
+        machine.bench.run(5);
+        begin(&mut machine.bench, 1);
+        machine.bench.feed[1].acceleration[0] += 1e6;
+        if is_held {
+            let frames = std::mem::take(&mut machine.bench.feed);
+            machine.bench.command(Command::Hold).unwrap();
+            machine.bench.feed = frames;
+        }
+        assert!(machine.bench.run_to(MachineState::Faulted, 60));
+        machine.bench.command(Command::Reset).unwrap();
+        assert!(machine.bench.run_to(MachineState::Idle, 10));
+        is_free(&mut machine, if is_held { "held" } else { "not held" });
+    }
+}
+
+/// The first frame may be under way between both threads, or come later.
+#[test]
+fn a_fault_before_the_first_frame_gives_the_machine_back() {
+    let mut not_begun = 0;
+    for ticks in 0..TICKS {
+        let mut machine = Machine::with(config(false), &[JointSettings::default(); 3]);
+        machine.bench.enable(MachineState::Idle);
+        machine.bench.run(5);
+        begin(&mut machine.bench, 1);
+        let frames = std::mem::take(&mut machine.bench.feed);
+        machine.bench.upset(Upset::EmergencyStop(true));
+        machine.bench.run(ticks);
+        machine.bench.feed = frames;
+        assert!(machine.bench.run_to(MachineState::Faulted, 300), "{ticks}");
+        let epoch = machine.bench.status().epoch;
+        machine.bench.upset(Upset::EmergencyStop(false));
+        machine.bench.run(50);
+        machine.bench.command(Command::Reset).unwrap();
+        machine.bench.run(50);
+        machine.bench.enable(MachineState::Idle);
+        if epoch == 0 {
+            not_begun += 1;
+            is_free(&mut machine, &format!("{ticks} ticks"));
+        }
+    }
+    assert!(
+        (1..TICKS).contains(&not_begun),
+        "{not_begun}: both sides of the first frame"
+    );
+}
+
 #[test]
 fn a_planner_of_which_nothing_is_heard_loses_the_machine() {
     let mut bench = ready();

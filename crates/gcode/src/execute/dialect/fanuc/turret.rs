@@ -39,6 +39,7 @@ impl Interpreter {
                     .help("write G40 and a move before it"),
             );
         }
+        let before = self.offsets.tool;
         self.offsets.tool = AxisVector::zeros();
         if offset > 0 {
             let wear = self.offsets.fanuc.wear(offset);
@@ -49,9 +50,8 @@ impl Interpreter {
         self.state.fanuc.radius_offset = offset;
         if tool != 0 && tool != self.state.tool {
             self.state.selected_tool = tool;
-            self.state.tool = tool;
             self.push(out, ItemKind::Event(Event::SelectTool(tool)));
-            self.push(out, ItemKind::Event(Event::MCode(6)));
+            self.change_tool(tool, before, out);
         }
         Ok(())
     }
