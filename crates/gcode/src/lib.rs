@@ -75,6 +75,7 @@ pub use setup::fanuc::{
     Arctangent, FanucControl, FanucParameters, FeedAtStart, OffsetMemory, PointInput,
 };
 pub use setup::firmware::Firmware;
+pub use setup::kept_variables::{KEPT_VARIABLES, KeptVariables};
 pub use setup::m_codes::{MCodes, WaitsAt};
 pub use setup::machine::{Machine, Travel};
 pub use setup::options::{AdaptiveFeed, Connections, LoopLimits, Options};

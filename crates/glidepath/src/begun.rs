@@ -6,11 +6,13 @@
 //! motion begins.
 
 use crate::config::{self, ConfigError, MachineConfig};
+use crate::kept::convert::{begun_variables, left_variables};
 use crate::output;
 use crate::text_file;
 use glidepath_gcode::{
     Dialect, InForce, NoSubroutineFile, SubroutineFile, Subroutines, ToolTable, WorkOffsets,
 };
+use glidepath_kept::Variable;
 use glidepath_program::Effort;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -54,6 +56,9 @@ pub(crate) struct Begun {
     tools: Option<Arc<ToolTable>>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     in_force: Option<InForce>,
+    /// The kept parameters.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    variables: Vec<Variable>,
     /// Where the texts of its subroutines in other files are, by the names by which they were asked for.
     pub(crate) subroutines: BTreeMap<String, PathBuf>,
 }
@@ -101,6 +106,7 @@ impl Board {
             configuration: self.configuration.clone(),
             offsets: config.program.offsets.clone(),
             tools: config.program.tools.clone(),
+            variables: left_variables(&config.program.variables),
             in_force: config.program.in_force.clone(),
             subroutines: subroutines
                 .map(|(name, file)| Ok((name, std::path::absolute(&*file.name)?)))
@@ -168,6 +174,7 @@ impl Begun {
         program.may_run_unchecked = self.may_run_unchecked;
         program.offsets = self.offsets.clone();
         program.tools = self.tools.clone();
+        program.variables = begun_variables(&self.variables);
         program.in_force = self.in_force.clone();
         program.subroutines = Some(Subroutines::new(move |name| {
             let text = texts.get(name).ok_or_else(|| NoSubroutineFile::Missing {

@@ -31,6 +31,16 @@ pub struct Tool {
     pub orientation: u8,
 }
 
+/// A numbered parameter of programs that outlasts a restart.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Variable {
+    /// Its number.
+    pub number: u32,
+    /// What is in it.
+    pub value: f64,
+}
+
 /// Coordinates that are set up on a machine: mm, degrees, machine coordinates.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -69,6 +79,9 @@ pub struct UnderWay {
     /// The tools it began with that G10 had changed before.
     #[serde(default)]
     pub tools: Vec<Tool>,
+    /// The parameters it began with.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub variables: Vec<Variable>,
 }
 
 /// Everything that is kept.
@@ -94,6 +107,9 @@ pub struct Kept {
     /// The tools that G10 changed.
     #[serde(default)]
     pub tools: Vec<Tool>,
+    /// The parameters of programs that outlast a restart, of those that something was assigned to.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub variables: Vec<Variable>,
 }
 
 impl Default for Offsets {
@@ -146,6 +162,11 @@ impl Kept {
         };
         if !tools.all(is_number) {
             return Some("a tool's offset is no number, or beyond 1e9".to_owned());
+        }
+        let begun = under_way.iter().flat_map(|program| &program.variables);
+        let mut variables = self.variables.iter().chain(begun);
+        if !variables.all(|variable| variable.value.is_finite()) {
+            return Some("a parameter is no number".to_owned());
         }
         let rest = self.rest.iter().flat_map(|rest| rest.position);
         if !rest.into_iter().all(is_place) {

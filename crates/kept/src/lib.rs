@@ -45,6 +45,6 @@ pub mod var;
 pub use answers::{Answer, Answers, Said};
 pub use directory::{Directory, DirectoryLock};
 pub use error::KeptError;
-pub use kept::{AXES, Kept, Offsets, Rest, SYSTEMS, System, Tool, UnderWay};
+pub use kept::{AXES, Kept, Offsets, Rest, SYSTEMS, System, Tool, UnderWay, Variable};
 pub use storage::Storage;
 pub use store::{SLOTS, Store};

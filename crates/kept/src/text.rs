@@ -7,7 +7,7 @@ use core::hash::Hasher as _;
 use twox_hash::XxHash64;
 
 /// The version that is written.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// How a file begins.
 const HEAD: &str = "# glidepath kept";

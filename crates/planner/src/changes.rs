@@ -1,13 +1,13 @@
 //! What a program changes of how the machine is set up, and when that is executed.
 //!
 //! Programs are read long before they are executed. What they change (coordinate systems, reference
-//! positions, the offset of G92, tools) is therefore noted with the number of items in front of it,
+//! positions, the offset of G92, tools, kept parameters) is therefore noted with the number of items in front of it,
 //! which is the number of the block that has to be executed before it holds.
 
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use glidepath_gcode::{ToolTable, WorkOffsets};
+use glidepath_gcode::{KeptVariables, ToolTable, WorkOffsets};
 
 /// How the machine is set up from some block on.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,6 +18,8 @@ pub struct SetUp {
     pub tools: Option<Arc<ToolTable>>,
     /// Tool in the spindle; 0: none.
     pub tool: u32,
+    /// Parameters that outlast a restart.
+    pub variables: KeptVariables,
 }
 
 /// The changes of a program that were read and not yet executed. Clones are the same log: one end

@@ -198,6 +198,7 @@ impl<R: BufRead> ProgramSource<R> {
             offsets: program.work_offsets(),
             tools: program.tools().cloned(),
             tool: program.tool(),
+            variables: program.kept_variables(),
         }
     }
 }

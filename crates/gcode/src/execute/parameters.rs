@@ -30,6 +30,7 @@ use serde::{Deserialize, Serialize};
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
+use crate::setup::kept_variables::{KEPT_VARIABLES, KeptVariables};
 use crate::syntax::expression::scope::{LOCALS, Parameter, no_parameter};
 use crate::syntax::expression::vacant::VACANT;
 
@@ -81,6 +82,8 @@ pub(crate) struct Parameters {
     locals: usize,
     /// What is in a parameter that nothing was assigned to.
     unassigned: f64,
+    /// How many times one was assigned that outlasts a restart.
+    changes: u64,
 }
 
 /// What of the parameters goes from one program to the next, as text.
@@ -131,6 +134,7 @@ impl Parameters {
             silent: false,
             locals: LOCALS,
             unassigned: 0.0,
+            changes: 0,
         }
     }
 
@@ -142,6 +146,27 @@ impl Parameters {
             unassigned: VACANT,
             ..Self::new()
         }
+    }
+
+    /// Puts in what outlasted a restart.
+    pub(crate) fn begin_with(&mut self, kept: &KeptVariables) {
+        for (number, value) in kept {
+            self.assign(&Parameter::Numbered(*number), *value);
+        }
+        self.changes = 0;
+    }
+
+    /// How many times a parameter was assigned that outlasts a restart.
+    pub(crate) const fn changes(&self) -> u64 {
+        self.changes
+    }
+
+    /// Those parameters, by number, without those that are as if nothing was assigned to them.
+    pub(crate) fn kept(&self) -> KeptVariables {
+        let all = KEPT_VARIABLES.map(|number| (number, self.numbered(number)));
+        let unassigned = self.unassigned.to_bits();
+        all.filter(|(_, value)| value.to_bits() != unassigned && value.is_finite())
+            .collect()
     }
 
     /// True if both are of the same language.
@@ -217,6 +242,7 @@ impl Parameters {
                         self.global.resize(index + 1, self.unassigned);
                     }
                     self.global[index] = value;
+                    self.changes += u64::from(KEPT_VARIABLES.contains(number));
                 }
             }
             Parameter::Named(name) => {

@@ -24,6 +24,7 @@ use crate::execute::scope::ProgramScope;
 use crate::execute::state::modal::Modal;
 use crate::execute::state::words_in_force::words_in_force;
 use crate::setup::fanuc::FeedAtStart;
+use crate::setup::kept_variables::KeptVariables;
 use crate::setup::options::Options;
 use crate::setup::tool_table::ToolTable;
 use crate::setup::work_offsets::WorkOffsets;
@@ -92,10 +93,11 @@ impl<R: BufRead> Program<R> {
         let block = Block::of(options.dialect, &options.m_codes)
             .with_point(options.fanuc.point)
             .of_lathe(options.is_fanuc_lathe(), options.fanuc_control());
-        let parameters = match options.dialect {
+        let mut parameters = match options.dialect {
             Dialect::Fanuc => Parameters::of_fanuc(),
             _ => Parameters::new(),
         };
+        parameters.begin_with(&options.variables);
         let awaited = AwaitedCodes::new(&options.m_codes);
         let in_force = options.in_force.clone();
         let fanuc = options.fanuc;
@@ -236,11 +238,17 @@ impl<R: BufRead> Program<R> {
         self.interpreter.axes_place()
     }
 
-    /// How many blocks have changed coordinate systems, reference positions, the offset of G92 or
-    /// tools so far.
+    /// How many times coordinate systems, reference positions, the offset of G92, tools, or parameters that
+    /// outlast a restart were changed so far.
     #[must_use]
     pub const fn changes(&self) -> u64 {
-        self.interpreter.changes
+        self.interpreter.changes + self.parameters.changes()
+    }
+
+    /// What is in the parameters that outlast a restart after the last block read.
+    #[must_use]
+    pub fn kept_variables(&self) -> KeptVariables {
+        self.parameters.kept()
     }
 
     /// Coordinate systems, reference positions and the offset of G92 after the last block read.

@@ -9,6 +9,7 @@ use crate::execute::state::in_force::InForce;
 use crate::execute::state::tip::Tip;
 use crate::setup::fanuc::{FanucControl, FanucParameters};
 use crate::setup::firmware::Firmware;
+use crate::setup::kept_variables::KeptVariables;
 use crate::setup::m_codes::MCodes;
 use crate::setup::machine::Machine;
 use crate::setup::reading_watch::ReadingWatch;
@@ -36,6 +37,8 @@ pub struct Options {
     pub offsets: WorkOffsets,
     /// Lengths and diameters of the tools. `None`: blocks that need them are errors.
     pub tools: Option<Arc<ToolTable>>,
+    /// What is in the parameters that outlast a restart. Where `in_force` has parameters, those count.
+    pub variables: Arc<KeptVariables>,
     /// Where subroutines come from that the program does not define. `None`: they are errors.
     pub subroutines: Option<Subroutines>,
     /// The language of the program.
@@ -171,6 +174,7 @@ impl Default for Options {
             start: AxisVector::zeros(),
             offsets: WorkOffsets::default(),
             tools: None,
+            variables: Arc::default(),
             subroutines: None,
             dialect: Dialect::LinuxCnc,
             fanuc: FanucParameters::default(),

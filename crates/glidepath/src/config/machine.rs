@@ -323,6 +323,7 @@ impl MachineConfig {
             start,
             offsets: self.program.offsets.clone(),
             tools: self.program.tools.clone(),
+            variables: Arc::clone(&self.program.variables),
             subroutines: self.program.subroutines.clone(),
             dialect: self.program.dialect.unwrap_or_default(),
             fanuc: self.program.fanuc,

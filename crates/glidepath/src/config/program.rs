@@ -1,8 +1,8 @@
 //! How programs are read.
 
 use glidepath_gcode::{
-    Connections, Dialect, FanucParameters, Firmware, InForce, ReadingWatch, SiemensParameters,
-    Subroutines, ToolTable, WorkOffsets,
+    Connections, Dialect, FanucParameters, Firmware, InForce, KeptVariables, ReadingWatch,
+    SiemensParameters, Subroutines, ToolTable, WorkOffsets,
 };
 use glidepath_geometry::Axis;
 use std::path::PathBuf;
@@ -23,6 +23,8 @@ pub struct ProgramConfig {
     pub offsets: WorkOffsets,
     /// The tool table, once it has been read.
     pub tools: Option<Arc<ToolTable>>,
+    /// What is kept of the parameters of programs, once it has been read.
+    pub variables: Arc<KeptVariables>,
     /// Folders of subroutines in files of their own, in the order they are looked in, behind the
     /// folder of the program.
     pub subroutine_path: Vec<PathBuf>,

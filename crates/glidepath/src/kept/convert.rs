@@ -1,8 +1,8 @@
 //! What is kept, and what the reader of programs works with.
 
-use glidepath_gcode::{CoordinateSystem, ToolTable, WorkOffsets};
+use glidepath_gcode::{CoordinateSystem, KEPT_VARIABLES, KeptVariables, ToolTable, WorkOffsets};
 use glidepath_geometry::AxisVector;
-use glidepath_kept::{AXES, Offsets, SYSTEMS, System, Tool};
+use glidepath_kept::{AXES, Offsets, SYSTEMS, System, Tool, Variable};
 use std::sync::Arc;
 
 fn array(vector: &AxisVector) -> [f64; AXES] {
@@ -95,6 +95,22 @@ pub(crate) fn merge_tools(kept: &mut Vec<Tool>, before: &ToolTable, after: &Tool
             None => kept.push(changed),
         }
     }
+}
+
+/// What is kept of the parameters of programs.
+pub(crate) fn left_variables(variables: &KeptVariables) -> Vec<Variable> {
+    let all = variables.iter();
+    all.map(|(number, value)| Variable {
+        number: *number,
+        value: *value,
+    })
+    .collect()
+}
+
+/// The same for a program to begin with.
+pub(crate) fn begun_variables(kept: &[Variable]) -> Arc<KeptVariables> {
+    let known = kept.iter().filter(|it| KEPT_VARIABLES.contains(&it.number));
+    Arc::new(known.map(|it| (it.number, it.value)).collect())
 }
 
 /// G54 … G59.3 by its number from 1.

@@ -9,7 +9,7 @@
 
 use crate::config::MachineConfig;
 use crate::kept::answers::Journal;
-use crate::kept::convert::{left_with, merge, merge_tools};
+use crate::kept::convert::{left_variables, left_with, merge, merge_tools};
 use crate::kept::error::StateError;
 use crate::kept::machine::fingerprint;
 use crate::kept::read::{of_machine, set_up, set_up_as_begun, table, table_fingerprint};
@@ -129,6 +129,7 @@ impl Keeper {
                 program,
                 offsets: self.before.0.clone(),
                 tools: self.kept.tools.clone(),
+                variables: self.kept.variables.clone(),
             };
             (program != 0).then_some(begun)
         });
@@ -206,6 +207,7 @@ impl Keeper {
         let (offsets, tools) = &self.before;
         merge(&mut self.kept.offsets, offsets, &left_with(&set_up.offsets));
         self.kept.spindle_tool = set_up.tool;
+        self.kept.variables = left_variables(&set_up.variables);
         if let Some(changed) = &set_up.tools
             && changed != tools
         {

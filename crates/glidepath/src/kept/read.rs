@@ -1,7 +1,7 @@
 //! What is kept, for whoever reads a program.
 
 use crate::config::MachineConfig;
-use crate::kept::convert::{axis_words, begun_with, system_name, with_tools};
+use crate::kept::convert::{axis_words, begun_variables, begun_with, system_name, with_tools};
 use crate::kept::error::StateError;
 use crate::kept::machine::{fingerprint, fingerprint_of};
 use crate::text_file;
@@ -47,6 +47,7 @@ pub(crate) fn of_machine(
 pub(crate) fn set_up(config: &mut MachineConfig, kept: &Kept) -> Vec<String> {
     let mut notes = Vec::new();
     config.program.offsets = begun_with(&kept.offsets);
+    config.program.variables = begun_variables(&kept.variables);
     let offsets = &kept.offsets;
     if offsets.active != 1 {
         notes.push(format!(
@@ -86,6 +87,7 @@ pub(crate) fn set_up_as_begun<'k>(
     let begun = kept.under_way.as_ref();
     let begun = begun.filter(|begun| begun.program == program)?;
     config.program.offsets = begun_with(&begun.offsets);
+    config.program.variables = begun_variables(&begun.variables);
     if let Some(table) = &config.program.tools {
         config.program.tools = Some(with_tools(table, &begun.tools));
     }

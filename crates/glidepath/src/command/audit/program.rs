@@ -157,6 +157,7 @@ fn configuration(
         dialect: read.dialect.or(recorded.program.dialect),
         tools: read.tools.clone(),
         offsets: read.offsets.clone(),
+        variables: read.variables.clone(),
         subroutines: read.subroutines.clone(),
         subroutine_path: read.subroutine_path.clone(),
         may_run_unchecked: read.may_run_unchecked,

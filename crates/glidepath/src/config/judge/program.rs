@@ -10,6 +10,7 @@ use glidepath_gcode::{
 };
 use glidepath_geometry::Axis;
 use std::path::PathBuf;
+use std::sync::Arc;
 use toml::Spanned;
 
 /// The axes that E words may move.
@@ -64,6 +65,7 @@ impl Judge {
             tool_table: raw.tool_table.map(|path| path.into_inner().into()),
             tools: None,
             offsets: WorkOffsets::default(),
+            variables: Arc::default(),
             subroutine_path: raw.subroutine_path.into_iter().map(PathBuf::from).collect(),
             subroutines: None,
             connections,

@@ -7,7 +7,7 @@ pub(super) const LINK: &[Key] = &[key(
     Takes::Text {
         rule: "1 to 32 letters a-z, digits, `-` or `_`",
     },
-    LeftOut::Means("\"default\"; `glidepath run` takes a name of its own"),
+    LeftOut::Means("\"default\"; `run` takes a name of its own"),
     "names the shared memory of this machine",
 )];
 
@@ -164,7 +164,7 @@ pub(super) const STATE: &[Key] = &[key(
         rule: "a folder, beside the configuration or with its full path",
     },
     LeftOut::Means("nothing is kept: every program begins in G54 with all offsets zero"),
-    "folder of what is kept over a restart: work offsets, G28, G30, G92, what G10 made of tools",
+    "folder of what is kept over a restart: work offsets, G28, G30, G92, what G10 made of tools, parameters #500 to #999",
 )];
 
 pub(super) const PREVIEW: &[Key] = &[

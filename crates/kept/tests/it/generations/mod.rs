@@ -1,6 +1,6 @@
 //! What is kept in each generation of a test: every number says which.
 
-use glidepath_kept::{AXES, Kept, Offsets, Rest, SYSTEMS, System, Tool, UnderWay};
+use glidepath_kept::{AXES, Kept, Offsets, Rest, SYSTEMS, System, Tool, UnderWay, Variable};
 
 /// The state of a generation.
 #[must_use]
@@ -35,6 +35,12 @@ pub(crate) fn kept_of(generation: u64) -> Kept {
             orientation: 3,
         })
         .collect();
+    let variables: Vec<Variable> = (500..500 + u32::try_from(generation % 7).unwrap_or_default())
+        .map(|number| Variable {
+            number,
+            value: base,
+        })
+        .collect();
     Kept {
         configuration: generation.wrapping_mul(0x9e37_79b9_7f4a_7c15),
         spindle_tool: u32::try_from(generation % 1000).unwrap_or_default(),
@@ -48,7 +54,9 @@ pub(crate) fn kept_of(generation: u64) -> Kept {
             program: generation,
             offsets,
             tools: Vec::new(),
+            variables: variables.clone(),
         }),
         tools,
+        variables,
     }
 }
