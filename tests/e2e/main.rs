@@ -5,6 +5,7 @@
     reason = "test code, which clippy does not see as such"
 )]
 
+mod at_rest;
 mod attack;
 mod chain;
 mod drives;

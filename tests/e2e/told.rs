@@ -41,6 +41,14 @@ fn a_tool_change_waits_for_a_person_and_says_so_where_the_program_was_started() 
         (status.position[0] - 1.0).abs() < 1e-9,
         "the wrong tool cuts"
     );
+    let told = bench.operate(&["status"]).stdout;
+    assert!(
+        told.contains("the answer to M6, tool T2 (6 mm end mill), of line 3"),
+        "{told}"
+    );
+    let told = bench.operate(&["status", "--json"]).json();
+    assert_eq!(told["awaited"]["tool"]["number"], 2, "{told}");
+    assert_eq!(told["awaited"]["tool"]["name"], "6 mm end mill", "{told}");
     std::thread::sleep(Duration::from_millis(500));
     bench.operate(&["acknowledge"]);
     let status = bench.wait_for(MachineState::ProgramStop);
@@ -51,7 +59,8 @@ fn a_tool_change_waits_for_a_person_and_says_so_where_the_program_was_started() 
     for words in [
         "line 3: change to tool T2 (6 mm end mill)".to_owned(),
         format!("`glidepath acknowledge {complete}`"),
-        "line 5: the program stopped the machine (turn the part)".to_owned(),
+        "line 5 (turn the part): at rest at a stop of the program, or at the end of a block"
+            .to_owned(),
         format!("`glidepath resume {complete}` goes on"),
     ] {
         assert!(told.contains(&words), "{words}: {told}");

@@ -34,7 +34,7 @@ pub enum BusError {
     /// There are other devices than the file says.
     #[error(
         "drives.toml wants a drive at position {position}, and {found} devices are there: \
-         `glidepath ethercat scan` lists them"
+         `glidepath ethercat scan INTERFACE` lists them"
     )]
     Missing {
         /// Where it is wanted.
@@ -45,7 +45,7 @@ pub enum BusError {
     /// There is another device than the file says.
     #[error(
         "position {position}: drives.toml wants {what} {wanted:#x}, the device there has {found:#x}: \
-         `glidepath ethercat scan` lists what is there"
+         `glidepath ethercat scan INTERFACE` lists what is there"
     )]
     Other {
         /// Where.

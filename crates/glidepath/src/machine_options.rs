@@ -14,6 +14,9 @@ const WITHOUT_INSTANCE: [&str; 9] = [
 /// Commands that know no machine.
 const WITHOUT_MACHINE: [&str; 2] = ["config", "help"];
 
+/// The same of one that does something else.
+const SCAN: &str = "ethercat scan";
+
 static OWN: OnceLock<MachineOptions> = OnceLock::new();
 
 /// What this process was told of the machine.
@@ -55,7 +58,7 @@ impl MachineOptions {
 
     fn missing_in(&self, command: &str) -> String {
         let name = command.split_whitespace().next().unwrap_or_default();
-        let has_machine = !WITHOUT_MACHINE.contains(&name);
+        let has_machine = !WITHOUT_MACHINE.contains(&name) && !command.starts_with(SCAN);
         let has_instance = has_machine && !WITHOUT_INSTANCE.contains(&name);
         let options = [
             ("--instance", &self.instance, has_instance),
@@ -68,6 +71,14 @@ impl MachineOptions {
             .filter_map(|(name, value, _)| Some(format!(" {name} {}", typed(value.as_deref()?))))
             .collect()
     }
+}
+
+/// The command that goes on with a program, in the marks that commands stand in.
+#[must_use]
+pub fn resume(command: &str, file: &str) -> String {
+    // A mark in the name would end the command.
+    let file = if file.contains('`') { "FILE" } else { file };
+    format!("`glidepath {command} {} --resume`", typed(file))
 }
 
 /// A word as a shell takes it.

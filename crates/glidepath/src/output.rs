@@ -28,11 +28,12 @@ pub fn give_away() -> bool {
     !IS_GIVEN_AWAY.swap(true, Ordering::Relaxed)
 }
 
-/// Writes text to standard output, or to standard error where a file has that. A reader that went
+/// Writes text to standard output, with commands as they have to be typed, or to standard error where a
+/// file has that. A reader that went
 /// away (`| head`) is no fault of ours; any other failure is kept for the end of the command
 /// ([`unwritten`]).
 pub fn result(text: &str) {
-    control(&printable(text));
+    control(&shown(text));
 }
 
 /// Writes to standard output what the terminal is to obey; nothing of others.

@@ -218,6 +218,9 @@ fn objection(command: Command, report: &Report, has_drives: bool) -> Option<Obje
         // At rest it is held already.
         Command::Hold => (state != Homing, Objection::HomingNotHeld),
         Command::Resume | Command::Step if is_away => (false, Objection::Away),
+        Command::Resume | Command::Step if rests_by_override(report) => {
+            (false, no_override(report))
+        }
         Command::Resume => (
             matches!(state, Holding | Held | ProgramStop),
             Objection::NothingHeld,
@@ -253,6 +256,24 @@ fn objection(command: Command, report: &Report, has_drives: bool) -> Option<Obje
         Command::Acknowledge { .. } | Command::Job { .. } => return None,
     };
     (!is_possible).then_some(why)
+}
+
+/// Whether an override of 0 keeps the machine at rest, and nothing that a resume ends. On the way back
+/// along the path the feed override is below 0, or -0.
+fn rests_by_override(report: &Report) -> bool {
+    let rests = matches!(report.state, MachineState::Held | MachineState::Holding);
+    let is_onward = report.feed_override.is_sign_positive();
+    let is_zero = report.feed_override <= 0.0 || report.rapid_override <= 0.0;
+    rests && is_onward && is_zero && !report.is_held
+}
+
+/// Which override that is.
+fn no_override(report: &Report) -> Objection {
+    if report.feed_override <= 0.0 {
+        Objection::NoFeed
+    } else {
+        Objection::NoRapid
+    }
 }
 
 /// Whether a reply refuses.

@@ -152,6 +152,8 @@ pub(crate) struct Report {
     pub(crate) is_returning: bool,
     /// The axes are not where the program is held.
     pub(crate) is_away: bool,
+    /// A hold, a stop of the program or the end of a block keeps the motion at rest, or brings it there.
+    pub(crate) is_held: bool,
     /// Frames of the epoch whose instant has come.
     pub(crate) frames_executed: u64,
     /// Frames the real-time thread owns and has not reached.
@@ -184,6 +186,7 @@ impl Report {
             is_unanswered: false,
             is_returning: false,
             is_away: false,
+            is_held: false,
             frames_executed: 0,
             queue_depth: 0,
             timing: Timing::default(),

@@ -334,9 +334,14 @@ impl StopRequests {
         self.retraces = self.wants_back() || !matches!(self.heading, Heading::Onward);
     }
 
+    /// Whether something keeps the motion from going on that a resume ends.
+    pub(crate) const fn is_held(&self) -> bool {
+        self.hold || self.block_end || self.program_stop
+    }
+
     /// Whether the operator keeps the motion from going on.
     pub(crate) fn holds(&self, is_rapid: bool) -> bool {
-        self.hold || self.block_end || self.program_stop || self.commanded(is_rapid) <= 0.0
+        self.is_held() || self.commanded(is_rapid) <= 0.0
     }
 
     pub(crate) fn state(

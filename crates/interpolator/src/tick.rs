@@ -164,6 +164,7 @@ impl Interpolator<'_> {
         report.is_unanswered = self.is_unanswered;
         report.is_returning = self.jog.is_returning();
         report.is_away = self.jog.owns_axes() && self.is_open();
+        report.is_held = self.requests.is_held();
         report.frames_executed = if self.epoch == 0 {
             0
         } else {

@@ -21,7 +21,7 @@
 //! * the records: [`SetpointFrame`], [`Setpoint`], [`Status`], [`CommandRequest`],
 //!   [`SegmentRequest`] and their replies;
 //! * [`servo`] is what a drive does with setpoints;
-//! * what people are told of states, faults and refusals: [`MachineState::text`], [`FaultReport`],
+//! * what people are told of states, faults and refusals: [`Status::state_text`], [`FaultReport`],
 //!   [`Objection`], [`refused`]; [`printable`] makes text of others safe to show.
 //!
 //! Invariants:
@@ -79,5 +79,6 @@ pub use record::{
 };
 pub use service::Capacity;
 pub use wording::{
-    FaultReport, Objection, SWITCHED_OFF, StateChange, is_printable, printable, refused,
+    AtRest, FaultReport, Objection, SWITCHED_OFF, StateChange, TOLD_TO_END, is_printable,
+    printable, refused,
 };

@@ -42,8 +42,6 @@ function cause() {
   const alone = ['idle', 'preparing', 'off', 'not-homed', 'homing', 'jogging'].includes(S.state);
   const text = told(s.state_text || S.state);
   if (alone) return `${sentence(text)}.`;
-  // Nothing goes on before the axes are back.
-  if (S.state === 'held' && isAway(s)) return `${program}${line(s)}: held at rest off the path, after a jog; Return goes back to it.`;
   return program ? `${program}${line(s)}: ${text}.` : `${sentence(`${line(s)}: ${text}`)}.`;
 }
 /* Texts come from the machine: commands in backticks, no capital, no full stop. */

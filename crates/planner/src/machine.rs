@@ -6,7 +6,7 @@ use glidepath_gcode::Probed;
 use glidepath_geometry::AxisVector;
 use glidepath_link::{
     Client, Command, CommandReply, CommandRequest, ContactKind, EndOfEpoch, JobStage, LinkError,
-    MachineState, Record, SWITCHED_OFF, Status, Subscriber, Transport,
+    MachineState, Record, SWITCHED_OFF, Status, Subscriber, TOLD_TO_END, Transport,
 };
 use glidepath_program::Override;
 
@@ -271,7 +271,7 @@ impl Machine {
 /// Who ended an epoch that was aborted.
 fn aborted(status: &Status) -> RunError {
     let told = status.last_error.as_str();
-    if told == SWITCHED_OFF {
+    if told == SWITCHED_OFF || told == TOLD_TO_END {
         return RunError::Ended {
             why: told.to_owned(),
         };

@@ -160,6 +160,12 @@ impl<'t> Publisher<'t> {
         self.machine.block()
     }
 
+    /// Source line that the machine is on, 0 if unknown.
+    #[must_use]
+    pub fn line(&self) -> u32 {
+        self.machine.line()
+    }
+
     /// Answers what the program asks of inputs, once the machine rests where it asks.
     fn answer_inputs(&mut self, epoch: &Epoch, waited: Duration) -> Result<(), RunError> {
         let Some(inputs) = &mut self.inputs else {

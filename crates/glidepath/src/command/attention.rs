@@ -14,15 +14,71 @@ use std::time::{Duration, Instant};
 /// How long what is said of a stop may be on its way.
 const MOMENT: Duration = Duration::from_millis(150);
 
+/// A hold that is over sooner needs no word.
+const HELD_MOMENT: Duration = Duration::from_secs(1);
+/// Between two looks of whoever does something else meanwhile.
+const EVERY: Duration = Duration::from_millis(20);
+/// How long nothing is heard of an interpolator before it is said that it is waited for.
+const SILENCE: Duration = Duration::from_secs(1);
+
 /// What the machine waits for, and what of it was told.
 pub(super) struct Attention {
     statuses: Box<dyn Subscriber<Status>>,
     records: Box<dyn Subscriber<Auxiliary>>,
-    tool: u32,
+    told: Option<Auxiliary>,
     names: ToolNames,
+    /// Whether anything was heard of an interpolator.
+    is_heard: bool,
     /// Where something was asked, since when, and whether that was told: the epoch and the frames
     /// executed. What is said of it comes a moment later.
     asked: Option<((u64, u64), Instant, bool)>,
+}
+
+/// A client's waiting, at which it looks now and then what the machine waits for.
+pub(super) struct Waiting {
+    attention: Option<Attention>,
+    began: Instant,
+    looked: Instant,
+    is_heard: bool,
+}
+
+impl Waiting {
+    /// `None` for a client that says nothing. Where the machine cannot be watched, only that is not told.
+    pub(super) fn new(of: Option<(&Ipc, &MachineConfig)>) -> Self {
+        Self {
+            attention: of.and_then(|(transport, config)| Attention::new(transport, config).ok()),
+            began: Instant::now(),
+            looked: Instant::now(),
+            is_heard: false,
+        }
+    }
+
+    /// Lets time pass.
+    pub(super) fn pause(&mut self, time: Duration) {
+        std::thread::sleep(time);
+        if self.looked.elapsed() < EVERY {
+            return;
+        }
+        self.looked = Instant::now();
+        if let Some(attention) = &mut self.attention
+            && attention.look().is_err()
+        {
+            self.attention = None;
+        }
+    }
+
+    /// The same of a client that says by nothing else that it waits for an interpolator.
+    pub(super) fn pause_for_interpolator(&mut self, time: Duration) {
+        self.pause(time);
+        let Some(attention) = self.attention.as_ref().filter(|_| !self.is_heard) else {
+            return;
+        };
+        self.is_heard = attention.is_heard;
+        if !self.is_heard && self.began.elapsed() >= SILENCE {
+            self.is_heard = true;
+            output::note("waiting for an interpolator: start `glidepath interpolator`");
+        }
+    }
 }
 
 impl Attention {
@@ -30,8 +86,9 @@ impl Attention {
         Ok(Self {
             statuses: transport.status_source()?,
             records: transport.auxiliary_source()?,
-            tool: 0,
+            told: None,
             names: ToolNames::new(config),
+            is_heard: false,
             asked: None,
         })
     }
@@ -40,7 +97,7 @@ impl Attention {
     pub(super) fn look(&mut self) -> Result<(), Failure> {
         while let Some(record) = self.records.take()? {
             record.check().map_err(LinkError::from)?;
-            self.tool = record.tool;
+            self.told = Some(record);
         }
         let mut newest = None;
         while let Some(status) = self.statuses.take()? {
@@ -50,6 +107,7 @@ impl Attention {
         let Some(status) = newest else {
             return Ok(());
         };
+        self.is_heard = true;
         let Some(words) = self.words(&status) else {
             self.asked = None;
             return Ok(());
@@ -57,7 +115,12 @@ impl Attention {
         let place = (status.epoch, status.frames_executed);
         let of_place = self.asked.filter(|(asked, ..)| *asked == place);
         let (_, since, is_told) = of_place.unwrap_or((place, Instant::now(), false));
-        let is_due = !is_told && since.elapsed() >= MOMENT;
+        let is_held = matches!(
+            status.state(),
+            Ok(MachineState::Held | MachineState::Preparing)
+        );
+        let moment = if is_held { HELD_MOMENT } else { MOMENT };
+        let is_due = !is_told && since.elapsed() >= moment;
         if is_due {
             output::note(&words);
         }
@@ -73,16 +136,28 @@ impl Attention {
                 said => format!(" ({said})"),
             };
             return Some(format!(
-                "line {}: the program stopped the machine{said}; `glidepath resume` goes on",
-                status.line
+                "line {}{said}: {}",
+                status.line,
+                status.state_text().unwrap_or_default()
             ));
+        }
+        if state == MachineState::Held {
+            let doing = status.state_text().unwrap_or_default();
+            return Some(format!("line {}: {doing}", status.line));
+        }
+        if state == MachineState::Preparing && status.job_held == 1 {
+            return Some("the job begins held; `glidepath resume` begins it".to_owned());
         }
         if state != MachineState::Awaiting {
             return None;
         }
         let line = status.awaited_line;
         let asked = match status.awaited_event().ok()?? {
-            Event::MCode(6) | Event::Await(6) => format!("change to tool {}", self.tool()),
+            Event::MCode(6) | Event::Await(6) => match self.names.asked(status, self.told.as_ref())
+            {
+                Some(tool) => format!("change to {tool}"),
+                None => "change the tool".to_owned(),
+            },
             Event::MCode(_) | Event::Await(_) => {
                 format!("the program asks {}", awaited_code(status))
             }
@@ -93,13 +168,5 @@ impl Attention {
             "line {line}: {asked}; when that is done: `glidepath acknowledge`, and if it cannot be \
              done: `glidepath acknowledge --fail \"why\"`"
         ))
-    }
-
-    /// The tool that is asked for, with what the table says of it.
-    fn tool(&self) -> String {
-        self.names.of(self.tool).map_or_else(
-            || format!("T{}", self.tool),
-            |text| format!("T{} ({text})", self.tool),
-        )
     }
 }

@@ -2,7 +2,7 @@
 
 use super::failure::Failure;
 use crate::config::MachineConfig;
-use crate::report::{coolant_words, spindle_words};
+use crate::report::{coolant_words, decimals, spindle_words};
 use core::fmt::Write as _;
 use glidepath_geometry::AxisVector;
 use glidepath_link::Auxiliary;
@@ -48,7 +48,7 @@ pub(super) fn agreement<S: glidepath_planner::ItemSource>(
     let place = |position: &AxisVector| {
         let axes = config.axes.iter().map(|axis| {
             let value = position[axis.axis.index()];
-            format!("{}{value:.4}", axis.axis)
+            format!("{}{}", axis.axis, decimals(value, 4))
         });
         axes.collect::<Vec<_>>().join(" ")
     };

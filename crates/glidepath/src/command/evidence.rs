@@ -1,5 +1,6 @@
 //! What is told of a run that ended before its end.
 
+use crate::report::decimals;
 use serde_json::{Value, json};
 use std::fmt;
 use std::path::PathBuf;
@@ -38,7 +39,7 @@ impl fmt::Display for Evidence {
         let position: Vec<String> = self
             .position
             .iter()
-            .map(|(axis, value)| format!("{axis} {value:.4}"))
+            .map(|(axis, value)| format!("{axis} {}", decimals(*value, 4)))
             .collect();
         let position = position.join(" ");
         match self.line {

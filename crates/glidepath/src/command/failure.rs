@@ -236,15 +236,29 @@ pub(super) enum Failure {
     /// The planner's service ended with a job that it had taken.
     #[error(
         "the planner's service ended before this was done; `glidepath status` says where the machine stands; \
-         start `glidepath planner --listen` again; `glidepath run-file --resume` goes on with a program"
+         start `glidepath planner --listen` again{}", match resume {
+            Some(command) => format!("; {command} goes on with the program"),
+            None => String::new(),
+        }
     )]
-    ServiceLost,
+    ServiceLost {
+        /// What goes on with the program, if the job was one.
+        resume: Option<String>,
+    },
     /// The interpolator could not start or failed.
     #[error(transparent)]
     Interpolator(#[from] interpolator::RunError),
     /// The planner ended before the end of the motion.
     #[error(transparent)]
     Planner(#[from] planner::RunError),
+    /// A program whose motion ended before it did, with what goes on with it.
+    #[error("{source}; {left}")]
+    Left {
+        /// Why.
+        source: planner::RunError,
+        /// Where it was left, and how to go on.
+        left: String,
+    },
     /// A program was not streamed to its end.
     #[error(transparent)]
     Feed(#[from] FeedError),

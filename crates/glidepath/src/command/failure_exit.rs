@@ -69,7 +69,7 @@ impl Failure {
             | Self::CommandRefused { .. }
             | Self::CutShort { .. }
             | Self::NoService
-            | Self::ServiceLost
+            | Self::ServiceLost { .. }
             | Self::Silent { .. }
             | Self::NotStopped { .. }
             | Self::DoesNotEnd { .. }
@@ -86,6 +86,10 @@ impl Failure {
             | Self::Jitter(_)
             | Self::Answers(_)
             | Self::Thread(_) => Exit::Fault,
+            Self::Left { source, .. } if matches!(source, planner::RunError::Interrupted) => {
+                Exit::Interrupted
+            }
+            Self::Left { .. } => Exit::Fault,
             Self::ProcessEnded { exit, .. } | Self::Job { exit, .. } => *exit,
             Self::EndedEarly { source, .. } => source.exit(),
         }

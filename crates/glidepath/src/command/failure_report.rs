@@ -63,7 +63,12 @@ fn failure_object(failure: &Failure) -> Value {
     if let Failure::CommandRefused { state, .. } | Failure::CutShort { state, .. } = failure {
         object["state"] = (*state).into();
     }
-    if let Failure::Planner(RunError::Fault(fault)) = failure {
+    if let Failure::Planner(RunError::Fault(fault))
+    | Failure::Left {
+        source: RunError::Fault(fault),
+        ..
+    } = failure
+    {
         object["fault"] = fault.text.as_str().into();
     }
     if let (Failure::EndedEarly { evidence, .. }, Value::Object(object)) = (failure, &mut object)

@@ -1,5 +1,6 @@
 //! `glidepath feed`: a client of a listening planner.
 
+use super::attention::Waiting;
 use super::{jobs, session};
 use crate::cli::FeedArgs;
 use crate::command::failure::Failure;
@@ -25,10 +26,12 @@ pub(super) fn feed(
     std::fs::File::open(args.file.path()).map_err(FileError::open(args.file.name()))?;
     let interrupt = Interrupt::install().map_err(Failure::Signals)?;
     let transport = session::join(&args.instance, config)?;
+    let mut waiting = Waiting::new(Some((&transport, config)));
+    let mut pause = |time| waiting.pause_for_interpolator(time);
     let mut notify = |_: &Notice<'_>| {};
     let mut control = Control {
         stop: interrupt.flag(),
-        pause: &mut std::thread::sleep,
+        pause: &mut pause,
         notify: &mut notify,
     };
     let name = args.file.name().display().to_string();

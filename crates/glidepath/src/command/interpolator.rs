@@ -56,9 +56,9 @@ pub(super) fn interpolator(
         glidepath_interpolator::run(&settings, transport, interrupt.flag(), &mut log)
     })?;
     if args.basic.json {
-        output::object(&status_object(&instance, &status));
+        output::object(&status_object(&instance, &status, None));
     } else {
-        output::result(&status_text(&instance, &status));
+        output::result(&status_text(&instance, &status, None));
     }
     Ok(interrupt.exit())
 }

@@ -9,6 +9,7 @@ use crate::config::MachineConfig;
 use crate::exit::Exit;
 use crate::file_error::FileError;
 use crate::interrupt::Interrupt;
+use crate::machine_options::{self, complete};
 use crate::output;
 use glidepath_link::{
     Client, Command, CommandRequest, JobKind, JobReply, JobRequest, JobState, JobWish, LinkConfig,
@@ -90,7 +91,7 @@ pub(super) fn client() -> u64 {
 
 fn report(command: &str, text: &str, json: bool) {
     if json {
-        output::object(&json!({ "command": command, "executed": true, "text": text }));
+        output::object(&json!({ "command": command, "executed": true, "text": complete(text) }));
     } else {
         output::result(&format!("{command}: {text}\n"));
     }
@@ -113,6 +114,7 @@ fn execute(
         interrupt: &interrupt,
         interrupted: None,
         is_taken: false,
+        resume: resume(&request),
         told: Told::new(),
     };
     loop {
@@ -169,7 +171,15 @@ struct Desk<'d> {
     interrupted: Option<Instant>,
     /// The service has taken the job.
     is_taken: bool,
+    /// The command that goes on with it, if it is a program.
+    resume: Option<String>,
     told: Told,
+}
+
+/// What goes on with a job after its end, if it is a program.
+fn resume(request: &JobRequest) -> Option<String> {
+    let is_file = request.kind() == Ok(JobKind::File);
+    is_file.then(|| machine_options::resume("run-file", request.text.as_str()))
 }
 
 impl Desk<'_> {
@@ -202,6 +212,11 @@ impl Desk<'_> {
         Err(Failure::NoAnswer)
     }
 
+    fn lost(&self) -> Failure {
+        let resume = self.resume.clone();
+        Failure::ServiceLost { resume }
+    }
+
     fn abort(&self) {
         abort(self.link);
     }
@@ -212,7 +227,7 @@ impl Desk<'_> {
         loop {
             match self.client.ask(request) {
                 Err(LinkError::NoServer { .. }) if self.is_taken => {
-                    return Err(Failure::ServiceLost);
+                    return Err(self.lost());
                 }
                 // It may have been started just now.
                 Err(LinkError::NoServer { .. }) if started.elapsed() < PATIENCE => {
@@ -233,7 +248,7 @@ impl Desk<'_> {
         loop {
             let reply = match self.client.reply() {
                 Err(LinkError::NoServer { .. }) if self.is_taken => {
-                    return Err(Failure::ServiceLost);
+                    return Err(self.lost());
                 }
                 reply => reply?,
             };

@@ -20,6 +20,7 @@ mod feed;
 mod fit;
 mod fitting;
 mod forecast;
+mod going_on;
 mod grbl;
 mod home;
 mod interpolator;

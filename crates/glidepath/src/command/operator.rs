@@ -4,14 +4,16 @@
 use super::active_program::active_program;
 use super::other_users::OtherUsers;
 use super::session;
+use super::tool_names::ToolNames;
 use crate::cli::{JointsArgs, OperatorArgs, OverrideArgs};
 use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::exit::Exit;
 use crate::output;
-use crate::report::{active_object, active_text, status_object, status_text};
+use crate::report::{AskedTool, active_object, active_text, status_object, status_text};
 use glidepath_link::{
-    Command, CommandReply, CommandRequest, LinkConfig, LinkError, Operator, Power, Status,
+    Command, CommandReply, CommandRequest, Ipc, LinkConfig, LinkError, Operator, Power,
+    Record as _, Status, Transport as _,
 };
 use glidepath_realtime::{Clock as _, Monotonic};
 use serde_json::json;
@@ -20,6 +22,8 @@ use std::time::{Duration, Instant};
 /// How long an interpolator may take to answer.
 pub(super) const PATIENCE: Duration = Duration::from_secs(2);
 const POLL: Duration = Duration::from_millis(2);
+/// How long a record that is latched may take to come to who asks for it.
+const LATCHED: Duration = Duration::from_millis(500);
 
 /// Sends a command and reports the answer.
 ///
@@ -215,15 +219,35 @@ pub(super) fn status(args: &OperatorArgs, config: &MachineConfig) -> Result<Exit
     let operator = reach(&link)?;
     let status = read_status(&operator, &link)?;
     let active = active_program(&link, &status);
+    let tool = asked_tool(&link, config, &status);
     if args.basic.json {
-        let mut object = status_object(&instance, &status);
+        let mut object = status_object(&instance, &status, tool.as_ref());
         object["active_program"] = active_object(active.as_ref());
         output::object(&object);
     } else {
         let active = active.as_ref().map(active_text).unwrap_or_default();
-        output::result(&(status_text(&instance, &status) + &active));
+        output::result(&(status_text(&instance, &status, tool.as_ref()) + &active));
     }
     Ok(Exit::Done)
+}
+
+/// The tool that the machine waits for. Which it is goes through the shared memory, which an operator can
+/// do without: where that cannot be used, nothing is told.
+fn asked_tool(link: &LinkConfig, config: &MachineConfig, status: &Status) -> Option<AskedTool> {
+    if status.awaited_since_ns == 0 {
+        return None;
+    }
+    let transport = Ipc::connect(link).ok()?;
+    let mut records = transport.auxiliary_source().ok()?;
+    let started = Instant::now();
+    while started.elapsed() < LATCHED {
+        if let Some(record) = records.take().ok()? {
+            record.check().ok()?;
+            return ToolNames::new(config).asked(status, Some(&record));
+        }
+        std::thread::sleep(POLL);
+    }
+    None
 }
 
 /// The next status of an interpolator.

@@ -1,6 +1,8 @@
 //! `glidepath planner`: programs, or segments of other processes, to frames.
 
 use super::attendant::{Attendant, tell};
+use super::attention::Waiting;
+use super::going_on;
 use super::program_note::ProgramNote;
 use super::session;
 use super::workshop::Workshop;
@@ -18,7 +20,7 @@ use crate::output;
 use crate::program_file::ProgramFile;
 use crate::report::{counted, peak_rss_bytes, seconds};
 use glidepath_geometry::AxisVector;
-use glidepath_link::{Ipc, LinkConfig, Transport};
+use glidepath_link::{Ipc, LinkConfig, Operator, Transport};
 use glidepath_planner::{
     Control, FileSource, ItemSource, Listening, Notice, PipeSource, Pipeline, Publisher, Remainder,
     RunError, SoftLimits, Statistics, serve as serve_jobs,
@@ -78,9 +80,12 @@ pub(super) fn planner(
         attendant.notice(notice, &config);
         tell(notice, quiet);
     };
+    let watched = (!quiet).then_some((&transport, &config));
+    let mut waiting = Waiting::new(watched);
+    let mut pause = |time| waiting.pause(time);
     let mut control = Control {
         stop: interrupt.flag(),
-        pause: &mut std::thread::sleep,
+        pause: &mut pause,
         notify: &mut notify,
     };
     let mut publisher = Publisher::connect(&transport, session::pace(&config))?;
@@ -239,10 +244,25 @@ impl Job<'_> {
         let kept = self.attendant.end(&published, &self.publisher, self.config);
         let statistics = published.map_err(|error| match error {
             RunError::Refused(refusal) => Failure::refused(&self.name(), refusal, is_pipe),
-            error => error.into(),
+            error => self.ended_early(error, is_pipe),
         })?;
         kept?;
         Ok(statistics)
+    }
+
+    /// Why the motion ended before the program, with what goes on with it, if that is a file. Whoever
+    /// started this one has a way of its own.
+    fn ended_early(&self, error: RunError, is_pipe: bool) -> Failure {
+        let may_go_on = !is_pipe && !self.attendant.is_quiet() && self.attendant.has_started();
+        let how = ("planner", self.file.path());
+        let left = may_go_on.then(|| going_on::told(&error, &self.publisher, how));
+        match left.flatten() {
+            Some(left) => Failure::Left {
+                source: error,
+                left,
+            },
+            None => error.into(),
+        }
     }
 
     /// The rest of a program, from where the machine stands on its path.
@@ -286,6 +306,9 @@ fn serve(
             "planner: nothing is kept over a restart, neither work offsets nor tools; name a folder: \
              directory of [state]",
         );
+    }
+    if Operator::find(link).is_err() {
+        output::note("planner: no interpolator runs yet; it is waited for");
     }
     let mut workshop = Workshop::new(config, link.clone(), board);
     match serve_jobs(transport, &listening, Some(&mut workshop), control) {

@@ -2,7 +2,10 @@
 
 use crate::config::MachineConfig;
 use crate::kept::read::MOST_TABLE_BYTES;
+use crate::report::AskedTool;
 use crate::text_file;
+use glidepath_link::{Auxiliary, MachineState, Status};
+use glidepath_program::Event;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
@@ -22,6 +25,20 @@ impl ToolNames {
     /// What the table calls a tool; `None` if it has no words for it.
     pub(super) fn of(&self, tool: u32) -> Option<String> {
         self.all().remove(&tool)
+    }
+
+    /// The tool that a machine waits for, if it does: the one that was selected last.
+    pub(super) fn asked(&self, status: &Status, told: Option<&Auxiliary>) -> Option<AskedTool> {
+        let changes = matches!(
+            status.awaited_event(),
+            Ok(Some(Event::MCode(6) | Event::Await(6)))
+        );
+        let waits = status.state() == Ok(MachineState::Awaiting) || status.awaited_since_ns != 0;
+        let number = told.filter(|_| changes && waits)?.prepared_tool;
+        Some(AskedTool {
+            number,
+            name: self.of(number),
+        })
     }
 
     /// What the table calls its tools.

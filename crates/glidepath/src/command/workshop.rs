@@ -3,6 +3,7 @@
 use super::attendant::{Attendant, recalling};
 use super::differences::{agreement, approach};
 use super::failure::Failure;
+use super::going_on;
 use super::left_in_force::JobLeft;
 use super::program_diagnostics::refusal_text;
 use super::program_note::ProgramNote;
@@ -60,6 +61,8 @@ struct Bench<'b, 't, 'c> {
     attend: &'b mut dyn Attend,
     control: &'b mut Control<'c>,
     note: ProgramNote<'b>,
+    /// The program, if the job is one.
+    file: Option<&'b Path>,
 }
 
 impl Bench<'_, '_, '_> {
@@ -159,9 +162,29 @@ impl<'c> Workshop<'c> {
         });
         let statistics = run?;
         Ok(format!(
-            "executed; {}",
-            counted(statistics.segments, "segment")
+            "executed; {}{}",
+            counted(statistics.segments, "segment"),
+            self.lost_later(&config)
         ))
+    }
+
+    /// What is to be known of a line that has set the machine up, where nothing is kept over a restart.
+    fn lost_later(&self, before: &MachineConfig) -> &'static str {
+        let now = self
+            .in_force
+            .as_ref()
+            .filter(|_| before.state_directory.is_none());
+        let has_set_up = now.is_some_and(|now| {
+            let (was, is) = (&before.program.offsets, now.work_offsets());
+            let offsets = (&is.systems, &is.reference, &is.saved_shift);
+            offsets != (&was.systems, &was.reference, &was.saved_shift)
+                || now.tools() != before.program.tools.as_ref()
+        });
+        if has_set_up {
+            "; what it has set up is lost when the planner ends, because [state] names no directory"
+        } else {
+            ""
+        }
     }
 
     /// A file, from its beginning, from a line, or from where it was left.
@@ -357,7 +380,15 @@ impl<'c> Workshop<'c> {
                 Stop::Refused(text) if attendant.has_started() => Stop::Failed(text),
                 stop => stop,
             },
-            error => Stop::Failed(error.to_string()),
+            error => {
+                let file = bench.file.filter(|_| attendant.has_started());
+                let left = file
+                    .and_then(|file| going_on::told(&error, bench.publisher, ("run-file", file)));
+                Stop::Failed(match left {
+                    Some(left) => format!("{error}; {left}"),
+                    None => error.to_string(),
+                })
+            }
         });
         let run = run.and_then(|statistics| kept.map(|()| statistics).map_err(Stop::from));
         (run, left)
@@ -426,6 +457,10 @@ impl JobRunner for Workshop<'_> {
             attend,
             control,
             note: ProgramNote::of_job(&link, job),
+            file: match job {
+                Job::File { path, .. } => Some(path),
+                Job::Line(_) | Job::Lines { .. } => None,
+            },
         };
         let end = match job {
             Job::Line(text) => self.line(text, start, &mut bench),

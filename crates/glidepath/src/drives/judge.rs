@@ -218,7 +218,7 @@ fn drive(judge: &mut Judge, raw: RawDrive, velocities: &[f64]) -> DriveSettings 
         )
         .unwrap_or(0);
     let mut id = |key, value: &Option<Spanned<i64>>, most| {
-        let help = "as `glidepath ethercat scan` shows it; 0 compares nothing";
+        let help = "as `glidepath ethercat scan INTERFACE` shows it; 0 compares nothing";
         let value = value
             .as_ref()
             .map(|value| judge.whole(key, value, (0, most), help));

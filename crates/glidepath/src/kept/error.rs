@@ -18,7 +18,7 @@ pub(crate) enum StateError {
     /// No file is whole.
     #[error(
         "{source}, and no other generation in {folder} is whole: what was kept is lost. Move the files kept.0 and \
-         kept.1 there away, and set it anew: `glidepath offsets set`, `use` or `import`"
+         kept.1 there away, and set it anew: `glidepath offsets --help` tells how"
     )]
     Lost {
         /// The folder.

@@ -2,7 +2,7 @@
 
 use super::quantity::microseconds;
 use crate::machine_options::complete;
-use core::fmt::Write as _;
+use core::fmt::{self, Write as _};
 use glidepath_geometry::{AXES, Axis};
 use glidepath_link::{MotionMode, Power, Status};
 use glidepath_program::{CodeWord, Event};
@@ -35,17 +35,37 @@ fn by_joint(status: &Status, values: &[f64; AXES]) -> Map<String, Value> {
 
 /// How old feedback is, ms; nothing before the first.
 fn age_ms(age_ns: u64) -> Option<f64> {
-    (age_ns != u64::MAX).then(|| microseconds(age_ns) / 1e3)
+    (age_ns != u64::MAX).then(|| microseconds(age_ns).round() / 1e3)
+}
+
+/// A tool that the machine waits for.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct AskedTool {
+    /// Its number; 0 if the spindle is to be empty.
+    pub number: u32,
+    /// What the tool table says of it.
+    pub name: Option<String>,
+}
+
+impl fmt::Display for AskedTool {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "tool T{}", self.number)?;
+        match &self.name {
+            Some(name) => write!(f, " ({name})"),
+            None => Ok(()),
+        }
+    }
 }
 
 /// The event that is awaited, and for how long.
-fn awaited(status: &Status) -> Option<Value> {
+fn awaited(status: &Status, tool: Option<&AskedTool>) -> Option<Value> {
     (status.awaited_since_ns != 0).then(|| {
         let waited_ns = status.updated_ns.saturating_sub(status.awaited_since_ns);
         json!({
             "event": awaited_name(status),
             "p": status.awaited_words.get(CodeWord::P),
             "q": status.awaited_words.get(CodeWord::Q),
+            "tool": tool.map(|tool| json!({ "number": tool.number, "name": tool.name })),
             "line": status.awaited_line,
             "epoch": status.epoch,
             "sequence": status.awaited_sequence,
@@ -82,7 +102,7 @@ pub fn awaited_code(status: &Status) -> String {
 }
 
 /// What is awaited, and for how long, in words; nothing if nothing is.
-pub(super) fn awaited_text(status: &Status) -> Option<String> {
+pub(super) fn awaited_text(status: &Status, tool: Option<&AskedTool>) -> Option<String> {
     (status.awaited_since_ns != 0).then(|| {
         let waited_ns = status.updated_ns.saturating_sub(status.awaited_since_ns);
         let (line, waited_s) = (status.awaited_line, microseconds(waited_ns) / 1e6);
@@ -95,8 +115,9 @@ pub(super) fn awaited_text(status: &Status) -> Option<String> {
                  {waited_s:.1} s"
             );
         }
+        let tool = tool.map_or_else(String::new, |tool| format!(", {tool}"));
         format!(
-            "the answer to {} of line {line}, for {waited_s:.1} s ({})",
+            "the answer to {}{tool}, of line {line}, for {waited_s:.1} s ({})",
             awaited_code(status),
             complete("`glidepath acknowledge`"),
         )
@@ -104,7 +125,7 @@ pub(super) fn awaited_text(status: &Status) -> Option<String> {
 }
 
 /// What a status says about drives and joints.
-pub(super) fn machine_object(status: &Status) -> Map<String, Value> {
+pub(super) fn machine_object(status: &Status, tool: Option<&AskedTool>) -> Map<String, Value> {
     let object = json!({
         "away": by_axis(&status.away),
         "power": status.power().map_or("unknown", Power::name),
@@ -118,7 +139,7 @@ pub(super) fn machine_object(status: &Status) -> Map<String, Value> {
         "joint_actual": by_joint(status, &status.joint_actual),
         "following_error": by_joint(status, &status.following_error),
         "following_peak": by_joint(status, &status.following_peak),
-        "awaited": awaited(status),
+        "awaited": awaited(status, tool),
     });
     match object {
         Value::Object(object) => object,

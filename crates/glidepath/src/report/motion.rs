@@ -1,7 +1,7 @@
 //! The report of `plan`, and the part of `run` that is the same.
 
 use super::diagnosis::DiagnosisReport;
-use super::quantity::{counted, grouped, seconds};
+use super::quantity::{counted, decimals, grouped, seconds};
 use crate::config::{AxisConfig, MachineConfig};
 use crate::exit::Exit;
 use core::fmt::Write as _;
@@ -214,7 +214,7 @@ impl MotionReport {
         let end: Vec<String> = self
             .final_position
             .iter()
-            .map(|(axis, value)| format!("{axis} {value:.4}"))
+            .map(|(axis, value)| format!("{axis} {}", decimals(*value, 4)))
             .collect();
         writeln!(text, "  end position  {}", end.join("  "))?;
         if let Some(diagnosis) = &self.diagnosis {

@@ -21,6 +21,16 @@ pub fn counted(number: u64, one: &str) -> String {
     format!("{} {one}{ending}", grouped(number))
 }
 
+/// A number with so many decimals. What is rounded to nothing has no sign.
+#[must_use]
+pub fn decimals(value: f64, count: usize) -> String {
+    let text = format!("{value:.count$}");
+    match text.strip_prefix('-') {
+        Some(rest) if rest.chars().all(|c| matches!(c, '0' | '.')) => rest.to_owned(),
+        _ => text,
+    }
+}
+
 /// A duration: milliseconds below a second, minutes from two minutes on.
 #[must_use]
 pub fn seconds(t: f64) -> String {
@@ -57,6 +67,13 @@ mod tests {
     fn times_have_the_unit_that_suits_them() {
         let texts = [7.0, 150.0, 12_960.0, 24e6].map(rough_time);
         assert_eq!(texts, ["7.0 s", "2.5 min", "3.6 h", "277.8 days"]);
+    }
+
+    #[test]
+    fn nothing_has_no_sign() {
+        let texts = [-0.0, -0.000_04, -0.000_06, 1.5, -20.0].map(|value| decimals(value, 4));
+        assert_eq!(texts, ["0.0000", "0.0000", "-0.0001", "1.5000", "-20.0000"]);
+        assert_eq!(decimals(-0.4, 0), "0");
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! How smooth a motion is, in reports.
 
-use super::quantity::grouped;
+use super::quantity::{counted, grouped};
 use core::fmt::Write as _;
 use glidepath_audit::smoothness::{Figures, RINGING_HZ};
 use glidepath_geometry::Axis;
@@ -83,11 +83,11 @@ impl SmoothnessFigures {
             let unit = figures.unit;
             let _ = writeln!(
                 text,
-                "    {axis}           jerk {} {unit}/s³ rms, {} peak; acceleration above {RINGING_HZ} Hz {:.1} {unit}/s² rms; {} reversals",
+                "    {axis}           jerk {} {unit}/s³ rms, {} peak; acceleration above {RINGING_HZ} Hz {:.1} {unit}/s² rms; {}",
                 whole(figures.rms_jerk),
                 whole(figures.peak_jerk),
                 figures.acceleration_above_30_hz,
-                grouped(figures.reversals)
+                counted(figures.reversals, "reversal")
             );
         }
         text

@@ -1,10 +1,10 @@
 //! The state of an interpolator, as text and as JSON.
 
-use super::machine::{awaited_text, by_axis, machine_object, power_text};
-use super::quantity::{grouped, microseconds};
+use super::machine::{AskedTool, awaited_text, by_axis, machine_object, power_text};
+use super::quantity::{decimals, grouped, microseconds};
 use crate::machine_options::complete;
 use core::fmt::Write as _;
-use glidepath_geometry::Axis;
+use glidepath_geometry::{AXES, Axis};
 use glidepath_link::{
     EndOfEpoch, FaultCause, Grants, JobStage, MachineState, MotionMode, Quantiles, Status,
 };
@@ -86,15 +86,15 @@ pub(super) fn remedy(status: &Status) -> Option<&'static str> {
     status.fault().ok().flatten().map(FaultCause::remedy)
 }
 
-/// A status as an object.
+/// A status as an object, with the tool that the machine waits for.
 #[must_use]
-pub fn status_object(instance: &str, status: &Status) -> Value {
+pub fn status_object(instance: &str, status: &Status, tool: Option<&AskedTool>) -> Value {
     let position = by_axis(&status.position);
     let mut object = json!({
         "instance": instance,
         "pid": status.pid,
         "state": status.state().map_or("unknown", MachineState::name),
-        "state_text": status.state().map(|state| complete(state.text())).ok(),
+        "state_text": status.state_text().map(complete).ok(),
         "fault": status.fault_text(),
         "fault_is_cleared_by": remedy(status).map(|_| complete(HOW_TO_CLEAR).replace('`', "")),
         "fault_remedy": remedy(status).map(complete),
@@ -134,7 +134,7 @@ pub fn status_object(instance: &str, status: &Status) -> Value {
         "message": status.message.as_str(),
     });
     if let Value::Object(object) = &mut object {
-        object.extend(machine_object(status));
+        object.extend(machine_object(status, tool));
         object.insert("job".to_owned(), job_object(status));
     }
     object
@@ -196,19 +196,32 @@ pub(super) fn manner_text(status: &Status) -> String {
     in_force.map(|(_, text)| text).collect()
 }
 
-/// A status for people.
+/// The values of axes that are meant, with their names.
+fn positions_text(values: &[f64; AXES], is_meant: impl Fn(Axis, f64) -> bool) -> String {
+    let axes = Axis::ALL.into_iter().zip(values);
+    let meant = axes.filter(|(axis, value)| is_meant(*axis, **value));
+    let meant: Vec<String> = meant
+        .map(|(axis, value)| format!("{axis} {}", decimals(*value, 4)))
+        .collect();
+    meant.join("  ")
+}
+
+/// How far the axes are from the path, if they are away from it.
+fn away_text(status: &Status) -> Option<String> {
+    let away = positions_text(&status.away, |_, value| value != 0.0);
+    (!away.is_empty()).then(|| format!("{away}, from the path"))
+}
+
+/// A status for people, with the tool that the machine waits for.
 #[must_use]
-pub fn status_text(instance: &str, status: &Status) -> String {
+pub fn status_text(instance: &str, status: &Status, tool: Option<&AskedTool>) -> String {
     let mut text = String::new();
     let state = status.state().map_or("unknown", MachineState::name);
-    let position: Vec<String> = Axis::ALL
-        .into_iter()
-        .map(|axis| (axis, status.position[axis.index()]))
-        .filter(|(axis, value)| axis.index() < 3 || *value != 0.0)
-        .map(|(axis, value)| format!("{axis} {value:.4}"))
-        .collect();
+    let position = positions_text(&status.position, |axis, value| {
+        axis.index() < 3 || value != 0.0
+    });
     // Writing to a String does not fail.
-    let doing = status.state().map_or("", MachineState::text);
+    let doing = status.state_text().unwrap_or_default();
     let _ = writeln!(text, "{instance}: {state}, process {}", status.pid);
     let _ = writeln!(text, "  this is       {}", complete(doing));
     if let Some(fault) = status.fault_text() {
@@ -216,13 +229,16 @@ pub fn status_text(instance: &str, status: &Status) -> String {
         let remedy = complete(remedy(status).unwrap_or(HOW_TO_CLEAR));
         let _ = writeln!(text, "  to clear it   {remedy}");
     }
-    if let Some(awaited) = awaited_text(status) {
+    if let Some(awaited) = awaited_text(status, tool) {
         let _ = writeln!(text, "  awaits        {awaited}");
     }
     if let Some(job) = job_text(status) {
         let _ = writeln!(text, "  job           {job}");
     }
-    let _ = writeln!(text, "  position      {}", position.join("  "));
+    let _ = writeln!(text, "  position      {}", position);
+    if let Some(away) = away_text(status) {
+        let _ = writeln!(text, "  away          {away}");
+    }
     let _ = writeln!(text, "  power         {}", power_text(status));
     let _ = writeln!(
         text,

@@ -323,3 +323,64 @@ fn a_service_begins_in_the_system_that_was_chosen_meanwhile() {
     machine.object(&["offsets", "set", "G54", "X9"]);
     goes(&["mdi", "X0"], 9.0);
 }
+
+/// FANUC keeps its variables from #500 to #999, and so are they here, whatever the language.
+#[test]
+fn parameters_from_500_to_999_are_kept() {
+    let machine = Machine::new();
+    let x_and_y = |text: &str| {
+        let file = machine.file("asks.ngc", text);
+        let planned = machine.object(&["plan", &file]);
+        let end = &planned["final_position"];
+        [end["X"].as_f64().unwrap(), end["Y"].as_f64().unwrap()]
+    };
+    let asks = "G21 G90\nG0 X#500 Y[#499 + #999 + #1000]\nM2\n";
+    assert_eq!(x_and_y(asks), [0.0, 0.0]);
+    let sets = "G21 G90\n#500 = 7.5\n#499 = 1\n#1000 = 2\nG0 X1\n#999 = -3\nM2\n";
+    machine.execute(&[&machine.file("sets.ngc", sets)]);
+    assert_eq!(x_and_y(asks), [7.5, -3.0]);
+    // One that is not run keeps nothing, and 0 is as if nothing was assigned.
+    machine.object(&["plan", &machine.file("plans.ngc", "#500 = 1\nM2\n")]);
+    assert_eq!(x_and_y(asks), [7.5, -3.0]);
+    machine.execute(&[&machine.file("clears.ngc", "G21 G90\n#500 = 0\nG0 X1\nM2\n")]);
+    assert_eq!(x_and_y(asks), [0.0, -3.0]);
+    let fanuc = "%\nO1\nG21 G90\nIF [#501 EQ #0] GOTO 10\nG0 X100.\nN10 G0 Y#999\nM30\n%\n";
+    assert_eq!(x_and_y(fanuc), [0.0, -3.0]);
+}
+
+#[test]
+fn a_line_that_sets_up_what_will_be_lost_says_so() {
+    let machine = Machine::new();
+    let text = std::fs::read_to_string(machine.path("mill.toml")).unwrap();
+    let instance = format!("kept-lost-{}", std::process::id());
+    for keeps in [true, false] {
+        if !keeps {
+            machine.file("mill.toml", &text.replace("directory = \"state\"", ""));
+        }
+        let start = |args: &[&str]| {
+            let mut command = Command::new(env!("CARGO_BIN_EXE_glidepath"));
+            command.args(args).args(["--instance", &instance]);
+            command.arg("--config").arg(machine.path("mill.toml"));
+            command.stdout(Stdio::null()).stderr(Stdio::null());
+            Running(command.current_dir(machine.folder.path()).spawn().unwrap())
+        };
+        let _interpolator = start(&["interpolator", "--best-effort"]);
+        let _service = start(&["planner", "--listen"]);
+        let mdi = |line: &str| machine.glidepath(&["mdi", line, "--instance", &instance]);
+        let begun = std::time::Instant::now();
+        while !mdi("G21 G90").status.success() {
+            assert!(begun.elapsed().as_secs() < 120);
+            std::thread::sleep(std::time::Duration::from_millis(100));
+        }
+        for (line, sets_up) in [("G10 L20 P1 X0 Y5", true), ("G0 X1", false)] {
+            let output = mdi(line);
+            let told = String::from_utf8_lossy(&output.stdout).into_owned();
+            assert!(output.status.success(), "{output:?}");
+            assert_eq!(
+                told.contains("is lost when the planner ends"),
+                sets_up && !keeps,
+                "{told}"
+            );
+        }
+    }
+}

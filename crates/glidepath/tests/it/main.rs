@@ -25,5 +25,6 @@ mod spindle_axis;
 mod subroutines;
 #[path = "../support/mod.rs"]
 mod support;
+mod told_commands;
 mod travel;
 mod unchecked_loops;

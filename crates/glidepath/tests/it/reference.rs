@@ -8,8 +8,7 @@ use clap::{Arg, Command, CommandFactory as _};
 use clap_complete::Shell;
 use glidepath::cli::Cli;
 use glidepath::config::{self, keys};
-use glidepath::machine_options::MachineOptions;
-use glidepath_link::{CommandRefusal, FaultCause, MachineState, Objection};
+use glidepath_link::{AtRest, CommandRefusal, FaultCause, MachineState, Objection};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -290,9 +289,16 @@ fn states_faults_and_refusals_are_told_as_the_manual_has_them() {
         assert_eq!(set.len(), rows.len(), "{heading}: a row stands twice");
         set
     };
+    let row =
+        |state: MachineState, text: &str| vec![format!("`{}`", state.name()), text.to_owned()];
     let states = MachineState::ALL
         .iter()
-        .map(|state| vec![format!("`{}`", state.name()), state.text().to_owned()]);
+        .map(|state| row(*state, state.text()));
+    let at_rest = AtRest::ALL.iter().flat_map(|why| {
+        let states = why.states().iter();
+        states.map(|state| row(*state, why.text()))
+    });
+    let states = states.chain(at_rest);
     assert_eq!(columns("\n## States\n", &[0, 1]), states.collect());
     let faults =
         FaultCause::all().map(|cause| vec![cause.text().to_owned(), cause.remedy().to_owned()]);
@@ -307,38 +313,6 @@ fn states_faults_and_refusals_are_told_as_the_manual_has_them() {
     );
     // The one that is no objection.
     assert!(page.contains(CommandRefusal::Busy.text()));
-}
-
-#[test]
-fn commands_that_are_told_are_commands() {
-    let texts = MachineState::ALL.iter().map(|state| state.text());
-    let texts = texts.chain(FaultCause::all().flat_map(|cause| [cause.text(), cause.remedy()]));
-    let texts = texts.chain(Objection::ALL.iter().map(|why| why.text()));
-    let options = MachineOptions::new(Some(Path::new("a b.toml")), Some("mill"));
-    let mut count = 0;
-    for text in texts.map(|text| options.put_into(text)) {
-        for command in text
-            .split('`')
-            .filter(|part| part.starts_with("glidepath "))
-        {
-            let words = shlex(command);
-            let parsed = Cli::command().try_get_matches_from(&words);
-            assert!(parsed.is_ok(), "{command}: {parsed:?}");
-            count += 1;
-        }
-    }
-    assert!(count > 30, "{count}");
-}
-
-/// Words as a shell takes them, with quotes around those that have a space.
-fn shlex(command: &str) -> Vec<String> {
-    let mut parts = command.split('\'');
-    let mut words: Vec<String> = Vec::new();
-    while let Some(plain) = parts.next() {
-        words.extend(plain.split_whitespace().map(str::to_owned));
-        words.extend(parts.next().map(str::to_owned));
-    }
-    words
 }
 
 /// What is installed is the machine of the manual, which keeps its state.

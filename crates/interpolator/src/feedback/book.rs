@@ -50,6 +50,8 @@ pub(crate) struct DriveBook {
     pub(super) handover: u64,
     /// Where the axes were last, to choose among positions that belong to the same joints.
     pub(super) near: AxisVector,
+    /// Whether the mechanism can be where the drives say.
+    pub(super) has_pose: bool,
     pub(super) was_on: bool,
     /// Why joints did not come home, until that is told with the fault.
     pub(super) why: Option<(FaultCause, String)>,
@@ -94,6 +96,7 @@ impl DriveBook {
             search: DriveSearch::default(),
             handover: 0,
             near: config.start_position,
+            has_pose: true,
             was_on: false,
             why: None,
             ordered: false,
@@ -159,6 +162,7 @@ impl DriveBook {
         }
         let age_ns = self.age_ns(&joints, now_ns);
         let axes = self.mechanism.forward(&position, &self.near);
+        self.has_pose = axes.is_ok();
         if let Ok(axes) = axes {
             self.near = axes;
         }

@@ -96,6 +96,7 @@ impl DriveBook {
         let stale_ns = self.settings.stale_after.as_nanos();
         let is_fresh = u128::from(self.age_ns(&joints, now_ns)) <= stale_ns;
         refuse(is_fresh, Objection::NoPosition)?;
+        refuse(self.has_pose, Objection::NoPose)?;
         refuse(joints.fault == 0, Objection::DriveFault)
     }
 

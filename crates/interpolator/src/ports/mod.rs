@@ -23,7 +23,7 @@ use crate::stops::StopCause;
 use crate::told_by_hand;
 use glidepath_link::{
     Command, EndOfEpoch, FaultCause, LinkError, MachineState, Setpoint, SetpointFrame, Status,
-    Transport,
+    TOLD_TO_END, Transport,
 };
 use glidepath_realtime::{EventReader, Grants, Mode};
 use links::Links;
@@ -135,8 +135,12 @@ impl<'a> Ports<'a> {
         self.removed.as_ref()
     }
 
-    /// Asks the motion to end.
+    /// Asks the motion to end, because the process is to end, and says so.
     pub(crate) fn abort(&mut self) {
+        // Whoever was found no more has said why.
+        if self.removed.is_none() {
+            self.book.last_error(TOLD_TO_END);
+        }
         self.ends
             .orders
             .enqueue(Order::Command(Command::Abort))
@@ -423,7 +427,8 @@ impl<'a> Ports<'a> {
         self.clean_up_due_ns = now_ns + CLEAN_UP_NS;
         let dead = self.links.transport.clean_up_dead_peers()?;
         if dead > 0 {
-            (self.log)(&format!("cleaned up after {dead} dead process(es)"));
+            let ending = if dead == 1 { "" } else { "es" };
+            (self.log)(&format!("cleaned up after {dead} dead process{ending}"));
         }
         if self.removed.is_some() {
             return Ok(());

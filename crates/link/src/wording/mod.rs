@@ -6,15 +6,17 @@
 //! in backticks without instance and configuration, which only the process that shows them knows.
 
 mod amount;
+mod at_rest;
 mod fault;
 mod objection;
 mod printable;
 mod refusal;
 mod state;
 
+pub use at_rest::AtRest;
 pub use fault::FaultReport;
 pub use objection::Objection;
 pub(crate) use printable::in_one_line;
 pub use printable::{is_printable, printable};
 pub use refusal::refused;
-pub use state::{SWITCHED_OFF, StateChange};
+pub use state::{SWITCHED_OFF, StateChange, TOLD_TO_END};

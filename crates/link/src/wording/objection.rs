@@ -11,6 +11,10 @@ pub enum Objection {
     NoPathBack,
     /// A resume of what is not held.
     NothingHeld,
+    /// A resume at a feed override of 0 of what is not held.
+    NoFeed,
+    /// The same at a rapid override of 0.
+    NoRapid,
     /// A step of what is not held.
     NoStep,
     /// A stop at the end of a block without one.
@@ -33,6 +37,8 @@ pub enum Objection {
     PowerAsked,
     /// Power of drives that do not say where they are.
     NoPosition,
+    /// Power of drives that say a place that the mechanism cannot be at.
+    NoPose,
     /// Power of a drive with a fault.
     DriveFault,
     /// What changes where joints are, while something moves or may.
@@ -53,6 +59,8 @@ pub enum Objection {
     HomingAlready,
     /// A jog while the machine does something else.
     NoJogNow,
+    /// A jog while axes are moved by hand already.
+    ByHand,
     /// What would move the axes, asked for before the machine was stopped.
     StoppedSince,
     /// An answer to an event of an interpolator that has ended.
@@ -78,6 +86,8 @@ impl Objection {
         Self::JobHasMachine,
         Self::NoPathBack,
         Self::NothingHeld,
+        Self::NoFeed,
+        Self::NoRapid,
         Self::NoStep,
         Self::NoBlock,
         Self::Away,
@@ -89,6 +99,7 @@ impl Objection {
         Self::FaultLatched,
         Self::PowerAsked,
         Self::NoPosition,
+        Self::NoPose,
         Self::DriveFault,
         Self::NotAtRest,
         Self::NoSuchPosition,
@@ -99,6 +110,7 @@ impl Objection {
         Self::NoHome,
         Self::HomingAlready,
         Self::NoJogNow,
+        Self::ByHand,
         Self::StoppedSince,
         Self::OtherLife,
         Self::Answered,
@@ -121,6 +133,12 @@ impl Objection {
             }
             Self::NoPathBack => "no program runs, so there is no path to go back along",
             Self::NothingHeld => "nothing is held; `glidepath status` says what the machine does",
+            Self::NoFeed => {
+                "nothing is held, but the feed override is 0 %; `glidepath override 100` goes on"
+            }
+            Self::NoRapid => {
+                "nothing is held, but the rapid override is 0 %; `glidepath override --rapid 100` goes on"
+            }
             Self::NoStep => {
                 "nothing is held; a step goes on after a hold, a program stop or the end of a block"
             }
@@ -145,6 +163,10 @@ impl Objection {
             Self::FaultLatched => "a fault is latched; clear it first with `glidepath reset`",
             Self::PowerAsked => "the drives are on, or were asked to be",
             Self::NoPosition => "the drives do not say where they are; start the servo stack",
+            Self::NoPose => {
+                "the drives say where no pose of the mechanism is; tell where the joints are with \
+                 set-position, or mend the configuration"
+            }
             Self::DriveFault => "a drive reports a fault; mend that first",
             Self::NotAtRest => {
                 "the machine has to be at rest without a program; `glidepath abort` ends one"
@@ -162,6 +184,9 @@ impl Objection {
             Self::HomingAlready => "joints are on their way home; `glidepath abort` ends it",
             Self::NoJogNow => {
                 "axes are jogged while no program runs, or one is held; `glidepath hold` holds it"
+            }
+            Self::ByHand => {
+                "another client jogs, or the axes are on their way back to the path; ask again when they rest"
             }
             Self::OtherLife => "the interpolator was started again after that event",
             Self::Answered => "that event was answered already",

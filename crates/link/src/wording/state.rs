@@ -1,11 +1,14 @@
 //! States: their names, which scripts compare, and what the machine does in them.
 
-use crate::record::{EndOfEpoch, MachineState, MotionMode, Power};
+use super::AtRest;
+use crate::record::{EndOfEpoch, MachineState, MotionMode, Power, RecordError, Status};
 use core::fmt;
 
 /// What ended a motion, or a job, where an operator took the power from the drives. The status' last
 /// error has it for the motion that was ended so.
 pub const SWITCHED_OFF: &str = "the drives were switched off";
+/// The same where the interpolator was told to end.
+pub const TOLD_TO_END: &str = "the interpolator was told to end";
 
 impl MachineState {
     /// The name, as `status` and recordings have it.
@@ -37,7 +40,9 @@ impl MachineState {
         match self {
             Self::Idle => "at rest, ready for a program",
             Self::Running => "the program runs",
-            Self::Holding => "slowing down on the path for a hold",
+            Self::Holding => {
+                "slowing down on the path, for a hold, for an override of 0 %, or to turn round"
+            }
             Self::Held => "held at rest on the path; `glidepath resume` goes on",
             Self::Starving => {
                 "slowing down on the path, because the plan does not come fast enough"
@@ -62,6 +67,18 @@ impl MachineState {
             Self::NotHomed => "joints are not homed; `glidepath home` has them find where they are",
             Self::Preparing => "at rest; a job has the machine, and is read, checked and planned",
         }
+    }
+}
+
+impl Status {
+    /// What the machine does, with what of it the state alone does not tell.
+    ///
+    /// # Errors
+    ///
+    /// A state that this version does not know.
+    pub fn state_text(&self) -> Result<&'static str, RecordError> {
+        let state = self.state()?;
+        Ok(AtRest::of(state, self).map_or_else(|| state.text(), AtRest::text))
     }
 }
 

@@ -18,6 +18,7 @@ use crate::config::MachineConfig;
 use crate::exit::Exit;
 use crate::interrupt::Interrupt;
 use crate::output;
+use crate::report::decimals;
 use core::time::Duration;
 use glidepath_geometry::{AXES, Axis};
 use glidepath_link::{JogMode, MachineState};
@@ -283,7 +284,7 @@ impl<'m> Hand<'m> {
             .map(|(axis, value)| {
                 let is_at_end = is_at_end(self.config, *axis, *value);
                 let end = if is_at_end { " (end)" } else { "" };
-                format!("{axis} {value:.3}{end}")
+                format!("{axis} {}{end}", decimals(*value, 3))
             })
             .collect();
         let step = self

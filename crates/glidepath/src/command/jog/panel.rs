@@ -108,8 +108,8 @@ impl Panel {
             | MachineState::Starving
             | MachineState::Starved
             | MachineState::Stopping
-            | MachineState::Waiting
-            | MachineState::Jogging => Some(Objection::NoJogNow),
+            | MachineState::Waiting => Some(Objection::NoJogNow),
+            MachineState::Jogging => Some(Objection::ByHand),
         }
     }
 }

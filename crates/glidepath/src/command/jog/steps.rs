@@ -10,6 +10,7 @@ use crate::exit::Exit;
 use crate::interrupt::Interrupt;
 use crate::machine_options::complete;
 use crate::output;
+use crate::report::decimals;
 use core::time::Duration;
 use glidepath_geometry::{AXES, Axis};
 use glidepath_link::{JogMode, MachineState};
@@ -156,7 +157,7 @@ fn report(
     } else {
         let position: Vec<String> = end
             .iter()
-            .map(|(axis, value)| format!("{axis} {value:.4}"))
+            .map(|(axis, value)| format!("{axis} {}", decimals(*value, 4)))
             .collect();
         output::result(&format!(
             "jog: {state} at {}\n{}",

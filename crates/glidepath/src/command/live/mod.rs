@@ -300,6 +300,7 @@ impl Machine<'_> {
             instance: &self.instance,
             status: &status,
             auxiliary: self.auxiliary.as_ref(),
+            asked_tool: None,
             axes: &self.config.axis_names(),
             place,
             offsets: self.offsets.look(),
@@ -308,7 +309,7 @@ impl Machine<'_> {
         let period_t = self.config.period_t();
         #[allow(clippy::cast_precision_loss, reason = "counts of frames are exact")]
         let planned_t = planned as f64 * period_t;
-        let mut object = status_object(&self.instance, &status);
+        let mut object = status_object(&self.instance, &status, None);
         if let Value::Object(object) = &mut object {
             object.extend(view_object(&view));
             object.remove("events");

@@ -57,6 +57,7 @@ pub(super) fn record(args: &RecordArgs, config: &MachineConfig) -> Result<Exit, 
     let instance = session::instance(&args.operator.instance, config);
     let origin = origin(args, config, &instance)?;
     let mut source = Source::join(args, config)?;
+    output::note("record: ready; it records what the interpolator gives until it is ended");
     match args.ring {
         Some(length) => black_box(args, &origin, &mut source, length, &interrupt)?,
         None => to_file(args, &origin, &mut source, &interrupt)?,

@@ -7,6 +7,7 @@ use super::forecast::Forecast;
 use super::kept_offsets::KeptOffsets;
 use super::operator::{of_link, reach};
 use super::session;
+use super::tool_names::ToolNames;
 use crate::cli::StatusArgs;
 use crate::command::failure::Failure;
 use crate::config::MachineConfig;
@@ -51,6 +52,7 @@ pub(super) fn watch(args: &StatusArgs, config: &MachineConfig) -> Result<Exit, F
     let mut auxiliary = None;
     let as_json = args.operator.basic.json;
     let screen = Screen::new(as_json);
+    let names = ToolNames::new(config);
     let mut history = History::default();
     let mut offsets = KeptOffsets::new(config);
     let every = Duration::from_secs_f64(args.every);
@@ -71,17 +73,19 @@ pub(super) fn watch(args: &StatusArgs, config: &MachineConfig) -> Result<Exit, F
         let place = forecast
             .as_ref()
             .and_then(|forecast| forecast.place(&status));
+        let asked_tool = names.asked(&status, auxiliary.as_ref());
         let view = View {
             instance: &instance,
             status: &status,
             auxiliary: auxiliary.as_ref(),
+            asked_tool: asked_tool.clone(),
             axes: &config.axis_names(),
             place,
             offsets: offsets.look(),
             events: history.events(),
         };
         if as_json {
-            let mut object = status_object(&instance, &status);
+            let mut object = status_object(&instance, &status, asked_tool.as_ref());
             if let Value::Object(object) = &mut object {
                 object.extend(view_object(&view));
                 let active = active_program(&link, &status);

@@ -4,7 +4,7 @@ use super::seen::{View, clock};
 use crate::machine_options::complete;
 use crate::report::auxiliary::auxiliary_words;
 use crate::report::machine::{awaited_text, power_text};
-use crate::report::quantity::{counted, grouped};
+use crate::report::quantity::{counted, decimals, grouped};
 use crate::report::status::{adaptive_text, manner_text, remedy};
 use core::fmt::Write as _;
 use glidepath_geometry::AXES;
@@ -24,7 +24,7 @@ pub fn view_text(view: &View<'_>) -> String {
     let state = status.state().ok();
     let mut lines = Vec::new();
     let name = state.map_or("unknown", MachineState::name).to_uppercase();
-    let words = complete(state.map_or("", MachineState::text));
+    let words = complete(status.state_text().unwrap_or_default());
     lines.push(format!("{}   {name}   {words}", view.instance));
     if let Some(fault) = status.fault_text() {
         lines.push(format!("  FAULT     {fault}"));
@@ -56,7 +56,7 @@ pub fn view_text(view: &View<'_>) -> String {
     if !message.is_empty() {
         lines.push(format!("  says      {message}"));
     }
-    if let Some(awaited) = awaited_text(status) {
+    if let Some(awaited) = awaited_text(status, view.asked_tool.as_ref()) {
         lines.push(format!("  waits for {awaited}"));
     }
     lines.push(format!("  drives    {}", power_text(status)));
@@ -134,15 +134,16 @@ fn position_lines(view: &View<'_>, lines: &mut Vec<String>) {
     ));
     for axis in view.axes {
         let of = |values: &[f64; AXES]| values.get(axis.index()).copied().unwrap_or(0.0);
-        let mut line = format!("  {:<8}{:>14.4}", axis.to_string(), of(&status.position));
+        let number = |values: &[f64; AXES]| decimals(of(values), 4);
+        let mut line = format!("  {:<8}{:>14}", axis.to_string(), number(&status.position));
         match &work {
             Some((_, work)) => {
-                let _ = write!(line, "{:>14.4}", of(work));
+                let _ = write!(line, "{:>14}", number(work));
             }
             None => line.push_str(&" ".repeat(14)),
         }
         if is_away {
-            let _ = write!(line, "{:>14.4}", of(&status.away));
+            let _ = write!(line, "{:>14}", number(&status.away));
         }
         lines.push(line.trim_end().to_owned());
     }
@@ -254,6 +255,7 @@ mod tests {
                 origin,
                 rotation_deg: 0.0,
             }),
+            asked_tool: None,
             events: vec![(
                 Duration::from_secs(75),
                 "the program runs, line 1".to_owned(),

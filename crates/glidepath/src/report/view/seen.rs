@@ -1,5 +1,6 @@
 //! What is known of a machine that works.
 
+use crate::report::machine::AskedTool;
 use core::time::Duration;
 use glidepath_geometry::{AXES, Axis};
 use glidepath_link::{Auxiliary, Status};
@@ -55,6 +56,8 @@ pub struct View<'a> {
     pub status: &'a Status,
     /// What spindle, coolant and tool are to do; `None` if nobody said yet.
     pub auxiliary: Option<&'a Auxiliary>,
+    /// The tool that the machine waits for.
+    pub asked_tool: Option<AskedTool>,
     /// The machine's axes.
     pub axes: &'a [Axis],
     /// Where it is in the program; `None` if that is not known.

@@ -1,0 +1,26 @@
+//! How to go on with a program whose motion ended before it did.
+
+use crate::machine_options::resume;
+use glidepath_link::TOLD_TO_END;
+use glidepath_planner::{Publisher, RunError};
+use std::path::Path;
+
+/// Where a program was left, and the command that goes on with it; `None` where nothing of it was executed,
+/// or the interpolator that knows is no more.
+pub(super) fn told(
+    error: &RunError,
+    publisher: &Publisher<'_>,
+    (command, file): (&str, &Path),
+) -> Option<String> {
+    let is_known = match error {
+        RunError::Aborted | RunError::Fault(_) | RunError::Interrupted => true,
+        RunError::Ended { why } => why != TOLD_TO_END,
+        _ => false,
+    };
+    let point = publisher.resume_point().ok().filter(|_| is_known)?;
+    let line = publisher.line();
+    (point.block > 0 && line > 0).then(|| {
+        let command = resume(command, &file.display().to_string());
+        format!("it was left in line {line}, and {command} goes on from there")
+    })
+}
