@@ -155,18 +155,7 @@ impl Interpreter {
             self.state.cubic_tail = None;
         }
         if let Some(motion) = motion {
-            self.take_polar_words(block);
-            self.take_pole_words(block);
-            let mode = self.state.modal.path_mode;
-            if block.codes.exact_stop.is_some() {
-                self.state.modal.path_mode = PathMode::ExactStop;
-            }
-            let feed = self.take_block_feed(block)?;
-            self.motion(block, motion, out)?;
-            if let Some(feed) = feed {
-                self.state.modal.feed = feed;
-            }
-            self.state.modal.path_mode = mode;
+            self.move_with_own_words(block, motion, out)?;
         }
         let stop = block.codes.stop.map(|stop| stop.code);
         Ok(match stop {
@@ -185,6 +174,28 @@ impl Interpreter {
             }
             None => AfterBlock::Continue,
         })
+    }
+
+    /// The motion of a block, with its exact stop (G9) and its own feed (FB), which end with it.
+    fn move_with_own_words(
+        &mut self,
+        block: &Block,
+        motion: Motion,
+        out: &mut Vec<Item>,
+    ) -> Outcome<()> {
+        self.take_polar_words(block);
+        self.take_pole_words(block);
+        let mode = self.state.modal.path_mode;
+        if block.codes.exact_stop.is_some() {
+            self.state.modal.path_mode = PathMode::ExactStop;
+        }
+        let feed = self.take_block_feed(block)?;
+        self.motion(block, motion, out)?;
+        if let Some(feed) = feed {
+            self.state.modal.feed = feed;
+        }
+        self.state.modal.path_mode = mode;
+        Ok(())
     }
 
     /// The end of a program: as LinuxCNC does, the next one begins in G54.

@@ -33,6 +33,7 @@ pub(crate) mod motion;
 pub(crate) mod parameters;
 mod probing;
 pub(crate) mod program;
+mod program_view;
 mod reading;
 mod refused_block;
 mod remark;

@@ -3,7 +3,7 @@
 use std::io::BufRead;
 use std::sync::Arc;
 
-use glidepath_geometry::{AxisVector, Plane};
+use glidepath_geometry::Plane;
 use glidepath_program::Item;
 
 use crate::diagnostic::code::DiagnosticCode;
@@ -21,13 +21,8 @@ use crate::execute::lathe_cycle::open::OpenLatheCycle;
 use crate::execute::line_origin::{LineOrigin, SourceLine};
 use crate::execute::parameters::Parameters;
 use crate::execute::scope::ProgramScope;
-use crate::execute::state::modal::Modal;
-use crate::execute::state::words_in_force::words_in_force;
 use crate::setup::fanuc::FeedAtStart;
-use crate::setup::kept_variables::KeptVariables;
 use crate::setup::options::Options;
-use crate::setup::tool_table::ToolTable;
-use crate::setup::work_offsets::WorkOffsets;
 use crate::summary::remark::Remark;
 use crate::summary::totals::Totals;
 use crate::syntax::block::Block;
@@ -100,7 +95,7 @@ impl<R: BufRead> Program<R> {
         parameters.begin_with(&options.variables);
         let awaited = AwaitedCodes::new(&options.m_codes);
         let in_force = options.in_force.clone();
-        let fanuc = options.fanuc;
+        let feed = options.fanuc.feed_at_start;
         let mut program = Self {
             source: LineSource::new(reader),
             interpreter: Interpreter::new(options),
@@ -129,31 +124,35 @@ impl<R: BufRead> Program<R> {
             keeps_remarks: false,
             remarks: Vec::new(),
         };
-        if program.block.dialect == Dialect::Fanuc {
-            // Parameter 3402#0: G0 at power on.
-            let modal = &mut program.interpreter.state.modal;
-            modal.motion = Some(Motion::Rapid);
-            if program.block.is_lathe {
-                // X words are diameters, the plane is that of G18.
-                (modal.diameter, modal.plane) = (true, Plane::Zx);
-                let feed_mode = match fanuc.feed_at_start {
-                    FeedAtStart::Unsaid => None,
-                    FeedAtStart::PerMinute => Some(FeedMode::PerMinute),
-                    FeedAtStart::PerRevolution => Some(FeedMode::PerRevolution),
-                };
-                modal.feed_mode = feed_mode.unwrap_or(modal.feed_mode);
-                let is_unsaid = modal.feed.is_none() && feed_mode.is_none();
-                program.interpreter.state.fanuc.is_feed_unsaid = is_unsaid;
-            }
-        }
-        if program.block.dialect == Dialect::Siemens {
-            // MD 20150: G1 at power on.
-            program.interpreter.state.modal.motion = Some(Motion::Linear);
-        }
+        program.power_on(feed);
         if let Some(in_force) = in_force {
             program.begin_with(&in_force);
         }
         program
+    }
+
+    /// What is in force when a control of the dialect is switched on, where that is other than LinuxCNC's.
+    fn power_on(&mut self, feed: FeedAtStart) {
+        let state = &mut self.interpreter.state;
+        let modal = &mut state.modal;
+        match self.block.dialect {
+            // MD 20150: G1.
+            Dialect::Siemens => modal.motion = Some(Motion::Linear),
+            // Parameter 3402#0: G0.
+            Dialect::Fanuc => modal.motion = Some(Motion::Rapid),
+            Dialect::LinuxCnc | Dialect::Marlin => {}
+        }
+        if self.block.is_lathe {
+            // X words are diameters, the plane is that of G18.
+            (modal.diameter, modal.plane) = (true, Plane::Zx);
+            let feed_mode = match feed {
+                FeedAtStart::Unsaid => None,
+                FeedAtStart::PerMinute => Some(FeedMode::PerMinute),
+                FeedAtStart::PerRevolution => Some(FeedMode::PerRevolution),
+            };
+            modal.feed_mode = feed_mode.unwrap_or(modal.feed_mode);
+            state.fanuc.is_feed_unsaid = modal.feed.is_none() && feed_mode.is_none();
+        }
     }
 
     /// The same program, of lines that come one after the other, as somebody sends them. Where the reader gives
@@ -218,75 +217,6 @@ impl<R: BufRead> Program<R> {
         // CT of SINUMERIK goes on in the direction of the move before it.
         self.interpreter.only_judges = self.block.dialect != Dialect::Siemens;
         self
-    }
-
-    /// True where G41 or G42 is in force.
-    #[must_use]
-    pub const fn is_on_contour(&self) -> bool {
-        self.interpreter.state.on_contour || self.interpreter.state.leaving_contour
-    }
-
-    /// Modal state after the last block read.
-    #[must_use]
-    pub const fn modal(&self) -> &Modal {
-        &self.interpreter.state.modal
-    }
-
-    /// Machine position after the last block read.
-    #[must_use]
-    pub const fn position(&self) -> &AxisVector {
-        self.interpreter.axes_place()
-    }
-
-    /// How many times coordinate systems, reference positions, the offset of G92, tools, or parameters that
-    /// outlast a restart were changed so far.
-    #[must_use]
-    pub const fn changes(&self) -> u64 {
-        self.interpreter.changes + self.parameters.changes()
-    }
-
-    /// What is in the parameters that outlast a restart after the last block read.
-    #[must_use]
-    pub fn kept_variables(&self) -> KeptVariables {
-        self.parameters.kept()
-    }
-
-    /// Coordinate systems, reference positions and the offset of G92 after the last block read.
-    #[must_use]
-    pub const fn work_offsets(&self) -> WorkOffsets {
-        self.interpreter.offsets.set_up()
-    }
-
-    /// The tool table after the last block read, with what G10 has made of it.
-    #[must_use]
-    pub const fn tools(&self) -> Option<&Arc<ToolTable>> {
-        self.interpreter.tools.as_ref()
-    }
-
-    /// The codes and words in force after the last block read, as a line would say them: motion, coordinate
-    /// system, plane, units, distance and feed mode, spindle, coolant, tool, feed and speed.
-    #[must_use]
-    pub fn words_in_force(&self) -> String {
-        words_in_force(&self.interpreter.state, &self.interpreter.offsets)
-    }
-
-    /// Where the program's zero is in machine coordinates after the last block read, with all offsets, that of
-    /// the tool, too.
-    #[must_use]
-    pub fn zero(&self) -> AxisVector {
-        self.interpreter.offsets.to_machine(AxisVector::zeros())
-    }
-
-    /// The offset of the tool (G43) after the last block read.
-    #[must_use]
-    pub const fn tool_offset(&self) -> &AxisVector {
-        &self.interpreter.offsets.tool
-    }
-
-    /// Tool in the spindle after the last block read; 0: none.
-    #[must_use]
-    pub const fn tool(&self) -> u32 {
-        self.interpreter.state.tool
     }
 
     /// Items of the line read last.

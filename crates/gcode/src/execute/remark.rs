@@ -10,7 +10,7 @@ use crate::syntax::expression::scope::Scope;
 use crate::syntax::expression::value::value;
 
 /// Remarks that are kept until they are taken.
-pub(crate) const MOST: usize = 256;
+pub(crate) const MOST_REMARKS: usize = 256;
 
 impl<R: BufRead> Program<R> {
     /// The same program, which keeps its remarks until they are taken.
@@ -27,7 +27,7 @@ impl<R: BufRead> Program<R> {
 
     /// Keeps what the comment of the block says, if it says anything.
     pub(crate) fn remark(&mut self, number: u32) {
-        if !self.keeps_remarks || self.remarks.len() >= MOST {
+        if !self.keeps_remarks || self.remarks.len() >= MOST_REMARKS {
             return;
         }
         let comment = self.block.comment.trim_ascii();

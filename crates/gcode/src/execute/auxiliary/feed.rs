@@ -99,7 +99,8 @@ impl Interpreter {
         }
     }
 
-    /// FB: the feed of the block's own move. What was in force before, where there is such a word.
+    /// Puts the feed of FB in force for the block's own move; gives the feed from before it, where the
+    /// block has FB.
     pub(crate) fn take_block_feed(&mut self, block: &Block) -> Outcome<Option<Option<Feed>>> {
         let own = self.named_feed(block, Named::BlockFeed)?;
         let before = self.state.modal.feed;

@@ -190,7 +190,7 @@ fn check_elements(block: &Block, profile: &LatheProfile) -> Outcome<()> {
     let (message, help) = if profile.is_open() {
         (
             "a fillet or chamfer at the end of the profile",
-            "remove A or C there",
+            "remove its word there, or draw one element more",
         )
     } else if profile.elements.is_empty() {
         (

@@ -1,5 +1,5 @@
-//! Words of FANUC that mean what words with longer names mean: on a lathe R, C, I, K and A what the same
-//! words behind a comma mean, behind G43.5 I, J and K the direction of the tool.
+//! Words of FANUC that stand for others: on a lathe R, C, I, K and A of G1 for those behind a comma, behind
+//! G43.5 I, J and K for the direction of the tool.
 
 use glidepath_geometry::Axis;
 

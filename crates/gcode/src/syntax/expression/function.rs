@@ -13,8 +13,9 @@ pub(crate) enum Function {
     Acos,
     Asin,
     Atan,
-    /// From decimal digits in groups of four bits, and to them.
+    /// BIN: the number that groups of four bits write as decimal digits.
     FromDecimal,
+    /// BCD: the way back.
     ToDecimal,
     Cos,
     Exists,

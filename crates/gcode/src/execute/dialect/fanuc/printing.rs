@@ -15,7 +15,7 @@ use crate::diagnostic::span::SourceSpan;
 use crate::execute::dialect::fanuc::variables::is_common;
 use crate::execute::parameters::place_of_name;
 use crate::execute::program::Program;
-use crate::execute::remark::MOST;
+use crate::execute::remark::MOST_REMARKS;
 use crate::summary::remark::{Remark, RemarkKind};
 use crate::syntax::cursor::Cursor;
 use crate::syntax::expression::scope::Parameter;
@@ -31,7 +31,7 @@ impl<R: BufRead> Program<R> {
     /// DPRNT, from its bracket on.
     pub(super) fn fanuc_print(&mut self, text: &[u8], at: usize) -> Outcome<()> {
         let printed = self.printed(text, at)?;
-        if self.keeps_remarks && self.remarks.len() < MOST {
+        if self.keeps_remarks && self.remarks.len() < MOST_REMARKS {
             self.remarks.push(Remark {
                 line: self.line_of_program(),
                 kind: RemarkKind::Debug,

@@ -32,7 +32,7 @@ impl Interpreter {
         Some(match (name, index) {
             (b"$P_EP" | b"$AA_IW", _) => coordinate(self, axis?.index()),
             (b"$AA_IM", _) => in_units(self, self.state.position, axis?.index()),
-            // What words of a line mean, which no program reads.
+            // Asked for where a line is rewritten; no program can name these.
             (b"DIAM90", _) => f64::from(u8::from(self.state.diameter_by_distance)),
             (b"AP", _) => self.state.pole.degrees.unwrap_or(0.0),
             (b"RP", _) => self.state.pole.radius_mm.unwrap_or(0.0) / modal.units.mm(),

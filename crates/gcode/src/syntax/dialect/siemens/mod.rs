@@ -27,6 +27,7 @@ mod coordinate;
 pub(crate) mod expression;
 pub(crate) mod frame_word;
 mod function;
+mod literal;
 mod marks;
 mod operator;
 mod refused_word;
