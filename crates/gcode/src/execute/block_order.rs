@@ -232,7 +232,7 @@ impl Interpreter {
     ) -> Outcome<()> {
         if block.dialect != Dialect::LinuxCnc {
             self.check_open_tap(block, motion)?;
-            check_named_words(block, motion)?;
+            check_named_words(block, motion, self.state.rounds_mm > 0.0)?;
             self.settle_line(block, motion, out)?;
         }
         self.settle_corner(block, motion, out)?;

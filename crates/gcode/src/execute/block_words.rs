@@ -230,18 +230,24 @@ pub(crate) fn check_words(block: &Block, motion: Option<Motion>) -> Outcome<()> 
     Ok(())
 }
 
-/// Refuses a word with a longer name than a letter that nothing in its block uses.
-pub(crate) fn check_named_words(block: &Block, motion: Option<Motion>) -> Outcome<()> {
+/// Refuses a word with a longer name than a letter that nothing in its block uses; `rounds_all` where all
+/// corners are rounded.
+pub(crate) fn check_named_words(
+    block: &Block,
+    motion: Option<Motion>,
+    rounds_all: bool,
+) -> Outcome<()> {
     let sets_pole = block
         .codes
         .non_modal
         .is_some_and(|code| matches!(code.code, NonModal::SetPole(_)));
     let is_arc = motion.is_some_and(Motion::is_arc);
     let is_straight = matches!(motion, Some(Motion::Rapid | Motion::Linear));
+    let goes_at_feed = is_arc || motion == Some(Motion::Linear);
     let takes = |word: Named| match word {
         Named::SpeedLimit | Named::SpindleAngle | Named::CornerFeeds => true,
-        Named::BlockFeed => is_arc || motion == Some(Motion::Linear),
-        Named::CornerFeed => block.corner.is_some(),
+        Named::BlockFeed => goes_at_feed,
+        Named::CornerFeed => block.corner.is_some() || rounds_all && goes_at_feed,
         Named::PolarRadius | Named::PolarAngle => is_arc || is_straight || sets_pole,
         Named::ArcAngle => is_arc,
         Named::LineAngle => motion == Some(Motion::Linear),

@@ -176,7 +176,8 @@ impl Interpreter {
         self.has_judged = false;
     }
 
-    /// Gives out an item, in order with the moves cutter radius compensation still holds back.
+    /// Gives out an item, in order with the moves that a corner and cutter radius compensation still hold
+    /// back.
     #[inline]
     pub(crate) fn push(&mut self, out: &mut Vec<Item>, kind: ItemKind) {
         let item = Item {
@@ -184,6 +185,14 @@ impl Interpreter {
             line: self.line,
             kind,
         };
+        match &mut self.corner {
+            Some(corner) => corner.behind.push(item),
+            None => self.give(item, out),
+        }
+    }
+
+    /// Gives out an item behind those of the moves that are known.
+    pub(crate) fn give(&mut self, item: Item, out: &mut Vec<Item>) {
         match &mut self.compensation {
             Some(compensation) => compensation.push_item(item, out),
             None => out.push(item),

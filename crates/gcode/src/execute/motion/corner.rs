@@ -15,9 +15,12 @@ use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::corner_geometry::broken;
 use crate::execute::motion::settled::MIN_MOVE;
 use crate::execute::motion::speed::Pace;
+use crate::execute::motion::tangent_arc::direction_behind;
 use crate::execute::state::open_corner::OpenCorner;
 use crate::syntax::block::{Block, CornerKind, CornerWord};
-use crate::syntax::modes::Motion;
+use crate::syntax::dialect::Dialect;
+use crate::syntax::letters::Letters;
+use crate::syntax::modes::{FeedMode, Motion};
 
 /// A move in the plane that begins where the tool is, or at a corner.
 #[derive(Debug, Clone, Copy)]
@@ -49,13 +52,48 @@ impl Interpreter {
             motion,
             Some(Motion::Linear | Motion::ArcClockwise | Motion::ArcCounterclockwise)
         );
-        if is_move && block.codes.non_modal.is_none() {
+        let changes_path = self.changes_path(block);
+        if is_move && block.codes.non_modal.is_none() && !changes_path {
             return Ok(());
         }
-        if !corner.may_stay {
-            return Err(no_second_move(block.first_span()));
+        if corner.may_stay {
+            return self.leave_corner(block, out);
         }
-        self.leave_corner(block, out)
+        Err(if is_move && changes_path {
+            changed_between(block.first_span())
+        } else {
+            no_second_move(block.first_span())
+        })
+    }
+
+    /// True for a block that puts another tool, or another way to follow the path, in force: the two moves
+    /// of a corner have to have the same.
+    fn changes_path(&self, block: &Block) -> bool {
+        let codes = &block.codes;
+        let changes_tool = codes.tool_change.is_some()
+            || block.dialect != Dialect::LinuxCnc && block.has_any(Letters::of(b"TDH"));
+        let changes_speed = codes.spindle_mode.is_some() || block.get(b'S').is_some();
+        let counts_turns = self.state.modal.feed_mode == FeedMode::PerRevolution;
+        changes_tool
+            || codes.cutter_radius.is_some()
+            || codes.tool_length.is_some()
+            || codes.tip.is_some()
+            || codes.tilt.is_some()
+            || codes.dynamic.is_some()
+            || changes_speed && (counts_turns || self.state.spindle.follows_tool())
+    }
+
+    /// Before what is no block: a corner has its second move, or stays.
+    pub(crate) fn settle_corner_before(
+        &mut self,
+        block: &Block,
+        span: SourceSpan,
+        out: &mut Vec<Item>,
+    ) -> Outcome<()> {
+        match &self.corner {
+            Some(corner) if !corner.may_stay => Err(no_second_move(span)),
+            _ => self.leave_corner(block, out),
+        }
     }
 
     /// Makes the move to a corner that stays as it is.
@@ -63,15 +101,15 @@ impl Interpreter {
         let Some(corner) = self.corner.take() else {
             return Ok(());
         };
-        self.make_held(block, &corner, corner.at, corner.arc, out)
+        self.make_held(block, &corner, corner.at, corner.arc, out)?;
+        // CT goes on in its direction.
+        self.tangent = direction_behind(out).or(self.tangent);
+        Ok(())
     }
 
     /// The end of the program: a corner has to have its second move.
     pub(crate) fn end_corner(&mut self, block: &Block, out: &mut Vec<Item>) -> Outcome<()> {
-        match &self.corner {
-            Some(corner) if !corner.may_stay => Err(no_second_move(SourceSpan::default())),
-            _ => self.leave_corner(block, out),
-        }
+        self.settle_corner_before(block, SourceSpan::default(), out)
     }
 
     /// A move of G1, G2 or G3: breaks the corner it begins at, and holds the move if its end is one.
@@ -81,12 +119,22 @@ impl Interpreter {
         mut next: CornerMove,
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
-        if let Some(corner) = self.corner.take() {
-            self.break_corner(block, &corner, &mut next, out)?;
+        let is_timed = self.state.modal.feed_mode == FeedMode::InverseTime;
+        match self.corner.take() {
+            Some(corner) if is_timed && corner.may_stay => {
+                self.make_held(block, &corner, corner.at, corner.arc, out)?;
+            }
+            Some(_) if is_timed => return Err(timed(block.motion_span())),
+            Some(corner) => self.break_corner(block, &corner, &mut next, out)?,
+            None => {}
         }
         let corner_feed = self.corner_feed(block)?;
         let CornerMove { target, arc } = next;
-        let Some((kind, size_mm, may_stay)) = self.corner_word(block) else {
+        let word = self.corner_word(block);
+        if let Some((_, _, false)) = word.filter(|_| is_timed) {
+            return Err(timed(block.motion_span()));
+        }
+        let Some((kind, size_mm, may_stay)) = word.filter(|_| !is_timed) else {
             return self.make_move(block, target, arc, out);
         };
         self.corner = Some(Box::new(OpenCorner {
@@ -95,10 +143,11 @@ impl Interpreter {
             arc,
             kind,
             size_mm,
-            feed: self.state.modal.feed,
+            modal: self.state.modal,
             corner_feed,
             line: self.line,
             may_stay,
+            behind: Vec::new(),
         }));
         self.state.position = target;
         Ok(())
@@ -125,7 +174,7 @@ impl Interpreter {
         }
     }
 
-    /// The held move up to a place on its way.
+    /// The held move up to a place on its way, and what comes behind it.
     fn make_held(
         &mut self,
         block: &Block,
@@ -134,14 +183,18 @@ impl Interpreter {
         arc: Option<([f64; 2], f64)>,
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
-        let (line, feed) = (self.line, self.state.modal.feed);
+        let (line, modal) = (self.line, self.state.modal);
         self.line = corner.line;
-        self.state.modal.feed = corner.feed;
+        self.state.modal = corner.modal;
         self.state.position = corner.from;
         let made = self.make_move(block, place, arc, out);
-        self.state.modal.feed = feed;
+        self.state.modal = modal;
         self.line = line;
-        made
+        made?;
+        for item in &corner.behind {
+            self.give(*item, out);
+        }
+        Ok(())
     }
 
     fn break_corner(
@@ -248,6 +301,22 @@ fn no_second_move(span: SourceSpan) -> Box<Fault> {
     Fault::new(DiagnosticCode::NotSupported, span, message)
         .because("the word in the block before counts between two moves of G1, G2 and G3")
         .help("write the moves one behind the other, or write the chamfer or arc out")
+}
+
+#[cold]
+fn changed_between(span: SourceSpan) -> Box<Fault> {
+    let message = "a corner that is broken in front of another tool, compensation or spindle speed";
+    Fault::new(DiagnosticCode::NotSupported, span, message)
+        .because("both moves of a corner have to be made with the same")
+        .help("write the change into the block before the corner, or write the chamfer or arc out")
+}
+
+#[cold]
+fn timed(span: SourceSpan) -> Box<Fault> {
+    let message = "a corner that is broken with a feed that is a time (G93)";
+    Fault::new(DiagnosticCode::NotSupported, span, message)
+        .because("the time of a block is of its move, and the corner has none of its own")
+        .help("write G94 or G95 before both moves, or write the chamfer or arc out")
 }
 
 #[cold]

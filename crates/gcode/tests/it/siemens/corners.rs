@@ -2,10 +2,10 @@
 //! ones. Values are computed by hand.
 
 use glidepath_geometry::Segment;
-use glidepath_program::Rate;
+use glidepath_program::{Event, ItemKind, PathMode, Rate};
 use proptest::prelude::*;
 
-use super::{ends, finds, moves, xs};
+use super::{ends, finds, items, moves, xs};
 
 fn near(a: [f64; 2], b: [f64; 2]) -> bool {
     (a[0] - b[0]).hypot(a[1] - b[1]) < 1e-6
@@ -99,16 +99,18 @@ proptest! {
     }
 }
 
+/// Feeds of the moves, mm/min.
+fn rates(text: &str) -> Vec<f64> {
+    let all = moves(text).into_iter();
+    all.map(|(_, rate, _)| match rate {
+        Rate::Feed(feed_v) => (feed_v * 60.0).round(),
+        _ => 0.0,
+    })
+    .collect()
+}
+
 #[test]
 fn corners_and_blocks_have_feeds_of_their_own() {
-    let rates = |text: &str| -> Vec<f64> {
-        let all = moves(text).into_iter();
-        all.map(|(_, rate, _)| match rate {
-            Rate::Feed(feed_v) => (feed_v * 60.0).round(),
-            _ => 0.0,
-        })
-        .collect()
-    };
     assert_eq!(
         rates("F600\nG1 X20 CHR=2 FRC=100\nY20\nX0"),
         [600.0, 100.0, 600.0, 600.0]
@@ -118,6 +120,10 @@ fn corners_and_blocks_have_feeds_of_their_own() {
         [600.0, 100.0, 600.0, 100.0, 600.0, 600.0, 600.0]
     );
     assert_eq!(rates("F600\nG1 X20 FB=100\nY20"), [100.0, 600.0]);
+    assert_eq!(
+        rates("RNDM=2\nF600\nG1 X20 FRC=100\nY20\nX0"),
+        [600.0, 100.0, 600.0, 600.0, 600.0]
+    );
     finds("F600\nG1 X20 FRC=100", &["2:8 unused-word"]);
     finds("F600\nG0 X20 FB=100", &["2:8 unused-word"]);
     finds("F600\nG1 X20 FB=0", &["2:8 bad-feed"]);
@@ -160,4 +166,80 @@ fn corners_of_cycles_stay() {
         .filter(|(segment, ..)| matches!(segment, Segment::Arc(_)));
     assert_eq!(arcs.count(), 1);
     assert!(ends(text).contains(&[0.0, 0.0, -10.0]) && ends(text).contains(&[8.0, 0.0, 20.0]));
+}
+
+#[test]
+fn the_move_to_a_corner_has_the_modes_of_its_own_block() {
+    // 600 mm/min up to the corner, 2 mm a turn of 120 a minute from there on.
+    assert_eq!(
+        rates("S120 M3\nG1 X20 F600 RND=2\nG95 Y20 F2"),
+        [600.0, 240.0, 240.0]
+    );
+    let modes = |text: &str| -> Vec<PathMode> {
+        let all = moves(text).into_iter();
+        all.map(|(_, _, mode)| mode).collect()
+    };
+    let on = PathMode::Continuous { tolerance_mm: None };
+    let stop = PathMode::ExactStop;
+    assert_eq!(modes("G60 G1 X20 F600 RND=2\nG64 Y20"), [stop, on, on],);
+    // A time is of one move, and a corner has none.
+    finds("G93 G1 X20 F60 RND=2\nY20 F60", &["1:5 not-supported"]);
+    finds("G1 X20 F600 RND=2\nG93 G1 Y20 F60", &["2:5 not-supported"]);
+    assert_eq!(moves("RNDM=2\nG93 G1 X20 F60\nY20 F60").len(), 2);
+    assert_eq!(moves("RNDM=2\nG1 X20 F600\nG93 Y20 F60").len(), 2);
+}
+
+/// Codes, and the ends of moves, in order.
+fn codes_and_ends(text: &str) -> Vec<String> {
+    let round = |value: f64| (value * 1e3).round() / 1e3 + 0.0;
+    let all = items(text).into_iter();
+    all.filter_map(|item| match item.kind {
+        ItemKind::Move { segment, .. } => {
+            let end = segment.end();
+            Some(format!("{} {}", round(end[0]), round(end[1])))
+        }
+        ItemKind::Event(Event::MCode(code) | Event::PassingCode(code)) => Some(format!("M{code}")),
+        _ => None,
+    })
+    .collect()
+}
+
+#[test]
+fn codes_of_the_second_block_come_behind_the_first_move() {
+    assert_eq!(
+        codes_and_ends("G1 X20 F600 RND=2 M8\nY20 M9"),
+        ["M8", "18 0", "M9", "20 2", "20 20"]
+    );
+    assert_eq!(
+        codes_and_ends("RNDM=2\nG1 X20 F600\nY20 M9"),
+        ["18 0", "M9", "20 2", "20 20"]
+    );
+    // Beside the contour, too: 3 mm to the left of it.
+    let text = "T6 M6\nG41 G1 X10 Y10 F600\nX30 RND=5\nY30 M9\nG40 X50";
+    let found = codes_and_ends(text);
+    let at = found.iter().position(|it| it == "M9").expect("M9");
+    assert_eq!(found[at - 1], "25 13", "{found:?}");
+}
+
+#[test]
+fn both_moves_of_a_corner_are_made_with_the_same() {
+    for (second, place) in [
+        ("G41 Y20", "3:5"),
+        ("G1 Y20 D1", "3:1"),
+        ("Y20 T1 M6", "3:1"),
+    ] {
+        let text = format!("T2 M6\nG1 X20 F600 RND=2\n{second}");
+        finds(&text, &[&format!("{place} not-supported")]);
+    }
+    finds(
+        "S100 M3 G95 F1\nG1 X20 RND=2\nS200 Y20",
+        &["3:1 not-supported"],
+    );
+    assert_eq!(
+        flat("T2 M6\nRNDM=2\nG1 X20 F600\nY20 D0"),
+        [[20.0, 0.0], [20.0, 20.0]]
+    );
+    // CT goes on in the direction of the move that it leaves as it is.
+    let round = moves("RNDM=1\nG1 X10 F600\nCT X20 Y10");
+    assert!(matches!(round[1].0, Segment::Arc(_)), "{round:?}");
 }
