@@ -15,7 +15,7 @@ use crate::execute::motion::settled::{MIN_MOVE, settled};
 use crate::setup::threading::{SPEED_RESERVE, Threading};
 use crate::syntax::block::Block;
 use crate::syntax::dialect::Dialect;
-use crate::syntax::word_check::missing;
+use crate::syntax::word_check::{missing, unused};
 
 /// A straight part of a pass: where it ends, in machine coordinates, and how far it goes with each
 /// revolution, mm.
@@ -42,6 +42,11 @@ impl Interpreter {
             let meaning = "the way of a revolution along the thread";
             return Err(missing(span, "G33", &name.to_string(), meaning));
         };
+        if block.dialect == Dialect::Siemens
+            && let Some(second) = second_lead(block, letter)
+        {
+            return Err(unused(char::from(second), block.span(second)));
+        }
         // F of a SINUMERIK is that of the moves that follow.
         if block.dialect != Dialect::Siemens && block.get(other).is_some() {
             let message = format!("G33 with {}", char::from(other));
@@ -250,13 +255,19 @@ impl Interpreter {
     }
 }
 
+/// The letters that a SINUMERIK's thread has its lead in.
+const LEADS: [u8; 3] = *b"KIJ";
+
 /// The lead of a SINUMERIK's thread: I, J or K, by the axis that goes further.
 fn lead_letter(block: &Block) -> u8 {
-    let written = [b'K', b'I', b'J'];
-    let found = written
-        .into_iter()
-        .find(|letter| block.get(*letter).is_some());
+    let found = LEADS.into_iter().find(|it| block.get(*it).is_some());
     found.unwrap_or(b'K')
+}
+
+/// A lead beside the one that counts.
+fn second_lead(block: &Block, counts: u8) -> Option<u8> {
+    let is_second = |it: &u8| *it != counts && block.get(*it).is_some();
+    LEADS.into_iter().find(is_second)
 }
 
 #[cold]

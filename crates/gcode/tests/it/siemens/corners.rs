@@ -143,7 +143,25 @@ fn blocks_have_the_forms_of_the_control() {
     assert_eq!(xs("S1=500 M1=3\nSETMS(1)\nG0 X5"), [5.0]);
     assert_eq!(xs("ACC[X]=50\nLFON\nTRAFOOF()\nG0 X5"), [5.0]);
     finds("S2=500", &["1:1 not-supported"]);
+    finds("VELOLIM[X]=50", &["1:1 not-supported"]);
     finds("SETMS(2)", &["1:1 not-supported"]);
+    // What is computed is a code of this language, too, and what names become is no text of it.
+    assert_eq!(xs("R1=30\nG0 X5\nM=R1\nX9"), [5.0]);
+    for (text, place) in [
+        ("G=28 X5", "1:1 not-supported"),
+        ("G=92 X5", "1:1 not-supported"),
+        ("M=60", "1:1 not-supported"),
+        ("M1=62", "1:1 not-supported"),
+        ("M=3.5", "1:1 unknown-m-code"),
+        ("G4 P=5", "1:4 unknown-word"),
+        ("G2 X5 Y5 R=5", "1:10 unknown-word"),
+        ("G0 X10 ,M5", "1:8 bad-character"),
+        ("G97 S500 M3 ,S300", "1:13 bad-character"),
+        ("G1 X10,Y5", "1:7 bad-character"),
+    ] {
+        finds(text, &[place]);
+    }
+    finds("G0 X1,5", &["1:5 malformed-number"]);
     // The angle of this spindle is not known, but it is this one's.
     finds("SPOS[1]=90", &["1:1 not-connected"]);
     finds("SPOS[2]=90", &["1:1 not-supported"]);

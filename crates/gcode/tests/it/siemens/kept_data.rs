@@ -30,6 +30,7 @@ fn g58_and_g59_are_the_parts_of_trans() {
     assert_eq!(turned, [[20.0, 1.0, 0.0]]);
     finds("AROT RPL=90\nATRANS X5\nG58 X1", &["3:1 not-supported"]);
     finds("G58", &["1:1 missing-word"]);
+    finds("G58 X900000000", &["1:1 invalid-value"]);
     finds("G0 G58 X5", &["1:4 unused-word"]);
 }
 

@@ -91,6 +91,16 @@ fn increments_and_diameters_go_together() {
     ] {
         assert_eq!(last(&format!("{at_10}{words}")), radius, "DIAM90 {words}");
     }
+    // What the line itself says of diameters counts.
+    let at_10 = "G18\nG0 X10 Z0\n";
+    for (words, radius) in [
+        ("DIAMON X=IC(10)", 15.0),
+        ("DIAMON X=RAC(10)", 10.0),
+        ("DIAM90 X=IC(10)", 20.0),
+    ] {
+        assert_eq!(last(&format!("{at_10}{words}")), radius, "{words}");
+    }
+    assert_eq!(last("G18 DIAMON\nG0 X20 Z0\nDIAMOF X=IC(10)"), 20.0);
     finds("G18 DIAMON\nG0 Z=DAC(3)", &["2:6 invalid-value"]);
 }
 

@@ -11,7 +11,7 @@ use glidepath_geometry::AxisVector;
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
-use crate::execute::dialect::siemens::frames::FrameValue;
+use crate::execute::dialect::siemens::frames::{FrameValue, check_shift};
 use crate::execute::dialect::siemens::steps::ShiftParts;
 use crate::execute::program::Program;
 use crate::execute::state::frame::Frame;
@@ -75,7 +75,7 @@ impl<R: BufRead> Program<R> {
             return Err(missing(name, code, "an axis", "whose offset it is"));
         }
         let is_tilted = self.interpreter.offsets.tilted.is_in_force();
-        let Some(parts) = self.shift_parts().filter(|_| !is_tilted) else {
+        let Some(mut parts) = self.shift_parts().filter(|_| !is_tilted) else {
             let message =
                 format!("{code} in a frame whose shift was turned, or that is not its own");
             return Err(Fault::new(DiagnosticCode::NotSupported, name, message)
@@ -83,7 +83,6 @@ impl<R: BufRead> Program<R> {
                 .help("write TRANS and what is to be in force anew"));
         };
         let to = self.shift(&values)?.shift;
-        let mut parts = parts;
         let part = if is_fine {
             &mut parts.fine
         } else {
@@ -96,8 +95,9 @@ impl<R: BufRead> Program<R> {
             part[axis] = to[axis];
         }
         let offsets = &mut self.interpreter.offsets;
-        offsets.frame = Frame::shifted(by).with(&offsets.frame);
-        parts.frame = offsets.frame;
+        parts.frame = Frame::shifted(by).with(&offsets.frame);
+        check_shift(&parts.frame, name)?;
+        offsets.frame = parts.frame;
         self.siemens.shift = Some(parts);
         Ok(())
     }

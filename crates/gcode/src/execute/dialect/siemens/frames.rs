@@ -91,12 +91,7 @@ impl<R: BufRead> Program<R> {
                 ))
                 .help("write SCALE alone before it, which ends the frame"));
         }
-        if frame.shift.iter().any(|way| way.abs() > MAX_SHIFT) {
-            let message = format!("a shift of more than {MAX_SHIFT} mm or degrees");
-            return Err(Fault::new(DiagnosticCode::InvalidValue, name, message)
-                .because("coordinates so far away have no micrometres any more")
-                .help("check what is added to what; TRANS alone ends the frame"));
-        }
+        check_shift(&frame, name)?;
         let before = offsets.frame;
         offsets.frame = frame;
         self.remember_shift(word, before, &values);
@@ -198,6 +193,17 @@ impl<R: BufRead> Program<R> {
             values => Ok(Frame::turned(of_axes(values, 0.0, |value| value)?)),
         }
     }
+}
+
+/// Refuses a frame that is shifted too far.
+pub(super) fn check_shift(frame: &Frame, name: SourceSpan) -> Outcome<()> {
+    if frame.shift.iter().all(|way| way.abs() <= MAX_SHIFT) {
+        return Ok(());
+    }
+    let message = format!("a shift of more than {MAX_SHIFT} mm or degrees");
+    Err(Fault::new(DiagnosticCode::InvalidValue, name, message)
+        .because("coordinates so far away have no micrometres any more")
+        .help("check what is added to what; TRANS alone ends the frame"))
 }
 
 /// The values of X, Y and Z, `else` where there is none.

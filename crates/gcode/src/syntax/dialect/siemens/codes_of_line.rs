@@ -3,6 +3,7 @@
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
+use crate::syntax::codes::code_number;
 use crate::syntax::dialect::Dialect;
 use crate::syntax::dialect::siemens::writer::Writer;
 use crate::syntax::dialect::words::siemens::{self as words, ADDRESSES};
@@ -30,7 +31,35 @@ fn beside_offset(number: u32, span: SourceSpan) -> Box<Fault> {
         .help("write it first in its block")
 }
 
+/// Refuses a letter that no computed value may stand behind.
+pub(super) fn check_computed(letter: u8, span: SourceSpan) -> Outcome<()> {
+    if letter == b'G' {
+        let fault = Fault::new(
+            DiagnosticCode::NotSupported,
+            span,
+            "a G code that is computed",
+        );
+        return Err(fault
+            .because("what a block does has to be seen in it")
+            .help("write the code itself, or IF and a block for each"));
+    }
+    if ADDRESSES.contains(&letter) {
+        return Ok(());
+    }
+    Err(no_address(char::from(letter), span))
+}
+
 impl Writer<'_> {
+    /// `M=R1`, `M1=3`.
+    pub(super) fn computed_m_code(&mut self, start: usize, length: usize) -> Outcome<()> {
+        self.input.at = start + length;
+        self.input.eat(b'=');
+        let value = self.input.value()?;
+        let span = SourceSpan::new(start, self.input.at);
+        let number = code_number(value).ok_or_else(|| no_m(Dialect::Siemens, value, span))?;
+        self.m_code(span, number)
+    }
+
     /// A letter and its number: a code of the tables, or an address that this language has.
     pub(super) fn address(
         &mut self,

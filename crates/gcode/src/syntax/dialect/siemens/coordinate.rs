@@ -48,6 +48,16 @@ impl Way {
     }
 }
 
+/// Which words of X are diameters.
+enum Diameters {
+    /// DIAMON.
+    All,
+    /// DIAMOF.
+    None,
+    /// DIAM90.
+    ByDistance,
+}
+
 /// How values of X are converted.
 struct UnitOfX {
     of_value: f64,
@@ -71,16 +81,30 @@ fn no_diameter(letter: char, span: SourceSpan) -> Box<Fault> {
 }
 
 impl Writer<'_> {
+    /// What the line says of diameters, or what is in force.
+    fn diameters(&self) -> Diameters {
+        let scope = self.names.scope;
+        if self.has_name(b"DIAMON") {
+            Diameters::All
+        } else if self.has_name(b"DIAMOF") {
+            Diameters::None
+        } else if self.has_name(b"DIAM90") || scope.system_value(b"DIAM90", &[]) == Some(1.0) {
+            Diameters::ByDistance
+        } else if scope.named("_lathe_diameter_mode") == Some(1.0) {
+            Diameters::All
+        } else {
+            Diameters::None
+        }
+    }
+
     /// What a value of X and the place of the tool, which is a radius, are multiplied by to count as
     /// the words of the line do.
     fn unit_of_x(&self, name: &[u8], way: Way, incremental: bool) -> UnitOfX {
-        let scope = self.names.scope;
-        // DIAM90: diameters where coordinates are absolute.
-        let by_distance = scope.system_value(b"DIAM90", &[]) == Some(1.0);
-        let counts_diameters = if by_distance {
-            !incremental
-        } else {
-            scope.named("_lathe_diameter_mode") == Some(1.0)
+        let (by_distance, counts_diameters) = match self.diameters() {
+            // DIAM90: diameters where coordinates are absolute.
+            Diameters::ByDistance => (true, !incremental),
+            Diameters::All => (false, true),
+            Diameters::None => (false, false),
         };
         let is_diameter = match name {
             b"DAC" | b"DIC" => true,

@@ -4,6 +4,7 @@ use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::dialect::line_body::body;
+use crate::syntax::dialect::siemens::codes_of_line::check_computed;
 use crate::syntax::dialect::siemens::expression::{Evaluator, Names};
 use crate::syntax::dialect::siemens::refused_word::unknown;
 use crate::syntax::dialect::siemens::rewritten::Rewritten;
@@ -34,6 +35,10 @@ fn foreign(byte: u8, at: usize) -> Box<Fault> {
         b'(' => (
             "a comment begins with `;` in SINUMERIK's language",
             "write the comment behind `;`",
+        ),
+        b',' => (
+            "a comma stands between the arguments of a call",
+            "write a blank between words, and a point in numbers",
         ),
         _ => (
             "variables are R parameters, and those that DEF declares",
@@ -88,10 +93,19 @@ impl Writer<'_> {
                 b'#' | b'@' | b'^' | b'(' | b'<' | b'[' => {
                     return Err(foreign(byte, self.input.at));
                 }
+                // Words behind a comma are what names become here, and none of the language.
+                b',' if self.is_letter_behind() => return Err(foreign(byte, self.input.at)),
                 _ => self.copy(),
             }
         }
         Ok(())
+    }
+
+    /// True if a letter is next behind the byte that comes next.
+    fn is_letter_behind(&self) -> bool {
+        let rest = self.input.text.get(self.input.at + 1..).unwrap_or_default();
+        let behind = rest.trim_ascii_start().first();
+        behind.is_some_and(u8::is_ascii_alphabetic)
     }
 
     /// True if the line has that G code.
@@ -109,6 +123,14 @@ impl Writer<'_> {
                 && !before.is_some_and(u8::is_ascii_alphabetic)
                 && value.and_then(|value| value.parse().ok()) == Some(number)
         })
+    }
+
+    /// True if the line has that name.
+    pub(super) fn has_name(&self, name: &[u8]) -> bool {
+        let upper = self.input.text.to_ascii_uppercase();
+        let code = upper.split(|byte| *byte == b';').next().unwrap_or_default();
+        let is_part = |byte: &u8| byte.is_ascii_alphanumeric() || *byte == b'_';
+        code.split(|byte| !is_part(byte)).any(|word| word == name)
     }
 
     /// A word: an address with its value, an assignment, or a name.
@@ -176,11 +198,15 @@ impl Writer<'_> {
             (b"SF", true) => self.value_of(start, length, b"Q", 0.0),
             (b"TURN", true) => self.value_of(start, length, b"P", 1.0),
             // The first spindle, which is the only one.
-            (b"S1" | b"M1", true) => self.value_of(start, length, &name[..1], 0.0),
+            (b"S1", true) => self.value_of(start, length, b"S", 0.0),
+            (b"M" | b"M1", true) => self.computed_m_code(start, length),
             (b"SPOS", false) if self.input.peek(length) == Some(b'[') => self.spindle_angle(start),
             (b"SETMS", false) => self.master_spindle(start, length),
             (b"T", true) if self.is_text_assigned() => self.tool_by_name(start),
-            ([letter], true) => self.coordinate(start, *letter),
+            ([letter], true) => {
+                check_computed(*letter, SourceSpan::new(start, start + length))?;
+                self.coordinate(start, *letter)
+            }
             ([_], false) => self.address(start, length, &name, dwell),
             _ => Err(unknown(&name, SourceSpan::new(start, start + length))),
         }

@@ -64,8 +64,6 @@ const READ_OVER: &[&str] = &[
     "STOLF",
     "ACC",
     "ACCLIMA",
-    "VELOLIM",
-    "VELOLIMA",
     "JERKLIM",
     "JERKLIMA",
     "DELAYFSTON",
@@ -177,6 +175,11 @@ const REFUSED: &[(&[&str], &str, &str)] = &[
         "write a G38.3 for each of them",
     ),
     (&["DIAMONA"], "diameters of one axis", "write DIAMON"),
+    (
+        &["VELOLIM", "VELOLIMA"],
+        "a limit of the speed of an axis or spindle",
+        "write a smaller F or S, or set it in the configuration",
+    ),
     (
         &["FLIN", "FCUB"],
         "a feed that changes along the block",
