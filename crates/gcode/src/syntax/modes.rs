@@ -267,6 +267,8 @@ pub(crate) enum SpindleMode {
     SurfaceSpeed,
     /// G97: revolutions.
     Revolutions,
+    /// G971 to G973 of SINUMERIK: revolutions, which LIMS does not limit.
+    UnlimitedRevolutions,
 }
 
 /// Length units (group 6).

@@ -11,7 +11,7 @@ use crate::syntax::duplicate_word::duplicate;
 /// What such a word is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Named {
-    /// LIMS: the highest speed of the spindle under G96.
+    /// LIMS: the highest speed of the spindle under G96 and G97.
     SpeedLimit,
     /// RP: the distance from the pole.
     PolarRadius,

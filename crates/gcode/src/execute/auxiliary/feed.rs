@@ -128,13 +128,14 @@ impl Interpreter {
     }
 }
 
-/// On a SINUMERIK G96 makes F a way per revolution, which it stays behind G97.
+/// On a SINUMERIK G96 and G97 make F a way per revolution.
 fn feed_mode_of_speed(block: &Block) -> Option<FeedMode> {
-    let cuts = block
-        .codes
-        .spindle_mode
-        .is_some_and(|coded| coded.code == SpindleMode::SurfaceSpeed);
-    (cuts && block.dialect == Dialect::Siemens).then_some(FeedMode::PerRevolution)
+    let mode = block.codes.spindle_mode.map(|coded| coded.code);
+    let is_per_revolution = matches!(
+        mode,
+        Some(SpindleMode::SurfaceSpeed | SpindleMode::Revolutions)
+    );
+    (is_per_revolution && block.dialect == Dialect::Siemens).then_some(FeedMode::PerRevolution)
 }
 
 #[cold]

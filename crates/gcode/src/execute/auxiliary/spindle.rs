@@ -3,7 +3,7 @@
 //! With G96 the S word is a cutting speed (m/min, or ft/min in inches) and the revolutions follow
 //! from the distance of the tool from the X axis' zero: n = 1000 S / (2 π |x|), at most D. The
 //! event with the speed is given out with the S word, on the way of straight moves at feed, and
-//! after every move that changes it by more than 1 %.
+//! after every move that changes it by more than 1 %. LIMS of SINUMERIK limits the revolutions of G97, too.
 
 use core::f64::consts::TAU;
 
@@ -38,10 +38,7 @@ fn is_limit(block: &Block) -> bool {
 impl Interpreter {
     /// G96, G97 and S.
     pub(crate) fn spindle_speed(&mut self, block: &Block, out: &mut Vec<Item>) -> Outcome<()> {
-        let limit = block.named.get(Named::SpeedLimit);
-        if let Some(limit) = limit.filter(|limit| *limit > 0.0) {
-            self.state.spindle.most = Some(limit);
-        }
+        self.speed_limit(block)?;
         if let Some(Coded { code, span }) = block.codes.spindle_mode {
             // D of SINUMERIK is the edge of a tool.
             let word = block
@@ -56,8 +53,14 @@ impl Interpreter {
                 );
             }
             let spindle = &mut self.state.spindle;
+            if spindle.surface.is_some() {
+                // Without S G97 keeps the speed that there is.
+                spindle.asked = spindle.speed;
+            }
+            let is_siemens = block.dialect == Dialect::Siemens;
+            spindle.is_limited = is_siemens && code == SpindleMode::Revolutions;
             spindle.surface = match code {
-                SpindleMode::Revolutions => None,
+                SpindleMode::Revolutions | SpindleMode::UnlimitedRevolutions => None,
                 SpindleMode::SurfaceSpeed if block.get(b'S').is_none() => {
                     return Err(missing(span, "G96", "S", "the cutting speed"));
                 }
@@ -65,6 +68,7 @@ impl Interpreter {
             };
         }
         let Some(speed) = block.get(b'S') else {
+            self.keep_to_limit(block, out);
             return Ok(());
         };
         if speed > 0.0 && is_limit(block) {
@@ -93,9 +97,38 @@ impl Interpreter {
             let speed = self.surface_revolutions().unwrap_or_default();
             self.tell_speed(speed, out);
         } else {
-            self.tell_speed(speed, out);
+            self.state.spindle.asked = speed;
+            self.tell_speed(self.state.spindle.allowed(), out);
         }
         Ok(())
+    }
+
+    /// LIMS.
+    fn speed_limit(&mut self, block: &Block) -> Outcome<()> {
+        let Some(limit) = block.named.find(Named::SpeedLimit) else {
+            return Ok(());
+        };
+        if limit.value > 0.0 {
+            self.state.spindle.most = Some(limit.value);
+            return Ok(());
+        }
+        let message = format!("LIMS={} is not above zero", limit.value);
+        Err(
+            Fault::new(DiagnosticCode::InvalidValue, limit.span, message)
+                .because("it is the highest speed of the spindle under G96 and G97")
+                .help("write revolutions a minute"),
+        )
+    }
+
+    /// A limit of G97 that is new, or not in force any more.
+    fn keep_to_limit(&mut self, block: &Block, out: &mut Vec<Item>) {
+        let spindle = &self.state.spindle;
+        let allowed = spindle.allowed();
+        let is_new = spindle.asked > 0.0 && (allowed - spindle.speed).abs() > 0.0;
+        let has_limit = block.dialect == Dialect::Siemens && spindle.most.is_some();
+        if has_limit && spindle.surface.is_none() && is_new {
+            self.tell_speed(allowed, out);
+        }
     }
 
     /// A new speed of a spindle that turns is told at rest, if it is to be waited for. With G96 the

@@ -41,6 +41,12 @@ pub(crate) struct Spindle {
     pub(crate) surface: Option<Surface>,
     /// Most revolutions a minute of G96 from here on (G50 S, LIMS).
     pub(crate) most: Option<f64>,
+    /// S of G97, rev/min, as it was written.
+    #[serde(default)]
+    pub(crate) asked: f64,
+    /// The limit holds for the revolutions of G97, too (SINUMERIK).
+    #[serde(default)]
+    pub(crate) is_limited: bool,
     /// The next tapping cycle is rigid (M29).
     pub(crate) is_rigid: bool,
 }
@@ -58,6 +64,12 @@ impl Spindle {
     /// G96 is in force: the speed depends on where the tool is.
     pub(crate) const fn follows_tool(&self) -> bool {
         self.surface.is_some()
+    }
+
+    /// The revolutions of G97, no more than its limit allows.
+    pub(crate) fn allowed(&self) -> f64 {
+        let most = self.most.filter(|_| self.is_limited);
+        most.map_or(self.asked, |most| self.asked.min(most))
     }
 
     /// It stands for taps alone, and is to turn again behind them.

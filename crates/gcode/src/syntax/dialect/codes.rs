@@ -148,6 +148,11 @@ impl Codes {
         match code_number(value * 10.0) {
             Some(90) => set(&mut self.exact_stop, (), span),
             Some(72) => set(&mut self.diameter_by_distance, (), span),
+            Some(971) => set(
+                &mut self.spindle_mode,
+                SpindleMode::UnlimitedRevolutions,
+                span,
+            ),
             Some(25) => self.set_motion(Some(Motion::ArcThrough), span),
             Some(26) => self.set_motion(Some(Motion::ArcTangent), span),
             Some(3310) => self.set_motion(Some(Motion::TapIn), span),

@@ -128,10 +128,42 @@ fn the_cutting_speed_makes_the_feed_one_of_the_spindle() {
         ("G961 S200\nG1 Z-5 F0.2", per_minute),
         ("G96 S200\nG971 S1200\nG1 Z-5 F0.2", per_minute),
         ("G96 S200 G94\nG1 Z-5 F0.2", per_minute),
+        // G97 begins a feed per revolution, too, and its speed has the limit of LIMS.
+        ("G97 S1200\nG1 Z-5 F0.2", by_spindle),
+        ("G97 S2000\nG1 Z-5 F0.2", by_spindle),
+        ("LIMS=500\nG973 S1200\nG1 Z-5 F0.2", by_spindle),
+        ("G95\nG972 S1200\nG1 Z-5 F0.2", by_spindle),
     ] {
         let found = rate(&format!("{head}{text}"));
         assert!(is_near(found, wanted), "{text}: {found:?}");
     }
+}
+
+#[test]
+fn the_limit_of_the_speed_holds_for_revolutions_too() {
+    let speeds = |text: &str| -> Vec<f64> {
+        Program::new(text.as_bytes(), lathe())
+            .map(|item| item.unwrap_or_else(|d| panic!("{text}\n{d}")))
+            .filter_map(|item| match item.kind {
+                ItemKind::Event(Event::SpindleSpeed(speed)) => Some(speed),
+                _ => None,
+            })
+            .collect()
+    };
+    assert_eq!(speeds("LIMS=300\nG97 S500 M3"), [300.0]);
+    assert_eq!(
+        speeds("G97 S500 M3\nLIMS=300\nLIMS=400\nLIMS=900\nS200"),
+        [500.0, 300.0, 400.0, 500.0, 200.0]
+    );
+    // Where neither G96 nor G97 is in force, and behind G971 to G973, there is no limit.
+    assert_eq!(speeds("LIMS=300\nS500 M3"), [500.0]);
+    assert_eq!(speeds("LIMS=300\nG971 S500 M3"), [500.0]);
+    assert_eq!(
+        speeds("G97 S500 LIMS=300 M3\nG973\nG97"),
+        [300.0, 500.0, 300.0]
+    );
+    finds("LIMS=0", &["1:1 invalid-value"]);
+    finds("LIMS=-5", &["1:1 invalid-value"]);
 }
 
 #[test]

@@ -106,10 +106,11 @@ impl Writer<'_> {
             (Some(Meaning::Own), 500) => b"G500",
             (Some(Meaning::Own), 710) => b"G21",
             (Some(Meaning::Own), 700) => b"G20",
-            // The limit of the speed is not put in force by G973.
+            // G97.1: G97 without the limit of LIMS.
             (Some(Meaning::Own), 961) => b"G96 G94",
-            (Some(Meaning::Own), 971) => b"G97 G94",
-            (Some(Meaning::Own), 972 | 973) => b"G97",
+            (Some(Meaning::Own), 971) => b"G97.1 G94",
+            (Some(Meaning::Own), 972) => b"G97.1",
+            (Some(Meaning::Own), 973) => b"G97.1 G95",
             (Some(Meaning::Own), 58 | 59) => return Err(beside_offset(number, span)),
             (Some(Meaning::ReadOver), _) => b"",
             (Some(Meaning::Shared | Meaning::Own), _) => {
