@@ -50,12 +50,27 @@ fn holes_are_bored_as_the_cycles_say() {
 #[test]
 fn a_chuck_that_gives_way_taps_at_the_feed_of_its_pitch() {
     // 500 turns a minute of 1.5 mm.
-    let steps = steps(&format!("{HEAD}CYCLE840(20,0,2,-10,,0,0,5,0,,1.5)\nG1 X1"));
-    let feeds: Vec<&String> = steps.iter().filter(|step| step.contains('F')).collect();
+    let made = |arguments: &str| steps(&format!("{HEAD}CYCLE840(20,0,2,-10,,{arguments})\nG1 X1"));
+    let codes = |made: &[String]| -> Vec<String> {
+        let all = made
+            .iter()
+            .filter(|step| ["M3", "M4", "M5"].contains(&step.as_str()));
+        all.cloned().collect()
+    };
+    let reversed = made("0,0,,0,,1.5");
+    let feeds: Vec<&String> = reversed.iter().filter(|step| step.contains('F')).collect();
     assert_eq!(feeds, ["-10 F750", "2 F750", "20 F100"]);
-    assert!(steps.contains(&"M4".to_owned()), "{steps:?}");
-    let last = steps.iter().rposition(|step| step == "M5");
-    assert!(last.is_some_and(|at| at > 6), "{steps:?}");
+    // Out the other way round, and then as before; SDAC counts with SDR alone.
+    assert_eq!(codes(&reversed), ["M3", "M4", "M3"]);
+    assert_eq!(codes(&made("0,0,4,0,,1.5")), ["M3", "M4", "M3"]);
+    assert_eq!(codes(&made("0,4,5,0,,1.5")), ["M3", "M4", "M3", "M5"]);
+    // Threads to the inch, and what ENC says besides an encoder.
+    for arguments in ["0,0,5,0,,20,,2", "0,0,5,11,,1.5"] {
+        finds(
+            &format!("{HEAD}CYCLE840(20,0,2,-10,,{arguments})"),
+            &["3:1 canned-cycle"],
+        );
+    }
     finds("CYCLE840(20,0,2,-10,,0,0,5,0,,1.5)", &["1:1 canned-cycle"]);
     finds(
         &format!("{HEAD}CYCLE840(20,0,2,-10,,0,3,5,0,,1.5)"),

@@ -200,4 +200,43 @@ fn threads_have_the_lead_of_the_longer_way() {
         "{face}"
     );
     finds(&format!("{head}G33 X25 Z-20 I2"), &["3:14 invalid-value"]);
+    finds(&format!("{head}G33 X25 Z-20 K2 I2"), &["3:17 unused-word"]);
+}
+
+#[test]
+fn cycles_count_radii_where_the_tool_stands() {
+    let mill_turn = || Options {
+        machine: Machine::new(&[Axis::X, Axis::Y, Axis::Z]),
+        ..lathe()
+    };
+    let xs = |text: &str| -> Vec<f64> {
+        Program::new(text.as_bytes(), mill_turn())
+            .map(|item| item.unwrap_or_else(|d| panic!("{text}\n{d}")))
+            .filter_map(|item| match item.kind {
+                ItemKind::Move { segment, .. } => {
+                    Some((segment.end()[0] * 1e6).round() / 1e6 + 0.0)
+                }
+                _ => None,
+            })
+            .collect()
+    };
+    let head = "S500 M3 DIAMON\nG0 X40 Y5 Z50 F100\n";
+    // The tool stays at its radius of 20, and X is a diameter again behind the cycle.
+    let bored = xs(&format!("{head}CYCLE86(20,0,2,-10,,0,3,0,0,0,0)\nX50"));
+    assert_eq!(bored, [20.0, 20.0, 20.0, 20.0, 25.0]);
+    let text = head.replace("DIAMON", "DIAM90");
+    let bored = xs(&format!(
+        "{text}CYCLE86(20,0,2,-10,,0,3,0,0,0,0)\nX50\nG91 X1"
+    ));
+    assert_eq!(bored, [20.0, 20.0, 20.0, 20.0, 25.0, 26.0]);
+    let finds = |text: &str, expected: &[&str]| {
+        let report = check(text.as_bytes(), mill_turn());
+        assert_eq!(listed(&report), expected, "{text}");
+    };
+    for cycle in [
+        "MCALL CYCLE81(20,0,2,-10)\nHOLES1(0,0,0,10,10,2)",
+        "G19\nCYCLE81(50,40,2,20)",
+    ] {
+        finds(&format!("{head}{cycle}"), &["4:1 canned-cycle"]);
+    }
 }

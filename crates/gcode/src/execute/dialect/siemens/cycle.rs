@@ -19,7 +19,6 @@
 //! coordinates but SDIS, and DPR the depth below RFP. The cycles work along the axis normal to the
 //! plane, downwards.
 
-use std::fmt::Write;
 use std::io::BufRead;
 
 use glidepath_geometry::Axis;
@@ -27,7 +26,8 @@ use glidepath_geometry::Axis;
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
-use crate::execute::dialect::siemens::steps::{CycleCall, Step};
+use crate::execute::dialect::siemens::lines::Lines;
+use crate::execute::dialect::siemens::steps::{Before, CycleCall, Step};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::program::Program;
 use crate::syntax::modes::FeedMode;
@@ -198,104 +198,6 @@ impl Arguments<'_> {
     }
 }
 
-/// The lines of a cycle.
-#[derive(Debug)]
-pub(super) struct Lines {
-    steps: Vec<Step>,
-    /// First and second axis of the plane, and the one normal to it.
-    axes: [char; 3],
-}
-
-impl Lines {
-    pub(super) fn new(axes: [Axis; 3]) -> Self {
-        Self {
-            // No corner of a cycle is rounded off, and its coordinates are absolute.
-            steps: vec![Step::Line("G90 G61 G91.1 ,M0".to_owned())],
-            axes: axes.map(Axis::letter),
-        }
-    }
-
-    pub(super) fn line(&mut self, text: impl Into<String>) {
-        self.steps.push(Step::Line(text.into()));
-    }
-
-    pub(super) fn feed(&mut self, feed: f64) {
-        if feed > 0.0 {
-            self.line(format!("F[{feed}]"));
-        }
-    }
-
-    /// Seconds at rest.
-    pub(super) fn dwell(&mut self, seconds: f64) {
-        if seconds > 0.0 {
-            self.line(format!("G4 P[{seconds}]"));
-        }
-    }
-
-    /// A straight move of the axes that have a value.
-    pub(super) fn go(&mut self, code: &str, to: [Option<f64>; 3]) {
-        let mut text = code.to_owned();
-        for (axis, value) in self.axes.iter().zip(to) {
-            if let Some(value) = value {
-                let _written = write!(text, " {axis}[{value}]");
-            }
-        }
-        self.line(text);
-    }
-
-    /// A straight move along the axis normal to the plane.
-    pub(super) fn along(&mut self, code: &str, level: f64) {
-        self.go(code, [None, None, Some(level)]);
-    }
-
-    /// A straight move in the plane.
-    pub(super) fn across(&mut self, code: &str, to: [f64; 2]) {
-        self.go(code, [Some(to[0]), Some(to[1]), None]);
-    }
-
-    /// An arc in the plane; `level` is where the normal axis ends, `center` counts from the start.
-    pub(super) fn arc(
-        &mut self,
-        code: &str,
-        to: [f64; 2],
-        level: Option<f64>,
-        center: [f64; 2],
-        turns: u32,
-    ) {
-        let mut text = code.to_owned();
-        for (axis, value) in self.axes.iter().zip([Some(to[0]), Some(to[1]), level]) {
-            if let Some(value) = value {
-                let _written = write!(text, " {axis}[{value}]");
-            }
-        }
-        for (axis, value) in self.axes.iter().zip(center) {
-            let letter = match axis {
-                'Y' => 'J',
-                'Z' => 'K',
-                _ => 'I',
-            };
-            let _written = write!(text, " {letter}[{value}]");
-        }
-        if turns > 1 {
-            let _written = write!(text, " P{turns}");
-        }
-        self.line(text);
-    }
-
-    /// Refuses a cycle of too many lines before they are made.
-    pub(super) fn check_count(count: f64, arguments: Arguments<'_>) -> Outcome<()> {
-        if count <= f64::from(u32::try_from(MAX_LINES).unwrap_or(u32::MAX)) {
-            return Ok(());
-        }
-        Err(arguments
-            .refused(
-                format!("the cycle would have {count:.0} lines"),
-                "the length of a cycle is bounded",
-            )
-            .help("use larger steps"))
-    }
-}
-
 /// Whether the block is of the plane XY, ZX or YZ, and its axes.
 pub(super) fn plane_axes(
     interpreter: &Interpreter,
@@ -319,6 +221,23 @@ pub(super) fn plane_axes(
 pub(super) fn coordinate(interpreter: &Interpreter, axis: Axis) -> f64 {
     let program = interpreter.offsets.to_program(interpreter.state.position);
     program[axis.index()] / interpreter.state.modal.units.mm()
+}
+
+#[cold]
+pub(super) fn diameters(arguments: Arguments<'_>, what: &str) -> Box<Fault> {
+    arguments
+        .refused(
+            format!("{what}, where X counts diameters"),
+            "whether X is a diameter among the arguments, too, depends on the control",
+        )
+        .help("write DIAMOF before it, and radii")
+}
+
+impl Interpreter {
+    /// True where X words are diameters, or those with G90 (DIAM90).
+    pub(super) const fn counts_diameters(&self) -> bool {
+        self.state.modal.diameter || self.state.diameter_by_distance
+    }
 }
 
 impl<R: BufRead> Program<R> {
@@ -360,9 +279,15 @@ impl<R: BufRead> Program<R> {
     pub(super) fn siemens_begin(&mut self, call: &CycleCall, span: SourceSpan) -> Outcome<()> {
         let lines = self.cycle_lines(Arguments { call, span })?;
         let state = &self.interpreter.state;
-        let before = Box::new((state.modal, state.rounds_mm));
+        let before = Before {
+            modal: state.modal,
+            rounds_mm: state.rounds_mm,
+            diameter_by_distance: state.diameter_by_distance,
+        };
         self.siemens.steps.extend(lines.steps);
-        self.siemens.steps.push_back(Step::Restore(before));
+        self.siemens
+            .steps
+            .push_back(Step::Restore(Box::new(before)));
         Ok(())
     }
 
@@ -384,6 +309,9 @@ impl<R: BufRead> Program<R> {
                     "the moves of a cycle have feeds per minute or per revolution",
                 )
                 .help("write G94 or G95 before it"));
+        }
+        if interpreter.counts_diameters() && state.modal.plane.normal() == Axis::X {
+            return Err(diameters(arguments, "along X"));
         }
         match arguments.call.name {
             "CYCLE81" | "CYCLE82" => interpreter.drill(arguments),

@@ -22,6 +22,7 @@ mod drilling;
 mod edge;
 mod flow;
 mod frames;
+mod lines;
 mod modal_call;
 mod pocket;
 mod positions;

@@ -18,7 +18,10 @@
 use glidepath_geometry::Axis;
 
 use crate::diagnostic::fault::Outcome;
-use crate::execute::dialect::siemens::cycle::{Arguments, Levels, Lines, coordinate, plane_axes};
+use crate::execute::dialect::siemens::cycle::{
+    Arguments, Levels, coordinate, diameters, plane_axes,
+};
+use crate::execute::dialect::siemens::lines::Lines;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::state::spindle::SpindleDirection;
 
@@ -185,7 +188,7 @@ impl Interpreter {
                 )
                 .help("check FALD"));
         }
-        let tool_radius = self.pocket_tool(arguments)?;
+        let tool_radius = self.mill_radius(arguments)?;
         let variant = arguments.choice(at(6), "VARI", &[0, 1, 2, 10, 11, 12, 20, 21, 22])?;
         let finishes = variant % 10 == 2;
         let insertion = match variant / 10 {
@@ -219,14 +222,10 @@ impl Interpreter {
                     .help(format!("write {most} or less, or leave it out")));
             }
         };
-        let center = [0, 1].map(|index| {
-            let given = arguments.get(places.center + index);
-            given.unwrap_or_else(|| coordinate(self, axes[index]))
-        });
         Ok(Pocket {
             levels,
             axes,
-            center,
+            center: self.pocket_center(arguments, places.center, axes)?,
             step,
             edge,
             floor,
@@ -240,8 +239,23 @@ impl Interpreter {
         })
     }
 
+    /// The centre, in the axes of the plane: where the tool stands, if it is left out.
+    fn pocket_center(
+        &self,
+        arguments: Arguments<'_>,
+        first: usize,
+        axes: [Axis; 3],
+    ) -> Outcome<[f64; 2]> {
+        let given = [0, 1].map(|index| arguments.get(first + index));
+        let is_written = |index: usize| axes[index] == Axis::X && given[index].is_some();
+        if self.counts_diameters() && (0..2).any(is_written) {
+            return Err(diameters(arguments, "with its centre"));
+        }
+        Ok([0, 1].map(|index| given[index].unwrap_or_else(|| coordinate(self, axes[index]))))
+    }
+
     /// The radius of the tool in the spindle.
-    fn pocket_tool(&self, arguments: Arguments<'_>) -> Outcome<f64> {
+    pub(super) fn mill_radius(&self, arguments: Arguments<'_>) -> Outcome<f64> {
         let tool = self
             .tools
             .as_ref()
@@ -253,7 +267,7 @@ impl Interpreter {
         Err(arguments
             .refused(
                 format!("tool {} has no diameter", self.state.tool),
-                "the way of the tool in a pocket depends on it",
+                "the way of the tool in the cycle depends on it",
             )
             .help("change to a tool before the cycle, and give its diameter in the tool table"))
     }

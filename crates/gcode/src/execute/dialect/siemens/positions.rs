@@ -8,6 +8,8 @@
 
 use std::io::BufRead;
 
+use glidepath_geometry::Axis;
+
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
@@ -41,6 +43,14 @@ impl<R: BufRead> Program<R> {
                 "a pattern of holes without a cycle",
                 "MCALL says what is made at each position",
                 "write MCALL and a cycle before it",
+            );
+        }
+        let interpreter = &self.interpreter;
+        if interpreter.counts_diameters() && interpreter.state.modal.plane.normal() != Axis::X {
+            return refuse(
+                "a pattern of holes where X counts diameters",
+                "whether X is a diameter among its arguments, too, depends on the control",
+                "write DIAMOF before it, and radii",
             );
         }
         let count = PATTERNS.iter().find(|(known, _)| *known == name);

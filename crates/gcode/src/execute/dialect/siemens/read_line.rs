@@ -4,10 +4,9 @@ use std::io::BufRead;
 
 use crate::diagnostic::fault::Outcome;
 use crate::diagnostic::span::SourceSpan;
-use crate::execute::dialect::siemens::steps::Step;
+use crate::execute::dialect::siemens::steps::{Before, Step};
 use crate::execute::program::Program;
 use crate::execute::scope::ProgramScope;
-use crate::execute::state::modal::Modal;
 use crate::syntax::dialect::line_body::body;
 use crate::syntax::dialect::siemens::callee::callee;
 use crate::syntax::dialect::siemens::expression::{Evaluator, Names};
@@ -173,9 +172,11 @@ impl<R: BufRead> Program<R> {
     }
 
     /// What was in force before a cycle is so again.
-    fn restore(&mut self, (modal, rounds_mm): (Modal, f64)) {
-        self.interpreter.state.modal = modal;
-        self.interpreter.state.rounds_mm = rounds_mm;
+    const fn restore(&mut self, before: Before) {
+        let state = &mut self.interpreter.state;
+        state.modal = before.modal;
+        state.rounds_mm = before.rounds_mm;
+        state.diameter_by_distance = before.diameter_by_distance;
     }
 
     /// A step of the cycle in progress; what is wrong with it is wrong with the cycle's line.

@@ -16,8 +16,18 @@ pub(crate) enum Step {
     Line(String),
     /// A position of a pattern, in the two axes of the plane: the cycle of MCALL is made there.
     Position([f64; 2]),
-    /// The modes from before the cycle, and the radius of all corners, mm.
-    Restore(Box<(Modal, f64)>),
+    /// What was in force before the cycle.
+    Restore(Box<Before>),
+}
+
+/// What is in force before a cycle, and again behind it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Before {
+    pub(super) modal: Modal,
+    /// The radius of all corners, mm.
+    pub(super) rounds_mm: f64,
+    /// DIAM90.
+    pub(super) diameter_by_distance: bool,
 }
 
 /// A cycle with the values of its arguments.

@@ -1,10 +1,10 @@
 //! CYCLE84: a hole that is tapped rigidly; CYCLE840: one with a tap in a chuck that gives way.
 //!
 //! CYCLE840 goes at the feed of pitch and speed, or of F where no pitch is given, in the direction in
-//! which the spindle turns, which is reversed at the bottom. Behind it the spindle turns as SDAC says.
+//! which the spindle turns, which is reversed at the bottom. Where SDR says the direction of the way out,
+//! the spindle turns behind it as SDAC says; else (SDR 0) as before the cycle.
 //!
-//! CYCLE84:
-//! From SDIS above the surface with the spindle to the bottom and out again, then to RTP. The
+//! CYCLE84 goes from SDIS above the surface with the spindle to the bottom and out again, then to RTP. The
 //! pitch is PIT, or that of the metric thread MPIT (3: M3); below zero it is a left-hand one. A
 //! spindle that is an axis begins at the angle POSS, dwells for DTB, comes out at SST1, and goes DAM
 //! deep at a time (VARI 1: back by VRT, 2: all the way out); one that is followed can do none of it.
@@ -12,7 +12,8 @@
 use glidepath_geometry::Axis;
 
 use crate::diagnostic::fault::Outcome;
-use crate::execute::dialect::siemens::cycle::{Arguments, Lines, plane_axes};
+use crate::execute::dialect::siemens::cycle::{Arguments, plane_axes};
+use crate::execute::dialect::siemens::lines::Lines;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::state::spindle::SpindleDirection;
 use crate::syntax::modes::FeedMode;
@@ -85,7 +86,10 @@ impl Interpreter {
         let dwell = arguments.not_negative(5, "DTB", "seconds at the bottom")?;
         let out = arguments.choice(6, "SDR", &[0, 3, 4])?;
         let behind = arguments.choice(7, "SDAC", &[0, 3, 4, 5])?;
+        // With an encoder or without one: the feed is that of the pitch.
+        arguments.choice(8, "ENC", &[0, 1])?;
         arguments.choice(11, "AXN", &[0, 3])?;
+        arguments.choice(12, "PITA", &[0, 1])?;
         arguments.choice(13, "TECHNO", &[0])?;
         let spindle = &self.state.spindle;
         let turning = spindle
@@ -127,7 +131,7 @@ impl Interpreter {
         let words = format!("G99 {cycle} R[{}] P[{dwell}]", levels.clear);
         lines.along(&words, levels.bottom);
         lines.line("G80");
-        if behind != 0 {
+        if out != 0 && behind != 0 {
             lines.line(format!("M{behind}"));
         }
         lines.along("G0", levels.retract);
