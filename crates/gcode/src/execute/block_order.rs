@@ -60,6 +60,8 @@ impl Interpreter {
             || codes.frame.is_some()
             || codes.kept_place.is_some()
             || codes.extended_system.is_some()
+            || codes.dynamic.is_some()
+            || codes.tip.is_some()
             || block.dialect != Dialect::LinuxCnc && block.has_any(Letters::of(b"TDH"))
             || codes.tool_change.is_some();
         let ends = matches!(

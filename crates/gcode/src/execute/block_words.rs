@@ -97,7 +97,17 @@ fn taken(block: &Block, motion: Option<Motion>) -> [Letters; 13] {
 
 /// True where P of a block with G54 is the number of a work offset.
 pub(crate) fn takes_number(block: &Block) -> bool {
-    block.get(b'P').is_some() && block.codes.non_modal.is_none() && block.codes.motion.is_none()
+    let motion = block.codes.motion.and_then(|coded| coded.code);
+    let takes_none = match block.codes.motion {
+        None => true,
+        Some(_) => matches!(
+            motion,
+            Some(
+                Motion::Rapid | Motion::Linear | Motion::ArcClockwise | Motion::ArcCounterclockwise
+            )
+        ),
+    };
+    block.get(b'P').is_some() && block.codes.non_modal.is_none() && takes_none
 }
 
 /// P of G54.1, and of G54 where it is one of those.

@@ -126,6 +126,21 @@ fn grooves_are_made_side_by_side() {
         &format!("{HEAD}G75 X40 Z-13 Q1000 R1.5 F100"),
         &["3:20 invalid-value"],
     );
+    // Beside the bottom no more is free than the way to the second place, which may be shorter than Q.
+    finds(
+        &format!("{HEAD}G75 X40 Z-12 Q5000 R3. F100"),
+        &["3:20 invalid-value"],
+    );
+    // A single groove or hole has no room aside.
+    finds(
+        &format!("{HEAD}G75 X40 P3000 R0.5 F100"),
+        &["3:15 invalid-value"],
+    );
+    finds(
+        "G98\nG0 X0 Z2\nG74 Z-10 Q5000 R1. F300",
+        &["3:16 invalid-value"],
+    );
+    assert_eq!(ways(&format!("{HEAD}G75 X40 P9000 R0 F100")).len(), 3);
 }
 
 const PROFILE: &str = "N10 G0 X20 Z2\nG1 Z-20 F100\nX40 Z-30\nN20 X60\n";
@@ -283,7 +298,8 @@ fn systems_b_and_c_have_codes_of_their_own() {
     };
     refused("G0 U5", b.clone(), "1:4 axis-not-configured");
     refused("G50 S2000", b, "1:1 unknown-g-code");
-    refused("G32 Z-5 F1", c, "1:1 unknown-g-code");
+    refused("G32 Z-5 F1", c.clone(), "1:1 unknown-g-code");
+    refused("G79 X20", c, "1:1 unknown-g-code");
 }
 
 #[test]

@@ -68,6 +68,7 @@ fn work_offsets_have_several_names() {
             "{code}"
         );
     }
+    assert_eq!(last(&format!("{set}G0 G54 P4 X1 Y1")), [31.0, 21.0, 0.0]);
     assert_eq!(last("G10 L20 P2 X30\nG111\nG0 X1"), [31.0, 0.0, 0.0]);
     assert_eq!(last("G10 L20 P2 X30\nG111\nG54 G0 X1"), [1.0, 0.0, 0.0]);
     // Factors without a point count thousandths, however large they are.
@@ -165,9 +166,18 @@ fn programs_and_variables_have_names() {
     let text = "O1\nG65 <PART> X7\nM30\n<PART>\nG0 X#24\nM99";
     assert_eq!(last(text), [7.0, 0.0, 0.0]);
     finds("M98 <NONE>", &["1:1 unknown-subroutine"]);
+    finds(
+        "M98 <PART> P2\nM30\n<PART>\nM99\nO2\nM99",
+        &["1:1 ambiguous-word"],
+    );
     let text = "SETVN 510[DEPTH,WIDTH]\n#510=4\n[#WIDTH]=[#DEPTH]*2\nG0 X#511 Y[#DEPTH+1]";
     assert_eq!(last(text), [8.0, 5.0, 0.0]);
     finds("SETVN 10[DEPTH]", &["1:9 parameter"]);
+    // A line that is refused has given no name.
+    let mut typed =
+        Program::new("SETVN 510[DEPTH,9]\nG0 X[#DEPTH]\n".as_bytes(), options()).typed();
+    let refused = typed.by_ref().take(2).filter(Result::is_err).count();
+    assert_eq!(refused, 2);
     finds("G0 X[#DEPTH]", &["1:6 parameter"]);
     assert_eq!(
         last("#1=BIN[18]\n#2=BCD[12]\nG0 X#1 Y#2"),

@@ -387,3 +387,26 @@ fn directions_and_ways_to_turn_are_fanucs() {
     let tilt = |form: &str| last(Dialect::Fanuc, &format!("G68.2 J30\nG53.1 {form}"))[3].round();
     assert_eq!(["", "P1", "P2"].map(tilt), [-30.0, 30.0, -30.0]);
 }
+
+#[test]
+fn a_block_that_is_refused_leaves_tip_and_zero_as_they_were() {
+    let end = |dialect: Dialect, text: &str| {
+        let mut typed = Program::new(text.as_bytes(), options(dialect)).typed();
+        assert_eq!(typed.by_ref().filter(Result::is_err).count(), 1, "{text}");
+        *typed.position()
+    };
+    // The tool of 10 mm counts along Z again; G154 P9 was not set.
+    let text = "T1 M6\nTRAORI G2 X5\nTRAFOOF\nG0 X1 Y2 Z5\n";
+    let near = |a: AxisVector, b: AxisVector| (a - b).amax() < 1e-9;
+    assert!(near(
+        end(Dialect::Siemens, text),
+        at(1.0, 2.0, 15.0, 0.0, 0.0)
+    ));
+    let text = "G10 L2 P1 Z20\nG0 A30\nG254 G154 P9\nG0 X1 Y2 Z5\n";
+    let found = joints(&end(Dialect::Fanuc, text));
+    let far = [1.0, 2.0, 25.0].into_iter().zip(found);
+    assert!(
+        far.into_iter()
+            .all(|(right, found)| (right - found).abs() < 1e-6)
+    );
+}

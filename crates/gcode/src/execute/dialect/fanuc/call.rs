@@ -84,7 +84,13 @@ impl<R: BufRead> Program<R> {
         let is_macro = matches!(call.code, CallCode::Macro | CallCode::ModalMacro);
         let words = self.call_words(text, call.end, is_macro)?;
         let program = match (words.program, &words.name) {
-            (Some(program), _) => program,
+            (Some(_), Some(_)) => {
+                let message = "a number and a name of the program in one call";
+                return Err(Fault::new(DiagnosticCode::AmbiguousWord, span, message)
+                    .because("they may be of two programs")
+                    .help("write P, or the name in < >"));
+            }
+            (Some(program), None) => program,
             (None, Some(name)) if call.code != CallCode::Local => {
                 let first = self.fanuc_program_named(name, span)?;
                 return self.enter_called(first, words.turns, &words, call.code, span);

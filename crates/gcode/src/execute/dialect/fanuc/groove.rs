@@ -40,6 +40,11 @@ struct Stepped {
 }
 
 impl Stepped {
+    /// How far the first step goes.
+    fn first_step_mm(self) -> f64 {
+        self.step_mm.min((self.to - self.from).abs())
+    }
+
     /// The places on the way, the end the last of them.
     fn places(self) -> Vec<f64> {
         let (length, way) = ((self.to - self.from).abs(), (self.to - self.from).signum());
@@ -94,13 +99,10 @@ impl Interpreter {
             return Err(too_many(block));
         }
         let aside_mm = back.unwrap_or(0.0);
-        if !is_single && aside_mm > side.step_mm {
-            let message = format!("R of {aside_mm} mm, more than from place to place");
-            return Err(
-                Fault::new(DiagnosticCode::InvalidValue, block.span(b'R'), message)
-                    .because("at the bottom the tool goes aside by R, to where it has cut before")
-                    .help("write a smaller R in the block with X and Z"),
-            );
+        // The second place is the nearest to where the tool has cut before.
+        let free_mm = if is_single { 0.0 } else { side.first_step_mm() };
+        if aside_mm > free_mm + MIN_MOVE {
+            return Err(too_far_aside(block, aside_mm, free_mm));
         }
         self.plunge(block, start, deep, None, out)?;
         let aside = aside_mm * (side.from - side.to).signum();
@@ -190,6 +192,17 @@ impl Interpreter {
         at[deep.axis] = deep.from;
         self.groove_move(block, at, Pace::Rapid, out)
     }
+}
+
+#[cold]
+fn too_far_aside(block: &Block, aside_mm: f64, free_mm: f64) -> Box<Fault> {
+    let message = format!("R of {aside_mm} mm, where {free_mm:.3} mm beside the bottom are free");
+    let fault = Fault::new(DiagnosticCode::InvalidValue, block.span(b'R'), message)
+        .because("at the bottom the tool goes aside by R, to where it has cut before");
+    if free_mm > 0.0 {
+        return fault.help("write a smaller R in the block with X and Z");
+    }
+    fault.help("remove it: a single groove or hole has no room aside; how far back between depths is said by R in a block before")
 }
 
 #[cold]

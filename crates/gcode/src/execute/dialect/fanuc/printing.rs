@@ -93,6 +93,8 @@ impl<R: BufRead> Program<R> {
         };
         let list = rest.get(open + 1..close).unwrap_or_default();
         let span = SourceSpan::new(start + open, start + close + 1);
+        // None of them is given where one is refused.
+        let mut given = Vec::new();
         for (number, name) in (first..).zip(list.split(|byte| *byte == b',')) {
             let name = name.trim_ascii();
             if name.is_empty() {
@@ -110,7 +112,9 @@ impl<R: BufRead> Program<R> {
                     .because("names begin with a letter, have 8 characters at most, and are of #100 to #199 and #500 to #999")
                     .help("write another name, or another variable"));
             }
-            let place = place_of_name(&String::from_utf8_lossy(name));
+            given.push((place_of_name(&String::from_utf8_lossy(name)), number));
+        }
+        for (place, number) in given {
             self.parameters
                 .assign(&Parameter::Named(place), f64::from(number));
         }

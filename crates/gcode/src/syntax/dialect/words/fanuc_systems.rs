@@ -46,7 +46,7 @@ impl OtherSystem {
         use SystemCode::{Absent, OfA, Shared};
         match (self, tenths) {
             (_, 900 | 910 | 980 | 990) => Shared(tenths),
-            (_, 320 | 500) => Absent,
+            (_, 320 | 500 | 930) | (Self::C, 790) => Absent,
             (_, 330) => OfA(320),
             (_, 920) => OfA(500),
             (_, 940) => OfA(980),
