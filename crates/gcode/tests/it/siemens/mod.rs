@@ -3,6 +3,7 @@
 mod boring;
 mod corners;
 mod cycles;
+mod face_milling;
 mod flow;
 mod frames;
 mod kept_data;

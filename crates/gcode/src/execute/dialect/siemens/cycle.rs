@@ -12,6 +12,7 @@
 //! | `CYCLE88` | RTP, RFP, SDIS, DP, DPR, DTB, SDIR |
 //! | `CYCLE89` | RTP, RFP, SDIS, DP, DPR, DTB |
 //! | `CYCLE840` | RTP, RFP, SDIS, DP, DPR, DTB, SDR, SDAC, ENC, MPIT, PIT, AXN, PITA, TECHNO |
+//! | `CYCLE71` | RTP, RFP, SDIS, DP, PA, PO, LENG, WID, STA, MID, MIDA, FDP, FALD, FFP1, VARI, FDP1 |
 //! | `POCKET3` | RTP, RFP, SDIS, DP, LENG, WID, CRAD, PA, PO, STA, MID, FAL, FALD, FFP1, FFD, CDIR, VARI, MIDA, AP1, AP2, AD, RAD1, DP1 |
 //! | `POCKET4` | RTP, RFP, SDIS, DP, PRAD, PA, PO, MID, FAL, FALD, FFP1, FFD, CDIR, VARI, MIDA, AP1, AD, RAD1, DP1 |
 //!
@@ -33,11 +34,8 @@ use crate::execute::program::Program;
 use crate::syntax::modes::FeedMode;
 use crate::syntax::word_check::missing;
 
-/// Most lines of one cycle.
-const MAX_LINES: usize = 200_000;
-
 /// Names of cycles, and how many arguments each takes.
-const CYCLES: [(&str, usize); 12] = [
+const CYCLES: [(&str, usize); 13] = [
     ("CYCLE81", 5),
     ("CYCLE82", 6),
     ("CYCLE83", 12),
@@ -48,6 +46,7 @@ const CYCLES: [(&str, usize); 12] = [
     ("CYCLE88", 7),
     ("CYCLE89", 6),
     ("CYCLE840", 14),
+    ("CYCLE71", 16),
     ("POCKET3", 23),
     ("POCKET4", 19),
 ];
@@ -323,6 +322,7 @@ impl<R: BufRead> Program<R> {
             "CYCLE88" => interpreter.bore_to_stop(arguments, 6, Some(5)),
             "CYCLE89" => interpreter.bore_both_ways(arguments),
             "CYCLE840" => interpreter.tap_with_chuck(arguments),
+            "CYCLE71" => interpreter.mill_face(arguments),
             "POCKET3" => interpreter.rectangular_pocket(arguments),
             _ => interpreter.circular_pocket(arguments),
         }

@@ -6,7 +6,7 @@
 //! CASE … OF … · L1 P2 · NAME(5) · PROC, EXTERN, RET, M17
 //! DEF REAL, INT, BOOL, arrays · TRANS, ROT, MIRROR, SCALE · ATRANS, AROT, AMIRROR, ASCALE
 //! G58, G59 · $P_UIFR[n]=CTRANS(X,10) · $TC_DP3[t,1]=50
-//! CYCLE81 to 89 · CYCLE840 · POCKET3, POCKET4 · MCALL · HOLES1, HOLES2, CYCLE801 · CYCLE800
+//! CYCLE81 to 89 · CYCLE840 · CYCLE71 · POCKET3, POCKET4 · MCALL · HOLES1, HOLES2, CYCLE801 · CYCLE800
 //! ```
 //!
 //! A line of a cycle becomes several ones in RS274/NGC's words, which are executed one after the
@@ -19,6 +19,7 @@ mod circular_pocket;
 mod cycle;
 mod define;
 mod drilling;
+mod face_milling;
 mod edge;
 mod flow;
 mod frames;

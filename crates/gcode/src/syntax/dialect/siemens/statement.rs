@@ -86,7 +86,7 @@ impl Statement {
 }
 
 /// Cycles that are made.
-const CYCLES: [&[u8]; 12] = [
+const CYCLES: [&[u8]; 13] = [
     b"CYCLE81",
     b"CYCLE82",
     b"CYCLE83",
@@ -97,6 +97,7 @@ const CYCLES: [&[u8]; 12] = [
     b"CYCLE88",
     b"CYCLE89",
     b"CYCLE840",
+    b"CYCLE71",
     b"POCKET3",
     b"POCKET4",
 ];

@@ -107,7 +107,7 @@ const REFUSED: &[(&[&str], &str, &str)] = &[
         "write ORIAXES",
     ),
     (&["CYCLE60"], "engraving", PLAIN),
-    (&["CYCLE61", "CYCLE71"], "face milling", PLAIN),
+    (&["CYCLE61"], "face milling", "write CYCLE71"),
     (&["CYCLE62"], "a contour that is called", PLAIN),
     (&["CYCLE63", "CYCLE64"], "a contour pocket", PLAIN),
     (&["CYCLE70", "CYCLE90"], "thread milling", PLAIN),
