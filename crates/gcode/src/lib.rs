@@ -72,7 +72,7 @@ pub use execute::state::in_force::InForce;
 pub use execute::state::modal::{Feed, Modal};
 pub use execute::state::probe_result::Probed;
 pub use setup::fanuc::{
-    Arctangent, FanucControl, FanucParameters, FeedAtStart, OffsetMemory, PointInput,
+    Arctangent, BoreShift, FanucControl, FanucParameters, FeedAtStart, OffsetMemory, PointInput,
 };
 pub use setup::firmware::Firmware;
 pub use setup::kept_variables::{KEPT_VARIABLES, KeptVariables};

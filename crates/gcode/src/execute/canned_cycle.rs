@@ -1,4 +1,4 @@
-//! Canned cycles: G73, G74, G81 to G86, G89.
+//! Canned cycles: G73, G74, G76 of FANUC, G81 to G86, G89.
 //!
 //! A block of a cycle makes one hole, or L of them, along the axis normal to the plane (Z in G17).
 //! The first block of a cycle gives R, the depth, and what the cycle needs besides; the blocks
@@ -21,6 +21,7 @@
 //! | cycle | down | at the bottom | out |
 //! |---|---|---|---|
 //! | G73 | Q at a time, 0.254 mm back after each | – | rapid |
+//! | G76 of FANUC | feed | dwell P, spindle stops at its angle (M19), aside | rapid, back, spindle on |
 //! | G74, G84 | feed, overrides off | spindle reversed, dwell P | feed, then reversed again |
 //! | the same, rigidly | behind the spindle | – | behind the spindle to R, rapid from there |
 //! | G81 | feed | – | rapid |
@@ -89,8 +90,9 @@ impl Interpreter {
         let normal = self.state.modal.plane.normal();
         let sticky = self.keep(block, cycle)?;
         self.check_cycle(block, &sticky)?;
-        // Beside I, K is the least depth of Haas.
-        let repeats = match block.get(b'I') {
+        // Beside I of depths, K is the least depth of Haas.
+        let depths = block.get(b'I').filter(|_| cycle != CannedCycle::FineBore);
+        let repeats = match depths {
             None => whole(block, b'K', MAX_HOLES)?.or(whole(block, b'L', MAX_HOLES)?),
             Some(_) => whole(block, b'L', MAX_HOLES)?,
         };
@@ -187,7 +189,10 @@ impl Interpreter {
             (Some(wanted), Some(turning)) => turning != wanted,
             // Behind M29, and as an axis, the cycle itself lets it turn.
             (Some(_), None) => !sticky.starts_spindle && !self.taps_by_axis(sticky),
-            (None, turning) => cycle == CannedCycle::BoreStop && turning.is_none(),
+            (None, turning) => {
+                let stops = matches!(cycle, CannedCycle::BoreStop | CannedCycle::FineBore);
+                stops && turning.is_none()
+            }
         };
         if wrong {
             let message = "the spindle does not turn as the cycle needs it";
@@ -301,6 +306,9 @@ impl Interpreter {
             self.pecks(block, hole, peck, out)?;
         }
         self.along(block, normal, hole.bottom, Pace::Feed, out)?;
+        if cycle == CannedCycle::FineBore {
+            return self.leave_bore(block, &hole.sticky, hole.clear, out);
+        }
         match cycle {
             CannedCycle::DrillDwell | CannedCycle::BoreDwell => {
                 self.push(out, ItemKind::Dwell(dwell_s));

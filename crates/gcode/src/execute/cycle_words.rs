@@ -47,6 +47,7 @@ impl Interpreter {
             peck: 0.0,
             less: 0.0,
             least: 0.0,
+            shift_mm: [0.0; 2],
             is_rigid: false,
             starts_spindle: false,
         };
@@ -67,6 +68,7 @@ impl Interpreter {
             CannedCycle::ChipBreak | CannedCycle::Peck => {
                 self.peck_words(block, peck_scale, last, &mut sticky)?;
             }
+            CannedCycle::FineBore => sticky.shift_mm = self.bore_shift(block, last)?,
             CannedCycle::Drill | CannedCycle::Bore => {}
         }
         check_haas_words(block, cycle)?;
@@ -139,7 +141,7 @@ impl Interpreter {
 
     /// What Q counts: lengths, and on a FANUC without a point least increments where all coordinates
     /// do, and on lathes.
-    fn peck_unit(&self, block: &Block) -> Outcome<f64> {
+    pub(super) fn peck_unit(&self, block: &Block) -> Outcome<f64> {
         let is_fanuc = block.dialect == Dialect::Fanuc && block.has_no_point(b'Q');
         let Some(peck) = block.get(b'Q').filter(|_| is_fanuc) else {
             return Ok(1.0);
@@ -168,8 +170,9 @@ impl Interpreter {
 
 /// Refuses I and J in cycles that do not have them.
 fn check_haas_words(block: &Block, cycle: CannedCycle) -> Outcome<()> {
-    let takes_i = matches!(cycle, CannedCycle::ChipBreak | CannedCycle::Peck);
-    let takes_j = takes_i && block.get(b'I').is_some() || tap_turns(cycle).is_some();
+    let shifts = cycle == CannedCycle::FineBore;
+    let takes_i = shifts || matches!(cycle, CannedCycle::ChipBreak | CannedCycle::Peck);
+    let takes_j = shifts || takes_i && block.get(b'I').is_some() || tap_turns(cycle).is_some();
     for (letter, is_taken) in [(b'I', takes_i), (b'J', takes_j)] {
         if block.get(letter).is_some() && !is_taken {
             return Err(unused(char::from(letter), block.span(letter)));
@@ -182,6 +185,7 @@ pub(crate) const fn name(cycle: CannedCycle) -> &'static str {
     match cycle {
         CannedCycle::ChipBreak => "G73",
         CannedCycle::TapLeft => "G74",
+        CannedCycle::FineBore => "G76",
         CannedCycle::Drill => "G81",
         CannedCycle::DrillDwell => "G82",
         CannedCycle::Peck => "G83",

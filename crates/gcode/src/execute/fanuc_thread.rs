@@ -331,8 +331,7 @@ fn no_setup(span: SourceSpan) -> Box<Fault> {
     let message = "G76 without the block that belongs before it";
     Fault::new(DiagnosticCode::NotSupported, span, message)
         .because(
-            "a thread in two blocks needs the first one, `G76 P Q R`; fine boring, which G76 is on \
-             milling machines, needs a spindle that stops at an angle and is not made",
+            "a thread in two blocks needs the first one, `G76 P Q R`; fine boring is G76 of mills",
         )
-        .help("for a thread write G76 P020060 Q100 R0.05 before it; for boring G85 or G86")
+        .help("write G76 P020060 Q100 R0.05 before it; for a mill set `fanuc = \"mill\"`")
 }

@@ -25,6 +25,7 @@ pub(crate) mod cycle_words;
 pub(crate) mod dialect;
 mod execute_line;
 mod fanuc_thread;
+mod fine_boring;
 pub(crate) mod flow;
 pub(crate) mod interpreter;
 pub(crate) mod lathe_cycle;

@@ -254,6 +254,7 @@ const fn motion_code(motion: Option<Motion>) -> u16 {
         Some(Motion::Cycle(cycle)) => match cycle {
             CannedCycle::ChipBreak => 730,
             CannedCycle::TapLeft => 740,
+            CannedCycle::FineBore => 760,
             CannedCycle::Drill => 810,
             CannedCycle::DrillDwell => 820,
             CannedCycle::Peck => 830,

@@ -62,6 +62,35 @@ pub enum Arctangent {
     Signed,
 }
 
+/// Which way the tool goes aside at the bottom of a bored hole (parameter 5101#4, #5; setting 27 of Haas).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum BoreShift {
+    /// Not said: Q of G76 is refused.
+    #[default]
+    Unsaid,
+    /// Towards +X.
+    PlusX,
+    /// Towards −X.
+    MinusX,
+    /// Towards +Y.
+    PlusY,
+    /// Towards −Y.
+    MinusY,
+}
+
+impl BoreShift {
+    /// The direction along X and Y.
+    pub(crate) const fn direction(self) -> Option<[f64; 2]> {
+        Some(match self {
+            Self::Unsaid => return None,
+            Self::PlusX => [1.0, 0.0],
+            Self::MinusX => [-1.0, 0.0],
+            Self::PlusY => [0.0, 1.0],
+            Self::MinusY => [0.0, -1.0],
+        })
+    }
+}
+
 /// What the parameters of a FANUC control say.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct FanucParameters {
@@ -75,4 +104,6 @@ pub struct FanucParameters {
     pub arctangent: Arctangent,
     /// The feed of a lathe.
     pub feed_at_start: FeedAtStart,
+    /// The way aside of G76.
+    pub bore_shift: BoreShift,
 }

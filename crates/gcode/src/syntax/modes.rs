@@ -94,6 +94,8 @@ pub enum CannedCycle {
     ChipBreak,
     /// G74: tapping, left-hand.
     TapLeft,
+    /// G76 of FANUC's and Haas' mills: boring, the tip off the wall on the way out.
+    FineBore,
     /// G81: drilling.
     Drill,
     /// G82: drilling with a dwell.

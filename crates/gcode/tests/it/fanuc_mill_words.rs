@@ -4,10 +4,11 @@
 use std::sync::Arc;
 
 use glidepath_gcode::{
-    Connections, Dialect, Machine, Options, Program, RemarkKind, Tool, ToolTable, check,
+    BoreShift, Connections, Dialect, FanucParameters, Machine, Options, Program, RemarkKind, Tool,
+    ToolTable, check,
 };
 use glidepath_geometry::{Axis, Segment};
-use glidepath_program::{ItemKind, Rate};
+use glidepath_program::{Event, ItemKind, Rate};
 
 use crate::support::listed;
 
@@ -199,4 +200,85 @@ fn variables_are_printed() {
     );
     finds("DPRNT[X#100]", &["1:8 expression"]);
     finds("DPRNT[X", &["1:6 expression"]);
+}
+
+#[test]
+fn bored_holes_are_left_beside_the_wall() {
+    let with = |bore_shift: BoreShift| Options {
+        fanuc: FanucParameters {
+            bore_shift,
+            ..FanucParameters::default()
+        },
+        ..options()
+    };
+    let steps = |text: &str, options: Options| -> Vec<String> {
+        let round = |value: f64| (value * 1e6).round() / 1e6 + 0.0;
+        Program::new(text.as_bytes(), options)
+            .map(|item| item.unwrap_or_else(|d| panic!("{text}\n{d}")))
+            .filter_map(|item| match item.kind {
+                ItemKind::Move { segment, rate, .. } => {
+                    let [x, y, z] = [0, 1, 2].map(|axis| round(segment.end()[axis]));
+                    let mark = if rate == Rate::Rapid { "r" } else { "" };
+                    Some(format!("{x} {y} {z}{mark}"))
+                }
+                ItemKind::Dwell(seconds) => Some(format!("{seconds}s")),
+                ItemKind::Event(Event::MCode(code)) => Some(format!("M{code}")),
+                _ => None,
+            })
+            .collect()
+    };
+    let head = "G0 Z20 S500 M3\n";
+    let hole = |x: f64, y: f64, aside: [f64; 2]| -> Vec<String> {
+        let [u, v] = [x + aside[0], y + aside[1]];
+        vec![
+            format!("{x} {y} 2r"),
+            format!("{x} {y} -10"),
+            "0.5s".to_owned(),
+            "M19".to_owned(),
+            format!("{u} {v} -10r"),
+            format!("{u} {v} 20r"),
+            format!("{x} {y} 20r"),
+            "M3".to_owned(),
+        ]
+    };
+    for (shift, aside) in [
+        (BoreShift::PlusX, [0.5, 0.0]),
+        (BoreShift::MinusX, [-0.5, 0.0]),
+        (BoreShift::PlusY, [0.0, 0.5]),
+        (BoreShift::MinusY, [0.0, -0.5]),
+    ] {
+        let text = format!("{head}G98 G76 X10 Y5 Z-10 R2 Q0.5 P500 F100\nX30\nG80");
+        let found = steps(&text, with(shift));
+        assert_eq!(found[3..11], hole(10.0, 5.0, aside), "{shift:?}");
+        assert_eq!(found[12..], hole(30.0, 5.0, aside), "{shift:?}");
+    }
+    // I and J say it by themselves; in G99 the tool stays at R.
+    let text = format!("{head}G99 G76 X10 Y5 Z-10 R2 I-0.3 J0.4 F100");
+    let found = steps(&text, options());
+    assert_eq!(
+        found[4..],
+        [
+            "10 5 -10",
+            "M19",
+            "9.7 5.4 -10r",
+            "9.7 5.4 2r",
+            "10 5 2r",
+            "M3"
+        ]
+    );
+    for (words, expected) in [
+        ("G76 X1 Z-10 R2 Q0.5 F100", "2:16 ambiguous-word"),
+        ("G76 X1 Z-10 R2 F100", "2:1 missing-word"),
+        ("G76 X1 Z-10 R2 I1 Q0.5 F100", "2:19 unused-word"),
+        ("G76 X1 Z-10 R2 I0 F100", "2:1 canned-cycle"),
+        ("G18 G76 X1 Y-10 R2 I1 F100", "2:5 canned-cycle"),
+        ("M5\nG76 X1 Z-10 R2 I1 F100", "3:1 spindle"),
+    ] {
+        finds(&format!("{head}{words}"), &[expected]);
+    }
+    let report = check(
+        format!("{head}G76 X1 Z-10 R2 Q5 F100").as_bytes(),
+        with(BoreShift::PlusX),
+    );
+    assert_eq!(listed(&report), ["2:16 ambiguous-word"]);
 }

@@ -1,7 +1,7 @@
 //! FANUC's G76 in its two forms, and the lead of G33.
 
 use crate::support::listed;
-use glidepath_gcode::{Dialect, Options, Program, Threading, check};
+use glidepath_gcode::{Dialect, FanucControl, FanucParameters, Options, Program, Threading, check};
 use glidepath_program::{Event, ItemKind, Limits};
 
 fn options() -> Options {
@@ -15,11 +15,26 @@ fn options() -> Options {
     }
 }
 
+/// A lathe, whose X words are diameters.
+fn lathe() -> Options {
+    Options {
+        fanuc: FanucParameters {
+            control: Some(FanucControl::LatheA),
+            ..FanucParameters::default()
+        },
+        ..options()
+    }
+}
+
 /// What is cut: the pitch of every pass, and the ends of its moves in X and Z, to the micrometre.
 fn cuts(text: &str) -> Vec<String> {
+    cuts_with(text, lathe())
+}
+
+fn cuts_with(text: &str, options: Options) -> Vec<String> {
     let mut cuts: Vec<String> = Vec::new();
     let rounded = |mm: f64| (mm * 1e3).round() / 1e3;
-    for item in Program::new(text.as_bytes(), options()) {
+    for item in Program::new(text.as_bytes(), options) {
         match item.unwrap_or_else(|found| panic!("{text}\n{found}")).kind {
             ItemKind::Event(Event::Synchronise { pitch_mm, phase }) => {
                 cuts.push(format!("{}@{phase}", rounded(pitch_mm)));
@@ -37,27 +52,28 @@ fn cuts(text: &str) -> Vec<String> {
 
 #[track_caller]
 fn finds(text: &str, expected: &str) {
-    let report = check(text.as_bytes(), options());
+    let report = check(text.as_bytes(), lathe());
     assert_eq!(listed(&report), [expected], "{text}");
 }
 
 #[test]
 fn a_thread_in_two_blocks() {
     // Two finishing passes, no way out, cut with both flanks; at least 0.2 deeper each.
-    let text = "S600 M3\nG0 X12 Z4\nG76 P020000 Q200 R0.1\nG76 X9 Z-20 P900 Q400 F1.5\nG1 X20 F10";
+    let text =
+        "S600 M3\nG0 X24 Z4\nG76 P020000 Q200 R0.1\nG76 X18 Z-20 P900 Q400 F1.5\nG98 G1 X40 F10";
     let passes = |depths: &[f64]| -> Vec<String> {
         let shown = |depth: &f64| format!("1.5@0 {},-20", ((9.9 - depth) * 1e3).round() / 1e3);
         depths.iter().map(shown).collect()
     };
     assert_eq!(cuts(text), passes(&[0.4, 0.6, 0.8, 0.9, 0.9]));
     // From where it stood, and back there.
-    let report = check(text.as_bytes(), options());
+    let report = check(text.as_bytes(), lathe());
     assert_eq!(report.final_position[2], 4.0);
 }
 
 #[test]
 fn the_way_out_the_angle_and_the_taper() {
-    let text = "S600 M3\nG0 X12 Z4\nG76 P011060 Q50 R0\nG76 X9 Z-20 R-0.5 P900 Q900 F1.5";
+    let text = "S600 M3\nG0 X24 Z4\nG76 P011060 Q50 R0\nG76 X18 Z-20 R-0.5 P900 Q900 F1.5";
     // The pass at full depth, and the finishing one: out of it over a lead, to the peak.
     let tan = 30.0_f64.to_radians().tan();
     let slope = -0.5 / 24.0;
@@ -68,7 +84,7 @@ fn the_way_out_the_angle_and_the_taper() {
     let pass = format!("{pitch}@0 {straight} {}", at(9.9, -20.0));
     assert_eq!(cuts(text), [pass.clone(), pass]);
     // A shallow pass is shifted back by what it is less deep, times the tangent of half the angle.
-    let text = "S600 M3\nG0 X12 Z4\nG76 P010060 Q50 R0\nG76 X9 Z-20 P900 Q500 F1.5";
+    let text = "S600 M3\nG0 X24 Z4\nG76 P010060 Q50 R0\nG76 X18 Z-20 P900 Q500 F1.5";
     let deep = (0.5_f64 * 2.0_f64.sqrt(), 0.5_f64 * 3.0_f64.sqrt());
     let shown = |depth: f64| format!("1.5@0 {}", at(9.9 - depth, -20.0 + (0.9 - depth) * tan));
     assert_eq!(
@@ -86,7 +102,7 @@ fn the_way_out_the_angle_and_the_taper() {
 #[test]
 fn a_thread_in_one_block() {
     // Inside, towards higher Z, with the depths of areas alike, then with depths alike.
-    let text = "S600 M3\nG0 X9 Z-20\nG76 X11 Z4 K1 D500 F1.5 A60\n";
+    let text = "S600 M3\nG0 X18 Z-20\nG76 X22 Z4 K1 D500 F1.5 A60\n";
     let at = |depth: f64| {
         let tan = 30.0_f64.to_radians().tan();
         let z = 4.0 - (1.0 - depth) * tan;
@@ -98,7 +114,7 @@ fn a_thread_in_one_block() {
     };
     let root = |n: f64| at(0.5 * n.sqrt());
     assert_eq!(cuts(text), [root(1.0), root(2.0), root(3.0), at(1.0)]);
-    let text = "S600 M3\nG0 X9 Z-20\nG76 X11 Z4 K1 D0.4 F1.5 P3 Q90000\n";
+    let text = "S600 M3\nG0 X18 Z-20\nG76 X22 Z4 K1 D0.4 F1.5 P3 Q90000\n";
     let quarter = (1 << 24) / 4;
     let shown = |x: f64| format!("1.5@{quarter} {x},4");
     assert_eq!(cuts(text), [shown(10.4), shown(10.8), shown(11.0)]);
@@ -106,28 +122,28 @@ fn a_thread_in_one_block() {
 
 #[test]
 fn inches_and_what_is_refused() {
-    let text = "G20 S600 M3\nG0 X0.5 Z0.2\nG76 P010000 Q0 R0\nG76 X0.4 Z-1 P500 Q500 F0.05";
+    let text = "G20 S600 M3\nG0 X1 Z0.2\nG76 P010000 Q0 R0\nG76 X0.8 Z-1 P500 Q500 F0.05";
     assert_eq!(cuts(text)[0], "1.27@0 10.16,-25.4");
-    let begin = "S600 M3\nG0 X12 Z4\nG76 P010060 Q100 R0\n";
+    let begin = "S600 M3\nG0 X24 Z4\nG76 P010060 Q100 R0\n";
     for (words, expected) in [
-        ("G76 X9 Z-20 P900 F1.5", "4:1 missing-word"),
-        ("G76 X9 Z-20 P0.9 Q100 F1.5", "4:13 not-an-integer"),
-        ("G76 X11.5 Z-20 P900 Q100 F1.5", "4:5 invalid-value"),
-        ("G76 X9 Z-20 P900 Q1000 F1.5", "4:18 invalid-value"),
-        ("G76 X9 Z-20 P900 Q100 F1.5 I1", "4:28 unused-word"),
-        ("G76 X9 Z-20 K0.9 D100 F1.5 P2", "4:28 not-supported"),
-        ("G76 X9 Z-20 K0.9 D100 F1.5 A150", "4:28 invalid-value"),
-        ("G76 X9 Z-20 P900 Q100 F3000", "4:1 invalid-value"),
+        ("G76 X18 Z-20 P900 F1.5", "4:1 missing-word"),
+        ("G76 X18 Z-20 P0.9 Q100 F1.5", "4:14 not-an-integer"),
+        ("G76 X23 Z-20 P900 Q100 F1.5", "4:5 invalid-value"),
+        ("G76 X18 Z-20 P900 Q1000 F1.5", "4:19 invalid-value"),
+        ("G76 X18 Z-20 P900 Q100 F1.5 I1", "4:29 unused-word"),
+        ("G76 X18 Z-20 K0.9 D100 F1.5 P2", "4:29 not-supported"),
+        ("G76 X18 Z-20 K0.9 D100 F1.5 A150", "4:29 invalid-value"),
+        ("G76 X18 Z-20 P900 Q100 F3000", "4:1 invalid-value"),
     ] {
         finds(&format!("{begin}{words}"), expected);
     }
-    // Fine boring of milling machines.
-    finds("S600 M3\nG76 X9 Z-20 R2 Q1 F100", "2:1 not-supported");
+    // Without its first block it may be meant as fine boring of a mill.
+    finds("S600 M3\nG76 X18 Z-20 P900 Q100 F1.5", "2:1 not-supported");
 }
 
 #[test]
 fn the_lead_of_a_taper_is_that_of_the_longer_axis() {
-    let cut = cuts("S600 M3\nG33 X-10 Z-20 F1.5");
+    let cut = cuts_with("S600 M3\nG33 X-10 Z-20 F1.5", options());
     let along = (500.0_f64).sqrt() / 20.0;
     assert_eq!(
         cut,

@@ -25,6 +25,9 @@ pub(crate) struct StickyWords {
     pub(crate) less: f64,
     #[serde(default)]
     pub(crate) least: f64,
+    /// How far fine boring (G76) goes aside at the bottom, along X and Y.
+    #[serde(default)]
+    pub(crate) shift_mm: [f64; 2],
     /// It taps behind the spindle.
     pub(crate) is_rigid: bool,
     /// The spindle turns in the hole alone (M29).

@@ -90,6 +90,7 @@ const fn motion_code(motion: Motion) -> &'static str {
         Motion::Cycle(cycle) => match cycle {
             CannedCycle::ChipBreak => "G73",
             CannedCycle::TapLeft => "G74",
+            CannedCycle::FineBore => "G76",
             CannedCycle::Drill => "G81",
             CannedCycle::DrillDwell => "G82",
             CannedCycle::Peck => "G83",

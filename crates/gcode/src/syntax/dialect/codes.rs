@@ -9,7 +9,8 @@ use crate::syntax::dialect::marlin::{function_with_decimal, is_function};
 use crate::syntax::dialect::words::fanuc_systems::{OtherSystem, SystemCode};
 use crate::syntax::dialect::words::{Meaning, fanuc, fanuc_lathe, marlin, no_g, no_m, refused};
 use crate::syntax::modes::{
-    FeedMode, LatheCycle, Motion, NonModal, Pockets, PoleFrom, Probe, ToolLength, Turning, Units,
+    CannedCycle, FeedMode, LatheCycle, Motion, NonModal, Pockets, PoleFrom, Probe, SpindleMode,
+    ToolLength, Turning, Units,
 };
 use glidepath_program::PathMode;
 
@@ -57,17 +58,20 @@ impl Codes {
             900 => Motion::Turning(Turning::Turn),
             920 => Motion::Turning(Turning::Thread),
             940 => Motion::Turning(Turning::Face),
+            760 => Motion::ThreadCycle,
             500 => return set(&mut self.non_modal, NonModal::LatheSetting, span),
             980 => return set(&mut self.feed_mode, FeedMode::PerMinute, span),
             990 => return set(&mut self.feed_mode, FeedMode::PerRevolution, span),
             _ => return self.add_own_fanuc_g(tenths, span),
         };
-        self.is_once = matches!(lathe, Motion::Lathe(_) | Motion::Groove(_));
+        self.is_once = matches!(
+            lathe,
+            Motion::Lathe(_) | Motion::Groove(_) | Motion::ThreadCycle
+        );
         self.set_motion(Some(lathe), span)
     }
 
-    /// G31 is a move that a contact ends, and no error without; like G60 and G76 it is of its block
-    /// alone.
+    /// G31 is a move that a contact ends, and no error without; like G60 it is of its block alone.
     fn add_own_fanuc_g(&mut self, tenths: u32, span: SourceSpan) -> Outcome<()> {
         let once = match tenths {
             310 => Motion::Probe(Probe {
@@ -78,7 +82,6 @@ impl Codes {
                 set(&mut self.exact_stop, (), span)?;
                 Motion::Rapid
             }
-            760 => Motion::ThreadCycle,
             120 | 130 => Motion::CirclePocket(tenths == 120),
             _ => return self.add_fanuc_mode(tenths, span),
         };
@@ -90,6 +93,7 @@ impl Codes {
         match tenths {
             90 => set(&mut self.exact_stop, (), span),
             100 => set(&mut self.non_modal, NonModal::SetData, span),
+            760 => self.set_motion(Some(Motion::Cycle(CannedCycle::FineBore)), span),
             150 | 160 => set(&mut self.polar_mode, tenths == 160, span),
             300 => set(&mut self.non_modal, NonModal::GoToReference(1), span),
             531 | 682 => {

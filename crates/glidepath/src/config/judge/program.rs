@@ -5,8 +5,8 @@ use crate::config::diagnostic::ConfigDiagnostic;
 use crate::config::program::ProgramConfig;
 use crate::config::raw::RawProgram;
 use glidepath_gcode::{
-    Arctangent, Connections, Dialect, FanucControl, FanucParameters, FeedAtStart, Firmware,
-    OffsetMemory, PointInput, SiemensParameters, ToolChangeBy, WorkOffsets,
+    Arctangent, BoreShift, Connections, Dialect, FanucControl, FanucParameters, FeedAtStart,
+    Firmware, OffsetMemory, PointInput, SiemensParameters, ToolChangeBy, WorkOffsets,
 };
 use glidepath_geometry::Axis;
 use std::path::PathBuf;
@@ -114,6 +114,17 @@ impl Judge {
                 "program.arctangent",
                 raw.arctangent.take(),
                 &[("0-360", Arctangent::Full), ("signed", Arctangent::Signed)],
+            ),
+            bore_shift: self.choice(
+                "program.bore_shift",
+                raw.bore_shift.take(),
+                &[
+                    ("unsaid", BoreShift::Unsaid),
+                    ("+X", BoreShift::PlusX),
+                    ("-X", BoreShift::MinusX),
+                    ("+Y", BoreShift::PlusY),
+                    ("-Y", BoreShift::MinusY),
+                ],
             ),
             feed_at_start: self.choice(
                 "program.lathe_feed",

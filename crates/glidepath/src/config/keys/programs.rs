@@ -68,6 +68,15 @@ pub(super) const PROGRAM: &[Key] = &[
          -180 to 180",
     ),
     key(
+        "program.bore_shift",
+        Takes::Choice {
+            of: &["unsaid", "+X", "-X", "+Y", "-Y"],
+        },
+        LeftOut::Value("\"unsaid\""),
+        "which way Q of G76 takes the tip off the wall on a FANUC or Haas mill (parameter 5101#4, #5; \
+         setting 27); \"unsaid\": such a Q is refused",
+    ),
+    key(
         "program.tool_change",
         Takes::Choice {
             of: &["auto", "T", "M6"],

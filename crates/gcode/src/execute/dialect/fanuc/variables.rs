@@ -336,6 +336,7 @@ const fn cycle_code(modal: &Modal) -> f64 {
         Some(Motion::Cycle(cycle)) => match cycle {
             CannedCycle::ChipBreak => 73.0,
             CannedCycle::TapLeft => 74.0,
+            CannedCycle::FineBore => 76.0,
             CannedCycle::Drill => 81.0,
             CannedCycle::DrillDwell => 82.0,
             CannedCycle::Peck => 83.0,

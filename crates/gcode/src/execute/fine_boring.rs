@@ -1,0 +1,112 @@
+//! G76 of FANUC's and Haas' mills: a hole that is bored, out of which the tool comes without a mark.
+//!
+//! ```text
+//!   bottom: dwell P ── M19: the spindle stops at its angle ── aside, the tip off the wall ──
+//!   out at rapid ── back above the hole ── the spindle turns again
+//! ```
+//!
+//! The way aside is I and J, or Q in the direction that a parameter of the control gives.
+
+use glidepath_geometry::Plane;
+use glidepath_program::{Event, Item, ItemKind};
+
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::{Fault, Outcome};
+use crate::execute::interpreter::Interpreter;
+use crate::execute::motion::speed::Pace;
+use crate::execute::state::sticky_words::StickyWords;
+use crate::setup::fanuc::PointInput;
+use crate::syntax::block::Block;
+use crate::syntax::word_check::{missing, unused};
+
+impl Interpreter {
+    /// The way aside, along X and Y, mm.
+    pub(super) fn bore_shift(&self, block: &Block, last: Option<StickyWords>) -> Outcome<[f64; 2]> {
+        let span = block.motion_span();
+        if self.state.modal.plane != Plane::Xy {
+            let message = "G76 outside G17";
+            return Err(Fault::new(DiagnosticCode::CannedCycle, span, message)
+                .because("the tool goes aside along X and Y")
+                .help("write G17 before it"));
+        }
+        self.require_connection(span, "spindle that stops in a known position")?;
+        let mm = self.state.modal.units.mm();
+        let way = [b'I', b'J'].map(|letter| block.get(letter));
+        let shift = match (way, block.get(b'Q'), last) {
+            ([None, None], Some(_), _) => self.shift_of_q(block)?,
+            ([None, None], None, Some(last)) => last.shift_mm,
+            ([None, None], None, None) => {
+                let meaning = "the way aside at the bottom";
+                return Err(missing(span, "G76", "Q, or I and J", meaning));
+            }
+            (_, Some(_), _) => return Err(unused('Q', block.span(b'Q'))),
+            (way, None, _) => way.map(|along| along.unwrap_or(0.0) * mm),
+        };
+        if shift[0].hypot(shift[1]) > 0.0 {
+            return Ok(shift);
+        }
+        Err(
+            Fault::new(DiagnosticCode::CannedCycle, span, "G76 goes nowhere aside")
+                .because("the tip would scratch the wall on the way out")
+                .help("write Q above zero, or G86"),
+        )
+    }
+
+    /// Q, whose direction is a parameter of the control.
+    fn shift_of_q(&self, block: &Block) -> Outcome<[f64; 2]> {
+        let span = block.span(b'Q');
+        let refuse = |message: &str, reason: &str, help: &str| {
+            Err(Fault::new(DiagnosticCode::AmbiguousWord, span, message)
+                .because(reason)
+                .help(help))
+        };
+        let Some(direction) = self.options.fanuc.bore_shift.direction() else {
+            return refuse(
+                "Q of G76 without its direction",
+                "which way takes the tip off the wall is a parameter of the control (5101#4, #5; Haas: setting 27)",
+                "set `bore_shift` of [program] to that way, or write I and J",
+            );
+        };
+        if block.has_no_point(b'Q') && block.point == PointInput::Unsaid {
+            return refuse(
+                "Q of G76 without a decimal point",
+                "it is millimetres on one control, and least increments on another",
+                "write the point, or set `point` of [program]",
+            );
+        }
+        // Its sign does not count.
+        let way = block.get(b'Q').unwrap_or(0.0).abs();
+        let way_mm = way * self.state.modal.units.mm() * self.peck_unit(block)?;
+        Ok(direction.map(|along| along * way_mm))
+    }
+
+    /// From the bottom of a hole to above it.
+    pub(super) fn leave_bore(
+        &mut self,
+        block: &Block,
+        words: &StickyWords,
+        clear: f64,
+        out: &mut Vec<Item>,
+    ) -> Outcome<()> {
+        let event = |code: u32| ItemKind::Event(Event::MCode(code));
+        if words.dwell_s > 0.0 {
+            self.push(out, ItemKind::Dwell(words.dwell_s));
+        }
+        self.push(out, event(19));
+        let mut place = self.offsets.to_program(self.state.position);
+        for (axis, way) in words.shift_mm.into_iter().enumerate() {
+            place[axis] += way;
+        }
+        self.straight(block, self.offsets.to_machine(place), Pace::Rapid, out)?;
+        place[2] = clear;
+        self.straight(block, self.offsets.to_machine(place), Pace::Rapid, out)?;
+        for (axis, way) in words.shift_mm.into_iter().enumerate() {
+            place[axis] -= way;
+        }
+        self.straight(block, self.offsets.to_machine(place), Pace::Rapid, out)?;
+        if let Some(turning) = self.state.spindle.turning {
+            self.push(out, event(turning.code()));
+        }
+        Ok(())
+    }
+}
