@@ -10,13 +10,16 @@ pub enum ToolChangeBy {
 }
 
 /// What the machine data of a SINUMERIK say.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SiemensParameters {
     /// Which word changes the tool; `None`: T on a machine with X and Z and without Y, else M6.
     pub tool_change: Option<ToolChangeBy>,
     /// Edge D1 is in force behind a tool change that names no edge (MD 20270); else the tool has no
     /// length until D is written.
     pub edge_after_change: bool,
+    /// Where the machine's Z goes up to before CYCLE800 turns the rotary axes, mm; `None`: that it shall
+    /// go there (FR 1) is refused.
+    pub swivel_z_mm: Option<f64>,
 }
 
 impl Default for SiemensParameters {
@@ -25,6 +28,7 @@ impl Default for SiemensParameters {
         Self {
             tool_change: None,
             edge_after_change: true,
+            swivel_z_mm: None,
         }
     }
 }

@@ -281,7 +281,8 @@ fn what_is_wrong_with_a_plane_is_told() {
     let siemens = |text: &str, expected: &[&str]| finds(Dialect::Siemens, text, expected);
     for wrong in [
         "CYCLE800(1,\"\",0,57,0,0,0,30,0,0,0,0,0,-1)",
-        "CYCLE800(0,\"\",1,57,0,0,0,30,0,0,0,0,0,-1)",
+        "CYCLE800(2,\"\",0,57,0,0,0,30,0,0,0,0,0,-1)",
+        "CYCLE800(0,\"\",2,57,0,0,0,30,0,0,0,0,0,-1)",
         "CYCLE800(0,\"\",0,192,0,0,0,30,0,0,0,0,0,-1)",
         "CYCLE800(0,\"\",0,57,0,0,0,30,0,0,0,0,0,0)",
     ] {

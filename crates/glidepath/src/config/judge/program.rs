@@ -1,6 +1,6 @@
 //! `[program]`: how programs are read.
 
-use super::values::Judge;
+use super::values::{Judge, Range};
 use crate::config::diagnostic::ConfigDiagnostic;
 use crate::config::program::ProgramConfig;
 use crate::config::raw::RawProgram;
@@ -27,6 +27,14 @@ const FIRMWARES: [(&str, Option<Firmware>); 3] = [
     ("marlin", Some(Firmware::Marlin)),
     ("klipper", Some(Firmware::Klipper)),
 ];
+
+/// Where Z goes up to before the rotary axes turn.
+const SWIVEL_Z: Range = Range {
+    min: -1e6,
+    max: 1e6,
+    unit: "mm",
+    help: "a place of the machine's Z where the rotary axes may turn",
+};
 
 impl Judge {
     pub(super) fn program(&mut self, mut raw: RawProgram, expects_feedback: bool) -> ProgramConfig {
@@ -155,6 +163,10 @@ impl Judge {
                 raw.edge_after_change.take(),
                 &[("D1", true), ("none", false)],
             ),
+            swivel_z_mm: raw
+                .swivel_z
+                .take()
+                .map(|value| self.number("program.swivel_z", &value, &SWIVEL_Z)),
         }
     }
 }

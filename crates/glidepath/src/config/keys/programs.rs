@@ -95,6 +95,13 @@ pub(super) const PROGRAM: &[Key] = &[
          \"none\": the tool has no length until D is written",
     ),
     key(
+        "program.swivel_z",
+        number(-1e6, 1e6, "mm"),
+        LeftOut::Means("CYCLE800 with FR 1 is refused"),
+        "where the machine's Z goes up to before CYCLE800 of a SINUMERIK turns the rotary axes, where its \
+         program asks for it (FR 1)",
+    ),
+    key(
         "program.tool_table",
         Takes::Text {
             rule: "a file, beside the configuration or with its full path",

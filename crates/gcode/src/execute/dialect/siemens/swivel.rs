@@ -3,17 +3,20 @@
 //! `CYCLE800(FR, TC, ST, MODE, X0, Y0, Z0, A, B, C, X1, Y1, Z1, DIR, FR_I, DMODE)`: the zero goes to X0,
 //! Y0, Z0, the axes turn by A, B and C one after the other, about those that MODE names, and in the new
 //! axes the zero goes on by X1, Y1, Z1. Then the rotary axes turn until the tool stands along the
-//! normal: DIR says by which of the two ways.
+//! normal: DIR says by which of the two ways. With FR 1 the tool goes up along the machine's Z before
+//! that, with ones of ST that are 1 the plane counts in the one in force.
 
 use std::io::BufRead;
 
 use glidepath_geometry::AxisVector;
+use glidepath_program::Item;
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::dialect::siemens::flow::check_end;
 use crate::execute::interpreter::Interpreter;
+use crate::execute::motion::speed::Pace;
 use crate::execute::motion::tilted_plane::Branch;
 use crate::execute::program::Program;
 use crate::execute::state::frame::Frame;
@@ -41,51 +44,100 @@ impl<R: BufRead> Program<R> {
                 || name.as_deref() == Some(b"0");
             (numbers, is_off, SourceSpan::new(at, input.at))
         };
-        let interpreter = &mut self.interpreter;
-        check_frame(interpreter, is_off, span)?;
+        check_frame(&self.interpreter, is_off, span)?;
+        self.settle_corner_before_plane(span)?;
         if is_off {
-            interpreter.end_tilt();
+            self.interpreter.end_tilt();
+            self.end_of_line();
             return Ok(());
         }
         let value = |index: usize| numbers.get(index).copied().flatten().unwrap_or(0.0);
-        let frame = frame(&value, span)?;
-        let frame = Frame::shifted(frame.0)
-            .with(&frame.1)
-            .with(&Frame::shifted(frame.2));
+        let own = frame(&value, self.interpreter.state.modal.units.mm(), span)?;
         let branch = branch(&value, span)?;
         check_rest(&numbers, &value, span)?;
         let number = self.line_of_program();
         let interpreter = &mut self.interpreter;
         let turns = (7..10).any(|index| value(index).abs() > NO_ANGLE);
-        if interpreter.options.five_axis.is_none() && !turns {
-            // Nothing turns: the zero is another one.
-            interpreter.offsets.tilted = frame;
-            interpreter.offsets.frame = frame;
-            return Ok(());
-        }
+        // Without angles nothing turns: the zero is another one.
+        let is_shift = interpreter.options.five_axis.is_none() && !turns;
+        let adds = (value(2) % 10.0 - 1.0).abs() < 1e-9;
+        let frame = if adds {
+            interpreter.offsets.tilted.with(&own)
+        } else {
+            own
+        };
         let (state, offsets, axes_end) = (
             interpreter.state,
             interpreter.offsets.clone(),
             interpreter.axes_end,
         );
+        let settled = self.items.len();
         interpreter.begin(number);
-        interpreter.mapped_items = 0;
+        interpreter.mapped_items = settled;
         // A plane comes in the place of the one before.
         interpreter.end_tilt();
         let block = Block::of(self.block.dialect, &interpreter.options.m_codes);
+        let items = &mut self.items;
         let done = interpreter
-            .begin_tilt(frame, span)
-            .and_then(|()| interpreter.align_tool(&block, (branch, span), &mut self.items));
+            .lift_before_swivel(&block, (value(0), span), items)
+            .and_then(|()| {
+                if is_shift {
+                    interpreter.offsets.tilted = frame;
+                    interpreter.offsets.frame = frame;
+                    return Ok(());
+                }
+                interpreter.begin_tilt(frame, span)?;
+                interpreter.align_tool(&block, (branch, span), items)
+            });
         if let Err(mut fault) = done {
             interpreter.state = state;
             interpreter.offsets = offsets;
             interpreter.axes_end = axes_end;
-            self.items.clear();
+            self.items.truncate(settled);
+            self.end_of_line();
             fault.span = span;
             return Err(fault);
         }
         self.end_of_line();
         Ok(())
+    }
+
+    /// The move to a corner in front of the plane is made in the coordinates from before it.
+    fn settle_corner_before_plane(&mut self, span: SourceSpan) -> Outcome<()> {
+        let interpreter = &mut self.interpreter;
+        if interpreter.corner.is_none() {
+            return Ok(());
+        }
+        let block = Block::of(self.block.dialect, &interpreter.options.m_codes);
+        interpreter.mapped_items = self.items.len();
+        interpreter.settle_corner_before(&block, span, &mut self.items)?;
+        interpreter.map_moves(&block, &mut self.items)
+    }
+}
+
+impl Interpreter {
+    /// FR: the way out before the rotary axes turn.
+    fn lift_before_swivel(
+        &mut self,
+        block: &Block,
+        (way, span): (f64, SourceSpan),
+        out: &mut Vec<Item>,
+    ) -> Outcome<()> {
+        if way == 0.0 {
+            return Ok(());
+        }
+        let place = self.options.siemens.swivel_z_mm;
+        let Some(up) = place.filter(|_| (way - 1.0).abs() < 1e-9) else {
+            let message = format!("CYCLE800 with the retraction FR {way} is not supported");
+            return Err(Fault::new(DiagnosticCode::CannedCycle, span, message)
+                .because("where the tool goes before it swivels is machine data; with FR 1 it is a place of Z")
+                .help("set `swivel_z` of [program] and write FR 1, or write the way out as a block before it (SUPA Z) and FR 0"));
+        };
+        let mut target = self.state.position;
+        // Never down.
+        target[2] = up.max(target[2]);
+        self.straight(block, target, Pace::Rapid, out)?;
+        self.map_moves(block, out)
     }
 }
 
@@ -102,11 +154,8 @@ fn check_frame(interpreter: &Interpreter, is_off: bool, span: SourceSpan) -> Out
         .help("write TRANS alone before it, which ends them"))
 }
 
-/// The zero before the turn, the turn, and the zero behind it.
-fn frame(
-    value: &impl Fn(usize) -> f64,
-    span: SourceSpan,
-) -> Outcome<(AxisVector, Frame, AxisVector)> {
+/// The zero before the turn, the turn, and the zero behind it; `mm` is the unit of lengths.
+fn frame(value: &impl Fn(usize) -> f64, mm: f64, span: SourceSpan) -> Outcome<Frame> {
     let mode = value(3);
     let order: Option<[usize; 3]> = [
         (57.0, [0, 1, 2]),
@@ -128,9 +177,9 @@ fn frame(
     let place = |first: usize| {
         let mut place = AxisVector::zeros();
         for axis in 0..3 {
-            place[axis] = value(first + axis);
+            place[axis] = value(first + axis) * mm;
         }
-        place
+        Frame::shifted(place)
     };
     let mut turned = Frame::default();
     for (index, axis) in order.into_iter().enumerate() {
@@ -138,7 +187,7 @@ fn frame(
         degrees[axis] = value(7 + index);
         turned = turned.with(&Frame::turned(degrees));
     }
-    Ok((place(4), turned, place(10)))
+    Ok(place(4).with(&turned).with(&place(10)))
 }
 
 /// DIR: which of the two ways.
@@ -167,17 +216,11 @@ fn check_rest(
             .because(reason)
             .help(help))
     };
-    if value(0).abs() > 0.0 {
+    let ones = value(2) % 10.0;
+    if ![0.0, 1.0].contains(&ones) {
         return refuse(
-            "CYCLE800 with a retraction (FR) is not supported",
-            "where the tool goes before it swivels is machine data",
-            "write the way out as a block before it (SUPA Z), and FR 0",
-        );
-    }
-    if (value(2) % 10.0).abs() > 0.0 {
-        return refuse(
-            "CYCLE800 that is added to a swivelled plane is not supported",
-            "its words would count in a plane that is swivelled already",
+            "CYCLE800 with other ones of ST than 0 and 1 is not supported",
+            "0 is a new plane, 1 one that counts in the plane in force",
             "write the plane as a whole, with ST 0",
         );
     }
