@@ -123,6 +123,7 @@ impl Interpreter {
             self.open_spline = None;
             return Err(fault);
         }
+        self.check_open_plane(block)?;
         self.settle_held(block, motion, out)?;
         check_words(block, motion)?;
         self.check_axes(block)?;

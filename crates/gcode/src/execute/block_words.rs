@@ -6,7 +6,7 @@ use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::block::Block;
-use crate::syntax::codes::FrameCode;
+use crate::syntax::codes::{FrameCode, TiltCode};
 use crate::syntax::dialect::Dialect;
 use crate::syntax::letters::{AXIS_WORDS, Letters};
 use crate::syntax::modes::{
@@ -128,12 +128,30 @@ fn taken_by_modes_of_dialects(block: &Block) -> Letters {
     let codes = &block.codes;
     match (codes.read_over, codes.frame.map(|frame| frame.code)) {
         _ if codes.kept_place.is_some() => AXIS_WORDS.and(Letters::of(b"E")),
-        _ if codes.tilt.is_some() => AXIS_WORDS.and(Letters::of(b"PIJK")),
+        _ if codes.tilt.is_some() => taken_by_tilt(block),
         (Some(_), _) => Letters::of(b"PQRE"),
         (_, Some(FrameCode::Scale(true))) => AXIS_WORDS.and(Letters::of(b"PIJK")),
         (_, Some(FrameCode::Turn(true))) => AXIS_WORDS.and(Letters::of(b"R")),
         (_, Some(FrameCode::Mirror(_))) => AXIS_WORDS,
         _ => Letters::of(b""),
+    }
+}
+
+/// The words of G68.2 in its forms, and of G53.1.
+fn taken_by_tilt(block: &Block) -> Letters {
+    let is_plane = block
+        .codes
+        .tilt
+        .is_some_and(|coded| coded.code == TiltCode::Plane);
+    if !is_plane {
+        return Letters::of(b"P");
+    }
+    match (block.get(b'P'), block.get(b'Q')) {
+        (Some(2.0), Some(0.0)) => Letters::of(b"PQXYZR"),
+        (Some(2.0), _) => Letters::of(b"PQXYZ"),
+        (Some(3.0), Some(2.0)) => Letters::of(b"PQIJK"),
+        (Some(3.0), _) => Letters::of(b"PQXYZIJK"),
+        _ => AXIS_WORDS.and(Letters::of(b"PIJK")),
     }
 }
 

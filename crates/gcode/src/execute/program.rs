@@ -194,6 +194,7 @@ impl<R: BufRead> Program<R> {
             || interpreter.open_line.is_some()
             || interpreter.open_tap.is_some()
             || interpreter.open_spline.is_some()
+            || interpreter.state.fanuc.open_plane.is_some()
             || self.lathe_cycle.is_some()
             || self.flow.recorder.is_some()
             || !self.flow.activations.is_empty();
@@ -323,6 +324,8 @@ impl<R: BufRead> Program<R> {
                 self.interpreter.check_spline_complete()?;
                 self.interpreter.check_line_complete()?;
                 self.interpreter.check_tap_complete()?;
+                self.interpreter
+                    .check_plane_complete(SourceSpan::default())?;
                 self.interpreter.end_corner(&self.block, &mut self.items)?;
                 self.interpreter.end_compensation(&mut self.items)?;
                 self.count();

@@ -95,6 +95,7 @@ impl<R: BufRead> Program<R> {
         }
         self.interpreter.open_line = None;
         self.interpreter.open_tap = None;
+        self.interpreter.state.fanuc.open_plane = None;
         self.interpreter.adopt_modes(&self.block);
         self.interpreter.adopt_place(&self.block, diagnostic.code);
     }

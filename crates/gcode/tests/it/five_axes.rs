@@ -14,7 +14,7 @@ use std::sync::Arc;
 use crate::support::listed;
 
 /// Tool 1 is 10 mm longer than the one that the kinematics know.
-fn options(dialect: Dialect) -> Options {
+pub(crate) fn options(dialect: Dialect) -> Options {
     let mut tools = ToolTable::new();
     let mut tool = Tool::default();
     tool.offset[2] = 10.0;
@@ -40,7 +40,7 @@ fn options(dialect: Dialect) -> Options {
 }
 
 /// The linear joints of a tip, without the length of the tool.
-fn joints(axes: &AxisVector) -> [f64; 3] {
+pub(crate) fn joints(axes: &AxisVector) -> [f64; 3] {
     let (sa, ca) = axes[Axis::A.index()].to_radians().sin_cos();
     let (sc, cc) = axes[Axis::C.index()].to_radians().sin_cos();
     let (x, y, z) = (axes[0], axes[1], axes[2]);
@@ -61,11 +61,11 @@ fn moves(dialect: Dialect, text: &str) -> Vec<(AxisVector, AxisVector, Rate, f64
         .collect()
 }
 
-fn last(dialect: Dialect, text: &str) -> AxisVector {
+pub(crate) fn last(dialect: Dialect, text: &str) -> AxisVector {
     moves(dialect, text).last().expect("a move").1
 }
 
-fn at(x: f64, y: f64, z: f64, a: f64, c: f64) -> AxisVector {
+pub(crate) fn at(x: f64, y: f64, z: f64, a: f64, c: f64) -> AxisVector {
     let mut axes = AxisVector::zeros();
     (axes[0], axes[1], axes[2]) = (x, y, z);
     (axes[Axis::A.index()], axes[Axis::C.index()]) = (a, c);
@@ -73,12 +73,12 @@ fn at(x: f64, y: f64, z: f64, a: f64, c: f64) -> AxisVector {
 }
 
 #[track_caller]
-fn near(found: AxisVector, right: AxisVector) {
+pub(crate) fn near(found: AxisVector, right: AxisVector) {
     assert!((found - right).amax() < 1e-6, "{found} right {right}");
 }
 
 #[track_caller]
-fn finds(dialect: Dialect, text: &str, expected: &[&str]) {
+pub(crate) fn finds(dialect: Dialect, text: &str, expected: &[&str]) {
     let report = check(text.as_bytes(), options(dialect));
     assert_eq!(listed(&report), expected, "{text}");
 }
@@ -268,7 +268,8 @@ fn what_is_wrong_with_a_plane_is_told() {
     let fanuc = |text: &str, expected: &[&str]| finds(Dialect::Fanuc, text, expected);
     fanuc("G68.2 X0 J30\nG0 X1", &["2:1 not-supported"]);
     fanuc("G53.1", &["1:1 not-supported"]);
-    fanuc("G68.2 P3 J30", &["1:7 not-supported"]);
+    fanuc("G68.2 P4 J30", &["1:7 not-supported"]);
+    fanuc("G68.2 J30\nG53.1 X5", &["2:7 unused-word"]);
     fanuc("G68.2 J30\nG53.1 P3", &["2:7 not-supported"]);
     fanuc("G68.2 J30\nG53.1\nG68.2 J10", &["3:1 not-supported"]);
     fanuc("G43.4 H0\nG68.2 J30", &["2:1 not-supported"]);

@@ -39,6 +39,7 @@ mod splines;
 mod subroutine_files;
 mod support;
 mod tapping;
+mod tilted_planes;
 mod typed;
 mod words_of_dialects;
 mod words_page;

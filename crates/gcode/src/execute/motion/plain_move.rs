@@ -148,6 +148,7 @@ impl Interpreter {
             && !(state.feeds_in_mm && modal.units == Units::Inch)
             && state.tilted.is_none()
             && state.fanuc.polar.is_none()
+            && state.fanuc.open_plane.is_none()
             && self.options.dialect != Dialect::Marlin
             && !self.offsets.is_turned()
             && self.compensation.is_none()

@@ -46,8 +46,8 @@ impl Interpreter {
         })
     }
 
-    /// A tilted plane begins; the tool does not stand along its normal yet, unless it does so already.
-    pub(crate) fn begin_tilt(&mut self, frame: Frame, span: SourceSpan) -> Outcome<()> {
+    /// Refuses a tilted plane where it cannot begin.
+    pub(crate) fn check_may_tilt(&self, span: SourceSpan) -> Outcome<()> {
         self.five_axis(span, "a tilted work plane")?;
         let refuse = |message: &str, reason: &str, help: &str| {
             Err(Fault::new(DiagnosticCode::NotSupported, span, message)
@@ -75,6 +75,12 @@ impl Interpreter {
                 "write G40 and a move before it",
             );
         }
+        Ok(())
+    }
+
+    /// A tilted plane begins; the tool does not stand along its normal yet, unless it does so already.
+    pub(crate) fn begin_tilt(&mut self, frame: Frame, span: SourceSpan) -> Outcome<()> {
+        self.check_may_tilt(span)?;
         self.offsets.tilted = frame;
         self.offsets.frame = frame;
         self.state.tilted = Some(Tilt::Waits);

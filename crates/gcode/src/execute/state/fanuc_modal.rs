@@ -1,5 +1,6 @@
 //! What is in force in a FANUC program beside the modes that every control has.
 
+use crate::execute::state::open_plane::OpenPlane;
 use crate::syntax::modes::{Motion, Turning};
 
 /// Modes of FANUC alone.
@@ -29,6 +30,8 @@ pub(crate) struct FanucModal {
     pub(crate) repeating: Option<Repeating>,
     /// A macro is called behind every move (G66).
     pub(crate) calls_macro: bool,
+    /// G68.2 P2 and P3 as long as blocks are to follow.
+    pub(crate) open_plane: Option<OpenPlane>,
 }
 
 impl Default for FanucModal {
@@ -47,6 +50,7 @@ impl Default for FanucModal {
             retract_mm: 0.5,
             repeating: None,
             calls_macro: false,
+            open_plane: None,
         }
     }
 }

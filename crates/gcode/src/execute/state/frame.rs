@@ -8,6 +8,7 @@
 //! counts in the coordinates that are in force.
 
 use glidepath_geometry::{Axis, AxisVector, Plane};
+use nalgebra::Vector3;
 
 /// Parts of a length below this are rounding.
 const ROUNDING: f64 = 1e-9;
@@ -74,6 +75,19 @@ impl Frame {
     pub(crate) fn turned(degrees: [f64; 3]) -> Self {
         let [about_x, about_y, about_z] = [0, 1, 2].map(|axis| rotation(axis, degrees[axis]));
         let matrix = product(&product(&about_z, &about_y), &about_x);
+        Self {
+            matrix,
+            // Turned back, which is exact.
+            inverse: transposed(&matrix),
+            is_turned: matrix != UNIT,
+            ..Self::default()
+        }
+    }
+
+    /// A frame with the directions of its X and Z, which are of length one and at right angles.
+    pub(crate) fn of_axes(x: &Vector3<f64>, z: &Vector3<f64>) -> Self {
+        let y = z.cross(x);
+        let matrix = [0, 1, 2].map(|axis| [x[axis], y[axis], z[axis]]);
         Self {
             matrix,
             // Turned back, which is exact.

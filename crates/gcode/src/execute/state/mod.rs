@@ -11,6 +11,7 @@ pub(crate) mod modal;
 pub(crate) mod offsets;
 pub(crate) mod open_corner;
 pub(crate) mod open_line;
+pub(crate) mod open_plane;
 pub(crate) mod open_spline;
 pub(crate) mod open_tap;
 pub(crate) mod pole;

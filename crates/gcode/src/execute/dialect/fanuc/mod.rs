@@ -18,6 +18,7 @@ mod lathe_profile;
 mod modal_macro;
 mod named_program;
 mod offsets;
+mod plane_of_blocks;
 mod polar;
 mod printing;
 mod statement;

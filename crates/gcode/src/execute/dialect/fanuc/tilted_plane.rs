@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `G68.2 X Y Z I J K` | a plane whose zero is X, Y, Z: turned by I about Z, by J about the new X, by K about the new Z |
 //! | `G68.2 P1 …` | turned by I about X, by J about Y, by K about Z, each of the work |
+//! | `G68.2 P2 …`, `P3 …` | a plane of several blocks ([`super::plane_of_blocks`]) |
 //! | `G53.1` | the rotary axes turn until the tool stands along the normal; P1: with the greater angle of the tilting axis, P2: with the smaller one |
 //! | `G254` | the zero of the program goes with the table to where the rotary axes have brought it; the directions stay the machine's |
 
@@ -30,6 +31,10 @@ impl Interpreter {
             return Ok(());
         };
         let form = whole(block, b'P', 9)?.unwrap_or(0);
+        if matches!(form, 2 | 3) {
+            return self.plane_of_blocks(block, form, span);
+        }
+        self.check_plane_complete(span)?;
         let words = self.axis_values(block)?;
         if let Some((axis, _)) = block.axes().find(|(axis, _)| axis.index() >= 3) {
             let message = format!("{axis} in G68.2");
@@ -51,8 +56,8 @@ impl Interpreter {
                 let message = format!("G68.2 P{form} is not supported");
                 let fault = Fault::new(DiagnosticCode::NotSupported, block.span(b'P'), message);
                 return Err(fault
-                    .because("a plane by points, by vectors or by projected angles is not made")
-                    .help("write its zero and the angles I, J and K"));
+                    .because("a plane by projected angles is not made")
+                    .help("write its zero and the angles I, J and K, or three points (P2)"));
             }
         };
         let mut zero = AxisVector::zeros();
