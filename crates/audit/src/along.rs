@@ -1,5 +1,5 @@
-//! Limits along the path: acceleration and jerk of path position by finite differences,
-//! acceleration across the path from the reported state.
+//! The check of limits along the path: acceleration and jerk of path position by finite
+//! differences, acceleration across the path from the reported state.
 
 use crate::sample::Seen;
 use crate::settings::AuditSettings;

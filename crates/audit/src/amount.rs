@@ -1,4 +1,5 @@
-//! What a program amounts to: moves, lengths, tolerances in force, rests around its motion.
+//! The counts and sums over a program: moves, lengths, tolerances in force, rests around its
+//! motion.
 
 use glidepath_geometry::{AxisVector, ROTARY_ABC, Segment, feed_length};
 use glidepath_program::{Item, ItemKind, PathMode};

@@ -1,4 +1,4 @@
-//! Where a motion is to end.
+//! The end that a motion is judged by: that of the program, or anywhere on it.
 
 /// Where a motion is to end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

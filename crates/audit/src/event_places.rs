@@ -1,4 +1,4 @@
-//! Events that do not stop the motion: how far from their places it is when they happen.
+//! The distance of events that do not stop the motion from their places in the program.
 //!
 //! An event stands in the program where a move ends. When it happens is told with the sample that
 //! ends its period; the motion is then on the straight line between two samples. The distance holds

@@ -1,4 +1,4 @@
-//! Segments as chords.
+//! The flattening of segments to chords.
 //!
 //! A line is one chord, an arc many. Inner points of an arc lie slightly outside it, so that the
 //! polygon is as far outside at its corners as it is inside between them: the distance from the arc

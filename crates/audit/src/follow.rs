@@ -1,4 +1,4 @@
-//! Where on the program a frame is: the nearest point a little further on.
+//! The place on the program of each frame: the nearest point a little further on.
 //!
 //! ```text
 //!        earliest                here            as far as a period may reach

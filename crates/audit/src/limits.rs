@@ -1,4 +1,5 @@
-//! Limits of the axes by finite differences, consistency of reports, gaps, and times of motion.
+//! The check of the axes' limits by finite differences, of the consistency of reports and of gaps,
+//! and the times of motion.
 
 use crate::sample::Seen;
 use crate::settings::AuditSettings;

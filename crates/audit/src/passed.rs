@@ -1,4 +1,4 @@
-//! Where a motion has gone, for one that goes back along its path and onward again.
+//! The positions that a motion has passed, for one that goes back along its path and onward again.
 
 use glidepath_geometry::AxisVector;
 use std::collections::VecDeque;

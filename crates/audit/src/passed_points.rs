@@ -1,4 +1,4 @@
-//! How far the motion stays from what it passes of the program.
+//! The distance of the motion from the points of the program that it passes.
 //!
 //! ```text
 //!            V ─ ─ ─ ─ ─ ─ ─ ─ ─      A motion that rounds a corner on its inner side is nowhere as far from the

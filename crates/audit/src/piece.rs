@@ -1,4 +1,4 @@
-//! A programmed move as far as smoothness depends on it: which axes it leaves alone, how round it
+//! A programmed move as the rules of tremor see it: which axes it leaves alone, and how round it
 //! is.
 
 use glidepath_geometry::{AXES, AxisVector, Plane, Segment};

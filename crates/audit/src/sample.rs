@@ -1,9 +1,9 @@
-//! What the auditor sees of a motion: a sample at every period.
+//! A sample of a motion, as the auditor sees it at every period.
 
 use glidepath_geometry::AxisVector;
 use glidepath_program::Frame;
 
-/// One sample of a motion.
+/// A sample of a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {
     /// Index on the period grid; consecutive.

@@ -1,8 +1,8 @@
-//! What a motion is judged by.
+//! The settings of an audit: limits, period and tolerance that a motion is judged by.
 
 use glidepath_program::{Corners, Limits, Settings};
 
-/// What a motion is judged by.
+/// The settings of an audit: what a motion is judged by.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AuditSettings {
     /// What each axis can do.

@@ -1,4 +1,4 @@
-//! Whether every axis stays inside its travel: at samples, and between them.
+//! The check of travel: whether every axis stays inside, at samples and between them.
 //!
 //! At a sample an axis may be beyond an end by rounding alone: whoever plays the motion refuses more.
 //! Between two samples that report velocity and acceleration, the motion is the polynomial of degree

@@ -1,4 +1,4 @@
-//! A motion that is out of tolerance, and what is asked of a search for where it is.
+//! The state of a motion that is out of tolerance, and the goal of the search for where it is.
 
 /// What must hold after the last column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,4 +1,4 @@
-//! What an audit finds wrong.
+//! The violations that an audit finds, and the list of the first of them.
 
 use core::fmt;
 use glidepath_geometry::Axis;
@@ -121,7 +121,7 @@ pub enum ViolationKind {
     Incomplete,
 }
 
-/// Which report of a sample does not fit.
+/// The report of a sample that does not fit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Inconsistency {
     /// Position after a period does not follow from velocity and acceleration.

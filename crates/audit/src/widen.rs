@@ -1,5 +1,5 @@
-//! What is done where the motion cannot be matched at the present level: searches over the last
-//! columns for the level that it takes.
+//! The search for the level at which the last columns match, where the motion cannot be matched at
+//! the present one.
 
 use crate::column::{EXACT_MM, Level, Passage, step};
 use crate::matching::{Matching, SHORT};

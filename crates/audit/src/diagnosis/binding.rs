@@ -1,9 +1,9 @@
-//! The limits that can bind.
+//! The limits that can bind, each with an index.
 
 use core::fmt;
 use glidepath_geometry::{AXES, Axis};
 
-/// What keeps a motion from being faster.
+/// A limit that keeps a motion from being faster.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Binding {
     /// The machine rests: a dwell, a stop, a reversal.

@@ -1,4 +1,4 @@
-//! How much of each limit of the axes a period uses, by finite differences of the positions.
+//! The share of each axis limit that a period uses, by finite differences of the positions.
 
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_program::Limits;

@@ -43,7 +43,7 @@ pub struct Diagnosis {
     feed_v: f64,
 }
 
-/// How far motion and program are from each other at a frame, and how far they may be.
+/// The distance between motion and program at a frame, and how large it may be.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Deviation {
     /// The deviation at the frame, mm, both ways, as the [auditor](crate::Audit) means it: how far the frame is from
@@ -54,7 +54,7 @@ pub struct Deviation {
     pub tolerance_mm: f64,
 }
 
-/// What came of it.
+/// The result of a diagnosis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Summary {
     /// Share of the time for which each limit binds, largest first; those that never do left out.
@@ -147,7 +147,7 @@ impl Diagnosis {
         binding
     }
 
-    /// How far motion and program are from each other at the last frame.
+    /// The distance between motion and program at the last frame.
     #[must_use]
     pub const fn deviation(&self) -> Deviation {
         self.deviation

@@ -1,4 +1,4 @@
-//! Places where a motion is slower than programmed.
+//! The places where a motion is slower than programmed.
 //!
 //! ```text
 //!  feed ─────────┐        ┌──┐          ┌────

@@ -1,4 +1,5 @@
-//! What is held against the shape of a motion.
+//! The findings on the shape of a motion: how far it is beyond the figure of the program, and
+//! where.
 
 use core::fmt;
 use glidepath_geometry::Axis;

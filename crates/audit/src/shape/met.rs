@@ -1,4 +1,4 @@
-//! A distance, and where it is met.
+//! A largest distance, and the line where it is met.
 
 /// A distance and the source line where it is met; 0 where there is none.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -1,5 +1,5 @@
-//! How true the shape of a motion is, in figures: what a machinist measures on the part, beside the
-//! distance from the programmed path.
+//! The shape figures of a motion: what a machinist measures on the part, beside the distance from
+//! the programmed path.
 //!
 //! ```text
 //!            ╭─ outside the figure                     programmed  ───────┐
@@ -44,7 +44,7 @@ use stop::Stops;
 /// A straight feed move has a middle half from this length on, mm.
 pub const STRAIGHT_MM: f64 = 5.0;
 
-/// What there is to tell of a motion's shape.
+/// The shape figures of a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ShapeReport {
     /// How far each axis goes below what is asked of it and comes back, at most.
@@ -111,7 +111,7 @@ impl ShapeAudit {
         self.shape.next(position, line, &self.follow);
     }
 
-    /// What there is to tell, after the last position.
+    /// The shape figures, after the last position.
     #[must_use]
     pub fn finish(mut self) -> ShapeReport {
         self.shape.report()

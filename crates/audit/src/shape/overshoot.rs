@@ -1,4 +1,4 @@
-//! How far axes go beyond what the program asks of them, and come back.
+//! The overshoot of axes: how far they go beyond what the program asks of them, and come back.
 //!
 //! Around a place of the program, an axis is asked to be between the least and the largest coordinate
 //! of the moves that the motion may be on. What is beyond may be the rounding of a corner that is

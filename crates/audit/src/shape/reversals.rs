@@ -1,4 +1,4 @@
-//! How often an axis turns round, of a motion and of a program.
+//! The count of reversals of each axis, in a motion and in a program.
 
 use glidepath_geometry::{AXES, Arc, AxisVector, Segment};
 

@@ -1,4 +1,5 @@
-//! Vertices at which axes come to a rest, set out from one or turn round, and what is beyond them.
+//! The stops of axes at vertices, where they come to a rest, set out from one or turn round, and
+//! the distance of a motion beyond them.
 
 use super::corner::turn_cos;
 use crate::follow::Move;

@@ -1,4 +1,4 @@
-//! What of a signal is faster than a frequency.
+//! A high-pass filter: what of a signal is faster than a frequency.
 //!
 //! A Butterworth high pass of fourth order: two sections of second order in a row, by the bilinear
 //! transform, with the corner where it is wanted (prewarped). Nothing of a constant passes, −24 dB

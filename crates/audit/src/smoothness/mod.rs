@@ -1,4 +1,4 @@
-//! How smooth a motion is, in figures: what a plot shows at a glance, and limits do not.
+//! The smoothness figures of a motion: what a plot shows at a glance, and limits do not.
 //!
 //! A motion may keep every limit and tremble all the way: an axis that wanders by micrometres with
 //! its jerk at the limit is inside all of them. These figures tell such a motion from a good one:
@@ -88,7 +88,7 @@ struct Period {
 }
 
 impl Smoothness {
-    /// Nothing seen yet. The period, in s, is > 0.
+    /// Figures with nothing seen yet. The period, in s, is > 0.
     #[must_use]
     pub fn new(period_t: f64) -> Self {
         Self {

@@ -1,4 +1,4 @@
-//! Figures of motions whose figures are known.
+//! Tests of the figures of motions whose figures are known.
 
 use super::{Figures, Smoothness};
 use core::f64::consts::{SQRT_2, TAU};

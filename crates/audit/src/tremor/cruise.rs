@@ -1,4 +1,5 @@
-//! At constant feed on a line or an arc, there is no jerk but that of the piece.
+//! The rule of the cruise: at constant feed on a line or an arc, there is no jerk but that of the
+//! piece.
 
 use super::place::Place;
 use super::settling::settling_ticks;

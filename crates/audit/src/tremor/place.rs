@@ -1,4 +1,4 @@
-//! A sample with what is known of its place on the program.
+//! A sample with its place on the program, for the rules of tremor.
 
 use crate::piece::Piece;
 use glidepath_geometry::{AXES, AxisVector};

@@ -1,4 +1,4 @@
-//! How long a motion may take to become calm.
+//! The settling time: how long a motion may take to become calm.
 
 /// Settling time, s: as long as a tremor is not told before and behind what gives cause to move.
 pub const SETTLING_T: f64 = 0.1;

@@ -1,4 +1,4 @@
-//! An axis that the program leaves alone is still.
+//! The rule of the still axis: an axis that the program leaves alone does not move.
 
 use super::place::Place;
 use super::settling::settling_ticks;

@@ -1,4 +1,4 @@
-//! Arcs: flattened finely enough, of the right radius, with all their turns.
+//! Tests of arcs: flattened finely enough, of the right radius, with all their turns.
 
 use crate::{TOLERANCE, audit, audit_within, item, kinds, point};
 use glidepath_audit::ViolationKind;

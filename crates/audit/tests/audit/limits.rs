@@ -1,4 +1,4 @@
-//! Limits, reports, gaps and times.
+//! Tests of limits, reports, gaps and times.
 
 use crate::{PERIOD, TOLERANCE, point, polygon, sample, settings};
 use glidepath_audit::{Audit, AuditSettings, Inconsistency, Report, Sample, ViolationKind};

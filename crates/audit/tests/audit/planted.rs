@@ -1,4 +1,4 @@
-//! Faults planted at random places of good motions are found.
+//! Tests with planted faults: those at random places of good motions are found.
 
 use crate::{PERIOD, TOLERANCE, audit, item, point, polygon, sample, settings, walk};
 use glidepath_audit::{Audit, AuditSettings, Report, ViolationKind};

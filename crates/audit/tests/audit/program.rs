@@ -1,4 +1,4 @@
-//! What the program asks for besides lines: exact stops, tolerances of its own, feed.
+//! Tests of what a program asks for besides lines: exact stops, tolerances of its own, feed.
 
 use crate::{audit, item, kinds, point, polygon, walk};
 use glidepath_audit::ViolationKind;

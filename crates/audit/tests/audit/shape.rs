@@ -1,4 +1,5 @@
-//! Figures of shape: overshoot, corners, straightness, reversals, and the deviation that plots show.
+//! Tests of the shape figures: overshoot, corners, straightness, reversals, and the deviation that
+//! plots show.
 
 #![allow(
     clippy::unwrap_used,

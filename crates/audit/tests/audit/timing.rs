@@ -1,4 +1,4 @@
-//! Feed and dwells.
+//! Tests of feed and dwells.
 
 use crate::{PERIOD, audit, kinds, point, polygon, sample, settings, walk};
 use glidepath_audit::{Audit, Report, ViolationKind};

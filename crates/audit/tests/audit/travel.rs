@@ -1,4 +1,4 @@
-//! Ends of travel, at samples and between them.
+//! Tests of the ends of travel, at samples and between them.
 
 use super::{PERIOD, TOLERANCE, kinds, point, polygon, sample};
 use glidepath_audit::{Audit, AuditSettings, Report, Sample, ViolationKind};

@@ -1,4 +1,4 @@
-//! Tremors that are planted are found, and motion that the program asks for is none.
+//! Tests of tremor: what is planted is found, and motion that the program asks for is none.
 
 use crate::{PERIOD, TOLERANCE, item, point, sample};
 use core::f64::consts::TAU;
