@@ -1,5 +1,4 @@
-//! The name that programs look for when they start: another one for every version of the ABI that
-//! is not the one before.
+//! The build script: it sets the soname, the name that programs look for when they start.
 
 fn main() {
     println!("cargo:rerun-if-changed=build.rs");

@@ -1,10 +1,10 @@
-//! Why a function failed: a code for the program, and a text for whoever reads its log.
+//! The failure of a function: a code for the program, and a text for whoever reads its log.
 
 use core::cell::RefCell;
 use core::fmt::{self, Write as _};
 use glidepath_link::{LinkError, RecordError};
 
-/// What functions return where they fail. The header lists the same.
+/// The codes that functions return where they fail. The header lists the same.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(i32)]
 pub(crate) enum Code {

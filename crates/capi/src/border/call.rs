@@ -1,4 +1,4 @@
-//! What every function does around its own: no panic leaves, and a failure is kept as text.
+//! The frame around every function: no panic leaves it, and a failure is kept as text.
 
 use crate::failure::{Code, Failure, remember};
 use std::panic::{AssertUnwindSafe, catch_unwind};

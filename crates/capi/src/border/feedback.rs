@@ -1,4 +1,4 @@
-//! What the drives say, on its way to the interpolator.
+//! The functions for feedback: what the drives say, on its way to the interpolator.
 
 use super::call::NONE;
 use super::handle::{Handle, Held};

@@ -1,4 +1,4 @@
-//! Handles: what a caller holds between calls.
+//! The handles that a caller holds between calls.
 //!
 //! Ports count references without locks, so a handle belongs to one thread at a time; every call
 //! makes sure of it before anything else is touched. A handle of another kind, or one that was

@@ -1,4 +1,4 @@
-//! Moving by hand, on its way to the interpolator.
+//! The functions for moving by hand: demands on their way to the interpolator.
 
 use super::call::NONE;
 use super::handle::{Handle, Held};

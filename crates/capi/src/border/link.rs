@@ -1,4 +1,4 @@
-//! An instance: joining it, its status, and commands.
+//! The functions for an instance: joining it, its status, and commands.
 
 use super::call::{GOT, NONE, call};
 use super::handle::{Handle, Held};

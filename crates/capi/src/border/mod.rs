@@ -1,4 +1,4 @@
-//! The functions that other languages call.
+//! The border: the functions that other languages call.
 //!
 //! Here, and nowhere else, pointers become references and back: in [`handle`] (a handle, its kind
 //! and its thread) and [`pointer`] (arguments that may be null), by types that only a caller in C

@@ -1,4 +1,4 @@
-//! Segments, on their way to a listening planner.
+//! The functions for segments, on their way to a listening planner.
 
 use super::call::{GOT, NONE};
 use super::handle::{Handle, Held};

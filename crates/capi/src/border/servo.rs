@@ -1,4 +1,4 @@
-//! The servo: demands at any time, and a stop of its own.
+//! The functions for the servo: demands at any time, and a stop of its own.
 
 use super::call::{NONE, call, code_of};
 use super::handle::{Handle, Held};

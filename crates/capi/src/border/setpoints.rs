@@ -1,4 +1,4 @@
-//! Setpoints as they come.
+//! The functions for setpoints, as they come.
 
 use super::call::{GOT, NONE, code_of};
 use super::handle::{Handle, Held};

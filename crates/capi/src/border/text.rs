@@ -1,4 +1,4 @@
-//! Versions, the clock, and the text of the last failure.
+//! The functions for versions, the clock, and the text of the last failure.
 
 use super::pointer::Room;
 use crate::failure::with_last_error;

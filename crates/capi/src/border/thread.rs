@@ -1,4 +1,4 @@
-//! Threads by number.
+//! The numbers of threads.
 
 use core::sync::atomic::{AtomicU64, Ordering};
 

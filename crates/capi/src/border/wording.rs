@@ -1,4 +1,4 @@
-//! What states and faults are called for people: the texts that `glidepath status` shows.
+//! The functions for texts of states and faults: those that `glidepath status` shows.
 
 use super::call::call;
 use super::pointer::{Given, Room, check_size};

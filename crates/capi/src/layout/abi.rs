@@ -1,4 +1,4 @@
-//! The version of the ABI, and all that it is about.
+//! The version of the ABI, and all structures that it is about.
 
 use super::structure::Structure;
 use super::{demands, digest, own, records};

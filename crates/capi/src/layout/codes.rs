@@ -1,4 +1,4 @@
-//! The numbers that stand in records, by name.
+//! The codes in records: names and numbers.
 
 use super::own::{Stopped, TooMuch};
 use crate::failure::Code;

@@ -1,4 +1,4 @@
-//! A number for all that the structures are, made when the library is compiled.
+//! The digest of all structures: a number that is made when the library is compiled.
 
 use super::structure::Structure;
 

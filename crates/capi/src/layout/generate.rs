@@ -1,4 +1,4 @@
-//! The files that are made of the lists are what the lists say.
+//! The test of the generated files: they are what the lists say.
 
 use super::render;
 use std::path::{Path, PathBuf};

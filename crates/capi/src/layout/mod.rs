@@ -1,4 +1,4 @@
-//! What the structures of the library look like, byte by byte.
+//! The layout of the library's structures, byte by byte.
 //!
 //! Each list is held against its Rust type when the library is compiled: names, types, offsets and
 //! the size, with no byte between two fields. What a record gains, loses or moves is an error here,

@@ -1,4 +1,4 @@
-//! The lists as text: for the header, the Python package, and the manual.
+//! The rendering of the lists as text: for the header, the Python package, and the manual.
 
 use super::abi::{ABI, LAYOUT, STRUCTURES};
 use super::codes::{Codes, codes};

@@ -1,4 +1,4 @@
-//! Compiles programs as a user of the library would.
+//! The build of test programs, compiled as a user of the library would.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -1,4 +1,4 @@
-//! Consumers of an interpolator that moves: nothing is lost, and all read the same bytes.
+//! Tests of consumers of an interpolator that moves: nothing is lost, and all read the same bytes.
 //!
 //! Two seconds by default. A minute:
 //!

@@ -1,5 +1,5 @@
-//! Programs in C, C++ and Python against an instance: what they read is what was published, to the
-//! byte, and what they send arrives.
+//! Tests of programs in C, C++ and Python against an instance: what they read is what was
+//! published, to the byte, and what they send arrives.
 //!
 //! The examples are compiled as a user would, and run as processes. The interpolator's part is
 //! played by this process, over the transport that the interpolator uses; a real one is in `live`.

@@ -1,4 +1,4 @@
-//! Jogs and segments of programs in C and Python arrive as they were meant.
+//! Tests of jogs and segments: those of programs in C and Python arrive as they were meant.
 #![allow(
     clippy::float_cmp,
     reason = "what is passed on stays the same to the bit"

@@ -1,4 +1,4 @@
-//! Consumers as processes.
+//! The processes of consumers.
 
 use crate::build::{self, Place};
 use std::io::{BufRead as _, BufReader, Read as _};
