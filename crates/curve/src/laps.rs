@@ -1,4 +1,4 @@
-//! A curve once, or lap after lap.
+//! The chords of a curve, over one lap or several.
 
 use crate::implicit::ImplicitChords;
 use crate::parametric::ParametricChords;

@@ -1,4 +1,4 @@
-//! What numbers of curve files may be: the same as those of a configuration.
+//! The ranges of numbers in curve files: the same as those of a configuration.
 
 /// From the least to the largest, both allowed.
 pub(crate) struct Range {

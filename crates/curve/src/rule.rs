@@ -1,10 +1,10 @@
-//! How long chords are, what comes of one, and what can be wrong with a curve.
+//! The rule for the length of chords, the chord, and the errors of a curve that cannot be followed.
 
 use nalgebra::Vector3;
 use thiserror::Error;
 
-/// How long chords are: as long as both allow. With the feed per tick as the longest, L = v·T
-/// wherever the error allows it; where not, the curve is too sharp for that speed.
+/// The rule for the length of chords: as long as both limits allow. With the feed per tick as the
+/// longest, L = v·T wherever the error allows it; where not, the curve is too sharp for that speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ChordRule {
     /// Longest chord, mm, > 0.
@@ -20,7 +20,7 @@ impl ChordRule {
     }
 }
 
-/// One chord, from where the last one ended.
+/// A chord, from where the last one ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Chord {
     /// Where it ends, mm.
@@ -37,7 +37,7 @@ pub struct Chord {
     pub is_proven: bool,
 }
 
-/// Why a curve cannot be followed.
+/// The reason why a curve cannot be followed.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum CurveError {
     /// A formula has no value.

@@ -1,4 +1,4 @@
-//! Chord and sagitta.
+//! The sagitta of a chord, and the chord of a sagitta.
 //!
 //! ```text
 //!        ___---___         h = R − √(R² − L²/4)

@@ -1,4 +1,4 @@
-//! What reading a file found wrong, in the words of its users: types as TOML has them, keys, values.
+//! The messages of a file's reader in the words of its users: types as TOML has them, keys, values.
 
 /// A message of serde, so said; any other as it is.
 pub(crate) fn in_words(message: &str) -> String {

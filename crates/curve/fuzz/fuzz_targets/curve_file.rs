@@ -1,4 +1,5 @@
-//! Any text is a curve file or is refused with a place; a curve that is accepted can be followed.
+//! The fuzz target: any text is a curve file or is refused with a place; a curve that is accepted
+//! can be followed.
 #![no_main]
 
 use glidepath_curve::{ChordRule, CurveFile, FileDiagnostic, NurbsFile};

@@ -1,4 +1,5 @@
-//! Any text is a formula or is refused; what a formula is worth lies in its own enclosure.
+//! The fuzz target: any text is a formula or is refused; what a formula is worth lies in its own
+//! enclosure.
 #![no_main]
 
 use glidepath_curve::Expression;

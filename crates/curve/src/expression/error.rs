@@ -1,9 +1,9 @@
-//! What is wrong with a formula.
+//! The error of a formula: what is wrong with it.
 
 use core::ops::Range;
 use thiserror::Error;
 
-/// What is wrong with a formula.
+/// An error in a formula.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{message}")]
 pub struct ExpressionError {

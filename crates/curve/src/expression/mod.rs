@@ -1,4 +1,4 @@
-//! Formulas as text: `20*(1 + cos(t))`.
+//! Formulas as text, such as `20*(1 + cos(t))`.
 //!
 //! ```text
 //!   sum      =  product { (+|-) product }

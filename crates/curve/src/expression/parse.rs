@@ -1,4 +1,4 @@
-//! Text to tree, by recursive descent.
+//! The parser of formulas: text to tree, by recursive descent.
 
 use super::error::ExpressionError;
 use super::tree::{Function, Node};

@@ -1,4 +1,4 @@
-//! A curve with what its file says about it.
+//! A curve, with everything that its file says about it.
 
 use crate::implicit::{End, ImplicitChords};
 use crate::parametric::ParametricChords;

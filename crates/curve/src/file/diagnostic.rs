@@ -1,8 +1,8 @@
-//! What is wrong with a curve file, and where.
+//! The diagnostic of a curve file: what is wrong, and where.
 
 use core::ops::Range;
 
-/// What is wrong with a curve file.
+/// A diagnostic of a curve file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FileDiagnostic {
     /// What is wrong.

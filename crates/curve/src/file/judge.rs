@@ -1,4 +1,5 @@
-//! Every value in its range, every key with its kind, all diagnostics at once.
+//! The judgement of a curve file: every value in its range, every key with its kind, all
+//! diagnostics at once.
 
 use super::curve_file::{CurveFile, Shape};
 use super::diagnostic::FileDiagnostic;

@@ -1,4 +1,4 @@
-//! Two linear equations whose coefficients are intervals.
+//! A system of two linear equations whose coefficients are intervals.
 
 use glidepath_geometry::number::{Interval, Number};
 use nalgebra::Matrix2;

@@ -26,7 +26,7 @@ const AT_START_MM: f64 = 1e-9;
 /// Angle of the surfaces (its sine) below which they nearly touch.
 const TOUCHING_SINE: f64 = 0.01;
 
-/// Where a curve ends.
+/// The end of a curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum End {
     /// Back at its start.

@@ -1,4 +1,4 @@
-//! Curvature without a parametrisation.
+//! The curvature of an implicit curve, which has no parametrisation.
 
 use super::ImplicitCurve;
 use glidepath_geometry::number::Series;

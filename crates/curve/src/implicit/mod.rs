@@ -1,4 +1,4 @@
-//! Curves where two surfaces f(x, y, z) = 0 and g(x, y, z) = 0 cross.
+//! Implicit curves: those in which two surfaces f(x, y, z) = 0 and g(x, y, z) = 0 cross.
 
 mod across;
 mod branch;

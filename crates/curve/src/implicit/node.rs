@@ -1,4 +1,4 @@
-//! Points where two branches cross.
+//! Nodes of an implicit curve: points where two branches cross.
 
 use super::ImplicitCurve;
 use glidepath_geometry::number::Series;

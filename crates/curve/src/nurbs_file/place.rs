@@ -1,4 +1,4 @@
-//! Where a key or one of its elements stands in the text of a curve file.
+//! The place of a key, or of one of its elements, in the text of a curve file.
 //!
 //! The reader of values does not tell places in JSON, so they are looked up when something is wrong
 //! with a value: the key, then the element of its list, by counting brackets and commas.

@@ -1,4 +1,4 @@
-//! A curve file as it is written, before any value is judged.
+//! The raw file: a curve file as it is written, before any value is judged.
 
 use crate::FileDiagnostic;
 use crate::serde_words::in_words;

@@ -1,4 +1,4 @@
-//! Where the *first* crossing of a sphere around a point of the curve is.
+//! The bracket of the *first* crossing of a sphere around a point of the curve.
 //!
 //! The end of a chord of length L from C(t) is the first point at distance L. A curve may come
 //! back to the sphere (a helix of small pitch), or leave it behind (a closed curve has distance 0

@@ -1,4 +1,5 @@
-//! Where a curve stands still in its parameter: cusps and other points with C′ = 0.
+//! The breaks of a curve, where it stands still in its parameter: cusps and other points with C′ =
+//! 0.
 //!
 //! A chord must not cross such a point, it would cut the tip off. The zeros of C′ are isolated by
 //! bisection: a range over which one component of C′ has no zero holds none.

@@ -1,4 +1,4 @@
-//! Curves x(t), y(t), z(t).
+//! Parametric curves: x(t), y(t), z(t).
 
 mod bracket;
 mod breaks;
@@ -33,7 +33,7 @@ pub struct Local {
     pub d2: Vector3<f64>,
 }
 
-/// What holds all over a range of the parameter.
+/// The bounds that hold all over a range of the parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bounds {
     /// |C′|.

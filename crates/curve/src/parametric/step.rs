@@ -11,7 +11,7 @@ use super::{Local, ParametricCurve};
 use crate::CurveError;
 use nalgebra::Vector3;
 
-/// How the equation of a chord is solved.
+/// The method by which the equation of a chord is solved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Method {
     /// Newton's method on d − L inside the bracket.

@@ -1,4 +1,4 @@
-//! The published step: one linearisation for each chord. For comparison, not for use.
+//! The published step: one linearisation for each chord. It is for comparison, not for use.
 //!
 //! ```text
 //!   ∇f · d = −f(p),   ∇g · d = −g(p),   |d| = L

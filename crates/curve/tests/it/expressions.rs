@@ -1,4 +1,4 @@
-//! What formulas mean, what is wrong with wrong ones, and where.
+//! Tests of formulas: what they mean, what is wrong with wrong ones, and where.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test")]
 

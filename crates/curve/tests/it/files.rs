@@ -1,4 +1,4 @@
-//! Curve files: what they give, and what is wrong with wrong ones.
+//! Tests of curve files: what they give, and what is wrong with wrong ones.
 
 #![allow(clippy::unwrap_used, reason = "a test")]
 

@@ -1,4 +1,4 @@
-//! Chords along implicit curves: the check vectors, nodes, error bounds.
+//! Tests of chords along implicit curves: the check vectors, nodes, error bounds.
 
 #![allow(clippy::unwrap_used, reason = "a test")]
 

@@ -1,4 +1,4 @@
-//! Curves by formulas, in equal chords.
+//! Tests of curves by formulas, in equal chords.
 
 mod expressions;
 mod files;

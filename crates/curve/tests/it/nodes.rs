@@ -1,5 +1,5 @@
-//! Equal chords through nodes: every chord of its length, every end on the curve, every error
-//! proven and kept, judged by formulas of the same curves with a parameter.
+//! Tests of equal chords through nodes: every chord of its length, every end on the curve, every
+//! error proven and kept, judged by formulas of the same curves with a parameter.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test")]
 

@@ -1,4 +1,5 @@
-//! Chords along parametric curves: the check vectors, first crossings, cusps, error bounds.
+//! Tests of chords along parametric curves: the check vectors, first crossings, cusps, error
+//! bounds.
 
 #![allow(clippy::unwrap_used, reason = "a test")]
 

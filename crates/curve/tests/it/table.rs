@@ -1,5 +1,5 @@
-//! Published and default methods side by side, ten laps of curves in parametric and implicit form.
-//! The table: `cargo test -p glidepath-curve --test it table -- --nocapture`.
+//! The comparison of published and default methods side by side, ten laps of curves in parametric
+//! and implicit form. The table: `cargo test -p glidepath-curve --test it table -- --nocapture`.
 
 #![allow(clippy::unwrap_used, reason = "a test")]
 
