@@ -1,4 +1,4 @@
-//! A device: what its registers do when they are read and written, and when time passes.
+//! An emulated device: what its registers do when they are read and written, and when time passes.
 
 use crate::clock::DeviceClock;
 use crate::coe::Mailbox;
@@ -18,7 +18,7 @@ use crate::upset::Upset;
 /// Time from a device to the next one, ns.
 pub(crate) const HOP_NS: u64 = 500;
 
-/// What a drive did at one SYNC0.
+/// The record of what a drive did at one SYNC0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SyncRecord {
     /// When it was, by the clock of the host, ns.

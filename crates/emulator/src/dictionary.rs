@@ -1,4 +1,4 @@
-//! The objects of a drive, as CoE tells them.
+//! The object dictionary of a drive, as CoE tells it.
 
 use crate::eeprom::Identity;
 use std::collections::BTreeMap;

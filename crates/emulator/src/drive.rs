@@ -1,4 +1,4 @@
-//! A drive with its motor: what happens at every SYNC0.
+//! An emulated drive with its motor: what happens at every SYNC0.
 //!
 //! The motor follows its target with a lag of first order, so that at a speed v it is v·τ behind:
 //! `x += (target − x) (1 − e^(−T/τ))`. A motor without current stands: it has a brake.
@@ -68,7 +68,7 @@ impl Default for DriveSettings {
     }
 }
 
-/// What the master tells the drive.
+/// The outputs of the master to the drive.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Outputs {
     pub(crate) control: u16,
@@ -76,7 +76,7 @@ pub(crate) struct Outputs {
     pub(crate) mode: i8,
 }
 
-/// What the drive tells the master.
+/// The inputs of the master from the drive.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Inputs {
     pub(crate) status: u16,
@@ -93,7 +93,7 @@ enum Homing {
     Failed,
 }
 
-/// A drive as it is.
+/// The state of a drive.
 #[derive(Debug, Clone)]
 pub(crate) struct Drive {
     lag_t: f64,

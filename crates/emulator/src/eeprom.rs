@@ -1,4 +1,4 @@
-//! The EEPROM of a device (SII): who it is, and what sync managers it has.
+//! The EEPROM of a device (SII): its identity, and its sync managers.
 
 use crate::memory::{EEPROM_ADDRESS, EEPROM_CONTROL, EEPROM_DATA, Memory};
 

@@ -1,5 +1,5 @@
-//! EtherCAT drives that are not there: what hangs on the wire of `glidepath ethercat` in tests, and
-//! on the desk.
+//! Emulated EtherCAT drives: the devices on the wire of `glidepath ethercat` in tests and on the
+//! desk.
 //!
 //! ```text
 //!   frame ─► device 0 ─► device 1 ─► … ─► frame, with answers and working counters

@@ -1,4 +1,4 @@
-//! The states of a drive by CiA 402, and what the controlword makes of them.
+//! The power states of a drive by CiA 402, and what the controlword makes of them.
 
 /// The states.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,4 +1,4 @@
-//! Process data of a drive in the memory of its device.
+//! The process data of a drive in the memory of its device.
 
 use crate::dictionary::Mapped;
 use crate::drive::{Inputs, Outputs};

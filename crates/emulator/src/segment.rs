@@ -1,4 +1,4 @@
-//! The devices in a row, and the frames that pass them.
+//! A segment of the bus: devices in a row, and the frames that pass them.
 
 use crate::device::{Device, HOP_NS};
 use crate::drive::DriveSettings;

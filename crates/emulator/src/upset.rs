@@ -1,6 +1,6 @@
-//! What goes wrong with a device, or right again.
+//! The faults that a test injects into a device, and the end of them.
 
-/// Something that goes wrong, or right again.
+/// A fault of a device, or the end of one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Upset {
     /// The drive finds a fault, with this number of its own.
