@@ -1,4 +1,5 @@
-//! Between setpoints and drives: what each drive is to be told in a cycle, and what is said of it.
+//! The bridge between setpoints and drives: what each drive is to be told in a cycle, and what is
+//! said of it.
 
 use crate::axis::{self, Axis, Sight, Wish};
 use crate::bus::{DeviceState, StateCode};
@@ -175,7 +176,7 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
         !self.drives.iter().all(Drive::is_present)
     }
 
-    /// What has become of the setpoints so far.
+    /// The counts of what has become of the setpoints so far.
     #[must_use]
     pub const fn played(&self) -> ServoCounts {
         *self.servo.counts()

@@ -1,4 +1,4 @@
-//! The time of the bus, by the clock of this host.
+//! The bus clock: the time of the bus by the clock of this host.
 //!
 //! SYNC0 comes by the quartz of the reference drive, and the host wakes by its own. Every answer tells
 //! what time it was on the bus when the frame passed the reference, which was about the middle between

@@ -1,4 +1,4 @@
-//! What the cycles came to.
+//! The counts over all cycles.
 
 use glidepath_realtime::Histogram;
 

@@ -35,7 +35,7 @@ const SILENCE_NS: u64 = 200_000_000;
 /// How long the joints may take to come to rest and to lose their power at the end.
 const FAREWELL_NS: u64 = 5_000_000_000;
 
-/// Where the thread puts what others wait for.
+/// The ends of the rings in which the thread puts what others wait for.
 #[derive(Debug)]
 pub struct Ends {
     /// What is known of the joints, once a cycle. What does not fit is left out.

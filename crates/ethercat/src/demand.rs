@@ -1,4 +1,4 @@
-//! What a cycle asked of the drives, for measurements.
+//! The demand of a cycle to the drives, for measurements.
 
 /// The demand of a cycle, and what had become of the setpoints by then: counts since the bridge began
 /// to listen.

@@ -1,6 +1,6 @@
 //! A device on the bus, as its EEPROM tells.
 
-/// Who made a device, and which it is.
+/// The identity of a device: who made it, and which it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Identity {
     /// Number of the vendor, given by the EtherCAT Technology Group.

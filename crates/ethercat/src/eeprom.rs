@@ -1,4 +1,4 @@
-//! Reading a device's EEPROM (SII, ETG.1000.6 and ETG.2010).
+//! The reader of a device's EEPROM (SII, ETG.1000.6 and ETG.2010).
 
 use crate::device::{Device, Identity, SyncManager};
 use crate::error::BusError;

@@ -1,9 +1,9 @@
-//! What can be wrong with a bus, as an operator is told.
+//! The errors of a bus, as an operator is told.
 
 use crate::{abort_text, al_status};
 use std::io;
 
-/// Why a bus does not come, or does not stay, in operation.
+/// The reason why a bus does not come, or does not stay, in operation.
 #[derive(Debug, thiserror::Error)]
 pub enum BusError {
     /// The port does not work.

@@ -1,10 +1,10 @@
-//! What happens on the bus, for the log.
+//! The events on the bus, for the log.
 
 use crate::trouble::Trouble;
 use crate::{al_status, fault_text};
 use core::fmt;
 
-/// Something that an operator wants to know. The number is that of a joint.
+/// An event that an operator is told. The number is that of a joint.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Event {
     /// Cycles begin.

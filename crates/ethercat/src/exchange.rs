@@ -1,4 +1,4 @@
-//! Questions and answers before the cycles begin: one datagram a frame, asked again when it is lost.
+//! The exchange of datagrams before the cycles begin: one a frame, asked again when it is lost.
 
 use crate::error::BusError;
 use crate::frame::{Address, Command, Frame};

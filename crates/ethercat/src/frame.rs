@@ -1,4 +1,4 @@
-//! EtherCAT frames: datagrams one behind the other.
+//! EtherCAT frames: datagrams one after the other.
 //!
 //! ```text
 //! Ethernet 14 │ length and type 2 │ command 1, index 1, address 4, length 2, 0 2 │ data │ counter 2 │ …
@@ -10,7 +10,7 @@
 use crate::wire::MAX_FRAME;
 use core::ops::Range;
 
-/// What a datagram asks for.
+/// The command of a datagram.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Command {
     /// Read by position in the segment.
@@ -31,7 +31,7 @@ pub enum Command {
     Frmw = 14,
 }
 
-/// Whom a datagram is for: a device and a place in its memory, or a logical address.
+/// The address of a datagram: a device and a place in its memory, or a logical address.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Address(u32);
 
@@ -68,7 +68,7 @@ pub struct Slot {
     data: Range<usize>,
 }
 
-/// What came back in the place of a datagram.
+/// The answer in the place of a datagram.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Answer<'a> {
     /// The data.

@@ -1,6 +1,6 @@
 //! Process data of one drive, as it is mapped.
 
-/// What a drive is told.
+/// The outputs of the master to a drive.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Outputs {
     /// Controlword, 0x6040.
@@ -11,7 +11,7 @@ pub struct Outputs {
     pub mode: i8,
 }
 
-/// What a drive tells.
+/// The inputs of the master from a drive.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Inputs {
     /// Statusword, 0x6041.

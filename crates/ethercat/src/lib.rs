@@ -1,4 +1,5 @@
-//! Drives on EtherCAT: setpoints to targets, at the bus period, and where the joints are back.
+//! The EtherCAT master: setpoints to targets of drives, at the bus period, and the positions of the
+//! joints back.
 //!
 //! ```text
 //!                      ┌ setpoints ► ring ┐

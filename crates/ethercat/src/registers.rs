@@ -1,4 +1,4 @@
-//! Places in the memory of a device that the master uses, by ETG.1000.4.
+//! The registers of a device that the master uses, by ETG.1000.4.
 
 /// Which of its functions a device has.
 pub(crate) const FEATURES: u16 = 0x0008;

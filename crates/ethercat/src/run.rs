@@ -1,4 +1,4 @@
-//! The process: three threads, and the rings between them.
+//! The process of `glidepath ethercat`: three threads, and the rings between them.
 //!
 //! | thread | scheduling | does |
 //! |---|---|---|
@@ -28,7 +28,7 @@ const FEEDBACK: usize = 1024;
 const EVENTS: usize = 256;
 const DEMANDS: usize = 4096;
 
-/// How the process runs.
+/// The settings of the process.
 #[derive(Debug, Clone, Copy)]
 pub struct RunSettings {
     /// What the bus thread asks for.
@@ -37,7 +37,7 @@ pub struct RunSettings {
     pub mode: Mode,
 }
 
-/// Why the process ends.
+/// The reason why the process ends.
 #[derive(Debug, thiserror::Error)]
 pub enum RunError {
     /// The bus does not come into operation, or the interface fails.
@@ -54,7 +54,7 @@ pub enum RunError {
     Thread(&'static str),
 }
 
-/// Who is told what happens.
+/// The listeners to the log and to the measurements.
 pub struct Listeners<'l, 'd> {
     /// Given lines for the log.
     pub log: &'l mut dyn FnMut(&str),

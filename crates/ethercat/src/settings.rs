@@ -1,4 +1,4 @@
-//! What hangs on the bus, and how it is driven.
+//! The settings of the bus and of its drives.
 
 use glidepath_geometry::AXES;
 use glidepath_link::servo::ServoSettings;
@@ -33,7 +33,7 @@ impl Default for BusSettings {
     }
 }
 
-/// How a drive finds its home.
+/// The homing of a drive by itself.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HomingSettings {
     /// Homing method by CiA 402, or the manufacturer's if negative.
@@ -123,7 +123,7 @@ impl DriveSettings {
     }
 }
 
-/// All of it.
+/// The settings of the bus and of all its drives.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settings {
     /// The bus.

@@ -1,10 +1,10 @@
-//! What goes wrong and no drive tells.
+//! The faults that the bridge finds and no drive reports.
 
 use crate::state;
 use core::fmt;
 use glidepath_link::DriveState;
 
-/// What is wrong. The joint is counted from 0.
+/// A fault that no drive reports. The joint is counted from 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Trouble {
     /// A drive did not get power in time; this is how far it came.

@@ -1,5 +1,5 @@
-//! On the way to power, one state after the other. The last step is taken when all drives are ready
-//! for it: all of them, or none.
+//! The enabling of a drive: on the way to power, one state after the other. The last step is taken
+//! when all drives are ready for it: all of them, or none.
 
 use super::step::{DISABLE_VOLTAGE, ENABLE_OPERATION, Next, SHUTDOWN, SWITCH_ON, Step};
 use crate::image::CYCLIC_POSITION;

@@ -1,5 +1,5 @@
-//! The drive has a fault. It is reset once for each time that the operator asks for it, never in a
-//! loop.
+//! The state of a drive with a fault. It is reset once for each time that the operator asks for it,
+//! never in a loop.
 
 use super::step::{DISABLE_VOLTAGE, Next, RESET_FAULT, Step};
 use glidepath_link::DriveState;

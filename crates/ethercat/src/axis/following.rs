@@ -1,4 +1,4 @@
-//! With power: the target is the demand, and never far from the one before.
+//! The state of a drive with power: the target is the demand, and never far from the one before.
 
 use super::step::{ENABLE_OPERATION, Next, Step};
 use crate::image::CYCLIC_POSITION;

@@ -1,4 +1,4 @@
-//! The drive looks for its home by itself (CiA 402, mode 6).
+//! The state of a drive that looks for its home by itself (CiA 402, mode 6).
 //!
 //! Afterwards it counts anew, so its position jumps: it is told to be where it says it is, and goes on
 //! in cyclic position from there. It stays until it is not to look for its home any more.

@@ -1,4 +1,4 @@
-//! A joint with its drive: one file for each thing that it can be at.
+//! A joint with its drive as a state machine: one file for each state.
 //!
 //! ```text
 //!        enable            has power            home

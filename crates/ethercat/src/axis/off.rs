@@ -1,4 +1,4 @@
-//! Without power: the target goes with the joint.
+//! The state of a drive without power: the target goes with the joint.
 
 use super::step::{DISABLE_VOLTAGE, Next, Step};
 

@@ -1,10 +1,10 @@
-//! What is seen of a drive, and what is wanted of it.
+//! The inputs of a drive in one cycle, and the command to it.
 
 use crate::image::Inputs;
 use crate::state;
 use glidepath_link::DriveState;
 
-/// A drive, in one cycle.
+/// The inputs of a drive in one cycle.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Sight {
     /// ns of `CLOCK_MONOTONIC`.
@@ -33,7 +33,7 @@ impl Sight {
     }
 }
 
-/// What is wanted of a drive.
+/// The command to a drive.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Wish {
     /// Power.

@@ -1,11 +1,11 @@
-//! One cycle of a drive, as each file of this folder sees it.
+//! One cycle of a drive, as each state sees it.
 
 use super::sight::{Sight, Wish};
 use crate::image::{CYCLIC_POSITION, Outputs};
 use crate::settings::DriveSettings;
 use crate::trouble::Trouble;
 
-/// What there is, and what the drive is to be told.
+/// One cycle of a drive: its inputs and the command to it, and the outputs that it is to get.
 #[derive(Debug)]
 pub(super) struct Step<'a> {
     pub(super) settings: &'a DriveSettings,
@@ -26,7 +26,7 @@ impl Step<'_> {
     }
 }
 
-/// What the drive is at next.
+/// The next state of the drive.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Next {
     Stay,

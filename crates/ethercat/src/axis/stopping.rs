@@ -1,4 +1,4 @@
-//! To rest by the drive's own ramp, then without power.
+//! The state of a drive that comes to rest by its own ramp, then without power.
 
 use super::step::{DISABLE_VOLTAGE, Next, QUICK_STOP, Step};
 use glidepath_link::DriveState;

@@ -1,4 +1,4 @@
-//! Distributed clocks: one time for all devices, and SYNC0 at the same moments.
+//! The distributed clocks: one time for all devices, and SYNC0 at the same moments.
 //!
 //! The first device with a clock is the reference. A broadcast write has every device note when it
 //! came by, on the way out and on the way back. From that follow what each clock is off, and how much

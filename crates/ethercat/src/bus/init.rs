@@ -1,4 +1,4 @@
-//! INIT: who is there.
+//! The bus in INIT: its devices are found.
 
 use super::clocks;
 use super::pre_op::PreOp;

@@ -1,4 +1,4 @@
-//! OP: one frame a cycle.
+//! The bus in OP: one frame a cycle.
 //!
 //! ```text
 //! FRMW 0x0910 │ LRW: outputs and inputs of all │ FPRD 0x0130 of each │ FPRD of one mailbox
@@ -39,7 +39,7 @@ impl StateCode {
     pub(crate) const OP: u8 = super::state::OP;
 }
 
-/// What became of a frame.
+/// The outcome of a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Reception {
     /// It came back, and every drive took part.

@@ -1,4 +1,4 @@
-//! What a drive is told before the cycles begin, object by object.
+//! The parameters that a drive is given before the cycles begin, object by object.
 
 use crate::coe::{Object, object, read, write};
 use crate::device::Device;

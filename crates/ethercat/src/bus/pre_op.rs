@@ -1,4 +1,4 @@
-//! PRE-OP: parameters, and where process data goes.
+//! The bus in PRE-OP: parameters, and where process data goes.
 
 use super::clocks;
 use super::parameters;

@@ -1,4 +1,4 @@
-//! SAFE-OP: inputs come, outputs do not yet count.
+//! The bus in SAFE-OP: inputs come, outputs do not yet count.
 
 use super::op::{DeviceState, Op, Reception};
 use super::state::{self, OP};

@@ -1,4 +1,4 @@
-//! What a master needs of an Ethernet port, and of time.
+//! The wire: what a master needs of an Ethernet port, and of time.
 
 mod packet;
 mod sys;

@@ -1,4 +1,4 @@
-//! From a wire to drives in OP, and what is said where that does not work.
+//! Tests of the way from a wire to drives in OP, and of what is said where that does not work.
 
 use crate::wire::{MemoryWire, Quiet};
 use glidepath_emulator::{DriveSettings as Emulated, Segment};

@@ -1,4 +1,4 @@
-//! Judging by what the drives themselves have recorded.
+//! The judge of what the drives themselves have recorded.
 
 use crate::machine::{Outcome, Setup, limits};
 use glidepath_audit::{Audit, AuditSettings, Report, Sample};

@@ -1,4 +1,5 @@
-//! What goes wrong with the bus and with drives, at moments that the number of the case decides.
+//! The matrix of what goes wrong with the bus and with drives, at moments that the number of the
+//! case decides.
 //!
 //! `GLIDEPATH_BUS_FAULTS` cases are run, `GLIDEPATH_BUS_FAULTS_SEED` chooses other moments.
 
