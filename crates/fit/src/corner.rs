@@ -1,4 +1,5 @@
-//! Where a run of points turns so sharply that no smooth curve belongs there.
+//! The corners of a run of points: places where it turns so sharply that no smooth curve belongs
+//! there.
 
 use crate::point::Point;
 

@@ -1,4 +1,4 @@
-//! How far a curve and a polyline are apart, both ways, in order.
+//! The deviation between a curve and a polyline, both ways, in order.
 //!
 //! It looks only at the finished curve, with none of the machinery that made it: the curve is
 //! sampled densely, and everything near in path is compared with everything near. The curve is

@@ -1,4 +1,4 @@
-//! How many knots, and where.
+//! The choice of knots: how many, and where.
 //!
 //! 1. *Greedy*: every span whose error exceeds the tolerance gets a knot at the point that halves
 //!    its squared error, until none does.

@@ -1,4 +1,4 @@
-//! The spline over given knots that is nearest to points at given parameters.
+//! The least-squares spline over given knots: the one nearest to points at given parameters.
 //!
 //! The ends are kept, the control points between solve the normal equations AᵀA·C = AᵀQ: a band of
 //! seven, solved by Cholesky's method in time proportional to points and knots. For these knots and

@@ -76,7 +76,7 @@ use part::{Candidate, Part};
 /// between them they may be a little further apart.
 const RESERVE: f64 = 0.99;
 
-/// How a curve is found.
+/// The method by which a curve is found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Method {
     /// Greedy knots, least squares, removal.
@@ -88,7 +88,7 @@ pub enum Method {
     Hybrid,
 }
 
-/// What a fit shall keep.
+/// The settings of a fit: what it shall keep.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
     /// Largest distance between curve and points, both ways, mm, > 0.
@@ -114,7 +114,7 @@ impl Settings {
     }
 }
 
-/// Why there is no curve.
+/// The reason why there is no curve.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum FitError {
     /// Fewer than two points that differ.

@@ -1,4 +1,4 @@
-//! One smooth part of a run: its points, their parameters, and what a spline makes of them.
+//! A smooth part of a run: its points, their parameters, and what a spline makes of them.
 
 use crate::least_squares;
 use crate::point::Point;

@@ -1,4 +1,4 @@
-//! Fits against reference figures and against brute force.
+//! Tests of fits against reference figures and against brute force.
 #![allow(clippy::expect_used, reason = "a test that fails may panic")]
 
 mod samples;

@@ -1,4 +1,4 @@
-//! The published method, kept for comparison: bacterial foraging.
+//! Bacterial foraging, the published method, kept for comparison.
 //!
 //! *On the control points*, as Gu, Zhou, Lin et al. published it: what least squares solves
 //! exactly, so it can only come near to that (`control_points`). *On the knots*: the same search

@@ -1,4 +1,4 @@
-//! What a search by bacterial foraging did.
+//! The report of a search by bacterial foraging.
 
 /// The effort of a search by bacterial foraging, and its start beside least squares.
 #[derive(Debug, Clone, Copy, PartialEq)]
