@@ -1,4 +1,4 @@
-//! Reads a whole program without motion and lists everything that is wrong with it.
+//! The check of a whole program without motion: everything that is wrong with it.
 
 use std::io::BufRead;
 
@@ -15,7 +15,7 @@ use crate::summary::totals::Totals;
 use crate::syntax::dialect::Dialect;
 use crate::syntax::modes::Motion;
 
-/// What [`check`] found.
+/// The report of [`check`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Report {
     /// The diagnostics, in the order of the lines, at most [`MAX_DIAGNOSTICS`].
@@ -59,7 +59,7 @@ impl Report {
     }
 }
 
-/// What [`diagnostics`] found.
+/// The result of [`diagnostics`].
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Diagnostics {
     /// As [`Report::diagnostics`].

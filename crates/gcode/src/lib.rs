@@ -1,4 +1,4 @@
-//! RS274/NGC text to canonical machining moves, with diagnostics.
+//! The reader of programs: RS274/NGC text to canonical machining moves, with diagnostics.
 //!
 //! This crate is the first stage of the pipeline: it turns the text of a program into
 //! [`Item`](glidepath_program::Item)s, which the motion planner then joins and times.

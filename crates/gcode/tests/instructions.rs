@@ -1,4 +1,4 @@
-//! How many instructions a line takes: figures that other load on the host does not change.
+//! The instructions that a line takes: figures that other load on the host does not change.
 //!
 //! The test runs itself under callgrind, reading a program once and twice; the difference is what
 //! its lines took. It counts optimised code only, and is skipped without valgrind:

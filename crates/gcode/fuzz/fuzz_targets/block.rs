@@ -1,4 +1,4 @@
-//! Any line is read in every language, and diagnostics lie in it.
+//! The fuzz target: any line is read in every language, and diagnostics lie in it.
 #![no_main]
 
 use glidepath_gcode::{Connections, Dialect, MAX_NUMBER, Options, check};

@@ -1,4 +1,5 @@
-//! Any program, in any dialect, is judged without a panic, and what is given out is sound.
+//! The fuzz target: any program, in any dialect, is judged without a panic, and what is given out
+//! is sound.
 #![no_main]
 
 use std::sync::Arc;

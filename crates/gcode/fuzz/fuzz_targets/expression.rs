@@ -1,4 +1,5 @@
-//! Any text in the place of a number is read or refused, and what it is worth is finite.
+//! The fuzz target: any text in the place of a number is read or refused, and what it is worth is
+//! finite.
 #![no_main]
 
 use glidepath_gcode::{MAX_NUMBER, Options, check};

@@ -1,4 +1,5 @@
-//! Any program made of FANUC's and Haas' statements is judged in bounded time, and what is given out is sound.
+//! The fuzz target: any program made of FANUC's and Haas' statements is judged in bounded time, and
+//! what is given out is sound.
 #![no_main]
 
 #[path = "../../tests/it/dialect_program.rs"]

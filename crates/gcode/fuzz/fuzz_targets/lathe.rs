@@ -1,4 +1,4 @@
-//! Any profile is cut by the lathe cycles, or refused.
+//! The fuzz target: any profile is cut by the lathe cycles, or refused.
 #![no_main]
 
 use std::fmt::Write;

@@ -1,4 +1,4 @@
-//! Any tool table is read or refused line by line.
+//! The fuzz target: any tool table is read or refused line by line.
 #![no_main]
 
 use glidepath_gcode::{MAX_TOOLS, ToolTable};

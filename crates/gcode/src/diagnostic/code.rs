@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-/// What kind of diagnostic it is. The kebab-case name of each is stable.
+/// The kind of a diagnostic. The kebab-case name of each is stable.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum DiagnosticCode {

@@ -1,4 +1,4 @@
-//! A diagnostic that does not know its line yet.
+//! A fault: a diagnostic that does not know its line yet.
 
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::code::DiagnosticCode;

@@ -13,7 +13,7 @@ use crate::diagnostic::excerpt::Excerpt;
 /// Most diagnostics listed in a [`Report`](crate::Report), and of a tool table.
 pub const MAX_DIAGNOSTICS: usize = 20;
 
-/// One diagnostic about a program.
+/// A diagnostic about a program.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{}{line}:{column}: error[{code}]: {message}", of_file(.file.as_deref()))]
 pub struct Diagnostic {

@@ -1,4 +1,4 @@
-//! Where in a line something stands.
+//! A span of a line, in bytes from its start.
 
 /// A stretch of a line, in bytes from its start.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

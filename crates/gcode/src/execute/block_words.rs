@@ -1,4 +1,4 @@
-//! Which words the codes of a block take, and that each word is taken by one of them.
+//! The check that the codes of a block take each of its words, and none twice.
 
 use glidepath_program::PathMode;
 

@@ -1,4 +1,4 @@
-//! From one program to the next: what is in force.
+//! The carry-over of what is in force from one program to the next.
 
 use std::io::BufRead;
 use std::sync::Arc;
@@ -14,9 +14,9 @@ use crate::execute::state::spindle::Spindle;
 use crate::syntax::modes::{Distance, FeedMode, Motion};
 
 impl<R: BufRead> Program<R> {
-    /// What is in force behind the line read last, as the next program begins: cutter radius
-    /// compensation, open curves, saved states (M70) and what is local to subroutines end with a program. One that ended
-    /// by M2 or M30 leaves what these leave in LinuxCNC.
+    /// The state in force behind the line read last, as the next program begins: cutter radius
+    /// compensation, open curves, saved states (M70) and what is local to subroutines end with a
+    /// program. One that ended by M2 or M30 leaves what these leave in LinuxCNC.
     #[must_use]
     pub fn in_force(&self) -> InForce {
         let interpreter = &self.interpreter;

@@ -1,4 +1,4 @@
-//! The words of canned cycles, and what is kept of them from block to block.
+//! The words of canned cycles, and those of them that are kept from block to block.
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};

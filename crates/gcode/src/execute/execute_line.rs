@@ -1,5 +1,5 @@
-//! Executes the block of a line, with what belongs to it beside the interpreter: assignments, the
-//! ends of the tape, the profiles of lathe cycles.
+//! Execution of one line: its block, with what belongs to it beside the interpreter (assignments,
+//! the ends of the tape, the profiles of lathe cycles).
 
 use std::io::BufRead;
 

@@ -1,4 +1,4 @@
-//! Where the line being executed comes from.
+//! The origin of the line being executed: the program itself, or a kept line, for diagnostics.
 
 use std::sync::Arc;
 

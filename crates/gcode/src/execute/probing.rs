@@ -1,4 +1,4 @@
-//! Programs that wait for what a probe finds.
+//! The stop of reading at a probing move, until it is known how the move ended.
 
 use std::io::BufRead;
 
@@ -15,7 +15,7 @@ impl<R: BufRead> Program<R> {
         self.interpreter.search.is_some() && self.given >= self.items.len()
     }
 
-    /// How the probing move ended that was given out last.
+    /// Says how the probing move ended that was given out last.
     ///
     /// # Errors
     /// It did not find what it had to.

@@ -1,4 +1,4 @@
-//! Reads a program line by line, and gives out its items.
+//! The reading of a program line by line, and its items as an iterator.
 
 use std::io::BufRead;
 use std::mem;

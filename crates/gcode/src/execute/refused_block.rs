@@ -1,4 +1,4 @@
-//! Reading on behind a block that was refused, where a program is judged: its modes count, so that a
+//! The recovery behind a refused block, where a program is judged: its modes count, so that a
 //! diagnostic does not breed others.
 //!
 //! A move beyond the travel leaves `G1` in force, and the machine is taken to be where the move was

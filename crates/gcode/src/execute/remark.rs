@@ -1,4 +1,5 @@
-//! What a program says to people: `(MSG, …)`, `(DEBUG, …)`, `(PRINT, …)`, and the comment of a stop.
+//! The remarks of a program to people: `(MSG, …)`, `(DEBUG, …)`, `(PRINT, …)`, and the comment of a
+//! stop.
 
 use std::io::BufRead;
 

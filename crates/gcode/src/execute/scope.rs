@@ -1,4 +1,4 @@
-//! The parameters that an expression reads: those assigned, and those that show the state.
+//! The scope of an expression: the parameters that were assigned, and those that show the state.
 
 use glidepath_geometry::{AXES, AxisVector, Plane};
 

@@ -1,4 +1,4 @@
-//! The firmware of a printer, where programs mean something else to each.
+//! The firmware of a printer, on which the meaning of some words depends.
 
 /// The firmware of a printer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,6 +1,6 @@
-//! M codes that the machine has beside those that every program may use.
+//! The M codes of the machine's own, beside those that every program may use.
 
-/// Where the motion waits until an M code is answered, if it is waited for at all.
+/// The place at which the motion waits until an M code is answered, if it is waited for at all.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum WaitsAt {
     /// At the code itself.

@@ -2,7 +2,7 @@
 
 use glidepath_geometry::{AXES, Axis};
 
-/// Where an axis may go, in machine coordinates: mm, or degrees for a rotary axis.
+/// The travel of an axis, in machine coordinates: mm, or degrees for a rotary axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Travel {
     /// Smallest coordinate.

@@ -1,4 +1,4 @@
-//! What a program is read for: the machine, its tools, and how the operator set it up.
+//! The set-up that a program is read for: the machine, its tools, and its work offsets.
 
 pub(crate) mod fanuc;
 pub(crate) mod firmware;

@@ -1,4 +1,4 @@
-//! How a program is to be read.
+//! The options of reading a program.
 
 use std::sync::Arc;
 
@@ -21,7 +21,7 @@ use crate::setup::tool_table::ToolTable;
 use crate::setup::work_offsets::WorkOffsets;
 use crate::syntax::dialect::Dialect;
 
-/// How a program is to be read.
+/// The options of reading a program: dialect, machine, tools, what is connected, bounds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Options {
     /// The machine it is for.
@@ -83,7 +83,7 @@ pub struct Options {
     pub watch: Option<ReadingWatch>,
 }
 
-/// What inputs, outputs (M62 to M68), spindle orientation (M19) and the probe (G38) are.
+/// The kind of inputs, outputs (M62 to M68), spindle orientation (M19) and the probe (G38).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Connections {
     /// Nothing: blocks that need them are errors.
@@ -109,7 +109,7 @@ pub enum AdaptiveFeed {
     Always,
 }
 
-/// How long subroutines and loops may go on.
+/// The limits on subroutines and loops.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct LoopLimits {
     /// Most of their lines executed in a row without anything coming of them; more is an error.

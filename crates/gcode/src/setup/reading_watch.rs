@@ -1,4 +1,5 @@
-//! How far the reading of a program has come, and that it is to end.
+//! The watch on the reading of a program, from another thread: how far it has come, and that it is
+//! to end.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};

@@ -28,7 +28,7 @@ pub struct SubroutineFile {
     pub text: Arc<[u8]>,
 }
 
-/// Why there is no file for a subroutine.
+/// The reason why there is no file for a subroutine.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum NoSubroutineFile {
     /// There is none of that name.
@@ -54,7 +54,7 @@ pub(crate) enum NotTaken {
 
 type Find = dyn Fn(&str) -> Result<SubroutineFile, NoSubroutineFile> + Send + Sync;
 
-/// Where a program's subroutines in other files come from.
+/// The source of a program's subroutines in other files.
 ///
 /// Each file is read once: clones share what was read, so that a program that was checked runs with
 /// the subroutines it was checked with. It belongs to one program.

@@ -1,4 +1,4 @@
-//! What threads need of a machine.
+//! The data of a machine that threads are planned with.
 
 use glidepath_geometry::{AxisVector, limit_along};
 use glidepath_program::{Limits, TAP_OVERTRAVEL};

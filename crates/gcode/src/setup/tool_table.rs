@@ -35,7 +35,7 @@ pub(crate) const MAX_TOOL: u32 = 999_999;
 /// Most tools of a table.
 pub const MAX_TOOLS: usize = 10_000;
 
-/// One tool.
+/// A tool.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Tool {
     /// Length offsets: what is added to program coordinates while they are in force; mm, degrees.

@@ -1,5 +1,5 @@
-//! How the operator has set a machine up for its work: coordinate systems, reference positions,
-//! and the offset of G92. A program may change all of it.
+//! The work offsets: coordinate systems, reference positions, and the offset of G92, as the
+//! operator has set them. A program may change all of it.
 
 use glidepath_geometry::AxisVector;
 use serde::{Deserialize, Serialize};
@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 /// Number of coordinate systems: G54 … G59, G59.1 … G59.3.
 pub const SYSTEMS: usize = 9;
 
-/// One of the coordinate systems G54 … G59.3.
+/// A coordinate system, one of G54 … G59.3.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct CoordinateSystem {
     /// Machine coordinates of its zero: mm, degrees.
@@ -36,7 +36,7 @@ impl CoordinateSystem {
     }
 }
 
-/// What a program starts with, and leaves behind.
+/// The work offsets that a program starts with, or leaves behind.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct WorkOffsets {
     /// G54 … G59.3.

@@ -1,4 +1,4 @@
-//! What a program comes to: counts and sums, and what is seen along its path.
+//! The summary of a program: counts and sums, and what is seen along its path.
 
 pub(crate) mod remark;
 pub(crate) mod survey;

@@ -1,6 +1,6 @@
-//! What a program says to people.
+//! A remark of a program to people.
 
-/// What a remark is.
+/// The kinds of remarks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RemarkKind {
     /// `(MSG, …)`: for the operator.
@@ -11,7 +11,7 @@ pub enum RemarkKind {
     Stop,
 }
 
-/// What a program says to people.
+/// A remark of a program to people.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Remark {
     /// Source line.

@@ -1,4 +1,5 @@
-//! What a program asks of a machine, beside its totals: where it turns most sharply.
+//! The survey of a program's path: its sharpest corner, and its time at the feedrate as if there
+//! were no acceleration.
 
 use glidepath_geometry::{AxisVector, Segment, feed_length};
 use glidepath_program::{Item, ItemKind};
@@ -14,7 +15,7 @@ pub struct Corner {
     pub angle_deg: f64,
 }
 
-/// What was seen along the path of a program.
+/// The survey of a program's path.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Survey {
     /// The sharpest corner between two feed moves; `None` without any.

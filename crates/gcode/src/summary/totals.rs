@@ -1,4 +1,4 @@
-//! What a program amounts to.
+//! The totals of a program: counts and sums over its items.
 
 use glidepath_geometry::{AXES, AxisVector, LINEAR_XYZ, Line, Segment, UVW};
 use glidepath_program::{Item, ItemKind, Rate};

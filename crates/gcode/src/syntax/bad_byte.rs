@@ -1,4 +1,4 @@
-//! Explains bytes that have no place in a block.
+//! The diagnostic for a byte that has no place in a block.
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::Fault;

@@ -1,4 +1,4 @@
-//! One line of text, read into the words of one block.
+//! A block: one line of text, read into words.
 //!
 //! Nothing here depends on the modal state but the parameters a line reads. A block is filled again
 //! for every line, so that none is allocated.
@@ -19,7 +19,7 @@ use crate::syntax::modes::Motion;
 use crate::syntax::named_word::NamedWords;
 use crate::syntax::plain_line::{WordSink, read_plain};
 
-/// What a line is, besides its words.
+/// The kinds of lines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum LineKind {
     /// Words, perhaps none.

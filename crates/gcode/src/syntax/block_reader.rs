@@ -1,4 +1,4 @@
-//! Reads the text of a line into a block, word by word.
+//! The reader of a line's text into a block, word by word.
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};

@@ -1,4 +1,5 @@
-//! What the blocks of the other dialects have that LinuxCNC's have not.
+//! The parts of the block reader that only the other dialects need: what their blocks have and
+//! LinuxCNC's have not.
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};

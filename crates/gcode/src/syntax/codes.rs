@@ -1,4 +1,4 @@
-//! The G and M numbers, sorted into their modal groups.
+//! The codes of a block: G and M numbers, sorted into their modal groups.
 //!
 //! A block may have one code of each group. G numbers are kept times ten, so that G59.3 is 593.
 

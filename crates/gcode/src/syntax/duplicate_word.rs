@@ -1,4 +1,4 @@
-//! A word that a block has twice.
+//! The diagnostic for a word that a block has twice.
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::Fault;

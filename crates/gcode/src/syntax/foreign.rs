@@ -1,5 +1,5 @@
-//! Texts of another kind altogether, told by their beginning: one finding for all of it, and not one
-//! for every line.
+//! The detection of texts that are no programs, by their beginning: one diagnostic for all of the
+//! text, and not one for every line.
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::Fault;

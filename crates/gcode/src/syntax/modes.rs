@@ -1,4 +1,4 @@
-//! What the codes of each modal group mean.
+//! The modes and codes of each modal group.
 
 use serde::{Deserialize, Serialize};
 
@@ -125,7 +125,8 @@ pub enum LatheCycle {
     Repeat,
 }
 
-/// What a roughing cycle does about the pockets of a profile: places where it leads back inwards.
+/// The treatment by a roughing cycle of the pockets of a profile, which are places where it leads
+/// back inwards.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Pockets {
     /// G71, G72: cut like the rest.
@@ -253,7 +254,7 @@ pub(crate) enum ToolLength {
     Cancel,
 }
 
-/// Where a canned cycle retracts to (group 10).
+/// The place that a canned cycle retracts to (group 10).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Retract {
     /// G98: where the axis was before the cycles began.

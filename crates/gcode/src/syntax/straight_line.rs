@@ -1,4 +1,5 @@
-//! Lines that say nothing but a straight move, which nearly all lines of a long program are.
+//! The words of a line that says nothing but a straight move, as nearly all lines of a long program
+//! do.
 
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::letters::{AXIS_WORDS, Letters, Slot, WordValues};

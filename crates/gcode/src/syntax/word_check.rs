@@ -1,4 +1,4 @@
-//! What the words of a block must be: used by one of its codes, whole, not negative.
+//! The checks of a block's words: used by one of its codes, whole, not negative.
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};

@@ -1,4 +1,5 @@
-//! What is in force goes from one program to the next as text, too, and means the same there.
+//! Tests of the state in force: it goes from one program to the next as text, too, and means the
+//! same there.
 
 use std::sync::Arc;
 

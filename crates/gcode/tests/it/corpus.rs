@@ -1,4 +1,4 @@
-//! Real programs, compared with what an independent interpreter made of them.
+//! Tests with real programs, compared with what an independent interpreter made of them.
 //!
 //! Runs where the environment variable `GLIDEPATH_CORPUS` names the directory of the programs and
 //! their `EXPECTED.json`; says so and passes where it does not. With `--nocapture` it lists every

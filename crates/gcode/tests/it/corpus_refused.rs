@@ -1,4 +1,4 @@
-//! Every real program that is refused, against the table that says why.
+//! Tests of every real program that is refused, against the table that says why.
 
 use std::fs;
 use std::path::{Path, PathBuf};

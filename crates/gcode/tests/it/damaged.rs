@@ -1,4 +1,4 @@
-//! Damaged programs, each with the diagnostics it deserves.
+//! Tests of damaged programs, each with the diagnostics it deserves.
 //!
 //! Runs where the environment variable `GLIDEPATH_CORPUS` names the directory of the programs; says
 //! so and passes where it does not.

@@ -1,4 +1,4 @@
-//! What is refused: kind, line and column of the diagnostic for each.
+//! Tests of what is refused: kind, line and column of the diagnostic for each.
 
 use crate::support::listed;
 use glidepath_gcode::{Machine, Options, Program, Report, Travel, check};

@@ -1,4 +1,4 @@
-//! Programs of other controls.
+//! Tests of programs of other controls.
 
 #![allow(
     clippy::expect_used,

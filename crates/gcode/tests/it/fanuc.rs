@@ -1,4 +1,4 @@
-//! FANUC's and Haas' mills: ends and ways by values computed by hand.
+//! Tests of FANUC's and Haas' mills: ends and ways by values computed by hand.
 
 use std::f64::consts::PI;
 use std::sync::Arc;

@@ -1,5 +1,5 @@
-//! FANUC's and Haas' lathes: grooves side by side, passes along a profile that is there, corners, offsets
-//! that programs set. Values are computed by hand; X is a radius here.
+//! Tests of FANUC's and Haas' lathes: grooves side by side, passes along a profile that is there,
+//! corners, offsets that programs set. Values are computed by hand; X is a radius here.
 
 use std::sync::Arc;
 

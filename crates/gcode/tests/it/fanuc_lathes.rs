@@ -1,4 +1,5 @@
-//! FANUC's and Haas' lathes, system A: ends and ways by values computed by hand. X is a radius here.
+//! Tests of FANUC's and Haas' lathes, system A: ends and ways by values computed by hand. X is a
+//! radius here.
 
 use std::sync::Arc;
 

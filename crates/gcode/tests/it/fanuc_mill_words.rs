@@ -1,5 +1,5 @@
-//! FANUC's and Haas' mills: offsets by other words, depths of Haas, round pockets, names of programs and
-//! variables, what is printed. Values are computed by hand.
+//! Tests of FANUC's and Haas' mills: offsets by other words, depths of Haas, round pockets, names
+//! of programs and variables, what is printed. Values are computed by hand.
 
 use std::sync::Arc;
 

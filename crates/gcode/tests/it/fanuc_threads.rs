@@ -1,4 +1,4 @@
-//! FANUC's G76 in its two forms, and the lead of G33.
+//! Tests of FANUC's G76 in its two forms, and the lead of G33.
 
 use crate::support::listed;
 use glidepath_gcode::{Dialect, FanucControl, FanucParameters, Options, Program, Threading, check};

@@ -1,4 +1,5 @@
-//! Machines with five axes: when the tip of the tool is followed, tilted planes, directions of the tool.
+//! Tests of machines with five axes: when the tip of the tool is followed, tilted planes,
+//! directions of the tool.
 //!
 //! The table tilts about x (A) and carries one that turns about z (C): the joints of a tip w are
 //! Rx(A) Rz(C) w, which is written out here.

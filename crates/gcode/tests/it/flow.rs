@@ -1,4 +1,4 @@
-//! Parameters, expressions in blocks, subroutines, branches and loops.
+//! Tests of parameters, expressions in blocks, subroutines, branches and loops.
 
 #![expect(clippy::panic, reason = "a wrong program fails the test")]
 

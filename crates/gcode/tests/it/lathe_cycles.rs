@@ -1,4 +1,4 @@
-//! Lathe cycles (G70 to G72.2): passes by hand, and diagnostics.
+//! Tests of lathe cycles (G70 to G72.2): passes by hand, and diagnostics.
 
 #![allow(clippy::expect_used, reason = "a test")]
 

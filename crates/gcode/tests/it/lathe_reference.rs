@@ -1,4 +1,4 @@
-//! Lathe cycles, move by move, against what an independent interpreter made of them.
+//! Tests of lathe cycles, move by move, against what an independent interpreter made of them.
 //!
 //! `tests/data/gcode/lathe_reference.json` holds random profiles with the moves LinuxCNC 2.9 made
 //! of them, X and Z with four decimals: kind, end, and of arcs the centre and the sense.

@@ -1,4 +1,4 @@
-//! M codes of the machine, what a program says to people, and inputs that are asked.
+//! Tests of M codes of the machine, what a program says to people, and inputs that are asked.
 
 #![allow(clippy::expect_used, clippy::float_cmp, reason = "a test")]
 

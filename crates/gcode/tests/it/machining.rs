@@ -1,4 +1,5 @@
-//! Cycles, tools, cutter radius, spindle and outputs: what a block gives out, item by item.
+//! Tests of cycles, tools, cutter radius, spindle and outputs: what a block gives out, item by
+//! item.
 
 #![allow(clippy::expect_used, reason = "a test")]
 

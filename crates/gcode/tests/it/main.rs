@@ -1,4 +1,5 @@
-//! Programs as text: what they mean, and what is wrong with them. One binary: it links once.
+//! Tests of programs as text: what they mean, and what is wrong with them. One binary: it links
+//! once.
 
 #![allow(
     clippy::expect_used,

@@ -1,4 +1,4 @@
-//! What programs do: positions, rates, modes and the order of events.
+//! Tests of what programs do: positions, rates, modes and the order of events.
 
 #![expect(
     clippy::panic,

@@ -1,5 +1,5 @@
-//! Plain lines are read and executed in a way of their own: with the same outcome as any other
-//! line. An empty comment makes a line one that is not plain.
+//! Tests of plain lines, which are read and executed in a way of their own: with the same outcome
+//! as any other line. An empty comment makes a line one that is not plain.
 
 use std::io::BufReader;
 use std::path::{Path, PathBuf};

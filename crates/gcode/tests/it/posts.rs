@@ -1,5 +1,5 @@
-//! One part, written as the posts of CAM systems write it for each control: every text is read, and is
-//! the same motion. The right values come from the part, not from any text.
+//! Tests with one part, written as the posts of CAM systems write it for each control: every text
+//! is read, and is the same motion. The right values come from the part, not from any text.
 //!
 //! A part is a tool (its length), a work offset, holes and contours. Texts have the headers, tool
 //! changes, safe moves and ends that posts write: those of an Autodesk-like post for FANUC, Haas and

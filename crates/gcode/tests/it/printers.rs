@@ -1,4 +1,4 @@
-//! Places and states that printers' programs keep, and offsets of Klipper.
+//! Tests of places and states that printers' programs keep, and offsets of Klipper.
 
 use glidepath_gcode::{Connections, Dialect, Machine, Options, Program, check};
 use glidepath_geometry::Axis;

@@ -1,4 +1,4 @@
-//! Probing with a probe that answers.
+//! Tests of probing with a probe that answers.
 #![allow(
     clippy::unwrap_used,
     clippy::float_cmp,

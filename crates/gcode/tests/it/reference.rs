@@ -1,4 +1,4 @@
-//! Small programs, move by move, against what an independent interpreter made of them.
+//! Tests with small programs, move by move, against what an independent interpreter made of them.
 //!
 //! `tests/data/gcode/reference.json` holds random programs with canned cycles, cutter radius
 //! compensation, tool lengths and every kind of offset, in inches, each with the moves LinuxCNC 2.9

@@ -1,4 +1,4 @@
-//! Saved modal state (M70 to M73), and overrides switched by the program (M50 to M53).
+//! Tests of saved modal state (M70 to M73), and overrides switched by the program (M50 to M53).
 
 use crate::support::listed;
 use glidepath_gcode::{Dialect, Options, Program, check};

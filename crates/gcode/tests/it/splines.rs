@@ -1,4 +1,4 @@
-//! Splines: where they go, and what is refused.
+//! Tests of splines: where they go, and what is refused.
 #![allow(
     clippy::expect_used,
     clippy::panic,

@@ -1,4 +1,4 @@
-//! Subroutines in files of their own.
+//! Tests of subroutines in files of their own.
 
 #![expect(
     clippy::panic,

@@ -1,4 +1,4 @@
-//! Rigid tapping: G33.1, G84 and G74, M29.
+//! Tests of rigid tapping: G33.1, G84 and G74, M29.
 
 use std::sync::Arc;
 

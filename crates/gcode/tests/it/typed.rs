@@ -1,5 +1,5 @@
-//! Lines that are typed one by one come to what they come to in a file, and one with a finding changes
-//! nothing.
+//! Tests of lines that are typed one by one: they come to what they come to in a file, and one with
+//! a finding changes nothing.
 //!
 //! Runs where the environment variable `GLIDEPATH_CORPUS` names the directory of the programs, and
 //! says so where it does not.

@@ -1,5 +1,5 @@
-//! Every code of every other dialect: what is read, and that nothing is read in LinuxCNC's meaning
-//! that its control does not have.
+//! Tests of every code of every other dialect: what is read, and that nothing is read in LinuxCNC's
+//! meaning that its control does not have.
 
 use glidepath_gcode::language::{Treatment, words};
 use glidepath_gcode::{Dialect, Machine, Options, check};

@@ -1,4 +1,4 @@
-//! Feed mode and F.
+//! The feed of a block: feed mode and F, and the feed of corners.
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};

@@ -1,4 +1,4 @@
-//! What M66 waits for.
+//! The wait of M66 for an input: which input, and what it is to do.
 
 /// An input of the machine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -9,7 +9,7 @@ pub enum Input {
     Analog(u32),
 }
 
-/// What an input is to do.
+/// The condition of an input that is waited for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum WaitFor {
     /// Nothing: it is read at once (L0).
@@ -24,7 +24,7 @@ pub enum WaitFor {
     Low,
 }
 
-/// What M66 waits for.
+/// The wait of an M66.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct InputWait {
     /// The input.

@@ -1,4 +1,4 @@
-//! What a block does beside its motion: feed, spindle, tools, overrides, inputs and outputs,
+//! The effects of a block beside its motion: feed, spindle, tools, overrides, inputs and outputs,
 //! offsets.
 
 mod coordinate_system;

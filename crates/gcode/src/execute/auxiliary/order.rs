@@ -1,4 +1,4 @@
-//! What a block does beside its motion, in order: speed, tool, M codes, dwell.
+//! The order of a block's effects beside its motion: speed, tool, M codes, dwell.
 
 use glidepath_program::{Event, Item, ItemKind};
 

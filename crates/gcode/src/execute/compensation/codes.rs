@@ -1,4 +1,5 @@
-//! Turning compensation on and off, and what is not possible while it is on.
+//! The codes that turn compensation on and off, and the check of what is not possible while it is
+//! on.
 
 use glidepath_geometry::Plane;
 use glidepath_program::Item;

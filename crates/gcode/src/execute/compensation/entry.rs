@@ -1,4 +1,4 @@
-//! The first move with compensation on.
+//! The entry move: the first one with compensation on.
 
 use core::f64::consts::TAU;
 

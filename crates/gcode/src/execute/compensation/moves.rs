@@ -1,4 +1,4 @@
-//! What compensation makes of the moves of a program.
+//! The compensated moves: what compensation makes of the moves of a program.
 
 use glidepath_geometry::{Arc, AxisVector, Segment};
 use glidepath_program::{Item, ItemKind};

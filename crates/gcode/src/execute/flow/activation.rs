@@ -1,4 +1,4 @@
-//! What is kept of a program, and what of it is being executed.
+//! The activations of a program's parts: which kept parts are being executed, and how far.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -56,7 +56,7 @@ impl Activation {
     }
 }
 
-/// What is kept, and what of it is being executed.
+/// The kept parts of a program, and the activations of them.
 #[derive(Debug, Default)]
 pub(crate) struct Flow {
     pub(crate) subroutines: BTreeMap<Label, Arc<KeptLines>>,

@@ -1,4 +1,4 @@
-//! Lines that are kept, since they may be executed more than once.
+//! The kept lines of a part of a program that may be executed more than once.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! Reads subroutines from files of their own, when they are called first.
+//! The loader of subroutines from files of their own, when they are called first.
 
 use std::io::BufRead;
 use std::sync::Arc;

@@ -1,4 +1,4 @@
-//! Executes O words: where the program goes on.
+//! Execution of O words: where the program goes on.
 
 use std::io::BufRead;
 use std::sync::Arc;

@@ -1,4 +1,4 @@
-//! Keeps the lines of one part of a program and links its O words.
+//! The recorder, which keeps the lines of one part of a program and links its O words.
 
 use std::sync::Arc;
 

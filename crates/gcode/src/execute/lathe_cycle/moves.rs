@@ -1,4 +1,4 @@
-//! Makes the moves of a cycle, once its profile is known.
+//! The moves of a lathe cycle, made once its profile is known.
 
 use glidepath_geometry::{AXES, Arc as ArcSegment, Axis, AxisVector, Plane, Segment};
 use glidepath_program::Item;

@@ -1,4 +1,4 @@
-//! Reads the profile of a cycle from its subroutine.
+//! The reading of a cycle's profile from its subroutine.
 
 use std::io::BufRead;
 use std::sync::Arc;

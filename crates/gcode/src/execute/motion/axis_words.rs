@@ -1,4 +1,4 @@
-//! What takes the axis words of a block: a code that acts once, or a motion mode.
+//! The use of a block's axis words: by a code that acts once, or by a motion mode.
 
 use glidepath_geometry::{AXES, Axis};
 

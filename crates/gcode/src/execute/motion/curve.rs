@@ -1,4 +1,4 @@
-//! Gives out the pieces of a curve.
+//! The pieces of a curve, given out as items.
 
 use glidepath_geometry::{Nurbs, NurbsPath, Segment};
 use glidepath_program::{Item, PathMode};

@@ -1,4 +1,4 @@
-//! The speed a block asks for.
+//! The feedrate of a block's move.
 
 use glidepath_geometry::Segment;
 

@@ -1,4 +1,4 @@
-//! M428 and M429 of LinuxCNC's five-axis machines: which kinematics X, Y and Z are of.
+//! The switch between two kinematics by M428 and M429, on LinuxCNC's five-axis machines.
 //!
 //! M428 is the one that the machine starts with, where the tip of the tool is followed; with M429 the
 //! axes are the machine's own. The machine comes to rest in between, and stays where it is. A machine

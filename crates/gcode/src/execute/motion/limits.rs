@@ -1,4 +1,4 @@
-//! Refuses moves that leave the travel of an axis.
+//! The check of moves against the travel of every axis.
 
 use glidepath_geometry::{Axis, AxisVector};
 

@@ -1,4 +1,4 @@
-//! Moves of a program made those of the axes, on a machine with five axes.
+//! The mapping of a program's moves to those of the axes, on a machine with five axes.
 
 use glidepath_geometry::{Arc, AxisVector, NurbsPath, Segment};
 use glidepath_program::{Event, Item, ItemKind, Rate};

@@ -1,4 +1,4 @@
-//! Displacements that are rounding of coordinates, and no motion.
+//! The removal of displacements that are rounding of coordinates, and no motion.
 
 use glidepath_geometry::{AXES, Axis, AxisVector};
 

@@ -1,4 +1,4 @@
-//! Speeds of moves.
+//! The pace of a block, and the speed of a move whose segment is not known yet.
 
 use glidepath_geometry::Segment;
 use glidepath_program::Rate;

@@ -1,4 +1,4 @@
-//! Where the axis words of a block lead to.
+//! The target of a block: where its axis words lead.
 
 use glidepath_geometry::{AXES, AxisVector};
 

@@ -1,4 +1,4 @@
-//! From the coordinates of a program to the axes of a machine with five axes.
+//! The map from the coordinates of a program to the axes of a machine with five axes.
 //!
 //! The axes X, Y and Z of such a machine are the tip of the tool on the work ([`FiveAxis`]). Other
 //! controls have them follow the tip between G43.4 and G49 or behind TRAORI alone; elsewhere a program

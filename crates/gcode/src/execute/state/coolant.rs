@@ -1,4 +1,4 @@
-//! What the coolant was told.
+//! The coolant state: what the program has switched on.
 
 use serde::{Deserialize, Serialize};
 

@@ -1,4 +1,4 @@
-//! What the straight moves of plain lines in a row have in common.
+//! The state that the straight moves of plain lines in a row have in common.
 
 use glidepath_geometry::AxisVector;
 

@@ -1,4 +1,4 @@
-//! Whether E words of printers are relative.
+//! The mode of a printer's E words: absolute or relative.
 //!
 //! | | Marlin | Klipper |
 //! |---|---|---|

@@ -1,4 +1,4 @@
-//! What is in force in a FANUC program beside the modes that every control has.
+//! The modal state of a FANUC program beside the modes that every control has.
 
 use crate::execute::state::open_plane::OpenPlane;
 use crate::syntax::modes::{Motion, Turning};

@@ -1,4 +1,4 @@
-//! What is in force behind a program, for the next one to begin with.
+//! The state in force behind a program, for the next one to begin with.
 
 use std::sync::Arc;
 
@@ -41,7 +41,7 @@ impl InForce {
         self.0.offsets.set_up()
     }
 
-    /// Where the program's zero is in machine coordinates, with all offsets, that of the tool, too.
+    /// The program's zero in machine coordinates, with all offsets, that of the tool, too.
     #[must_use]
     pub fn zero(&self) -> AxisVector {
         self.0.offsets.to_machine(AxisVector::zeros())

@@ -1,4 +1,4 @@
-//! What is in force from block to block, part by part.
+//! The state of the interpreter from block to block, part by part.
 
 pub(crate) mod coolant;
 pub(crate) mod course;

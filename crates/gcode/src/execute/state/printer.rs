@@ -1,4 +1,4 @@
-//! Places and states that a printer's program keeps by number or name.
+//! The places and states that a printer's program keeps by number or name.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! What the last probing move is to find, and found.
+//! The last probing move: what it searches for, and what it found.
 
 use glidepath_geometry::AxisVector;
 use serde::{Deserialize, Serialize};
@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::modes::Probe;
 
-/// What `#5061` to `#5070` show.
+/// The result of the last probing move, as `#5061` to `#5070` show it.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct ProbeResult {
     /// Program coordinates of the contact, mm and degrees.
@@ -15,7 +15,7 @@ pub(crate) struct ProbeResult {
     pub(crate) made: bool,
 }
 
-/// What a probing move came to, in machine coordinates.
+/// The end of a probing move, in machine coordinates.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Probed {
     /// Where the axes were when the probe found what it looked for; `None` if it did not.

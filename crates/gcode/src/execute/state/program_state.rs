@@ -1,4 +1,4 @@
-//! What a block may change, offsets apart.
+//! The part of the interpreter's state that a block may change, offsets apart.
 
 use glidepath_geometry::AxisVector;
 use serde::{Deserialize, Serialize};

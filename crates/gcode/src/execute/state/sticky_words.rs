@@ -1,10 +1,10 @@
-//! What canned cycles keep from block to block.
+//! The sticky words of canned cycles: those that later blocks keep.
 
 use serde::{Deserialize, Serialize};
 
 use crate::syntax::modes::CannedCycle;
 
-/// What cycles keep from block to block.
+/// A series of cycles, and what it keeps from block to block.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct CycleSeries {
     /// Program coordinate, along the normal axis, from before the series, mm.

@@ -1,4 +1,4 @@
-//! What the first block of FANUC's G76 says for those behind it.
+//! The thread data of the first block of FANUC's G76, for the blocks behind it.
 
 use serde::{Deserialize, Serialize};
 

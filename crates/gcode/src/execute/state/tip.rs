@@ -1,4 +1,4 @@
-//! What X, Y and Z of a program are on a machine with five axes.
+//! The meaning of X, Y and Z in a program for a machine with five axes.
 
 /// What the coordinates X, Y and Z are of.
 #[derive(Debug, Clone, Copy, PartialEq)]

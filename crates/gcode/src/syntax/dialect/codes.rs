@@ -1,4 +1,4 @@
-//! The G and M numbers of the other dialects, sorted into the groups of [`Codes`].
+//! The codes of the other dialects: G and M numbers, sorted into the groups of [`Codes`].
 
 use crate::diagnostic::fault::Outcome;
 use crate::diagnostic::span::SourceSpan;

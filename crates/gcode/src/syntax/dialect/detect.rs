@@ -1,4 +1,4 @@
-//! Which dialect a program is written in, told by what only one of them has.
+//! The detection of a program's dialect, by what only one of them has.
 
 use crate::syntax::dialect::{Dialect, fanuc, marlin, siemens};
 

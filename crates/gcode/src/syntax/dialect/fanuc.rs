@@ -1,9 +1,9 @@
-//! What a line of a FANUC program is to the flow of the program.
+//! The statements of a FANUC program: what a line is to the flow of the program.
 
 use crate::syntax::cursor::Cursor;
 use crate::syntax::dialect::line_body::{body, starts_with_word};
 
-/// What a line is to the flow of the program.
+/// The kinds of statements.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Statement {
     Block,

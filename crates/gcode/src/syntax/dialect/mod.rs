@@ -1,4 +1,4 @@
-//! What the languages of other controls have in the place of RS274/NGC's words.
+//! The dialects: what the languages of other controls have in the place of RS274/NGC's words.
 
 mod codes;
 pub(crate) mod detect;

@@ -1,4 +1,4 @@
-//! Refuses results that are no finite numbers.
+//! The check that a result is a finite number.
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};

@@ -1,4 +1,4 @@
-//! Values: numbers, parameters and bracketed expressions.
+//! Expressions: values of words as numbers, parameters and brackets.
 //!
 //! ```text
 //! value     = [sign] ( number | parameter | "[" expression "]" | function )

@@ -1,4 +1,4 @@
-//! Reads a value from left to right, by recursive descent with a bounded depth.
+//! The reader of a value, from left to right, by recursive descent with a bounded depth.
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};

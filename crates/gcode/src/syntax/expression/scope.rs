@@ -1,4 +1,4 @@
-//! Parameters, and where an expression gets their values from.
+//! The scope: where an expression gets the values of its parameters from.
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::Fault;

@@ -1,3 +1,5 @@
+//! Tests of expressions: values, precedence, diagnostics.
+
 use proptest::prelude::*;
 
 use crate::diagnostic::code::DiagnosticCode;

@@ -1,4 +1,4 @@
-//! Reads the value of a word, of an assignment, or of a condition.
+//! The values of a word, of an assignment and of a condition, as they are read.
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};

@@ -1,4 +1,4 @@
-//! CYCLE87, 88, 89 and 840, and cycles with a feed per revolution.
+//! Tests of CYCLE87, 88, 89 and 840, and cycles with a feed per revolution.
 
 use glidepath_program::{Event, ItemKind, Rate};
 

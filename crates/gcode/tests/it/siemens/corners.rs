@@ -1,5 +1,5 @@
-//! Corners beside arcs, feeds of corners and of blocks, polar coordinates that are added to the last
-//! ones. Values are computed by hand.
+//! Tests of corners beside arcs, feeds of corners and of blocks, polar coordinates that are added
+//! to the last ones. Values are computed by hand.
 
 use glidepath_geometry::Segment;
 use glidepath_program::{Event, ItemKind, PathMode, Rate};

@@ -1,3 +1,5 @@
+//! Tests of SINUMERIK's cycles: drilling, boring, tapping, pockets, MCALL.
+
 use core::f64::consts::TAU;
 
 use glidepath_geometry::Segment;

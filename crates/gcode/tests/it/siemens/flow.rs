@@ -1,3 +1,5 @@
+//! Tests of SINUMERIK's structures, jumps, repetitions and variables.
+
 use super::{finds, xs};
 
 #[test]

@@ -1,3 +1,5 @@
+//! Tests of SINUMERIK's frames: shifts, turns, mirrors and scales.
+
 use glidepath_geometry::{Plane, Segment};
 
 use super::{ends, finds, moves, xs};

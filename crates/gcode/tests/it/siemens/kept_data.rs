@@ -1,5 +1,5 @@
-//! What the control keeps: offsets of axes, coordinate systems, tools with their names and edges, and
-//! what programs read of it. Values are computed by hand.
+//! Tests of what the control keeps: offsets of axes, coordinate systems, tools with their names and
+//! edges, and what programs read of it. Values are computed by hand.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! Lathes of SINUMERIK: diameters, feeds by the spindle, threads. X is a radius here.
+//! Tests of lathes of SINUMERIK: diameters, feeds by the spindle, threads. X is a radius here.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! SINUMERIK: structures, jumps, variables, frames, cycles.
+//! Tests of SINUMERIK's programs: structures, jumps, variables, frames, cycles.
 
 mod boring;
 mod corners;

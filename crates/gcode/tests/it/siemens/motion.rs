@@ -1,5 +1,5 @@
-//! SINUMERIK's ways to say where a move goes: polar coordinates, angles, arcs, rotary axes, taps.
-//! Right values are computed by hand formulas.
+//! Tests of SINUMERIK's ways to say where a move goes: polar coordinates, angles, arcs, rotary
+//! axes, taps. Right values are computed by hand formulas.
 
 use std::f64::consts::PI;
 

@@ -1,4 +1,4 @@
-//! Words that CAM systems write into every program.
+//! Tests of words that CAM systems write into every program.
 
 use super::{ends, finds, moves, options};
 use glidepath_gcode::{Dialect, Options, Program, Tool, ToolTable, check};

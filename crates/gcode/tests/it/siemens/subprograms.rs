@@ -1,4 +1,4 @@
-//! Subprograms, arrays and CASE.
+//! Tests of subprograms, arrays and CASE.
 
 use glidepath_gcode::{NoSubroutineFile, Options, Program, SubroutineFile, Subroutines, check};
 use glidepath_program::ItemKind;

@@ -1,4 +1,4 @@
-//! What several tests of programs ask.
+//! The helpers of several tests of programs.
 
 use glidepath_gcode::Report;
 

@@ -1,4 +1,4 @@
-//! G33 and G76: what is made of them, and what is refused.
+//! Tests of G33 and G76: what is made of them, and what is refused.
 
 use crate::{Options, Program, Threading, check};
 use glidepath_program::{Event, Item, ItemKind, Limits, PHASE_STEPS};

@@ -1,4 +1,4 @@
-//! What stands in parentheses: numbers, places that are left out, texts in quotes.
+//! The arguments in parentheses: numbers, places that are left out, texts in quotes.
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};

@@ -1,4 +1,5 @@
-//! Letters with numbers: the G and M codes of the tables, and the addresses that this language has.
+//! The words of a letter and a number: the G and M codes of the tables, and the addresses of
+//! SINUMERIK's language.
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};

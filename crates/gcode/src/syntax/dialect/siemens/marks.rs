@@ -1,4 +1,4 @@
-//! What only SINUMERIK programs have, at their head and in their body.
+//! The marks of SINUMERIK programs: what only they have, at their head and in their body.
 
 use crate::syntax::dialect::line_body::body;
 

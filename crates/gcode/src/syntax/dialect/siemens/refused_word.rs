@@ -1,4 +1,4 @@
-//! Words of SINUMERIK's language that are not known.
+//! The diagnostic for a word that SINUMERIK's tables do not have.
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::Fault;

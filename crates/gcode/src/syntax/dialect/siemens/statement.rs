@@ -1,4 +1,4 @@
-//! What a line of a SINUMERIK program is to the flow of the program.
+//! The statements of a SINUMERIK program: what a line is to the flow of the program.
 
 use crate::syntax::dialect::line_body::body;
 use crate::syntax::dialect::siemens::frame_word::FrameWord;
@@ -16,7 +16,7 @@ pub(crate) enum Direction {
     IfAny,
 }
 
-/// What a line is to the flow of the program.
+/// The kinds of statements.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Statement {
     Block,

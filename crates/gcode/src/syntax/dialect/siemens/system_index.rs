@@ -1,4 +1,4 @@
-//! Variables of the control, whose names begin with `$`: what their indices may be.
+//! An index of a variable of the control, whose name begins with `$`.
 
 use glidepath_geometry::Axis;
 

@@ -1,4 +1,5 @@
-//! Indices of variables of the control, whose names begin with `$`, and frames as values.
+//! The reading of indices of the control's variables, whose names begin with `$`, and of frames as
+//! values.
 
 use glidepath_geometry::Axis;
 

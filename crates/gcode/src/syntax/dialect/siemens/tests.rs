@@ -1,3 +1,5 @@
+//! Tests of SINUMERIK's lines: what each is rewritten into, and what is refused.
+
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::Outcome;
 use crate::diagnostic::span::SourceSpan;

@@ -1,4 +1,4 @@
-//! Rewrites the words of a line into those of RS274/NGC.
+//! The writer, which rewrites the words of a line into those of RS274/NGC.
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};

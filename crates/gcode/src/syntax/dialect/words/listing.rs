@@ -4,7 +4,7 @@ use crate::syntax::dialect::Dialect;
 use crate::syntax::dialect::marlin::is_function;
 use crate::syntax::dialect::words::{Meaning, fanuc, fanuc_lathe, marlin, siemens, siemens_names};
 
-/// What is made of a word.
+/// The treatment of a word: what is made of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Treatment {
     /// It means what it means to LinuxCNC.
