@@ -139,7 +139,7 @@ impl Quintic {
         )
     }
 
-    /// What is left of it after path position `s`, from a place near its own there.
+    /// The rest of the curve after path position `s`, from a place near its own there.
     #[must_use]
     pub fn after(&self, s: f64, start: AxisVector) -> Self {
         let jet = self.jet(s);

@@ -111,7 +111,7 @@ impl Segment {
         }
     }
 
-    /// How far it is from what was programmed, at most, mm.
+    /// The largest distance from what was programmed, mm.
     #[must_use]
     pub const fn error_mm(&self) -> f64 {
         match self {

@@ -1,4 +1,4 @@
-//! How sharply a path turns at a corner.
+//! The turn of a path at a corner, as sine and cosine of half its angle.
 //!
 //! Between the unit directions `T1` and `T2` the path turns by θ. With β = θ/2, everything a
 //! transition needs is rational in sin β = |T2 − T1|/2 and cos β = |T1 + T2|/2, both accurate for

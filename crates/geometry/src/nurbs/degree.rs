@@ -1,4 +1,4 @@
-//! How high the degree of a curve may be.
+//! The highest degree that a NURBS may have.
 
-/// The highest degree.
+/// The highest degree of a curve.
 pub const MAX_DEGREE: usize = 7;

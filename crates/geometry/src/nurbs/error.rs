@@ -1,6 +1,6 @@
-//! Why numbers are no NURBS.
+//! The errors of a NURBS definition: why numbers are no curve.
 
-/// What is wrong with the definition of a curve. Indices count from 0.
+/// An error in the definition of a curve. Indices count from 0.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum NurbsError {
     /// The degree is not supported.

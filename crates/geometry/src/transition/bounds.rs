@@ -1,4 +1,4 @@
-//! How large the derivatives of a curve are.
+//! The bounds on the derivatives of a curve, axis by axis.
 
 use crate::AxisVector;
 

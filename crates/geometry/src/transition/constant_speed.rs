@@ -1,4 +1,4 @@
-//! What the transitions by arc length share: their planar frame, and bounds on their derivatives.
+//! The planar frame of the transitions by arc length, and the bounds on their derivatives.
 //!
 //! Such a curve is written in the basis of the corner's tangent and inward normal,
 //!

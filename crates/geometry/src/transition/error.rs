@@ -1,6 +1,6 @@
-//! Why a corner has no transition.
+//! The error of a transition: why a corner has none.
 
-/// Why a corner has no transition of the family that was asked for.
+/// The reason why a corner has no transition of the family that was asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum TransitionError {
     /// The path turns back on itself: a curve at constant speed would need infinite acceleration.

@@ -1,4 +1,5 @@
-//! Arcs and helices: derivatives against finite differences, boxes and lengths against sampling.
+//! Tests of arcs and helices: derivatives against finite differences, boxes and lengths against
+//! sampling.
 
 use glidepath_geometry::{AXES, Arc, AxisVector, Plane, Segment};
 use proptest::prelude::*;

@@ -1,4 +1,4 @@
-//! Every transition family against reference values computed with 34 digits.
+//! Tests of every transition family against reference values computed with 34 digits.
 
 #[allow(clippy::unwrap_used, reason = "a test")]
 mod vectors {

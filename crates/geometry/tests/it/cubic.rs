@@ -1,4 +1,4 @@
-//! Cubic spans: path position, derivatives and their bounds against finite differences.
+//! Tests of cubic spans: path position, derivatives and their bounds against finite differences.
 
 #![allow(clippy::expect_used, reason = "a test that fails may panic")]
 

@@ -1,4 +1,4 @@
-//! Curves, held against vectors, and against what is known of them otherwise.
+//! Tests of curves, held against vectors, and against what is known of them otherwise.
 
 mod arcs;
 mod bezier_pair;

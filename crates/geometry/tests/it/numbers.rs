@@ -1,4 +1,4 @@
-//! Numbers with derivatives and enclosures against finite differences and sampling.
+//! Tests of numbers with derivatives and enclosures against finite differences and sampling.
 
 use glidepath_geometry::number::{Gradient, Interval, Number, Series};
 use proptest::prelude::*;

@@ -1,4 +1,4 @@
-//! NURBS against reference values, against their definition, and bad definitions.
+//! Tests of NURBS against reference values, against their definition, and bad definitions.
 
 use crate::support::{curve, definition, evaluate, numbers, point, random_definition, reference};
 use glidepath_geometry::{Axis, AxisVector, Nurbs, NurbsError, NurbsPath};

@@ -1,4 +1,4 @@
-//! NURBS cut into pieces by path position: near the curve, smooth, of unit speed.
+//! Tests of NURBS cut into pieces by path position: near the curve, smooth, of unit speed.
 
 #![allow(
     clippy::expect_used,

@@ -1,4 +1,4 @@
-//! Properties of the transitions over all nine axes.
+//! Tests of properties of the transitions over all nine axes.
 
 use glidepath_geometry::{
     AXES, AxisVector, Blend, Jet, LINEAR_XYZ, PairShape, Transition, Turn, feed_length,

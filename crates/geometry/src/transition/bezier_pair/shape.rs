@@ -1,4 +1,4 @@
-//! What the weights of a pair decide.
+//! The shape invariants of a pair: what its weights decide of curvature and deviation.
 
 use crate::Turn;
 
