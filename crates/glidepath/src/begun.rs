@@ -1,4 +1,5 @@
-//! What a program began with, beside its text: tools, offsets, what was in force, and how it is planned.
+//! The beginning of a program beside its text: tools, offsets, what was in force, and how it is
+//! planned.
 //!
 //! A recording is judged where the files of the machine are not, or are others by then. Only the planner
 //! knows what it works with, and only until the next job. So it puts that, before anything moves, into the

@@ -1,4 +1,4 @@
-//! The programmed path in straight pieces that look like it.
+//! The chords of the programmed path: straight pieces that look like it.
 
 use glidepath_geometry::{AxisVector, Segment};
 use glidepath_program::{Item, ItemKind};

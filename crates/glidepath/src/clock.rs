@@ -1,4 +1,4 @@
-//! Wall time and processor time, for reports alone.
+//! The clocks of wall time and processor time, for reports alone.
 
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};

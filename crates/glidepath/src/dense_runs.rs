@@ -1,4 +1,4 @@
-//! A program as dense runs of short lines, and what is between them.
+//! The dense runs of short lines in a program, and what is between them.
 
 use glidepath_fit::Point;
 use glidepath_geometry::{LINEAR_XYZ, Segment};

@@ -1,10 +1,10 @@
-//! Files that cannot be opened, read or written.
+//! The errors of files that cannot be opened, read or written.
 
 use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// What went wrong with a file of the command line.
+/// An error with a file of the command line.
 #[derive(Debug, Error)]
 pub enum FileError {
     /// The file cannot be opened.

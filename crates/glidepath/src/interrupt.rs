@@ -1,4 +1,4 @@
-//! Ctrl-C and its relatives, as a flag.
+//! The flag that Ctrl-C and its relatives set.
 
 use crate::exit::Exit;
 use rustix::process::{Signal, getppid, set_parent_process_death_signal};

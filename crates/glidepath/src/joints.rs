@@ -1,4 +1,4 @@
-//! What a program asks of the joints, where they are not the axes.
+//! The judgement of a program by the joints, where they are not the axes.
 //!
 //! Along the path: reach, singularities and ranges of the joints, at places at most [`STEP`]
 //! apart, so that `check` needs no plan. Over the plan: velocity, acceleration and jerk of every

@@ -1,4 +1,4 @@
-//! Commands that people are told, with the options that name their machine.
+//! The options that name the machine, put into the commands that people are told.
 //!
 //! A text names a command by itself, as `glidepath reset`. Where the machine is not the built-in one
 //! or its instance not the default, that command would reach another machine or none. So whoever
@@ -19,7 +19,7 @@ const SCAN: &str = "ethercat scan";
 
 static OWN: OnceLock<MachineOptions> = OnceLock::new();
 
-/// What this process was told of the machine.
+/// The options that this process was given of its machine.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct MachineOptions {
     config: Option<String>,

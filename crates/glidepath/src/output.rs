@@ -1,4 +1,4 @@
-//! Everything the process prints: results to standard output, diagnostics and progress to standard
+//! The output of the process: results to standard output, diagnostics and progress to standard
 //! error, so that a result can be piped.
 //!
 //! Text of others (programs, names of files, keys, other processes) is in nearly everything. So all of

@@ -1,4 +1,4 @@
-//! Files that commands write: beside their place, and renamed when they are whole.
+//! An output file: written beside its place, and renamed when it is whole.
 //!
 //! So an interrupted command leaves what was there before, and nobody reads half a file. What the
 //! command reads is never overwritten, nor, unless told, a file that is not of the kind that is
@@ -14,7 +14,7 @@ use std::os::fd::AsFd as _;
 use std::os::unix::fs::{MetadataExt as _, PermissionsExt};
 use std::path::{Path, PathBuf};
 
-/// What a file is, by how it begins.
+/// The kind of a file, by how it begins.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum OutputKind {
     /// Setpoints as CSV.
@@ -56,7 +56,7 @@ impl OutputKind {
     }
 }
 
-/// What may not be overwritten.
+/// The files that may not be overwritten.
 #[derive(Debug, Clone, Default)]
 pub struct Guard {
     /// What the command reads.

@@ -1,4 +1,4 @@
-//! What the page of `live` and `plan --plot` is told of a machine and its motion.
+//! The data that the page of `live` and `plan --plot` is given of a machine and its motion.
 
 use crate::chords::chords;
 use crate::config::MachineConfig;
@@ -67,7 +67,7 @@ const fn limit_of(binding: Option<Binding>) -> (LimitKind, usize) {
     }
 }
 
-/// What the page knows of the machine.
+/// The machine as the page knows it, as an object.
 #[must_use]
 pub fn machine_object(config: &MachineConfig, instance: &str) -> Value {
     let limits = config.limits();
@@ -95,7 +95,7 @@ pub fn machine_object(config: &MachineConfig, instance: &str) -> Value {
     })
 }
 
-/// What the page knows of a plan.
+/// The report of a plan as the page knows it, as an object.
 #[must_use]
 pub fn report_object(
     diagnosis: &DiagnosisReport,

@@ -1,4 +1,4 @@
-//! How long a motion took to play, and why longer than it was planned.
+//! The play time of a motion: how long it took, and why longer than it was planned.
 //!
 //! ```text
 //!   played = planned + what was lost        by what the machine did while program time stood or
@@ -91,7 +91,7 @@ pub struct PlayTime {
     overrides: Option<[f64; 2]>,
 }
 
-/// How long a motion took, s. The names are part of the command line's contract.
+/// The time that a motion took, s. The names are part of the command line's contract.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct PlayedTime {
     /// Of the frames played.

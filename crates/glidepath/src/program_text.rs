@@ -1,5 +1,5 @@
-//! Items as the text of a G-code program: millimetres, absolute machine coordinates, numbers that
-//! read back bit for bit.
+//! The text of a G-code program, made of items: millimetres, absolute machine coordinates, numbers
+//! that read back bit for bit.
 
 use core::f64::consts::TAU;
 use core::fmt::Write as _;

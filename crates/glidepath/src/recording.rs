@@ -1,4 +1,4 @@
-//! What is kept of a motion while it passes by: CSV and plot.
+//! The files that are kept of a motion while it passes by: CSV and plot.
 
 use crate::config::MachineConfig;
 use crate::file_error::FileError;

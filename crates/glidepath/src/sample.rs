@@ -1,4 +1,4 @@
-//! One setpoint as reports and plots see it, whether it was planned or received.
+//! A sample: one setpoint as reports and plots see it, whether it was planned or received.
 
 use glidepath_audit::diagnosis::{Binding, Deviation, Diagnosis};
 use glidepath_geometry::AxisVector;

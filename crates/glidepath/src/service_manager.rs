@@ -1,4 +1,4 @@
-//! Telling the service manager that the interpolator works.
+//! The notices to the service manager that the interpolator works.
 //!
 //! systemd gives a service the name of a socket (`NOTIFY_SOCKET`) and, with `WatchdogSec=`, a time
 //! in which it wants to hear from it (`WATCHDOG_USEC`); see `sd_notify(3)`. A thread of ordinary

@@ -1,6 +1,6 @@
-//! Setpoints as CSV: `tick,time_s,line,state,feed_mm_s,path_mm`, then position, velocity and
-//! acceleration of every axis of the machine, then the position of every joint (`joint_0`, …) where
-//! joints are not axes; one row for each tick.
+//! The CSV file of setpoints: `tick,time_s,line,state,feed_mm_s,path_mm`, then position, velocity
+//! and acceleration of every axis of the machine, then the position of every joint (`joint_0`, …)
+//! where joints are not axes; one row for each tick.
 //!
 //! Numbers are decimal fractions without exponent, with as many significant digits (at most 17) as
 //! it takes to read back exactly the same double.

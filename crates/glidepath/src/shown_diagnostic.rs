@@ -1,4 +1,4 @@
-//! Diagnostics with the text of others made safe to show.
+//! A diagnostic with the text of others made safe to show.
 
 use core::fmt;
 use glidepath_link::printable;

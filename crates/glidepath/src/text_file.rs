@@ -1,4 +1,4 @@
-//! Files that are read as a whole: no more of them than they may have.
+//! The reader of whole files: no more of them than they may have.
 
 use std::fs::File;
 use std::io::{self, Read as _};

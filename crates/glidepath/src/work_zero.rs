@@ -1,4 +1,4 @@
-//! Where a program's zero is in machine coordinates, for who looks at it.
+//! The zero of a program in machine coordinates, for who looks at it.
 
 use crate::config::MachineConfig;
 use glidepath_geometry::AxisVector;

@@ -1,4 +1,5 @@
-//! Any text is a configuration or is refused with a place; what is accepted can be planned with.
+//! The fuzz target: any text is a configuration or is refused with a place; what is accepted can be
+//! planned with.
 #![no_main]
 
 use glidepath::config::parse;

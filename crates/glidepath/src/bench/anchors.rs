@@ -1,4 +1,5 @@
-//! `bench.json`: what is known of the benchmark programs, and what of it holds for a machine.
+//! The catalogue `bench.json`: what is known of the benchmark programs, and what of it holds for a
+//! machine.
 //!
 //! A bound holds for one jerk limit and one tolerance. Where the study has none for the machine's
 //! tolerance, that for another tolerance and the same jerk stands in, and the row says so.
@@ -10,7 +11,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// Why the catalogue of benchmark programs cannot be used.
+/// The reason why the catalogue of benchmark programs cannot be used.
 #[derive(Debug, Error)]
 pub enum CatalogueError {
     /// The file cannot be read.
@@ -73,7 +74,7 @@ struct Run {
     deviation_mm: Option<f64>,
 }
 
-/// What is known of a program on a machine, s.
+/// The known times of a program on a machine, s.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Anchors {
     /// The best time any geometry inside the tolerance allows, and that tolerance in mm.

@@ -1,5 +1,5 @@
-//! Benchmark programs beside what is known of them: cycle times against bounds and against another
-//! control.
+//! The comparison of benchmark programs with what is known of them: cycle times against bounds and
+//! against another control.
 
 mod anchors;
 mod report;

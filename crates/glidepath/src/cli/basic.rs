@@ -1,4 +1,4 @@
-//! What many commands are told: the machine, the form of the report, the shared memory.
+//! Arguments of many commands: the machine, the form of the report, the shared memory.
 
 use super::program::program_file;
 use crate::config::{INSTANCE_RULE, is_instance_name};

@@ -1,4 +1,4 @@
-//! What an operator gives with a jog.
+//! Arguments of `jog`.
 
 use super::operator::OperatorArgs;
 use clap::Args;

@@ -1,4 +1,4 @@
-//! What an operator gives with a command.
+//! Arguments of an operator's commands.
 
 use super::basic::{BasicArgs, InstanceArgs};
 use clap::{Args, ValueEnum};

@@ -1,4 +1,4 @@
-//! Times on the command line.
+//! The readers of times on the command line.
 
 use std::time::Duration;
 

@@ -1,4 +1,4 @@
-//! Which program the machine executes, as far as its planner has said.
+//! The program that the machine executes, as far as its planner has said.
 
 use glidepath_link::{ActiveProgram, LinkConfig, Status};
 

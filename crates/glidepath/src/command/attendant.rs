@@ -1,5 +1,5 @@
-//! What the planner does besides planning: it tells how far it has come, and keeps what the programs
-//! it has executed leave behind.
+//! The work of a planner besides planning: it tells how far it has come, and keeps what the
+//! programs it has executed leave behind.
 
 use crate::command::failure::Failure;
 use crate::config::MachineConfig;

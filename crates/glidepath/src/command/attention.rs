@@ -1,4 +1,4 @@
-//! What a person is to do for a job, told at the client that waits for it.
+//! The calls for attention: what a person is to do for a job, told at the client that waits for it.
 
 use super::tool_names::ToolNames;
 use crate::command::failure::Failure;

@@ -1,4 +1,4 @@
-//! What differs between the machine as it is and as a program expects it at a line.
+//! The differences between the machine as it is and as a program expects it at a line.
 
 use super::failure::Failure;
 use crate::config::MachineConfig;

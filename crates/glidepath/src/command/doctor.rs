@@ -1,4 +1,4 @@
-//! `glidepath doctor`: is this host fit for real time?
+//! `glidepath doctor`: the checks of whether this host is fit for real time.
 
 use crate::cli::DoctorArgs;
 use crate::config::MachineConfig;

@@ -1,4 +1,4 @@
-//! Why a motion without a program has ended before its end, as a status tells it.
+//! The reason why a motion without a program has ended before its end, as a status tells it.
 
 use glidepath_link::{FaultCause, MachineState, SWITCHED_OFF, Status};
 

@@ -1,4 +1,5 @@
-//! What is told of a run that ended before its end.
+//! The evidence of a run that ended before its end: figures and files of what was played, and where
+//! the machine stood.
 
 use crate::report::decimals;
 use serde_json::{Value, json};

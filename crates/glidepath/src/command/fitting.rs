@@ -1,5 +1,5 @@
-//! Where a program would fit into the travel of the axes. What is outside is so most often because its
-//! work offset is not set yet.
+//! The work offset with which a program would fit into the travel of the axes. What is outside is
+//! so most often because its work offset is not set yet.
 
 use super::reading::for_program;
 use crate::config::MachineConfig;

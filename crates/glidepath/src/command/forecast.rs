@@ -1,5 +1,5 @@
-//! How far a program is, and how long it takes yet: it is planned beside the machine, since planned
-//! time is run time.
+//! The forecast of a program: how far it is, and how long it takes yet. It is planned beside the
+//! machine, since planned time is run time.
 
 use super::fitting::{is_all_that_is_wrong, without_travel};
 use super::program_diagnostics::refusal_text;
@@ -44,7 +44,7 @@ struct Plan {
     has_failed: bool,
 }
 
-/// Who wants to see the plan as it is made.
+/// A spectator, who sees the plan as it is made.
 pub(super) trait Spectator: Send {
     /// The next item of the program.
     fn item(&mut self, item: &Item) {

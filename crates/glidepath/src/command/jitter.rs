@@ -1,4 +1,4 @@
-//! `glidepath jitter`: how late does the real-time loop wake on this host?
+//! `glidepath jitter`: the measurement of how late the real-time loop wakes on this host.
 
 use super::{interpolator, session};
 use crate::cli::JitterArgs;

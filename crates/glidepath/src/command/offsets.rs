@@ -1,4 +1,4 @@
-//! `glidepath offsets`: what a machine keeps over a restart, by hand.
+//! `glidepath offsets`: shows and changes, by hand, what a machine keeps over a restart.
 
 use crate::cli::{AngularUnits, LinearUnits, OffsetsCommand, SetArgs, UnitArgs};
 use crate::command::failure::Failure;

@@ -1,5 +1,6 @@
-//! What an operator does: `glidepath hold`, `resume`, `step`, `stop-at-block-end`, `single-block`,
-//! `reverse`, `forward`, `override` and `status`, talking to a running interpolator by its panel.
+//! The commands of an operator: `glidepath hold`, `resume`, `step`, `stop-at-block-end`,
+//! `single-block`, `reverse`, `forward`, `override` and `status`, talking to a running interpolator
+//! by its panel.
 
 use super::active_program::active_program;
 use super::other_users::OtherUsers;

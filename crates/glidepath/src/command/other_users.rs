@@ -1,5 +1,5 @@
-//! Interpolators that belong to other users, for whoever looks for one and finds none: they can be
-//! neither read nor commanded, but that they are there anybody can see.
+//! The interpolators of other users, for whoever looks for one and finds none: they can be neither
+//! read nor commanded, but that they are there anybody can see.
 
 use std::fmt;
 use std::fs;

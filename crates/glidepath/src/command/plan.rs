@@ -1,4 +1,4 @@
-//! `glidepath plan`: the motion of a program without waiting for the clock.
+//! `glidepath plan`: plans the motion of a program without waiting for the clock.
 
 use super::fitting::{is_all_that_is_wrong, without_travel};
 use super::{check, session};

@@ -1,4 +1,4 @@
-//! What is wrong with a program, on standard error, or in a few lines for others.
+//! The diagnostics of a program, on standard error, or in a few lines for others.
 
 use crate::output;
 use crate::report::ProgramDiagnostic;

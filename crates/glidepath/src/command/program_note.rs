@@ -1,4 +1,4 @@
-//! What a planner leaves behind so that others know which program the machine executes.
+//! The note that a planner leaves, so that others know which program the machine executes.
 
 use crate::output;
 use glidepath_link::{ActiveProgram, LinkConfig};

@@ -1,4 +1,5 @@
-//! How programs are to be read: the tool table, the search path of subroutines and the dialect.
+//! The settings by which programs are read: the tool table, the search path of subroutines and the
+//! dialect.
 
 use super::subroutines::subroutines;
 use crate::cli::Command;

@@ -1,4 +1,5 @@
-//! `glidepath replay`: a recording in place of an interpolator, for a servo stack or the page.
+//! `glidepath replay`: plays a recording in place of an interpolator, for a servo stack or the
+//! page.
 
 use super::session;
 use crate::cli::ReplayArgs;

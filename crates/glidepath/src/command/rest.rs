@@ -1,4 +1,5 @@
-//! `glidepath hold`, `abort`, `disable` and `return`: what is typed next finds the machine where the command was to bring it.
+//! `glidepath hold`, `abort`, `disable` and `return`: each waits until the machine is where the
+//! command was to bring it, so that what is typed next finds it there.
 
 use super::jog::lift;
 use super::operator::{PATIENCE, command_and_wait, reach, read_status, send};

@@ -1,4 +1,4 @@
-//! Which instance a process takes part in.
+//! The instance that a process takes part in.
 
 use crate::cli::{BasicArgs, InstanceArgs, OverwriteArgs};
 use crate::command::failure::Failure;

@@ -1,4 +1,4 @@
-//! Where the subroutines are that a program calls and does not define.
+//! The search for subroutines that a program calls and does not define.
 
 use glidepath_gcode::{MAX_SUBROUTINE_BYTES, NoSubroutineFile, SubroutineFile, Subroutines};
 use std::fs::File;

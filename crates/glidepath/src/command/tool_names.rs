@@ -1,4 +1,4 @@
-//! What the tool table says of a tool for people: the comment of its line.
+//! The names of tools for people: the comments of the tool table's lines.
 
 use crate::config::MachineConfig;
 use crate::kept::read::MOST_TABLE_BYTES;

@@ -1,4 +1,5 @@
-//! What the planner's service executes for operators: lines and files, with modal state kept between.
+//! The executor of the planner's service: lines and files of operators, with modal state kept
+//! between.
 
 use super::attendant::{Attendant, recalling};
 use super::differences::{agreement, approach};

@@ -1,11 +1,11 @@
-//! What is wrong with a configuration, and where.
+//! The diagnostics of a configuration: what is wrong, and where.
 
 use core::fmt;
 use core::ops::Range;
 use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode};
 use thiserror::Error;
 
-/// One thing to mend in a configuration file.
+/// A diagnostic of a configuration file: one thing to mend.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ConfigDiagnostic {
     /// Dotted name of the key, for example `axis.X.max_velocity`; empty if the file is not TOML.
@@ -27,7 +27,7 @@ impl ConfigDiagnostic {
     }
 }
 
-/// Why a configuration was refused. Never empty of diagnostics.
+/// The reason why a configuration was refused. Never empty of diagnostics.
 #[derive(Debug, Error)]
 pub enum ConfigError {
     /// The file could not be read.

@@ -1,4 +1,4 @@
-//! Names of machines in shared memory.
+//! The names of instances: what a name of a machine in shared memory may be.
 
 /// What [`is_instance_name`] accepts, in words.
 pub const INSTANCE_RULE: &str =

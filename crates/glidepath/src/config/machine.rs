@@ -1,4 +1,4 @@
-//! A configuration that has been judged: what the rest of the program works with.
+//! The judged configuration of a machine: what the rest of the program works with.
 
 use super::probe::ProbeConfig;
 use super::program::ProgramConfig;
@@ -63,7 +63,7 @@ pub struct InterpolatorConfig {
     pub max_missed_ticks: u64,
 }
 
-/// How the machine is moved by hand.
+/// The settings of moving by hand.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JogConfig {
     /// Top speed of each axis, mm/s or °/s; no limit for those that the machine does not have.
@@ -82,7 +82,7 @@ pub struct JogConfig {
     pub lift: f64,
 }
 
-/// Who brings joints home.
+/// The means by which joints come home.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum HomingBy {
     /// Nobody: the position is believed.
@@ -93,7 +93,7 @@ pub enum HomingBy {
     Controller,
 }
 
-/// What the drives say, and how that is judged.
+/// The settings by which the drives' feedback is judged.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FeedbackConfig {
     /// Whether drives answer; if not, they are taken to do what the setpoints say.

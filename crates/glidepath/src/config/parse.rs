@@ -1,4 +1,5 @@
-//! Text to the shapes of a file: the syntax, the names of keys, and the types of values.
+//! The parser of a configuration, from text to the shapes of a file: the syntax, the names of keys,
+//! and the types of values.
 //!
 //! Reading ends at the first thing that does not fit. That is put aside and the text is read again,
 //! until all of it fits: so everything that is wrong is told at once.

@@ -2,7 +2,7 @@
 
 use glidepath_interpolator::ProbeInput;
 
-/// Where a probe is connected, and how far it gives way.
+/// The probe of a machine: where it is connected, and how far it gives way.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProbeConfig {
     /// Its input.

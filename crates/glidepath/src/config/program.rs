@@ -1,4 +1,4 @@
-//! How programs are read.
+//! The table `[program]`: how programs are read.
 
 use glidepath_gcode::{
     Connections, Dialect, FanucParameters, Firmware, InForce, KeptVariables, ReadingWatch,

@@ -1,4 +1,4 @@
-//! The configuration file as it is written, before any value is judged.
+//! The raw configuration file, as it is written, before any value is judged.
 //!
 //! Every value keeps its place in the text, so that a later stage can point at it.
 

@@ -1,11 +1,11 @@
-//! What is wrong with a curve file, and where.
+//! The diagnostic of a curve file: what is wrong, and where.
 
 use core::fmt;
 use core::ops::Range;
 use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode};
 use serde_json::{Value, json};
 
-/// One thing to mend in a curve file.
+/// A diagnostic of a curve file: one thing to mend.
 #[derive(Debug)]
 pub struct CurveDiagnostic {
     file: String,

@@ -1,4 +1,4 @@
-//! Curve files of NURBS for the commands that look at curves themselves: read, and written.
+//! The reader and the writer of NURBS curve files, for the commands that look at curves themselves.
 
 mod diagnostic;
 mod read;

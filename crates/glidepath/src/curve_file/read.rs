@@ -1,4 +1,4 @@
-//! Reads curve files of NURBS.
+//! The reader of NURBS curve files.
 
 use super::diagnostic::CurveDiagnostic;
 use crate::file_error::FileError;
@@ -10,7 +10,7 @@ use thiserror::Error;
 /// Largest curve file, bytes: a hundred thousand control points.
 pub const MOST_BYTES: u64 = 4 << 20;
 
-/// Why a curve file cannot be used.
+/// The reason why a curve file cannot be used.
 #[derive(Debug, Error)]
 pub enum CurveFileError {
     /// It cannot be read.

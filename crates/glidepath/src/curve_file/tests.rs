@@ -1,3 +1,5 @@
+//! Tests of curve files: they read back, and diagnostics have a place.
+
 use super::*;
 use std::path::Path;
 

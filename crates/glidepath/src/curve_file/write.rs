@@ -1,4 +1,4 @@
-//! A curve as the text of a curve file.
+//! The writer of NURBS curve files.
 
 use core::fmt::Write as _;
 use glidepath_geometry::{AXES, Nurbs};

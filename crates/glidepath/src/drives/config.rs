@@ -1,8 +1,8 @@
-//! Drives that have been judged.
+//! The configuration of the drives, judged.
 
 use glidepath_ethercat::{BusSettings, DriveSettings};
 
-/// What the file says.
+/// The content of `drives.toml`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DrivesConfig {
     /// The network interface.

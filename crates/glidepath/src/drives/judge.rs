@@ -1,4 +1,5 @@
-//! [`RawDrives`] to [`DrivesConfig`]: every value by its range, and the whole against the machine.
+//! The judgement of `drives.toml`, [`RawDrives`] to [`DrivesConfig`]: every value by its range, and
+//! the whole against the machine.
 
 use super::config::DrivesConfig;
 use super::raw::{RawBus, RawDrive, RawDrives, RawHoming};

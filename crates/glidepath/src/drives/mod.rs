@@ -1,4 +1,4 @@
-//! `drives.toml`: what hangs on the bus, and which joint each drive moves.
+//! The file `drives.toml`: what hangs on the bus, and which joint each drive moves.
 //!
 //! Read like a configuration: names first, values second, every diagnostic at once, with its place.
 

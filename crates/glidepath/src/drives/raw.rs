@@ -1,4 +1,4 @@
-//! The file as it is written, before any value is judged.
+//! The raw `drives.toml`, as it is written, before any value is judged.
 
 use serde::Deserialize;
 use toml::Spanned;

@@ -1,4 +1,4 @@
-//! Files for drives, right and wrong.
+//! Tests of `drives.toml`, right and wrong.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use super::{Found, parse, written};

@@ -1,4 +1,4 @@
-//! A first `drives.toml`, from what hangs on the wire.
+//! The writer of a first `drives.toml`, from the devices found on the wire.
 
 use core::fmt::Write as _;
 use glidepath_ethercat::Device;

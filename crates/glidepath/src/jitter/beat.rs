@@ -1,9 +1,9 @@
-//! The loop that is measured.
+//! The measured loop, and the beat that it writes every period.
 
 use core::sync::atomic::{AtomicBool, Ordering};
 use glidepath_realtime::{Clock, DeadlineTimer, EventWriter};
 
-/// One period.
+/// A beat: the record of one period.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Beat {
     /// From the time the thread was to wake at, a lead before the deadline, to its waking.
@@ -18,7 +18,7 @@ pub struct Beat {
     pub is_moving: bool,
 }
 
-/// What the loop does in a period.
+/// The load of the loop in a period.
 pub(super) trait Load {
     /// The work of the real-time thread; true if it moved the machine.
     fn work(&mut self) -> bool;

@@ -13,7 +13,7 @@ use std::process::{Child, Command, Stdio};
 /// Longest latency cyclictest resolves, µs. Longer ones are only counted.
 const LONGEST_US: u64 = 100_000;
 
-/// Why there are no figures of cyclictest.
+/// The reason why there are no figures of cyclictest.
 #[derive(Debug, thiserror::Error)]
 pub enum CyclictestError {
     /// It is not installed.
@@ -116,7 +116,7 @@ fn arguments(setup: &Setup, section: &Section, grants: &Grants) -> Vec<String> {
     arguments
 }
 
-/// What cyclictest saw.
+/// The latencies that cyclictest saw.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Latencies {
     /// µs, rounded down, and how many; ascending.

@@ -1,10 +1,10 @@
-//! Why the timing of a host cannot be measured.
+//! The errors of a measurement: why the timing of a host cannot be measured.
 
 use super::cyclictest::CyclictestError;
 use glidepath_realtime::NotRealTime;
 use thiserror::Error;
 
-/// Why there is no measurement.
+/// The reason why there is no measurement.
 #[derive(Debug, Error)]
 pub enum JitterError {
     /// The tool to compare with does not run.

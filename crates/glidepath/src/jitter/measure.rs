@@ -1,4 +1,4 @@
-//! The measurement: the real-time thread beats, the calling thread collects.
+//! The measurement itself: the real-time thread beats, the calling thread collects.
 
 use super::beat::{Beat, Idle, Load, beat};
 use super::cyclictest::{Cyclictest, Latencies};
@@ -24,7 +24,7 @@ const PREPARED_NS: u64 = 5_000_000;
 /// How often the calling thread empties the ring.
 const POLL: Duration = Duration::from_millis(20);
 
-/// What was measured.
+/// The result of a measurement.
 #[derive(Debug)]
 pub struct Measurement {
     /// The beats by windows.

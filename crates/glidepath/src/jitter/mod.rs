@@ -1,4 +1,4 @@
-//! How late does the real-time loop wake on this host?
+//! The measurement of how late the real-time loop wakes on this host.
 //!
 //! ```text
 //! real-time thread   sleep, tick, spin · sleep, tick, …   SCHED_FIFO, pinned, memory locked

@@ -1,4 +1,4 @@
-//! What `jitter` reports.
+//! The report of `jitter`.
 
 use super::bins::{Bin, COARSE, FINE, rebin};
 use super::cyclictest::Latencies;

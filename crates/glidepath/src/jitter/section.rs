@@ -1,4 +1,4 @@
-//! When the loop wakes, and when cyclictest does.
+//! The sections of a measurement: when the loop wakes, and when cyclictest does.
 //!
 //! Two threads that wake on one processor are not measured alike at any distance. One that wakes
 //! shortly after the other finds the processor awake still; one that wakes together with the

@@ -1,9 +1,9 @@
-//! What to measure.
+//! The set-up of a measurement.
 
 use super::motion::Motion;
 use glidepath_realtime::{Mode, Request};
 
-/// What to measure.
+/// The set-up of a measurement: what to measure.
 #[derive(Debug)]
 pub struct Setup {
     /// Period, ns.

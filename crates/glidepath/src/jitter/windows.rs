@@ -1,9 +1,9 @@
-//! The beats, gathered in windows of a second.
+//! The windows of a measurement: its beats, gathered second by second.
 
 use super::beat::Beat;
 use glidepath_realtime::Histogram;
 
-/// What the windows held.
+/// The windows of a measurement, and what they held.
 #[derive(Debug)]
 pub struct Windows {
     /// Latency of waking in all windows.

@@ -1,4 +1,5 @@
-//! What inputs and the probe answered the program under way, among what the machine keeps.
+//! The journal of what inputs and the probe answered the program under way, among what the machine
+//! keeps.
 
 use crate::kept::error::StateError;
 use glidepath_gcode::Probed;

@@ -1,4 +1,4 @@
-//! What is kept, and what the reader of programs works with.
+//! The conversion between what is kept and what the reader of programs works with.
 
 use glidepath_gcode::{CoordinateSystem, KEPT_VARIABLES, KeptVariables, ToolTable, WorkOffsets};
 use glidepath_geometry::AxisVector;

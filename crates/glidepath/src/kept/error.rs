@@ -1,4 +1,4 @@
-//! Why what is kept cannot be used.
+//! The errors of what is kept: why it cannot be used.
 
 use glidepath_kept::KeptError;
 use thiserror::Error;

@@ -1,4 +1,4 @@
-//! What the planner keeps of the programs it has executed.
+//! The keeper: it writes what the planner keeps of the programs it has executed.
 //!
 //! ```text
 //!   program ─read far ahead─▶ ChangeLog ─when the machine has come so far─▶ Kept ─▶ a thread ─▶ files

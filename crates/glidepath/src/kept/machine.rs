@@ -1,4 +1,4 @@
-//! Which machine coordinates belong to.
+//! The fingerprints of a machine, to which its coordinates belong, and of files.
 
 use crate::config::MachineConfig;
 use core::hash::Hasher as _;

@@ -1,4 +1,4 @@
-//! What a machine keeps over a restart, between its files and the reading of programs.
+//! The state that a machine keeps over a restart, between its files and the reading of programs.
 //!
 //! Whoever reads a program begins with it ([`read`]); only the planner, which has the program
 //! executed, writes it ([`keeper`]).

@@ -1,4 +1,4 @@
-//! What is kept, for whoever reads a program.
+//! The reader of what is kept, for whoever reads a program.
 
 use crate::config::MachineConfig;
 use crate::kept::convert::{axis_words, begun_variables, begun_with, system_name, with_tools};

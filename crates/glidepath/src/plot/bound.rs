@@ -1,4 +1,4 @@
-//! Colours for the limits that bind.
+//! The colours of the limits that bind.
 
 use glidepath_audit::diagnosis::Binding;
 

@@ -1,4 +1,4 @@
-//! Colours: a scale for the feed, and the greys of the frame.
+//! The colours of a plot: a scale for the feed, and the greys of the frame.
 
 pub(super) const INK: &str = "#1f2933";
 pub(super) const QUIET: &str = "#6b7785";

@@ -1,4 +1,4 @@
-//! A curve by itself: coloured by a speed, with marked points.
+//! The plot of a curve by itself: coloured by a speed, with marked points.
 
 use super::colour::{INK, LIMIT, QUIET};
 use super::legend;

@@ -1,4 +1,5 @@
-//! A curve of any length in bounded memory: smallest and largest value of every stretch of time.
+//! The envelope of a curve of any length in bounded memory: smallest and largest value of every
+//! stretch of time.
 //!
 //! Stretches start as single ticks. When there are too many, neighbours are joined two by two, so a
 //! peak is never lost, however short it is.

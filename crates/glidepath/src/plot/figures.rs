@@ -1,4 +1,4 @@
-//! How smooth the motion is, and how true its shape, in figures below the strips.
+//! The figures below the strips: how smooth the motion is, and how true its shape.
 
 use super::colour::{INK, QUIET};
 use super::svg::{Anchor, Area, Svg};

@@ -1,5 +1,5 @@
-//! How often a loop was how late: both on logarithmic scales, so that one outlier in a million
-//! shows.
+//! The plot of lateness: how often a loop was how late, both on logarithmic scales, so that one
+//! outlier in a million shows.
 
 use super::colour::{CURVES, FRAME, GRID, INK, QUIET};
 use super::svg::{Anchor, Area, Path, Svg};

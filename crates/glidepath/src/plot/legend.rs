@@ -1,4 +1,4 @@
-//! What the colours and lines of a track stand for.
+//! The legend of a track: what its colours and lines stand for.
 
 use super::bound::Bound;
 use super::colour::{self, PROGRAM, QUIET, RAPID};

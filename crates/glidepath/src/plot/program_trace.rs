@@ -1,4 +1,4 @@
-//! The programmed path, as far as it can be seen beside the motion.
+//! The trace of the programmed path, as far as it can be seen beside the motion.
 
 use super::track::{MotionTrace, TrackPoint};
 use crate::chords::chords;

@@ -1,4 +1,4 @@
-//! Velocity, acceleration and jerk of each of several positions, against their limits.
+//! The curves of velocity, acceleration and jerk of several positions, against their limits.
 
 use super::colour::CURVES;
 use super::envelope::Envelope;

@@ -1,4 +1,4 @@
-//! A quantity against time: a narrow strip with its limit lines.
+//! A strip: a quantity against time, with its limit lines.
 
 use super::colour::{BAND, FRAME, GRID, INK, LIMIT, QUIET};
 use super::envelope::Envelope;

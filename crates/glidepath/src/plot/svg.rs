@@ -1,4 +1,4 @@
-//! The few SVG elements a plot is made of.
+//! The SVG document of a plot, and the few elements that it is made of.
 
 use core::fmt::Write as _;
 

@@ -1,4 +1,4 @@
-//! Round numbers for scales.
+//! The ticks of a scale: round numbers, and their labels.
 
 /// Round values within `low…high`, about `wanted` of them, ascending.
 pub(super) fn ticks(low: f64, high: f64, wanted: f64) -> Vec<f64> {

@@ -1,4 +1,4 @@
-//! The tool path seen from one side, coloured by what binds or by feed.
+//! A view of the tool path from one side, coloured by what binds or by feed.
 
 use super::bound::Bound;
 use super::colour::{self, FRAME, GRID, INK, PROGRAM, QUIET, RAPID};
@@ -7,7 +7,7 @@ use super::svg::{Anchor, Area, Path, Svg};
 use super::ticks::{label, ticks};
 use super::track::{MotionTrace, TrackPoint};
 
-/// From where the path is seen.
+/// The side from which the path is seen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum View {
     /// From above: X to the right, Y upwards.

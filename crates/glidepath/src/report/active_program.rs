@@ -1,4 +1,4 @@
-//! Which program the machine executes, as text and as JSON.
+//! The program that the machine executes, as text and as JSON.
 
 use super::quantity::counted;
 use glidepath_link::ActiveProgram;

@@ -1,4 +1,4 @@
-//! What spindle, coolant and tool are to do, in the words of a program.
+//! The words of a program for what spindle, coolant and tool are to do.
 
 use glidepath_link::{Auxiliary, Coolant, SpindleState};
 

@@ -1,4 +1,4 @@
-//! What keeps a motion from being faster, in reports.
+//! The diagnosis in reports: what keeps a motion from being faster.
 
 use super::quantity::seconds;
 use super::shape::ShapeFigures;
@@ -14,7 +14,7 @@ const SHOWN: usize = 5;
 /// Limits that bind for less than this share of the time are left out of the text.
 const WORTH_R: f64 = 0.005;
 
-/// Which limits bind, and where time is lost.
+/// The diagnosis of a motion: which limits bind, and where time is lost.
 #[derive(Debug, Clone, Serialize)]
 pub struct DiagnosisReport {
     /// Share of the time, 0 to 1, by limit: `feed`, `velocity X`, `acceleration X`, `jerk X`,

@@ -1,4 +1,4 @@
-//! What was found in a program, for people and as JSON.
+//! The diagnostics of a program, for people and as JSON.
 
 use core::fmt;
 use glidepath_gcode::Diagnostic;

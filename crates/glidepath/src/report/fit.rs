@@ -1,4 +1,4 @@
-//! What fitting a program came to.
+//! The report of `fit`.
 
 use super::quantity::{grouped, seconds};
 use crate::dense_runs::Run;

@@ -1,4 +1,4 @@
-//! Peak memory of this process.
+//! The peak memory of this process.
 
 /// Largest resident set of this process so far, bytes; `None` where the system does not tell.
 #[must_use]

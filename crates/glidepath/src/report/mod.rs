@@ -1,4 +1,4 @@
-//! What commands report, as text and as JSON.
+//! The reports of commands, as text and as JSON.
 
 mod active_program;
 mod auxiliary;

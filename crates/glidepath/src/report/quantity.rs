@@ -1,4 +1,4 @@
-//! Numbers for people.
+//! The numbers and times of reports, written for people.
 
 /// Digits in groups of three.
 #[must_use]

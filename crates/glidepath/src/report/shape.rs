@@ -1,4 +1,4 @@
-//! How true the shape of a motion is, in reports.
+//! The shape figures of a motion in reports.
 
 use super::quantity::grouped;
 use core::fmt::Write as _;

@@ -1,4 +1,4 @@
-//! How smooth a motion is, in reports.
+//! The smoothness figures of a motion in reports.
 
 use super::quantity::{counted, grouped};
 use core::fmt::Write as _;

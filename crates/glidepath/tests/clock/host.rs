@@ -1,4 +1,4 @@
-//! `doctor` and `jitter` with the real binary, on whatever host the tests run.
+//! Tests of `doctor` and `jitter` with the real binary, on whatever host the tests run.
 
 #![allow(
     clippy::unwrap_used,

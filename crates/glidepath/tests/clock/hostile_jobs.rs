@@ -1,5 +1,5 @@
-//! What is handed to the planner's service does not take the service away from others, and a service
-//! that does not answer does not keep whoever asked it.
+//! Tests of hostile jobs: what is handed to the planner's service does not take the service away
+//! from others, and a service that does not answer does not keep whoever asked it.
 
 #![allow(clippy::unwrap_used, reason = "a test that fails may panic")]
 

@@ -1,5 +1,5 @@
-//! Joints of a machine keep their limits whatever the operator does: holds and overrides change the
-//! motion without knowing of joints, by the limits of the axes alone.
+//! Tests of joints in motion: they keep their limits whatever the operator does: holds and
+//! overrides change the motion without knowing of joints, by the limits of the axes alone.
 
 #![allow(
     clippy::unwrap_used,

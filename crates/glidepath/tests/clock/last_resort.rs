@@ -1,5 +1,5 @@
-//! Bringing a machine to rest when the host has nothing left: no memory for files, no descriptors,
-//! no shared memory at all.
+//! Tests of bringing a machine to rest when the host has nothing left: no memory for files, no
+//! descriptors, no shared memory at all.
 //!
 //! What takes a file system of its own is skipped, and says so, unless root runs it.
 #![allow(

@@ -1,4 +1,5 @@
-//! What commands say: one object whatever happens, what they wait for, and what they noticed.
+//! Tests of what commands say: one object whatever happens, what they wait for, and what they
+//! noticed.
 
 #![allow(
     clippy::unwrap_used,

@@ -1,5 +1,5 @@
-//! `glidepath run` and the processes it starts, for real: what is reported, what is played, and
-//! that nothing is left behind.
+//! Tests of `glidepath run` and the processes it starts, for real: what is reported, what is
+//! played, and that nothing is left behind.
 
 #![allow(
     clippy::unwrap_used,

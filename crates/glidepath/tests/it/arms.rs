@@ -1,5 +1,5 @@
-//! Machines whose joints turn in place of their axes, SCARA arms and rotary deltas: configuration,
-//! plans inside the limits of the joints, and what is refused.
+//! Tests of machines whose joints turn in place of their axes, SCARA arms and rotary deltas:
+//! configuration, plans inside the limits of the joints, and what is refused.
 
 #![allow(
     clippy::unwrap_used,

@@ -1,4 +1,5 @@
-//! `glidepath config`, and what `plan` overrides of the configuration, with the real binary.
+//! Tests of `glidepath config`, and what `plan` overrides of the configuration, with the real
+//! binary.
 
 #![allow(
     clippy::unwrap_used,

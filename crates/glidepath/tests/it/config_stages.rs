@@ -1,5 +1,5 @@
-//! What is wrong in one place of a configuration does not hide what only a later stage finds in
-//! another, nor does it make anything up.
+//! Tests of the two stages of a configuration: what is wrong in one place does not hide what only a
+//! later stage finds in another, nor does it make anything up.
 
 #![allow(clippy::expect_used, reason = "a test that fails may panic")]
 

@@ -1,4 +1,4 @@
-//! What a user is told about a configuration that has to be mended, word for word.
+//! Tests of what a user is told about a configuration that has to be mended, word for word.
 
 #![allow(clippy::expect_used, reason = "a test that fails may panic")]
 #![allow(clippy::float_cmp, reason = "values are read, not computed")]

@@ -1,4 +1,4 @@
-//! `fit`: programs of short lines in, curves out.
+//! Tests of `fit`: programs of short lines in, curves out.
 #![allow(clippy::expect_used, reason = "a test that fails may panic")]
 
 use serde_json::Value;

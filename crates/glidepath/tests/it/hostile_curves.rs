@@ -1,5 +1,5 @@
-//! Curve files made to hang the command or to fill memory are refused, and slow feeds are followed,
-//! in memory that does not depend on the feed.
+//! Tests of hostile curve files: those made to hang the command or to fill memory are refused, and
+//! slow feeds are followed, in memory that does not depend on the feed.
 
 #![allow(
     clippy::unwrap_used,

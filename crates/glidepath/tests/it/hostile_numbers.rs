@@ -1,5 +1,5 @@
-//! Whatever number stands at a key of a configuration, it is accepted or refused, and soon: nothing
-//! is computed with numbers that were not found to be in their range.
+//! Tests of hostile numbers: whatever stands at a key of a configuration, it is accepted or
+//! refused, and soon: nothing is computed with numbers that were not found to be in their range.
 
 #![allow(clippy::expect_used, reason = "a test that fails may panic")]
 

@@ -1,4 +1,5 @@
-//! Text of others (programs, names of files, keys) never reaches a terminal or a log as it is.
+//! Tests of hostile text: that of others (programs, names of files, keys) never reaches a terminal
+//! or a log as it is.
 
 #![allow(clippy::unwrap_used, reason = "a test that fails may panic")]
 

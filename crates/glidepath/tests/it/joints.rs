@@ -1,4 +1,4 @@
-//! Machines whose joints are not their axes: configuration, columns, and what is refused.
+//! Tests of machines whose joints are not their axes: configuration, columns, and what is refused.
 
 #![allow(
     clippy::unwrap_used,

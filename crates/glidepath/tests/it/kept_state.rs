@@ -1,5 +1,5 @@
-//! What a machine keeps over a restart, with the real binary: set by hand, begun with, changed by
-//! what was run and by nothing else.
+//! Tests of what a machine keeps over a restart, with the real binary: set by hand, begun with,
+//! changed by what was run and by nothing else.
 
 #![allow(
     clippy::unwrap_used,

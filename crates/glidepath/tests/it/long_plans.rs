@@ -1,4 +1,5 @@
-//! Programs that take long: refused at once beyond a bound, and planned in constant memory below it.
+//! Tests of programs that take long: refused at once beyond a bound, and planned in constant memory
+//! below it.
 
 #![allow(clippy::unwrap_used, reason = "a test that fails may panic")]
 

@@ -1,5 +1,5 @@
-//! Commands that the manual names within its text, and those of `--help`: the command line knows
-//! them. Blocks of commands are run by `tests/e2e/manual`.
+//! Tests of commands that the manual names within its text, and those of `--help`: the command line
+//! knows them. Blocks of commands are run by `tests/e2e/manual`.
 
 #![allow(clippy::expect_used, reason = "a test that fails may panic")]
 

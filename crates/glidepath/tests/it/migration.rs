@@ -1,5 +1,5 @@
-//! Configurations of other controls: what comes of them is refused only where it asks, and loads once
-//! that was written.
+//! Tests of configurations of other controls: what comes of them is refused only where it asks, and
+//! loads once that was written.
 
 #![allow(
     clippy::unwrap_used,

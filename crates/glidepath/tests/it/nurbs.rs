@@ -1,4 +1,4 @@
-//! NURBS files and splines of programs on the command line.
+//! Tests of NURBS files and splines of programs on the command line.
 
 #![allow(
     clippy::expect_used,

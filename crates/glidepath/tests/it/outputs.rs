@@ -1,5 +1,5 @@
-//! What commands write never takes the place of what somebody else put there, is whole or not
-//! there, and is told of when it cannot be written.
+//! Tests of output files: what commands write never takes the place of what somebody else put
+//! there, is whole or not there, and is told of when it cannot be written.
 
 #![allow(
     clippy::unwrap_used,

@@ -1,4 +1,4 @@
-//! `preview`: curve files in, regions out.
+//! Tests of `preview`: curve files in, regions out.
 #![allow(clippy::expect_used, reason = "a test that fails may panic")]
 
 use serde_json::Value;

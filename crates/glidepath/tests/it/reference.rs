@@ -1,6 +1,6 @@
-//! Man pages, completions, and the manual's pages of commands and keys: made from the code, and
-//! held against the files. `GLIDEPATH_BLESS=1 cargo test -p glidepath --test it reference` writes
-//! them.
+//! Tests of man pages, completions, and the manual's pages of commands and keys: made from the
+//! code, and held against the files. `GLIDEPATH_BLESS=1 cargo test -p glidepath --test it
+//! reference` writes them.
 
 #![allow(clippy::expect_used, reason = "a test that fails may panic")]
 

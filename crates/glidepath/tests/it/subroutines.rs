@@ -1,5 +1,5 @@
-//! Subroutines in files of their own, with the real binary: where they are looked for, and findings
-//! in them.
+//! Tests of subroutines in files of their own, with the real binary: where they are looked for, and
+//! findings in them.
 
 #![allow(
     clippy::unwrap_used,

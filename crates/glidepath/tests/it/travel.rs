@@ -1,4 +1,5 @@
-//! Programs that leave the travel: which work offset would fit, and that they can be looked at.
+//! Tests of programs that leave the travel: which work offset would fit, and that they can be
+//! looked at.
 
 #![allow(clippy::unwrap_used, reason = "a test that fails may panic")]
 

@@ -1,4 +1,4 @@
-//! What the tests of the command share: how it is called, and what it said.
+//! The helpers of the command's tests: how it is called, and what it said.
 
 #![allow(dead_code, reason = "every test file uses a part of it")]
 #![allow(

@@ -1,5 +1,5 @@
-//! Whether setpoints follow each other: their numbers, their times, the limits of every axis by finite
-//! differences, its travel, and whether an axis stands still that says it moves.
+//! The check of continuity between setpoints: their numbers, their times, the limits of every axis
+//! by finite differences, its travel, and whether an axis stands still that says it moves.
 
 use super::finding::{Finding, Findings};
 use super::led::Led;

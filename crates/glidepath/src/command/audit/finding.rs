@@ -1,11 +1,11 @@
-//! What an audit finds.
+//! The findings of an audit.
 
 use serde_json::{Value, json};
 
 /// Findings that are listed; all are counted.
 const LISTED: usize = 100;
 
-/// Something that is not as it has to be, and where.
+/// A finding: what is not as it has to be, and where.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Finding {
     /// limit, deviation, order, gap, timing, frozen, program or broken.

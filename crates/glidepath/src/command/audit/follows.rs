@@ -1,4 +1,5 @@
-//! Whether a motion follows its program, and whether it is the one that is planned for it today.
+//! The judge of a motion by its program: whether it follows it, and whether it is the motion that
+//! is planned for it today.
 
 use super::finding::{Finding, Findings};
 use super::led::Led;

@@ -1,4 +1,4 @@
-//! Whether setpoints are led by the drives: then nobody has asked for that motion.
+//! The detection of setpoints that are led by the drives: nobody has asked for that motion.
 
 use glidepath_link::{MachineState, Setpoint};
 

@@ -1,10 +1,10 @@
-//! What the first look at a file tells: which motions are in it, and how they went.
+//! The outline of a file, from a first look: which motions are in it, and how they went.
 
 use super::led::Led;
 use glidepath_geometry::AxisVector;
 use glidepath_link::{EndOfEpoch, MachineState, Setpoint};
 
-/// What the first look at a file tells.
+/// The outline of a file.
 #[derive(Default)]
 pub(super) struct Outline {
     /// Epochs with motion in them.

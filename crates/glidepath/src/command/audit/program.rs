@@ -1,4 +1,4 @@
-//! What a file is judged by: a machine, and the program with what it began with.
+//! The machine and the program that a file is judged by, with what the program began with.
 
 use super::outline::Outline;
 use super::trace::Trace;
@@ -15,7 +15,7 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
-/// What a file is judged by.
+/// The machine and the program that a file is judged by.
 pub(super) struct Program {
     pub(super) config: MachineConfig,
     path: Option<PathBuf>,

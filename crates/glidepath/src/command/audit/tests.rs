@@ -1,4 +1,5 @@
-//! Recordings of plans of random programs: as they are, and with one fault planted in each.
+//! Tests of the audit, on recordings of plans of random programs: as they are, and with one fault
+//! planted in each.
 
 use super::*;
 use crate::config;

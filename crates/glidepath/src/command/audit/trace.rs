@@ -1,4 +1,4 @@
-//! Setpoints of a recording or of a CSV file, one after the other.
+//! The setpoints of a recording or of a CSV file, one after the other.
 
 use crate::command::failure::Failure;
 use crate::config::MachineConfig;

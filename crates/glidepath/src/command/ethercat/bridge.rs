@@ -1,4 +1,4 @@
-//! From setpoints to drives, and back.
+//! The bridge from setpoints to drives, and back.
 
 use crate::cli::EthercatArgs;
 use crate::command::failure::Failure;

@@ -1,4 +1,4 @@
-//! Drives that are not there, and the bridge to them.
+//! The bridge to emulated drives, together with them.
 
 use super::bridge;
 use super::namespace::{self, DRIVES, MASTER};

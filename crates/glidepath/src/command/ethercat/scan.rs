@@ -1,4 +1,4 @@
-//! What hangs on the wire.
+//! The scan of the wire: a list of the devices on it.
 
 use crate::cli::ScanArgs;
 use crate::command::failure::Failure;

@@ -1,4 +1,4 @@
-//! `$C`: lines are judged, and nothing moves.
+//! The check mode `$C`: lines are judged, and nothing moves.
 
 use crate::config::MachineConfig;
 use crate::kept::read::{read, set_up};

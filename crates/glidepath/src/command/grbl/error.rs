@@ -1,4 +1,4 @@
-//! Why senders cannot be served.
+//! The errors of the endpoint: why senders cannot be served.
 
 use std::io;
 use thiserror::Error;

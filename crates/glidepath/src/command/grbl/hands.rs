@@ -1,4 +1,5 @@
-//! What a sender has the machine do at once: commands of the interpolator, and jogs.
+//! The threads that carry out what a sender has the machine do at once: commands of the
+//! interpolator, and jogs.
 //!
 //! A thread gives commands, because their answers are waited for, and a report waits for nothing. What stops the
 //! motion is given first.

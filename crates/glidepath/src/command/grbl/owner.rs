@@ -1,4 +1,4 @@
-//! Whose process is at the other end of a connection on this host.
+//! The owner of a connection on this host: the user whose process is at its other end.
 //!
 //! A port of loopback is open to every user of the host, and the protocol knows no password. The system knows who
 //! opened a connection, and tells it in `/proc/net/tcp`.

@@ -1,4 +1,4 @@
-//! The lines of senders at the planner's service.
+//! The way of senders' lines to the planner's service.
 
 use crate::command::failure::Failure;
 use crate::command::jobs::client;

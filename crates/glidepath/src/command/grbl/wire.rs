@@ -1,4 +1,4 @@
-//! Where senders connect: one at a time, by TCP of this host or by a pseudo-terminal.
+//! The wire, where senders connect: one at a time, by TCP of this host or by a pseudo-terminal.
 
 use super::error::EndpointError;
 use super::owner::owner;
@@ -33,7 +33,7 @@ enum Connected {
     Pty(Option<Instant>),
 }
 
-/// Where senders connect.
+/// The port and the pseudo-terminal where senders connect.
 #[derive(Debug)]
 pub(super) struct Wire {
     listener: Option<TcpListener>,

@@ -1,5 +1,5 @@
-//! What a jog by steps came to: which axes did not go all the way, and whether the drives are where
-//! the axes were told to be.
+//! The outcome of a jog by steps: which axes did not go all the way, and whether the drives are
+//! where the axes were told to be.
 
 use super::panel::Panel;
 use crate::command::ending;
@@ -46,7 +46,7 @@ enum Followed {
     Silent,
 }
 
-/// What a jog by steps came to.
+/// The outcome of a jog by steps.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Arrival {
     short: Vec<Short>,

@@ -1,4 +1,4 @@
-//! Jogging by the keys of a terminal.
+//! The jog by the keys of a terminal.
 //!
 //! A terminal tells when a key is pressed, and again while it is held down, but not that it is
 //! released. So every press, and every repetition, moves for [`PRESS`] only: longer than a terminal

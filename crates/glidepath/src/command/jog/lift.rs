@@ -1,4 +1,4 @@
-//! The tool axis goes up behind an abort, where that is configured.
+//! The lift of the tool axis behind an abort, where that is configured.
 
 use super::panel::Panel;
 use super::steps::set_out;

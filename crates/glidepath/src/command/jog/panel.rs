@@ -1,4 +1,4 @@
-//! What both ways of jogging need: the demands, and what the machine says.
+//! The panel of one who jogs, by steps or by keys: the demands, and what the machine says.
 
 use super::demands::Demands;
 use crate::command::failure::Failure;

@@ -1,4 +1,5 @@
-//! What a person is asked to do, in full: the tool with all that is known of it, and what the program says.
+//! The request to a person, in full: the tool with all that is known of it, and what the program
+//! says.
 
 use super::super::tool_names::ToolNames;
 use crate::config::MachineConfig;

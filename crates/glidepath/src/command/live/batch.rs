@@ -1,4 +1,4 @@
-//! Setpoints on their way to the page: as `page/ring.js` reads them.
+//! A batch of setpoints on its way to the page, as `page/ring.js` reads it.
 
 use crate::config::MachineConfig;
 use glidepath_link::Setpoint;

@@ -1,4 +1,5 @@
-//! Which program the page shows: the one that the machine executes, whoever began it.
+//! The choice of the program that the page shows: the one that the machine executes, whoever began
+//! it.
 //!
 //! ```text
 //!  status: fingerprint ──► the planner's note of that fingerprint ──► its file ──► text, path and plan

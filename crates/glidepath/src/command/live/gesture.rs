@@ -1,4 +1,4 @@
-//! A finger on a button that moves an axis: what of the page's messages still counts.
+//! A gesture, a finger on a button that moves an axis: what of the page's messages still counts.
 //!
 //! While a finger is down the page sends a message every 50 ms, with a number that rises and the time of
 //! its own clock. The motion lasts for as long as they come. One that comes late (a browser that was
@@ -13,7 +13,7 @@ pub(super) const SILENCE: Duration = Duration::from_millis(150);
 /// A message that was on its way for so much longer than the quickest one is late, ms.
 const LATE_MS: f64 = 60.0;
 
-/// What a message comes to.
+/// The outcome of a message.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Heard {
     /// It counts.

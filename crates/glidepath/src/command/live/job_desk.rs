@@ -1,5 +1,5 @@
-//! What pages have executed: lines and programs, handed in at the planner's service as `glidepath mdi` and
-//! `glidepath run-file` hand them in.
+//! The job desk of pages: lines and programs, handed in at the planner's service as `glidepath mdi`
+//! and `glidepath run-file` hand them in.
 //!
 //! A thread has the job until its end, because a job that has not begun lives by its client. One job at a
 //! time: a page that hands in another one meanwhile is told so.

@@ -1,4 +1,4 @@
-//! Who jogs for the pages: a thread with a port for demands, as `glidepath jog` has one.
+//! The thread that jogs for the pages, with a port for demands, as `glidepath jog` has one.
 //!
 //! ```text
 //!  page ── every 50 ms ──► gesture: does it count? ──► demand, stamped now ──► interpolator

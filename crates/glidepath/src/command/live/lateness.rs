@@ -1,4 +1,4 @@
-//! How late ticks began, as far as this process saw them.
+//! The histogram of how late ticks began, as far as this process saw them.
 
 use serde_json::{Value, json};
 

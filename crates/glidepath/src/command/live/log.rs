@@ -1,4 +1,4 @@
-//! What happened since the page is served, in plain words.
+//! The log of events since the page is served, in plain words.
 
 use crate::report::counted;
 use glidepath_link::{MachineState, StateChange, Status};

@@ -1,5 +1,5 @@
-//! What a page may send: commands of the interpolator, jobs of the planner's service, jogs, and the seat.
-//! Every one of them is what a command of the command line does.
+//! The orders that a page may send: commands of the interpolator, jobs of the planner's service,
+//! jogs, and the seat. Every one of them is what a command of the command line does.
 
 use glidepath_geometry::{AXES, Axis};
 use glidepath_link::{Command, EventId};

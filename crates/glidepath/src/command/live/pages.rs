@@ -1,4 +1,4 @@
-//! What pages ask for, and what they order.
+//! The server's answers to what pages ask for and order.
 
 use super::folder::{Folder, FolderError, Piece};
 use super::job_desk::{Handed, JobDesk, Wanted};

@@ -1,5 +1,5 @@
-//! A program of the folder before it runs: its text, its path, how long it takes, and what is wrong with it.
-//! One at a time, the one that was asked for last.
+//! The preview of a program of the folder before it runs: its text, its path, how long it takes,
+//! and what is wrong with it. One at a time, the one that was asked for last.
 
 use super::planned::{self, Planned, Reading};
 use super::shown::Shown;

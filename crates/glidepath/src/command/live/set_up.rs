@@ -1,4 +1,5 @@
-//! How the machine is set up: work offsets, tools, joints, and how it may be jogged.
+//! The set-up of the machine as pages are told: work offsets, tools, joints, and how it may be
+//! jogged.
 
 use super::super::tool_names::ToolNames;
 use crate::config::{HomingBy, MachineConfig};

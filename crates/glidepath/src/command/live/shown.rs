@@ -1,4 +1,4 @@
-//! What the page can ask for, as far as it is known: of one program at a time.
+//! The state that pages can ask for, as far as it is known: of one program at a time.
 
 use serde_json::{Value, json};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};

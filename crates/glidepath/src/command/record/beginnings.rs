@@ -1,4 +1,4 @@
-//! What programs began with, taken from where the planner tells it when their motion begins.
+//! The beginnings of programs, taken from where the planner tells them when their motion begins.
 
 use crate::begun::{self, Begun as Told};
 use crate::output;

@@ -1,5 +1,5 @@
-//! `glidepath record`: every setpoint and status, in a file that others can open; or in memory, until
-//! a fault makes them worth a file.
+//! `glidepath record`: writes every setpoint and status to a file that others can open, or keeps
+//! them in memory until a fault makes them worth a file.
 
 mod beginnings;
 

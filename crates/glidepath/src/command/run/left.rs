@@ -1,4 +1,4 @@
-//! What is left of a run that ended before its end: files and figures of what was played, and where
+//! The remains of a run that ended before its end: files and figures of what was played, and where
 //! the machine stood.
 
 use super::relay::Received;

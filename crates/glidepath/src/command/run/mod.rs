@@ -1,4 +1,4 @@
-//! `glidepath run`: the main job on one desk.
+//! `glidepath run`: plans a program and plays it, with all the processes that takes, on one desk.
 //!
 //! ```text
 //!   run ── starts ──► interpolator ── setpoints ──► servo --relay ─┐ records

@@ -1,5 +1,5 @@
-//! Setpoints through a pipe, from the servo process to this one: as they are in memory, one after
-//! the other. Both ends are the same program.
+//! The pipe of setpoints from the servo process to this one: as they are in memory, one after the
+//! other. Both ends are the same program.
 //!
 //! Who judges setpoints reads the program too, which may take it minutes between two moves. The servo
 //! must not be held up by that, or it loses setpoints. So a thread of its own takes what comes through

@@ -1,4 +1,5 @@
-//! What the mock servo receives, on its way through this process: counted, audited, recorded.
+//! The relay of what the mock servo receives, on its way through this process: counted, audited,
+//! recorded.
 
 use super::pipe::{Farewell, Pipe, ReadAhead};
 use crate::command::failure::Failure;
@@ -42,7 +43,7 @@ impl Seen {
     }
 }
 
-/// What was received in the end.
+/// The whole of what was received.
 #[derive(Debug)]
 pub(super) struct Received {
     pub(super) counts: ServoCounts,

@@ -1,4 +1,4 @@
-//! A machine that is not there.
+//! The simulated machine of a desk, on which setpoints are played.
 
 use super::notices::Notices;
 use super::settings::settings;
@@ -19,7 +19,7 @@ use std::time::Duration;
 /// Between two looks for setpoints: a fraction of a period, and a small one of the queue.
 const POLL: Duration = Duration::from_millis(1);
 
-/// What became of the setpoints that were played.
+/// The outcome of the setpoints that were played.
 #[derive(Debug)]
 pub(super) struct Played {
     pub(super) counts: ServoCounts,

@@ -1,4 +1,4 @@
-//! LinuxCNC's HAL in the place of the drives.
+//! The servo on LinuxCNC's HAL, which stands in the place of the drives.
 
 use super::notices::Notices;
 use super::settings::settings;

@@ -1,5 +1,5 @@
-//! `glidepath servo`: a servo stack. It takes setpoints, plays them on a machine that is not there, or
-//! on LinuxCNC's HAL, and sends its feedback.
+//! `glidepath servo`: a servo stack. It takes setpoints, plays them on a simulated machine, or on
+//! LinuxCNC's HAL, and sends its feedback.
 
 mod desk;
 mod hal;

@@ -1,4 +1,4 @@
-//! What a servo says while it runs.
+//! The notices of a servo while it runs.
 
 use crate::cli::InstanceArgs;
 use crate::command::session;
@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 /// How long it waits for the first setpoint before it says so.
 const NOTICE_AFTER: Duration = Duration::from_secs(1);
 
-/// What was said already.
+/// The notices of a servo, and what was said already.
 #[derive(Debug)]
 pub(super) struct Notices {
     waits_from: Instant,

@@ -1,4 +1,4 @@
-//! How the servo is set for a machine.
+//! The settings of the servo for a machine.
 
 use crate::config::MachineConfig;
 use glidepath_link::servo::{JumpLimits, ServoSettings, StopLimits};

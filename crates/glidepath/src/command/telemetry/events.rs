@@ -1,4 +1,4 @@
-//! What happens, from setpoint to setpoint.
+//! The events of the machine, from setpoint to setpoint.
 
 use super::message::unix_ms;
 use glidepath_link::{EventRecord, MachineState, Setpoint};

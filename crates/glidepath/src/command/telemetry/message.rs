@@ -1,4 +1,4 @@
-//! What is published, as JSON.
+//! The messages of telemetry, as JSON.
 
 use crate::config::MachineConfig;
 use glidepath_link::{MachineState, Power, Status};

@@ -1,5 +1,5 @@
-//! `glidepath telemetry`: what the machine does, for whoever watches many of them by an MQTT broker.
-//! It tells, and takes no commands.
+//! `glidepath telemetry`: tells what the machine does to whoever watches many of them by an MQTT
+//! broker. It takes no commands.
 
 mod events;
 mod message;

@@ -1,4 +1,4 @@
-//! What happened lately, in plain words.
+//! The history of what happened lately, in plain words.
 
 use crate::report::counted;
 use glidepath_link::{MachineState, Status};
@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 /// Events that are shown.
 const KEPT: usize = 4;
 
-/// What happened since the watch began.
+/// The events since the watch began.
 #[derive(Debug, Default)]
 pub(super) struct History {
     events: VecDeque<(Instant, String)>,

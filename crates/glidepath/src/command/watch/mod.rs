@@ -1,4 +1,4 @@
-//! `glidepath status --watch`: what the machine does, again and again, until Ctrl-C.
+//! `glidepath status --watch`: shows what the machine does, again and again, until Ctrl-C.
 
 mod history;
 

@@ -1,4 +1,4 @@
-//! What joints leave of the axes' accelerations and jerks.
+//! The share of the axes' accelerations and jerks that the joints leave.
 
 use crate::config::machine::AxisConfig;
 use glidepath_geometry::AxisVector;

@@ -1,4 +1,4 @@
-//! How far the planner has to publish ahead.
+//! The horizon: how far the planner has to publish ahead.
 //!
 //! The interpolator moves only while it holds enough frames to stop on. If the horizon were shorter
 //! than that, it would stand in the middle of a program and wait for frames that never come. A stop

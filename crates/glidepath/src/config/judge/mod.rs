@@ -1,5 +1,6 @@
-//! [`RawConfig`] to [`MachineConfig`]: every value is judged by its range, and all that has to be
-//! mended is told at once. One file for each table of the configuration.
+//! The judgement of a configuration, [`RawConfig`] to [`MachineConfig`]: every value is judged by
+//! its range, and all that has to be mended is told at once. One file for each table of the
+//! configuration.
 
 mod adaptive_feed;
 mod axes;

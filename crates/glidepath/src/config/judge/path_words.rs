@@ -1,4 +1,4 @@
-//! Values of `[path]` that are given on the command line: judged like those of a file.
+//! The values of `[path]` on the command line, judged like those of a file.
 
 use super::path::{EFFORTS, TOLERANCE};
 use super::values::Judge;

@@ -1,4 +1,5 @@
-//! Axes that take too long to stop: most often a velocity that was meant in mm/min, as grbl has it.
+//! The check of the time that axes take to stop. One that takes too long most often has a velocity
+//! that was meant in mm/min, as grbl has it.
 //!
 //! Frames are published ahead for three stops from full speed. Where no period that may be chosen
 //! has them, it is not the period that is to be mended.

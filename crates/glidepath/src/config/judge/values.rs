@@ -1,10 +1,10 @@
-//! One value at a time: a number in its range, one of several names.
+//! The judge of single values: a number in its range, one of several names.
 
 use crate::config::diagnostic::ConfigDiagnostic;
 use crate::config::raw::Optional;
 use toml::Spanned;
 
-/// What a number may be.
+/// The range of a number.
 pub(crate) struct Range {
     pub(crate) min: f64,
     pub(crate) max: f64,

@@ -1,9 +1,9 @@
-//! What can be said of a key of the configuration.
+//! The description of a key of the configuration: what it takes, and what holds without it.
 
 use core::fmt::Write as _;
 use serde::Serialize;
 
-/// What a key takes.
+/// The values that a key takes.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case", tag = "kind")]
 pub enum Takes {
@@ -62,7 +62,7 @@ pub enum Takes {
     },
 }
 
-/// What holds where a key is left out.
+/// The value that holds where a key is left out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum LeftOut {

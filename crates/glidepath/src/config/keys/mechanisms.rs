@@ -1,4 +1,4 @@
-//! The dimensions of mechanisms.
+//! The keys of mechanisms: their dimensions.
 
 use super::key::{Key, LeftOut, Takes, key};
 

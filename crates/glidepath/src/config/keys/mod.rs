@@ -1,4 +1,4 @@
-//! Every key of the configuration, in one table: what `glidepath config --explain` prints.
+//! The table of all keys of the configuration: what `glidepath config --explain` prints.
 //!
 //! The table says what the loader does, and `tests/it/keys.rs` holds it against the loader: a key that
 //! one of the two does not have, a range, a list of names or a default that is another there fails

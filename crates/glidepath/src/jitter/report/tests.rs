@@ -1,4 +1,4 @@
-//! The report of a made-up measurement.
+//! Tests of the report, of a made-up measurement.
 
 use super::*;
 

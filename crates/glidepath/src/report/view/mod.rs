@@ -1,4 +1,4 @@
-//! What an operator looks at while the machine works.
+//! The view of a machine that an operator looks at while it works.
 
 mod object;
 mod screen;

@@ -1,11 +1,11 @@
-//! What is known of a machine that works.
+//! The content of the view: what is known of a machine that works.
 
 use crate::report::machine::AskedTool;
 use core::time::Duration;
 use glidepath_geometry::{AXES, Axis};
 use glidepath_link::{Auxiliary, Status};
 
-/// Where the machine is in a program that is known.
+/// The place of the machine in a program that is known.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Place {
     /// The program's name.
@@ -47,7 +47,7 @@ impl WorkOffset {
     }
 }
 
-/// What is shown.
+/// The content of the view.
 #[derive(Debug)]
 pub struct View<'a> {
     /// Name of the machine's instance.

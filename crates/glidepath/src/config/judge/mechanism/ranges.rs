@@ -1,4 +1,4 @@
-//! Ranges of what a mechanism is described by.
+//! The ranges of the dimensions of mechanisms.
 
 use crate::config::judge::values::Range;
 
