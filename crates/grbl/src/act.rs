@@ -1,8 +1,8 @@
-//! What a sender has the machine do at once.
+//! The commands of a sender that the machine carries out at once.
 
 use crate::AXES;
 
-/// What the machine is to do at once.
+/// A command that the machine carries out at once.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Act {
     /// Come to rest on the path.

@@ -1,6 +1,6 @@
 //! Alarms of grbl, with their numbers.
 
-/// Why a machine is locked.
+/// An alarm: why a machine is locked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Alarm {
     /// A limit switch.

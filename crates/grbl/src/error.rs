@@ -1,4 +1,4 @@
-//! Numbers of errors, as senders know them.
+//! The error numbers of grbl, as senders know them.
 
 /// Why a line is refused: the number that senders know.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

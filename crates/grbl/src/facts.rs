@@ -1,9 +1,9 @@
-//! What the planner's service knows of how the machine is set up, for `$#` and `$G`.
+//! The facts of the machine's set-up that the planner's service knows, for `$#` and `$G`.
 
 use crate::numbers::Units;
 use crate::{AXES, LETTERS};
 
-/// How the machine is set up.
+/// The set-up of the machine.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Facts {
     /// Modes behind the last line that was read, as words: `G0 G54 G17 G21 G90 G94 M5 M9 T0 F0 S0`.

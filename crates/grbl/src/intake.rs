@@ -1,4 +1,4 @@
-//! Bytes of a sender, as lines and real-time characters.
+//! The intake of a sender's bytes, as lines and real-time characters.
 //!
 //! A line ends with LF, CR, or both. Real-time characters are taken out wherever they stand, also in comments:
 //! a stop must not depend on a parenthesis. Other bytes above 0x7F are dropped (bCNC sends overrides as UTF-8,
@@ -12,7 +12,7 @@ pub(crate) const MOST_LINE: usize = 256;
 /// Telnet: what follows is a command.
 const IAC: u8 = 0xff;
 
-/// What was heard.
+/// A line or a real-time character that was heard.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Heard {
     RealTime(RealTime),

@@ -1,10 +1,10 @@
-//! A `$J=` line.
+//! The reader of a `$J=` line.
 
 use crate::error::ErrorNumber;
 use crate::numbers::{INCH_MM, is_linear};
 use crate::{AXES, LETTERS};
 
-/// What a jog line says.
+/// The content of a jog line.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct JogLine {
     /// Where each axis that is named goes: mm or degrees.

@@ -1,4 +1,4 @@
-//! The jogs of a sender: those that wait, and the one that moves.
+//! The queue of a sender's jogs: those that wait, and the one that moves.
 //!
 //! A jog begins where the one before it ends. One that goes on in the same direction is handed over at once, so
 //! that the axes do not stop between the two; another one waits until the axes rest.
@@ -50,7 +50,7 @@ struct Moving {
     has_set_out: bool,
 }
 
-/// What came of a look.
+/// The outcome of a look.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Jogged {
     Nothing,

@@ -1,4 +1,4 @@
-//! What a line wants.
+//! The kinds of lines of a sender: what each wants.
 
 use crate::LETTERS;
 use crate::error::ErrorNumber;

@@ -1,8 +1,8 @@
-//! What is known of the machine.
+//! The state of the machine, as far as the protocol needs it.
 
 use crate::{AXES, Alarm};
 
-/// What the machine does.
+/// The activity of the machine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Doing {
     /// Nobody tells: the interpolator is gone.
@@ -72,7 +72,7 @@ pub enum Spindle {
     Counterclockwise,
 }
 
-/// What is known of the machine.
+/// The state of the machine.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Machine {
     /// What it does.

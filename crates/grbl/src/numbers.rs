@@ -1,11 +1,11 @@
-//! Numbers as senders read them.
+//! The numbers and units of reports, as senders read them.
 
 use crate::AXES;
 
 /// Millimetres of an inch.
 pub(crate) const INCH_MM: f64 = 25.4;
 
-/// In which units lengths are told.
+/// The units in which lengths are told.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum Units {
     #[default]

@@ -1,4 +1,4 @@
-//! Overrides as senders change them: by steps, faster than the machine answers.
+//! The overrides as senders change them: by steps, faster than the machine answers.
 
 use std::time::Duration;
 

@@ -1,4 +1,4 @@
-//! Characters that have their effect at once, wherever they stand.
+//! The real-time characters, which have their effect at once, wherever they stand.
 
 /// A real-time character.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

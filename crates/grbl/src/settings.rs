@@ -1,9 +1,9 @@
-//! What the machine is, as senders know settings: `$0` to `$132`.
+//! The settings of the machine as senders read them: `$0` to `$132`.
 
 use crate::AXES;
 use crate::numbers::plain;
 
-/// What the machine is. Senders read it, and change none of it.
+/// The settings of the machine. Senders read them, and change none of them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MachineSettings {
     /// The axes that the machine has, by index.

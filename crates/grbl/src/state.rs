@@ -1,8 +1,8 @@
-//! The states that senders know.
+//! The machine states of grbl, which senders know.
 
 use core::fmt;
 
-/// What a report says that the machine does.
+/// The state of the machine in a report.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum State {
     Idle,

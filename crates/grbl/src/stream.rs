@@ -1,4 +1,4 @@
-//! The lines of a sender as jobs of the planner's service.
+//! The stream of a sender: its lines as jobs of the planner's service.
 //!
 //! ```text
 //!   line ──► unread ──given──► service ──read──► answered
@@ -16,7 +16,7 @@ const MOST_UNREAD: usize = 64;
 /// Text of one request at most, bytes.
 const MOST_TEXT: usize = 1000;
 
-/// What is wanted of a job.
+/// A wish about a job.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Wish {
     /// The lines are to be executed; the first of them begins the job.
@@ -29,7 +29,7 @@ pub enum Wish {
     Cancel,
 }
 
-/// What the planner's service is asked.
+/// A request to the planner's service.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Request {
     /// Counts the jobs of this endpoint; 0 to ask how the machine is set up.
@@ -58,7 +58,7 @@ pub struct Refused {
     pub is_in_motion: bool,
 }
 
-/// How a job ended.
+/// The end of a job.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum End {
     /// All that was read was executed.
@@ -71,7 +71,7 @@ pub enum End {
     Failed(String),
 }
 
-/// How a job stands.
+/// The stage of a job.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Stage {
     /// Nothing is known of it.
@@ -82,7 +82,7 @@ pub enum Stage {
     Over(End),
 }
 
-/// What the planner's service tells.
+/// The answer of the planner's service.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Told {
     /// The job that was asked about.
