@@ -1,4 +1,5 @@
-//! What is written and what rows mean: no processes, no clock.
+//! The bridge between setpoints and HAL: which lines are written, and what rows mean. It knows no
+//! processes and no clock.
 
 use crate::layout::{Layout, Row, tick_of};
 use bytemuck::Zeroable as _;
@@ -23,7 +24,7 @@ const GIVEN_UP: u64 = 256;
 const FAULT_PIN: u32 = 1;
 const FAULT_UNDERRUN: u32 = 2;
 
-/// What went through so far.
+/// The counts of what went through so far.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct HalCounts {
     /// Lines written.

@@ -1,8 +1,8 @@
-//! What can go wrong with HAL.
+//! The errors of HAL as a servo stack.
 
 use std::io;
 
-/// Why HAL is no servo stack, or no longer.
+/// The reason why HAL is no servo stack, or no longer.
 #[derive(Debug, thiserror::Error)]
 pub enum HalError {
     /// HAL's programs are not there.

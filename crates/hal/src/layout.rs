@@ -1,4 +1,4 @@
-//! The columns of lines and rows.
+//! The layout of lines and rows: their columns.
 //!
 //! | | line, to `streamer` | row, from `sampler` |
 //! |---|---|---|
@@ -20,7 +20,7 @@ pub const HAL_JOINTS: usize = 8;
 /// Ticks are numbers of 31 bits: HAL's own are of 32, with and without a sign.
 const TICKS: u64 = 1 << 31;
 
-/// What HAL says of one of its periods.
+/// A row: what HAL says of one of its periods.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Row {
     pub(crate) tick: u32,

@@ -1,4 +1,4 @@
-//! `halstreamer` and `halsampler` as processes.
+//! The programs `halstreamer` and `halsampler`, as processes.
 
 use crate::error::HalError;
 use rustix::fs::{OFlags, fcntl_getfl, fcntl_setfl};
@@ -141,7 +141,7 @@ impl Drop for Program {
     }
 }
 
-/// Where lines go.
+/// The process that takes lines.
 #[derive(Debug)]
 pub(crate) struct Streamer {
     program: Program,
@@ -200,7 +200,7 @@ impl Streamer {
     }
 }
 
-/// Where rows come from.
+/// The process that gives rows.
 #[derive(Debug)]
 pub(crate) struct Sampler {
     program: Program,

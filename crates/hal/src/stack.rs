@@ -1,4 +1,4 @@
-//! The bridge with its processes.
+//! The servo stack of HAL: the bridge with its processes.
 
 use crate::bridge::{Bridge, HalCounts};
 use crate::error::HalError;
@@ -12,7 +12,7 @@ const SILENCE_NS: u64 = 2_000_000_000;
 /// Rows with foreign ticks after which HAL's nets are wrong: more than the FIFOs of both hold.
 const FOREIGN_ROWS: u32 = 20_000;
 
-/// How HAL is spoken to.
+/// The settings by which HAL is reached.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct HalSettings {
     /// The number of `streamer` and `sampler`, from 0.
@@ -118,7 +118,7 @@ impl Hal {
         self.bridge.is_at_rest()
     }
 
-    /// What went through so far.
+    /// The counts of what went through so far.
     #[must_use]
     pub const fn counts(&self) -> &HalCounts {
         self.bridge.counts()

@@ -1,3 +1,5 @@
+//! Tests of the bridge, with rows as a HAL would send them.
+
 #![allow(
     clippy::float_cmp,
     reason = "what is passed on stays the same to the bit"
