@@ -1,4 +1,5 @@
-//! Work of one tick with nine axes at their limits: `cargo bench -p glidepath-interpolator`.
+//! The benchmark of one tick with nine axes at their limits: `cargo bench -p
+//! glidepath-interpolator`.
 //!
 //! Prints quantiles by the clock. `--count N` runs N ticks of steady motion and nothing else, for a
 //! count of instructions: `valgrind --tool=callgrind target/release/deps/tick-… --count 10000`.

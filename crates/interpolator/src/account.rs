@@ -1,4 +1,4 @@
-//! What is told of the ticks: counts with every report, happenings to who writes the log.
+//! The account of the ticks: counts for every report, and happenings for the log.
 
 use crate::config::Config;
 use crate::counters::Counters;

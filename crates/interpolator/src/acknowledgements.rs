@@ -1,5 +1,5 @@
-//! Which events may be acknowledged: the one that is awaited, and those that were told and are
-//! waited for later.
+//! The acknowledgements of events: which may be answered now, the one that is awaited or those that
+//! were told and are waited for later.
 
 use crate::gates::{Answer, Gates};
 use crate::message::Report;
@@ -17,7 +17,7 @@ struct Told {
     by_feedback: bool,
 }
 
-/// What was told, and what was answered.
+/// The events that were told, and those that were answered.
 #[derive(Debug)]
 pub(crate) struct Acknowledgements {
     boot_id: u64,

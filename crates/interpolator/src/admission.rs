@@ -1,4 +1,4 @@
-//! Which frames the real-time thread gets to see.
+//! The admission of frames to the real-time thread.
 //!
 //! A frame is data from another process. It passes if its numbers are finite, it continues the open
 //! epoch (or opens one, at rest, where the machine stands), it follows from the frame before it,

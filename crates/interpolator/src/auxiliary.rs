@@ -1,5 +1,5 @@
-//! What the events of setpoints have come to: the record that spindle, coolant, tools and outputs
-//! obey.
+//! The auxiliary record, which spindle, coolant, tools and outputs obey: what the events of
+//! setpoints have come to.
 
 use crate::code_words::CodeWordsBook;
 use crate::gates::Gates;

@@ -1,4 +1,4 @@
-//! Where the present block ends, looked for in the frames at hand.
+//! The search for the end of the present block, in the frames at hand.
 //!
 //! A block is known by the number its frames carry (by the line, if a planner does not number
 //! them). Its end is its last frame: the last point of the path that is a setpoint of its own, less

@@ -1,4 +1,4 @@
-//! Where blocks of the program began, for a motion that comes back to them.
+//! The places where blocks of the program began, for a motion that comes back to them.
 
 use std::collections::VecDeque;
 

@@ -1,5 +1,5 @@
-//! Coming to rest at the end of a block: what the search for the end, the rate of program time and
-//! the track have to know of each other.
+//! The stop at the end of a block: what the search for the end, the rate of program time and the
+//! track have to know of each other.
 
 use crate::block_end::BlockEnd;
 use crate::differences::Differences;

@@ -1,4 +1,4 @@
-//! Commands: what may be done when, and the answer.
+//! The judgement of commands: what may be done when, and the answer.
 //!
 //! A job that has the machine is a state of its own here. What would move the axes, or change where
 //! they are, is refused then; what is to end a motion ends the job; a hold counts for its beginning.
@@ -16,7 +16,7 @@ use glidepath_link::{
 /// Orders that one command comes to, at most.
 const ORDERS_PER_COMMAND: usize = 3;
 
-/// What commands are judged by, and what they change.
+/// The state that commands are judged by, and that they change.
 pub(crate) struct Desk<'d, 'a> {
     pub(crate) report: Report,
     pub(crate) boot_id: u64,

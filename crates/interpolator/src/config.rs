@@ -1,4 +1,4 @@
-//! What an interpolator is started with.
+//! The configuration that an interpolator is started with.
 
 use crate::feedback::FeedbackSettings;
 use crate::gates::Gates;
@@ -13,7 +13,7 @@ use glidepath_link::ALL_JOINTS;
 use glidepath_program::{Limits, TAP_OVERTRAVEL};
 use glidepath_realtime::{Mode, Request};
 
-/// Where the axes may be, mm or degrees.
+/// The soft limits: where the axes may be, mm or degrees.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SoftLimits {
     /// Lowest position of each axis.
@@ -33,7 +33,7 @@ impl SoftLimits {
     }
 }
 
-/// How the threads are scheduled.
+/// The scheduling of the threads.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct RealTime {
     /// Whether the interpolator may run without some of what follows.
@@ -54,7 +54,7 @@ impl RealTime {
     }
 }
 
-/// How the machine is moved by hand.
+/// The settings of moving by hand.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JogSettings {
     /// Top speed of each axis in a jog, mm/s or °/s. Above that of its limits it is without effect.
@@ -214,7 +214,7 @@ impl Config {
         Some(of_joint)
     }
 
-    /// What each joint can do.
+    /// The limits of each joint.
     #[must_use]
     pub fn joint_bounds(&self) -> [JointBounds; JOINTS] {
         let mut bounds = self.joint_limits.0.map(|limit| JointBounds {

@@ -1,4 +1,4 @@
-//! What the real-time thread counts: how well the host kept time, and what that cost.
+//! The counters of the real-time thread: how well the host kept time, and what that cost.
 
 use crate::config::Config;
 use crate::message::{Report, Timing};

@@ -1,4 +1,4 @@
-//! Limits by finite differences of the published positions: what a drive sees.
+//! The limits on finite differences of the published positions: what a drive sees.
 //!
 //! With positions x one period T apart, every axis obeys |Δx| ≤ V·T, |Δ²x| ≤ A·T², |Δ³x| ≤ J·T³.
 //! The differences are averages of the derivatives of any motion through the positions, so a motion

@@ -1,4 +1,4 @@
-//! Whether the drives have power, as the real-time thread sees it, and whose position counts.
+//! The power of the drives as the real-time thread sees it, and whose position counts.
 //!
 //! ```text
 //!          Enable            all have power, at rest for 100 ms: hand-over
@@ -28,7 +28,7 @@ const HOMING_NS: u64 = 300_000_000_000;
 /// How long a drive may take to begin, or to say that it found its home after it ended.
 const ANSWER_NS: u64 = 2_000_000_000;
 
-/// What follows from what the drives say.
+/// The consequence of what the drives say.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Consequence {
     /// The motion is to stop on the path.

@@ -1,4 +1,4 @@
-//! Which events of the frames have been published, and when in its period each of them happens.
+//! The events of frames that have been published, and the time in its period at which each happens.
 //!
 //! ```text
 //!  frames      │      a    b  │        c     │         program time

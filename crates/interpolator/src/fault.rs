@@ -1,4 +1,4 @@
-//! Why the motion was stopped, as both threads tell each other and people.
+//! A fault: why the motion was stopped, as both threads tell each other and people.
 
 use core::fmt;
 use glidepath_geometry::Axis;

@@ -1,9 +1,9 @@
-//! Where in the program the motion is: what is kept of a frame when it is gone.
+//! The summary of the last frame passed: where in the program the motion is.
 
 use glidepath_link::SetpointFrame;
 use glidepath_program::FrameFlags;
 
-/// What setpoints at rest repeat of the last frame passed.
+/// The part of the last frame passed that setpoints at rest repeat.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct FrameSummary {
     pub(crate) sequence: u64,

@@ -1,4 +1,4 @@
-//! Which M codes are waited for, and what ends the wait.
+//! The gates of a machine: which M codes are waited for, and what ends the wait.
 
 use core::time::Duration;
 use glidepath_link::{Auxiliary, Setpoint, SetpointFrame, SpindleFlags};
@@ -7,7 +7,7 @@ use glidepath_program::Event;
 /// Most rules of a machine.
 pub const MAX_GATES: usize = 32;
 
-/// What says that what an M code asked for is done.
+/// The source of the answer that what an M code asked for is done.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Answer {
     /// Nobody: it is not waited for.

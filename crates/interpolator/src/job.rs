@@ -1,4 +1,4 @@
-//! The job that a planner has told of, from when it was accepted to its first frame.
+//! The job of a planner, from when it was accepted to its first frame.
 //!
 //! Reading, checking and planning take from a tenth of a second to many seconds, in another process.
 //! What an operator wants meanwhile must hold for the motion that comes of it, whenever it comes. So
@@ -24,7 +24,7 @@ use glidepath_link::{EndOfEpoch, JobPhase, JobStage, MachineState, Status, Text}
 /// A planner that has not told of its job for so long is taken for dead, ns.
 const SILENCE_NS: u64 = 3_000_000_000;
 
-/// What telling of a job comes to.
+/// The outcome of telling of a job.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Told {
     /// Nothing new for anybody else.

@@ -1,5 +1,5 @@
-//! Moving by hand: jogs from rest, jogs away from the path while a program is held, and the way
-//! back.
+//! The jog, motion by hand: jogs from rest, jogs away from the path while a program is held, and
+//! the way back.
 //!
 //! ```text
 //!             demand                         arrived, let go, unheard of for 150 ms, hold, abort

@@ -1,4 +1,4 @@
-//! What the joints are to do: the mechanism's inverse, at every tick.
+//! The motion of the joints: the mechanism's inverse, at every tick.
 //!
 //! The setpoint leaves the real-time thread whole, so what a drive gets depends on no other thread.
 //! The inverse is bounded work without allocation, a closed form for every mechanism.

@@ -1,4 +1,4 @@
-//! The two threads.
+//! The loops of the two threads.
 //!
 //! ```text
 //! grid            |─────────────|─────────────|
@@ -35,7 +35,7 @@ const LEAD_NS: u64 = 100_000;
 /// By how much the priority of the ports thread is lower.
 const LOWER: i32 = 10;
 
-/// Why an interpolator could not run.
+/// The reason why an interpolator could not run.
 #[derive(Debug, thiserror::Error)]
 pub enum RunError {
     /// The host or the user does not give what real time needs.

@@ -1,4 +1,4 @@
-//! What the two threads tell each other, by rings of fixed size.
+//! The messages between the two threads, by rings of fixed size.
 //!
 //! ```text
 //!  ports thread ── SetpointFrame, Order, Demand ──►  real-time thread
@@ -38,7 +38,7 @@ pub(crate) struct Rings {
     pub(crate) reports: Queue<Report, REPORTS>,
 }
 
-/// What the real-time thread reads.
+/// The ends of the rings that the real-time thread reads.
 pub(crate) struct Inputs<'a> {
     pub(crate) frames: Consumer<'a, SetpointFrame>,
     pub(crate) orders: Consumer<'a, Order>,
@@ -46,7 +46,7 @@ pub(crate) struct Inputs<'a> {
     pub(crate) observations: Consumer<'a, Observation>,
 }
 
-/// What the ports thread writes and reads.
+/// The ends of the rings that the ports thread writes and reads.
 pub(crate) struct PortsEnds<'a> {
     pub(crate) frames: Producer<'a, SetpointFrame>,
     pub(crate) orders: Producer<'a, Order>,

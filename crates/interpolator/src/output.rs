@@ -1,4 +1,4 @@
-//! What is published: the setpoint of every tick, held against the limits of the axes.
+//! The output of every tick: its setpoint, held against the limits of the axes.
 
 use crate::config::Config;
 use crate::differences::{Allowed, Differences};
@@ -13,7 +13,7 @@ use glidepath_geometry::AxisVector;
 use glidepath_kinematics::{JointMotion, JointVector, KinematicsError};
 use glidepath_link::Setpoint;
 
-/// What became of the setpoint of a motion.
+/// The outcome of writing the setpoint of a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Written {
     /// It is within the limits.

@@ -1,4 +1,4 @@
-//! Axes two by two, as the processor computes them.
+//! Pairs of axes, two by two, as the processor computes them.
 //!
 //! What is kept for every axis is kept pair by pair, so that all that is needed of a pair is in
 //! neighbouring cache lines. After the sleep of a period it is these lines that take the time, and

@@ -1,4 +1,4 @@
-//! Looking for a contact, as the real-time thread sees it.
+//! The state of a probing search, as the real-time thread sees it.
 //!
 //! A search ends its epoch, and the program goes on in another one, which takes its planner a
 //! moment. In between the machine waits: a hold is in force when it goes on, and an abort ends the

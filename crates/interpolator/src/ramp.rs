@@ -1,4 +1,4 @@
-//! The rate of program time from one value to another.
+//! A ramp: the rate of program time from one value to another.
 //!
 //! The rate r is in periods of program time per tick, its slope ṙ per tick, its bend r̈ per tick².
 //! A ramp is the shortest way from (r₀, ṙ₀) to (r₁, 0) with |ṙ| ≤ α and |r̈| ≤ β: bend one way,

@@ -1,4 +1,4 @@
-//! What counts as rest, and as the same position: for both threads.
+//! The definition of rest, and of the same position, for both threads.
 
 use glidepath_link::SetpointFrame;
 

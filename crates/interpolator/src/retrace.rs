@@ -1,4 +1,4 @@
-//! Going back along the path, and onward again over what was passed.
+//! The retrace: going back along the path, and onward again over what was passed.
 //!
 //! A plan that keeps the limits keeps them when it is played from its end to its beginning:
 //! velocity and jerk change their signs, acceleration does not. So there is no second way of

@@ -1,4 +1,4 @@
-//! Running an interpolator until it is told to stop.
+//! The run of an interpolator, until it is told to stop.
 
 use crate::config::Config;
 use crate::loops::{

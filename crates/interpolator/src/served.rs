@@ -1,4 +1,4 @@
-//! An interpolator with its ports that is driven by hand.
+//! An interpolator with its ports, without threads and clock, that is driven by hand.
 
 use crate::config::Config;
 use crate::message::{HAPPENINGS, Happening, Inputs, Report, Rings};

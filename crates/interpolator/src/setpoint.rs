@@ -1,4 +1,5 @@
-//! What is published in a tick, apart from the joints, the time and the state.
+//! The writer of setpoints: what is published in a tick, apart from the joints, the time and the
+//! state.
 
 use crate::events_told::EventsTold;
 use crate::frame_summary::FrameSummary;

@@ -1,4 +1,4 @@
-//! Keeping the status record.
+//! The status record, and what it is worked out from.
 
 use crate::admission::Admission;
 use crate::block_starts::BlockStarts;

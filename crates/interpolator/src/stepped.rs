@@ -1,4 +1,4 @@
-//! An interpolator that is driven by hand.
+//! An interpolator without threads, clock and ports that is driven by hand, tick by tick.
 
 use crate::config::Config;
 use crate::jog::DemandReader;

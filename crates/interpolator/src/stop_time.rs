@@ -1,4 +1,5 @@
-//! How long a stop takes from the speed at a frame: what the bounds of ramps are worked out from.
+//! The time that a stop takes from the speed at a frame, from which the bounds of ramps are worked
+//! out.
 
 use crate::pairs::{self, PAIRS, Pair, larger};
 use glidepath_link::SetpointFrame;

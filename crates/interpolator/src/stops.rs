@@ -1,5 +1,5 @@
-//! What stops together with the motion: spindle and coolant, after an abort, a fault, or when the drives
-//! lose their power.
+//! The stop of spindle and coolant together with the motion, after an abort, a fault, or when the
+//! drives lose their power.
 //!
 //! ```text
 //!   abort, fault ──► the motion comes to rest ──► M5, M9, a setpoint each ──► idle, faulted
@@ -13,7 +13,7 @@
 
 use glidepath_program::Event;
 
-/// What stops spindle and coolant together with the motion.
+/// The causes that stop spindle and coolant together with the motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct StopSettings {
     /// An abort.

@@ -1,10 +1,12 @@
-//! Whether there are frames enough to go on.
+//! The supply of frames: whether there are enough to go on.
 //!
 //! That the motion can stop on the frames at hand is the business of the stop in reserve (see
 //! `rate`). Once it was taken, or the motion stands for want of frames, it is not worth while to go
-//! on for each frame that drips in: it goes on when as many are ahead as two stops from full speed
-//! take (program time runs at half rate on average while r falls to 0 in V/A + A/J), or when the
-//! frames end at rest. The same holds where it stands because the operator wanted it to.
+//! on for each frame that drips in: it goes on when as many are ahead as three stops from full speed
+//! take (`STOPS_AHEAD`; program time runs at half rate on average while r falls to 0 in V/A + A/J)
+//! and a few more, or when the frames end at rest. The planner publishes no more than its horizon, so
+//! three quarters of that are always enough. The same holds where the motion stands because the
+//! operator wanted it to.
 
 use crate::config::Config;
 use crate::differences::Differences;

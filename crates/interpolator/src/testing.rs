@@ -1,4 +1,5 @@
-//! What unit tests share.
+//! The fixtures of unit tests: frames, items, and the real-time thread with a grid instead of a
+//! clock.
 
 #![allow(
     clippy::cast_possible_truncation,

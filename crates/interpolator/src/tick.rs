@@ -1,4 +1,5 @@
-//! One period of the real-time thread: a function of what it owns, the wake-up, and the rings.
+//! The tick, one period of the real-time thread: a function of what it owns, the wake-up, and the
+//! rings.
 //!
 //! ```text
 //! demands ─► jog ───────────────────────────────────────────────► setpoint, while it owns the axes

@@ -1,5 +1,5 @@
-//! What the status' last error says of motions that a command ends: why a jog or a way home ended, and
-//! nothing that was told before it began.
+//! The texts of the status' last error about motions that a command ends: why a jog or a way home
+//! ended, and nothing that was told before it began.
 
 use crate::jog::Demand;
 use crate::message::Report;

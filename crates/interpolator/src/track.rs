@@ -1,4 +1,4 @@
-//! The frames the real-time thread owns, and the motion through them.
+//! The track: the frames that the real-time thread owns, and the motion through them.
 //!
 //! Between two frames the motion of every axis is the quintic polynomial that has their position,
 //! velocity and acceleration at both ends.

@@ -1,5 +1,5 @@
-//! Tracking: from any state to a velocity, or to rest at a place, under limits of velocity,
-//! acceleration and jerk.
+//! The tracker: motion from any state to a velocity, or to rest at a place, under limits of
+//! velocity, acceleration and jerk.
 //!
 //! This is what moves axes that follow no program: in a jog, on the way back to the path. A
 //! [`Tracker`] is solved when its target or its limits change, and evaluated otherwise; both are
@@ -18,7 +18,7 @@ mod speed;
 pub(crate) use motion::{Bounds, Motion};
 pub(crate) use profile::Profile;
 
-/// What is to be reached.
+/// The target of a tracker.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Target {
     /// A velocity, whose amount is at most that of the bounds.

@@ -1,4 +1,4 @@
-//! Standing at a gate: for what, how long, and what came of it.
+//! The wait at a gate: for what, how long, and what came of it.
 //!
 //! ```text
 //!  motion ──► rest at the frame of the event ──► answered ──► on, when a stop after it is known
@@ -14,7 +14,7 @@ use crate::gates::{Answer, Gate};
 use crate::message::Awaited;
 use glidepath_link::{EventId, EventKind, EventRecord, FaultCause, Setpoint};
 
-/// What became of a wait in a tick.
+/// The outcome of a wait in a tick.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Outcome {
     /// Nothing yet.

@@ -1,4 +1,4 @@
-//! How many instructions a tick takes: a figure that other load on the host does not change.
+//! The instructions that a tick takes: a figure that other load on the host does not change.
 //!
 //! The test runs itself under callgrind, which writes down what each tick took, one after the
 //! other: on average and at most. It counts optimised code only, and is skipped without valgrind:

@@ -1,5 +1,5 @@
-//! Foreign bytes as frames, among those of a planner: what the judge lets through keeps the limits
-//! by plain differences, and so does what is published, whatever came.
+//! The fuzz target: foreign bytes as frames, among those of a planner: what the judge lets through
+//! keeps the limits by plain differences, and so does what is published, whatever came.
 #![no_main]
 
 use glidepath_geometry::AxisVector;

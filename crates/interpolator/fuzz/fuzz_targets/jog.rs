@@ -1,5 +1,5 @@
-//! Foreign bytes as demands for a jog, among those of an operator, at any time: the axes stay inside
-//! their limits and travel, and come to rest when told.
+//! The fuzz target: foreign bytes as demands for a jog, among those of an operator, at any time:
+//! the axes stay inside their limits and travel, and come to rest when told.
 #![no_main]
 
 use glidepath_geometry::AxisVector;

@@ -1,4 +1,4 @@
-//! Every way a frame can be wrong.
+//! Tests of admission: every way a frame can be wrong.
 #![allow(
     clippy::unwrap_used,
     clippy::panic,

@@ -1,9 +1,9 @@
 //! Adaptive feed: an analog input that slows the program down, as far as to a hold.
 //!
-//! The factor follows the input in steps, or the search for a ramp would never come to rest. Whoever
-//! Where the machine is configured for that, it goes on below zero: back along the path. Whoever
-//! sends the input is known by being the one that says something else than zero; if nothing new
-//! comes from there, the factor is zero.
+//! The factor follows the input in steps, or the search for a ramp would never come to rest. Where
+//! the machine is configured for that, it goes on below zero: back along the path. The source of the
+//! input is the first servo stack that is heard. If nothing new comes from it, the factor is zero,
+//! and another stack takes its place that sends something else than zero.
 
 use super::settings::AdaptiveFeed;
 use crate::message::Report;

@@ -1,4 +1,5 @@
-//! What the ports thread keeps of the drives.
+//! The drive state that the ports thread keeps: joints, following errors, homing and what the
+//! status tells of them.
 
 use super::adaptive::{AdaptiveWatch, turned_round};
 use super::claims::{Claims, Joints};

@@ -1,4 +1,5 @@
-//! Which servo stack drives which joints, and what they say of them.
+//! The ownership of joints: which servo stack drives which of them, and what the stacks say of
+//! them.
 //!
 //! A joint belongs to the stack that claimed it first, until that one has been silent for so long
 //! that the drives are off anyway. What another says of it meanwhile is refused, as a whole: a stack
@@ -7,7 +8,7 @@
 use glidepath_kinematics::JOINTS;
 use glidepath_link::{Feedback, Latch, Record as _, SpindleFlags};
 
-/// What the stacks say of the joints together.
+/// The joints as all stacks together report them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Joints {
     /// The joints that a stack has claimed, one bit each, as all that follow.

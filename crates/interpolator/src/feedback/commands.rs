@@ -1,4 +1,4 @@
-//! Commands about drives and joints: whether they are possible, and what concerns the count.
+//! The commands about drives and joints: whether they are possible, and what concerns the count.
 
 use super::book::DriveBook;
 use crate::message::Report;

@@ -1,4 +1,4 @@
-//! What was demanded of the joints, for as long as feedback may be on its way.
+//! The demands of the joints, kept for as long as feedback may be on its way.
 
 use glidepath_kinematics::JOINTS;
 use glidepath_link::Setpoint;

@@ -1,4 +1,4 @@
-//! A way home that drives look for themselves, as the ports thread follows it.
+//! Homing by the drives themselves, as the ports thread follows it.
 //!
 //! Who sets out for home does not know where it is any more. Drives say otherwise: some keep their
 //! word of an earlier home until they have found it anew, or for good where the search was aborted.

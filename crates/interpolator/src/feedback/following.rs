@@ -1,4 +1,4 @@
-//! How far each joint is from where it was to be.
+//! The following error of each joint: how far it is from where it was to be.
 //!
 //! The error is the demand at the moment of the sample less the sample: a drive that does what the
 //! setpoints say has none, however late its feedback comes. What is allowed grows with the speed of
@@ -16,7 +16,7 @@ const CUT_R: f64 = 2.0;
 /// By how much the share may grow after the motion began to stop.
 const GROWTH_R: f64 = 0.5;
 
-/// What a joint's error asks for, with the error and what is allowed.
+/// The judgement of a joint's error, with the error and what is allowed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Finding {
     /// Tell somebody; once since power came on.

@@ -1,4 +1,4 @@
-//! What follows from what the drives say: following errors, joints that are apart, and joints on
+//! The judgement of what the drives say: following errors, joints that are apart, and joints on
 //! their way home.
 
 use super::book::DriveBook;

@@ -1,4 +1,4 @@
-//! What the drives say: gathered, judged, and handed to the real-time thread.
+//! The feedback of the drives: gathered, judged, and handed to the real-time thread.
 //!
 //! ```text
 //! servo stacks ── Feedback ─► claims ─► book ─┬─ Observation ─► real-time thread: power, hand-over

@@ -1,4 +1,4 @@
-//! What the ports thread tells the real-time thread about the drives, every turn.
+//! The observation of the drives, which the ports thread tells the real-time thread every turn.
 
 use glidepath_geometry::AxisVector;
 use glidepath_kinematics::JointVector;

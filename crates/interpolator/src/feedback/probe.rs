@@ -1,4 +1,4 @@
-//! Where the axes are when a probe makes contact.
+//! The probe watch: where the axes are when a probe makes contact.
 //!
 //! The real-time thread says in a setpoint that a search begins, and stops when it is told of the
 //! contact. Where that was is kept here, from the records of the drives themselves: what was
@@ -13,7 +13,7 @@ use glidepath_kinematics::{JOINTS, JointVector};
 use glidepath_link::{ContactKind, EndOfEpoch, Feedback};
 use glidepath_program::Event;
 
-/// What a search has found.
+/// The contact that a search has found.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Contact {
     pub(crate) kind: ContactKind,

@@ -1,10 +1,10 @@
-//! What is expected of the drives' feedback.
+//! The settings of the drives' feedback: what is expected of it.
 
 use crate::homing::JointHoming;
 use core::time::Duration;
 use glidepath_kinematics::JOINTS;
 
-/// What is expected of a joint.
+/// The settings of one joint's feedback.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JointFeedback {
     /// How far the joint may be from where it is to be at rest and when it is slow, mm or degrees,
@@ -48,7 +48,7 @@ pub struct AdaptiveFeed {
     pub backwards: bool,
 }
 
-/// How the feedback of the drives is judged.
+/// The settings by which the feedback of the drives is judged.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FeedbackSettings {
     /// Feedback older than this stops the motion.

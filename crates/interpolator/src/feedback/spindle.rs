@@ -1,4 +1,4 @@
-//! Angle and speed of the spindle from samples of its angle.
+//! The spindle watch: angle and speed of the spindle from samples of its angle.
 //!
 //! A filter with three states, critically damped: it has no error at a constant acceleration, and
 //! smooths what an encoder rounds. It is fed with every record of the stack that measures the angle,

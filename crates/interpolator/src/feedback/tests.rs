@@ -1,4 +1,4 @@
-//! A machine with drives, tick by tick: both threads' work, the servo library and a plant.
+//! Tests of a machine with drives, tick by tick: both threads' work, the servo library and a plant.
 
 #![allow(
     clippy::unwrap_used,

@@ -1,4 +1,4 @@
-//! The joints of the machine on their way home: group after group.
+//! The homing sequencer: the joints of the machine on their way home, group after group.
 //!
 //! A group that fails stops the others: what comes later may rely on it.
 
@@ -28,7 +28,7 @@ pub(crate) struct Surroundings<'a> {
     pub(crate) seen: &'a [Seen; JOINTS],
 }
 
-/// What comes of a turn.
+/// The outcome of a turn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Outcome {
     /// Nothing yet.
@@ -82,7 +82,7 @@ struct Job {
     goes_on_ns: u64,
 }
 
-/// Sees to it that joints find their home.
+/// The homing sequencer.
 #[derive(Debug)]
 pub(crate) struct Conductor {
     settings: [Option<JointHoming>; JOINTS],

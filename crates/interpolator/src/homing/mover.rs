@@ -1,4 +1,4 @@
-//! Moving joints each for itself: the real-time thread's side of homing.
+//! The mover of joints each for itself: the real-time thread's side of homing.
 
 use super::order::{JointsOrder, Moved};
 use crate::config::Config;

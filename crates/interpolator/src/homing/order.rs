@@ -1,8 +1,9 @@
-//! What the two threads tell each other about joints that are moved each for itself.
+//! The orders to joints that are moved each for itself, and what became of them: messages between
+//! the two threads.
 
 use glidepath_kinematics::JOINTS;
 
-/// What joints are to do. Places and velocities are as the drives count.
+/// An order to joints. Places and velocities are as the drives count.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct JointsOrder {
     /// Counts the orders.
@@ -40,7 +41,7 @@ impl JointsOrder {
     }
 }
 
-/// What became of the orders.
+/// The outcome of the orders.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) struct Moved {
     /// Whether the joints are moved each for itself.

@@ -1,4 +1,4 @@
-//! How one joint finds its home, phase by phase.
+//! The home search of one joint, phase by phase.
 //!
 //! ```text
 //!  on the switch already: back off ─► search ─► same signs: retreat ─► latch ─► index ─► latched
@@ -53,7 +53,7 @@ pub(crate) enum SearchFailure {
     NoLatch,
 }
 
-/// What is to be done.
+/// The next step of a search.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Step {
     Wait,

@@ -1,8 +1,9 @@
-//! How a joint finds its home, as LinuxCNC has it, with bounds that LinuxCNC does not ask for.
+//! The homing settings of a joint, as LinuxCNC has them, with bounds that LinuxCNC does not ask
+//! for.
 
 use crate::tracker::{Bounds, Motion, Profile};
 
-/// How a joint finds its home. Lengths and velocities are mm or degrees, and by s.
+/// The homing settings of a joint. Lengths and velocities are mm or degrees, and by s.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JointHoming {
     /// Velocity of the search for the switch, with its sign; 0 for none.
@@ -34,7 +35,7 @@ pub struct JointHoming {
     pub clearance: f64,
 }
 
-/// What a joint can do.
+/// The limits of a joint that is homed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JointBounds {
     /// Highest speed, mm/s or °/s.
@@ -45,7 +46,7 @@ pub struct JointBounds {
     pub jerk: f64,
 }
 
-/// Why a joint cannot be homed so.
+/// The reason why a joint cannot be homed so.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum HomingError {
     /// A search without a latch.
@@ -98,8 +99,8 @@ pub(crate) enum Kind {
 const LATE_PERIODS: f64 = 3.0;
 
 impl JointHoming {
-    /// How far the joint goes past the edge of its switch: on at the velocity of the search until
-    /// the first setpoint that slows down applies, and to rest from there.
+    /// The distance that the joint goes past the edge of its switch: on at the velocity of the
+    /// search until the first setpoint that slows down applies, and to rest from there.
     #[must_use]
     pub fn overshoot(&self, bounds: &JointBounds, period_t: f64) -> f64 {
         let v = self.search_v.abs();

@@ -1,4 +1,4 @@
-//! The job of a planner at the interpolator: what ends it, and what it is told.
+//! Tests of the job of a planner: what ends it, and what it is told.
 
 use super::*;
 use crate::fault::Fault;

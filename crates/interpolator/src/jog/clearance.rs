@@ -1,4 +1,4 @@
-//! Whether a step of a jog may be done: only if the stop from its end may be, too.
+//! The clearance of a jog's step: it is done only if the stop from its end may be, too.
 //!
 //! The stop is played through before the step is published. So at every tick there is a stop known
 //! that stays in travel and within reach, and keeps every joint inside its limits, and it is the

@@ -1,4 +1,4 @@
-//! How the axes move in a jog: together along a straight line, or each for itself.
+//! The course of a jog: the axes move together along a straight line, or each for itself.
 //!
 //! From rest, and as long as what is wanted lies in the same direction, the axes go along a line at
 //! limits that all of them can keep. When another direction is wanted while they move, each axis
@@ -12,7 +12,7 @@ use crate::tracker::{Bounds, Motion, Profile, Target, Tracker};
 use glidepath_geometry::{AXES, AxisVector};
 use glidepath_program::Limits;
 
-/// What is wanted.
+/// The goal of a course.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Goal {
     /// Rest, wherever.
@@ -42,7 +42,7 @@ enum Way {
     Single(Single),
 }
 
-/// What is fixed for a jog.
+/// The limits of a jog.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct JogLimits {
     /// Of the machine, with the velocities of jogging.

@@ -1,4 +1,4 @@
-//! What an operator wants, as the real-time thread gets it: checked, and about axes.
+//! A demand for a jog, as the real-time thread gets it: checked, and about axes.
 
 use crate::config::Config;
 use glidepath_geometry::{AXES, Axis, AxisVector};

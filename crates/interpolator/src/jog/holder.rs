@@ -1,4 +1,4 @@
-//! Who jogs, and whether what is heard counts.
+//! The holder of the jog: which client jogs, and whether what is heard counts.
 //!
 //! | heard | counts |
 //! |---|---|
@@ -13,7 +13,7 @@
 use super::demand::Demand;
 use glidepath_link::JogMode;
 
-/// What a demand means.
+/// The meaning of a demand.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Heard {
     /// Nothing.
@@ -34,7 +34,7 @@ struct Caller {
     sent_ns: u64,
 }
 
-/// Who jogs.
+/// The holder of the jog.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Holder {
     owner: Option<Caller>,

@@ -1,4 +1,4 @@
-//! A straight line through the axes, and the way along it.
+//! A straight line through the axes, and the motion along it.
 
 use crate::tracker::{Bounds, Motion, Target, Tracker};
 use glidepath_geometry::AxisVector;
@@ -7,7 +7,7 @@ use glidepath_program::Limits;
 /// By how much two directions may differ to be the same: rounding.
 const SAME_DIRECTION: f64 = 1e-12;
 
-/// What the axes do.
+/// The motion of the axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct AxesMotion {
     pub(crate) position: AxisVector,

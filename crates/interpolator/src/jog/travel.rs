@@ -1,4 +1,4 @@
-//! Where a jog may go.
+//! The travel of a jog: the box that it stays in.
 
 use crate::config::SoftLimits;
 use crate::rest::SAME_POSITION;

@@ -1,4 +1,4 @@
-//! A wheel that is turned by hand: what it counts, as a place or as a velocity.
+//! A handwheel: what it counts, as a place or as a velocity.
 
 use super::demand::Demand;
 use glidepath_geometry::AxisVector;

@@ -1,4 +1,4 @@
-//! The real loop of the real-time thread does not allocate, whatever it is told.
+//! Tests of the real loop of the real-time thread: it does not allocate, whatever it is told.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test")]
 
 use super::*;

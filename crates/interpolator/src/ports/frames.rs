@@ -1,4 +1,4 @@
-//! Frames on their way to the real-time thread, and the job that they are of.
+//! The way of frames to the real-time thread, and the job that they are of.
 
 use super::Ports;
 use crate::admission::{Machine, Verdict};

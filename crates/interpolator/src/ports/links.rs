@@ -1,4 +1,4 @@
-//! The ports themselves.
+//! The ports of the interpolator.
 
 use glidepath_link::{
     Auxiliary, CommandReply, CommandRequest, Feedback, JogDemand, LinkError, Publisher, Server,

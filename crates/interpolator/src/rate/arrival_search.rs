@@ -1,4 +1,4 @@
-//! Coming to rest exactly at a frame: the end of a block.
+//! The search for a ramp that comes to rest exactly at a frame: the end of a block.
 //!
 //! The plan does not rest there, so program time does: a ramp to rate 0 is stretched until the
 //! program time that passes on it is what is left to the frame. Like a stop in reserve it begins

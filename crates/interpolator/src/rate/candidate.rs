@@ -1,4 +1,4 @@
-//! The ramps that are tried, and how one is made to end on the grid of the frames.
+//! The candidates, ramps that are tried, and how one is made to end on the grid of the frames.
 
 use super::progress::Progress;
 use crate::ramp::{Bounds, Ramp};

@@ -1,4 +1,4 @@
-//! A stop as it is kept: perhaps a greedy descent, then ramps; mostly there is no descent.
+//! A kept stop: perhaps a greedy descent, then ramps; mostly there is no descent.
 
 use crate::ramp::Ramp;
 use crate::track::TRACK_CAPACITY;

@@ -1,4 +1,4 @@
-//! Playing a ramp through: what it would publish, tick by tick.
+//! The playthrough of a ramp: what it would publish, tick by tick.
 
 use crate::differences::{Allowed, Differences};
 use crate::program_time::ProgramTime;

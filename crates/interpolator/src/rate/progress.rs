@@ -1,4 +1,4 @@
-//! How far program time has come, and how fast it goes.
+//! The progress of program time: how far it has come, and how fast it goes.
 
 use crate::program_time::ProgramTime;
 

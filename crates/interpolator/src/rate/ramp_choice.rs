@@ -1,4 +1,4 @@
-//! Choosing a ramp to a goal: the candidates one after the other, within the budget of a tick.
+//! The choice of a ramp to a goal: the candidates one after the other, within the budget of a tick.
 
 use super::candidate::{CANDIDATES, Candidate, PACES, partial_target, ramp_to};
 use super::play::Cue;

@@ -1,4 +1,4 @@
-//! Trying a ramp: it must pass, and a stop after it must be known.
+//! The trial of a ramp: it must pass, and a stop after it must be known.
 //!
 //! Where the motion stands the next tick finds everything as it was: there a trial that has used up
 //! the budget of a tick is kept, and goes on. Where it moves, the next tick finds something else.

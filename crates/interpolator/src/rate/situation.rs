@@ -1,4 +1,5 @@
-//! What the choice of a ramp depends on, apart from program time and its rate.
+//! The situation in a tick: what the choice of a ramp depends on, apart from program time and its
+//! rate.
 
 use crate::differences::{Allowed, Differences};
 use crate::program_time::ProgramTime;

@@ -1,4 +1,4 @@
-//! Program time, its rate, and what is known of how both go on: the states of the rate.
+//! The state of the rate: program time, its rate, and what is known of how both go on.
 //!
 //! ```text
 //!               rest_at, begin_at: program time is held

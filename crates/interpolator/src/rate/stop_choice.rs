@@ -1,4 +1,4 @@
-//! Making sure of a stop: of a later one in reserve, or of one that arrives at the end of a block.
+//! The choice of a stop: a later one in reserve, or one that arrives at the end of a block.
 
 use super::arrival_search::{ArrivalOutcome, ArrivalSearch};
 use super::ramp_trial::TrialOutcome;

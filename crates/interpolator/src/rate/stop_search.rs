@@ -1,4 +1,4 @@
-//! How a stop is found: down step by step, as soon and as far as the plan lets go.
+//! The search for a stop: down step by step, as soon and as far as the plan lets go.
 //!
 //! A plan that is near the least time possible has some axis at a limit nearly everywhere. Where
 //! one brakes at its limit the rate cannot fall, and where there is room there often is for a

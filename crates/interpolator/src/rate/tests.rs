@@ -1,4 +1,4 @@
-//! Random holds, resumes and overrides over motions at their limits.
+//! Tests of the rate: random holds, resumes and overrides over motions at their limits.
 
 #![allow(
     clippy::cast_possible_truncation,

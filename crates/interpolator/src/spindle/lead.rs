@@ -1,4 +1,4 @@
-//! What the frames of a pass say about it, before it begins.
+//! The lead of a thread pass: what its frames say about it, before it begins.
 
 use crate::rest::is_at_rest;
 use crate::track::Track;
@@ -20,7 +20,7 @@ pub(crate) struct Lead {
     pub(crate) lag: f64,
 }
 
-/// What looking at the frames has shown.
+/// The outcome of looking at the frames.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum LeadOutcome {
     /// More frames have to come.

@@ -1,4 +1,4 @@
-//! What is seen of the spindle in a tick.
+//! The spindle as a tick sees it, measured or simulated.
 
 use crate::feedback::Turn;
 

@@ -1,4 +1,4 @@
-//! The spindle of a machine whose drives are simulated: it turns as it is told to.
+//! The simulated spindle of a machine whose drives are simulated: it turns as it is told to.
 //!
 //! It turns by ticks, and only while somebody looks: a tick that is missed on a desk does no harm.
 
@@ -9,7 +9,7 @@ use glidepath_program::Event;
 /// How fast its speed changes, rev/s².
 const ACCELERATION: f64 = 40.0;
 
-/// What it was told, and what it does.
+/// A simulated spindle: what it was told, and what it does.
 #[derive(Debug, Default)]
 pub(crate) struct SimulatedSpindle {
     /// rev/s, without direction.

@@ -1,4 +1,4 @@
-//! Tapping: into a hole along one axis and out of it again, by the angle of the spindle.
+//! A tap: into a hole along one axis and out of it again, by the angle of the spindle.
 //!
 //! ```text
 //!   x │          ╱╲        way into the hole, mm
@@ -84,7 +84,7 @@ pub(crate) struct Tap {
     waited_t: f64,
 }
 
-/// What a tick of a tap comes to.
+/// The outcome of a tick of a tap.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct TapStep {
     /// Into the hole.

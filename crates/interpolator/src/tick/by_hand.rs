@@ -1,5 +1,5 @@
-//! What a tick does for those who move the machine without a program: the operator's orders, jogs,
-//! and what the drives say.
+//! The part of a tick that serves whoever moves the machine without a program: the operator's
+//! orders, jogs, and what the drives say.
 
 use super::state::Interpolator;
 use crate::jog::Surroundings;

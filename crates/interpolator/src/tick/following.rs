@@ -1,5 +1,5 @@
-//! What a tick does behind the spindle: program time goes on with its angle in a pass of a thread,
-//! and an axis goes with it into a hole that is tapped.
+//! The part of a tick behind the spindle: program time goes on with its angle in a pass of a
+//! thread, and an axis goes with it into a hole that is tapped.
 //!
 //! Overrides and a hold wait until the pass has come to its end, and so does an abort: a tool that
 //! stops in a thread cuts a groove. From a hole, an abort leads out. A fault does not wait.

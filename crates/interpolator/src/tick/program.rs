@@ -1,4 +1,4 @@
-//! What a tick does for the program: takes its frames, advances its time, and ends its epoch.
+//! The part of a tick for the program: it takes frames, advances program time, and ends the epoch.
 
 use super::state::Interpolator;
 use crate::block_stop::BlockStop;

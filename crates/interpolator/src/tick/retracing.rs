@@ -1,4 +1,4 @@
-//! What a tick does while the motion goes back along the path, or onward again.
+//! The part of a tick while the motion goes back along the path, or onward again.
 
 use super::state::Interpolator;
 use crate::block_stop::BlockStop;

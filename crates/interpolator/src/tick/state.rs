@@ -1,4 +1,4 @@
-//! What the real-time thread keeps, and what every part of a tick asks of it.
+//! The state of the real-time thread, and what every part of a tick asks of it.
 
 use crate::account::Account;
 use crate::block_stop::BlockStop;

@@ -1,4 +1,4 @@
-//! The real-time thread's work, tick by tick, with a grid instead of a clock.
+//! Tests of the real-time thread's work, tick by tick, with a grid instead of a clock.
 
 #![allow(
     clippy::cast_possible_truncation,

@@ -1,4 +1,4 @@
-//! What a tick does for events that are to be answered before the motion goes on.
+//! The part of a tick for events that are to be answered before the motion goes on.
 
 use super::state::Interpolator;
 use crate::gates::Answer;

@@ -1,4 +1,4 @@
-//! The ring of frames, and the motion through them.
+//! Tests of the ring of frames, and the motion through them.
 
 use super::*;
 use crate::testing::{frame_of, mill};

@@ -1,4 +1,4 @@
-//! The state of one axis, or of the way along a line, and what it may do.
+//! The motion state of one axis, or of the way along a line, and the bounds on it.
 
 /// Position, velocity and acceleration, in the unit of the axis by s.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -1,5 +1,5 @@
-//! A motion of up to seven phases of constant jerk, and what follows them: it can be asked for its
-//! state at any time.
+//! A motion profile of up to seven phases of constant jerk, and what follows them: it can be asked
+//! for its state at any time.
 
 use super::motion::{Bounds, Motion};
 use super::speed::{Phase, change};

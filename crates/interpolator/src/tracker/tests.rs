@@ -1,4 +1,5 @@
-//! Trackers against another implementation, against finite differences, and solved anew at random.
+//! Tests of trackers against another implementation, against finite differences, and solved anew at
+//! random.
 
 use super::*;
 use crate::testing::random_cases;

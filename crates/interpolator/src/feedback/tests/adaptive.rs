@@ -1,4 +1,4 @@
-//! An input that slows programs down, and holds them.
+//! Tests of adaptive feed: an input slows programs down, and holds them.
 
 use super::bench::{Bench, config};
 use crate::config::Config;

@@ -1,5 +1,5 @@
-//! Every kind of gate, with every kind of answer, while the operator and the planner do this or
-//! that.
+//! Tests of every kind of gate, with every kind of answer, while the operator and the planner do
+//! this or that.
 
 use super::bench::Bench;
 use super::gates::{ACK, DONE, acknowledge, bench, gates, late, moves, told};

@@ -1,4 +1,4 @@
-//! Interpolator, servo library and plant, in steps of a millisecond.
+//! The test bench: interpolator, servo library and plant, in steps of a millisecond.
 
 use crate::config::Config;
 use crate::feedback::{FeedbackSettings, JointFeedback};

@@ -1,4 +1,4 @@
-//! A mill that is moved by hand.
+//! The fixture of a mill that is moved by hand.
 
 use super::bench::{Bench, config};
 use super::homing::SWITCH;

@@ -1,4 +1,4 @@
-//! Following errors, and who says what of which joint.
+//! Tests of following errors, and of who says what of which joint.
 
 use super::bench::{Bench, config};
 use bytemuck::Zeroable as _;

@@ -1,4 +1,4 @@
-//! Axes with two joints, which are squared on their way home.
+//! Tests of axes with two joints, which are squared on their way home.
 
 use super::bench::{ALLOWED, Bench, config};
 use super::following::{step, take_the_position_over};

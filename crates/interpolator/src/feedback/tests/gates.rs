@@ -1,4 +1,5 @@
-//! Events that are answered before the motion goes on: early, late, never, twice, wrongly.
+//! Tests of gates: events that are answered before the motion goes on, early, late, never, twice,
+//! wrongly.
 
 use super::bench::{Bench, config, numbers};
 use crate::config::Config;

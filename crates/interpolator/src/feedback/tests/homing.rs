@@ -1,4 +1,4 @@
-//! Joints that are brought home by the controller.
+//! Tests of joints that are brought home by the controller.
 
 use super::bench::{Bench, config, numbers};
 use crate::homing::JointHoming;

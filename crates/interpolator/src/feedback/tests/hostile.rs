@@ -1,4 +1,4 @@
-//! Servo stacks that say what no drive says.
+//! Tests of servo stacks that say what no drive says.
 
 use super::bench::{Bench, PERIOD_NS, numbers};
 use crate::testing::Numbers;

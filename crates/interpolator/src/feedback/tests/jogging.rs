@@ -1,4 +1,4 @@
-//! Keys that stay pressed, and axes that are not at home.
+//! Tests of jogging: keys that stay pressed, and axes that are not at home.
 
 use super::bench::{Bench, numbers};
 use super::client::{Machine, settings};

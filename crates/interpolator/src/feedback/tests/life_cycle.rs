@@ -1,4 +1,4 @@
-//! Off, hand-over, home, and back.
+//! Tests of a machine's life: off, hand-over, home, and back.
 
 use super::bench::{Bench, config, is_on};
 use super::homing;

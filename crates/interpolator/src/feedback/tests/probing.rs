@@ -1,4 +1,4 @@
-//! A probe that touches a plane somewhere on its way, or does not.
+//! Tests of a probe that touches a plane somewhere on its way, or does not.
 
 use super::bench::{Bench, PERIOD_NS, config, numbers};
 use crate::config::Config;

@@ -1,4 +1,4 @@
-//! A feed per revolution behind a spindle that does not turn as fast as it was told.
+//! Tests of a feed per revolution behind a spindle that does not turn as fast as it was told.
 
 use super::bench::{Bench, config};
 use crate::testing::{blocks, mill, planned};

@@ -1,4 +1,4 @@
-//! Spindle and coolant stop with the motion.
+//! Tests of spindle and coolant, which stop with the motion.
 
 use super::bench::{Bench, config};
 use crate::config::Config;

@@ -1,4 +1,4 @@
-//! Holes that are tapped behind a spindle that takes its time to turn back.
+//! Tests of holes that are tapped behind a spindle that takes its time to turn back.
 
 use super::bench::{Bench, config};
 use crate::config::Config;

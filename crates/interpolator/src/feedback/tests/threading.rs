@@ -1,4 +1,4 @@
-//! Passes of threads behind a spindle that is as spindles are.
+//! Tests of thread passes behind the spindle of the plant.
 //!
 //! Each sample holds a setpoint against the angle that the spindle really has when it applies.
 

@@ -1,4 +1,4 @@
-//! What goes wrong with drives, at any moment.
+//! Tests of faults of the drives, at any moment.
 
 use super::bench::{Bench, numbers};
 use glidepath_link::{Command, EndOfEpoch, FaultCause, MachineState, Power};

@@ -1,4 +1,4 @@
-//! Single block, stop at the end of the block, steps.
+//! Tests of single block, stop at the end of the block, and steps.
 
 use super::planned::{planned, program};
 use super::*;

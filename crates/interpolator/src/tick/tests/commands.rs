@@ -1,4 +1,4 @@
-//! What the operator commands.
+//! Tests of the operator's commands.
 
 use super::*;
 

@@ -1,4 +1,4 @@
-//! Moving by hand.
+//! Tests of moving by hand.
 
 use super::*;
 use crate::config::SoftLimits;

@@ -1,4 +1,4 @@
-//! Away from a held path by hand, and back to it.
+//! Tests of jogs away from a held path, and back to it.
 
 use super::jog::{Hand, settle};
 use super::*;

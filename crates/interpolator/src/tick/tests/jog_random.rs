@@ -1,4 +1,5 @@
-//! Whatever clients demand, in whatever order: limits, travel, and the stop after the last of it.
+//! Tests of random demands for jogs, in any order: limits, travel, and the stop after the last of
+//! it.
 
 use super::jog::{Hand, jogged, three_axes};
 use super::*;

@@ -1,5 +1,5 @@
-//! Commands and supply with motion as the planner makes it: polylines with rounded corners, arcs'
-//! worth of short chords, exact stops, dwells.
+//! Tests of commands and supply with motion as the planner makes it: polylines with rounded
+//! corners, arcs' worth of short chords, exact stops, dwells.
 
 use super::*;
 use glidepath_geometry::Segment;

@@ -1,4 +1,4 @@
-//! Back along the path, and onward again.
+//! Tests of going back along the path, and onward again.
 
 use super::planned::{planned, program};
 use super::*;

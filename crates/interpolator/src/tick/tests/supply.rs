@@ -1,4 +1,4 @@
-//! Planners that are slow, die, and come back.
+//! Tests of the supply: planners that are slow, die, and come back.
 
 use super::*;
 use crate::supply::Supply;
