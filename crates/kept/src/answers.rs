@@ -1,5 +1,6 @@
-//! What the machine answered a program that asked its inputs and its probe, in the order in which
-//! it asked. With it the program can be read again up to where it was left, as it was then.
+//! The journal of answers: what the machine answered a program that asked its inputs and its probe,
+//! in the order in which it asked. With it the program can be read again up to where it was left,
+//! as it was then.
 //!
 //! ```text
 //!   # glidepath answers version 1 program 00c0ffee00c0ffee
@@ -26,7 +27,7 @@ const HEAD: &str = "# glidepath answers version 1 program";
 /// comes later is not kept, and a program cannot be taken up again behind it.
 const MOST_BYTES: usize = 8 << 20;
 
-/// What was said.
+/// The content of an answer: the value of an input, or the end of a probing move.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Said {
     /// What an input was, as the program reads it.

@@ -1,9 +1,9 @@
-//! Why what is kept cannot be read or written.
+//! The errors of reading or writing what is kept.
 
 use std::io;
 use thiserror::Error;
 
-/// Why what is kept cannot be read or written.
+/// The reason why what is kept cannot be read or written.
 #[derive(Debug, Error)]
 pub enum KeptError {
     /// The system refuses to read or write a file.

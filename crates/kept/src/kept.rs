@@ -1,4 +1,4 @@
-//! What is kept.
+//! The state that a machine keeps over a restart.
 
 use serde::{Deserialize, Serialize};
 
@@ -57,7 +57,7 @@ pub struct Offsets {
     pub systems: [System; SYSTEMS],
 }
 
-/// Where the machine was last known to rest. For people: no position is taken from it.
+/// The place where the machine was last known to rest. For people: no position is taken from it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Rest {

@@ -1,6 +1,6 @@
-//! What a machine keeps over a restart: coordinate systems, reference positions, the offset of G92,
-//! what programs made of the tool table, where the machine rested last, and what it answered the
-//! program under way.
+//! The state that a machine keeps over a restart: coordinate systems, reference positions, the
+//! offset of G92, what programs made of the tool table, where the machine rested last, and what it
+//! answered the program under way.
 //!
 //! ```text
 //!   Kept ─text──▶ checksum, version, generation ─Store─▶ kept.new ─fsync─▶ rename ─fsync folder─▶ done

@@ -1,4 +1,5 @@
-//! The few things that are done with files, so that a test can let the power go at each of them.
+//! The storage: the few things that are done with files, so that a test can let the power go at
+//! each of them.
 
 use std::io;
 

@@ -1,4 +1,4 @@
-//! Generations in two files that take turns.
+//! The store of generations, in two files that take turns.
 
 use crate::error::KeptError;
 use crate::kept::Kept;

@@ -1,5 +1,5 @@
-//! What is kept as text: a line with version, generation and checksum, and TOML behind it. Numbers
-//! are the shortest that read back to the same bits.
+//! The text form of a generation: a line with version, generation and checksum, and TOML behind it.
+//! Numbers are the shortest that read back to the same bits.
 
 use crate::error::KeptError;
 use crate::kept::Kept;

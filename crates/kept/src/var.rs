@@ -35,7 +35,7 @@ pub struct Imported {
     pub others: Vec<(u32, f64)>,
 }
 
-/// What is wrong with a parameter file.
+/// An error in a parameter file.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("line {line}: {reason}")]
 pub struct VarError {

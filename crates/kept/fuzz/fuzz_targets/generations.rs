@@ -1,4 +1,5 @@
-//! Whatever is in the two files: it is read or refused, and what is read can be written again.
+//! The fuzz target: whatever is in the two files: it is read or refused, and what is read can be
+//! written again.
 #![no_main]
 
 use glidepath_kept::{Kept, SLOTS, Storage, Store};

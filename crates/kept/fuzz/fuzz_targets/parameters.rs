@@ -1,5 +1,5 @@
-//! Any text is a parameter file of LinuxCNC or is refused with its line; what is read can be written
-//! and read again.
+//! The fuzz target: any text is a parameter file of LinuxCNC or is refused with its line; what is
+//! read can be written and read again.
 #![no_main]
 
 use glidepath_kept::var::{Units, export, import};

@@ -1,4 +1,5 @@
-//! Real files: writers that are killed, one writer at a time, files that are damaged or gone.
+//! Tests on real files: writers that are killed, one writer at a time, files that are damaged or
+//! gone.
 
 #![allow(clippy::expect_used, reason = "a test that fails may panic")]
 #![allow(

@@ -1,4 +1,4 @@
-//! What is kept, whenever the power goes.
+//! Tests of what is kept, whenever the power goes.
 
 mod disk;
 mod files;

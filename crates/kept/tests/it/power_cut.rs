@@ -1,5 +1,5 @@
-//! Power that goes at any step of a write: what is read afterwards is the generation that was
-//! answered last or the one that was being written, whole.
+//! Tests of power that goes at any step of a write: what is read afterwards is the generation that
+//! was answered last or the one that was being written, whole.
 
 #![allow(
     clippy::expect_used,

@@ -1,4 +1,4 @@
-//! Numbers come back to the bit, and LinuxCNC's files in its units.
+//! Tests of the texts: numbers come back to the bit, and LinuxCNC's files in its units.
 
 #![allow(clippy::expect_used, reason = "a test that fails may panic")]
 

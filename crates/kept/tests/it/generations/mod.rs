@@ -1,4 +1,4 @@
-//! What is kept in each generation of a test: every number says which.
+//! The content of each generation of a test: every number says which.
 
 use glidepath_kept::{AXES, Kept, Offsets, Rest, SYSTEMS, System, Tool, UnderWay, Variable};
 
