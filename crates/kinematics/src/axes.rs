@@ -38,7 +38,7 @@ impl AxisList {
         self.has[index]
     }
 
-    /// How many.
+    /// The number of axes.
     #[must_use]
     pub fn len(&self) -> usize {
         self.iter().count()

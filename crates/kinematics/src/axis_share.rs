@@ -1,5 +1,5 @@
-//! How much of their acceleration and jerk axes may use, so that no joint has to do more than it
-//! can.
+//! The share of their acceleration and jerk that axes may use, so that no joint has to do more than
+//! it can.
 //!
 //! Axes are limited one by one, so at a corner all of them may accelerate at once, in any
 //! direction: the accelerations possible are a box. A joint sees a projection of it:
@@ -52,14 +52,14 @@ pub struct AxisShare {
 }
 
 impl AxisShare {
-    /// All of it.
+    /// The whole of the limits.
     pub const FULL: Self = Self {
         acceleration: 1.0,
         jerk: 1.0,
         joints: [None; 2],
     };
 
-    /// What a mechanism leaves anywhere in the travel (mm, degrees) of its axes.
+    /// The share that a mechanism leaves anywhere in the travel (mm, degrees) of its axes.
     #[must_use]
     pub fn over(
         mechanism: &Mechanism,

@@ -1,4 +1,4 @@
-//! Two fixed motors drive X and Y together by one belt.
+//! CoreXY kinematics: two fixed motors drive X and Y together by one belt.
 
 use crate::machine::{AxisSeries, Conditioning, JointSeries, JointVector, Kinematics};
 use crate::trivial::{pass_back, pass_through};

@@ -1,8 +1,9 @@
-//! Why a position has no joints, or joints no position.
+//! The errors of the maps between axes and joints: why a position has no joints, or joints no
+//! position.
 
 use thiserror::Error;
 
-/// Why a map failed, or what forbids a position.
+/// The reason why a map failed, or why a position is forbidden.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum KinematicsError {
     /// No position of the joints brings the tool there.

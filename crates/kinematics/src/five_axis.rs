@@ -1,4 +1,4 @@
-//! Two rotary axes with control of the tool's centre point.
+//! Five-axis kinematics: two rotary axes with control of the tool's centre point.
 //!
 //! The program gives the tip of the tool in the coordinates of the work, X Y Z, and the two angles;
 //! the linear joints follow the work (turned by tables) and the tip (swung by heads):

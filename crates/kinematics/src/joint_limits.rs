@@ -1,4 +1,5 @@
-//! What each joint can do.
+//! The limits of the joints (position, velocity, acceleration, jerk), and the check of a motion
+//! against them.
 
 use crate::{JOINTS, JointMotion};
 use core::fmt;
@@ -33,7 +34,7 @@ impl JointLimit {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JointLimits(pub [JointLimit; JOINTS]);
 
-/// What a limit is about.
+/// The quantity that a limit is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Quantity {
     /// Position against the lower end of the joint's range.

@@ -1,4 +1,4 @@
-//! From the axes of a program to the joints of a mechanism and back.
+//! The maps from the axes of a program to the joints of a mechanism and back.
 //!
 //! A program speaks of the tool: X Y Z of its tip, A B C of its orientation. A drive moves a
 //! *joint*: the length of a strut, the height of a carriage, the angle of a table. This crate

@@ -1,4 +1,5 @@
-//! Three carriages on vertical towers hold the tool by rods of equal length.
+//! Linear delta kinematics: three carriages on vertical towers hold the tool by rods of equal
+//! length.
 //!
 //! The effector does not turn, so each rod is a link from a tower, moved inwards by the effector's
 //! own radius, to the tool's point:

@@ -1,4 +1,5 @@
-//! What every mechanism can do.
+//! The trait of every mechanism (axes to joints and back, conditioning, admission), and its
+//! vectors.
 
 use crate::KinematicsError;
 use glidepath_geometry::number::Series;
@@ -29,8 +30,9 @@ pub struct JointMotion {
     pub acceleration: JointVector,
 }
 
-/// How well the joints hold the tool: singular values of the Jacobian ∂q/∂x, in which rotations are
-/// divided by a length of the mechanism so that all its entries are pure numbers.
+/// The conditioning of a pose, which says how well the joints hold the tool: singular values of the
+/// Jacobian ∂q/∂x, in which rotations are divided by a length of the mechanism so that all its
+/// entries are pure numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Conditioning {
     /// Largest over smallest; infinite at a singularity.

@@ -1,4 +1,4 @@
-//! One of the mechanisms, chosen when a machine is configured.
+//! The mechanism of a machine: one of all, chosen by the configuration.
 
 use crate::machine::{AxisSeries, Conditioning, JointMotion, JointSeries, JointVector, Kinematics};
 use crate::{

@@ -1,4 +1,4 @@
-//! Speed along a path at which joints keep their limits whatever the axes do within theirs.
+//! The speed along a path at which joints keep their limits whatever the axes do within theirs.
 //!
 //! With the direction d of the path, |ẋ| along it v, and axes that keep their accelerations A_k and
 //! jerks J_k,
@@ -33,7 +33,7 @@ const LEAST_R: f64 = 0.01;
 
 type Square = SMatrix<f64, AXES, AXES>;
 
-/// What the speeds of a machine are computed from.
+/// The mechanism, its limits and the axes' rates, from which speeds along a path are computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PathCaps {
     /// The mechanism.
@@ -55,7 +55,7 @@ pub struct Heading {
     pub rotary_spread: f64,
 }
 
-/// What belongs to a place.
+/// The caps at a place.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlaceCaps {
     caps: PathCaps,
@@ -68,7 +68,7 @@ pub struct PlaceCaps {
 }
 
 impl PathCaps {
-    /// What belongs to a place, and hardly changes over a millimetre or a degree.
+    /// The caps at a place; they hardly change over a millimetre or a degree.
     ///
     /// # Errors
     /// A position out of reach.

@@ -1,4 +1,5 @@
-//! Three arms on a fixed base swing forearms that hold a platform which does not turn.
+//! Rotary delta kinematics: three arms on a fixed base swing forearms that hold a platform which
+//! does not turn.
 //!
 //! In the vertical plane of one arm, with u outwards and w across, the knee is on a circle of the
 //! upper arm's length and at the forearm's length from the platform's joint:

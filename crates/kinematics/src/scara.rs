@@ -1,4 +1,4 @@
-//! Two arms in the plane, a lift and a wrist.
+//! SCARA kinematics: two arms in the plane, a lift and a wrist.
 
 use crate::machine::{AxisSeries, Conditioning, JointSeries, JointVector, Kinematics};
 use crate::space::RAD;
@@ -7,7 +7,7 @@ use glidepath_geometry::AxisVector;
 use glidepath_geometry::number::{Number, Series};
 use nalgebra::Matrix2;
 
-/// Which way the elbow bends.
+/// The side to which the elbow bends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Elbow {
     /// J1 > 0.

@@ -1,4 +1,4 @@
-//! Speed along a path that joints allow.
+//! The highest speed along a path that the joints allow, and the accelerations possible at a speed.
 //!
 //! Along a path with position s, a joint moves by q̇ = q′ ṡ and q̈ = q′ s̈ + q″ ṡ². Velocity
 //! limits cap ṡ at once. Acceleration limits leave, at each ṡ, an interval of s̈ for every joint;

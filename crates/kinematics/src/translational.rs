@@ -1,4 +1,5 @@
-//! Six struts whose universal joints keep the platform from turning (6-UPU).
+//! Kinematics of the translational hexapod: six struts whose universal joints keep the platform
+//! from turning (6-UPU).
 //!
 //! With the outer axes of all universal joints parallel, and the inner ones, the platform only
 //! translates: three degrees of freedom, held by six drives of which three are redundant. The
@@ -49,8 +50,9 @@ impl TranslationalHexapod {
         ]
     }
 
-    /// How far six measured lengths are from being possible, mm: 0 for lengths of one position. The
-    /// sums of squares of opposite struts are all equal, and so are those of every second strut.
+    /// The distance of six measured lengths from possible ones, mm: 0 for lengths of one position.
+    /// The sums of squares of opposite struts are all equal, and so are those of every second
+    /// strut.
     #[must_use]
     pub fn closure_mm(&self, joints: &JointVector) -> f64 {
         let squares: [f64; STRUTS] = core::array::from_fn(|k| joints[k] * joints[k]);

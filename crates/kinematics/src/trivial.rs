@@ -1,4 +1,4 @@
-//! Each axis has a drive of its own.
+//! Trivial kinematics: each axis has a drive of its own.
 
 use crate::machine::{AxisSeries, Conditioning, JointMotion, JointSeries, JointVector, Kinematics};
 use crate::{AxisList, JOINTS, KinematicsError};

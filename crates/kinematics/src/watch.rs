@@ -1,4 +1,5 @@
-//! A motion judged period by period, in the space of the joints.
+//! The judge of a motion in the space of the joints, period by period: reach, singularities,
+//! limits.
 
 use crate::{
     JointLimits, JointMotion, JointVector, JointViolation, Kinematics, KinematicsError, Mechanism,
@@ -6,7 +7,7 @@ use crate::{
 use glidepath_geometry::AxisVector;
 use thiserror::Error;
 
-/// What a mechanism cannot do.
+/// A fault of a motion: what the mechanism cannot do.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum JointFault {
     /// The mechanism may not go there.

@@ -1,4 +1,4 @@
-//! Where a hexapod must not go.
+//! The admission of a position to a hexapod: which poses its build and its singularities forbid.
 
 use super::struts::{Hexapod, STRUTS};
 use crate::machine::MAX_CONDITION;

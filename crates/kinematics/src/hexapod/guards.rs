@@ -1,6 +1,6 @@
-//! What the build of a hexapod forbids.
+//! The restrictions that the build of a hexapod puts on its poses.
 
-/// What the build of a hexapod forbids.
+/// The restrictions that the build of a hexapod puts on its poses.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Guards {
     /// Largest angle between a strut and the normal of the base, degrees.

@@ -1,4 +1,5 @@
-//! Six struts of variable length between a fixed base and a moving platform (6-UPS, Stewart-Gough).
+//! Hexapod kinematics: six struts of variable length between a fixed base and a moving platform
+//! (6-UPS, Stewart-Gough).
 //!
 //! ```text
 //!            b_i ●───── platform, pose (p, R)       strut i:  l_i = |p + R b_i − a_i|

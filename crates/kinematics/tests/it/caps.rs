@@ -1,4 +1,5 @@
-//! What keeps joints inside their limits: shares of the axes' limits, and speeds along a path.
+//! Tests of what keeps joints inside their limits: shares of the axes' limits, and speeds along a
+//! path.
 
 use crate::support::*;
 use glidepath_geometry::{Axis, AxisVector};

@@ -1,4 +1,4 @@
-//! Check vectors of five-axis machines.
+//! Tests by check vectors of five-axis machines.
 
 #![allow(clippy::unwrap_used, reason = "a test")]
 

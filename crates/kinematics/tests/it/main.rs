@@ -1,4 +1,4 @@
-//! Mechanisms, held against vectors, and there and back.
+//! Tests of mechanisms, held against vectors, and there and back.
 
 mod caps;
 mod five_axis;

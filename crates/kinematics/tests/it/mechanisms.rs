@@ -1,4 +1,4 @@
-//! What holds for every mechanism, all over its workspace.
+//! Tests of what holds for every mechanism, all over its workspace.
 
 use crate::support::*;
 use glidepath_geometry::{Axis, AxisVector};

@@ -1,4 +1,4 @@
-//! Every check vector of a mechanism.
+//! Tests by every check vector of a mechanism.
 
 #![allow(clippy::unwrap_used, reason = "a test")]
 
