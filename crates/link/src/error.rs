@@ -1,4 +1,4 @@
-//! What can go wrong with a port.
+//! The error type of ports and transports: why a port could not be made or used.
 
 use crate::RecordError;
 use std::io;
@@ -7,7 +7,7 @@ use std::path::Path;
 /// An error of the transport underneath.
 pub type BoxedError = Box<dyn core::error::Error + Send + Sync>;
 
-/// Why a port could not be made or used.
+/// The reason why a port could not be made or used.
 #[derive(Debug, thiserror::Error)]
 pub enum LinkError {
     /// The directory for the instance's files cannot be used.

@@ -36,7 +36,7 @@ pub(crate) const JOG_DEPTH: usize = 4;
 /// Clients of a request-response service.
 pub(crate) const CLIENTS: usize = 16;
 
-/// How much the services hold. All processes of an instance use the same.
+/// The capacity of the services. All processes of an instance use the same.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Capacity {
     /// Frames under way from planner to interpolator, ≥ 2.

@@ -1,4 +1,5 @@
-//! Foreign bytes: decoding never panics, and what it lets through is usable and encodes to itself.
+//! The fuzz target: foreign bytes: decoding never panics, and what it lets through is usable and
+//! encodes to itself.
 //!
 //! `cargo +nightly fuzz run decode` in `crates/link`.
 

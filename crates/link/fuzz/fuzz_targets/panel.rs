@@ -1,5 +1,5 @@
-//! Foreign bytes in the files of the operator's panel, with a right checksum or without: whoever
-//! serves them does not die, and answers what is a request.
+//! The fuzz target: foreign bytes in the files of the operator's panel, with a right checksum or
+//! without: whoever serves them does not die, and answers what is a request.
 //!
 //! `cargo +nightly fuzz run panel` in `crates/link`.
 

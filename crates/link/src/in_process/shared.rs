@@ -1,4 +1,4 @@
-//! What the ports of a service have in common: its queue, behind a lock.
+//! The queue that the ports of a service share, behind a lock.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 

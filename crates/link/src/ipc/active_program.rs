@@ -1,4 +1,4 @@
-//! Which program is executed: a note that its planner leaves for whoever shows the machine.
+//! The note of the program in execution, which its planner leaves for whoever shows the machine.
 //!
 //! A status has the fingerprint of the program, and no room for its name. So a planner writes down what
 //! has that fingerprint, in a file of the instance's directory, before it publishes the first frame. The
@@ -65,7 +65,7 @@ impl ActiveProgram {
         }
     }
 
-    /// What it is called, for people: the last part of its path, in one line.
+    /// The name of the program, for people: the last part of its path, in one line.
     #[must_use]
     pub fn name(&self) -> String {
         let name = self.file.file_name().unwrap_or(self.file.as_os_str());

@@ -1,4 +1,5 @@
-//! Where an instance keeps its files.
+//! The settings by which a process joins an instance, and the directory where the instance keeps
+//! its files.
 
 use super::directory;
 use crate::{Capacity, LinkError};
@@ -9,7 +10,7 @@ use std::path::{Path, PathBuf};
 /// Longest name of an instance.
 const NAME_MAX: usize = 32;
 
-/// Which instance to take part in. Processes with the same instance and root path meet.
+/// The instance to take part in. Processes with the same instance and root path meet.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct LinkConfig {
     /// Name of the instance: letters, digits, `-` and `_`, at most 32.

@@ -1,4 +1,4 @@
-//! Which process is the interpolator of an instance, and how to reach it by signal.
+//! The lock that the interpolator of an instance holds, and the way to find and signal its holder.
 //!
 //! The interpolator holds a lock on a file in the instance's directory for as long as it lives. Who
 //! holds it is asked of the kernel (`F_GETLK`), which names a living process or none: there is no

@@ -49,7 +49,7 @@ use node::{Session, TopicSettings};
 use panel::{Panel, StatusBoard};
 use std::rc::Rc;
 
-/// One thread's part in an instance. It and its ports stay in that thread.
+/// The part of one thread in an instance. It and its ports stay in that thread.
 #[derive(Debug)]
 pub struct Ipc {
     session: Rc<Session>,

@@ -1,4 +1,5 @@
-//! Who is there, and what is left when nobody is.
+//! The presence lock of an instance: which processes take part, and the removal of what the last
+//! one left.
 //!
 //! Every process of an instance holds a shared lock on a file of the instance for as long as it has
 //! ports; the kernel releases it however the process ends. Whoever gets the exclusive lock knows

@@ -1,4 +1,4 @@
-//! Commands and segments over request-response.
+//! The ports of commands and segments over request-response.
 
 use super::node::{ExchangeService, Session};
 use super::service::PrivateIpc;

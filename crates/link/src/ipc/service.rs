@@ -1,5 +1,5 @@
-//! The kind of service of an instance: iceoryx2's between processes, with its memory in files that
-//! are the user's alone.
+//! The service type of an instance: that of iceoryx2 between processes, with its memory in files
+//! that are the user's alone.
 
 use super::storage::Storage;
 use core::fmt::Debug;

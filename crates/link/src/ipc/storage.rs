@@ -1,4 +1,4 @@
-//! Memory that processes share, for iceoryx2: files in the instance's directory.
+//! The memory that processes share, for iceoryx2: files in the instance's directory.
 //!
 //! iceoryx2's own storage for this is in `/dev/shm`, where others can make files too, and open one
 //! of these before it is made private; and it maps files whose room nobody has taken yet. This one

@@ -1,4 +1,4 @@
-//! Frames, setpoints and status over publish-subscribe.
+//! The ports of frames, setpoints and status over publish-subscribe.
 
 use super::node::{Session, TopicService};
 use super::service::PrivateIpc;

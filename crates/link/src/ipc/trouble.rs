@@ -1,4 +1,5 @@
-//! What the storage knows of a failure, on its way past iceoryx2, whose errors have no room for it.
+//! The cause of a failed call of iceoryx2, kept per thread: the storage notes it, because the
+//! errors of iceoryx2 have no room for it.
 
 use crate::LinkError;
 use core::cell::RefCell;

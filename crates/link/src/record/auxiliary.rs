@@ -1,4 +1,5 @@
-//! Interpolator to whatever works spindle, coolant, tools and outputs: what they are to do now.
+//! The record of spindle, coolant, tool and outputs, from the interpolator to whatever works them:
+//! what they are to do now.
 
 use super::check::{Fields, RecordError};
 use super::code::coded;
@@ -10,7 +11,7 @@ use iceoryx2::prelude::ZeroCopySend;
 pub const ANALOG_OUTPUTS: usize = 64;
 
 coded! {
-    /// What the spindle is to do.
+    /// The commanded state of the spindle.
     pub enum SpindleState {
         /// Stand (M5), or nothing was said since the interpolator began.
         Stopped = 0,
@@ -23,7 +24,7 @@ coded! {
     }
 }
 
-/// What of the coolant is to be on, one bit each.
+/// The coolants that are to be on, one bit each.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Coolant(pub u32);
 
@@ -42,8 +43,8 @@ impl Coolant {
     }
 }
 
-/// What spindle, coolant, tools and outputs are to do now: all that the events of setpoints have
-/// come to since the interpolator began.
+/// The commanded state of spindle, coolant, tools and outputs: all that the events of setpoints
+/// have come to since the interpolator began.
 ///
 /// Events are edges, and whoever comes late, or loses one, obeys this instead: it is latched, and a
 /// subscriber gets the last one at once.
@@ -91,7 +92,7 @@ pub struct Auxiliary {
 }
 
 impl Auxiliary {
-    /// What the spindle is to do.
+    /// The commanded state of the spindle.
     ///
     /// # Errors
     ///
@@ -100,7 +101,7 @@ impl Auxiliary {
         Fields(Self::NAME).code("spindle", self.spindle)
     }
 
-    /// What of the coolant is to be on.
+    /// The coolants that are to be on.
     #[must_use]
     pub const fn coolant(&self) -> Coolant {
         Coolant(self.coolant)

@@ -1,8 +1,8 @@
-//! Checks of what another process wrote.
+//! The checks of records that another process wrote, and their errors.
 
 use super::{OVERRIDE_MAX, Record, code::Code};
 
-/// Why a record is not to be used. `record` is its name with version.
+/// The reason why a record is not to be used. `record` is its name with version.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum RecordError {
     /// The bytes are of another length: another version, or cut short.

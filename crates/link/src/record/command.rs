@@ -1,4 +1,4 @@
-//! Anybody to interpolator: what to do, and the answer.
+//! The command record, from any client to the interpolator, and the record of its answer.
 
 use super::check::{Fields, RecordError};
 use super::code::coded;
@@ -128,7 +128,7 @@ pub enum Command {
     },
 }
 
-/// Which event: no two have the same.
+/// The identity of an event: no two have the same.
 #[repr(C)]
 #[derive(
     Debug, Clone, Copy, PartialEq, Eq, Default, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend,
@@ -398,7 +398,7 @@ impl Record for CommandRequest {
 }
 
 coded! {
-    /// Why a command was refused.
+    /// The reason why a command was refused.
     pub enum CommandRefusal {
         /// Unknown command or argument out of range; the text says which.
         Malformed = 1,

@@ -1,4 +1,4 @@
-//! Events on the wire.
+//! The record of an event.
 //!
 //! In frames and setpoints an event is an [`EventRecord`], with a field for each of its numbers. Where
 //! a record has room for one event alone (an item of a stream, what is awaited), it is a code and one
@@ -12,7 +12,7 @@ use glidepath_program::{CodeWord, EVENTS_MOST, Event, PHASE_STEPS, TAP_DEPTHS_UM
 use iceoryx2::prelude::ZeroCopySend;
 
 coded! {
-    /// What an event is; its value is the speed, tool, M code or value.
+    /// The kind of an event; its value is the speed, tool, M code or value.
     pub enum EventKind {
         /// No event.
         None = 0,

@@ -1,4 +1,5 @@
-//! Servo stack to interpolator: where the joints are, and what the drives know besides.
+//! The feedback record, from a servo stack to the interpolator: where the joints are, and what the
+//! drives know besides.
 
 use super::check::{Fields, RecordError};
 use super::code::coded;
@@ -10,7 +11,7 @@ use iceoryx2::prelude::ZeroCopySend;
 pub const LATCHES: usize = 4;
 
 coded! {
-    /// What a drive does, by the states of CiA 402.
+    /// The state of a drive, by the states of CiA 402.
     pub enum DriveState {
         /// Nothing is known of it; also that of joints which the record does not claim.
         Unknown = 0,
@@ -34,7 +35,7 @@ coded! {
 }
 
 coded! {
-    /// How a latched position was found.
+    /// The way in which a latched position was found.
     pub enum LatchKind {
         /// None yet.
         None = 0,
@@ -47,7 +48,7 @@ coded! {
     }
 }
 
-/// What the spindle does, one bit each.
+/// The state of the spindle, one bit each.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct SpindleFlags(pub u32);
 
@@ -96,8 +97,8 @@ pub struct Latch {
     pub reserved: u32,
 }
 
-/// What a servo stack knows of the joints it drives, at one moment. Several stacks may each send
-/// theirs, for joints of which no two are the same.
+/// The feedback of a servo stack: what it knows of the joints it drives, at one moment. Several
+/// stacks may each send theirs, for joints of which no two are the same.
 ///
 /// To be sent once a period or more often; 1 kHz is good.
 #[repr(C)]
@@ -160,7 +161,7 @@ pub struct Feedback {
 }
 
 impl Feedback {
-    /// What the spindle does.
+    /// The state of the spindle.
     #[must_use]
     pub const fn spindle(&self) -> SpindleFlags {
         SpindleFlags(self.spindle_flags)

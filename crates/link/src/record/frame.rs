@@ -1,4 +1,5 @@
-//! Planner to interpolator: the state of the machine on the grid of program time.
+//! The frame record, from planner to interpolator: the state of the machine on the grid of program
+//! time.
 
 use super::check::{Fields, RecordError};
 use super::{EventRecord, OVERRIDE_MAX, Record, event};

@@ -1,5 +1,5 @@
-//! An operator to the planner's service: a line, or a program in a file, to be executed. And how the
-//! job of a planner stands at the interpolator.
+//! The job record, from an operator to the planner's service: a line, or a program in a file, to be
+//! executed; the record of its answer; and the stages of a job as the interpolator knows them.
 
 use super::check::{Fields, RecordError};
 use super::code::coded;
@@ -7,7 +7,7 @@ use super::{LongText, Record};
 use iceoryx2::prelude::ZeroCopySend;
 
 coded! {
-    /// What is to be executed.
+    /// The kind of a job.
     pub enum JobKind {
         /// The text as a line of a program.
         Line = 1,
@@ -17,7 +17,7 @@ coded! {
 }
 
 coded! {
-    /// What a client wants of a job.
+    /// The wish of a client about a job.
     pub enum JobWish {
         /// It is to be executed. Sent again with the same `client` and `number`, it asks how the job
         /// stands.
@@ -29,7 +29,7 @@ coded! {
     }
 }
 
-/// Something to execute.
+/// A request about a job: to execute a line or a file, or a wish about one handed in before.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
 #[type_name("glidepath.JobRequest.v3")]
@@ -84,7 +84,7 @@ impl JobRequest {
         Fields(Self::NAME).code("kind", self.kind)
     }
 
-    /// What is wanted of it.
+    /// The wish about the job.
     ///
     /// # Errors
     ///
@@ -117,7 +117,7 @@ impl Record for JobRequest {
 }
 
 coded! {
-    /// How a job stands.
+    /// The state of a job, as its client is told.
     pub enum JobState {
         /// It waits for the machine, or is read, checked, planned or executed: the text says which.
         Running = 1,
@@ -138,7 +138,7 @@ coded! {
     }
 }
 
-/// How a job stands.
+/// The answer to a request about a job.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
 #[type_name("glidepath.JobReply.v2")]
@@ -168,7 +168,7 @@ impl JobReply {
         }
     }
 
-    /// How the job stands.
+    /// The state of the job.
     ///
     /// # Errors
     ///
@@ -189,7 +189,7 @@ impl Record for JobReply {
 }
 
 coded! {
-    /// What a planner tells of its job.
+    /// The phase of a job, as its planner tells the interpolator.
     pub enum JobPhase {
         /// It waits for the machine to be ready.
         Waiting = 1,
@@ -201,7 +201,7 @@ coded! {
 }
 
 coded! {
-    /// How the job stands that a planner has told of last.
+    /// The stage of the job that a planner has told of last, at the interpolator.
     pub enum JobStage {
         /// None has told of any.
         None = 0,

@@ -1,4 +1,5 @@
-//! Operator's panel to interpolator: how the axes are to be moved by hand.
+//! The jog record, from an operator's panel to the interpolator: how the axes are to be moved by
+//! hand.
 
 use super::check::{Fields, RecordError};
 use super::code::coded;
@@ -7,7 +8,7 @@ use glidepath_geometry::AXES;
 use iceoryx2::prelude::ZeroCopySend;
 
 coded! {
-    /// How a [`JogDemand`] moves the machine.
+    /// The way in which a [`JogDemand`] moves the machine.
     pub enum JogMode {
         /// Not at all: whoever jogs lets go.
         None = 0,
@@ -24,8 +25,8 @@ coded! {
     }
 }
 
-/// How the axes, or the joints, are to be moved by hand. The latest counts; the first client owns
-/// the axes until they are at rest.
+/// A demand of a client that jogs: how the axes, or the joints, are to be moved by hand. The latest
+/// counts; the first client owns the axes until they are at rest.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
 #[type_name("glidepath.JogDemand.v1")]
@@ -55,7 +56,7 @@ pub struct JogDemand {
 }
 
 impl JogDemand {
-    /// How it moves the machine.
+    /// The way in which it moves the machine.
     ///
     /// # Errors
     ///

@@ -1,4 +1,5 @@
-//! A sender to the planner's service: lines of a program, one after the other, as a job. And what came of them.
+//! The record of program lines, from a sender to the planner's service: lines to be executed one
+//! after the other as one job; and the record of what came of them.
 //!
 //! ```text
 //!   lines ──LinesRequest──► taken ──► read ──► executed
@@ -15,7 +16,7 @@ use iceoryx2::prelude::ZeroCopySend;
 pub const TOLD_SYSTEMS: usize = 9;
 
 coded! {
-    /// What a client wants of a job that is made of lines.
+    /// The wish of a client about a job that is made of lines.
     pub enum LinesWish {
         /// The lines are to be executed. The first of a job that is not known begin it.
         Execute = 1,
@@ -29,7 +30,7 @@ coded! {
 }
 
 impl LinesWish {
-    /// What is wanted of the job as such.
+    /// The wish about the job as such.
     #[must_use]
     pub const fn of_job(self) -> JobWish {
         match self {
@@ -67,7 +68,7 @@ pub struct LinesRequest {
 }
 
 impl LinesRequest {
-    /// What is wanted.
+    /// The wish about the job.
     ///
     /// # Errors
     ///
@@ -91,7 +92,7 @@ impl Record for LinesRequest {
 }
 
 coded! {
-    /// How a job that is made of lines stands.
+    /// The state of a job that is made of lines.
     pub enum LinesState {
         /// The service knows nothing of it, or was asked about none.
         Unknown = 1,
@@ -108,7 +109,7 @@ coded! {
     }
 }
 
-/// What came of lines.
+/// The answer about a job that is made of lines.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
 #[type_name("glidepath.LinesReply.v1")]
@@ -158,7 +159,7 @@ pub struct LinesReply {
 }
 
 impl LinesReply {
-    /// How the job stands.
+    /// The state of the job.
     ///
     /// # Errors
     ///

@@ -1,4 +1,5 @@
-//! Another program to a listening planner: items in program order, and the answers.
+//! The record of one piece of a streamed program, from another program to a listening planner, in
+//! program order.
 
 use super::check::{Fields, RecordError};
 use super::code::coded;
@@ -8,7 +9,7 @@ use glidepath_program::{Item, ItemKind, PathMode, Rate};
 use iceoryx2::prelude::ZeroCopySend;
 
 coded! {
-    /// What a request carries.
+    /// The kind of a request: what it carries.
     pub enum RequestKind {
         /// Start of a stream.
         Open = 1,
@@ -59,7 +60,7 @@ coded! {
     }
 }
 
-/// What a client sends: one request each.
+/// An item that a client streams: one request each.
 #[allow(
     clippy::large_enum_variant,
     reason = "nearly every value of a stream is the large one"
@@ -78,7 +79,7 @@ pub enum StreamItem {
     End,
 }
 
-/// One piece of a stream on its way. Fields a kind does not use are zero.
+/// The record of one piece of a stream. Fields a kind does not use are zero.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
 #[type_name("glidepath.SegmentRequest.v3")]
@@ -213,7 +214,7 @@ impl SegmentRequest {
         self.mode = code.code();
     }
 
-    /// What the request says.
+    /// The item of the request.
     ///
     /// # Errors
     ///

@@ -1,4 +1,4 @@
-//! A listening planner to another program: the answer to each request.
+//! The answer to a streamed item, from a listening planner to the program that streams.
 
 use super::check::{Fields, RecordError};
 use super::code::coded;
@@ -7,7 +7,7 @@ use glidepath_geometry::AXES;
 use iceoryx2::prelude::ZeroCopySend;
 
 coded! {
-    /// Why a request was refused.
+    /// The reason why a request was refused.
     pub enum SegmentRefusal {
         /// Another client's stream is open.
         Busy = 1,

@@ -1,4 +1,4 @@
-//! Interpolator to servo: what to do at one tick.
+//! The setpoint record, from the interpolator to the servo: what the drives are to do at one tick.
 
 use super::check::{Fields, RecordError};
 use super::{
@@ -20,7 +20,7 @@ impl SetpointMarks {
     pub const AFTER_MISSED: Self = Self(1 << 1);
 }
 
-/// What the drives are to do at `apply_ns`.
+/// A setpoint: what the drives are to do at `apply_ns`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
 #[type_name("glidepath.Setpoint.v4")]
@@ -97,7 +97,7 @@ pub struct Setpoint {
 }
 
 impl Setpoint {
-    /// What the interpolator is doing.
+    /// The state of the machine.
     ///
     /// # Errors
     ///
@@ -127,7 +127,7 @@ impl Setpoint {
         self.rest_event().map(EventRecord::event).transpose()
     }
 
-    /// Nothing happens.
+    /// Removes the events: nothing happens.
     pub fn silence(&mut self) {
         for event in self.events.iter_mut().take(self.event_count as usize) {
             *event = EventRecord::default();

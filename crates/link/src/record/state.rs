@@ -1,9 +1,9 @@
-//! What the interpolator is doing, and why it stopped.
+//! The states and codes of a status: what the interpolator is doing, and why it stopped.
 
 use super::code::coded;
 
 coded! {
-    /// What the interpolator is doing.
+    /// The state of the machine: what the interpolator is doing.
     pub enum MachineState {
         /// At rest without an epoch; ready for one: all joints have power and know where they are.
         Idle = 1,
@@ -73,7 +73,7 @@ coded! {
 }
 
 coded! {
-    /// What a probe has found.
+    /// The finding of a probe.
     pub enum ContactKind {
         /// Nothing yet.
         None = 0,
@@ -85,7 +85,7 @@ coded! {
 }
 
 coded! {
-    /// What moves the axes.
+    /// The mode of motion: what moves the axes.
     pub enum MotionMode {
         /// Nothing: no epoch is open, and nobody jogs.
         None = 0,
@@ -103,7 +103,7 @@ coded! {
 }
 
 coded! {
-    /// How the epoch of a status ended.
+    /// The end of the epoch of a status.
     pub enum EndOfEpoch {
         /// No epoch yet.
         None = 0,
@@ -121,7 +121,8 @@ coded! {
 }
 
 coded! {
-    /// Why a frame was refused. The code is the index of its counter in a status, plus one.
+    /// The reason why a frame was refused. The code is the index of its counter in a status, plus
+    /// one.
     pub enum FrameRefusal {
         /// A number is infinite or not a number.
         NotFinite = 1,
@@ -161,7 +162,7 @@ impl FrameRefusal {
     }
 }
 
-/// Why the interpolator stopped by itself. Latched until reset.
+/// The cause of a fault: why the interpolator stopped by itself. Latched until reset.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum FaultCause {
     /// A frame was refused.
@@ -234,7 +235,7 @@ impl FaultCause {
         }
     }
 
-    /// What a code stands for; `None` if this version does not know it.
+    /// The cause of a code; `None` if this version does not know it.
     #[must_use]
     pub const fn from_code(code: u32) -> Option<Self> {
         match code {

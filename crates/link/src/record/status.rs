@@ -1,4 +1,4 @@
-//! Interpolator to everybody: what it does and how well.
+//! The status record, from the interpolator to everybody: what it does and how well.
 
 use super::check::{Fields, RecordError};
 use super::{
@@ -9,7 +9,7 @@ use glidepath_geometry::{AXES, Axis};
 use glidepath_program::Event;
 use iceoryx2::prelude::ZeroCopySend;
 
-/// Which real-time grants the interpolator holds, one bit each.
+/// The real-time grants that the interpolator holds, one bit each.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Grants(pub u32);
 
@@ -58,7 +58,7 @@ pub struct Quantiles {
     pub max_ns: u64,
 }
 
-/// What the interpolator does and how well. Counts are of this life of it.
+/// The status of the interpolator: what it does and how well. Counts are of this life of it.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
 #[type_name("glidepath.Status.v11")]
@@ -234,7 +234,7 @@ pub struct Status {
 }
 
 impl Status {
-    /// What the interpolator is doing.
+    /// The state of the machine.
     ///
     /// # Errors
     ///
@@ -243,7 +243,7 @@ impl Status {
         Fields(Self::NAME).code("state", self.state)
     }
 
-    /// How the epoch ended.
+    /// The end of the epoch.
     ///
     /// # Errors
     ///
@@ -295,7 +295,7 @@ impl Status {
         Fields(Self::NAME).code("power", self.power)
     }
 
-    /// What moves the axes.
+    /// The mode of motion: what moves the axes.
     ///
     /// # Errors
     ///
@@ -304,7 +304,7 @@ impl Status {
         Fields(Self::NAME).code("mode", self.mode)
     }
 
-    /// What the probe has found in this epoch.
+    /// The finding of the probe in this epoch.
     ///
     /// # Errors
     ///
@@ -313,7 +313,7 @@ impl Status {
         Fields(Self::NAME).code("contact_kind", self.contact_kind)
     }
 
-    /// How the job stands that a planner has told of last.
+    /// The stage of the job that a planner has told of last.
     ///
     /// # Errors
     ///

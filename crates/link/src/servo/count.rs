@@ -1,4 +1,4 @@
-//! What arrived, what did not, and what came late.
+//! The counts of a consumer of setpoints: what arrived, what is missing, and what came late.
 
 use crate::Setpoint;
 

@@ -1,4 +1,4 @@
-//! The guard against jumps: what no joint is ever asked to do.
+//! The guard against jumps: it refuses a setpoint whose curve asks for more than a joint may do.
 //!
 //! Setpoints come from another process, and after a gap the joints are elsewhere than the next one
 //! takes them to be. Either way the curve to the next setpoint could ask for more than any drive
@@ -15,8 +15,8 @@ use super::{JointState, quintic};
 use core::fmt;
 use glidepath_geometry::AXES;
 
-/// What a joint may be asked for at most. To be set above the limits that the motion is planned
-/// with, or else every motion at its limit is a jump.
+/// The limits of the guard: what a joint may be asked for at most. To be set above the limits that
+/// the motion is planned with, or else every motion at its limit is a jump.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JumpLimits {
     /// mm/s or °/s, > 0; infinite for no guard.
@@ -36,7 +36,7 @@ impl Default for JumpLimits {
 }
 
 impl JumpLimits {
-    /// What joint limits leave for the guard to catch: a fifth above the velocity and twice the
+    /// The guard's limits above those of a joint: a fifth above the velocity and twice the
     /// acceleration.
     ///
     /// The curve between two setpoints that keep the limits by finite differences goes past them
@@ -50,7 +50,7 @@ impl JumpLimits {
     }
 }
 
-/// What was asked for too much of.
+/// The quantity that a setpoint asked too much of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum JumpOf {
     /// mm/s or °/s.

@@ -64,7 +64,7 @@ use count::Sequel;
 use glidepath_geometry::AXES;
 use player::Player;
 
-/// How a servo behaves when setpoints stay away, or jump.
+/// The settings of a servo: what it does when setpoints stay away, or jump.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ServoSettings {
     /// How long after the time of the last setpoint the joints go on at constant acceleration, ns.
@@ -90,7 +90,7 @@ impl Default for ServoSettings {
     }
 }
 
-/// Why a servo stopped the joints by itself.
+/// The reason why a servo stopped the joints by itself.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum OwnStop {
     /// Setpoints stayed away.
@@ -275,7 +275,7 @@ impl<S: Subscriber<Setpoint>> Servo<S> {
         self.last.as_ref().is_none_or(is_at_rest)
     }
 
-    /// What the joints are to do at a time; `None` before the first setpoint's, and while the drives
+    /// The demand of the joints at a time; `None` before the first setpoint's, and while the drives
     /// are off, until the position was taken over from them. Times do not go back from call to
     /// call.
     pub fn demand(&mut self, now_ns: u64) -> Option<JointStates> {
@@ -318,14 +318,14 @@ impl<S: Subscriber<Setpoint>> Servo<S> {
         });
     }
 
-    /// Why the joints were stopped by the servo itself; `None` if they were not, or setpoints are
-    /// played again.
+    /// The reason why the servo stopped the joints by itself; `None` if they were not, or setpoints
+    /// are played again.
     #[must_use]
     pub const fn stopped(&self) -> Option<&OwnStop> {
         self.stopped.as_ref()
     }
 
-    /// What arrived so far.
+    /// The counts of what arrived so far.
     #[must_use]
     pub const fn counts(&self) -> &ServoCounts {
         &self.counts
@@ -337,7 +337,7 @@ impl<S: Subscriber<Setpoint>> Servo<S> {
         self.last.as_ref()
     }
 
-    /// What was wrong with the last record that failed its check.
+    /// The error of the last record that failed its check.
     #[must_use]
     pub const fn last_refusal(&self) -> Option<&RecordError> {
         self.last_refusal.as_ref()

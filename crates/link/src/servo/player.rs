@@ -1,4 +1,4 @@
-//! Plays setpoints by their time stamps.
+//! The player, which plays setpoints by their time stamps.
 //!
 //! ```text
 //!            now

@@ -1,4 +1,4 @@
-//! Setpoints for a real-time thread.
+//! The ring of setpoints between a port and a real-time thread.
 //!
 //! ```text
 //!   shared memory ──► port ──► thread of its own ──► ring ──► Servo in the real-time thread

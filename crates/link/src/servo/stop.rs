@@ -19,7 +19,7 @@
 
 use super::JointState;
 
-/// What a joint's own stop may use, both > 0.
+/// The limits of a joint's own stop, both > 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StopLimits {
     /// mm/s² or °/s². A joint that accelerates harder already may keep that value.

@@ -1,4 +1,4 @@
-//! Numbers as people read them.
+//! The numbers in texts, as people read them.
 
 /// Fewest digits that are shown.
 const FEW: i32 = 3;

@@ -46,7 +46,7 @@ impl FaultCause {
         }
     }
 
-    /// What to do about it. It ends in what clears the fault.
+    /// The remedy of the fault: what to do about it. It ends in what clears the fault.
     #[must_use]
     pub const fn remedy(self) -> &'static str {
         match self {
@@ -154,7 +154,7 @@ impl FaultCause {
 }
 
 impl FrameRefusal {
-    /// What is wrong with the frame.
+    /// The text of the refusal: what is wrong with the frame.
     #[must_use]
     pub const fn text(self) -> &'static str {
         match self {

@@ -1,4 +1,4 @@
-//! What people are told of a machine: one text for each state, fault and refusal.
+//! The texts that people are told about a machine: one for each state, fault and refusal.
 //!
 //! Whoever shows one of them (status, log, page, planner, consumers in other languages) takes its
 //! words from here, so that one thing is never told in two ways. A text is a clause that stands in a

@@ -1,6 +1,7 @@
-//! Why a command is not possible as things are.
+//! The preconditions of commands that can be unmet, each with its text: why a command is not
+//! possible as things are.
 
-/// Why a command is not possible as things are.
+/// A precondition of a command that is not met: why the command is not possible as things are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Objection {
     /// A hold of joints on their way home.
@@ -121,7 +122,7 @@ impl Objection {
         Self::AnotherEvent,
     ];
 
-    /// Why, and behind a semicolon what to do; short enough for a record.
+    /// The text: why, and behind a semicolon what to do; short enough for a record.
     #[must_use]
     pub const fn text(self) -> &'static str {
         match self {

@@ -52,7 +52,7 @@ impl CommandRefusal {
 }
 
 impl CommandReply {
-    /// Why the command was refused.
+    /// The reason why the command was refused, as text.
     #[must_use]
     pub fn why(&self, refusal: CommandRefusal) -> String {
         let said = self.message.as_str();

@@ -4,8 +4,8 @@ use super::AtRest;
 use crate::record::{EndOfEpoch, MachineState, MotionMode, Power, RecordError, Status};
 use core::fmt;
 
-/// What ended a motion, or a job, where an operator took the power from the drives. The status' last
-/// error has it for the motion that was ended so.
+/// The text of what ended a motion, or a job, where an operator took the power from the drives. The
+/// status' last error has it for the motion that was ended so.
 pub const SWITCHED_OFF: &str = "the drives were switched off";
 /// The same where the interpolator was told to end.
 pub const TOLD_TO_END: &str = "the interpolator was told to end";
@@ -34,7 +34,8 @@ impl MachineState {
         }
     }
 
-    /// What the machine does, and what goes on from there where somebody has to do it.
+    /// The text of the state: what the machine does, and what goes on from there where somebody has
+    /// to do it.
     #[must_use]
     pub const fn text(self) -> &'static str {
         match self {

@@ -1,4 +1,4 @@
-//! One suite for both transports: what it promises holds for each.
+//! Tests of both transports by one suite: what it promises holds for each.
 #![allow(
     clippy::unwrap_used,
     clippy::cast_precision_loss,

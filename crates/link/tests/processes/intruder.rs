@@ -1,4 +1,4 @@
-//! Another user of the host, who wants to have a say.
+//! Tests of another user of the host, who wants to have a say.
 //!
 //! Skipped, with a word about it, unless root runs it.
 

@@ -1,4 +1,5 @@
-//! Instances do not meet, other versions and other users' directories are refused.
+//! Tests of isolation: instances do not meet, other versions and other users' directories are
+//! refused.
 
 use crate::instance::{Instance, frame, take, wait_for};
 use glidepath_link::{Delivery, Ipc, LinkConfig, LinkError, Transport, remove_leftovers};

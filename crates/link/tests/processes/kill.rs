@@ -1,4 +1,4 @@
-//! Every role, killed at its worst moment, and what the others see.
+//! Tests of every role, killed at its worst moment, and what the others see.
 
 use crate::instance::{Instance, frame, reply_to, take, wait_for};
 use crate::peer::{CAPACITY, Peer};

@@ -1,4 +1,4 @@
-//! Records say back what was put in, bit for bit, and bad ones are refused.
+//! Tests of records: they say back what was put in, bit for bit, and bad ones are refused.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use bytemuck::Zeroable;

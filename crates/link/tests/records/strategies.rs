@@ -1,4 +1,4 @@
-//! Any frame, any item of a stream, any command.
+//! The strategies of random records: any frame, any item of a stream, any command.
 
 use glidepath_geometry::{Arc, AxisVector, Plane, Quintic, Segment};
 use glidepath_link::{ALL_JOINTS, Command, EventId, OVERRIDE_MAX, StreamItem};

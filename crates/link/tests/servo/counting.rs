@@ -1,4 +1,4 @@
-//! What is counted, and what is not played.
+//! Tests of the counts: what is counted, and what is not played.
 
 use super::*;
 use glidepath_link::servo::JointStates;

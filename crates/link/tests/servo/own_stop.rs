@@ -1,4 +1,4 @@
-//! Stops that are asked for, setpoints that jump, and where a servo begins again.
+//! Tests of stops that are asked for, setpoints that jump, and where a servo begins again.
 
 use super::references::standing;
 use super::{Bench, PERIOD_NS, START_NS, assert_continuous, ns_of, setpoint, state, truth};

@@ -1,4 +1,4 @@
-//! Setpoints are played at their times, and what a gap in them does.
+//! Tests of the player: setpoints are played at their times, and what a gap in them does.
 
 use super::*;
 

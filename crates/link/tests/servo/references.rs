@@ -1,4 +1,4 @@
-//! Positions that are taken over, and not gone to.
+//! Tests of positions that are taken over, and not gone to.
 
 use super::*;
 use glidepath_link::servo::JumpLimits;

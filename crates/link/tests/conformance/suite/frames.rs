@@ -1,4 +1,4 @@
-//! The frame queue.
+//! The promises about the frame queue.
 
 use super::{CAPACITY, Fixture, WATCHDOG, drain, frame, take, wait_for};
 use core::sync::atomic::{AtomicBool, Ordering};

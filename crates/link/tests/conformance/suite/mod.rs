@@ -1,4 +1,5 @@
-//! What every transport does. Each function is one promise, checked through the ports alone.
+//! The suite of promises that every transport keeps. Each function is one promise, checked through
+//! the ports alone.
 
 mod frames;
 mod requests;

@@ -1,4 +1,4 @@
-//! Commands and segments.
+//! The promises about commands and segments.
 
 use super::{Fixture, wait_for};
 use bytemuck::Zeroable;

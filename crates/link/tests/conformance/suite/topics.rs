@@ -1,4 +1,4 @@
-//! Setpoints and status.
+//! The promises about setpoints and status.
 
 use super::{CAPACITY, Fixture, drain, take};
 use bytemuck::Zeroable;
