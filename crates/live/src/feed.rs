@@ -1,4 +1,4 @@
-//! What happens, for every page that is open.
+//! The feed of messages to every page that is open.
 
 use std::collections::VecDeque;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};

@@ -1,4 +1,4 @@
-//! Who may ask what: every request is judged here before anybody else sees it.
+//! The guard of the server: every request is judged here before anybody else sees it.
 //!
 //! The page is given out on loopback, but that alone keeps nobody away. Any page in the same browser
 //! can send requests to loopback; a page of a foreign name can have that name lead to loopback
@@ -27,7 +27,7 @@ pub const UPLOAD: &str = "/api/upload";
 /// What is told or done is below this path.
 pub const API: &str = "/api/";
 
-/// Why a request is refused.
+/// The reason why a request is refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum Refusal {
     /// The target is no path of this server.

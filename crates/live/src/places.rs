@@ -1,5 +1,6 @@
-//! Who is being answered at a time. Any user of the host can open connections, and leave them open: so
-//! whoever has not shown the token gives way to whoever comes later, and takes no place from those who have.
+//! The places of the server: who is being answered at a time. Any user of the host can open
+//! connections, and leave them open: so whoever has not shown the token gives way to whoever comes
+//! later, and takes no place from those who have.
 
 use std::collections::VecDeque;
 use std::net::{Shutdown, TcpStream};

@@ -1,4 +1,4 @@
-//! What a browser asks, as it is on the wire.
+//! A request of a browser, as it is on the wire.
 
 use std::io::{self, Read};
 

@@ -1,9 +1,9 @@
-//! What is answered.
+//! An answer of the server.
 
 use std::io::{self, Write};
 use std::sync::Arc;
 
-/// How it went.
+/// The status of an answer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Status {
     /// 200.
@@ -36,7 +36,7 @@ impl Status {
     }
 }
 
-/// What the body is.
+/// The type of a body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ContentType {
     /// A page.

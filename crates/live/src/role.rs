@@ -1,6 +1,6 @@
-//! What one may who has shown a token.
+//! The roles of those who have shown a token: what each may.
 
-/// What a page may, each with all that the one before may.
+/// A role of a page. Each may all that the one before may.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Role {
     /// See the machine.
@@ -26,7 +26,7 @@ impl Role {
     }
 }
 
-/// Who asks: what the token allows, and which page it is.
+/// The caller of a request: what the token allows, and which page it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Caller {
     /// What it may.

@@ -11,7 +11,8 @@ pub const SILENCE: Duration = Duration::from_secs(5);
 /// A page that has asked for the seat and does not ask any more does not want it.
 const WISH: Duration = Duration::from_secs(30);
 
-/// Who has the seat, and who wants it. Pages are told by the numbers that they have given themselves.
+/// The operator's seat: who has it, and who wants it. Pages are told by the numbers that they have
+/// given themselves.
 #[derive(Debug, Default)]
 pub struct Seat {
     holder: Option<(u64, Instant)>,

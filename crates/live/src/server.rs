@@ -1,4 +1,4 @@
-//! The server: one thread for each request, on loopback alone.
+//! The server of the page: one thread for each request, on loopback alone.
 
 use crate::asset;
 use crate::feed::{Feed, Message};
@@ -32,7 +32,8 @@ const COMMAND: &str = "/api/command";
 /// What a page may.
 const MAY: &str = "/api/may";
 
-/// What there is to show and to command. Requests come from several threads, all of them judged.
+/// The site: what there is to show and to command. Requests come from several threads, all of them
+/// judged.
 pub trait Site: Send + Sync {
     /// What is at a path below `/api/`, with its query; `None` if there is nothing.
     fn document(&self, path: &str, query: &str) -> Option<Answer>;
@@ -42,7 +43,7 @@ pub trait Site: Send + Sync {
     fn upload(&self, caller: Caller, query: &str, piece: &[u8]) -> Answer;
 }
 
-/// Why there is no server.
+/// The reason why there is no server.
 #[derive(Debug, thiserror::Error)]
 pub enum ServerError {
     /// The port cannot be had.

@@ -1,4 +1,4 @@
-//! What a page has to know to be told anything.
+//! The token that a page has to know to be told anything.
 
 use std::io;
 

@@ -1,6 +1,6 @@
 //! One sample of a motion, and what keeps it from being faster.
 
-/// What one axis can do.
+/// The place of one axis in a sample, and its limits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AxisScale {
     /// Its place in the positions of a sample.
@@ -9,7 +9,7 @@ pub struct AxisScale {
     pub limits: [f64; 3],
 }
 
-/// What keeps the motion from being faster.
+/// The kind of limit that keeps the motion from being faster.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(u8)]
 pub enum LimitKind {
@@ -32,7 +32,7 @@ pub enum LimitKind {
     None = 7,
 }
 
-/// One sample of a motion; samples are a period from each other.
+/// A sample of a motion; samples are a period from each other.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct MotionSample {
     /// mm or degrees.

@@ -1,4 +1,4 @@
-//! Another user of the host, who has no token and all the time in the world.
+//! The flood: another user of the host, who has no token and all the time in the world.
 
 use std::collections::VecDeque;
 use std::io::Write as _;
