@@ -1,8 +1,8 @@
-//! What a conversion comes to.
+//! The result of a conversion: the configuration, and a verdict on every key.
 
 use serde::Serialize;
 
-/// What became of a key of the input.
+/// The verdict on a key of the input.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Verdict {
     /// The key, as the other control writes it.

@@ -1,4 +1,4 @@
-//! A configuration in the making: tables of keys that are known, or asked for.
+//! The draft of a configuration: tables of keys that are known, or asked for.
 
 use crate::conversion::{Asked, Conversion, Verdict};
 use crate::inputs::{Fate, Inputs};

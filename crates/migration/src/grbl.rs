@@ -1,4 +1,4 @@
-//! From what grbl and grblHAL print on `$$` (settings) and `$#` (offsets).
+//! The conversion of what grbl and grblHAL print on `$$` (settings) and `$#` (offsets).
 
 mod homing;
 

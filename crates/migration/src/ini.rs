@@ -11,7 +11,7 @@ const MOST_FILES: usize = 64;
 /// Gives the text of an included file by its name, or why it cannot.
 pub type Include<'a> = &'a dyn Fn(&str) -> Result<String, String>;
 
-/// Why a configuration of another control cannot be read.
+/// The reason why a configuration of another control cannot be read.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{place}: {reason}")]
 pub struct ReadError {

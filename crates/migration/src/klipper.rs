@@ -1,4 +1,4 @@
-//! From Klipper's printer.cfg.
+//! The conversion of Klipper's printer.cfg.
 
 mod homing;
 

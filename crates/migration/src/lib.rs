@@ -1,4 +1,4 @@
-//! Configurations of other controls, as ours.
+//! The conversion of configurations of LinuxCNC, grbl and Klipper to ours.
 //!
 //! ```text
 //!   text ─ini, settings─▶ Inputs: every key once ─linuxcnc, grbl, klipper─▶ Draft ─▶ Conversion

@@ -1,4 +1,4 @@
-//! From LinuxCNC's machine configuration (INI).
+//! The conversion of LinuxCNC's machine configuration (INI).
 
 mod axes;
 mod homing;

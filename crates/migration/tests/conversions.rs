@@ -1,4 +1,4 @@
-//! Configurations of other controls: golden conversions, and every key in exactly one list.
+//! Tests of conversions: golden conversions, and every key in exactly one list.
 
 #![allow(
     clippy::unwrap_used,

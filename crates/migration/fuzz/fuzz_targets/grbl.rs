@@ -1,4 +1,5 @@
-//! Any text is a configuration of grbl or is refused with its place; what is made of it is TOML.
+//! The fuzz target: any text is a configuration of grbl or is refused with its place; what is made
+//! of it is TOML.
 #![no_main]
 
 use glidepath_migration::from_grbl;

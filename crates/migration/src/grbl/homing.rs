@@ -1,4 +1,4 @@
-//! How joints come home.
+//! The homing of joints, from grbl's settings.
 //!
 //! grbl seeks the switch, pulls off, finds it again more slowly, and pulls off: the place is the edge
 //! as it is met at `$24`. `$23` turns the direction, which is the positive one without it.

@@ -1,4 +1,4 @@
-//! How joints come home.
+//! The homing of joints, from Klipper's endstops.
 //!
 //! Klipper goes to the endstop at `homing_speed`, retracts, and goes there again at
 //! `second_homing_speed`; the position is that of the endstop then, and the joint stays there.

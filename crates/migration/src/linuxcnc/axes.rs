@@ -1,4 +1,4 @@
-//! `[AXIS_l]`: limits and travel.
+//! The conversion of `[AXIS_l]`: limits and travel.
 
 use super::Machine;
 use crate::draft::float;

@@ -1,4 +1,5 @@
-//! How joints come home, and what belongs to moving them by hand.
+//! The homing of joints from `[JOINT_n]`, their following errors, and the settings of moving by
+//! hand.
 
 use super::Machine;
 use crate::draft::float;

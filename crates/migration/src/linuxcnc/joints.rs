@@ -1,4 +1,4 @@
-//! `[JOINT_n]`: the joints of mechanisms, and what belongs to the drives.
+//! The conversion of `[JOINT_n]`: the joints of mechanisms, and what belongs to the drives.
 
 use super::Machine;
 use crate::draft::float;

@@ -1,4 +1,5 @@
-//! Files, and all keys that nothing here corresponds to, each with the reason.
+//! The remaining keys: files, and everything that nothing here corresponds to, each with the
+//! reason.
 
 use super::Machine;
 use crate::draft::quoted;

@@ -1,8 +1,8 @@
-//! LinuxCNC's machine units.
+//! The machine units of LinuxCNC.
 
 use crate::inputs::{Fate, Inputs};
 
-/// What a unit is here; `None` where the file does not say it in a way that is known.
+/// The size of each unit here; `None` where the file does not say it in a way that is known.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Units {
     pub(crate) linear_mm: Option<f64>,

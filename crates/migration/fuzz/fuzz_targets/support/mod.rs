@@ -1,5 +1,5 @@
-//! What the targets share: what stands behind the first null byte is the file that is included,
-//! whatever its name.
+//! The helper that the targets share: what stands behind the first null byte is the file that is
+//! included, whatever its name.
 
 use glidepath_migration::{Conversion, Include, ReadError};
 
