@@ -1,5 +1,5 @@
-//! Cost of NURBS: evaluation per span, u(s), the three previews, whole plans.
-//! `cargo bench -p glidepath-motion --bench nurbs`.
+//! The benchmark of NURBS: evaluation per span, u(s), the three previews, whole plans. `cargo bench
+//! -p glidepath-motion --bench nurbs`.
 //!
 //! Prints processor time for each call; for counts of instructions run it under `valgrind
 //! --tool=callgrind` with `--count N`, which does N evaluations of the first kind and nothing

@@ -1,8 +1,8 @@
-//! Why an item cannot be planned.
+//! The errors of planning: why an item cannot be planned.
 
 use glidepath_geometry::Axis;
 
-/// What is wrong with an item given to the planner.
+/// An error of an item given to the planner.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum PlanError {
     /// A coordinate or length is not a finite number.

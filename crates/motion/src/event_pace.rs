@@ -1,4 +1,4 @@
-//! Events that are denser than periods carry them make the motion slower.
+//! The pace of events: moves are slowed down where events are denser than periods carry them.
 //!
 //! A frame, and a setpoint, has room for [`EVENTS_MOST`] events. So that there is room whatever part
 //! of a period they fall into, events draw on a *credit* that time gives back: [`BURST`] of them may

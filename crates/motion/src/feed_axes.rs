@@ -1,4 +1,4 @@
-//! Which axes measure the feed: XYZ if they move, else UVW, else the rotary axes; see
+//! The axes that measure the feed: XYZ if they move, else UVW, else the rotary axes; see
 //! [`glidepath_geometry::feed_length`].
 
 use core::ops::Range;

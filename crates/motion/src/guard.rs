@@ -1,4 +1,5 @@
-//! The last look at a frame before it is given out: it must continue the motion, inside the travel.
+//! The guard, the last check of a frame before it is given out: it must continue the motion, inside
+//! the travel.
 //!
 //! A plan that keeps the limits always passes. What is caught is a plan with a hole in it: a piece
 //! of path left out, a state that is not a number, a position that the interpolator refuses because

@@ -1,4 +1,4 @@
-//! Intake: what every item is checked for, whoever plans it, and how far the program has come.
+//! Intake: the checks of every item, whoever plans it, and how far the program has come.
 //!
 //! Moves below the resolution of programs are not made by themselves: the segment that follows
 //! starts where the last one that was made ended, and what is left over in the end is the

@@ -1,4 +1,4 @@
-//! What planning in the tube asks of joints that are not the axes.
+//! The joints of a mechanism as planning in the tube sees them, where they are not the axes.
 //!
 //! Where a corner is rounded, the motion goes in directions that no side of the corner has, and how
 //! fast joints are in them only the mechanism knows. So whoever knows it implements [`Joints`]: a

@@ -1,4 +1,4 @@
-//! The planner: items in, frames out.
+//! The motion planner: items in, frames out.
 
 use super::event_pace::{EventPace, Paced};
 use super::guard::GuardedFrames;

@@ -1,4 +1,4 @@
-//! Where the machine comes to rest, and why.
+//! A rest of the machine: where it is, why, and for how long.
 
 use glidepath_program::{Event, ProgramLine};
 

@@ -1,8 +1,8 @@
-//! Which engine plans with some settings.
+//! The choice of the engine that plans with given settings.
 
 use glidepath_program::{Effort, Settings, Smoothing};
 
-/// A wing of this crate.
+/// One of the two wings of this crate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Wing {
     /// The path given, the time along it optimised.

@@ -1,5 +1,5 @@
-//! How much work planning is: instructions for a block, and for a period of motion. Figures that
-//! other load on the host does not change.
+//! The work of planning: instructions for a block, and for a period of motion. Figures that other
+//! load on the host does not change.
 //!
 //! The test runs itself under callgrind, with a length of path and with twice as much; the
 //! difference is what the path took. It counts optimised code only, and is skipped without

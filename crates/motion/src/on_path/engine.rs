@@ -1,4 +1,4 @@
-//! The engine: the path front, look-ahead, refiner and sampler one behind the other.
+//! The on-path engine: path front, look-ahead, refiner and sampler one behind the other.
 
 mod halves;
 

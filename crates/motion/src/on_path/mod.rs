@@ -1,4 +1,4 @@
-//! The path given, its time optimised.
+//! The on-path engine: it plans the time along a path that is given.
 //!
 //! The geometry is settled first, from the program and the tolerance alone: dense chords become a
 //! smooth spline in the tube around them, corners become transitions or stops. Then the motion

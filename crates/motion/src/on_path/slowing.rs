@@ -1,4 +1,4 @@
-//! Where a lower override takes effect.
+//! The path on which a lower override takes effect.
 
 use super::pieces::Piece;
 use crate::scurve::{PathLimits, slowing_horizon};

@@ -1,4 +1,4 @@
-//! Where a program is cut into parts.
+//! The cutter of a program into parts.
 
 use crate::PlanError;
 use crate::intake::{Intake, check_dwell};

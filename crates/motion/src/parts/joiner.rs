@@ -1,4 +1,4 @@
-//! Joins the plans of parts.
+//! The joiner of the plans of parts.
 
 use super::part_step::{PartStep, StepKind};
 use crate::PlanError;

@@ -1,4 +1,5 @@
-//! A program in parts that begin and end at rest, each to be planned by itself, and joined again.
+//! The parts of a program, which begin and end at rest: each is planned by itself, and the plans
+//! are joined again.
 //!
 //! ```text
 //!            ┌─ items ─▶ PartPlanner ─ steps ─┐

@@ -1,4 +1,4 @@
-//! Plans one part.
+//! The planner of one part.
 
 use super::part_step::{PartStep, StepKind};
 use crate::on_path::OnPathEngine;

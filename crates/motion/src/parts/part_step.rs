@@ -1,4 +1,4 @@
-//! What planning a part gives, in order.
+//! A step of the plan of a part.
 
 use crate::PlanError;
 use crate::on_path::Settled;

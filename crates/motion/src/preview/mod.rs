@@ -1,4 +1,4 @@
-//! Preview of a NURBS: where on it the programmed feedrate is too fast, and how fast is not.
+//! The preview of a NURBS: where on it the programmed feedrate is too fast, and which speed is not.
 //!
 //! A tick at speed v goes along a chord of length vT while the curve bulges beyond it by the chord
 //! error. With c = vT/2 and the radius of curvature ρ that error is c²/(ρ + √(ρ² − c²)), and it
@@ -45,7 +45,7 @@ pub use published::{AdvanceRetreat, Traditional};
 
 use glidepath_geometry::NurbsPath;
 
-/// What the motion along a curve shall keep.
+/// The demand on the motion along a curve: what it shall keep.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Demand {
     /// Programmed feedrate, mm/s, > 0.
@@ -139,7 +139,7 @@ pub struct Region {
     pub minima: Vec<Minimum>,
 }
 
-/// What a preview found.
+/// The result of a preview.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Preview {
     /// Points at which the curvature was evaluated.
@@ -149,7 +149,7 @@ pub struct Preview {
 }
 
 impl Preview {
-    /// How many regions of `truth` have no point in common with any of these.
+    /// The number of regions of `truth` that have no point in common with any of these.
     #[must_use]
     pub fn missed(&self, truth: &Self) -> usize {
         let found = |region: &Region| {

@@ -1,4 +1,4 @@
-//! The one way the methods look at a curve.
+//! The probe: a curve that counts how often a method evaluates it.
 
 use glidepath_geometry::{AxisVector, NurbsJet, NurbsPath, Span, SpanCurvature};
 

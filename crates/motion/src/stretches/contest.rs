@@ -1,4 +1,4 @@
-//! A short stretch, planned in several ways: the fastest is driven.
+//! The contest: a short stretch is planned in several ways, and the fastest is driven.
 //!
 //! Neither wing is the faster one for certain. In the tube corners are cut as far as the tolerance
 //! allows, but where the mode of the path changes the motion stops, and curves come in chords;

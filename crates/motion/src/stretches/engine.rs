@@ -1,4 +1,4 @@
-//! The engine: stretches and rests one after the other, on one grid of frames.
+//! The stretch engine: stretches and rests one after the other, on one grid of frames.
 
 use super::contest::Planned;
 use super::entry::Entry;

@@ -1,4 +1,4 @@
-//! What a stretch is planned with, and a way that is given it item by item.
+//! The entry of a stretch: what it is planned with, and a way that is given its items one by one.
 
 use super::way::{Manner, Outset, Way};
 use crate::PlanError;

@@ -1,4 +1,4 @@
-//! Items in, checked; stretches and rests out, in order.
+//! The gathering of items: items in, checked; stretches and rests out, in order.
 
 use crate::PlanError;
 use crate::intake::{Intake, check_dwell};

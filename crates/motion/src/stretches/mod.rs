@@ -1,4 +1,4 @@
-//! A program as stretches between rests, each planned the way that is faster.
+//! The stretches of a program, between its rests: each is planned the way that is faster.
 //!
 //! ```text
 //!                                    ┌▶ on_path ┐

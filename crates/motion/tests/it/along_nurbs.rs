@@ -1,4 +1,4 @@
-//! Motion along NURBS: on the curve, within all limits, near the least time.
+//! Tests of motion along NURBS: on the curve, within all limits, near the least time.
 
 #![allow(
     clippy::expect_used,

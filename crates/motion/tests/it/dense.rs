@@ -1,5 +1,5 @@
-//! Dense chords along curves, as CAM writes them: rounded to a few digits, with sharp features,
-//! rotary axes that go along, and changes of feed.
+//! Tests of dense chords along curves, as CAM writes them: rounded to a few digits, with sharp
+//! features, rotary axes that go along, and changes of feed.
 
 #![allow(
     clippy::expect_used,

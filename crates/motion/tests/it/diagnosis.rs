@@ -1,4 +1,4 @@
-//! What the diagnosis says of motions whose binding limits are known.
+//! Tests of the diagnosis, on motions whose binding limits are known.
 
 #![allow(
     clippy::expect_used,

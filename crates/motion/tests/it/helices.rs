@@ -1,5 +1,5 @@
-//! Helices at a low feed, with effort "optimal": never slower than along the arcs, or from stop to
-//! stop.
+//! Tests of helices at a low feed, with effort "optimal": never slower than along the arcs, or from
+//! stop to stop.
 
 #![allow(
     clippy::expect_used,

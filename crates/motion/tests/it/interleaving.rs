@@ -1,4 +1,5 @@
-//! Frames depend on the items alone, not on how pushing and taking interleave.
+//! Tests of interleaving: frames depend on the items alone, not on how pushing and taking
+//! interleave.
 
 #![allow(clippy::expect_used, reason = "a test that fails may panic")]
 

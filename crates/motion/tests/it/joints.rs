@@ -1,4 +1,4 @@
-//! Joints that are not the axes, imitated: what a window takes no notice of by itself.
+//! Tests of joints that are not the axes, imitated: what a window takes no notice of by itself.
 
 #![allow(clippy::expect_used, reason = "tests")]
 

@@ -1,4 +1,5 @@
-//! Every planned motion keeps every axis' limits and the tolerance, in the eyes of the auditor.
+//! Tests of limits: every planned motion keeps every axis' limits and the tolerance, in the eyes of
+//! the auditor.
 
 #![allow(
     clippy::expect_used,

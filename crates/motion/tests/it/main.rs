@@ -1,4 +1,4 @@
-//! Plans, held against limits, brute force, and what is known of them otherwise.
+//! Tests of plans, held against limits, brute force, and what is known of them otherwise.
 
 mod along_nurbs;
 mod butterfly;

@@ -1,4 +1,5 @@
-//! Overrides change the speed of what is still to come, never the limits or the path.
+//! Tests of overrides: they change the speed of what is still to come, never the limits or the
+//! path.
 
 #![allow(
     clippy::expect_used,

@@ -1,5 +1,5 @@
-//! What a plan promises besides the limits: order, stops, events, and nothing but the program in
-//! it.
+//! Tests of what a plan promises besides the limits: order, stops, events, and nothing but the
+//! program in it.
 
 #![allow(
     clippy::expect_used,

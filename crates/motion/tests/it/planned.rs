@@ -1,4 +1,4 @@
-//! Moves as items, and the frames of items.
+//! The helpers of tests: moves as items, and the frames of items.
 
 #![allow(clippy::expect_used, reason = "a test that fails may panic")]
 

@@ -1,4 +1,4 @@
-//! Items that cannot be planned are refused, and change nothing.
+//! Tests of refusals: items that cannot be planned are refused, and change nothing.
 
 #![allow(clippy::expect_used, reason = "a test that fails may panic")]
 

@@ -1,4 +1,4 @@
-//! What the tests of whole plans share.
+//! The helpers of tests of whole plans.
 
 #![allow(dead_code, reason = "each test binary uses a part of it")]
 

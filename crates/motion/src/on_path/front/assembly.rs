@@ -1,4 +1,4 @@
-//! Segments and what joins them, put together to pieces of path.
+//! The assembly of segments, and of what joins them, to pieces of path.
 //!
 //! A segment waits until the one after it is known, since the junction between the two tells where
 //! each ends.

@@ -1,4 +1,4 @@
-//! From the parts of a compressed run to pieces of path.
+//! The way of dense blocks through the compressor, to pieces of path.
 //!
 //! Lines wait for what follows them, like any segment: two in a row meet at a corner. Spans of a
 //! spline continue what comes before them and are put out at once.

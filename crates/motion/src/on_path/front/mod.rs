@@ -1,4 +1,4 @@
-//! Items in, pieces of smooth path and rests out.
+//! The path front: items in, pieces of smooth path and rests out.
 
 mod assembly;
 mod dense_blocks;

@@ -1,4 +1,4 @@
-//! A segment that waits for what follows it.
+//! A pending segment: its end is not decided before the next segment is known.
 
 use crate::on_path::junction::JunctionSide;
 use crate::programmed_rate::ProgrammedRate;

@@ -1,4 +1,4 @@
-//! Where two segments meet: straight on, through a transition, or at rest.
+//! The junction of two segments: straight on, through a transition, or at rest.
 //!
 //! A transition takes a length d from both segments. The longer it is, the faster it can be driven
 //! and the further it leaves the program, so d is the largest that keeps within

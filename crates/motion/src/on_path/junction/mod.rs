@@ -1,4 +1,4 @@
-//! Where two segments meet.
+//! Junctions: how two segments are joined where they meet.
 
 mod decision;
 mod stop_or_pass;

@@ -1,4 +1,4 @@
-//! Whether to rest at a corner or to pass it by a transition.
+//! The choice between a stop at a corner and a transition.
 //!
 //! Above some turn angle, which depends on tolerance and jerk, a full stop takes less time than any
 //! transition. The two are compared over both segments, with the speeds at their far ends the same:

@@ -1,4 +1,4 @@
-//! Runs whose junctions are given up where that is faster.
+//! Joined runs: their junctions are given up where that is faster.
 
 use super::settled::Settled;
 use crate::on_path::pieces::{Piece, Shape};

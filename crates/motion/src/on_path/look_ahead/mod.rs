@@ -1,4 +1,4 @@
-//! The speeds between runs, and what of the motion nothing later changes.
+//! Look-ahead: the speeds between runs, and the motion that nothing later changes.
 
 mod joined_runs;
 mod planned;

@@ -1,8 +1,8 @@
-//! What look-ahead gives on: motion that nothing later changes, or two ways to drive a stretch.
+//! The output of look-ahead: motion that nothing later changes, or two ways to drive a stretch.
 
 use super::settled::Settled;
 
-/// What look-ahead gives on.
+/// The output of look-ahead.
 #[derive(Debug)]
 pub(crate) enum Planned {
     One(Settled),

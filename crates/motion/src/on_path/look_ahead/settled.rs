@@ -1,4 +1,4 @@
-//! Motion that nothing later changes: path with its speeds, and rests.
+//! Settled motion, which nothing later changes: path with its speeds, and rests.
 
 use crate::on_path::pieces::{Element, Piece};
 use crate::on_path::speed::Leg;

@@ -1,5 +1,5 @@
-//! The other way to drive a stretch between two rests: exactly along the program, with a stop at
-//! the end of every block.
+//! The plan with a stop at the end of every block: the other way to drive a stretch between two
+//! rests, exactly along the program.
 //!
 //! Curves and transitions nearly always win, and by far. But on a path that turns sharply at nearly
 //! every short block, stopping can be faster: the limits of jerk let a machine turn around in no

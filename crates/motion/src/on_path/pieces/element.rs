@@ -1,9 +1,9 @@
-//! What the path is made of: pieces, and the rests between them.
+//! The elements of a path: pieces, and the rests between them.
 
 use super::piece::Piece;
 use crate::rest::Rest;
 
-/// What the path front makes.
+/// An element of the path, as the path front makes it.
 #[derive(Debug, Clone)]
 #[allow(clippy::large_enum_variant, reason = "nearly every element is a piece")]
 pub(crate) enum Element {

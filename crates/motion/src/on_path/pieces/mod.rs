@@ -1,4 +1,4 @@
-//! What the path is made of: smooth pieces, each with one speed limit, and the rests between them.
+//! The elements of a path: smooth pieces, each with one speed limit, and the rests between them.
 
 mod element;
 mod piece;

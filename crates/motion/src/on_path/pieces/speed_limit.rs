@@ -1,4 +1,4 @@
-//! How fast a piece of path may be driven: from the limits of the axes to limits along the path.
+//! The speed limit of a piece of path: from the limits of the axes to limits along the path.
 //!
 //! With position q(s) along the path and s(t) in time, every axis sees
 //!
@@ -16,7 +16,7 @@ use crate::scurve::{Extremes, PathLimits};
 use glidepath_geometry::{AXES, Arc, AxisVector, DerivativeBounds, feed_length, limit_along};
 use glidepath_program::{Limits, Override, PathBounds, Rate, tolerance_norm};
 
-/// What a piece of path allows.
+/// The limits along a piece of path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct SpeedLimit {
     /// Top speed, mm/s.

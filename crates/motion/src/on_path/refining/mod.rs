@@ -1,4 +1,4 @@
-//! Where a time parametrisation takes the place of S-curves.
+//! The refiner: it replaces S-curves by a time parametrisation where that is worth its work.
 
 mod motion_chain;
 mod refiner;

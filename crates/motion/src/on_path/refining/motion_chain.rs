@@ -1,4 +1,4 @@
-//! Motions by S-curves, one after the other.
+//! A chain of motions by S-curves, one after the other.
 
 use crate::on_path::look_ahead::Settled;
 use crate::on_path::pieces::Piece;

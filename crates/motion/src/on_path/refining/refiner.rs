@@ -1,4 +1,5 @@
-//! Takes what is settled and gives it on, what is curved driven by time parametrisations.
+//! The refiner: it takes settled motion and gives it on, with time parametrisations on what is
+//! curved.
 //!
 //! Motion is taken in windows. A window on which S-curves are good enough stays with them; any other
 //! is driven by a parametrisation, which starts from the S-curves slowed down. Where one window

@@ -1,4 +1,4 @@
-//! Whether a time parametrisation is worth its work.
+//! The judgement of whether a time parametrisation is worth its work.
 
 use crate::on_path::pieces::{Piece, Shape};
 use glidepath_geometry::{Segment, limit_along};

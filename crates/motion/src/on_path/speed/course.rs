@@ -1,4 +1,4 @@
-//! Pieces of path one after the other, and the S-curves that drive them.
+//! A course: pieces of path one after the other, and the S-curves that drive them.
 
 use crate::on_path::pieces::Piece;
 use crate::scurve::Profile;

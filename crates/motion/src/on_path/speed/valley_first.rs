@@ -1,4 +1,4 @@
-//! The speed along pieces of path, valley first.
+//! The valley-first search for the speed along pieces of path.
 //!
 //! 1. Drive the whole run with one S-curve as if nothing but the ends bounded it.
 //! 2. Of the pieces on which it is too fast, take the slowest one, with top speed V.

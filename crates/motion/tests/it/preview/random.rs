@@ -1,4 +1,4 @@
-//! Random curves: the certified preview misses nothing.
+//! Tests on random curves: the certified preview misses nothing.
 
 use super::curves::Definition;
 use glidepath_geometry::{AxisVector, Nurbs, NurbsPath};

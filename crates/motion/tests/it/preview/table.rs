@@ -1,4 +1,4 @@
-//! Points evaluated by each method on the reference curves.
+//! The table of points evaluated by each method on the reference curves.
 
 use super::curves::path;
 use core::fmt::Write as _;

@@ -1,4 +1,5 @@
-//! How much of the tolerance a corner's transition may use, and how much is left to the chords.
+//! The split of the tolerance: how much of it a corner's transition may use, and how much is left
+//! to the chords.
 //!
 //! The servo goes straight from one setpoint to the next, so a motion with acceleration of at most
 //! `a` strays from its own curve by at most a·T²/8 (*chord error*), whatever its speed Blend:: That
