@@ -1,6 +1,6 @@
-//! How long a program takes to begin: dense lines in a file, from opening it to the first frame,
-//! published as the planner process does, and to the first motion, pulled from a pipeline. All of the
-//! file is read and checked before.
+//! The time that a program takes to begin: dense lines in a file, from opening it to the first
+//! frame, published as the planner process does, and to the first motion, pulled from a pipeline.
+//! All of the file is read and checked before.
 //!
 //! ```text
 //! cargo run --release -p glidepath-planner --example first_frame

@@ -1,10 +1,10 @@
-//! Who is to be attended to while a job is prepared and runs.
+//! The trait of whoever attends to clients while a job is prepared and runs.
 
 use std::time::Duration;
 
 use crate::Followed;
 
-/// What comes of attending.
+/// The outcome of attending.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Attended {
     /// The job goes on.

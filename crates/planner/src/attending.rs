@@ -1,8 +1,8 @@
-//! What a program shares with whoever attends to its run.
+//! The state that a program shares with whoever attends to its run.
 
 use crate::{ChangeLog, InputDesk, RemarkLog};
 
-/// What a program shares with whoever attends to its run. Clones are the same.
+/// The state that a program shares with whoever attends to its run. Clones are the same.
 #[derive(Debug, Clone, Default)]
 pub struct Attending {
     /// Where changes of how the machine is set up are noted.

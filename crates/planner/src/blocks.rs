@@ -1,4 +1,4 @@
-//! Which block of a program the frames of a pipeline belong to.
+//! The block numbers of a pipeline: which block of the program its frames belong to.
 //!
 //! A line can be executed many times, in a loop or a subprogram, so it does not say where a
 //! program is; the number of the item does. Items get it here, in the order in which they are

@@ -1,4 +1,5 @@
-//! What a program changes of how the machine is set up, and when that is executed.
+//! The log of changes that a program makes to the machine's set-up, each with the block behind
+//! which it holds.
 //!
 //! Programs are read long before they are executed. What they change (coordinate systems, reference
 //! positions, the offset of G92, tools, kept parameters) is therefore noted with the number of items in front of it,
@@ -9,7 +10,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use glidepath_gcode::{KeptVariables, ToolTable, WorkOffsets};
 
-/// How the machine is set up from some block on.
+/// The set-up of the machine from some block on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SetUp {
     /// Coordinate systems, reference positions, the offset of G92.
@@ -40,7 +41,7 @@ impl ChangeLog {
         changes.push_back((behind, set_up));
     }
 
-    /// How the machine is set up while a block is executed: what was changed behind the blocks in
+    /// The set-up of the machine while a block is executed: what was changed behind the blocks in
     /// front of it. `None`: as before.
     #[must_use]
     pub fn executed(&self, block: u32) -> Option<SetUp> {
@@ -50,7 +51,7 @@ impl ChangeLog {
         changes.drain(..count).next_back().map(|(_, set_up)| set_up)
     }
 
-    /// How the machine is set up when all of the program is executed. `None`: as before.
+    /// The set-up of the machine when all of the program is executed. `None`: as before.
     #[must_use]
     pub fn all_executed(&self) -> Option<SetUp> {
         self.changes()

@@ -1,5 +1,5 @@
-//! What a publisher does about the job that the interpolator was told of: it asks for the machine, says
-//! what is being done, and has it done while it looks whether the job still stands.
+//! The publisher's work on its claim: it asks for the machine, says what is being done, and has it
+//! done while it looks whether the job still stands.
 
 use std::time::Duration;
 
@@ -27,14 +27,14 @@ impl Publisher<'_> {
         }
     }
 
-    /// Where the reading of the job's program is watched: to be given to whatever reads it.
+    /// The watch on the reading of the job's program: to be given to whatever reads it.
     #[must_use]
     pub fn watch(&self) -> ReadingWatch {
         let claim = self.claim.as_ref();
         claim.map_or_else(ReadingWatch::default, |claim| claim.watch.clone())
     }
 
-    /// What is being done for the job, for people; empty without one.
+    /// The text of what is being done for the job, for people; empty without one.
     #[must_use]
     pub fn doing(&self) -> String {
         self.claim.as_ref().map(Claim::text).unwrap_or_default()

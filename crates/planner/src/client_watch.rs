@@ -1,4 +1,5 @@
-//! Whether the client of a job or a stream lives, and whether what it asked for may begin to move.
+//! The watch on the client of a job or a stream: whether it lives, and whether what it asked for
+//! may begin to move.
 //!
 //! A client shows that it lives by asking again and again. Before the first frame it has to ask once more, so that
 //! nothing begins for one that ended while this process could not notice. What is heard right after this process stood

@@ -1,4 +1,4 @@
-//! How a caller attends to a run: stops it, follows it, and lends it a way to wait.
+//! The caller's side of a run: it stops the run, follows it, and lends it a way to wait.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
@@ -8,7 +8,7 @@ use glidepath_link::MachineState;
 
 use crate::{RunError, Statistics};
 
-/// Something the caller may want to show.
+/// A notice that the caller may want to show.
 #[derive(Debug)]
 pub enum Notice<'a> {
     /// No interpolator has shown itself for a while; the planner goes on waiting.
@@ -37,7 +37,7 @@ pub enum Notice<'a> {
     Progress(Progress),
 }
 
-/// How far a run has come.
+/// The progress of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Progress {
     /// Read and planned.

@@ -1,4 +1,5 @@
-//! Where a program that is read ahead asks what the machine's inputs and its probe say.
+//! The input desk, where a program that is read ahead asks what the machine's inputs and its probe
+//! say.
 //!
 //! ```text
 //!  source of items ── question ──► desk ◄── answer ── publisher, once the machine rests there
@@ -15,7 +16,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use glidepath_gcode::{InputWait, Probed};
 
-/// What a program is told.
+/// An answer to a question of a program.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Answer {
     /// What the input of an M66 is: `#5399`.
@@ -33,7 +34,7 @@ pub struct Answered {
     pub answer: Answer,
 }
 
-/// Where answers outlast the run of a program.
+/// The journal, in which answers outlast the run of a program.
 pub trait AnswerJournal: Debug + Send {
     /// The next of the answers that the same program was told before, in the order in which it
     /// asked.
@@ -52,7 +53,7 @@ pub trait AnswerJournal: Debug + Send {
     fn keep(&mut self, answered: &Answered) -> io::Result<()>;
 }
 
-/// What a program asks.
+/// A question of a program.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Question {
     Input(InputWait),
@@ -60,7 +61,7 @@ pub(crate) enum Question {
     Probe,
 }
 
-/// Where a source of items asks, and a publisher answers. Clones are the same desk.
+/// The desk at which a source of items asks and a publisher answers. Clones are the same desk.
 #[derive(Debug, Clone, Default)]
 pub struct InputDesk {
     desk: Arc<Mutex<Desk>>,

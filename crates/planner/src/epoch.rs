@@ -1,4 +1,4 @@
-//! One epoch under way, from its first frame to its last, as the planner keeps the books of it.
+//! The books of one epoch under way, from its first frame to its last, as the planner keeps them.
 
 use std::time::Duration;
 
@@ -24,7 +24,7 @@ const AHEAD: Duration = Duration::from_secs(10);
 /// The same in frames where periods are short: 5 MB.
 const MOST_AHEAD: usize = 16 * 1024;
 
-/// How frames are paced.
+/// The pace of frames.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pace {
     /// Interpolation period, ns; must be the interpolator's.

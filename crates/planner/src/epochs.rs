@@ -1,4 +1,4 @@
-//! A program as epochs: one, and one more behind each probing move.
+//! The epochs of a program: one, and one more behind each probing move.
 //!
 //! ```text
 //!   ── items ──► probing move │ ── items ──► probing move │ ── items ──►

@@ -1,4 +1,4 @@
-//! Why a run ended before its end.
+//! The errors of a run: why it ended before its end.
 
 use glidepath_geometry::Axis;
 use glidepath_link::{CommandKind, FaultCause, LinkError, Status, refused};
@@ -6,7 +6,7 @@ use thiserror::Error;
 
 use crate::{Refusal, ResumeError};
 
-/// Why a run ended before its end. In every case the machine comes to rest on the path.
+/// The reason why a run ended before its end. In every case the machine comes to rest on the path.
 #[derive(Debug, Error)]
 pub enum RunError {
     /// The program was refused, before any motion or from some point on.

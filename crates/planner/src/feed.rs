@@ -42,7 +42,7 @@ impl std::fmt::Debug for Feeding<'_> {
     }
 }
 
-/// What was streamed.
+/// The result of a stream.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Fed {
     /// Items accepted.

@@ -1,4 +1,4 @@
-//! Programs in files, of whatever kind.
+//! The source of items of a file, whatever kind of program it is.
 
 use std::fs::File;
 use std::io::{self, BufReader, Read as _};
@@ -80,7 +80,7 @@ impl FileSource {
         }
     }
 
-    /// What is in force behind the items given out; `None` for curves, which change nothing.
+    /// The state in force behind the items given out; `None` for curves, which change nothing.
     #[must_use]
     pub fn in_force(&self) -> Option<InForce> {
         match self {

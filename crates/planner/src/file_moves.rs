@@ -1,4 +1,4 @@
-//! What the moves of all curve files have in common, whatever kind of curve makes them.
+//! The moves of a curve file, whatever kind of curve makes them.
 
 use glidepath_gcode::{Diagnostic, DiagnosticCode, Options, Report, Survey, Totals};
 use glidepath_geometry::{Axis, AxisVector, Segment};
@@ -13,7 +13,7 @@ pub(crate) type Next = Result<Option<Item>, Box<Diagnostic>>;
 /// Most moves of a curve that are checked: some seconds' work.
 const MOST_MOVES: u32 = 2_000_000;
 
-/// What a check found along a curve.
+/// The result of a check along a curve.
 #[derive(Debug, Default)]
 pub(crate) struct Surveyed {
     survey: Survey,

@@ -1,4 +1,5 @@
-//! Which program a text is: a number that another text, or an edited one, does not have.
+//! The fingerprint of a program's text: a number that another text, or an edited one, does not
+//! have.
 
 use core::hash::Hasher as _;
 use std::io::{self, Read};

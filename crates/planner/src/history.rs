@@ -1,5 +1,5 @@
-//! What it takes to plan again from an earlier frame: copies of the planning now and then, and the
-//! items taken since the oldest of them.
+//! The history of a plan, to plan again from an earlier frame: copies of the planning now and then,
+//! and the items taken since the oldest of them.
 //!
 //! ```text
 //!   checkpoints   ●───────────────●───────────────●─────────

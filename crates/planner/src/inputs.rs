@@ -1,4 +1,4 @@
-//! The answerer of a desk: looks at the inputs of feedback for the M66 that asks.
+//! The input watch, which answers a desk: it looks at the inputs of feedback for the M66 that asks.
 //!
 //! The source gives nothing out before it has its answer, so that the machine rests at the M66; only
 //! then the input is looked at, and the time runs. A probing move ends an epoch, and what that came

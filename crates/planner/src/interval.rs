@@ -1,4 +1,4 @@
-//! Time between two things that are done now and then.
+//! The interval between two things that are done now and then.
 
 use std::time::{Duration, Instant};
 

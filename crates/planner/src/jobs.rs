@@ -1,4 +1,5 @@
-//! The planner's service: lines and files that operators want executed, one at a time.
+//! The job desk of the planner's service: lines and files that operators want executed, one at a
+//! time.
 //!
 //! A request that is sent again asks how its job stands, and answers are remembered, so nothing is
 //! executed twice. While a job runs, others are told that the service is busy. One that comes while the
@@ -32,7 +33,7 @@ pub(crate) const NEWS: Duration = Duration::from_millis(250);
 /// Answers that are remembered: several for each client that there may be.
 const REMEMBERED: usize = 64;
 
-/// Something to execute.
+/// A job: something to execute.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Job {
     /// A line.
@@ -74,7 +75,7 @@ impl Job {
         })
     }
 
-    /// What it is called, for people.
+    /// The name of the job, for people.
     #[must_use]
     pub fn name(&self) -> String {
         match self {
@@ -88,7 +89,7 @@ impl Job {
     }
 }
 
-/// How a job ended, with words for people.
+/// The end of a job, with words for people.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum JobEnd {
     /// It was executed to its end.
@@ -101,7 +102,7 @@ pub enum JobEnd {
     ToConfirm(String),
 }
 
-/// Who executes jobs.
+/// The executor of jobs.
 pub trait JobRunner {
     /// Executes a job that has the machine, which stands at a position. Whatever takes long is to be
     /// done by [`Publisher::work`], so that `attend` is called every few milliseconds.
@@ -164,7 +165,7 @@ impl Current {
     }
 }
 
-/// Where jobs are handed in.
+/// The desk at which jobs are handed in.
 pub(crate) struct JobDesk {
     server: Box<dyn Server<JobRequest, JobReply>>,
     lines: Counter,

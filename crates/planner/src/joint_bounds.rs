@@ -1,4 +1,4 @@
-//! A mechanism's joints, as the planner of motion asks for them.
+//! The joints of a mechanism, as the planner of motion asks for them.
 
 use glidepath_geometry::AxisVector;
 use glidepath_kinematics::{JOINTS, JointWatch, Kinematics as _, PathCaps};

@@ -1,4 +1,4 @@
-//! Limits of joints as limits of path speed, item by item.
+//! The speed limits of joints as limits of path speed, item by item.
 //!
 //! ```text
 //!   item ── places along it, STEP apart ──▶ least of the speeds joints allow there ──▶ rate "up to"

@@ -36,7 +36,7 @@ const STREAM: &str = "a stream of segments";
 
 type Segments = dyn Server<SegmentRequest, SegmentReply>;
 
-/// What a listening planner needs to know.
+/// The settings of a listening planner.
 #[derive(Debug, Clone, Copy)]
 pub struct Listening {
     /// What to plan with.

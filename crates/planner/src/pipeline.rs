@@ -1,4 +1,4 @@
-//! From items to frames, pulled by whoever needs the next frame.
+//! The pipeline from items to frames, pulled by whoever needs the next frame.
 //!
 //! ```text
 //!   source ──next_item──▶ planner.push ──▶ (look-ahead) ──pop_frame──▶ caller
@@ -327,7 +327,7 @@ impl<S: ItemSource> Pipeline<S> {
         self.planning.block()
     }
 
-    /// Where the items come from.
+    /// The source of the items.
     #[must_use]
     pub const fn source(&self) -> &S {
         &self.source

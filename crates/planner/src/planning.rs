@@ -1,4 +1,4 @@
-//! Where planning is: all that the frames to come depend on, beside the items to come.
+//! The state of planning: all that the frames to come depend on, beside the items to come.
 
 use glidepath_geometry::AxisVector;
 use glidepath_motion::{Joints, PlanError, Planner};

@@ -1,4 +1,5 @@
-//! Programs as text, and files of them, which are checked as a whole before anything moves.
+//! The source of items of a program text, and of files of them, which are checked as a whole before
+//! anything moves.
 
 use std::io::{self, BufRead, BufReader, Seek};
 use std::path::Path;
@@ -98,7 +99,7 @@ impl<R: BufRead> ProgramSource<R> {
         }
     }
 
-    /// What is in force behind the items given out.
+    /// The state in force behind the items given out.
     #[must_use]
     pub fn in_force(&self) -> InForce {
         self.program.in_force()

@@ -1,4 +1,4 @@
-//! Frames to the interpolator: paced, lossless, and with an end.
+//! The publisher of frames to the interpolator: paced, lossless, and with an end.
 //!
 //! ```text
 //!            executed            published     horizon
@@ -136,7 +136,7 @@ impl<'t> Publisher<'t> {
         self.remarks = Some(log);
     }
 
-    /// What spindle, coolant, tool and outputs do, as far as the interpolator knows.
+    /// The state of spindle, coolant, tool and outputs, as far as the interpolator knows.
     ///
     /// # Errors
     /// The link fails.
@@ -174,7 +174,7 @@ impl<'t> Publisher<'t> {
         inputs.look(epoch.rests_at_m_code(66), waited)
     }
 
-    /// Where the machine was last said to be, mm and degrees.
+    /// The position that the machine was last said to have, mm and degrees.
     #[must_use]
     pub fn position(&self) -> Option<AxisVector> {
         let status = self.machine.status()?;

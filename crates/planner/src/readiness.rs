@@ -1,4 +1,4 @@
-//! When a program can begin, and where the one before it was left.
+//! The readiness of the machine for a program, and the point at which the one before it was left.
 
 use std::time::Duration;
 
@@ -98,7 +98,8 @@ impl Publisher<'_> {
         Ok(self.machine.ready_position())
     }
 
-    /// Where the program that was under way can be taken up again, of a machine that is ready.
+    /// The point at which the program that was under way can be taken up again, of a machine that
+    /// is ready.
     ///
     /// # Errors
     /// [`RunError::Resume`]: there is no such program.

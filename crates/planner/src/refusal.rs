@@ -1,4 +1,4 @@
-//! Why a program was not run, or not run to its end.
+//! The refusals of programs: why one was not run, or not run to its end.
 
 use std::io;
 

@@ -1,4 +1,5 @@
-//! What a program says to people, and when: programs are read long before they are executed.
+//! The log of a program's remarks to people, each told when its block is executed: programs are
+//! read long before.
 
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};

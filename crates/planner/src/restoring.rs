@@ -1,4 +1,4 @@
-//! From what spindle, coolant, tools and outputs are to what they are to be.
+//! The restoring events: they make spindle, coolant, tools and outputs what they are to be.
 
 use glidepath_link::{Auxiliary, Coolant, SpindleState};
 use glidepath_program::Event;

@@ -1,4 +1,4 @@
-//! Going on with a program in the middle: after its planner died, or after an abort.
+//! The resumption of a program in the middle: after its planner died, or after an abort.
 //!
 //! The interpolator knows where it stands: the block, how far it has come on it, and the position.
 //! The program is read from its beginning again, without motion, up to that block; the path that
@@ -368,7 +368,7 @@ impl<S: ItemSource> Remainder<S> {
         Ok(())
     }
 
-    /// Where the items come from.
+    /// The source of the items.
     #[must_use]
     pub const fn source(&self) -> &S {
         &self.source

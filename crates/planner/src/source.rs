@@ -1,4 +1,4 @@
-//! Where the items of a program come from.
+//! The source of a program's items.
 //!
 //! A source hands over one [`Item`] at a time, in program order, and says when there is none *yet*
 //! ([`Supply::Pending`]) as opposed to none *ever again* ([`Supply::End`]). What is planned
@@ -20,7 +20,7 @@ use crate::{Answer, Refusal};
 /// is no more of it to publish.
 pub const SILENCE: Duration = Duration::from_millis(50);
 
-/// What a source answers when it is asked for the next item.
+/// The answer of a source that is asked for the next item.
 #[allow(clippy::large_enum_variant, reason = "nearly every supply is an item")]
 #[derive(Debug)]
 pub enum Supply {
@@ -38,7 +38,7 @@ pub enum Supply {
     Refused(Refusal),
 }
 
-/// How it stands with what an item asks of inputs or the probe.
+/// The state of what an item asks of inputs or the probe.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Settled {
     /// It asks nothing.

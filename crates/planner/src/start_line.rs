@@ -1,4 +1,4 @@
-//! Beginning with a line in the middle of a program, as if all before it had been executed.
+//! The start at a line in the middle of a program, as if all before it had been executed.
 //!
 //! The program is read from its beginning, without motion, up to the line. What spindle, coolant,
 //! tool and outputs are to do there, and where the machine is to stand, follows from what was read;
@@ -37,7 +37,7 @@ pub struct StartLine {
     pub pass: u32,
 }
 
-/// Why a program cannot begin there.
+/// The reason why a program cannot begin there.
 #[derive(Debug, Error)]
 pub enum StartLineError {
     /// The program is refused before that line.
@@ -85,7 +85,7 @@ pub struct LineStart<S> {
     adaptive: Option<f64>,
 }
 
-/// How the machine goes to where a program is to begin.
+/// The approach of the machine to where a program is to begin.
 #[derive(Debug, Clone, Copy)]
 pub struct Approach {
     /// Where the machine stands.
@@ -171,7 +171,7 @@ impl<S: ItemSource> LineStart<S> {
         }
     }
 
-    /// What spindle, coolant, tool and outputs are to do there.
+    /// The state of spindle, coolant, tool and outputs that the program expects there.
     pub const fn expected(&self) -> &Auxiliary {
         &self.expected
     }
@@ -181,12 +181,13 @@ impl<S: ItemSource> LineStart<S> {
         self.block
     }
 
-    /// Where the machine is to stand there.
+    /// The position at which the machine is to stand there.
     pub const fn begins_at(&self) -> AxisVector {
         self.begins_at
     }
 
-    /// How often inputs and the probe were asked before; it is answered as it was then.
+    /// The number of times that inputs and the probe were asked before; it is answered as it was
+    /// then.
     pub const fn told(&self) -> u32 {
         self.told
     }
@@ -240,8 +241,8 @@ impl<S: ItemSource> LineStart<S> {
         Remainder::beginning_with(self.source, point, first_block, (self.ahead, self.last))
     }
 
-    /// How fast the tool axis goes down, mm/s: at the feed of the first feed move ahead; where there is none, of
-    /// the last one before.
+    /// The speed at which the tool axis goes down, mm/s: at the feed of the first feed move ahead;
+    /// where there is none, of the last one before.
     pub fn way_down_v(&mut self) -> f64 {
         let feed_of = |item: &Item| match item.kind {
             ItemKind::Move { rate, .. } => rate.feed_v(),

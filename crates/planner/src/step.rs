@@ -1,10 +1,10 @@
-//! What the steps of a pipeline come to, one by one and all together.
+//! The steps of a pipeline, and the counts over all of them.
 
 use std::time::Duration;
 
 use glidepath_program::{Frame, Item};
 
-/// One step of a pipeline.
+/// The output of one step of a pipeline.
 #[allow(
     clippy::large_enum_variant,
     reason = "there is one at a time, and nearly all of them are frames"
@@ -21,7 +21,7 @@ pub enum Output {
     End,
 }
 
-/// What a step came to. What it made is shown by the pipeline: items and frames are large.
+/// The outcome of a step. What it made is shown by the pipeline: items and frames are large.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Step {
     /// The planner took an item: [`crate::Pipeline::item`].
@@ -34,7 +34,7 @@ pub enum Step {
     End,
 }
 
-/// What a pipeline has done so far.
+/// The counts of what a pipeline has done so far.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Statistics {
     /// Lines of program text read (items, where there is no text).

@@ -1,4 +1,4 @@
-//! One stream of segments from another program: the rules, without the transport.
+//! The rules of one stream of segments from another program, without the transport.
 //!
 //! ```text
 //!  client                          planner

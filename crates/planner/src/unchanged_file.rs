@@ -1,4 +1,4 @@
-//! Programs that must not change while they are read.
+//! A file that must not change while it is read as a program.
 //!
 //! A program is read while the machine moves. One that somebody saves over or cuts off meanwhile
 //! would be half of one program and half of another, or end in the middle as if that were its end.

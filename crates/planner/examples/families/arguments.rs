@@ -1,4 +1,4 @@
-//! What the command line asks for.
+//! The arguments of the command line.
 
 use crate::family::{FAMILIES, Family};
 use crate::machine::{MACHINES, Machine};

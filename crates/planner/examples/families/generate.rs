@@ -1,4 +1,5 @@
-//! Programs that are drawn, planned in all ways, and what became of them by family.
+//! The run over programs that are drawn: each is planned in all ways, and the results are told by
+//! family.
 
 use crate::arguments::{Arguments, Setup};
 use crate::family::{Drawn, Family};

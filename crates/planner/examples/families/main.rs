@@ -1,5 +1,6 @@
-//! Families of programs, planned with both efforts and with a stop at every corner, and compared:
-//! with each other, with the least times that are known to be possible, and in smoothness.
+//! The comparison of families of programs, planned with both efforts and with a stop at every
+//! corner, and compared: with each other, with the least times that are known to be possible, and
+//! in smoothness.
 //!
 //! ```text
 //! cargo run --release -p glidepath-planner --example families -- bench

@@ -1,5 +1,5 @@
-//! Whatever an interpolator says of where a program was left: the rest of the program is found and
-//! begins within the tolerance of the machine, or it is refused.
+//! The fuzz target: whatever an interpolator says of where a program was left: the rest of the
+//! program is found and begins within the tolerance of the machine, or it is refused.
 #![no_main]
 
 use glidepath_gcode::Options;

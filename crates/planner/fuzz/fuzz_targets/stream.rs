@@ -1,5 +1,5 @@
-//! Any sequence of segments, in order or not, whole or garbled: the listening planner answers or
-//! refuses them, and gives out only frames that are usable.
+//! The fuzz target: any sequence of segments, in order or not, whole or garbled: the listening
+//! planner answers or refuses them, and gives out only frames that are usable.
 #![no_main]
 
 use core::cell::RefCell;

@@ -1,4 +1,4 @@
-//! Planning ahead of publishing, in a thread of its own.
+//! Planning ahead of publishing: a thread of its own, and its queue of frames.
 //!
 //! ```text
 //!  planning thread                          publishing thread

@@ -1,5 +1,5 @@
-//! The frames between the planning thread and the publishing thread, and what the two tell each
-//! other.
+//! The frame queue between the planning thread and the publishing thread, and what the two tell
+//! each other.
 
 use std::collections::VecDeque;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
@@ -9,7 +9,7 @@ use glidepath_program::{Frame, Override};
 
 use crate::{Refusal, Statistics};
 
-/// What the publishing thread is given.
+/// The answer of the queue to the publishing thread.
 #[allow(clippy::large_enum_variant, reason = "nearly every one is a frame")]
 #[derive(Debug)]
 pub(crate) enum Next {
@@ -25,7 +25,7 @@ pub(crate) enum Next {
     Died,
 }
 
-/// What the planning thread is to do.
+/// The next work of the planning thread.
 #[derive(Debug)]
 pub(crate) enum Work {
     /// Plan on. So many frames were given out.

@@ -1,4 +1,4 @@
-//! Frames planned ahead are those of a planner that does not work ahead, to the bit.
+//! Tests of planning ahead: the frames are those of a planner that does not work ahead, to the bit.
 
 #![allow(
     clippy::panic,

@@ -1,11 +1,11 @@
-//! Why a stream was not executed to its end.
+//! The errors of a stream: why it was not executed to its end.
 
 use glidepath_link::{LinkError, SegmentRefusal};
 use thiserror::Error;
 
 use crate::Refusal;
 
-/// Why a stream was not executed to its end.
+/// The reason why a stream was not executed to its end.
 #[derive(Debug, Error)]
 pub enum FeedError {
     /// The program was refused, here or by the planner's check of an item.

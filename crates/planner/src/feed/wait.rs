@@ -1,4 +1,4 @@
-//! Waiting, as long as the caller wants the run to go on.
+//! The wait of a client that streams, as long as the caller wants the run to go on.
 
 use std::time::Duration;
 

@@ -1,4 +1,5 @@
-//! How much may wait between two threads that hand over the parts of a program.
+//! The allowance: a bound on what may wait between two threads that hand over the parts of a
+//! program.
 
 use std::collections::VecDeque;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};

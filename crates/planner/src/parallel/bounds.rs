@@ -1,4 +1,4 @@
-//! What keeps the memory of a plan bounded, and its workers busy.
+//! The bounds of a plan on several threads: they keep its memory bounded and its workers busy.
 
 use super::allowance::Allowance;
 

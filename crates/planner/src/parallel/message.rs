@@ -1,4 +1,4 @@
-//! What the threads hand each other.
+//! The messages between the threads of a plan.
 
 use std::sync::mpsc::{Receiver, Sender};
 
@@ -28,7 +28,7 @@ pub(super) enum Batch {
     End { is_last: bool },
 }
 
-/// Some of the plan of a part.
+/// A piece of the plan of a part.
 #[derive(Debug)]
 pub(super) enum Planned {
     Steps {

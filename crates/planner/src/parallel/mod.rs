@@ -1,4 +1,4 @@
-//! Planning ahead of time, on all cores.
+//! The parallel plan: planning ahead of time, on all cores.
 //!
 //! ```text
 //!              ┌─ worker: PartPlanner ─┐

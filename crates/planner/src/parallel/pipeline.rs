@@ -1,4 +1,4 @@
-//! The plan of a program, put together from what the workers give.
+//! The parallel pipeline: the plan of a program, put together from what the workers give.
 
 use std::io;
 use std::num::NonZeroUsize;

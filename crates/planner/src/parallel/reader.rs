@@ -1,4 +1,4 @@
-//! The thread that reads a program and cuts it into parts.
+//! The reader thread, which reads a program and cuts it into parts.
 
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, SyncSender, channel};
@@ -16,7 +16,7 @@ use crate::{ItemSource, Refusal, Supply};
 /// Items that are handed over together.
 const BATCH: usize = 64;
 
-/// What came of reading.
+/// The outcome of reading.
 #[derive(Debug, Default)]
 pub(super) struct ReadEnd {
     /// Why the program ended early.
@@ -25,7 +25,7 @@ pub(super) struct ReadEnd {
     pub(super) lines: u64,
 }
 
-/// Where parts go.
+/// The outlets for parts.
 #[derive(Debug)]
 pub(super) struct Outlets {
     /// To whoever has time.

@@ -1,4 +1,4 @@
-//! A thread that plans parts, one after the other.
+//! A worker thread, which plans parts one after the other.
 
 use std::sync::mpsc::{Receiver, Sender};
 use std::sync::{Mutex, PoisonError};

@@ -1,4 +1,4 @@
-//! Why a program cannot be taken up again.
+//! The errors of a resumption: why a program cannot be taken up again.
 
 use core::fmt::{Display, Formatter, Result as FmtResult};
 use glidepath_geometry::{Axis, AxisVector};
@@ -6,7 +6,7 @@ use thiserror::Error;
 
 use super::nearness::{ROUNDING_MM, distance};
 
-/// Why a program cannot be taken up again. Nothing has moved.
+/// The reason why a program cannot be taken up again. Nothing has moved.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum ResumeError {
     /// The interpolator has not executed any program since it was started.

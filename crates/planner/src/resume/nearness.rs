@@ -1,4 +1,4 @@
-//! How far places are from each other, and which are the same.
+//! The distance between places, and the rounding allowed on top of a tolerance.
 
 use glidepath_geometry::{AxisVector, LINEAR_XYZ, ROTARY_ABC, UVW};
 

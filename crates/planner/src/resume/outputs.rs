@@ -1,11 +1,11 @@
-//! What a program has said of spindle, coolant and tool up to where it was left.
+//! The outputs that a program has commanded (spindle, coolant and tool) up to where it was left.
 
 use glidepath_link::Auxiliary;
 use glidepath_program::{Event, Item, ItemKind};
 
 use crate::restoring::restoring;
 
-/// What a program has said of spindle, coolant and tool.
+/// The commands of a program to spindle, coolant and tool changer.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct SaidOutputs {
     said: Auxiliary,

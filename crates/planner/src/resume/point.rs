@@ -1,4 +1,4 @@
-//! Where a program was left.
+//! The resume point: where a program was left.
 
 use glidepath_gcode::Probed;
 use glidepath_geometry::AxisVector;
@@ -7,7 +7,7 @@ use glidepath_link::{ContactKind, EndOfEpoch, LinkError, MotionMode, Status};
 use super::error::ResumeError;
 use crate::RunError;
 
-/// Where a program was left.
+/// The point at which a program was left.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ResumePoint {
     /// Where the machine stands.

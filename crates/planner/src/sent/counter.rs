@@ -1,4 +1,4 @@
-//! Where the lines of senders are handed in.
+//! The counter, where the lines of senders are handed in.
 
 use std::collections::VecDeque;
 
@@ -27,7 +27,7 @@ pub(crate) struct Begun {
     pub(crate) inbox: LineInbox,
 }
 
-/// Where the lines of senders are handed in.
+/// The service at which the lines of senders are handed in.
 pub(crate) struct Counter {
     server: Box<dyn Server<LinesRequest, LinesReply>>,
     known: Known,

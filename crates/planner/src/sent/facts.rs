@@ -1,11 +1,11 @@
-//! How the machine is set up, as senders are told.
+//! The facts of the machine's set-up that senders are told.
 
 use std::io::BufRead;
 
 use glidepath_gcode::{Probed, Program, WorkOffsets};
 use glidepath_geometry::AxisVector;
 
-/// How the machine is set up behind a line.
+/// The set-up of the machine behind a line.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LineFacts {
     /// The codes and words in force, as a line would say them.
@@ -30,7 +30,7 @@ impl Default for LineFacts {
 }
 
 impl LineFacts {
-    /// What is in force behind the line that a program has read last.
+    /// The state in force behind the line that a program has read last.
     pub fn of<R: BufRead>(program: &Program<R>) -> Self {
         Self {
             words: program.words_in_force(),
@@ -41,7 +41,7 @@ impl LineFacts {
     }
 }
 
-/// What the probe has found last.
+/// The last finding of the probe.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Found {
     pub(crate) at: AxisVector,

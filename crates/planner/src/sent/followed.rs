@@ -1,6 +1,6 @@
-//! How far lines are executed, as the publisher tells it.
+//! The progress of lines in execution, as the publisher tells it.
 
-/// How far the lines of a job are executed.
+/// The progress of a job's lines in execution.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Followed {
     /// Motion that is planned and not executed, s.

@@ -1,4 +1,4 @@
-//! The lines of a job between whoever takes them in and whoever reads them.
+//! The inbox: the lines of a job between whoever takes them in and whoever reads them.
 
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -311,7 +311,7 @@ impl LineInbox {
         inbox.states.push_back((behind, state));
     }
 
-    /// What is in force while a block is executed; `None`: what was so before the job.
+    /// The state in force while a block is executed; `None`: what was so before the job.
     #[must_use]
     pub fn in_force_at(&self, block: u32) -> Option<InForce> {
         let mut inbox = self.lock();

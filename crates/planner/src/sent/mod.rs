@@ -1,4 +1,5 @@
-//! Lines that a sender sends one after the other, as one job: planned with look-ahead as they come.
+//! The lines that a sender sends one after the other, as one job: planned with look-ahead as they
+//! come.
 //!
 //! ```text
 //!  LinesRequest ──► LineInbox ──► SentLines ──► Pipeline ──► …        Publisher

@@ -1,4 +1,4 @@
-//! The items of lines, and what came of each.
+//! The source of items of a job of lines, which tells what came of each line.
 
 use std::io::{self, BufRead, Read};
 
@@ -28,8 +28,8 @@ pub struct SentLines {
 }
 
 impl SentLines {
-    /// What comes into an inbox, read with these options. It shares what it comes to with whoever attends to its
-    /// run.
+    /// A source of what comes into an inbox, read with these options. It shares what it comes to
+    /// with whoever attends to its run.
     #[must_use]
     pub fn new(inbox: LineInbox, options: Options, attending: Attending) -> Self {
         let reader = InboxReader {
@@ -54,7 +54,7 @@ impl SentLines {
         }
     }
 
-    /// What is in force behind the lines that were read.
+    /// The state in force behind the lines that were read.
     #[must_use]
     pub fn in_force(&self) -> InForce {
         self.source.in_force()

@@ -1,4 +1,5 @@
-//! Lines of a sender, without a machine: what is read, when it counts as read, and what is in force.
+//! Tests of the lines of a sender, without a machine: what is read, when it counts as read, and
+//! what is in force.
 
 use std::time::Duration;
 

@@ -1,4 +1,4 @@
-//! Programs that are begun in their middle: what they restore, and what follows.
+//! Tests of programs that are begun in their middle: what they restore, and what follows.
 
 use super::*;
 use crate::ProgramSource;

@@ -1,5 +1,5 @@
-//! Subroutines in other files belong to the program: resumption asks whether it is the same. A file
-//! that changes while it is read is none.
+//! Tests of subroutines in other files, which belong to the program: resumption asks whether it is
+//! the same. A file that changes while it is read is none.
 
 #![expect(clippy::unwrap_used, reason = "a test that fails may panic")]
 

@@ -1,4 +1,5 @@
-//! Effort "optimal" on curves in chords: the same curve takes the same time, however it is cut.
+//! Tests of effort "optimal" on curves in chords: the same curve takes the same time, however it is
+//! cut.
 
 use crate::support::family::{audited, circles_of_chords};
 use glidepath_program::{Effort, Limits, Settings, Smoothing};

@@ -1,5 +1,5 @@
-//! Curve files to frames: the whole way from a formula to setpoints keeps the tolerance, lap after
-//! lap.
+//! Tests of curve files to frames: the whole way from a formula to setpoints keeps the tolerance,
+//! lap after lap.
 
 #![allow(
     clippy::unwrap_used,

@@ -1,6 +1,6 @@
-//! Space curves, in parametric and in implicit form, on a Cartesian machine and on a hexapod: the
-//! motion is within the tolerance of the true curve, limits of axes and joints are kept, chords
-//! are equal, and nothing drifts in ten laps.
+//! Tests of space curves, in parametric and in implicit form, on a Cartesian machine and on a
+//! hexapod: the motion is within the tolerance of the true curve, limits of axes and joints are
+//! kept, chords are equal, and nothing drifts in ten laps.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "test code")]
 

@@ -1,6 +1,6 @@
-//! Effort "fast" along curves: families of small programs with the least time along their exact
-//! curve, circles of any size, and paths of arcs that meet at corners. Nothing takes longer than
-//! the same program with a stop at the end of every block.
+//! Tests of effort "fast" along curves: families of small programs with the least time along their
+//! exact curve, circles of any size, and paths of arcs that meet at corners. Nothing takes longer
+//! than the same program with a stop at the end of every block.
 
 #![allow(
     clippy::expect_used,

@@ -1,5 +1,5 @@
-//! Programs of other origin that are begun in their middle: what follows is the rest of the program,
-//! bit for bit.
+//! Tests of programs of other origin that are begun in their middle: what follows is the rest of
+//! the program, bit for bit.
 //!
 //! Runs where the environment variable `GLIDEPATH_CORPUS` names the directory of the programs, and
 //! says so where it does not. A few lines of every program that is not long are tried; all lines of

@@ -1,6 +1,6 @@
-//! Machines whose joints are weaker than their axes: speeds, accelerations and jerks are kept
-//! where the joints can follow, so that nothing of the motion has to be refused. Minutes, for more
-//! programs:
+//! Tests of machines whose joints are weaker than their axes: speeds, accelerations and jerks are
+//! kept where the joints can follow, so that nothing of the motion has to be refused. Minutes, for
+//! more programs:
 //!
 //! ```text
 //! GLIDEPATH_JOINTS=100 cargo test --release -p glidepath-planner --test it joints

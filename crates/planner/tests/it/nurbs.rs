@@ -1,4 +1,4 @@
-//! NURBS files to frames, and what is wrong with them.
+//! Tests of NURBS files to frames, and what is wrong with them.
 
 #![allow(
     clippy::unwrap_used,

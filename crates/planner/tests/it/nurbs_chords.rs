@@ -1,4 +1,5 @@
-//! NURBS of all tolerances at all periods: the chord between two setpoints is within the tolerance.
+//! Tests of NURBS of all tolerances at all periods: the chord between two setpoints is within the
+//! tolerance.
 
 #![allow(
     clippy::unwrap_used,

@@ -1,4 +1,4 @@
-//! Planning on all cores gives what planning on one gives, step by step, to the bit.
+//! Tests of planning on all cores: it gives what planning on one gives, step by step, to the bit.
 //!
 //! `GLIDEPATH_PARALLEL` is the number of random programs; a few without.
 

@@ -1,4 +1,4 @@
-//! Programs to frames: what is refused, and what the way of reading must not change.
+//! Tests of programs to frames: what is refused, and what the way of reading must not change.
 
 #![allow(
     clippy::unwrap_used,

@@ -1,4 +1,5 @@
-//! Whole programs, from text to frames, judged by the auditor and compared with kept plans.
+//! Tests of whole programs, from text to frames, judged by the auditor and compared with kept
+//! plans.
 
 #![allow(
     clippy::expect_used,

@@ -1,4 +1,4 @@
-//! Publishing, against an interpolator driven by the planner's own pauses.
+//! Tests of publishing, against an interpolator driven by the planner's own pauses.
 
 use std::cell::RefCell;
 use std::sync::OnceLock;

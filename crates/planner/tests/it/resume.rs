@@ -1,4 +1,5 @@
-//! Programs that are taken up again in the middle: nothing is skipped, nothing is cut twice.
+//! Tests of programs that are taken up again in the middle: nothing is skipped, nothing is cut
+//! twice.
 
 #![allow(
     clippy::panic,

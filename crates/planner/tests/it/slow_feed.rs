@@ -1,5 +1,5 @@
-//! Effort "optimal" where the feed is slow beside the tolerance: engraving, plunges from rapid
-//! moves.
+//! Tests of effort "optimal" where the feed is slow beside the tolerance: engraving, plunges from
+//! rapid moves.
 
 #![allow(
     clippy::expect_used,

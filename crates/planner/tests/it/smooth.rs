@@ -1,5 +1,6 @@
-//! Effort "optimal": as fast as the tube allows, and of the motions as fast the smooth one near the
-//! program. Figures are those of finite differences of positions, as a drive is given them.
+//! Tests of effort "optimal": as fast as the tube allows, and of the motions as fast the smooth one
+//! near the program. Figures are those of finite differences of positions, as a drive is given
+//! them.
 
 #![allow(
     clippy::expect_used,

@@ -1,4 +1,4 @@
-//! Programs along the ends of travel: no axis goes beyond, at periods or between them.
+//! Tests of programs along the ends of travel: no axis goes beyond, at periods or between them.
 //!
 //! `GLIDEPATH_TRAVEL` is the number of random programs; a few without. `GLIDEPATH_TRAVEL_SEED` chooses
 //! others.

@@ -1,4 +1,4 @@
-//! How far is planned ahead.
+//! Tests of how far is planned ahead.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};

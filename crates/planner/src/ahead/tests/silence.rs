@@ -1,4 +1,5 @@
-//! Sources that fall silent: what has come is driven to rest, and what comes later goes on from there.
+//! Tests of sources that fall silent: what has come is driven to rest, and what comes later goes on
+//! from there.
 
 use super::*;
 use crate::PipeSource;

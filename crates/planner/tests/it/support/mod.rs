@@ -1,4 +1,4 @@
-//! What the tests of the planner share: an interpolator that only keeps time, and sources of items.
+//! The helpers of the planner's tests: an interpolator that only keeps time, and sources of items.
 #![allow(dead_code, reason = "every test file uses a part of it")]
 #![allow(
     clippy::unwrap_used,
