@@ -1,4 +1,4 @@
-//! A joint with its drive.
+//! A simulated joint with its drive.
 //!
 //! The drive follows its demand with a lag of first order, x′ = (d − x) / τ, so that it is v·τ behind
 //! at the speed v; and it does not begin to move before the demand is further away than stiction
@@ -6,7 +6,7 @@
 
 use glidepath_link::servo::JointState;
 
-/// How a drive finds its home by itself.
+/// The homing of a drive by itself.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HomeSettings {
     /// Where the switch closes, mm or degrees from the middle of the machine; it stays closed beyond.
@@ -76,7 +76,7 @@ const SEARCH_NS: u64 = 50_000_000;
 /// Slower than this a joint sticks, mm/s or °/s.
 const STICKING_V: f64 = 0.01;
 
-/// A joint as it is.
+/// The state of a simulated joint.
 #[derive(Debug, Clone)]
 pub(crate) struct Joint {
     settings: JointSettings,

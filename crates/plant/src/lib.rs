@@ -1,5 +1,5 @@
-//! A machine that is not there: drives with lag and stiction, switches, a spindle, a probe, and the
-//! feedback of all that.
+//! A simulated servo stack with its machine: drives with lag and stiction, switches, a spindle, a
+//! probe, and the feedback of all that.
 //!
 //! ```text
 //! setpoints ─► (servo library) ─► demand ─► Plant: joints, spindle ─► Feedback

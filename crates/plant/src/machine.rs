@@ -1,4 +1,5 @@
-//! The joints, the spindle and the probe together, and what goes wrong with them.
+//! The simulated servo stack with its machine: joints, spindle and probe together, and the faults
+//! that tests inject.
 
 use crate::joint::{Joint, JointSettings};
 use crate::spindle::{Spindle, SpindleSettings};
@@ -10,7 +11,7 @@ use std::collections::VecDeque;
 /// The input of the index pulse of joint 0; those of the others follow.
 pub const INDEX_INPUT: u32 = 16;
 
-/// Something that goes wrong, or right again.
+/// A fault of the machine, or the end of one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Upset {
     /// The emergency stop takes the power from all drives, or is released.
@@ -136,7 +137,7 @@ impl Plant {
         (self.spindle.angle, self.spindle.speed)
     }
 
-    /// Something goes wrong, or right again.
+    /// Injects a fault, or ends one.
     pub fn upset(&mut self, upset: Upset) {
         match upset {
             Upset::EmergencyStop(pressed) => self.has_emergency = pressed,
@@ -243,7 +244,7 @@ impl Plant {
         positions
     }
 
-    /// What is measured now, whether or not it will arrive.
+    /// The feedback that is measured now, whether or not it will arrive.
     #[must_use]
     #[allow(
         clippy::cast_possible_truncation,

@@ -1,4 +1,4 @@
-//! A spindle that takes its time, with an encoder.
+//! A simulated spindle with an encoder.
 //!
 //! Its speed follows what it is told with a lag of first order, and changes no faster than its motor
 //! can. The encoder rounds down to its counts, and has one index pulse a revolution.
