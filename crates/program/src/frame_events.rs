@@ -1,4 +1,4 @@
-//! The events of a frame.
+//! The events of the period that ends with a frame, each with its time.
 
 use crate::Event;
 

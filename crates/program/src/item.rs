@@ -1,9 +1,9 @@
-//! What a planner is fed: segments, dwells and events, in program order.
+//! The items of a program, which a planner is fed in program order: segments, dwells and events.
 
 use glidepath_geometry::Segment;
 use serde::{Deserialize, Serialize};
 
-/// How a segment's speed is given.
+/// The rate of a segment: how its speed is given.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Rate {
     /// As fast as the axes allow (G0).
@@ -89,7 +89,7 @@ impl Rate {
     }
 }
 
-/// How the path goes through the corner at the *end* of a segment (G61, G61.1, G64).
+/// The path mode at the corner at the *end* of a segment (G61, G61.1, G64).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum PathMode {
     /// Comes to rest at the corner (G61.1).
@@ -115,7 +115,7 @@ pub const TAP_DEPTHS_UM: u32 = 1 << 20;
 /// machine says otherwise: as many as `LinuxCNC`'s G33.1 allows.
 pub const TAP_OVERTRAVEL: f64 = 10.0;
 
-/// Something that happens in order with the motion.
+/// An event, which happens in order with the motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Event {
     /// Spindle speed (S), rev/min. Does not stop the motion.
@@ -241,7 +241,7 @@ impl ProgramLine {
     }
 }
 
-/// One thing to do, and where the program says so.
+/// An item of a program: one thing to do, and where the program says so.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Item {
     /// Source line, from 1.

@@ -1,4 +1,4 @@
-//! What each axis can do, how far it can go, and what the path may ask for.
+//! The limits of the axes (velocity, acceleration, jerk, travel), and the limits along the path.
 
 use crate::Travel;
 use glidepath_geometry::AxisVector;

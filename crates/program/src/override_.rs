@@ -1,6 +1,6 @@
-//! Operator's overrides of speed.
+//! The operator's overrides of feed and rapids.
 
-/// How much faster or slower than programmed the operator wants the motion.
+/// The operator's overrides: how much faster or slower than programmed the motion is to be.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Override {
     /// Factor on feedrates, > 0. The limits of the machine stay what they are: a corner that they

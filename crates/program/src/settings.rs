@@ -1,10 +1,10 @@
-//! What a plan is made with.
+//! The settings of a plan: everything that it depends on besides the program.
 
 use serde::{Deserialize, Serialize};
 
 use crate::Limits;
 
-/// How corners are passed.
+/// The way in which corners are passed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Smoothing {
     /// As the effort does it best: anywhere within the tolerance ([`Effort::Optimal`]), or by the
@@ -20,7 +20,7 @@ pub enum Smoothing {
     ExactStop,
 }
 
-/// On which side of the program the motion may be, within the tolerance.
+/// The side of the program on which the motion may be, within the tolerance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Corners {
     /// On either side: the motion may swing out of corners, and axes may pass the places where they stop.
@@ -31,7 +31,7 @@ pub enum Corners {
     Inner,
 }
 
-/// How much work planning may cost.
+/// The effort of planning: how much work it may cost.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Effort {

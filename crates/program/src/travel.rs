@@ -1,4 +1,4 @@
-//! How far each axis can go.
+//! The travel of every axis: its soft limits.
 
 use glidepath_geometry::AxisVector;
 
