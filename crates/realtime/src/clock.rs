@@ -1,4 +1,4 @@
-//! The clock a deadline is measured by.
+//! The clock by which a deadline is measured.
 
 use rustix::thread::{ClockId, clock_nanosleep_absolute};
 use rustix::time::{Timespec, clock_gettime};

@@ -1,4 +1,4 @@
-//! Waking on an absolute grid.
+//! The deadline timer, which wakes a thread on an absolute grid.
 //!
 //! ```text
 //! grid     |-------|-------|-------|-------|-------|      origin + k · period, for ever
@@ -24,7 +24,7 @@
 
 use crate::Clock;
 
-/// One wake-up.
+/// A wake-up.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Wake {
     /// Index of the deadline on the grid; the first wait returns 1, or later if it is late.

@@ -1,4 +1,4 @@
-//! Events from a real-time thread to one that may write logs.
+//! The ring of events from a real-time thread to one that may write logs.
 //!
 //! A single-producer single-consumer ring of fixed capacity. The writer never waits: what does not
 //! fit is dropped and counted, and the reader learns how many were lost.

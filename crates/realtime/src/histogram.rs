@@ -1,4 +1,4 @@
-//! Distribution of a time, in fixed memory.
+//! The histogram of a time, in fixed memory.
 
 use hdrhistogram::Histogram as Hdr;
 
@@ -15,7 +15,7 @@ pub struct Histogram {
     max_ns: u64,
 }
 
-/// What is reported of a histogram, ns.
+/// The quantiles of a histogram that are reported, ns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Quantiles {
     /// Number of values.

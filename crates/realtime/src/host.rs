@@ -1,4 +1,4 @@
-//! Reading what the kernel tells of itself in `/proc`, `/sys` and `/dev`.
+//! The host as its kernel tells of itself in `/proc`, `/sys` and `/dev`.
 
 use core::ops::RangeInclusive;
 use std::fs;

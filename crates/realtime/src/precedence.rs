@@ -1,4 +1,4 @@
-//! Precedence of a thread that plans over those that need not be in time.
+//! The precedence of a thread that plans over those that need not be in time.
 
 use std::io;
 

@@ -1,4 +1,4 @@
-//! What the processors spent their time on, as the kernel counts it in `/proc/stat`.
+//! The time that the processors spent, and on what, as the kernel counts it in `/proc/stat`.
 //!
 //! Of interest is *steal*: the time a virtual processor was ready to run and the hypervisor ran
 //! something else. No program can be on time then, however well it is written, so a measurement

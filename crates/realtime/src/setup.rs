@@ -1,4 +1,4 @@
-//! Making a thread a real-time thread.
+//! The set-up of a real-time thread.
 //!
 //! Each [`Item`] is asked for, read back, and reported by itself: granted, not asked for, or
 //! refused with the call, the error and what to do about it. Whether a refusal is the end is the
@@ -12,7 +12,7 @@ use rustix::thread::{CpuSet, sched_getaffinity, sched_setaffinity};
 use std::io;
 use std::os::fd::OwnedFd;
 
-/// What a real-time thread asks for.
+/// The request of a real-time thread to the host.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Request {
     /// `SCHED_FIFO` priority, 1 to 99.
@@ -28,7 +28,7 @@ pub struct Request {
     pub hold_cpu_awake: bool,
 }
 
-/// One thing a [`Request`] may ask for.
+/// An item that a [`Request`] may ask for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Item {
     /// [`Request::priority`].
@@ -66,7 +66,7 @@ impl Item {
     }
 }
 
-/// Why an item was not granted, and what to do.
+/// The reason why an item was not granted, and what to do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Refusal {
     /// The item.
@@ -91,7 +91,7 @@ impl fmt::Display for Refusal {
     }
 }
 
-/// What became of one item.
+/// The outcome of one item.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Outcome {
     /// Nobody asked.
@@ -102,7 +102,7 @@ pub enum Outcome {
     Refused(Refusal),
 }
 
-/// What became of every item.
+/// The outcomes of all items.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Grants {
     outcomes: [(Item, Outcome); Item::ALL.len()],

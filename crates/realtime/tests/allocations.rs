@@ -1,4 +1,4 @@
-//! Nothing allocates after creation.
+//! The proof that nothing allocates after creation.
 
 use glidepath_realtime::{
     Clock, CountingAllocator, DeadlineTimer, Events, Histogram, Monotonic, event_ring,

@@ -1,6 +1,6 @@
-//! One thing that was looked at, and what was found.
+//! A check of the host: what was looked at, and what was found.
 
-/// What a check found.
+/// The verdict of a check.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Verdict {
     /// As it should be, or of no effect here.

@@ -1,4 +1,4 @@
-//! The kernel as a whole.
+//! The checks of the kernel as a whole.
 
 use super::check::Check;
 use crate::{Host, ProcessorTime};

@@ -1,4 +1,4 @@
-//! Is this host fit for real time?
+//! The checks of whether a host is fit for real time.
 //!
 //! Each [`Check`] looks at one thing and says what it found and, where that is not good, how to
 //! mend it. What [`enter`](crate::enter) would be refused is *missing*; what only makes the thread
@@ -17,7 +17,7 @@ pub use check::{Check, Verdict};
 
 use crate::Host;
 
-/// What the real-time thread is going to ask for.
+/// The demand of the real-time thread: what it is going to ask for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Demand {
     /// The processor it is pinned to.

@@ -1,4 +1,4 @@
-//! A network interface that drives hang on.
+//! The checks of a network interface that drives hang on.
 
 use super::check::Check;
 use crate::Host;

@@ -1,4 +1,4 @@
-//! What this process may do.
+//! The checks of what this process may do.
 
 use super::check::Check;
 use crate::host::{field, field_kib};

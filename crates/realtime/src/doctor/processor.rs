@@ -1,4 +1,4 @@
-//! The processor the real-time thread is pinned to.
+//! The checks of the processor that the real-time thread is pinned to.
 
 use super::check::Check;
 use crate::Host;

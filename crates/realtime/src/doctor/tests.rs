@@ -1,4 +1,4 @@
-//! The checks on made-up hosts.
+//! Tests of the checks, on made-up hosts.
 
 use super::*;
 use std::fs;

@@ -1,4 +1,4 @@
-//! Scheduling class of the calling thread.
+//! The scheduling class of the calling thread.
 
 use std::io;
 

@@ -1,4 +1,4 @@
-//! A sentinel against system calls.
+//! The sentinel against system calls.
 //!
 //! A BPF program in the kernel looks at every system call of the thread. What is not on the list of
 //! the allowed ones raises SIGSYS, whose handler writes the number of the call and ends the

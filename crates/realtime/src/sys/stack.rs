@@ -1,4 +1,4 @@
-//! Touching the stack before it is needed.
+//! The prefault of the stack: it is touched before it is needed.
 
 use core::mem::MaybeUninit;
 
