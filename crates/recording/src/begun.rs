@@ -1,11 +1,11 @@
-//! What a program began with that a recording has the motion of.
+//! The beginning of a recorded program: its text, and the set-up that it began with.
 
 use core::hash::Hasher as _;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use twox_hash::XxHash64;
 
-/// What a program began with.
+/// The beginning of a program.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Begun {
     /// The epoch of its motion.

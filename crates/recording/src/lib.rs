@@ -34,5 +34,5 @@ pub use protobuf::Malformed;
 pub use reader::{Entry, MOST_PROGRAM_BYTES, ReadError, Reader};
 pub use recorder::Recorder;
 
-/// What a file begins with.
+/// The bytes that a file begins with.
 pub const MAGIC: [u8; 8] = *b"\x89MCAP0\r\n";

@@ -1,8 +1,8 @@
-//! What a recording is of.
+//! The origin of a recording: the facts, the configuration and the program that it belongs to.
 
 use std::collections::BTreeMap;
 
-/// What a recording is of: everything that is needed to judge it later, elsewhere.
+/// The origin of a recording: everything that is needed to judge it later, elsewhere.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Origin {
     /// By name: versions, the instance, the period, the clocks, what the command line said.

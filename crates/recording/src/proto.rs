@@ -1,4 +1,4 @@
-//! The messages as a file of Protocol Buffers, for whoever reads recordings with code that is
+//! The Protocol Buffers file of the messages, for whoever reads recordings with code that is
 //! generated. A recording itself has them described inside.
 
 use crate::table::{FieldOf, Message};

@@ -1,4 +1,4 @@
-//! Reads recordings, whole or cut short.
+//! The reader of recordings, whole or cut short.
 
 use crate::begun::{BEGUN, Begun, EPOCH, SET_UP};
 use crate::origin::{CONFIGURATION, FACTS, Origin, PROGRAM};
@@ -22,7 +22,7 @@ const MOST_AT_ONCE: usize = 1 << 20;
 /// it is has a name and a time, too.
 pub const MOST_PROGRAM_BYTES: u64 = MOST_BYTES as u64 - 4096;
 
-/// Why a recording cannot be read.
+/// The reason why a recording cannot be read.
 #[derive(Debug, thiserror::Error)]
 pub enum ReadError {
     /// It is none, or broken.
@@ -44,7 +44,7 @@ pub enum ReadError {
     File(#[from] io::Error),
 }
 
-/// What is in a recording, in the order in which it came.
+/// An entry of a recording, in the order in which it came.
 #[allow(
     clippy::large_enum_variant,
     reason = "nearly every entry is a setpoint, and they are read one by one"
@@ -107,14 +107,14 @@ impl<R: Read> Reader<R> {
         Ok(reader)
     }
 
-    /// What it is of.
+    /// The origin of the recording.
     #[must_use]
     pub const fn origin(&self) -> &Origin {
         &self.heading.origin
     }
 
-    /// What the first program began with whose beginning is in it, once its first setpoint is read; those
-    /// of others are passed over.
+    /// The beginning of the first program whose beginning is in it, once its first setpoint is
+    /// read; those of others are passed over.
     #[must_use]
     pub fn begun(&self) -> Option<&Begun> {
         self.heading.begun.as_ref()

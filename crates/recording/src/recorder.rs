@@ -1,4 +1,4 @@
-//! Writes recordings.
+//! The writer of recordings.
 
 use crate::begun::{BEGUN, Begun, EPOCH, SET_UP, attachment_of};
 use crate::origin::{CONFIGURATION, FACTS, Origin, PROGRAM};

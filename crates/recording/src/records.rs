@@ -1,5 +1,5 @@
-//! Which field of a record has which number. A number is never given to another field, and the
-//! number of a field that is gone is not given again.
+//! The field numbers of every record in a recording. A number is never given to another field, and
+//! the number of a field that is gone is not given again.
 
 use crate::table::message;
 use glidepath_link::{EventRecord, Setpoint, Status};

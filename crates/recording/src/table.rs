@@ -1,5 +1,5 @@
-//! Records as messages: one table for each says which field has which number and type. Writing,
-//! reading and the description in the file are all made from it.
+//! The tables of fields: which field of a record has which number and type. Writing, reading and
+//! the description in the file are all made from them.
 
 use crate::protobuf::{Fields, Malformed, Wire, put_bytes, put_fixed64, put_varint};
 use glidepath_link::{CodeWords, EventRecord, Quantiles, Text};

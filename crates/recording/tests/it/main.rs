@@ -1,4 +1,4 @@
-//! Recordings as their readers find them: whole, cut anywhere, and in another language.
+//! Tests of recordings as their readers find them: whole, cut anywhere, and in another language.
 
 #![allow(
     clippy::unwrap_used,
