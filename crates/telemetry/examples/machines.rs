@@ -1,4 +1,4 @@
-//! Many machines on one broker: how many messages a second it passes on, and how late.
+//! The load of many machines on one broker: how many messages a second it passes on, and how late.
 //!
 //! ```text
 //! mosquitto -p 1883 &

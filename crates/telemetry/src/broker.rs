@@ -1,4 +1,4 @@
-//! The connection.
+//! The connection to an MQTT broker.
 
 use rumqttc::{Client, Connection, Event, LastWill, MqttOptions, Outgoing, Packet, QoS};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -19,7 +19,7 @@ const RETRY: Duration = Duration::from_secs(1);
 const ONLINE: &str = "{\"online\":true}";
 const OFFLINE: &str = "{\"online\":false}";
 
-/// How sure a message is to arrive.
+/// The quality of service of a message.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Quality {
     /// Sent once, and forgotten.
@@ -37,7 +37,7 @@ impl Quality {
     }
 }
 
-/// Which broker, and who speaks.
+/// The settings of a connection: which broker, and who speaks.
 #[derive(Debug, Clone)]
 pub struct BrokerSettings {
     /// Its host name or address.
@@ -54,7 +54,7 @@ pub struct BrokerSettings {
     pub info: String,
 }
 
-/// What went through so far.
+/// The counts of what went through so far.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct BrokerCounts {
     /// Messages handed to the connection.
