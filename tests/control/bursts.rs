@@ -1,4 +1,4 @@
-//! Frames that come late, many at a time, from a planner that waits for a processor.
+//! Tests of frames that come late, many at a time, from a planner that waits for a processor.
 
 use glidepath_tests::pocket;
 

@@ -1,5 +1,6 @@
-//! What an operator does to the motion of real programs, tick by tick: planner and interpolator as
-//! libraries, without threads, clock or shared memory, so that every run of a test is the same.
+//! Tests of what an operator does to the motion of real programs, tick by tick: planner and
+//! interpolator as libraries, without threads, clock or shared memory, so that every run of a test
+//! is the same.
 //!
 //! A sample runs by default. `GLIDEPATH_CONTROL=200 cargo test --release -p glidepath-tests --test
 //! control -- --nocapture` runs so many times as much, and prints how soon a hold begins.

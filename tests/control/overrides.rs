@@ -1,4 +1,5 @@
-//! An override in the middle of a program leads to the motion that a plan at that feed has.
+//! Tests of overrides: one in the middle of a program leads to the motion that a plan at that feed
+//! has.
 
 use glidepath_link::Command;
 use glidepath_program::Override;

@@ -1,4 +1,4 @@
-//! Anything an operator may do, in any order, at any time.
+//! Tests of anything an operator may do, in any order, at any time.
 
 use glidepath_link::{Command, MachineState};
 use glidepath_program::Effort;

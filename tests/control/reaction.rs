@@ -1,4 +1,4 @@
-//! How soon a hold begins, and how soon the machine rests.
+//! Tests of the reaction to a hold: how soon it begins, and how soon the machine rests.
 
 use std::collections::BTreeMap;
 

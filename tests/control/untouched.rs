@@ -1,5 +1,5 @@
-//! What nobody touches is played as it was planned, however hard the plan is to stop on: it has a stop in
-//! reserve at every tick, and is not slowed down for want of one.
+//! Tests of motion that nobody touches: it is played as it was planned, however hard the plan is to
+//! stop on: it has a stop in reserve at every tick, and is not slowed down for want of one.
 
 use glidepath_tests::pocket;
 

@@ -1,5 +1,5 @@
-//! Instructions of a test that runs itself under callgrind, as another process: a figure that
-//! other load on the host does not change.
+//! The count of instructions of a test that runs itself under callgrind, as another process: a
+//! figure that other load on the host does not change.
 
 use glidepath_testing::skip;
 use std::process::Command;

@@ -1,5 +1,5 @@
-//! Drives that are a process of their own, lost around a job in each of its phases. What `glidepath status` names
-//! brings the machine back, and the next job is executed.
+//! Tests of drives that are a process of their own, lost around a job in each of its phases. What
+//! `glidepath status` names brings the machine back, and the next job is executed.
 //!
 //! `GLIDEPATH_DRIVES=30 cargo test -p glidepath-tests --test e2e drives -- --nocapture` takes each loss in each phase,
 //! `GLIDEPATH_DRIVES_SEED` other moments.

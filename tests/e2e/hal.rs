@@ -1,5 +1,5 @@
-//! LinuxCNC's HAL as consumer: what comes out of its pins is what was recorded, row by row, and its
-//! enable chain opens when lines stay away.
+//! Tests of LinuxCNC's HAL as consumer: what comes out of its pins is what was recorded, row by
+//! row, and its enable chain opens when lines stay away.
 
 use std::fs::File;
 use std::path::Path;

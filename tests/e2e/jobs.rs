@@ -1,5 +1,5 @@
-//! A job is answerable from the moment it is accepted: what an operator wants of it holds before its first
-//! motion as it does behind.
+//! Tests of jobs, which are answerable from the moment they are accepted: what an operator wants of
+//! one holds before its first motion as it does behind.
 
 use std::time::{Duration, Instant};
 

@@ -1,4 +1,5 @@
-//! Moving by hand, with the processes: by steps, by keys, and what happens when a client is lost.
+//! Tests of moving by hand, with the processes: by steps, by keys, and what happens when a client
+//! is lost.
 
 use std::fs::File;
 use std::io::Write as _;

@@ -1,4 +1,4 @@
-//! Planner and interpolator together, as threads, over the transport of the processes.
+//! Tests of planner and interpolator together, as threads, over the transport of the processes.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};

@@ -1,5 +1,5 @@
-//! The life of a machine, from the first switching on to the loss of every process, on a machine of
-//! the test's own that it upsets: every setpoint of it is audited.
+//! The test of the life of a machine, from the first switching on to the loss of every process, on
+//! a machine of the test's own that it upsets: every setpoint of it is audited.
 //!
 //! The power goes at moments that a seed decides. `GLIDEPATH_LIFE=200 cargo test -p glidepath-tests
 //! --test e2e life -- --nocapture` takes so many, `GLIDEPATH_LIFE_SEED` others.

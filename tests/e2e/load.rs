@@ -1,4 +1,4 @@
-//! A program beside others who take every core.
+//! Tests of a program beside others who take every core.
 
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};

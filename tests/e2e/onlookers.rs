@@ -1,5 +1,5 @@
-//! A recorder, a page and telemetry beside a machine that moves: they miss nothing, cost little,
-//! and the tick does not notice.
+//! Tests of a recorder, a page and telemetry beside a machine that moves: they miss nothing, cost
+//! little, and the tick does not notice.
 //!
 //! Three seconds by default. Ten minutes without and ten with them, where the recorder has to be
 //! content with two per cent of a core:

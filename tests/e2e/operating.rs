@@ -1,4 +1,4 @@
-//! A machine with drives: switched on, homed, used, lost, and switched on again.
+//! Tests of a machine with drives: switched on, homed, used, lost, and switched on again.
 
 use std::time::Duration;
 

@@ -1,4 +1,4 @@
-//! What an operator does, by the commands of the command line.
+//! Tests of what an operator does, by the commands of the command line.
 
 use std::time::Duration;
 

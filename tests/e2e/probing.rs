@@ -1,4 +1,4 @@
-//! A probe: programs and lines that go on from where it touched.
+//! Tests of a probe: programs and lines that go on from where it touched.
 
 use std::time::Duration;
 

@@ -1,4 +1,4 @@
-//! Programs that several tests execute.
+//! The programs that several tests execute.
 
 /// About two seconds of motion: lines, corners, an arc, a dwell, an event.
 pub(crate) const PROGRAM: &str = "\

@@ -1,4 +1,5 @@
-//! Recordings of real processes: whole ones, of recorders that were killed, and of a black box.
+//! Tests of recordings of real processes: whole ones, of recorders that were killed, and of a black
+//! box.
 
 use std::fs::File;
 use std::io::BufReader;

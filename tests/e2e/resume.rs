@@ -1,4 +1,4 @@
-//! A program goes on after its planner was killed.
+//! Tests of resumption: a program goes on after its planner was killed.
 
 use std::time::Duration;
 

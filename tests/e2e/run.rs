@@ -1,4 +1,4 @@
-//! `glidepath run` and `glidepath plan`.
+//! Tests of `glidepath run` and `glidepath plan`.
 
 use std::path::Path;
 use std::time::Duration;

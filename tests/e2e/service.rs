@@ -1,5 +1,5 @@
-//! One service for lines and files: modal state between them, M codes that wait, a line to begin
-//! with, and aborts.
+//! Tests of one service for lines and files: modal state between them, M codes that wait, a line to
+//! begin with, and aborts.
 
 use std::time::Duration;
 

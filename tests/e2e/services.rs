@@ -1,4 +1,4 @@
-//! Interpolator, planner, servo and clients, each started by itself.
+//! Tests of interpolator, planner, servo and clients, each started by itself.
 
 use std::time::Duration;
 

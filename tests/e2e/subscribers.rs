@@ -1,5 +1,5 @@
-//! Many subscribers of setpoints: some keep up, one stalls, others come and go. None of them may
-//! disturb the interpolator, or what the others receive.
+//! Tests of many subscribers of setpoints: some keep up, one stalls, others come and go. None of
+//! them may disturb the interpolator, or what the others receive.
 //!
 //! A short run by default. A million ticks at 250 µs, in real time where the user may, about four
 //! minutes and a half:

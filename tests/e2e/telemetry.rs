@@ -1,5 +1,5 @@
-//! Telemetry by a real broker: what it publishes is what the machine did, the broker tells of its
-//! death, and a broker that comes again is told everything again.
+//! Tests of telemetry by a real broker: what it publishes is what the machine did, the broker tells
+//! of its death, and a broker that comes again is told everything again.
 
 use std::io::{BufRead as _, BufReader};
 use std::net::TcpListener;

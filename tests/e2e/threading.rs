@@ -1,4 +1,4 @@
-//! Threads: the machine that is shipped for them, with a spindle that is simulated.
+//! Tests of threads: the machine that is shipped for them, with a spindle that is simulated.
 
 use std::time::Duration;
 

@@ -1,4 +1,5 @@
-//! What people are told: at the client that waits, in refusals, and by a watch that outlasts silence.
+//! Tests of what people are told: at the client that waits, in refusals, and by a watch that
+//! outlasts silence.
 
 use std::time::Duration;
 

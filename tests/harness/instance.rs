@@ -1,4 +1,4 @@
-//! Shared memory for one test.
+//! An instance for one test: its shared memory.
 
 use std::fs::File;
 use std::path::{Path, PathBuf};

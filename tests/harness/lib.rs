@@ -1,4 +1,4 @@
-//! Harness of the end-to-end tests.
+//! The harness of the end-to-end tests.
 //!
 //! * [`Instance`]: shared memory of its own for each test, as many at a time as there are cores, and
 //!   the proof that nothing of it is left behind;

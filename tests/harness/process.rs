@@ -1,4 +1,4 @@
-//! Processes of the program under test.
+//! The processes of the program under test.
 
 use std::io::{BufRead as _, BufReader, Read, Write};
 use std::process::{Child, Command, ExitStatus, Stdio};

@@ -1,4 +1,4 @@
-//! Who may use the processor: as many seats as there are cores, each of them a locked file.
+//! The seats of tests at the processor: as many as there are cores, each of them a locked file.
 
 use std::fs::File;
 

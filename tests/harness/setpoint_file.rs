@@ -1,4 +1,4 @@
-//! Setpoints as CSV.
+//! The reader of setpoints as CSV.
 
 use std::path::Path;
 

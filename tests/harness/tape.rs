@@ -1,4 +1,5 @@
-//! Every setpoint of an instance, whoever publishes it, and what the auditor says of them.
+//! The tape of every setpoint of an instance, whoever publishes it, and what the auditor says of
+//! them.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};

@@ -1,4 +1,4 @@
-//! Ends a test that hangs.
+//! The watchdog, which ends a test that hangs.
 
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::time::Duration;

@@ -1,4 +1,4 @@
-//! What jerk there is between the setpoints of a plan, at the period of the bus.
+//! The jerk between the setpoints of a plan, at the period of the bus.
 //!
 //! A plan keeps its limits at its own period. Between two setpoints the demand is the quintic through
 //! both, which is the motion that was planned as long as its jerk is one: where an S-curve changes it

@@ -1,5 +1,5 @@
-//! What drives recorded, judged: whether what they were told keeps the limits, wherever the host let
-//! anybody tell them.
+//! The judge of what drives recorded: whether what they were told keeps the limits, wherever the
+//! host let anybody tell them.
 //!
 //! A tick that the host left out, a setpoint that did not arrive and a target in motion for which
 //! there was no setpoint are no fault of what was computed, and across them the limits are not kept.

@@ -1,4 +1,4 @@
-//! What may go wrong, when, and what must follow.
+//! A case of the matrix: what goes wrong, when, and what must follow.
 
 use glidepath_link::{FaultCause, FrameRefusal};
 

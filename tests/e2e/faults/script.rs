@@ -1,5 +1,5 @@
-//! One case from start to end: run into the moment, let it go wrong, follow the machine to its
-//! rest, recover.
+//! The script of one case from start to end: run into the moment, let it go wrong, follow the
+//! machine to its rest, recover.
 
 use std::time::{Duration, Instant};
 

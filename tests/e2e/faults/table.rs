@@ -1,4 +1,4 @@
-//! What came of the cases, cell by cell.
+//! The table of results, cell by cell.
 
 use std::fmt;
 

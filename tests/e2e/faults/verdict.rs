@@ -1,4 +1,4 @@
-//! What subscribers got, judged by the auditor.
+//! The verdict of the auditor on what subscribers got.
 
 use glidepath_audit::{Audit, AuditSettings, Passed, Report, Sample, Violation, ViolationKind};
 use glidepath_geometry::AxisVector;

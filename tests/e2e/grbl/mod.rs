@@ -1,4 +1,5 @@
-//! Senders of grbl: they stream, hold, stop, jog and go away, and the machine does what they mean.
+//! Tests of senders of grbl: they stream, hold, stop, jog and go away, and the machine does what
+//! they mean.
 
 mod sender;
 

@@ -1,4 +1,5 @@
-//! The page follows the machine: it shows what runs, whoever began it, and never another program.
+//! Tests of the page, which follows the machine: it shows what runs, whoever began it, and never
+//! another program.
 
 use std::process::Stdio;
 

@@ -1,4 +1,5 @@
-//! What pages order: by role, by seat, by a finger that is down, and by the planner's service.
+//! Tests of what pages order: by role, by seat, by a finger that is down, and by the planner's
+//! service.
 
 use std::time::{Duration, Instant};
 

@@ -1,4 +1,5 @@
-//! A whole life with the mouse alone: off, home, jog, zero, upload, run, tool change, hold, abort.
+//! The test of a whole life with the mouse alone: off, home, jog, zero, upload, run, tool change,
+//! hold, abort.
 
 use std::time::Duration;
 

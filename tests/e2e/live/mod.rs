@@ -1,4 +1,5 @@
-//! The page of a machine, in a browser: it loads, it moves, and it holds the machine if it may.
+//! Tests of the page of a machine, in a browser: it loads, it moves, and it holds the machine if it
+//! may.
 
 mod following;
 mod hands;

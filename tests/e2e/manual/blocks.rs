@@ -1,4 +1,4 @@
-//! Blocks of commands in the pages of the manual, and how each is run.
+//! The blocks of commands in the pages of the manual, and how each is run.
 
 use std::path::{Path, PathBuf};
 

@@ -1,4 +1,5 @@
-//! Every command of the manual, typed as it stands there: at a desk, or at a machine with drives.
+//! The test of every command of the manual, typed as it stands there: at a desk, or at a machine
+//! with drives.
 
 mod blocks;
 mod machine;

@@ -1,4 +1,4 @@
-//! Which crate depends on which.
+//! The test of arrows: which crate depends on which.
 //!
 //! `crates/README.md` says it in two blocks: `arrows` lists for every crate those that it uses,
 //! `never` the pairs that must not know each other, with the reason.

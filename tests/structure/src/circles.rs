@@ -1,4 +1,4 @@
-//! No circles of files inside a crate.
+//! The test of circles: there are none of files inside a crate.
 
 use crate::modules::{self, Modules};
 use std::fmt::Write as _;

@@ -1,5 +1,5 @@
-//! The plan of the house, held against the code: which crate may know which, and that the files of
-//! a crate do not import each other in circles.
+//! The structure tests, which hold the plan of the code against it: which crate may know which, and
+//! that the files of a crate do not import each other in circles.
 //!
 //! * `arrows`: the dependencies between crates are those that `crates/README.md` draws, and what it
 //!   says must never know each other does not, directly or by way of others.

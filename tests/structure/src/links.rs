@@ -1,4 +1,5 @@
-//! Links within the repository lead to what is there: to a file, and to a heading of it.
+//! The test of links: those within the repository lead to what is there: to a file, and to a
+//! heading of it.
 
 use crate::root;
 use std::path::{Path, PathBuf};

@@ -1,4 +1,4 @@
-//! What each source file of a crate imports from the others.
+//! The imports of each source file of a crate from the others.
 //!
 //! A file's arrows are all paths in it that lead to another file of the same crate, in `use` and in
 //! code, followed through re-exports to the file that defines what is named. No arrows are

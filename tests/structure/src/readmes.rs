@@ -1,4 +1,5 @@
-//! What a registry shows of a crate: `README.md`, made from the crate's own documentation.
+//! The test of what a registry shows of a crate: `README.md`, made from the crate's own
+//! documentation.
 //!
 //! `GLIDEPATH_BLESS=1 cargo test -p glidepath-structure readmes` writes them.
 

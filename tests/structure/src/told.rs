@@ -1,5 +1,5 @@
-//! What people are told: no name of a variant as Rust derives it, and no state or command for which
-//! a text was forgotten.
+//! The test of what people are told: no name of a variant as Rust derives it, and no state or
+//! command for which a text was forgotten.
 
 use crate::modules::is_test;
 use std::path::{Path, PathBuf};

@@ -1,4 +1,4 @@
-//! Whether others wanted the processors, too.
+//! The crowd: whether others wanted the processors, too.
 
 /// True if in the last minute more threads wanted to run than there are processors: those under test, which are
 /// few and mostly sleep, were not alone. A [`crate::Pulse`] sees what a thread waits that wakes now and then; it

@@ -1,4 +1,4 @@
-//! What tests of every crate share: how a test says what it left out, and why, and [`Pulse`] and
+//! The helpers of every crate's tests: how a test says what it left out, and why, and [`Pulse`] and
 //! [`is_crowded`], by which it finds out whether the host let anything run in time.
 //!
 //! Cargo swallows what a test says that passes. So [`skip`] and [`leave_out`] write past it, and into the file

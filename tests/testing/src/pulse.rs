@@ -1,4 +1,4 @@
-//! What a host did not give to a thread that only wants to wake in time.
+//! The pulse: what a host did not give to a thread that only wants to wake in time.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};

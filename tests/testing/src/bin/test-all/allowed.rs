@@ -1,4 +1,4 @@
-//! Which skips a machine may have, and why: a line for each, `what | where | why`.
+//! The list of skips that a machine may have, and why: a line for each, `what | where | why`.
 
 /// Where a skip is allowed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

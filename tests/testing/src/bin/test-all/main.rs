@@ -1,5 +1,5 @@
-//! `cargo test-all`: all tests, whatever fails, and one summary of them at the end. Its last line is
-//! `N passed, N failed, N skipped`.
+//! The command `cargo test-all`: all tests, whatever fails, and one summary of them at the end. Its
+//! last line is `N passed, N failed, N skipped`.
 //!
 //! ```text
 //! cargo test-all [--allowed-skips FILE] [arguments of cargo test]

@@ -1,4 +1,4 @@
-//! What cargo and the tests said, as one summary.
+//! The summary of what cargo and the tests said.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
