@@ -2,8 +2,8 @@
 //!
 //! The factor follows the input in steps, or the search for a ramp would never come to rest. Where
 //! the machine is configured for that, it goes on below zero: back along the path. The source of the
-//! input is the first servo stack that is heard. If nothing new comes from it, the factor is zero,
-//! and another stack takes its place that sends something else than zero.
+//! input is the first servo stack that sends something other than zero, as stacks without the input
+//! send zero. If nothing new comes from it, the factor is zero, and another such stack takes its place.
 
 use super::settings::AdaptiveFeed;
 use crate::message::Report;
@@ -83,9 +83,10 @@ impl AdaptiveWatch {
         let value = value.copied().unwrap_or(0.0);
         let is_stale =
             |source: Source| feedback.sample_ns.saturating_sub(source.sample_ns) > self.stale_ns;
-        let is_its = self.source.is_none_or(|source| {
-            source.boot_id == feedback.boot_id || (is_stale(source) && value != 0.0)
-        });
+        let is_its = match self.source {
+            Some(source) if source.boot_id == feedback.boot_id => true,
+            source => value != 0.0 && source.is_none_or(is_stale),
+        };
         if is_its {
             self.source = Some(Source {
                 boot_id: feedback.boot_id,
@@ -194,7 +195,13 @@ mod tests {
         says(&mut watch, 1, 100, 3.0);
         assert!(watch.factor(112 * MS) > 0.4);
         assert!(watch.factor(113 * MS) <= 0.0, "stale");
-        // A stack without the input does not speak for it, until the other is gone.
+        // A stack without the input does not speak for it, even if it is heard first.
+        let mut other = self::watch(true);
+        says(&mut other, 1, 100, 0.0);
+        says(&mut other, 2, 101, 3.0);
+        says(&mut other, 1, 102, 0.0);
+        assert!((other.factor(103 * MS) - 0.5).abs() < 1e-12);
+        // Another one with the input does when the first is gone.
         says(&mut watch, 1, 120, 3.0);
         says(&mut watch, 2, 121, 5.0);
         assert!((watch.factor(122 * MS) - 0.5).abs() < 1e-12);
