@@ -46,6 +46,7 @@ impl<const D: usize> Optimiser<D> {
         window_start.play_guess(path, &self.guess, progress, (from, 1.0));
         let from = (window_start.piece, from);
         let wanted = progress_at_feed_until(path, from, progress, period_t);
+        // The guess leaves the feed soon, so there is time to be gained: a search is for that.
         if wanted < 2 * window_start.commit {
             return None;
         }

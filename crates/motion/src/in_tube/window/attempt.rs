@@ -12,9 +12,11 @@ use crate::joints::SharedJoints;
 use glidepath_geometry::{AXES, AxisVector};
 use glidepath_program::{Corners, Limits};
 
-/// Most pieces a window looks at.
+/// Most pieces a window looks at: a bound of memory and work where blocks are tiny. A window that sees no
+/// further rests at the end of them.
 const MOST_PIECES: usize = 4096;
-/// Intervals of a window, at least and at most.
+/// Intervals of a window, at least and at most. Work and memory are linear in them; with fewer a window
+/// sees its own stop too soon, with more each costs longer before anything of it is handed out.
 pub(crate) const LEAST_INTERVALS: usize = 60;
 const MOST_INTERVALS: usize = 160;
 /// The same where the motion goes on at the feed: most of them are then handed out.
@@ -24,7 +26,8 @@ pub(crate) const FEED_INTERVALS: usize = MOST_INTERVALS;
 const JERK_SLACK: f64 = 1.0 + 1e-4;
 /// What rounding makes of a position, mm.
 const ROUNDING_MM: f64 = 1e-11;
-/// Length of a window in times to stop from the top speed.
+/// Length of a window in times to stop from the top speed: one is the stop itself, the rest is what is
+/// optimised with it out of sight. No measurement of it is kept.
 const STOPS: f64 = 2.4;
 
 /// The pieces a window sees, and its length in knot intervals.
@@ -55,6 +58,7 @@ impl View {
             let along = (piece.end - piece.start) / piece.length_s;
             let bounds = directional(limits, &along);
             let top_v = piece.top_v.min(bounds.speed_v);
+            // Of an S-curve down to rest with a phase of constant acceleration.
             let stop_t = top_v / bounds.path.accel_a + bounds.path.accel_a / bounds.path.jerk_j;
             #[expect(
                 clippy::cast_possible_truncation,
@@ -225,6 +229,8 @@ fn attempt_along<const D: usize>(
         commit: context.commit,
         bias: context.bias,
     };
+    // The judge sees positions as they are handed out, not control points in the window's space: what
+    // rounding makes of them is judged, too.
     let mut judge = |points: &[[f64; D]], question| {
         let points: Vec<_> = points.iter().map(|point| path.outside(point)).collect();
         passes((context, path), &points, question)

@@ -1,9 +1,12 @@
 //! Balls as planes: what the tube and the corners are cut by, learnt from one solution to the next.
 //!
 //! The tube of a piece is round, and so is the room round a corner. Each is bounded by planes that
-//! touch it where earlier solutions were: outer approximations that close in on the ball. The
-//! planes of the last few rounds are all kept, or else a motion that is pushed back at one side
-//! comes out at another.
+//! touch it where earlier solutions were: outer approximations that close in on the ball (the cutting
+//! planes of Kelley 1960). The planes of the last few rounds are all kept, or else a motion that is
+//! pushed back at one side comes out at another.
+//!
+//! The balls themselves could be rows, as cones of second order. But the solver is one for linear rows
+//! with a Hessian that does not change; planes keep it so, and most samples never need one.
 
 use super::samples::{Samples, WORTH_R, sample};
 use super::scaled_path::{SHARP, ScaledPath};
@@ -11,12 +14,16 @@ use super::solver::{combine, dot};
 use super::speed::velocity_over_feed;
 use super::spline::Grid;
 
-/// Part of the radius from which a gentle corner gets rows.
+/// Part of the radius from which a gentle corner gets rows: with less, every vertex of a fine polyline
+/// has some, with more a motion may come out of the ball before there is a plane.
 pub(crate) const CLOSE_R: f64 = 0.85;
-/// Planes kept for each ball.
+/// Planes kept for each ball, the newest ones: each is a row of the problem.
 const KEPT: usize = 5;
-/// Directions kept in which a velocity was above the feed, by this factor.
+/// Directions kept in which a velocity was above the feed. With six, chords of a circle took three periods
+/// more in one unit of length; for slow curves in wide tubes, which six were tried for, a stronger pull
+/// to the path took their place ([`super::rounds`]).
 const KEPT_DIRECTIONS: usize = 3;
+/// Velocity over the feed from which a direction is kept. The judge allows 5e-4.
 pub(crate) const WORTH_OF_FEED: f64 = 1.0 + 1e-4;
 
 /// A plane with its outward normal; what it cuts off lies beyond `radius` from `center`.
@@ -115,6 +122,8 @@ impl<const D: usize> Cuts<D> {
         for k in 1..=samples.count() {
             let piece = samples.piece[k];
             self.learn_sample(path, (k, piece), &sample(points, grid, k));
+            // Sharp corners always have rows, so a plane is kept early; of gentle ones only those that are
+            // nearly missed.
             for i in samples.piece[k - 1]..piece {
                 let passing = nearest_to_corner(path, points, (i, k, samples.count()), grid);
                 let off = passing.furthest();
@@ -182,14 +191,18 @@ impl<const D: usize> Cuts<D> {
 }
 
 /// Periods before and after the one in which samples change pieces, in which a corner may be
-/// passed.
+/// passed: samples go over before the end of a piece, the motion cuts the corner behind it.
 const NEAR_PERIODS: usize = 2;
 
-/// Half-way from the motion to a chord that cuts it off, as a part of T² times acceleration.
+/// Half-way from the motion to a chord that cuts it off, as a part of T² times acceleration: a chord of a
+/// period that has its middle there is T²/8 times acceleration away.
 pub(crate) const HALF_WAY: f64 = 1.0 / 16.0;
-/// What the judge adds for chords that begin between those it looks at, of half their distance.
+/// What the judge adds for chords that begin between those it looks at, of half their distance. It adds
+/// .031 of that where a chord passes a vertex with its very middle, .094 within the sixteenth beside it
+/// (`verify::follow`, half a step of 1/16): corners are passed near the middle of chords.
 const BETWEEN: f64 = 0.06;
-/// Cosine of the turn within a period up to which all of the acceleration takes room at a corner.
+/// Cosine of the turn within a period up to which all of the acceleration takes room at a corner. From
+/// there to 1 what is along the motion fades out; the judge has a step, at .8.
 const TURNING: f64 = 0.9;
 
 /// How a motion passes a corner.
@@ -259,6 +272,8 @@ impl<const D: usize> Nearest<D> {
             let (first, weights) = grid.inner_site(sample - 1, lambda, HALF_WAY);
             combine(points, first, &weights)
         };
+        // The nearest place of the straight line between both ends: the parameter is a guess for a row,
+        // and the judge looks at what comes out.
         let (from, to) = (at(0.0), at(1.0));
         let along: [f64; D] = core::array::from_fn(|a| to[a] - from[a]);
         let offset: [f64; D] = core::array::from_fn(|a| vertex[a] - from[a]);
@@ -290,6 +305,7 @@ impl<const D: usize> Nearest<D> {
             } else {
                 straightness(points, grid, self.sample)
             };
+            // What a chord is off along the motion takes no room, as long as the motion goes straight on.
             half = core::array::from_fn(|a| half[a] - share * part * along[a]);
         }
         Passing {

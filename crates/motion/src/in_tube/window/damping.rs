@@ -22,7 +22,8 @@ use super::scaled_path::ScaledPath;
 use super::solver::{Problem, dot};
 use super::tube::{Layout, Style};
 
-/// Turn of the program, radians, from which there is a corner.
+/// Turn of the program, radians, from which there is a corner: what a motion does there crosses the path
+/// on purpose. With less, the vertices of a coarse polyline would leave all of it undamped.
 const CORNER: f64 = 0.1;
 /// Nothing is damped in one part in so many of the time to settle, on both sides of a corner.
 const LEFT_OUT: usize = 4;
@@ -74,7 +75,7 @@ fn add_at<const D: usize>(
     let center = progress.map(|progress| path.center_beyond(piece, progress));
     let radius = segment.radius * style.keep_r;
     let pull = style.ridge / (radius * radius);
-    // The square of ω, per period: of the rate that this pull makes with the price of jerk.
+    // The square of ω, per period: of the rate that this pull makes with the price of jerk, p = j·ω⁶.
     let square = (pull / dearest_jerk).cbrt() * style.period_t.powi(2);
     let mut price = |(first, weights), ridge, center: [f64; D]| {
         problem.add_site(first, weights);
@@ -82,6 +83,7 @@ fn add_at<const D: usize>(
             (site.ridge, site.center, site.tangent) = (ridge, center, segment.tangent);
         }
     };
+    // v = 3jω⁴ = 3p/ω², a = 3jω² = 3p/ω⁴.
     price(
         style.grid.velocity_site(k),
         3.0 * pull / square,
@@ -101,6 +103,7 @@ fn dearest_jerk<const D: usize>(layout: &Layout<'_, D>) -> f64 {
         .priced_jerk(layout.path)
         .into_iter()
         .fold(f64::INFINITY, f64::min);
+    // There is a third difference a knot, but an offset a period.
     let per_period = style.period_t / style.grid.knot_t;
     style.jerk * per_period / (slowest_j * slowest_j)
 }

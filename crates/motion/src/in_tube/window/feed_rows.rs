@@ -21,8 +21,14 @@ use super::solver::{FAR, Problem};
 use super::speed::velocity_over_feed;
 use super::tube::Layout;
 
-/// How many radii the feed goes along the path while jerk strays by one, where it is no longer slow.
+/// How many radii the feed goes along the path while jerk strays by one, where it is no longer slow. From
+/// there down the price of velocity across the path rises from 0; a larger number gives it to motions
+/// that planes alone hold, and takes time from them at corners.
 const NOT_SLOW: f64 = 3.0;
+
+/// Share of the feed from which on the last motion gets a plane in its own direction: far inside the ball
+/// no plane binds, and the direction of what hardly moves says nothing of the next motion's.
+const TOLD_R: f64 = 0.2;
 
 /// Feed, and no running back, for every first difference that is not given.
 pub(crate) fn add<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, D>) {
@@ -42,18 +48,21 @@ pub(crate) fn add<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, 
             .any(|i| path.turn(i, i + 1) > SHARP);
         let scale = path.segments[middle].feed_axes;
         let slowest = slowest_feed(path, pieces_at(samples, grid, k));
+        // A difference has a part in periods of several pieces: it is bound by the slowest of them.
         let factor = (0..D)
             .filter(|&a| scale[a] > 0.0)
             .fold(1.0_f64, |most, a| most.max(slowest[a] / scale[a]));
         problem.add_site(k, [-1.0, 1.0, 0.0, 0.0]);
         steer(problem, layout, (k, middle), stray_t);
         let normal = path.segments[middle].feed.map(|f| f * factor / h);
+        // Without the lower side a motion that is to be late would back off first, to pass its corner
+        // faster. At a corner it may: there going back is part of the turn.
         let low = if bends_here { -FAR } else { 0.0 };
         problem.add_feed_row(normal, [low, style.feed_r], style.is_feed_firm);
         // The feed bounds a ball of velocities: a plane touches it where the last motion was, and
         // more where earlier ones were beyond it.
         let (size, direction) = velocity_over_feed(points, &slowest, k, grid);
-        let last = Some(direction).filter(|_| size > 0.2 && size <= WORTH_OF_FEED);
+        let last = Some(direction).filter(|_| size > TOLD_R && size <= WORTH_OF_FEED);
         for direction in last.iter().chain(cuts.of_feed(k)) {
             let normal = core::array::from_fn(|a| direction[a] * slowest[a] / h);
             problem.add_feed_row(normal, [-FAR, style.feed_r], style.is_feed_firm);
@@ -88,6 +97,7 @@ fn steer<const D: usize>(
         .iter()
         .rfind(|piece| piece.s <= progress);
     if let (Some(site), Some(here)) = (problem.sites.last_mut(), here) {
+        // A ridge on Δx, whose center is 0: ½·ridge·|velocity across|², of the way at the feed.
         site.ridge = style.steering * slowness / (top * grid.knot_t).powi(2);
         site.tangent = here.tangent;
     }

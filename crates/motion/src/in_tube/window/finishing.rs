@@ -7,12 +7,19 @@ use super::spline::Grid;
 use super::tube::Style;
 use super::window_start::WindowStart;
 
-/// Lengths of the last window that are tried, and rounds for each.
+/// Lengths of the last window that are tried, and rounds for each. Steps that double over the 160
+/// intervals of the longest window are seven, and as many halve again. Work may end it before.
 const FINISHES: usize = 16;
 const FINISH_ROUNDS: usize = 5;
-/// No motion rests at the end after so few intervals.
+/// No motion rests at the end after so few intervals: a problem has six at least, of whose points three
+/// are given and three are the rest.
 const LEAST_INTERVALS: usize = 5;
-/// Pull towards the path where nothing else is aimed at.
+/// How near the end a motion is as good as there: in radii of the last piece, and in lengths of the path
+/// for what rounding leaves.
+const ARRIVED_R: f64 = 0.02;
+const ROUNDING_R: f64 = 1e-9;
+/// Pull towards the path where nothing else is aimed at: with time fixed, it is all of the objective but
+/// for the price of velocity across slow pieces.
 const CENTRED_PULL: f64 = 1e-2;
 
 /// A motion that rests at the end of the path.
@@ -153,13 +160,13 @@ impl<const D: usize> Optimiser<D> {
     ) -> Option<Solution<D>> {
         let last = path.segments.last().filter(|_| path.is_final)?;
         let total = path.length();
-        let near = 0.02 * last.radius + 1e-9 * total;
+        let near = ARRIVED_R * last.radius + ROUNDING_R * total;
         let arrival = progress.iter().position(|&s| s >= total - near)?;
         let intervals = points.len() - 3;
         let end = path.vertex(path.segments.len() - 1);
         let multiple = window_start.grid.knots;
         let arrival = arrival * window_start.grid.knots / window_start.grid.periods;
-        let first = arrival.max(6).div_ceil(multiple) * multiple;
+        let first = arrival.max(LEAST_INTERVALS + 1).div_ceil(multiple) * multiple;
         let style = Style {
             is_centred: true,
             ridge: CENTRED_PULL,
@@ -181,6 +188,7 @@ impl<const D: usize> Optimiser<D> {
             self.samples.progress = progress;
             self.samples.cut(grid.periods_in(count));
             self.samples.give_out(path, window_start.piece);
+            // The state it starts from, and rest exactly at the end: neither is sought.
             next[..3].copy_from_slice(&points[..3]);
             next[count..].fill(end);
             if self.finish_in(path, window_start, &style, &mut next, judge) {
@@ -241,6 +249,7 @@ impl<const D: usize> Optimiser<D> {
         judge: &mut impl FnMut(&[[f64; D]], Question) -> bool,
     ) -> bool {
         for _ in 0..FINISH_ROUNDS {
+            // With the end given, a row that stays violated says that the time is too short.
             let is_solved = self.solve(path, style, points, true, true);
             if !is_solved || self.interior.violation() > ENOUGH_VIOLATION {
                 return false;

@@ -6,6 +6,8 @@
 //! late moves on by a tube length an iteration. The cap at a vertex is the speed at which the turn
 //! fits into the tube: with jerk J a change of velocity takes the time τ, J·τ² = |Δt|·v, and strays
 //! by about J·τ³/4.
+//!
+//! Lengths are those of the window's space, in tolerances; so speeds (`_v`) are tolerances per second.
 
 use super::scaled_path::ScaledPath;
 use super::solver::dot;
@@ -14,10 +16,19 @@ use crate::scurve::{PathLimits, Profile, reachable_speed};
 /// Speed at and time of every vertex.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Guess {
-    /// Seconds from the start of the scaled path, one more than pieces.
-    times: Vec<f64>,
-    speeds: Vec<f64>,
+    /// From the start of the scaled path, one more than pieces.
+    times_t: Vec<f64>,
+    speeds_v: Vec<f64>,
 }
+
+/// Between two speeds whose S-curve does not fit, a piece is taken to be driven at their mean, and at
+/// least at this share of its top speed: from rest to rest it takes long, but no infinite time.
+const LEAST_MEAN_R: f64 = 1e-9;
+/// Largest slope at the ends of a cubic from 0 to 1 that is sure to be monotone (Fritsch and Carlson
+/// 1980): progress never falls.
+const MONOTONE_SLOPE: f64 = 3.0;
+/// Bisections of a piece for a time: to 1e-12 of what it takes.
+const BISECTIONS: usize = 40;
 
 impl Guess {
     pub(crate) fn make<const D: usize>(&mut self, path: &ScaledPath<D>) {
@@ -29,45 +40,50 @@ impl Guess {
             |i| path.segments[i].length,
             |i| path.segments[i].limits,
         );
-        self.times.clear();
-        self.times.push(0.0);
-        let mut time = 0.0;
+        self.times_t.clear();
+        self.times_t.push(0.0);
+        let mut time_t = 0.0;
         for (i, segment) in path.segments.iter().enumerate() {
-            let (from, to) = (self.speeds[i], self.speeds[i + 1]);
-            let top = segment.top.max(from).max(to);
-            time += Profile::new(from, to, segment.length, top, segment.limits).map_or_else(
-                || 2.0 * segment.length / (from + to).max(1e-9 * segment.top),
+            let (from_v, to_v) = (self.speeds_v[i], self.speeds_v[i + 1]);
+            let top_v = segment.top.max(from_v).max(to_v);
+            let profile = Profile::new(from_v, to_v, segment.length, top_v, segment.limits);
+            time_t += profile.map_or_else(
+                || 2.0 * segment.length / (from_v + to_v).max(LEAST_MEAN_R * segment.top),
                 |profile| profile.duration_t(),
             );
-            self.times.push(time);
+            self.times_t.push(time_t);
         }
     }
 
     fn caps<const D: usize>(&mut self, path: &ScaledPath<D>) {
         let segments = &path.segments;
-        self.speeds.clear();
-        self.speeds.push(0.0);
+        self.speeds_v.clear();
+        self.speeds_v.push(0.0);
         for i in 1..segments.len() {
             let (before, after) = (&segments[i - 1], &segments[i]);
-            let mut cap = before.top.min(after.top);
+            let mut cap_v = before.top.min(after.top);
             let jumps = path.corner(i - 1);
             for k in 0..D {
                 let jump = jumps[k].abs();
                 let (a, j) = (path.acceleration[k], path.jerk[k]);
-                let tau = (4.0 * before.radius.min(after.radius) / j)
+                // As long as the tube allows, J·τ³/4 = radius; but a triangle of acceleration over τ
+                // has its peak, J·τ/2, at the limit where τ = 2·A/J.
+                let tau_t = (4.0 * before.radius.min(after.radius) / j)
                     .cbrt()
                     .min(2.0 * a / j);
-                if jump * cap > j * tau * tau {
-                    cap = j * tau * tau / jump;
+                if jump * cap_v > j * tau_t * tau_t {
+                    cap_v = j * tau_t * tau_t / jump;
                 }
             }
-            self.speeds.push(cap.min(curve_speed(path, i)));
+            self.speeds_v.push(cap_v.min(curve_speed(path, i)));
         }
-        self.speeds.push(0.0);
+        self.speeds_v.push(0.0);
     }
 
     /// Lowers the caps to what can be slowed down from and reached, counting from the last vertex
-    /// whose cap binds: speed changes go on across the vertices between.
+    /// whose cap binds: speed changes go on across the vertices between. From each vertex to the next
+    /// they would begin and end without acceleration at all of them, and hardly get anywhere on short
+    /// pieces.
     fn slow_down(
         &mut self,
         count: usize,
@@ -87,26 +103,27 @@ impl Guess {
         for i in (0..count).rev() {
             from.2 = narrow(from.2, limits(i));
             let reach = reachable_speed(from.1, from.0 - s(i), from.2);
-            if self.speeds[i] <= reach {
-                from = (s(i), self.speeds[i], limits(i));
+            if self.speeds_v[i] <= reach {
+                from = (s(i), self.speeds_v[i], limits(i));
             } else {
-                self.speeds[i] = reach;
+                self.speeds_v[i] = reach;
             }
         }
-        self.speeds[0] = 0.0;
+        self.speeds_v[0] = 0.0;
         let mut from = (0.0, 0.0, limits(0));
         for i in 0..count {
             from.2 = narrow(from.2, limits(i));
             let reach = reachable_speed(from.1, end_s(i) - from.0, from.2);
-            if self.speeds[i + 1] <= reach {
-                from = (end_s(i), self.speeds[i + 1], limits(i));
+            if self.speeds_v[i + 1] <= reach {
+                from = (end_s(i), self.speeds_v[i + 1], limits(i));
             } else {
-                self.speeds[i + 1] = reach;
+                self.speeds_v[i + 1] = reach;
             }
         }
     }
 
-    /// Where the guess is at a time; `hint` is the piece to look at first.
+    /// Where the guess is at a time; `hint` is the piece to look at first. Along a piece it is the cubic
+    /// through times and speeds at its ends, not the S-curve itself.
     pub(crate) fn s_at<const D: usize>(
         &self,
         path: &ScaledPath<D>,
@@ -114,22 +131,22 @@ impl Guess {
         hint: &mut usize,
     ) -> f64 {
         let count = path.segments.len();
-        while *hint + 1 < count && self.times[*hint + 1] <= t {
+        while *hint + 1 < count && self.times_t[*hint + 1] <= t {
             *hint += 1;
         }
-        while *hint > 0 && self.times[*hint] > t {
+        while *hint > 0 && self.times_t[*hint] > t {
             *hint -= 1;
         }
         let i = *hint;
         let segment = &path.segments[i];
-        let span = self.times[i + 1] - self.times[i];
-        let x = if span > 0.0 {
-            ((t - self.times[i]) / span).clamp(0.0, 1.0)
+        let span_t = self.times_t[i + 1] - self.times_t[i];
+        let x = if span_t > 0.0 {
+            ((t - self.times_t[i]) / span_t).clamp(0.0, 1.0)
         } else {
             1.0
         };
-        let slope = |speed: f64| (speed * span / segment.length).min(3.0);
-        let (m0, m1) = (slope(self.speeds[i]), slope(self.speeds[i + 1]));
+        let slope = |speed_v: f64| (speed_v * span_t / segment.length).min(MONOTONE_SLOPE);
+        let (m0, m1) = (slope(self.speeds_v[i]), slope(self.speeds_v[i + 1]));
         let y = 1.0 - x;
         let part = x * x * (3.0 - 2.0 * x) + m0 * x * y * y - m1 * x * x * y;
         segment.s + segment.length * part.clamp(0.0, 1.0)
@@ -137,16 +154,16 @@ impl Guess {
 
     /// When the guess is at a place of piece `i`.
     pub(crate) fn t_at<const D: usize>(&self, path: &ScaledPath<D>, s: f64, i: usize) -> f64 {
-        let (mut low, mut high) = (self.times[i], self.times[i + 1]);
-        for _ in 0..40 {
-            let middle = 0.5 * (low + high);
-            if self.s_at(path, middle, &mut i.clone()) < s {
-                low = middle;
+        let (mut low_t, mut high_t) = (self.times_t[i], self.times_t[i + 1]);
+        for _ in 0..BISECTIONS {
+            let middle_t = 0.5 * (low_t + high_t);
+            if self.s_at(path, middle_t, &mut i.clone()) < s {
+                low_t = middle_t;
             } else {
-                high = middle;
+                high_t = middle_t;
             }
         }
-        0.5 * (low + high)
+        0.5 * (low_t + high_t)
     }
 }
 
@@ -156,12 +173,15 @@ pub(crate) fn rest_to_rest_t(length: f64, top: f64, limits: PathLimits) -> f64 {
 }
 
 /// The speed at which the path can be driven round a vertex as a curve: many gentle corners in a
-/// row are one bend, and the room that the tube gives is there for all of them once.
+/// row are one bend, and the room that the tube gives is there for all of them once. Without it every
+/// chord of an arc would be a corner with a cap of its own.
 fn curve_speed<const D: usize>(path: &ScaledPath<D>, i: usize) -> f64 {
     let segments = &path.segments;
     let at = segments[i].s;
+    // An arc that turns by an angle over twice the reach is angle·reach/4 high: a radius, where half of
+    // angle·reach is two.
     let room = 2.0 * segments[i - 1].radius.min(segments[i].radius);
-    let mut speed = f64::INFINITY;
+    let mut speed_v = f64::INFINITY;
     let (mut low, mut high) = (i - 1, i);
     // Outwards, nearer side first, until the path has left the line by the room.
     loop {
@@ -170,15 +190,18 @@ fn curve_speed<const D: usize>(path: &ScaledPath<D>, i: usize) -> f64 {
             core::array::from_fn(|k| segments[high].tangent[k] - segments[low].tangent[k]);
         let angle = dot(&turn, &turn).sqrt();
         if 0.5 * angle * reach >= room {
+            // Of chords of an arc up to twice its curvature, as their directions turn over nearly twice
+            // the reach: slower than the arc may be driven, which the pace of windows learns.
             let curvature = angle / reach;
             for k in 0..D {
                 let share = turn[k].abs() / angle;
                 let (a, j) = (path.acceleration[k], path.jerk[k]);
-                speed = speed
+                // Across a curve of constant speed acceleration is v²·κ, jerk v³·κ².
+                speed_v = speed_v
                     .min((a / (curvature * share)).sqrt())
                     .min((j / (curvature * curvature * share)).cbrt());
             }
-            return speed;
+            return speed_v;
         }
         let (before, after) = (
             at - segments[low].s,
@@ -186,12 +209,12 @@ fn curve_speed<const D: usize>(path: &ScaledPath<D>, i: usize) -> f64 {
         );
         if before <= after {
             if low == 0 {
-                return speed;
+                return speed_v;
             }
             low -= 1;
         } else {
             if high + 1 == segments.len() {
-                return speed;
+                return speed_v;
             }
             high += 1;
         }

@@ -17,7 +17,8 @@ use super::scaled_path::ScaledPath;
 use super::speed::{differences_of, velocity_over_feed};
 use super::spline::Grid;
 
-/// Speed over the feed from which a motion is too fast: solutions may be a little above it.
+/// Speed over the feed from which a motion is too fast: solutions may be a little above it. At 1 samples
+/// would wait for what planes of the feed leave, some parts in ten thousand, and come and go by it.
 const TOO_FAST_R: f64 = 1.05;
 /// How far from the faster piece a sample may be, in radii, to stay on it: one that is further away
 /// has gone on, if too fast.

@@ -11,7 +11,8 @@ use super::tube::Layout;
 /// Share of a joint's speed that is planned with: what a Jacobian changes by while a difference has a
 /// part in the motion is left.
 const JOINT_R: f64 = 0.99;
-/// Share of it from which on the last motion gets a row.
+/// Share of it from which on the last motion gets a row: rows of joints couple all axes, so those far from
+/// their limits are left out. With more, one that is passed in the next round has no row yet.
 const CLOSE_R: f64 = 0.5;
 
 /// Adds rows for every first difference that is not given.
@@ -24,6 +25,9 @@ pub(super) fn add<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, 
 /// Rows for the first difference from control point `k` on: a site of its own.
 fn add_at<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, D>, k: usize) {
     let (points, h) = (layout.points, layout.style.grid.knot_t);
+    // A row is the gradient of a joint's velocity over its limit, J·ẋ/q̇_max, by ẋ. What J itself changes
+    // by x is left out: it is taken anew at the last motion in each round, and what that misses within
+    // one is what JOINT_R leaves.
     let step: [f64; D] = core::array::from_fn(|a| points[k + 1][a] - points[k][a]);
     let middle: [f64; D] = core::array::from_fn(|a| points[k][a] + 0.5 * step[a]);
     let rows = layout.path.joint_rows(&middle);

@@ -24,9 +24,12 @@ use crate::in_tube::path::{Origin, ReferencePath, TubePiece, WORTH_R, Way};
 use glidepath_geometry::AxisVector;
 use glidepath_program::Corners;
 
-/// Pieces shorter than so many radii are no figure with corners: the motion may leave them out.
+/// Pieces shorter than so many radii are no figure with corners: the motion may leave them out. With
+/// less, chords of curves and roughness become walls; with more, small figures lose their corners. No
+/// measurement of it is kept.
 const FIGURE_R: f64 = 8.0;
-/// How near to a border the path is where a row is needed, in radii.
+/// How near to a border the path is where a row is needed, in radii. The tube keeps the motion within one
+/// of the path, but along a piece samples may come out further on than they were given for.
 const NEAR_R: f64 = 8.0;
 /// What a motion may be beyond a border, in radii: a fifth of a micrometre of the usual tolerance.
 const BEYOND_R: f64 = 0.01;
@@ -188,6 +191,7 @@ impl<const D: usize> ScaledPath<D> {
         let allowed = BEYOND_R * segment.radius;
         let ends = [segment.s, segment.s + segment.length];
         [0.0, -way, way].into_iter().any(|shift| {
+            // Where on the piece the period belongs is only known to within its way: one place is enough.
             let mut is_inside = true;
             let at = (progress + shift).max(ends[0]).min(ends[1]);
             self.half_spaces(i, at, |side| {

@@ -8,6 +8,14 @@
 //!
 //! A window ends at rest, so each that is accepted carries its own stop. Stops do not trap the next
 //! window: samples are bound to time, not to places, and move on.
+//!
+//! Motion is optimised in time, not along a path: geometry and time law come out together, and limits are
+//! linear in the control points. It is alternating minimisation. With every sample on a piece the problem
+//! is a convex quadratic program ([`super::solver`]); with the motion given, samples go to pieces by a
+//! projection ([`super::samples`]). There is no trust region: nothing is linearised but balls
+//! ([`super::cuts`]) and the speeds of joints ([`super::joint_rows`]), and where a corner is passed and
+//! what chords cut off is taken from the last motion. What comes out is a local optimum
+//! ([`super::search_bias`]), and nothing is believed of it that the judge has not seen.
 
 use super::budget;
 use super::cuts::Cuts;
@@ -34,7 +42,8 @@ struct Phase {
     keep_r: f64,
 }
 /// The rounds of one attempt: what comes and goes at the edge of the tube is given more and more
-/// room.
+/// room. A phase ends with the first round of polishing that passes, the attempt once progress settles;
+/// the fastest motion that has passed is kept, so the smaller radii of later phases cost no time of it.
 const PHASES: [Phase; 3] = [
     Phase {
         search: 3,
@@ -52,6 +61,7 @@ const PHASES: [Phase; 3] = [
         keep_r: 0.92,
     },
 ];
+
 /// Where samples are first thought to be in an attempt.
 #[derive(Debug, Clone, Copy)]
 enum Seed {
@@ -61,7 +71,8 @@ enum Seed {
     Stops,
 }
 
-/// The attempts, in turn, until one has found a motion.
+/// The attempts, in turn, until one has found a motion. Fast first: a sample that is on a piece too
+/// early comes back in one round, one that is late moves on by a tube length a round.
 const ATTEMPTS: [Seed; 4] = [
     Seed::Guess(1.0),
     Seed::Guess(0.9),
@@ -71,10 +82,37 @@ const ATTEMPTS: [Seed; 4] = [
 /// What a motion must gain of what the tail does: the search weighs smoothness too, and keeps a little
 /// below the feed, so that it may end a little behind a tail that sees as far.
 const NO_LESS_R: f64 = 0.995;
-/// Interior point iterations in one problem.
+/// Interior point iterations in one problem. One that takes more counts as not solved ([`FAR_OFF_R`]).
 const SOLVER_ITERATIONS: usize = 40;
-/// Lines may leave the path by this many radii while searching.
+/// Mean complementarity, in periods of progress, at which a problem is solved: in rounds in which lines
+/// may leave the path, and in others.
+const SEARCH_MU: f64 = 1e-4;
+const EXACT_MU: f64 = 1e-5;
+/// [`Goal::damping`] times the square of the way in a knot at the top speed.
+const DAMPING: f64 = 1e-7;
+/// Share of every limit that is planned with: the residual of a solution may be half of the rest.
+const LIMIT_R: f64 = 1.0 - 2e-6;
+/// Lines may leave the path by this many radii while searching: large, so that a sample that is on a
+/// piece too early or too late does not bind the motion before it is given out again. Careful attempts
+/// and rounds of polishing have 1 in its place.
 const SEARCH_STRAY_R: f64 = 12.0;
+/// A motion of no solution whose samples are further off than this, in radii, is not gone on from.
+const FAR_OFF_R: f64 = 3.0;
+/// Where samples come out further off than this while searching, in radii, they are given out half-way
+/// back, from the third round on: else some problems go there and back between too early and too late.
+const TOO_FAR_R: f64 = 1.02;
+/// Rounds of a search that may go there and back.
+const FREE_ROUNDS: usize = 2;
+
+/// How much faster than the guess the first window is thought to be.
+const START_PACE: f64 = 1.2;
+/// After a window without a motion the next one is slower by this, down to a least pace.
+const SLOWER_R: f64 = 0.85;
+const LEAST_PACE: f64 = 0.5;
+/// How much faster than the last window has turned out to be the next one is thought to be (fast is
+/// corrected sooner than slow), and between which paces.
+const HOPEFUL_R: f64 = 1.05;
+const PACES: [f64; 2] = [0.8, 2.5];
 
 /// A motion that has passed.
 #[derive(Debug, Clone)]
@@ -120,7 +158,7 @@ impl<const D: usize> Optimiser<D> {
             cuts: Cuts::new(),
             pins: Pins::default(),
             extents: [Extents::default(), Extents::default()],
-            pace: 1.2,
+            pace: START_PACE,
         }
     }
 
@@ -159,16 +197,18 @@ impl<const D: usize> Optimiser<D> {
         }
         let left_work = most_work - (self.interior.work - work);
         self.interior.allow(budget::finish(D, left_work));
+        // A tail that is not to be driven on, because rates have changed, is no measure.
         let passed = found
             .best
             .filter(|(mean_t, ..)| rest_at == 0 || *mean_t >= NO_LESS_R * tail_mean);
         let Some(best) = passed else {
-            self.pace = (0.85 * self.pace).max(0.5);
+            self.pace = (SLOWER_R * self.pace).max(LEAST_PACE);
             return self.finish(path, window_start, window_start.tail, &tail_progress, judge);
         };
         let (_, points, samples) = &best;
         let pace = window_start.pace(path, &self.guess, &samples.progress);
-        self.pace = 0.5 * (self.pace + (1.05 * pace).clamp(0.8, 2.5));
+        let [least, most] = PACES;
+        self.pace = 0.5 * (self.pace + (HOPEFUL_R * pace).clamp(least, most));
         let finished = self.finish(path, window_start, points, &samples.progress, judge);
         if finished.is_some() {
             return finished;
@@ -218,6 +258,7 @@ impl<const D: usize> Optimiser<D> {
                 if self.interior.is_spent() {
                     return;
                 }
+                // The first round of polishing still takes what the last search has shown.
                 if round <= phase.search {
                     self.samples.give_out(path, window_start.piece);
                 }
@@ -264,7 +305,7 @@ impl<const D: usize> Optimiser<D> {
                 if is_polish && (passes || round_state.is_exceeding) {
                     break;
                 }
-                if !is_polish && self.samples.worst_r > 1.02 && round >= 2 {
+                if !is_polish && self.samples.worst_r > TOO_FAR_R && round >= FREE_ROUNDS {
                     self.samples.go_half_way(&given);
                 }
             }
@@ -292,7 +333,8 @@ impl<const D: usize> Optimiser<D> {
         let grid = &window_start.grid;
         self.samples
             .project(path, &next, window_start.piece, grid, may_lead);
-        if is_solved || self.samples.worst_r < 3.0 {
+        // What is not solved may still be a better start than the last one, if it is near the path.
+        if is_solved || self.samples.worst_r < FAR_OFF_R {
             round_state.points = next;
             round_state.has_motion = true;
         }
@@ -310,12 +352,13 @@ impl<const D: usize> Optimiser<D> {
     ) -> bool {
         let h = style.grid.knot_t;
         self.problem.clear(points.len() - 3, is_end_fixed);
-        let keep = 1.0 - 2e-6;
+        // Limits of differences of control points, in tolerances: a knot is the unit of time.
         self.problem.bounds = [
-            path.velocity_bounds().map(|v| v * h * keep),
-            path.acceleration.map(|a| a * h * h * keep),
-            path.jerk.map(|j| j * h * h * h * keep),
+            path.velocity_bounds().map(|v| v * h * LIMIT_R),
+            path.acceleration.map(|a| a * h * h * LIMIT_R),
+            path.jerk.map(|j| j * h * h * h * LIMIT_R),
         ];
+        // |Δ³x / unit|² is one at the jerk that is priced.
         let unit = style.priced_jerk(path).map(|j| j * h * h * h);
         self.problem.jerk = unit.map(|unit| style.jerk / (unit * unit));
         let margin = style.settling_periods(path);
@@ -348,9 +391,9 @@ impl<const D: usize> Optimiser<D> {
             .map(|segment| segment.top)
             .fold(0.0, f64::max);
         let goal = Goal {
-            mu: if is_exact { 1e-5 } else { 1e-4 },
+            mu: if is_exact { EXACT_MU } else { SEARCH_MU },
             iterations: SOLVER_ITERATIONS,
-            damping: 1e-7 / (top * h).powi(2),
+            damping: DAMPING / (top * h).powi(2),
         };
         self.interior.solve(&self.problem, points, goal)
     }

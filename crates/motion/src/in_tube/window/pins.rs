@@ -19,7 +19,8 @@ use super::samples::Samples;
 use super::scaled_path::ScaledPath;
 use super::spline::Grid;
 
-/// A control point further off than this, in tolerances, is not put in its place at once.
+/// A control point further off than this, in tolerances, is not put in its place at once: the
+/// problem would start from a motion that jumps.
 const NEAR_R: f64 = 1.0;
 
 /// Which control points stay where they are, by axis.
@@ -42,6 +43,7 @@ impl<const D: usize> Pins<D> {
         self.of_points.clear();
         self.of_points.resize(points.len(), [false; D]);
         let count = samples.count();
+        // A control point acts on two knots to either side of its middle.
         let reach = (2 * grid.periods).div_ceil(grid.knots) + margin;
         for a in 0..D {
             let level_at = |k: usize| path.segments[samples.piece[k]].level[a];
@@ -58,6 +60,7 @@ impl<const D: usize> Pins<D> {
                     continue;
                 };
                 let is_there = |point: &[f64; D]| point[a].total_cmp(&level).is_eq();
+                // Near the start what is given decides: an axis that still moves is not stopped by a pin.
                 let is_settled =
                     middle >= reach || is_there(&points[c]) || points[..3].iter().all(is_there);
                 if since[last] <= middle.saturating_sub(reach)

@@ -4,17 +4,21 @@ use super::samples::Samples;
 use super::tube::FEED_R;
 use crate::in_tube::verify::FEED_SLACK;
 
-/// Gain of progress, relative to that of the window, below which nothing more is tried.
+/// Gain of progress, relative to that of the window, below which nothing more is tried: another round
+/// would cost a whole problem.
 const LITTLE_GAIN: f64 = 1e-4;
 
-/// Rows violated by more than this, in radii, are so for good.
+/// Rows violated by more than this, in radii, are so for good: samples are on pieces that cannot be
+/// reached. A row that is kept is violated by about μ over its price, some millionths.
 pub(super) const ENOUGH_VIOLATION: f64 = 0.02;
 /// Speed over the feed that is aimed at where motions stand out of the planes: the judge allows a
-/// little more.
+/// little more ([`FEED_SLACK`]), so that what turns a little further in the next round still passes.
 const ALLOWED_R: f64 = 1.0 + 4e-4;
-/// How many times stronger the pull to the path is where the feed was not kept.
+/// How many times stronger the pull to the path is where the feed was not kept. With less, velocities
+/// turn as before; with more, corners are cut less than the tolerance allows. No measurement is kept.
 const FIRM: f64 = 10.0;
-/// Least share of the feed to plan with.
+/// Least share of the feed to plan with. The excess that planes leave is some parts in ten thousand; one
+/// far beyond that is no reason to drive the window slower.
 const LEAST_FEED_R: f64 = 0.995;
 
 /// The best motion so far.
@@ -80,6 +84,7 @@ impl<const D: usize> RoundState<D> {
     /// On curves velocities turn from round to round, and planes that touch the feed where the last
     /// ones were come a little late for the next.
     pub(crate) fn learn_feed(&mut self, planned_r: f64) {
+        // Planned at p it came to speed_r: at p·ALLOWED_R/speed_r it would come to what is allowed.
         let excess_r = self.speed_r / planned_r;
         self.feed_r = (ALLOWED_R / excess_r).clamp(LEAST_FEED_R, FEED_R);
     }

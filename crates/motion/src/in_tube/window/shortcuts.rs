@@ -38,6 +38,8 @@ pub(super) fn add<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, 
     let (path, samples, style) = (layout.path, layout.samples, layout.style);
     let corner_margin = margin(path, style);
     let mut left = 0.0;
+    // The gradient by y_k, from the end on: `left` is A_{k+1}. The first part, a_k·τ_k, is the aim of the
+    // tube's rows already; only what the program turns by is added.
     for k in (1..samples.count()).rev() {
         left += layout.aim(k + 1);
         let grid = (&style.grid, style.period_t, corner_margin);

@@ -34,8 +34,15 @@ fn basis_2(u: f64) -> [f64; 4] {
 /// Steps in which acceleration goes to its limit, at least: jerk changes at knots only, so the
 /// fewer there are, the later the changes come.
 const RAMP_STEPS: f64 = 10.0;
-/// Most knots in a period.
+/// Most knots in a period: each is a block row of the solver, and rows of its own.
 const MOST_KNOTS: usize = 4;
+/// The same where acceleration ramps are long.
+const MOST_USUAL_KNOTS: usize = 2;
+/// Most periods between knots. Where jerk is so weak that a longer step would do, knots are closer than
+/// wanted, which costs work alone.
+const MOST_PERIODS: f64 = 8.0;
+/// Knots wanted in a period: a step a third longer does as well, and is cheaper.
+const FEWER_R: f64 = 0.75;
 
 /// How knots lie on the grid of periods: several knots a period, or several periods a knot.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,11 +65,10 @@ impl Grid {
             clippy::cast_sign_loss,
             reason = "clamped"
         )]
-        let whole = |value: f64| value.round().clamp(1.0, 8.0) as usize;
-        // A step a third longer does as well, and is cheaper.
+        let whole = |value: f64| value.round().clamp(1.0, MOST_PERIODS) as usize;
         let (knots, periods) = if ratio >= 1.0 {
             let of_ramp = whole(period_t / ramp_t * RAMP_STEPS).min(MOST_KNOTS);
-            (whole(0.75 * ratio).min(2).max(of_ramp), 1)
+            (whole(FEWER_R * ratio).min(MOST_USUAL_KNOTS).max(of_ramp), 1)
         } else {
             (1, whole(1.0 / ratio))
         };

@@ -21,9 +21,10 @@ use super::tube::Layout;
 /// How near to an end of travel the last motion is where rows are needed, in tolerances: more than a
 /// motion moves from round to round once it is one.
 const NEAR_R: f64 = 8.0;
-/// What is left to the residual of a solution, in tolerances.
+/// What is left to the residual of a solution, in tolerances: three times the largest that one may have.
 const LEFT_R: f64 = 3e-6;
-/// The side of a row that is not the wall: further away than any motion is, in tolerances.
+/// The side of a row that is not the wall: further away than any motion is, in tolerances. `FAR`
+/// is 20 mm at a tolerance of 20 µm.
 const NOWHERE: f64 = 1e7;
 /// The points of both halves of an interval.
 const POINTS: [[f64; 4]; 4] = [

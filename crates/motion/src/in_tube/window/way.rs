@@ -10,7 +10,7 @@ const AT_FEED_R: f64 = 0.999;
 /// What of the square of a turn within a period is missing of it. The speed between control points
 /// is bounded; that of the spline is less by ⅛ of the square, and between samples by another 1/24.
 const OF_TURN: f64 = 1.0 / 6.0;
-/// Largest turn in which that counts, rad.
+/// Largest turn in which that counts, rad: the series ends with the square, whose share is 4 % there.
 const MOST_TURN: f64 = 0.5;
 
 /// Until which sample a motion is at the feed without a break.

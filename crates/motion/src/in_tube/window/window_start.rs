@@ -11,6 +11,17 @@ use super::tube::{FEED_R, STEERING, Style};
 /// of both is left for what else a curve needs.
 const BRAKE_A: f64 = 2.0;
 const BRAKE_J: f64 = 9.0;
+/// Most of the time that a tail takes that counts as slowing down for its rest.
+const SLOWING_R: f64 = 0.4;
+/// A sample that stops at a vertex is taken to be so far before it, in radii or lengths of the piece:
+/// where samples go over to the next one ([`super::samples`]), and a hundredth more, so that it waits.
+const HOP_R: f64 = 0.3;
+const BEFORE_HOP_R: f64 = 1.01;
+/// How much longer a stop at each vertex is thought to take than an S-curve from rest to rest, and how
+/// many knots: jerk changes at knots only. Too little, and no motion is in time on its pieces; too much
+/// costs time, but this is the last attempt.
+const STOP_TIME_R: f64 = 1.15;
+const STOP_KNOTS: f64 = 3.0;
 
 /// What a window starts from.
 #[derive(Debug)]
@@ -67,8 +78,9 @@ impl<const D: usize> WindowStart<'_, D> {
         let rest = self.grid.periods_in(moving + self.grid.knots - 1);
         let segment = &path.segments[self.piece];
         let limits = segment.limits;
+        // An S-curve from the top speed to rest, as far as the tail has room for one.
         let stop_t = (segment.top / limits.accel_a + limits.accel_a / limits.jerk_j)
-            .min(0.4 * self.periods_t(rest));
+            .min(SLOWING_R * self.periods_t(rest));
         let stop = self.whole_periods(stop_t);
         (rest, rest.saturating_sub(stop))
     }
@@ -117,6 +129,7 @@ impl<const D: usize> WindowStart<'_, D> {
         let mut piece = self.piece;
         let mut points = self.tail[..3].to_vec();
         points.extend((3..count).map(|k| {
+            // Control point k is nearest at knot k − 1; the last three are the last sample.
             let knot = (k - 1).min(count - 4) * self.grid.periods;
             let (sample, part) = (knot / self.grid.knots, knot % self.grid.knots);
             let next = progress[(sample + 1).min(progress.len() - 1)];
@@ -140,12 +153,12 @@ impl<const D: usize> WindowStart<'_, D> {
             let end = segment.s + segment.length;
             let rest = (end - s).max(0.0);
             let last = if i + 1 < path.segments.len() {
-                end - 0.3 * segment.radius.min(segment.length) * 1.01
+                end - HOP_R * segment.radius.min(segment.length) * BEFORE_HOP_R
             } else {
                 end
             };
-            let duration_t =
-                1.15 * rest_to_rest_t(rest, segment.top, segment.limits) + 3.0 * self.grid.knot_t;
+            let duration_t = STOP_TIME_R * rest_to_rest_t(rest, segment.top, segment.limits)
+                + STOP_KNOTS * self.grid.knot_t;
             while k < progress.len() && self.periods_t(k - from) < start_t + duration_t {
                 let share = (self.periods_t(k - from) - start_t) / duration_t;
                 progress[k] = (s + (last - s).max(0.0) * share).max(progress[k - 1]);

@@ -4,6 +4,13 @@
 /// loop, so that one instruction does for both.
 pub(super) type Pair = [f64; 2];
 
+/// Least share of the mean product that is aimed at. With 0 the corrector would aim at the boundary
+/// itself; a larger one costs iterations, for no product falls faster.
+const LEAST_CENTERING: f64 = 1e-4;
+/// The most that a product of steps counts, in mean products. Where the predictor is stopped short,
+/// products of its whole steps can be many times that, and are of steps that nobody takes.
+const MOST_CORRECTION: f64 = 5.0;
+
 /// What the corrector aims at.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Aim {
@@ -14,17 +21,18 @@ pub(super) struct Aim {
 }
 
 impl Aim {
-    /// What to aim at where the mean of the products is `mu`, and the predictor leaves a share of it.
+    /// What to aim at where the mean of the products is `mu`, and the predictor leaves a share of it:
+    /// Mehrotra's cube, which hardly centres where the predictor gets far.
     pub(super) fn after(mu: f64, share: f64) -> Self {
         let ratio = share.powi(3);
         let centering = if ratio.is_finite() {
-            ratio.clamp(1e-4, 1.0)
+            ratio.clamp(LEAST_CENTERING, 1.0)
         } else {
             1.0
         };
         Self {
             target: mu * centering,
-            bound: 5.0 * mu,
+            bound: MOST_CORRECTION * mu,
         }
     }
 }
@@ -47,6 +55,7 @@ impl Ahead {
     /// Sum of all products after a step of the predictor, which would bring them to zero but for
     /// the products of steps.
     pub(super) fn sum_after(&self, sum: f64, step: f64) -> f64 {
+        // (s + α·ds)(l + α·dl) with s·dl + l·ds = −s·l
         (1.0 - step) * sum + step * step * (self.product[0] + self.product[1])
     }
 }

@@ -68,7 +68,7 @@ impl<const D: usize> Band<D> {
             let first = range.start.max(i.saturating_sub(WIDTH - 1));
             let (done, rest) = self.rows.split_at_mut(i);
             let Some(row) = rest.first_mut() else { return };
-            // First those of L·D, then those of L.
+            // Blocks of the row become those of L·D, then those of L: the diagonal takes both.
             for j in first..i {
                 let mut block = row[i - j];
                 for k in first.max(j.saturating_sub(WIDTH - 1))..j {
@@ -157,7 +157,7 @@ fn divide<const D: usize>(a: &mut Block<D>, l: &Block<D>) {
 }
 
 /// Factors a block, with 1/D on the diagonal. A direction in which rounding has left nothing is
-/// frozen.
+/// frozen: 1/D = 0 makes its step zero, where a pivot made positive would make it huge.
 #[inline]
 fn factor<const D: usize>(a: &mut Block<D>) {
     for r in 0..D {

@@ -4,6 +4,11 @@
 use super::ahead::{Ahead, Aim, Pair, larger};
 use super::hard_sides::{START_MU, START_SLACK};
 
+/// Largest share of the price that a multiplier begins with: both l and p − l have to be above 0.
+const MOST_START_R: f64 = 0.5;
+/// The share of the price that p − l is taken to be at the start.
+const START_REST_R: f64 = 0.9;
+
 /// Both sides of a row that may be violated at a price.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct ElasticSides {
@@ -54,8 +59,9 @@ impl ElasticSides {
         self.price = price;
         for k in 0..2 {
             self.slack[k] = (-g[k]).max(START_SLACK);
-            self.excess[k] = (g[k] + self.slack[k]).max(START_MU / (0.9 * price));
-            self.multiplier[k] = (START_MU / self.slack[k]).min(0.5 * price);
+            // With l from 0 to p/2 the product e·(p − l) is .56 to 1.11 of μ, unless the row is violated.
+            self.excess[k] = (g[k] + self.slack[k]).max(START_MU / (START_REST_R * price));
+            self.multiplier[k] = (START_MU / self.slack[k]).min(MOST_START_R * price);
         }
         self.stand(g)
     }
@@ -78,6 +84,7 @@ impl ElasticSides {
         let (mut product, mut rest) = ([0.0; 2], [0.0; 2]);
         for k in 0..2 {
             let (s, l, e) = (self.slack[k], self.multiplier[k], self.excess[k]);
+            // The multiplier of e ≥ 0: stationarity in e is p = l + ν.
             let nu = self.price - l;
             let (of_slack, of_excess) = (s * l, e * nu);
             product[k] = of_slack + of_excess;
@@ -87,6 +94,7 @@ impl ElasticSides {
             self.per_multiplier[k] = per_slack * s;
             self.per_excess[k] = per_excess * nu;
             self.per_rest[k] = per_excess * e;
+            // Below l/s, that of a hard side, and below (p − l)/e, which is small once it is violated.
             let weight = 1.0 / (s * self.per_multiplier[k] + e * self.per_rest[k]);
             self.weight[k] = weight;
             self.force[k] = l + weight * g[k];
@@ -103,6 +111,7 @@ impl ElasticSides {
         for k in 0..2 {
             let d_l = self.d_multiplier[k];
             let aim_slack = target - (self.d_slack[k] * d_l).clamp(-bound, bound);
+            // ν falls as l rises: its step is −dl.
             let aim_excess = target + (self.d_excess[k] * d_l).clamp(-bound, bound);
             let of_slack = aim_slack * self.per_multiplier[k];
             let of_excess = aim_excess * self.per_rest[k];

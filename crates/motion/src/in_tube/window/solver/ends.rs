@@ -17,7 +17,8 @@ pub(super) fn take_away<const D: usize, const N: usize>(
     }
 }
 
-/// The last control points are one unknown: its coefficients add up.
+/// The last control points are one unknown, x_M = x_{M+1} = x_{M+2}, which is what rest at the end is to
+/// a cubic spline: its coefficients add up. Kept as equations, the matrix would not be positive.
 pub(super) fn fold<const D: usize, const N: usize>(
     first: usize,
     mut weights: [f64; N],

@@ -3,9 +3,12 @@
 
 use super::ahead::{Ahead, Aim, Pair, larger};
 
-/// μ to start from.
+/// μ to start from, in units of the objective. With more, the same goal takes
+/// more iterations; with less, rows that turn out to bind begin next to the boundary, where steps are
+/// short. No measurement of it is kept.
 pub(super) const START_MU: f64 = 0.05;
-/// Least slack to start from.
+/// Least slack to start from, in units of the row. A row that is violated or nearly so begins with
+/// this, and its residual g + s is taken away by the steps: the start need not be inside.
 pub(super) const START_SLACK: f64 = 0.05;
 
 /// Both sides of a row, −1 ≤ v ≤ 1.
@@ -44,6 +47,7 @@ impl HardSides {
     pub(super) fn start(&mut self, value: f64) -> (Pair, Pair) {
         let g = [value - 1.0, -1.0 - value];
         for k in 0..2 {
+            // On the central path from the start: s·l is the same for all.
             self.slack[k] = (-g[k]).max(START_SLACK);
             self.multiplier[k] = START_MU / self.slack[k];
         }
@@ -72,6 +76,7 @@ impl HardSides {
             let per_product = 1.0 / product[k];
             self.per_slack[k] = per_product * l;
             self.per_multiplier[k] = per_product * s;
+            // w = l/s is what the side adds to the Hessian, l + w·g its multiplier at μ = 0.
             self.weight[k] = l * self.per_slack[k];
             self.force[k] = l + self.weight[k] * g[k];
             self.aim[k] = 0.0;
@@ -99,6 +104,7 @@ impl HardSides {
         for k in 0..2 {
             let (s, l) = (self.slack[k], self.multiplier[k]);
             let d_l = self.force[k] - l + self.weight[k] * change[k];
+            // From l·ds + s·dl = aim − s·l.
             let d_s = (self.aim[k] - s * d_l) * self.per_multiplier[k] - s;
             let of_slack = -d_s * self.per_slack[k];
             let of_multiplier = -d_l * self.per_multiplier[k];

@@ -10,8 +10,21 @@
 //! Elimination of s, l and e leaves the normal equations for the control points, in which a side
 //! weighs w = 1 / (s/l + e/(p − l)). A hard side is an elastic one of infinite price with e = 0.
 //!
+//! With c the aims, P the Hessian of ridges and jerk, and a the coefficients of the rows (±, by side),
+//! Newton's step for these conditions and stationarity, c − P·x − Σ l·a = 0, is
+//!
+//! ```text
+//!     (P + Σ w·a·aᵀ + damping) · dx  =  c − P·x − Σ f·a          f = l + w·(g + α_s/l − α_e/(p − l))
+//!     dl = f − l + w·a·dx        ds = (α_s − s·dl)/l − s         de = (α_e + e·dl)/(p − l) − e
+//! ```
+//!
+//! where α_s and α_e are what s·l and e·(p − l) are to become. So the residual of the rows is taken
+//! away by the same step, and x need not keep them at the start.
+//!
 //! Each iteration factors once and solves twice: a predictor aims at μ = 0, and how far it gets
-//! sets the μ that the corrector aims at.
+//! sets the μ that the corrector aims at. The work of an active-set method follows how many rows change
+//! sides from one problem to the next; here every iteration of a problem costs the same, so work is
+//! bounded in multiplications ([`Allowance`]), which are the same on every run.
 
 use super::ahead::{Ahead, Aim};
 use super::elastic_sides::ElasticSides;
@@ -20,18 +33,23 @@ use super::normal::NormalEquations;
 use super::problem::Problem;
 use super::sides::Sides;
 
-/// Share of the way to the boundary that a step may go.
+/// Share of the way to the boundary that a step may go. At 1 a slack or multiplier would be 0, and
+/// there is no step from there.
 const BACK_OFF: f64 = 0.99;
-/// Largest residual of the rows of a solution.
+/// Largest residual of the rows of a solution, in units of each row. That of stationarity is not looked
+/// at: it is linear in the unknowns like that of the rows, so a step of length α leaves 1 − α of it, and
+/// μ falls no faster than that but for terms of second order.
 const RESIDUAL: f64 = 1e-7;
-/// The same where rounding allows no less: bounds are kept a little further away from the limits.
+/// The same where rounding allows no less: bounds are kept 2e-6 away from the limits, so that one that
+/// is missed by this much is still inside.
 const SPENT_RESIDUAL: f64 = 1e-6;
 
 /// Multiplications and divisions for a row, its two sides and both directions.
 const ROW_WORK: usize = 80;
 /// Products of numbers of a block for each site.
 const SITE_PRODUCTS: usize = 15;
-/// Products of blocks for each block row of the matrix, factored and solved with.
+/// Products of blocks for each block row of the matrix, factored and solved with. By count 7⅔ to
+/// factor it and 16 over the number of axes to solve twice, so this is what two axes take.
 const FACTOR_PRODUCTS: usize = 16;
 /// Axes from which on multiplications count half: in blocks so large they take half the time of
 /// those in blocks of six.
@@ -43,7 +61,8 @@ pub(in crate::in_tube::window) struct Goal {
     /// Mean complementarity of a solution.
     pub(in crate::in_tube::window) mu: f64,
     pub(in crate::in_tube::window) iterations: usize,
-    /// Added to the diagonal of the normal equations, per axis unit squared.
+    /// Added to the diagonal of the Hessian, objective per tolerance squared, for control points that
+    /// nothing acts on. It is not in the gradient: steps become shorter, what they lead to is the same.
     pub(in crate::in_tube::window) damping: f64,
 }
 
@@ -131,6 +150,8 @@ impl<const D: usize> Interior<D> {
             self.work += work;
             self.normal.factor(problem, &self.sides, goal.damping);
             let predicted = self.direction(problem, x, None);
+            // One length for points, slacks and multipliers: in a quadratic program stationarity has
+            // both x and l in it, and steps of two lengths would leave a residual of it.
             let step = predicted.room().min(1.0);
             let share = predicted.sum_after(standing.sum(), step) / pairs / mu;
             let corrected = self.direction(problem, x, Some(Aim::after(mu, share)));

@@ -1,4 +1,9 @@
 //! The normal equations: their matrix, and the step of the control points that they give.
+//!
+//! The matrix is the Hessian of the Lagrangian with slacks and multipliers eliminated
+//! ([`super::interior`]), the right-hand side its negative gradient at the multipliers f. Rows on
+//! differences act on one axis each, so they are summed up by axis first, as numbers; only sites need
+//! blocks.
 
 use super::ahead::Aim;
 use super::band::{Band, Block};
@@ -48,7 +53,7 @@ impl<const D: usize> NormalEquations<D> {
         self.of_sites.extend(folded);
     }
 
-    /// Makes the matrix from the weights of the sides, and factors it.
+    /// Makes the Hessian from the weights of the sides, and factors it.
     pub(super) fn factor(&mut self, problem: &Problem<D>, sides: &Sides, damping: f64) {
         let none = [0.0; D];
         self.of_axes.clear();
@@ -90,6 +95,8 @@ impl<const D: usize> NormalEquations<D> {
         let start = first_difference(order);
         let stencils = self.stencils[order].iter().enumerate();
         for ((k, stencil), sides) in stencils.zip(sides.chunks_exact(D)) {
+            // Hessian of a row that is scaled to −1 ≤ Δx/bound ≤ 1: w/bound²; the price of jerk is
+            // one on Δ³x itself.
             let mut weights = [0.0; D];
             for a in 0..D {
                 weights[a] = sides[a].weight() * per_square[a] + price[a];
@@ -115,6 +122,7 @@ impl<const D: usize> NormalEquations<D> {
         aim: Option<Aim>,
     ) {
         let last = problem.intervals;
+        // The negative gradient, from that of the linear part on.
         self.step.clear();
         self.step.extend_from_slice(&problem.aims);
         for k in last + 1..last + 3 {
@@ -186,7 +194,8 @@ impl<const D: usize> NormalEquations<D> {
     }
 }
 
-/// What the rows of a site and its ridge add to the matrix, where its weights are one.
+/// What the rows of a site and its ridge add to the Hessian, where its weights are one:
+/// Σ w·n·nᵀ + ridge·(I − t·tᵀ).
 #[inline]
 fn block_of<const D: usize>(
     site: &Site<D>,
@@ -213,7 +222,7 @@ fn block_of<const D: usize>(
     block
 }
 
-/// How the ridge of a site pulls.
+/// How the ridge of a site pulls: the gradient of ½·ridge·|offset across t|².
 #[inline]
 fn pull_of_ridge<const D: usize>(site: &Site<D>, x: &[[f64; D]]) -> [f64; D] {
     let mut pull = [0.0; D];

@@ -12,18 +12,30 @@
 //!                low ≤ normal · Σ wᵢ x_{m+i} ≤ high                      elastic: at a price
 //! ```
 //!
+//! That is a convex quadratic program: of the negative objective the gradient is −aim plus the pulls
+//! of ridges and jerk, and the Hessian, Σ ridge · (I − t·tᵀ) + Σ jerk · Δ³ᵀΔ³ with t along the path, has
+//! no negative eigenvalue and does not depend on x. All that is round (the tube, the feed) is left
+//! outside, as planes learnt between problems ([`super::super::cuts`]); which sample belongs to which
+//! piece, which is not convex, too.
+//!
+//! Units: a coordinate is measured in tolerances, a row in the radius, bound or feed that it is for,
+//! the objective in periods of progress at the feed, averaged over the samples. So prices and
+//! tolerances below need not know the machine.
+//!
 //! Elastic rows make sure there is always a solution: the rest of the last window keeps the hard
 //! ones.
 
 /// Price of violating an elastic row by one. Progress gains at most about one by it, so a row that
-/// can be kept is kept.
+/// can be kept is kept: a penalty proportional to the violation is exact as long as the price is above
+/// the multiplier that the row would have if it were hard. With less, rows are traded for progress.
 pub(in crate::in_tube::window) const PRICE: f64 = 30.0;
 /// The same where a violation must not buy a smaller one elsewhere.
 pub(in crate::in_tube::window) const FIRM_PRICE: f64 = 1000.0;
-/// A bound that does not bind.
+/// A bound that does not bind, in units of its row: rows are made near where they matter, and such a
+/// side has a multiplier of μ / 1000. Walls, which are made for a whole axis, have one further away.
 pub(in crate::in_tube::window) const FAR: f64 = 1e3;
 
-/// Cosine from which two directions are the same.
+/// Cosine from which two directions are the same, but for the rounding of both: 1.4e-6 rad.
 const SAME_COS: f64 = 1.0 - 1e-12;
 
 /// Most control points in a row.
@@ -74,7 +86,7 @@ pub(in crate::in_tube::window) struct Problem<const D: usize> {
     pub(in crate::in_tube::window) jerk: [f64; D],
     /// Which control points stay where they are given, by axis.
     pub(in crate::in_tube::window) pins: Vec<[bool; D]>,
-    /// Gradient of the objective, by control point.
+    /// Gradient of the linear part of the objective, which is maximised, by control point.
     pub(in crate::in_tube::window) aims: Vec<[f64; D]>,
     pub(in crate::in_tube::window) sites: Vec<Site<D>>,
     pub(in crate::in_tube::window) rows: Vec<Row<D>>,
@@ -202,6 +214,7 @@ impl<const D: usize> Problem<D> {
                 return;
             }
         }
+        // FAR is 1000 measures: whoever adds a border is near it.
         let center = normal.map(|n| n * least);
         self.add_row(normal.map(|n| n / measure), &center, [0.0, FAR]);
     }
@@ -233,7 +246,8 @@ impl<const D: usize> Problem<D> {
     }
 }
 
-/// The first control point of the first difference that is not given by the start alone.
+/// The first control point of the first difference that is not given by the start alone: that whose
+/// last point is x₃.
 pub(super) const fn first_difference(order: usize) -> usize {
     2 - order
 }
