@@ -1,21 +1,48 @@
 //! Newton's method with a logarithmic barrier, over the coefficients of b.
 //!
-//! At each place slope and bend of the barrier are collected over b, b′ and b″, and brought to the
-//! three coefficients at once.
+//! What is minimised, with a weight that grows, is
+//!
+//! ```text
+//!     weight · Σ share/√b  −  Σ ln(1 − b/cap)  −  Σ ln(1 − (used/A)²)  −  Σ ln(1/b − (used/J)²)
+//! ```
+//!
+//! where `used` is what of an acceleration, or of a jerk over √b, an axis is asked for: linear in b, b′
+//! and b″. At each place gradient and Hessian are collected over b, b′ and b″, and brought to the three
+//! coefficients at once: a third of the work that limits took which were brought there one by one.
+//!
+//! *Convexity.* Time, top speeds and accelerations are convex. The jerk is not: |used| ≤ J/√b bounds by a
+//! convex function of b. In its Hessian the second derivative of J/√b is left out, as if the bound were
+//! its tangent at the present b. What is left has no negative eigenvalue, so each step goes downhill, and
+//! the search along it is by what the limits really are. What is found is a local optimum.
+//!
+//! An iterate never leaves the limits, unlike one of the window's primal-dual method: whatever is at hand
+//! when steps no longer gain is a motion that keeps them at its places.
 
 use super::constraints::{Part, Place, Problem, Row};
 use super::fineness::Fineness;
 
-/// The weight of the time at the start, in limits for the time that the start takes.
+/// The weight of the time at the start, in limits for the time that the start takes: the barrier then
+/// leaves a fifth of that to be gained. With less, the first steps lead away from the limits, to come back
+/// later; with more, they begin next to limits that the start is near.
 const START: f64 = 5.0;
-/// Steps of Newton's method for one weight of the barrier.
+/// Steps of Newton's method for one weight of the barrier, at most. Where they do not do, the next weight
+/// begins from what there is.
 const STEPS: u32 = 60;
-/// The square of a step, in the measure of the barrier, that is small whatever the number of knots.
+/// The square of a step, gᵀH⁻¹g (Newton's decrement), that is small whatever the number of knots: about
+/// half as much is still to be gained of the weighted time and the barrier.
 const SMALL_STEP: f64 = 1.0;
-/// The weight of the time grows by this factor when a step is small.
+/// The weight of the time grows by this factor when a step is small. A larger one needs fewer weights and
+/// more steps for each. No measurement of it is kept.
 const GROWTH: f64 = 50.0;
+/// How many limits a knot is counted as: a barrier of m limits leaves m/weight to be gained.
+const LIMITS_OF_KNOT: f64 = 3.0;
 /// Halvings of a step that would leave the limits.
 const HALVINGS: u32 = 40;
+/// Share of what a step promises, decrement times its length, that it has to gain (Armijo).
+const PROMISED_R: f64 = 0.1;
+/// Between these a product of factors is kept without taking its logarithm: far enough from the ends of a
+/// double that one more factor cannot pass them.
+const PRODUCTS: core::ops::RangeInclusive<f64> = 1e-100..=1e100;
 
 /// Coefficients of a time parametrisation that keeps all limits and takes near the least time, from
 /// one that keeps them with room to spare; `None` if the start does not.
@@ -23,7 +50,7 @@ pub(crate) fn solve(problem: &Problem, start: Vec<f64>, fineness: &Fineness) -> 
     let mut x = start;
     let time_t = problem.time(&x);
     let mut weight = START * problem.count as f64 / time_t;
-    let last = 3.0 * problem.knots as f64 / (fineness.gap_r * time_t);
+    let last = LIMITS_OF_KNOT * problem.knots as f64 / (fineness.gap_r * time_t);
     let small_step = (fineness.small_r * problem.knots as f64).max(SMALL_STEP);
     let mut value = merit(problem, &x, weight)?;
     let mut newton = Newton::new(x.len());
@@ -59,7 +86,7 @@ impl Logarithms {
     #[inline]
     fn take(&mut self, factor: f64) -> bool {
         self.product *= factor;
-        if !(1e-100..=1e100).contains(&self.product) {
+        if !PRODUCTS.contains(&self.product) {
             self.sum += self.product.ln();
             self.product = 1.0;
         }
@@ -89,6 +116,7 @@ fn merit(problem: &Problem, x: &[f64], weight: f64) -> Option<f64> {
             }
             if row.most_j.is_finite() {
                 let used_r = (j0 * b + j1 * slope + j2 * second) / row.most_j;
+                // Both sides at once, (J/√b − used)(J/√b + used) over J².
                 is_kept &= logarithms.take(1.0 / b - used_r * used_r);
             }
         }
@@ -104,12 +132,12 @@ fn merit(problem: &Problem, x: &[f64], weight: f64) -> Option<f64> {
     (time_t.is_finite() && barrier.is_finite()).then_some(weight * time_t + barrier)
 }
 
-/// Slope and bend of the objective at a place, over b, b′ and b″.
+/// Gradient and Hessian of what is minimised at a place, over b, b′ and b″.
 #[derive(Default)]
 struct Local {
-    slope: [f64; 3],
+    gradient: [f64; 3],
     /// bb, bb′, bb″, b′b′, b′b″, b″b″.
-    bend: [f64; 6],
+    hessian: [f64; 6],
 }
 
 impl Local {
@@ -117,15 +145,16 @@ impl Local {
         let mut local = Self::default();
         let inverse = 1.0 / b;
         let root = inverse.sqrt();
+        // Of share·b^(−1/2): −½·share·b^(−3/2) and ¾·share·b^(−5/2).
         if place.share_s > 0.0 {
-            let slope = 0.5 * weight * place.share_s * inverse * root;
-            local.slope[0] -= slope;
-            local.bend[0] += 1.5 * slope * inverse;
+            let pull = 0.5 * weight * place.share_s * inverse * root;
+            local.gradient[0] -= pull;
+            local.hessian[0] += 1.5 * pull * inverse;
         }
         if place.cap_b.is_finite() {
             let near = 1.0 / (place.cap_b - b);
-            local.slope[0] += near;
-            local.bend[0] += near * near;
+            local.gradient[0] += near;
+            local.hessian[0] += near * near;
         }
         for row in rows {
             if row.most_a.is_finite() {
@@ -142,40 +171,41 @@ impl Local {
         local
     }
 
-    /// A limit both ways: `used` = `of`·(b, b′) within ±`allowed`, whatever b is.
+    /// A limit both ways: `used` = `of`·(b, b′) within ±`allowed`, whatever b is. Of
+    /// −ln(allowed − used) − ln(allowed + used); `above` and `below` are the reciprocals.
     #[inline]
     fn both_fixed(&mut self, of: [f64; 2], used: f64, allowed: f64) {
         let [c0, c1] = of;
         let product = 1.0 / ((allowed - used) * (allowed + used));
         let (above, below) = ((allowed + used) * product, (allowed - used) * product);
         let difference = above - below;
-        self.slope[0] += difference * c0;
-        self.slope[1] += difference * c1;
+        self.gradient[0] += difference * c0;
+        self.gradient[1] += difference * c1;
         let square = above * above + below * below;
-        self.bend[0] += square * (c0 * c0);
-        self.bend[1] += square * c0 * c1;
-        self.bend[3] += square * c1 * c1;
+        self.hessian[0] += square * (c0 * c0);
+        self.hessian[1] += square * c0 * c1;
+        self.hessian[3] += square * c1 * c1;
     }
 
     /// A limit both ways: `used` = `of`·(b, b′, b″) within ±`allowed`, which changes by `change`
-    /// with b.
+    /// with b, and linearly as far as the Hessian is concerned (see above).
     #[inline]
     fn both(&mut self, of: [f64; 3], used: f64, allowed: f64, change: f64) {
         let [c0, c1, c2] = of;
         let product = 1.0 / ((allowed - used) * (allowed + used));
         let (above, below) = ((allowed + used) * product, (allowed - used) * product);
         let (difference, sum) = (above - below, above + below);
-        self.slope[0] += difference * c0 - sum * change;
-        self.slope[1] += difference * c1;
-        self.slope[2] += difference * c2;
+        self.gradient[0] += difference * c0 - sum * change;
+        self.gradient[1] += difference * c1;
+        self.gradient[2] += difference * c2;
         let square = above * above + below * below;
         let cross = -difference * sum * change;
-        self.bend[0] += square * (c0 * c0 + change * change) + 2.0 * cross * c0;
-        self.bend[1] += (square * c0 + cross) * c1;
-        self.bend[2] += (square * c0 + cross) * c2;
-        self.bend[3] += square * c1 * c1;
-        self.bend[4] += square * c1 * c2;
-        self.bend[5] += square * c2 * c2;
+        self.hessian[0] += square * (c0 * c0 + change * change) + 2.0 * cross * c0;
+        self.hessian[1] += (square * c0 + cross) * c1;
+        self.hessian[2] += (square * c0 + cross) * c2;
+        self.hessian[3] += square * c1 * c1;
+        self.hessian[4] += square * c1 * c2;
+        self.hessian[5] += square * c2 * c2;
     }
 }
 
@@ -227,21 +257,21 @@ impl Newton {
         }
     }
 
-    /// Brings slope and bend over b alone to the three coefficients of a place.
+    /// Brings gradient and Hessian over b alone to the three coefficients of a place.
     #[inline]
     fn add_value(&mut self, place: &Place, local: &Local) {
         let v = &place.taylor.value;
         let gradient = &mut self.gradient[place.first..place.first + 3];
         let band = &mut self.band[place.first..place.first + 3];
         for i in 0..3 {
-            gradient[i] += local.slope[0] * v[i];
+            gradient[i] += local.gradient[0] * v[i];
             for j in i..3 {
-                band[i][j - i] += local.bend[0] * v[i] * v[j];
+                band[i][j - i] += local.hessian[0] * v[i] * v[j];
             }
         }
     }
 
-    /// Brings slope and bend at an end of an interval to its three coefficients. b and b′ depend on
+    /// Brings gradient and Hessian at an end of an interval to its three coefficients. b and b′ depend on
     /// two of them, `I` and `J`, `I` < `J`; on the third, `K`, only b″ does.
     #[inline]
     fn add<const I: usize, const J: usize, const K: usize>(
@@ -254,8 +284,8 @@ impl Newton {
             &place.taylor.slope,
             &place.taylor.second,
         );
-        let [g0, g1, g2] = local.slope;
-        let [h00, h01, h02, h11, h12, h22] = local.bend;
+        let [g0, g1, g2] = local.gradient;
+        let [h00, h01, h02, h11, h12, h22] = local.hessian;
         let gradient = &mut self.gradient[place.first..place.first + 3];
         let band = &mut self.band[place.first..place.first + 3];
         for i in [I, J] {
@@ -280,6 +310,7 @@ impl Newton {
         let count = self.band.len();
         for k in 0..count {
             let [diagonal, one, two] = self.band[k];
+            // Rounding alone can leave none. The step is huge then, and the search refuses it.
             let pivot = if diagonal > 0.0 {
                 diagonal
             } else {
@@ -335,7 +366,7 @@ impl Newton {
                 *next = x + share * step;
             }
             if let Some(next_value) = merit(problem, &self.next, weight)
-                && next_value <= value - 0.1 * share * decrement
+                && next_value <= value - PROMISED_R * share * decrement
             {
                 return Some(next_value);
             }

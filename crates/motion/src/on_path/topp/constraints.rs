@@ -79,9 +79,12 @@ pub(crate) struct Problem {
     pub(crate) knots: usize,
 }
 
-/// Share of the jerk of an axis that may be asked for at a place: it changes faster between them.
+/// Share of the jerk of an axis that may be asked for at a place: it changes faster between them than
+/// speed and acceleration do, ten times as fast by this. What comes out is looked at between the places
+/// whatever these shares are ([`super::between_knots`]); with less room that has more to mend.
 const JERK_BETWEEN_R: f64 = 1.0 - 2e-3;
-/// A limit this many times what can be asked for is none.
+/// A limit this many times what can be asked for is none: a row less. At 1 it would lean on the
+/// path's own limits, with which that is reckoned, where these may be passed a little between places.
 const IDLE_R: f64 = 1.5;
 
 impl Problem {
@@ -108,6 +111,7 @@ impl Problem {
             } else {
                 share_r * interval.start_v
             };
+            // Σ h/√b by trapezia: a knot stands for half of the interval to either side.
             let share_s = half_s + 0.5 * knot_path.before_s(k);
             problem.place((k, Part::Start), parabola.start, start_v, share_s);
 
@@ -172,6 +176,8 @@ impl Problem {
             end_v,
             ..
         } = *interval;
+        // One row on the coefficient bounds all of the parabola; without it b could rise above the top
+        // speed between two knots that keep it.
         let top_v = start_v.max(middle_v).max(end_v);
         let place = (first, Part::Inside);
         if !is_given {
@@ -213,6 +219,7 @@ impl Problem {
                 continue;
             }
             let (most_a, most_j) = (limits.acceleration[axis], limits.jerk[axis]);
+            // The most that the rows can come to, each term by itself, with s̈ and s⃛ at the path's limits.
             let along_a = d1.abs() * bounds.tangential_a;
             let needed_a = along_a + d2.abs() * top_v * top_v;
             let cross_j = 3.0 * d2.abs() * top_v * bounds.tangential_a;

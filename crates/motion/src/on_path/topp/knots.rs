@@ -13,16 +13,22 @@ use glidepath_program::Limits;
 /// Most knots. A piece that is driven for longer than these last, at a feed of micrometres, has
 /// them farther apart: its speed is the feed then, and memory does not grow with the time.
 const MOST_KNOTS: f64 = 30_000.0;
-/// Time from knot to knot on the S-curves, at least, s.
+/// Time from knot to knot on the S-curves, at least, s. No share of a machine's ramp makes it less: the
+/// work is linear in the knots.
 const LEAST_KNOT_T: f64 = 0.002;
-/// Time of the phase of constant jerk next to a rest, and its largest share of the S-curve's.
+/// Time of the phase of constant jerk next to a rest, and its largest share of the S-curve's. At a rest
+/// b ~ s^(4/3) has a second derivative beyond all bounds, which no spline follows; the shorter the
+/// phase, the more knots next to it ([`REST_GROWTH`]).
 const REST_T: f64 = 0.001;
 const REST_R: f64 = 0.25;
 /// The time in which a start goes over from the speed of the S-curves, squared, in speeds for the
-/// jerk of an axis; and that in speeds for its acceleration: a fifth of either is asked for.
+/// jerk of an axis; and that in speeds for its acceleration: a fifth of either is asked for. A quintic
+/// from 1 to .85 of the speed ([`crate::on_path::refining::RATE_R`]) has slopes of up to 1.875 · .15 and
+/// second derivatives of up to 5.77 · .15 of it; five times as much is 1.4 and 4.3.
 const RAMP_JERK: f64 = 4.3;
 const RAMP_ACCEL: f64 = 1.4;
-/// Next to a rest, the time to a knot grows by this factor from the one before.
+/// Next to a rest, the time to a knot grows by this factor from the one before: b ~ t⁴ then grows by the
+/// same factor, about two, on each interval.
 const REST_GROWTH: f64 = 1.2;
 
 /// A place on the S-curves: time and path position.
@@ -132,6 +138,8 @@ impl KnotPath {
         let mut own = vec![from_s];
         own.extend(times.into_iter().map(|t| self.position_at(t)));
         own.push(to_s);
+        // Where pieces meet there is a knot in any case, for derivatives of the path jump there; those of
+        // the time that are too near to one are left out, or intervals of very different lengths meet.
         let junctions: Vec<f64> = course.starts_s.clone();
         let junctions = &junctions[junctions.partition_point(|s| *s <= from_s)..];
         let junctions = &junctions[..junctions.partition_point(|s| *s < to_s)];
@@ -230,6 +238,8 @@ impl KnotPath {
         for ((end_r, ramp_s), side_s) in self.ends_r.iter().zip(self.ramps_s).zip(sides_s) {
             if let Some(end_r) = end_r {
                 let u = (side_s / ramp_s).clamp(0.0, 1.0);
+                // The quintic with no slope and no second derivative at its ends: neither acceleration
+                // nor jerk of the start jumps there.
                 let passed_r = u * u * u * (10.0 + u * (6.0 * u - 15.0));
                 at_r += (end_r - rate_r) * (1.0 - passed_r);
             }

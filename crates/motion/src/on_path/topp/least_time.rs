@@ -26,6 +26,7 @@ pub(crate) fn optimise(
     let mut shares = vec![1.0; knot_path.intervals.len()];
     let first = usize::from(knot_path.rests[0].is_some());
     let mut rates = rates.iter().copied().peekable();
+    // Rates only go down: what left no room to start from with larger shares leaves none with smaller.
     let mut firmness = 1.0;
     for _ in 0..ROUNDS {
         let problem = Problem::new(&knot_path, limits, &shares);
@@ -46,6 +47,7 @@ pub(crate) fn optimise(
         if remedy.is_none {
             return Some(parametrisation);
         }
+        // From the back, so that the numbers of those before stay.
         for &k in remedy.halved.iter().rev() {
             shares.insert(k, shares[k]);
         }
@@ -69,6 +71,7 @@ fn parametrisation_of(
         accel_a: 0.0,
     };
     // Ends at rest are as fast as the start.
+    // Time scaled by 1/r scales jerk by r³.
     let slowed = |rest: RestPhase| (rest.jerk_j * rate_r.powi(3), rest.duration_t / rate_r);
     if let Some((jerk_j, duration_t)) = knot_path.rests[0].map(slowed) {
         builder.push_phase(zero, jerk_j, duration_t);

@@ -3,8 +3,9 @@
 //!
 //! S-curves between junctions without acceleration are quick to make, but a curve whose curvature
 //! changes all the time binds the speed everywhere, and there they lose a fifth of the time. This
-//! parametrisation is optimised as a whole. With b = v² as a function of path position s, every
-//! limit is linear in b and its derivatives, but for the jerk:
+//! parametrisation is optimised as a whole. Over time, or with v over s, acceleration would be a product
+//! of unknowns. With b = v² as a function of path position s, every limit is linear in b and its
+//! derivatives, but for the jerk:
 //!
 //! ```text
 //!   speed          b ≤ cap(s)²                          s̈ = b′/2
@@ -12,16 +13,20 @@
 //!   jerk           |½·q′·b″ + 3/2·q″·b′ + q‴·b|·√b ≤ J
 //! ```
 //!
+//! Units are millimetres (or degrees, where the feed is in them) and seconds: b is in mm²/s², b′ in
+//! mm/s², b″ in 1/s². What the barrier sees is each limit's own share, and the weight of the time is per
+//! second, so nothing has to be scaled.
+//!
 //! * **Discretisation.** b is a quadratic spline in s: speed and acceleration are continuous, b″ is
 //!   constant on a span, and on each span ẍ = b′(x)/2 is a linear differential equation, solved by
 //!   hyperbolic or circular functions. So the parametrisation is evaluated exactly, and what was
 //!   checked on b holds for the motion ([`Parametrisation`]). Next to a rest, where b ~ s^(4/3), a
 //!   short phase of constant jerk takes the place of the spline. Between the knots, where there are
 //!   no constraints, the parametrisation is judged afterwards ([`between_knots`]).
-//! * **Optimisation.** Least Σ h/√b with a logarithmic barrier for each limit, by Newton's method;
-//!   each constraint of the problem touches three neighbouring coefficients, so a step costs a
-//!   banded factorisation ([`barrier`]). It starts from the S-curves, slowed down, which keeps all
-//!   limits with room to spare: no step ever leaves them.
+//! * **Optimisation.** Least Σ h/√b, which is the time, ∫ ds/v, and convex in b, with a logarithmic
+//!   barrier for each limit, by Newton's method; each constraint of the problem touches three
+//!   neighbouring coefficients, so a step costs a banded factorisation ([`barrier`]). It starts from the
+//!   S-curves, slowed down, which keeps all limits with room to spare: no step ever leaves them.
 //!
 //! Where a parametrisation takes the place of S-curves, [`crate::on_path::refining`] decides.
 

@@ -16,7 +16,9 @@ pub(crate) struct Parabola {
 }
 
 impl Parabola {
-    /// `lengths`: of the interval before (0 if there is none), its own, and of the one after.
+    /// `lengths`: of the interval before (0 if there is none), its own, and of the one after. A quadratic
+    /// B-spline with one coefficient for the middle of each interval: a tangent of b at a knot leads
+    /// through the coefficients to either side.
     pub(crate) fn new(lengths: [f64; 3]) -> Self {
         let [before, own, after] = lengths;
         let (left, right) = (before + own, own + after);
@@ -43,6 +45,7 @@ impl Parabola {
             .map(|of| of[0] * x[0] + of[1] * x[1] + of[2] * x[2])
     }
 
+    /// b in the middle: of the Bézier points, which are the values at both ends and the coefficient.
     pub(crate) fn middle(&self) -> [f64; 3] {
         let (start, end) = (self.start.value, self.end.value);
         let inner = [0.0, 2.0, 0.0];

@@ -23,15 +23,20 @@ pub(crate) struct MotionPhase {
     pub(crate) growth: f64,
 }
 
-/// Terms of the series, and the magnitude below which one no longer counts.
+/// Terms of the series, and the magnitude below which one no longer counts: a hundredth of what rounds
+/// the first term, 1.
 const MOST_TERMS: u32 = 40;
 
 const SMALLEST_TERM: f64 = 1e-18;
 
-/// Newton steps for the time on a phase.
+/// Newton steps for the time on a phase, and the change at which they end, s and as a share. The first
+/// guess, by the mean of both speeds, is exact for constant acceleration.
 const TIME_STEPS: u32 = 20;
+const EXACT_T: f64 = 1e-15;
+const EXACT_R: f64 = 1e-14;
 
-/// sinh(√γ·t)/√γ and (cosh(√γ·t) − 1)/γ, or their circular likes for γ < 0, by their series.
+/// sinh(√γ·t)/√γ and (cosh(√γ·t) − 1)/γ, or their circular likes for γ < 0, by their series: the
+/// functions themselves lose digits where γ is near 0, and would be two cases.
 fn series(growth: f64, t: f64) -> (f64, f64) {
     let z = growth * t * t;
     let (mut first, mut second) = (1.0, 0.5);
@@ -188,6 +193,7 @@ impl Builder {
         length_s: f64,
         second: f64,
     ) -> Option<()> {
+        // a = b′/2, so da/ds = b″/2: ẍ = a₀ + γ·(x − x₀) with γ = b″/2.
         let growth = 0.5 * second;
         let phase = MotionPhase {
             from_t: self.parametrisation.duration_t,
@@ -195,6 +201,7 @@ impl Builder {
             jerk_j: 0.0,
             growth,
         };
+        // b at the end, for a first guess of the time at the mean of both speeds.
         let left_b =
             start.speed_v * start.speed_v + length_s * (2.0 * start.accel_a + growth * length_s);
         let sum_v = start.speed_v + left_b.max(0.0).sqrt();
@@ -203,7 +210,7 @@ impl Builder {
             let state = phase.at(t);
             let step_t = (state.position_s - start.position_s - length_s) / state.speed_v;
             t -= step_t;
-            if step_t.abs() <= 1e-15 + 1e-14 * t {
+            if step_t.abs() <= EXACT_T + EXACT_R * t {
                 break;
             }
         }
