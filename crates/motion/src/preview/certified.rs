@@ -21,14 +21,26 @@ use super::probe::Probe;
 use super::{Demand, Method, Minimum, Region};
 use glidepath_geometry::{Nurbs, SpanCurvature};
 
-/// Evaluations of one search for a crossing, at most.
+/// Evaluations of one search for a crossing, at most. False position with halved ends needs a few;
+/// bisection alone would halve the domain 37 times.
 const MAX_SEARCH: u32 = 60;
-/// Width at which such a search ends, relative to the domain of the curve.
+/// Width at which such a search ends, relative to the domain of the curve. Whatever it is, the end outside
+/// the region is taken: with more, regions are longer by it and as safe.
 const CROSSING: f64 = 1e-11;
 /// Curvatures that differ by less, relatively, are one plateau.
 const PLATEAU: f64 = 1e-9;
-/// Angle between tangents, in radians, from which a knot is a corner.
+/// Angle between tangents, in radians, from which a knot is a corner: far above what rounding makes of one
+/// tangent.
 const CORNER_RAD: f64 = 1e-6;
+/// How far beyond its estimate the crossing is looked at, in widths at which the search ends: less than
+/// one, so that the bracket closes, and far enough for rounding.
+const BEYOND: f64 = 0.25;
+/// Steps after which a bracket is to be half as wide, or is halved.
+const PATIENCE: u32 = 3;
+/// Parts of the way to a neighbour at which a curvature is looked for beside a point where the curve
+/// stands still: from the first one on, each so many times the one before.
+const BESIDE: f64 = 1e-6;
+const BESIDE_GROWTH: f64 = 4.0;
 
 /// The default method; it has no parameters.
 #[derive(Debug, Clone, Copy, Default)]
@@ -137,7 +149,7 @@ impl Sweep<'_> {
                 k
             } else {
                 // How far the curve counts as standing still depends on how it sets out.
-                core::iter::successors(Some(1e-6), |part| Some(4.0 * part))
+                core::iter::successors(Some(BESIDE), |part| Some(BESIDE_GROWTH * part))
                     .take_while(|part| *part < 1.0)
                     .map(|part| probe.curvature(curvature, u + part * (other_u - u)))
                     .find(|k| k.is_finite())
@@ -192,10 +204,14 @@ impl Sweep<'_> {
                 break;
             }
             // A little beyond the estimate, so that the bracket closes from both sides.
-            let reach = if moved_b == Some(true) { -0.25 } else { 0.25 };
+            let reach = if moved_b == Some(true) {
+                -BEYOND
+            } else {
+                BEYOND
+            };
             let mut u = (a * fb - b * fa) / (fb - fa) + reach * self.tolerance_u;
-            let stuck = step % 3 == 0 && b - a > 0.5 * checkpoint;
-            if step % 3 == 0 {
+            let stuck = step % PATIENCE == 0 && b - a > 0.5 * checkpoint;
+            if step % PATIENCE == 0 {
                 checkpoint = b - a;
             }
             if stuck || !(u > a && u < b) {

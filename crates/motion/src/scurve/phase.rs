@@ -11,6 +11,11 @@ pub struct PathState {
     pub accel_a: f64,
 }
 
+/// Steps for the time at a position: bisection alone comes to rounding in as many.
+const STEPS: u32 = 60;
+/// Change of that time, in durations of the phase, at which it is taken for found.
+const EXACT_R: f64 = 1e-12;
+
 /// One phase of constant jerk, with the state at its start.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Phase {
@@ -33,13 +38,14 @@ impl Phase {
     }
 
     /// When the position is `s`, within the phase: cubic in time, solved by Newton steps in a
-    /// bracket.
+    /// bracket. The closed form of a cubic loses digits where jerk is small beside speed; and next to a
+    /// rest, where the speed is nearly 0, Newton's step alone leads far away.
     pub(super) fn time_at(&self, s: f64) -> f64 {
         let (mut low_t, mut high_t) = (0.0, self.duration_t);
         let mut t = ((s - self.position_s) / self.speed_v)
             .max(0.0)
             .min(0.5 * high_t);
-        for _ in 0..60 {
+        for _ in 0..STEPS {
             let state = self.at(t);
             let error_s = state.position_s - s;
             if error_s > 0.0 {
@@ -53,7 +59,7 @@ impl Phase {
             } else {
                 0.5 * (low_t + high_t)
             };
-            if (next_t - t).abs() <= 1e-12 * self.duration_t {
+            if (next_t - t).abs() <= EXACT_R * self.duration_t {
                 return next_t;
             }
             t = next_t;

@@ -243,6 +243,7 @@ impl Outline {
         let down = Ramp::new(base_v - exit_v + rise_v, limits);
         let ramps_s = 0.5 * (entry_v + peak_v) * up.duration_t()
             + 0.5 * (peak_v + exit_v) * down.duration_t();
+        // What rounding leaves of the length below zero is none.
         let cruise_t = if peak_v > 0.0 {
             ((length_s - ramps_s) / peak_v).max(0.0)
         } else {
@@ -291,6 +292,10 @@ pub(crate) struct Extremes {
     pub(crate) jerk_j: f64,
 }
 
+/// Steps for the peak, which bisection alone would take, and the change of its root that is rounding.
+const PEAK_STEPS: u32 = 60;
+const PEAK_ROUNDING_R: f64 = 4.0 * f64::EPSILON;
+
 /// How far the peak speed lies above the greater end speed, at most `headroom_v`.
 fn peak_rise(entry_v: f64, exit_v: f64, length_s: f64, headroom_v: f64, limits: PathLimits) -> f64 {
     let PathLimits { accel_a, jerk_j } = limits;
@@ -302,7 +307,9 @@ fn peak_rise(entry_v: f64, exit_v: f64, length_s: f64, headroom_v: f64, limits: 
     if covered_s(headroom_v) <= length_s {
         return headroom_v;
     }
-    // Both ramps with a phase of constant acceleration: closed form.
+    // Both ramps with a phase of constant acceleration: closed form. A ramp from v takes
+    // ½(v + p)((p − v)/A + A/J); both lengths add up to a square in the peak p, with c = A²/(2J):
+    // p² + 2c·p = ½(v₀² + v₁²) − c(v₀ + v₁) + A·L.
     let knee_v = accel_a * accel_a / jerk_j;
     let c = 0.5 * knee_v;
     let closed_v = -c
@@ -312,14 +319,14 @@ fn peak_rise(entry_v: f64, exit_v: f64, length_s: f64, headroom_v: f64, limits: 
     if closed_v - base_v >= knee_v {
         return (closed_v - base_v).min(headroom_v);
     }
-    // In x = √rise the length is smooth, nearly a cubic; Newton inside a bracket. The start is
-    // exact for equal ends.
+    // In x = √rise the length is smooth, nearly a cubic (a ramp without such a phase takes 2·√(d/J));
+    // Newton inside a bracket. The start is exact for equal ends.
     let room_s = (length_s - ramp_s(low_v, base_v - low_v)).max(0.0);
     let mut x = (reachable_rise(base_v, 0.5 * room_s, limits))
         .min(headroom_v)
         .sqrt();
     let (mut under_x, mut over_x) = (0.0, headroom_v.sqrt());
-    for _ in 0..60 {
+    for _ in 0..PEAK_STEPS {
         let rise_v = x * x;
         let excess_s = covered_s(rise_v) - length_s;
         if excess_s > 0.0 {
@@ -327,6 +334,7 @@ fn peak_rise(entry_v: f64, exit_v: f64, length_s: f64, headroom_v: f64, limits: 
         } else {
             under_x = x;
         }
+        // d(length)/dx, with d(rise)/dx = 2x.
         let slope = 2.0
             * x
             * (ramp_slope(low_v, base_v - low_v + rise_v, limits)
@@ -337,7 +345,7 @@ fn peak_rise(entry_v: f64, exit_v: f64, length_s: f64, headroom_v: f64, limits: 
         } else {
             0.5 * (under_x + over_x)
         };
-        if (next_x - x).abs() <= 4.0 * f64::EPSILON * x {
+        if (next_x - x).abs() <= PEAK_ROUNDING_R * x {
             break;
         }
         x = next_x;

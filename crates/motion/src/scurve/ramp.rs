@@ -66,12 +66,16 @@ pub fn ramp_length(from_v: f64, to_v: f64, limits: PathLimits) -> f64 {
     0.5 * (from_v + to_v) * ramp_duration(from_v, to_v, limits)
 }
 
+/// How much longer than a length a ramp may be that fits into it.
+const FITS_R: f64 = 1e-9;
+
 /// True if a ramp between two speeds fits into a length, up to the rounding of the speeds: where
 /// they hardly differ, their difference, and with it the length of the ramp, has few digits left.
 #[must_use]
 pub fn ramp_fits(from_v: f64, to_v: f64, length_s: f64, limits: PathLimits) -> bool {
     let change_v = (to_v - from_v).abs();
-    let rounding_r = 1e-9 + 8.0 * f64::EPSILON * from_v.max(to_v) / change_v.max(f64::MIN_POSITIVE);
+    let rounding_r =
+        FITS_R + 8.0 * f64::EPSILON * from_v.max(to_v) / change_v.max(f64::MIN_POSITIVE);
     ramp_length(from_v, to_v, limits) <= length_s * (1.0 + rounding_r)
 }
 
@@ -110,21 +114,31 @@ pub(super) fn reachable_rise(from_v: f64, length_s: f64, limits: PathLimits) -> 
         return 0.0;
     }
     let full_t = accel_a / jerk_j;
+    // Up to a change of A²/J, which takes 2·A/J at a mean speed of v + A²/(2J), a ramp has no phase of
+    // constant acceleration: with x half of its duration, (2v + J·x²)·x = L.
     if (2.0 * from_v + jerk_j * full_t * full_t) * full_t >= length_s {
         let x_t = solve_depressed_cubic(from_v, length_s, jerk_j);
         jerk_j * x_t * x_t
     } else {
+        // Beyond it ½(v + w)((w − v)/A + A/J) = L, a square in w.
         let c = 0.5 * accel_a * full_t;
         ((from_v - c).powi(2) + 2.0 * accel_a * length_s).sqrt() - c - from_v
     }
 }
 
-/// The positive root of J·x³ + 2·v·x = L.
+/// From this argument on the linear term changes the root by less than 1e-8, which the Newton step behind
+/// it squares.
+const MOST_ARGUMENT: f64 = 1e12;
+
+/// The positive root of J·x³ + 2·v·x = L. With both coefficients positive there is one real root, for
+/// which hyperbolic functions take the place of Cardano's difference of roots: that one cancels where L is
+/// small.
 fn solve_depressed_cubic(v: f64, length_s: f64, jerk_j: f64) -> f64 {
     let linear = 2.0 * v / (3.0 * jerk_j);
     let p = linear.sqrt();
     let argument = length_s / (2.0 * jerk_j * p * p * p);
-    let mut x = if argument.is_finite() && argument < 1e12 {
+    // From rest p is 0; near it x is the root without the linear term, and the step below does the rest.
+    let mut x = if argument.is_finite() && argument < MOST_ARGUMENT {
         2.0 * p * (argument.asinh() / 3.0).sinh()
     } else {
         (length_s / jerk_j).cbrt()

@@ -21,9 +21,13 @@ impl SpeedChange {
     pub fn new(from: (f64, f64), to: (f64, f64), limits: PathLimits) -> Self {
         let PathLimits { accel_a, jerk_j } = limits;
         let ((from_v, from_a), (to_v, to_a)) = (from, to);
+        // The speed that is reached by going from one acceleration to the other at once: above it the
+        // change has to hump upwards first, below it downwards.
         let direct_v =
             from_v + (to_a - from_a).signum() * (to_a * to_a - from_a * from_a) / (2.0 * jerk_j);
         let direction = if to_v >= direct_v { 1.0 } else { -1.0 };
+        // Each jerk phase changes the speed by (a_end² − a_start²)/(2·±J), so both together give the peak:
+        // a_p² = ½(a₀² + a₁²) ± J·(v₁ − v₀).
         let peak_a = (0.5 * (from_a * from_a + to_a * to_a) + direction * jerk_j * (to_v - from_v))
             .max(0.0)
             .sqrt();

@@ -26,11 +26,16 @@ pub(crate) struct Run {
     curved_v: f64,
 }
 
-/// Most pieces of one run.
+/// Most pieces of one run: finding its speed may go through all of them for each S-curve.
 const MOST_PIECES: usize = 512;
-/// A run is short if it does not allow this share of the speed around it to be gained.
+/// A run is not made longer than so many lengths in which its highest speed is brought down.
+const MOST_HORIZONS: f64 = 4.0;
+/// A run is short if it does not allow this share of the speed around it to be gained. With more, longer
+/// pieces lose their own limits to the weakest of the run; with less, more junctions are passed without
+/// acceleration.
 const USEFUL_CHANGE_R: f64 = 0.1;
-/// Curved pieces belong to one run while their top speeds differ by at most this factor.
+/// Curved pieces belong to one run while their top speeds differ by at most this factor. A run has the
+/// weakest limits of its pieces, so a sharp one is kept out of a fast one. No measurement of it is kept.
 const SIMILAR_SPEED_R: f64 = 2.5;
 
 impl Run {
@@ -68,7 +73,7 @@ impl Run {
     /// Adds the pieces of the next run if both are driven better as one; gives it back if not.
     pub(crate) fn absorb(&mut self, next: Self) -> Option<Self> {
         let full = self.pieces.len() >= MOST_PIECES
-            || self.length_s > 4.0 * slowing_horizon(self.high_v, self.change);
+            || self.length_s > MOST_HORIZONS * slowing_horizon(self.high_v, self.change);
         if full || !(self.continues_straight(&next) || self.is_short_beside(&next)) {
             return Some(next);
         }

@@ -87,6 +87,7 @@ impl ValleyFirst<'_> {
             });
             return Some(());
         };
+        // Not below the ends, whose speeds are given.
         let cap_v = self.caps_v[slowest]
             .max(section.entry_v)
             .max(section.exit_v);
@@ -94,6 +95,8 @@ impl ValleyFirst<'_> {
         let (cruise_from_s, cruise_to_s) = capped.cruise_s();
         let (cruise_from_s, cruise_to_s) =
             (section.from_s + cruise_from_s, section.from_s + cruise_to_s);
+        // Junctions need a speed that is cruised at: at the ends of the slow piece, or at the end of the
+        // cruise that is next to it.
         let before_s = self.course.starts_s[slowest].min(cruise_to_s);
         let after_s = self.course.starts_s[slowest + 1].max(cruise_from_s);
 

@@ -32,7 +32,8 @@ impl<const D: usize> Banded<D> {
         }
     }
 
-    /// Solves by LDLᵀ without pivoting.
+    /// Solves by LDLᵀ without pivoting, which a positive definite matrix does not need. One pass takes the
+    /// right sides of all axes along.
     #[inline]
     pub(super) fn solve(&mut self) {
         let count = self.rows.len().min(self.right.len());

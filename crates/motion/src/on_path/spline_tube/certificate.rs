@@ -66,6 +66,8 @@ impl<const D: usize> Spline<D> {
                 }
                 let to_t = foot_t.min(self.knots[span + 4]);
                 let end = self.at(span, to_t);
+                // Hermite data rather than a cut of the span's own Bézier points: the start is that of the
+                // last part, so each break costs one evaluation.
                 let points = hermite_points(&start, &end, to_t - from_t);
                 let square_mm2 = square_off_chord(&points, (a, &chord), &mut verdict.passed_u);
                 let error_mm = if is_regular {

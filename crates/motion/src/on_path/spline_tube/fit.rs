@@ -5,8 +5,18 @@
 //! minimise  ∫ |C‴|² dt  +  Σ w_j h_j |C(t_j) − Q_j|²
 //! ```
 //!
-//! over the control points that are free. The system is solved for the increment of the control
-//! points, which keeps three digits more than solving for the points themselves.
+//! over the control points that are free, for feet t_j that are given: linear least squares. Half the
+//! gradient by the control points is K·c + Σ w_j h_j N_j (N_j·c − Q_j), half the Hessian
+//! K + Σ w_j h_j N_j N_jᵀ, with K the penalty's (`stiffness`) and N_j the basis at t_j: four neighbouring
+//! points at most, so seven bands. It is the same for every axis. The system is solved for the increment
+//! of the control points, which keeps three digits more than solving for the points themselves.
+//!
+//! Weights and feet are what makes it a tube: they are changed between solves ([`super::window`]), so
+//! each is one banded factorisation. Bounds of the distance as constraints would need a solver for
+//! inequalities; what they would be exact for is asked of the certificate anyway.
+//!
+//! Parameters (`_t`) are mm along the chords, nearly length of the curve, so C‴ is in 1/mm² and a weight
+//! in 1/mm⁶: its sixth root is a spatial frequency, below which the curve follows the samples.
 
 use super::banded::Banded;
 use super::knots::{Basis, DEGREE, third_derivative};
@@ -30,8 +40,11 @@ pub(super) struct Sample<const D: usize> {
 }
 
 /// The share of the distance to its neighbours' feet that a foot may move in a window. Feet that
-/// run free let the curve fold.
+/// run free let the curve fold: it was 2.4 mm off then. Below a half no two can pass each other.
 const FOOT_SHARE_R: f64 = 0.35;
+/// The least square of a slope by length, which is about 1: where the curve stands still, a foot is moved
+/// as far as it may be, and not by what is no number.
+const LEAST_SQUARE: f64 = 1e-12;
 
 /// The spline of a window, and what is needed to fit it.
 #[derive(Debug, Clone)]
@@ -69,6 +82,7 @@ impl<const D: usize> Spline<D> {
         self.stiffness.clear();
         self.stiffness.resize(self.control.len(), [0.0; 4]);
         for span in 0..self.spans() {
+            // C‴ is constant on a span, so the integral is exact.
             let length_t = self.knots[span + 4] - self.knots[span + 3];
             let third = third_derivative(&self.knots, span);
             for i in 0..4 {
@@ -105,6 +119,7 @@ impl<const D: usize> Spline<D> {
         self.move_feet(samples);
     }
 
+    /// Hessian and negative gradient, by halves.
     fn assemble(&mut self, samples: &[Sample<D>]) {
         let control = &self.control;
         let system = &mut self.system;
@@ -141,6 +156,8 @@ impl<const D: usize> Spline<D> {
         }
     }
 
+    /// Moves the feet to where the samples are nearest, one Gauss-Newton step each. What a foot was kept
+    /// from going counts as error, or samples held back would seem to be on the curve.
     fn move_feet(&self, samples: &mut [Sample<D>]) {
         let last = samples.len().saturating_sub(1);
         let least_t = self.knots[DEGREE];
@@ -150,7 +167,7 @@ impl<const D: usize> Spline<D> {
             let basis = Basis::at(&self.knots, span, sample.foot_t);
             let (point, slope) = basis.apply(&self.control[span..]);
             let residual = minus(&sample.point, &point);
-            let square = dot(&slope, &slope).max(1e-12);
+            let square = dot(&slope, &slope).max(LEAST_SQUARE);
             let along = dot(&residual, &slope);
             let mut error_mm2 = (dot(&residual, &residual) - along * along / square).max(0.0);
             if j < last {

@@ -23,7 +23,8 @@ use core::ops::Range;
 use glidepath_program::Limits;
 
 /// How much of what the axes can do a curve may ask for at the feed for the feed to be what binds: from
-/// one curve to the next it takes several times as much.
+/// one curve to the next it takes several times as much. With .5, and no bound by the jerk to swing into a
+/// curve, small letters took 8 ‰ longer.
 const ASKED_R: f64 = 0.2;
 /// How far a circle may be off its radius, in tolerances.
 const OFFSET_R: f64 = 0.01;
@@ -50,8 +51,8 @@ impl HeldRadius {
         }
     }
 
-    /// The least weight of a sample, whose foot is on a span; `per_length6` is its spacing to the power
-    /// of -6.
+    /// The least weight of a sample, 1/mm⁶, whose foot is on a span; `per_length6` is its spacing to
+    /// the power of -6.
     pub(super) fn least_weight<const D: usize>(
         &self,
         spline: &Spline<D>,
@@ -65,10 +66,14 @@ impl HeldRadius {
             (span, sample.foot_t),
         ));
         let feed_v = sample.feed_v;
+        // |C″| is the curvature, as the parameter is nearly length: v²·κ and v³·κ².
         let normal_a = feed_v * feed_v * bend;
         if normal_a > self.acceleration_a || feed_v * bend * normal_a > self.jerk_j {
             return 0.0;
         }
+        // The floors of the module's text: of the radius, and of the window's end as 1/ℓ⁶, once with ℓ of
+        // some samples, once with κ²·ℓ³ the offset. None so stiff that to swing into the curve within ℓ
+        // takes more jerk than is asked for.
         let of_radius = bend.powi(5) / self.offset_mm;
         let of_window = REACH_R.powi(-6) * per_length6;
         let most = (self.jerk_j / (feed_v * normal_a)).powi(6);

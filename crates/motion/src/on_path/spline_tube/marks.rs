@@ -7,6 +7,9 @@ use crate::programmed_rate::ProgrammedRate;
 use glidepath_program::{Event, ProgramLine};
 use std::collections::VecDeque;
 
+/// A foot this near an end of a part is there: rounding must make no block of its own out of what is left.
+const AT_END_U: f64 = 1e-9;
+
 /// What a block changes when it is entered.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Change {
@@ -62,10 +65,10 @@ impl Marks {
         let mut cuts = Vec::with_capacity(1);
         while let Some(mark) = self.waiting.front() {
             let from_u = foot(mark.from_t).max(0.0);
-            if from_u > 1.0 - 1e-9 {
+            if from_u > 1.0 - AT_END_U {
                 break;
             }
-            if from_u > 1e-9 && cuts.is_empty() {
+            if from_u > AT_END_U && cuts.is_empty() {
                 cuts.push(Cut {
                     from_u: 0.0,
                     line: self.line,

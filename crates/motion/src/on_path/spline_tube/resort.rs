@@ -12,6 +12,12 @@ use super::output::Output;
 use super::vector::between;
 use super::window::{End, Window, first_weight};
 
+/// A gap between feet that is no longer than this, in tolerances, is not split again.
+const LEAST_SPLIT_R: f64 = 5e-3;
+/// A sample that is put in gets a knot if the next one is further away than this, in its spacings: the
+/// shortest span beside one of usual length.
+const LEAST_SPAN_R: f64 = 0.1;
+
 impl<const D: usize> Window<D> {
     /// Puts samples and knots into the middle of the worst chord and of its neighbours; false if no
     /// place is left there.
@@ -35,9 +41,10 @@ impl<const D: usize> Window<D> {
         } else {
             start_t
         };
-        if after.foot_t - from_t <= 5e-3 * self.shares.tolerance_mm || foot_t <= frozen_t {
+        if after.foot_t - from_t <= LEAST_SPLIT_R * self.shares.tolerance_mm || foot_t <= frozen_t {
             return false;
         }
+        // The middle of what is left of the chord: of the first one a part is behind.
         let passed_u = if j == 1 { self.passed_u } else { 0.0 };
         let share = 0.5 * (1.0 + passed_u);
         let spacing_t = share * after.spacing_t;
@@ -56,7 +63,7 @@ impl<const D: usize> Window<D> {
             self.passed_u /= share;
         }
         let i = self.knots.partition_point(|&t| t < foot_t);
-        let least_t = 0.1 * spacing_t;
+        let least_t = LEAST_SPAN_R * spacing_t;
         let is_apart = (i == 0 || foot_t - self.knots[i - 1] > least_t)
             && self.knots.get(i).is_none_or(|t| t - foot_t > least_t);
         if is_apart {

@@ -34,8 +34,24 @@ const ZIGZAG_RAD: f64 = 0.96;
 /// Found by driving zigzags of 45° to 105° both ways; lengths and times of both go with the cube
 /// root of each other, so that limits do not matter.
 const ZIGZAG_R: f64 = 1.15;
+/// Spacing of samples beside a vertex times the sine of half its turn, in tolerances. With more, the curve
+/// may leave the tube between two of them; with less, there are more of them.
+const BESIDE_VERTEX_R: f64 = 0.8;
+/// The least sine that is divided by: of what is straight on, the other bounds set the spacing.
+const LEAST_SINE: f64 = 1e-9;
+/// How much longer a spacing may be than the one on the other side of its vertex, and how much longer a
+/// part of a chord than a spacing that is taken from it: what is left is no shorter than half of that.
+const GROWTH_R: f64 = 2.5;
+const ROOM_R: f64 = 1.5;
+/// A chord is bent if an arc over it that turns as much as the path does at its end leaves it by more than
+/// the tolerance: the sagitta is an eighth of length times turn.
+const BENT_R: f64 = 8.0;
+/// Most of a long chord that the curves at either end may take: .4 of it stay a line.
+const END_R: f64 = 0.3;
 /// Lengths in tolerances: of a chord whose middle is a line if it bends, and if it does not; of the
-/// curves beside such a line, at a feed that uses the limits; of a line beside a corner; the least spacing of samples.
+/// curves beside such a line, at a feed that uses the limits; of a line beside a corner; the least spacing
+/// of samples. At .02 mm they are 8 and 80 mm, 3 mm, .4 mm, .03 mm: the first, the third and the last
+/// are those of a prototype, which had been tried on CAM programs at that tolerance.
 const LONG_BENT_R: f64 = 400.0;
 const LONG_R: f64 = 4000.0;
 const BESIDE_LINE_R: f64 = 150.0;
@@ -126,10 +142,10 @@ impl<const D: usize> SampleLayout<D> {
     /// The spacing of samples beside a vertex, at most 2.5 times that of the samples on its other
     /// side.
     fn spacing(&self, turn_rad: f64, other_t: f64) -> f64 {
-        let sine = (0.5 * turn_rad).sin().max(1e-9);
-        let wanted_t = 0.8 * self.shares.tolerance_mm / sine;
+        let sine = (0.5 * turn_rad).sin().max(LEAST_SINE);
+        let wanted_t = BESIDE_VERTEX_R * self.shares.tolerance_mm / sine;
         wanted_t
-            .min(2.5 * other_t)
+            .min(GROWTH_R * other_t)
             .max(LEAST_SPACING_R * self.shares.tolerance_mm)
     }
 
@@ -153,17 +169,18 @@ impl<const D: usize> SampleLayout<D> {
             .then(|| self.spacing(self.turn_rad, self.spacing_t));
         let bend_rad = self.turn_rad.max(end_turn_rad);
         let tolerance_mm = self.shares.tolerance_mm;
-        let is_bent = length_t * bend_rad > 8.0 * tolerance_mm;
+        let is_bent = length_t * bend_rad > BENT_R * tolerance_mm;
         let most_beside_t = (self.window.feed_v * self.shares.beside_line_t)
             .max(BESIDE_CORNER_R * tolerance_mm)
             .min(BESIDE_LINE_R * tolerance_mm);
         let is_long = length_t > LONG_R * tolerance_mm
             || (is_bent && length_t > LONG_BENT_R / BESIDE_LINE_R * most_beside_t);
         let beside_t = if is_long {
-            (0.3 * length_t).min(most_beside_t)
+            (END_R * length_t).min(most_beside_t)
         } else {
             length_t - (0.5 * length_t).min(BESIDE_CORNER_R * tolerance_mm)
         };
+        // Beside a corner is always a line, for what rounds corners knows lines alone.
         let is_all_curve = start_spacing_t.is_some() && end_spacing_t.is_some() && !is_long;
         let curve_end_t = match start_spacing_t {
             _ if is_all_curve => length_t,
@@ -179,6 +196,7 @@ impl<const D: usize> SampleLayout<D> {
             self.grade(chord, (0.0, length_t), spacings_t, out);
         } else {
             if let Some(spacing_t) = start_spacing_t {
+                // A line's end fixes three control points on the chord: they need three spans there.
                 let third_t = curve_end_t / 3.0;
                 self.grade(
                     chord,
@@ -239,12 +257,13 @@ impl<const D: usize> SampleLayout<D> {
         let (mut x_t, mut y_t) = (from_t, to_t);
         loop {
             let room_t = y_t - x_t;
-            if low_t <= high_t && 1.5 * low_t < room_t && starts < MOST_GRADED {
+            // From the finer end, so that spacings meet in the middle about as large.
+            if low_t <= high_t && ROOM_R * low_t < room_t && starts < MOST_GRADED {
                 x_t += low_t;
                 from_start[starts] = x_t;
                 starts += 1;
                 low_t *= 2.0;
-            } else if low_t > high_t && 1.5 * high_t < room_t && ends < MOST_GRADED {
+            } else if low_t > high_t && ROOM_R * high_t < room_t && ends < MOST_GRADED {
                 y_t -= high_t;
                 from_end[ends] = y_t;
                 ends += 1;

@@ -6,13 +6,17 @@ use super::vector::minus;
 use core::ops::Range;
 use glidepath_program::{Settings, Travel};
 
-/// Share of the tolerance that merging may use.
+/// Share of the tolerance that merging may use. With more, more chords become one, but the fit has less
+/// room; it is to be more than the last digit of coordinates is worth, whose noise it takes out.
 const MERGE_SHARE_R: f64 = 0.05;
 
-/// Most of the tolerance that is left for the chord error of one period.
+/// Most of the tolerance that is left for the chord error of one period. A period that needs more has its
+/// speed limited by the chord error instead.
 const CHORD_SHARE_R: f64 = 0.25;
 
-/// Share of what is allowed that the weights aim at.
+/// Share of what is allowed that the weights aim at: samples come out on either side of it, and between
+/// them the curve is further off than at them. In a prototype .9 and 20 solves together drove a zigzag
+/// in 4.57 s, .8 and six in 4.86.
 const TARGET_R: f64 = 0.8;
 
 /// How long a curve beside a line may take at the feed, in times that an axis needs for the tolerance with all of its
@@ -20,7 +24,8 @@ const TARGET_R: f64 = 0.8;
 /// that the feed gains nothing by.
 const BESIDE_LINE_R: f64 = 12.0;
 
-/// Longest wavelength that is smoothed away, in tolerances.
+/// Longest wavelength that is smoothed away, in tolerances: 25 mm at .02. It is the least weight a sample
+/// may have whatever its spacing, or long straight runs would be tied to nothing.
 const LONGEST_R: f64 = 1250.0;
 
 /// The tube a curve has to stay in.

@@ -16,7 +16,8 @@ use core::mem;
 use core::ops::Range;
 use glidepath_program::ProgramLine;
 
-/// Most vertices held back, the last one included.
+/// Most vertices held back, the last one included. All are looked at for each one that comes, so the work
+/// a block is bounded by it; with fewer, very dense chords are merged less.
 const MOST_HELD: usize = 32;
 /// From so many times the distance allowed on a chord is seen to be straight: it is turned by no more
 /// than a vertex makes of it that is off by such a share of that distance.
