@@ -37,10 +37,12 @@ struct Approach {
     pace: f64,
 }
 
-/// Steady ticks between the two ramps.
+/// Steady ticks between the two ramps: the second is cued by positions at a steady rate, three back.
 const GAP: f64 = 3.0;
 
-/// What is tried: late and fast first.
+/// What is tried: late and fast first. Nine paces of one ramp, each about .83 times the one before; then
+/// two ramps, of which the first makes room where a plan is at its limits. No measurement of them is kept.
+/// What fails in its first samples costs little, so many are tried.
 const APPROACHES: [Approach; 24] = {
     let mut all = [Approach {
         share: 0.0,
@@ -218,6 +220,8 @@ impl ArrivalSearch {
             (None, 0.0)
         };
         let fastest = Ramp::plan(last_from, 0.0, 0.0, self.bounds)?;
+        // Stretching by 1/p scales the program time that a ramp to rest takes by the same, so the last ramp
+        // needs E/p; what whole ticks leave is made up for by a pace a little below p.
         let needed = passed + fastest.elapsed_at(fastest.duration()) / approach.pace;
         let begins = ((periods(self.from.time, self.frame) - needed) / rate).floor();
         (begins >= 3.0).then_some(Schedule { begins, first })

@@ -37,14 +37,17 @@ use super::situation::{SET_UP, Situation};
 use crate::ramp::Ramp;
 
 /// The slopes, as shares of the steepest that the axes allow by themselves: close to each other where
-/// they are small, as those are that a plan at its limits leaves room for.
+/// they are small, as those are that a plan at its limits leaves room for. There is a branch for each, so
+/// the work of a tick grows with their number twice, branches times slopes; hundreds find hardly more.
 const SLOPES: [f64; 8] = [0.0, -0.05, -0.1, -0.2, -0.35, -0.5, -0.75, -1.0];
-/// The steepest is looked up at every so many ticks.
+/// The steepest is looked up at every so many ticks: it is the longest stop time of as many frames as a
+/// stop takes, which hardly changes from one tick to the next.
 const STEEPEST: usize = 4;
 /// From this share of the rate on ramps to rest are tried, with one pace after the other.
 const ROOM: f64 = 0.95;
 const PACES: [f64; 3] = [1.0, 0.7, 0.45];
-/// Share of an interval that a slope keeps away from its ends.
+/// Share of an interval that a slope keeps away from its ends. The interval is of first order in the slope:
+/// at its very ends the position that is played may be outside.
 const INSIDE: f64 = 0.02;
 /// What it costs to compute an interval and to follow a slope, and about the least to follow all
 /// branches for a tick, in samples of a ramp.
@@ -266,6 +269,8 @@ impl GreedyDescent {
             let Some(ramp) = Ramp::tick_to(branch.rate, branch.slope, f64::from(slope)) else {
                 continue;
             };
+            // As in dynamic programming, of branches with about the same slope only the lowest goes on; the
+            // places on the path that they have come to are taken to be alike.
             if best.is_some_and(|best| best.rate <= ramp.target()) {
                 continue;
             }
@@ -293,6 +298,8 @@ impl GreedyDescent {
 impl Branch {
     /// The slopes that the limits allow at the next tick, nearly.
     fn slopes_allowed(&self, situation: &Situation<'_>) -> Option<(f64, f64)> {
+        // The step in program time if the slope does not change. Rates are those between two steps, so half
+        // of a slope is still to come ([`Ramp::tick_to`]).
         let even = self.rate + 0.5 * self.slope;
         if even <= 0.0 {
             return None;

@@ -3,7 +3,8 @@
 use crate::ramp::Ramp;
 use crate::track::TRACK_CAPACITY;
 
-/// Most ramps of a stop.
+/// Most ramps of a stop. A search that would need more counts as lost; with room for more a stop takes more
+/// cache lines of a tick.
 const RAMPS: usize = 8;
 /// Most ticks of a greedy descent: the frames at hand.
 pub(super) const TICKS: usize = TRACK_CAPACITY;

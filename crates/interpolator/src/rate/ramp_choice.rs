@@ -7,9 +7,10 @@ use super::situation::Situation;
 use super::state::Rate;
 use crate::ramp::Ramp;
 
-/// Samples a tick may spend on playing candidates through, unless stops are longer.
+/// Samples a tick may spend on playing candidates through, unless stops are longer. The dearest ticks are
+/// made by this and by searches for stops; what is left over goes on in the next tick.
 const BUDGET: u32 = 170;
-/// The least change of the rate worth a ramp part of the way.
+/// The least change of the rate worth a ramp part of the way: less frees 3 ‰ of the jerk at most.
 const LEAST_CHANGE: f64 = 1e-3;
 /// A better ramp ends at least this much earlier, ticks.
 const GAIN: f64 = 0.5;
@@ -134,6 +135,7 @@ impl Rate {
                     .as_ref()
                     .is_some_and(|followed| pace > followed.pace);
         }
+        // The share of the way to the goal that what is committed goes.
         let already = (heading - self.now.rate) / (goal - self.now.rate);
         !already.is_finite() || share > already
     }

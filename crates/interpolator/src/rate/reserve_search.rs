@@ -35,10 +35,16 @@ use crate::program_time::ProgramTime;
 use crate::ramp::Ramp;
 
 /// The starts of a stop that are tried: which share of the ticks between the latest possible and the
-/// earliest useful it is before the latest.
+/// earliest useful it is before the latest. Late first: the later a stop begins, the longer no other has
+/// to be found. There is nothing to bisect, for a plan has room here and none there: that one start fails
+/// says nothing of an earlier one. So a few are tried that are far apart.
 const STARTS: [f64; 6] = [0.0, 0.2, 0.4, 0.8, 0.95, 1.0];
-/// From this one on with a greedy descent, which finds later starts, too.
+/// From this one on with a greedy descent, which finds later starts, too: the steady rate is one of its
+/// branches, so it may go down from any tick behind its start.
 const DESCENTS: usize = 3;
+/// Ticks before a stop begins, at least: it is played from three positions at the steady rate before it
+/// ([`SteadyRate::cue`]), because limits are of third differences.
+const LEAST_TICKS: u32 = 3;
 
 /// What a search for a later stop has come to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -167,7 +173,7 @@ impl ReserveSearch {
         at_least: u32,
         situation: &Situation<'_>,
     ) -> Option<()> {
-        let earliest = f64::from(at_least.max(3));
+        let earliest = f64::from(at_least.max(LEAST_TICKS));
         let latest = latest(from, situation)?;
         let begins = (latest - STARTS.get(turn)? * (latest - earliest)).floor();
         if begins < earliest {
@@ -201,8 +207,11 @@ fn latest(from: SteadyRate, situation: &Situation<'_>) -> Option<f64> {
     let last = situation.track.end().checked_sub(time.sequence + 1)?;
     #[allow(clippy::cast_precision_loss, reason = "a number of frames at hand")]
     let (ahead, reach) = (last as f64 - time.fraction, situation.reach as f64);
+    // The bounds of the fastest ramp depend on the speed where it begins, which depends on them: twice as
+    // many frames as a stop from full speed takes are gone back, and the highest speed from there counts.
     let about = (ahead - 2.0 * reach * rate).max(0.0);
     let bounds = situation.fastest_from(time.after(about).sequence);
     let ramp = Ramp::plan(rate, 0.0, 0.0, bounds)?;
+    // What is left of the frames when the fastest ramp has had its part, in ticks at the steady rate.
     Some(((ahead - ramp.at(ramp.duration()).elapsed) / rate).floor())
 }

@@ -12,7 +12,8 @@ pub(super) const SET_UP: u32 = 6;
 /// The most samples a tick may spend: what it takes where three stops fill the track, which is the
 /// shortest period a configuration may have.
 const MOST: u32 = 360;
-/// Largest bounds of a ramp: a change from 0 to 1 takes at least four ticks.
+/// Largest bounds of a ramp, where the motion is so slow that limits allow any: a change from 0 to 1 takes
+/// at least four ticks, two to bend and two to bend back.
 const FASTEST: Bounds = Bounds {
     alpha: 0.5,
     beta: 0.25,

@@ -14,9 +14,12 @@ const BUDGET: u32 = 60;
 const URGENT_BUDGET: u32 = 240;
 /// The same for the way to rest at the end of a block, and for going slower.
 const TRIAL_BUDGET: u32 = 120;
-/// A reserve is replaced only by one that begins this much later, ticks.
+/// A reserve is replaced only by one that begins this much later, ticks: a search costs the same however
+/// little it gains.
 const GAIN: u32 = 3;
-/// Before a reserve begins, this many ticks are left to find a later one.
+/// Before a reserve begins, this many ticks are left to find a later one. From twice as many on a tick may
+/// spend [`URGENT_BUDGET`]. With fewer the reserve is taken before one is found; with more the dearest
+/// ticks come more often.
 const URGENT: u32 = 14;
 /// With so many left, and no more than two stops take, only greedy descents are tried: while ramps are
 /// tried in vain it becomes too late.
@@ -24,7 +27,8 @@ const SHORT: u32 = 2 * URGENT;
 
 /// In the last ticks before a reserve begins it is tried to go slower instead.
 const SLOWER_IN_TICKS: u32 = 4;
-/// By which share of the rate, and at which pace.
+/// By which share of the rate, and at which pace: some of the steps of a search for a stop, the smallest
+/// first, because what is lost here is time.
 const SLOWER: [(f64, f64); 6] = [
     (0.05, 0.7),
     (0.12, 1.0),
@@ -92,6 +96,7 @@ impl Rate {
         let reach = frames(situation.reach.max(16));
         let ahead = situation.track.end();
         let ahead = frames(ahead.saturating_sub(self.now.time.sequence));
+        // Two thirds of what is ahead of a stop, but three to four stops.
         (2 * ahead.saturating_sub(reach) / 3).clamp(3 * reach, 4 * reach)
     }
 

@@ -36,7 +36,10 @@ const fn step_down(share: f64, pace: f64) -> StepDown {
     StepDown { share, pace }
 }
 
-/// Largest first. The last is the gentlest: where it does not pass, hardly any other does.
+/// Largest first, because each costs a play and fewer are needed. The last is the gentlest: where it does
+/// not pass, hardly any other does, so at most ticks it alone is tried. Of shares and paces no measurement
+/// is kept; a stop of small shares alone would need more ramps than it has room for
+/// ([`super::kept_stop`]).
 const STEPS_DOWN: [StepDown; 12] = [
     step_down(1.0, 1.0),
     step_down(1.0, 0.7),
@@ -52,7 +55,8 @@ const STEPS_DOWN: [StepDown; 12] = [
     step_down(0.02, 0.4),
 ];
 const GENTLEST: usize = STEPS_DOWN.len() - 1;
-/// At every so many ticks all steps are tried, whatever the gentlest says.
+/// At every so many ticks all steps are tried, whatever the gentlest says: with fewer, more of a tick's
+/// samples go into steps that fail; with more, room for a steep step is seen later.
 const THOROUGH: u32 = 4;
 
 /// What a search for a stop has come to.
