@@ -75,6 +75,10 @@ pub struct FiveAxis {
     pub tool_mm: f64,
 }
 
+/// The sine of the angle to the rotary axis below which a tool counts as along it: whatever C is, its
+/// direction is off by no more.
+const POLE_R: f64 = 1e-9;
+
 impl FiveAxis {
     /// The axis that tilts.
     #[must_use]
@@ -189,7 +193,7 @@ impl FiveAxis {
         let (t, r) = self.signs();
         let flat = tool_axis.x.hypot(tool_axis.y);
         let tilt = flat.atan2(tool_axis.z).to_degrees();
-        if flat < 1e-9 * tool_axis.norm() {
+        if flat < POLE_R * tool_axis.norm() {
             return [(t * tilt, near_rotary_deg); 2];
         }
         // Where a small positive tilt leans the tool at C = 0, and which way C then takes it.

@@ -73,7 +73,9 @@ pub(crate) fn turned(axis: usize, angle_deg: f64, a: &Vector3<f64>) -> Vector3<f
     turn.apply(constant(a)).map(|s| s.value()).into()
 }
 
-/// The lower of the two points at the same distance from three centres.
+/// The lower of the two points at the same distance from three centres, by trilateration: a closed form, as
+/// exact as its square root. It loses digits where that is near 0, with the point in the plane of the
+/// centres, which is a singularity of the mechanism.
 pub(crate) fn below_three([a, b, c]: [Vector3<f64>; 3], distance_mm: f64) -> Option<Vector3<f64>> {
     // A frame with a at its origin, b on its first axis and c in its first plane.
     let ab = b - a;
@@ -85,6 +87,7 @@ pub(crate) fn below_three([a, b, c]: [Vector3<f64>; 3], distance_mm: f64) -> Opt
     let j = across.norm();
     let ey = across / j;
     let ez = ex.cross(&ey);
+    // Equal distances from a and b, then from a and c: with equal radii these do not depend on the radius.
     let x = 0.5 * d;
     let y = 0.5 * (i * i + j * j - 2.0 * i * x) / j;
     let square = distance_mm * distance_mm - x * x - y * y;

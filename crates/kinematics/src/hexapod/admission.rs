@@ -6,7 +6,9 @@ use crate::{Conditioning, KinematicsError};
 use glidepath_geometry::AxisVector;
 use nalgebra::{Matrix6, Vector3};
 
-/// Smallest singular value of the scaled Jacobian at which the platform is moved.
+/// Smallest singular value of the scaled Jacobian at which the platform is moved: there struts change by a
+/// twentieth of what the platform's joints move by, so an error of a length is twenty times that there.
+/// With less, positions are allowed in which the platform hardly holds; no measurement of it is kept.
 const MIN_SINGULAR_VALUE: f64 = 0.05;
 /// By how much a bound is to be kept for nobody to compute it exactly.
 const PLAINLY: f64 = 1e-9;
@@ -91,6 +93,10 @@ fn admit_distances(
     Ok(())
 }
 
+/// The square of the sine of an angle between struts below which they are parallel: every point of one is
+/// as near as another then.
+const PARALLEL_R: f64 = 1e-12;
+
 /// Distance of two line pieces, each from a point along a vector.
 fn distance_mm((a, u): (Vector3<f64>, Vector3<f64>), (b, v): (Vector3<f64>, Vector3<f64>)) -> f64 {
     let gap = a - b;
@@ -99,7 +105,7 @@ fn distance_mm((a, u): (Vector3<f64>, Vector3<f64>), (b, v): (Vector3<f64>, Vect
     let det = uu * vv - uv * uv;
     // Nearest point of the first line to the second, kept on the piece; then the nearest of the
     // second piece to that, and back: for convex pieces this is the minimum.
-    let free = if det > 1e-12 * uu * vv {
+    let free = if det > PARALLEL_R * uu * vv {
         ((uv * vg - vv * ug) / det).clamp(0.0, 1.0)
     } else {
         0.0

@@ -2,7 +2,11 @@
 //!
 //! Newton's method on position and rotation: solve J δ = l − l(pose), move by the first three
 //! components and turn by the rotation vector of the last three, R ← exp(δω) R. Turning by a
-//! rotation vector, not adding to angles, keeps convergence quadratic away from level.
+//! rotation vector, not adding to angles, keeps convergence quadratic away from level. J is the matrix
+//! of the struts' changes by position (mm) and by a rotation vector of the platform (rad): a row is the
+//! unit vector along a strut, and the lever of its joint crossed with that ([`Hexapod::rows`]). It is
+//! square and far from singular wherever the platform is moved ([`super::admission`]), so it is solved
+//! as it is, without damping.
 //!
 //! Up to forty real poses have the same lengths. Only the one next to the last known pose is the
 //! machine's, so a step that leaves its neighbourhood is a failure, not progress.
@@ -12,12 +16,15 @@ use crate::{JointVector, KinematicsError};
 use glidepath_geometry::AxisVector;
 use nalgebra::{Matrix3, Rotation3, Vector3, Vector6};
 
-/// Newton steps at most; two to five are taken.
+/// Newton steps at most; two to five are taken, from the home pose up to seven. More are an error.
 const STEPS: usize = 20;
-/// Residual at which a pose is exact, relative to the longest strut.
+/// Residual at which a pose is exact, relative to the longest strut: some units in the last place of a
+/// length.
 const EXACT: f64 = 4e-15;
-/// Residual at which rounding may end the iteration.
+/// Residual at which rounding may end the iteration, if a step no longer halves it. Near the solution a step
+/// squares the error, so one that does not halve it is rounding's.
 const GOOD: f64 = 1e-12;
+const STALLED_R: f64 = 0.5;
 
 /// The pose next to `near` with these lengths, as axes.
 pub(super) fn forward(
@@ -31,6 +38,7 @@ pub(super) fn forward(
     let mut axes = AxisVector::zeros();
     axes.fixed_rows_mut::<3>(0).copy_from(&tip);
     for (i, angle) in angles.into_iter().enumerate() {
+        // Angles of a matrix are within a turn; an axis may have made several.
         let turns = ((near[3 + i] - angle) / 360.0).round();
         axes[3 + i] = angle + 360.0 * turns;
     }
@@ -50,7 +58,7 @@ pub(super) fn newton(
         let struts = hexapod.struts(&pose);
         let residual = Vector6::from_fn(|i, _| joints[i] - struts[i].norm());
         let size = residual.amax() / scale;
-        if size <= EXACT || (size <= GOOD && size >= 0.5 * last) {
+        if size <= EXACT || (size <= GOOD && size >= STALLED_R * last) {
             return Ok((pose, step));
         }
         last = size;
