@@ -14,7 +14,8 @@ use super::{Contact, ImplicitCurve};
 use crate::CurveError;
 use nalgebra::{Matrix3, Vector3};
 
-/// Angle of the surfaces below which they count as touching (its sine).
+/// Angle of the surfaces below which they count as touching (its sine). A residual of the equations is that
+/// much more in the distance: a thousand times, here.
 const TOUCHING: f64 = 1e-3;
 /// Directions in which the equations change less than this are left alone.
 const UNDETERMINED: f64 = 1e-8;
@@ -22,6 +23,8 @@ const UNDETERMINED: f64 = 1e-8;
 const TURN: f64 = 0.939_372_712_847_378_9;
 /// Residual wanted where surfaces cross at right angles, mm.
 const PRECISION_MM: f64 = 1e-10;
+/// Longest correction, in chords.
+const MOST_CORRECTION_R: f64 = 0.1;
 /// Corrections at most; one to four are taken.
 const CORRECTIONS: u32 = 60;
 
@@ -227,6 +230,7 @@ impl<'a> ImplicitStepper<'a> {
             let contact = self.curve.contact(&point);
             let out = point - self.place.point;
             let distance = out.norm();
+            // (d² − L²)/(2L), which is d − L to first order where d is L; its gradient is the way out over L.
             let square = distance * distance - chord_mm * chord_mm;
             let rows = contact.rows(Some((out / chord_mm, 0.5 * square / chord_mm)));
             let (size, sine) = (rows.size(), contact.sine());
@@ -253,7 +257,7 @@ impl<'a> ImplicitStepper<'a> {
                 return Err(lost);
             }
             // Next to a node Newton's step may lead to the other branch, or anywhere.
-            point -= correction * (0.1 * chord_mm / length).min(1.0);
+            point -= correction * (MOST_CORRECTION_R * chord_mm / length).min(1.0);
         }
         Err(lost)
     }

@@ -21,6 +21,16 @@ use glidepath_geometry::number::{Interval, Number};
 
 /// Room for rounding where a crossing is at the very end of its interval, as on a circle.
 const ROOM: f64 = 1e-6;
+/// The first window is so many guesses of the step wide, so that the crossing is well inside it.
+const FIRST_WIDTH_R: f64 = 1.5;
+/// How often fact 1 is tried, each time with a window that fits what was learnt, before the march: where it
+/// fails by the curve, and not by the window, more tries only cost enclosures.
+const TRIES: u32 = 3;
+/// A window over which nothing is bounded is made shorter by the first, one that proves nothing by the
+/// second, one that is too short longer than what it proves by the third.
+const UNBOUNDED_R: f64 = 0.5;
+const UNPROVEN_R: f64 = 0.7;
+const BEYOND_R: f64 = 1.01;
 /// Steps of the march at most.
 const MARCH: u32 = 100_000;
 
@@ -69,20 +79,20 @@ pub fn bracket(
     chord_mm: f64,
     limit: f64,
 ) -> Result<Option<Bracket>, CurveError> {
-    let mut width = 1.5 * at.guess(chord_mm);
+    let mut width = FIRST_WIDTH_R * at.guess(chord_mm);
     let mut enclosures = 0;
-    for _ in 0..3 {
+    for _ in 0..TRIES {
         if !width.is_finite() {
             break;
         }
         let end = (t + width).min(limit);
         enclosures += 1;
         let Some(bounds) = curve.bounds(t, end) else {
-            width *= 0.5;
+            width *= UNBOUNDED_R;
             continue;
         };
         let Some((low, high)) = certify_bracket(&bounds, chord_mm) else {
-            width *= 0.7;
+            width *= UNPROVEN_R;
             continue;
         };
         if t + high <= end {
@@ -99,7 +109,7 @@ pub fn bracket(
             }
             break;
         }
-        width = 1.01 * high;
+        width = BEYOND_R * high;
     }
     March {
         curve,

@@ -9,6 +9,11 @@ use nalgebra::Vector3;
 /// from cusps, where the way is flat in the parameter.)
 const MISS_R: f64 = 1e-3;
 
+/// How much longer than the last one a chord may be tried, and how much shorter the next try is where the
+/// error of one is too large. The error goes with the square of the length, so .7 halves it.
+const LONGER_R: f64 = 1.5;
+const SHORTER_R: f64 = 0.7;
+
 /// Chords from one end of a domain to the other.
 #[derive(Debug, Clone)]
 pub struct ParametricChords {
@@ -80,7 +85,7 @@ impl ParametricChords {
         } else {
             self.rule.longest_mm
         };
-        let mut wanted = self.rule.longest_mm.min(round).min(1.5 * self.last_mm);
+        let mut wanted = self.rule.longest_mm.min(round).min(LONGER_R * self.last_mm);
         loop {
             let step = stepper.look(wanted, limit)?;
             let is_missed = step.chord_mm > wanted + MISS_R * self.rule.longest_mm
@@ -92,7 +97,7 @@ impl ParametricChords {
             if let Some(error_mm) = error_mm.filter(|error| *error <= self.rule.error_mm) {
                 return Ok((step, wanted, error_mm));
             }
-            wanted *= 0.7;
+            wanted *= SHORTER_R;
             if wanted < self.rule.shortest_mm() {
                 return Err(CurveError::Unbounded { t: self.t });
             }

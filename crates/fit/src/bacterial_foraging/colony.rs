@@ -5,6 +5,10 @@
 //! half with the smaller sum of values splits in place of the other half, and steps become shorter
 //! (reproduction); after some of those, each bacterium but the best may be put down anew near the
 //! best point so far (elimination and dispersal).
+//!
+//! Every evaluation is one whole value; of a problem whose gradient is known, steps by that take far
+//! fewer. It is kept for comparison with what was published, and for knots, where least squares make a
+//! value whose gradient nobody has written down.
 
 use super::random::Random;
 
@@ -43,7 +47,8 @@ pub(crate) struct Outcome {
 struct Bacterium {
     at: Vec<f64>,
     value: f64,
-    /// Sum of the values of this generation.
+    /// Sum of the values of this generation, so that who was good all along comes before who came to be
+    /// good last.
     health: f64,
 }
 

@@ -16,7 +16,7 @@ use crate::part::{Candidate, Part};
 use crate::point::Point;
 use crate::spline::{Spline, basis, span_from};
 
-/// The published numbers.
+/// The published numbers. The step is replaced by one that goes with the points ([`STEP`]).
 const PUBLISHED: Colony = Colony {
     bacteria: 50,
     chemotaxis: 31,
@@ -101,6 +101,8 @@ impl<'a> Problem<'a> {
 
     fn squares_mm2(&self, at: &[f64]) -> f64 {
         let control = self.control(at);
+        // The value that the search compares. Its gradient, −2·Σ N·residual, would give the minimum in one
+        // linear solve, which is what the report sets beside it.
         let square = |((first, values), point): (&(usize, [f64; 4]), &Point)| {
             let c = &control[*first..*first + 4];
             let on_curve =

@@ -9,7 +9,8 @@ use crate::knots::{by_cost, without_one};
 use crate::part::{Candidate, Part};
 use crate::spline::inside;
 
-/// A few bacteria for a few rounds: every value is a least-squares fit.
+/// A few bacteria for a few rounds: every value is a least-squares fit. A step of .3 is in logarithms of
+/// gaps, all of them together: it does not depend on the length of the run. No measurement is kept.
 const ON_KNOTS: Colony = Colony {
     bacteria: 8,
     chemotaxis: 15,
@@ -68,6 +69,8 @@ fn one_less(part: &Part, from: &Candidate, seed: u64, search: &mut Foraging) -> 
             found = Some(candidate);
             return f64::NEG_INFINITY;
         }
+        // Not the largest error, which is flat wherever another point is the worst: the cube still counts
+        // most what is out of tolerance, and sums up, so that every step tells something.
         let cube = |error: &f64| (error / part.tolerance_mm).powi(3);
         candidate.errors_mm.iter().map(cube).sum()
     };
@@ -77,6 +80,8 @@ fn one_less(part: &Part, from: &Candidate, seed: u64, search: &mut Foraging) -> 
     found
 }
 
+/// Gaps by their logarithms stay above zero whatever step is taken; their sum is brought to the length
+/// again ([`from_logarithms`]), so one direction of the search changes nothing.
 fn logarithms(inside: &[f64], length: f64) -> Vec<f64> {
     let mut from = 0.0;
     inside
