@@ -33,10 +33,9 @@ fn commands(text: &str) -> Vec<Vec<&str>> {
 /// Does what the state tells, one after the other, until the program runs.
 fn does_what_is_told(bench: &Operated<'_>) {
     let told = status(bench);
-    let doing = told
-        .lines()
-        .find(|line| line.contains("this is"))
-        .expect(&told);
+    let doing = told.lines().find(|line| line.contains("this is"));
+    assert!(doing.is_some(), "{told}");
+    let doing = doing.unwrap();
     let told = commands(doing);
     assert!(!told.is_empty(), "{doing}");
     for command in told {
@@ -172,7 +171,7 @@ fn a_program_that_ends_early_says_where_and_what_goes_on_with_it() {
     let told = running.wait().expect(5).stderr;
     let _faulted = bench.wait_for(MachineState::Faulted);
     bench.operate(&["reset"]);
-    let service = bench.process(&["planner", "--listen"]);
+    let _service = bench.process(&["planner", "--listen"]);
     let running = go_on(&told, "run-file");
     at(30.0);
     interpolator.signal(Signal::TERM);

@@ -86,9 +86,10 @@ impl Failure {
             | Self::Jitter(_)
             | Self::Answers(_)
             | Self::Thread(_) => Exit::Fault,
-            Self::Left { source, .. } if matches!(source, planner::RunError::Interrupted) => {
-                Exit::Interrupted
-            }
+            Self::Left {
+                source: planner::RunError::Interrupted,
+                ..
+            } => Exit::Interrupted,
             Self::Left { .. } => Exit::Fault,
             Self::ProcessEnded { exit, .. } | Self::Job { exit, .. } => *exit,
             Self::EndedEarly { source, .. } => source.exit(),
