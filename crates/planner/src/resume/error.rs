@@ -96,12 +96,24 @@ impl Display for WayBack {
         }
         f.write_str(
             "). It was moved, as `lift` of [jog] does after an abort, or another configuration was used. \
-             Where nothing is in the way, `glidepath jog",
+             Where nothing is in the way, ",
         )?;
-        for (axis, away) in moved() {
-            let rounded = (-away * 1e6).round() / 1e6;
-            write!(f, " {axis}{rounded}")?;
-        }
-        f.write_str("` leads back")
+        // Down to the work comes last, up from it first.
+        let is_down = |axis: Axis, away: f64| axis == Axis::Z && away > 0.0;
+        let is_up = |axis: Axis, away: f64| axis == Axis::Z && away <= 0.0;
+        let ups = moved().filter(|&(axis, away)| is_up(axis, *away));
+        let across = moved().filter(|&(axis, _)| axis != Axis::Z);
+        let downs = moved().filter(|&(axis, away)| is_down(axis, *away));
+        let jog = |axes: &mut dyn Iterator<Item = (Axis, &f64)>| {
+            let words = axes.map(|(axis, away)| format!(" {axis}{}", (-away * 1e6).round() / 1e6));
+            Some(words.collect::<String>()).filter(|words| !words.is_empty())
+        };
+        let jogs = [jog(&mut { ups }), jog(&mut { across }), jog(&mut { downs })];
+        let jogs = jogs.iter().flatten();
+        let commands: Vec<String> = jogs
+            .map(|words| format!("`glidepath jog{words}`"))
+            .collect();
+        let verb = if commands.len() > 1 { "lead" } else { "leads" };
+        write!(f, "{} {verb} back", commands.join(", and then "))
     }
 }

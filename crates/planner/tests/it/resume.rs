@@ -253,7 +253,10 @@ fn a_machine_that_was_moved_is_told_what_leads_back() {
     for (moves, words) in [
         ([0.0, 3.0], &["jog Z-3`"][..]),
         ([5.0, 0.0], &["jog X-5.00", "` leads back"]),
-        ([-6.5, 3.0], &["jog X6.49", " Z-3` leads back"]),
+        (
+            [-6.5, 3.0],
+            &["jog X6.49", "`, and then `glidepath jog Z-3` lead back"],
+        ),
     ] {
         let mut moved = left;
         moved.position[0] += moves[0];
