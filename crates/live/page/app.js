@@ -234,7 +234,7 @@ function feedDigits(v, moving) {
   const full = PLAN ? Math.max(PLAN.mostFeed * 60, 1) : Math.max(v, 6000), part = x => `${Math.min(100, x / full * 100)}%`;
   put($('#feed'), grouped(v));
   $('#feedbar').style.width = part(v); $('#feedmark').style.left = part(rapid || programmed > 1e9 ? full : programmed); $('#feedmark').hidden = !PLAN;
-  put($('#feedof'), !PLAN ? '' : rapid ? (moving ? 'rapid' : 'a rapid comes') : !moving ? `programmed ${grouped(programmed)}` : `of ${grouped(programmed)}${['feed', 'none', 'rest'].includes(limitOf(code)) ? '' : `, ${limitText(code)}`}`);
+  put($('#feedof'), !PLAN ? '' : rapid ? (moving ? 'rapid' : 'a rapid comes') : !moving ? (programmed > 1e9 ? '' : `programmed ${grouped(programmed)}`) : `of ${grouped(programmed)}${['feed', 'none', 'rest'].includes(limitOf(code)) ? '' : `, ${limitText(code)}`}`);
 }
 function blocks(line) {
   if (!INFO.program || !line || !S.status.program_is_shown) { fill($('#blocks'), '<div></div><div></div><div class="cur"></div><div></div><div></div>'); return; }
