@@ -6,7 +6,7 @@
 //! | 89 | feed | dwell DTB | feed to SDIS, rapid from there |
 
 use crate::diagnostic::fault::Outcome;
-use crate::execute::dialect::siemens::cycle::Arguments;
+use crate::execute::dialect::siemens::arguments::Arguments;
 use crate::execute::dialect::siemens::lines::Lines;
 use crate::execute::interpreter::Interpreter;
 

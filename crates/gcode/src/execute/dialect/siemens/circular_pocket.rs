@@ -1,7 +1,7 @@
 //! POCKET4: a circular pocket, cleared in circles from its centre outwards.
 
 use crate::diagnostic::fault::Outcome;
-use crate::execute::dialect::siemens::cycle::Arguments;
+use crate::execute::dialect::siemens::arguments::Arguments;
 use crate::execute::dialect::siemens::lines::Lines;
 use crate::execute::dialect::siemens::pocket::{Insertion, Places, Pocket};
 use crate::execute::interpreter::Interpreter;

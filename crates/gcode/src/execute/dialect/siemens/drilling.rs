@@ -15,7 +15,8 @@
 //! negative is the part of a stroke that the next one has.
 
 use crate::diagnostic::fault::Outcome;
-use crate::execute::dialect::siemens::cycle::{Arguments, Levels, coordinate, plane_axes};
+use crate::execute::dialect::siemens::arguments::{Arguments, Levels};
+use crate::execute::dialect::siemens::cycle::{coordinate, plane_axes};
 use crate::execute::dialect::siemens::lines::Lines;
 use crate::execute::interpreter::Interpreter;
 use crate::syntax::modes::FeedMode;

@@ -24,7 +24,8 @@
 use glidepath_geometry::Axis;
 
 use crate::diagnostic::fault::Outcome;
-use crate::execute::dialect::siemens::cycle::{Arguments, diameters, plane_axes};
+use crate::execute::dialect::siemens::arguments::Arguments;
+use crate::execute::dialect::siemens::cycle::{diameters, plane_axes};
 use crate::execute::dialect::siemens::lines::Lines;
 use crate::execute::interpreter::Interpreter;
 

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use glidepath_geometry::Axis;
 
 use crate::diagnostic::fault::Outcome;
-use crate::execute::dialect::siemens::cycle::Arguments;
+use crate::execute::dialect::siemens::arguments::Arguments;
 use crate::execute::dialect::siemens::steps::Step;
 
 /// Most lines of one cycle.

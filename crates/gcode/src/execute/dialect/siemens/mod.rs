@@ -12,6 +12,7 @@
 //! A line of a cycle becomes several ones in RS274/NGC's words, which are executed one after the
 //! other ([`steps`]), so that a long cycle takes no more memory at a time than its words.
 
+mod arguments;
 mod axis_offset;
 mod boring;
 mod case;

@@ -5,7 +5,7 @@ use std::io::BufRead;
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
-use crate::execute::dialect::siemens::cycle::Arguments;
+use crate::execute::dialect::siemens::arguments::Arguments;
 use crate::execute::dialect::siemens::flow::check_end;
 use crate::execute::dialect::siemens::steps::ModalCall;
 use crate::execute::program::Program;

@@ -18,9 +18,8 @@
 use glidepath_geometry::Axis;
 
 use crate::diagnostic::fault::Outcome;
-use crate::execute::dialect::siemens::cycle::{
-    Arguments, Levels, coordinate, diameters, plane_axes,
-};
+use crate::execute::dialect::siemens::arguments::{Arguments, Levels};
+use crate::execute::dialect::siemens::cycle::{coordinate, diameters, plane_axes};
 use crate::execute::dialect::siemens::lines::Lines;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::state::spindle::SpindleDirection;

@@ -1,7 +1,7 @@
 //! POCKET3: a rectangular pocket with round corners, cleared in rings from its middle outwards.
 
 use crate::diagnostic::fault::Outcome;
-use crate::execute::dialect::siemens::cycle::Arguments;
+use crate::execute::dialect::siemens::arguments::Arguments;
 use crate::execute::dialect::siemens::lines::Lines;
 use crate::execute::dialect::siemens::pocket::{Insertion, Places, Pocket};
 use crate::execute::interpreter::Interpreter;

@@ -12,7 +12,8 @@
 use glidepath_geometry::Axis;
 
 use crate::diagnostic::fault::Outcome;
-use crate::execute::dialect::siemens::cycle::{Arguments, plane_axes};
+use crate::execute::dialect::siemens::arguments::Arguments;
+use crate::execute::dialect::siemens::cycle::plane_axes;
 use crate::execute::dialect::siemens::lines::Lines;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::state::spindle::SpindleDirection;

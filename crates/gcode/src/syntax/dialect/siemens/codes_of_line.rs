@@ -6,6 +6,7 @@ use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::codes::code_number;
 use crate::syntax::dialect::Dialect;
+use crate::syntax::dialect::siemens::computed_words::no_address;
 use crate::syntax::dialect::siemens::writer::Writer;
 use crate::syntax::dialect::words::siemens::{self as words, ADDRESSES};
 use crate::syntax::dialect::words::{Meaning, no_g, no_m, refused};
@@ -15,14 +16,6 @@ fn number_of(digits: &[u8]) -> Option<u32> {
     core::str::from_utf8(digits).ok()?.parse().ok()
 }
 
-#[cold]
-fn no_address(letter: char, span: SourceSpan) -> Box<Fault> {
-    let message = format!("{letter} is no address of SINUMERIK's language");
-    Fault::new(DiagnosticCode::UnknownWord, span, message)
-        .because("on other controls it has several meanings, and here none")
-        .help("remove it; a radius is CR=, a dwell G4 F")
-}
-
 /// G58 or G59 that is not the first word of its block.
 #[cold]
 fn beside_offset(number: u32, span: SourceSpan) -> Box<Fault> {
@@ -30,24 +23,6 @@ fn beside_offset(number: u32, span: SourceSpan) -> Box<Fault> {
     Fault::new(DiagnosticCode::UnusedWord, span, message)
         .because("it changes the offset of an axis, in a block of its own")
         .help("write it first in its block")
-}
-
-/// Refuses a letter that no computed value may stand behind.
-pub(super) fn check_computed(letter: u8, span: SourceSpan) -> Outcome<()> {
-    if letter == b'G' {
-        let fault = Fault::new(
-            DiagnosticCode::NotSupported,
-            span,
-            "a G code that is computed",
-        );
-        return Err(fault
-            .because("what a block does has to be seen in it")
-            .help("write the code itself, or IF and a block for each"));
-    }
-    if ADDRESSES.contains(&letter) {
-        return Ok(());
-    }
-    Err(no_address(char::from(letter), span))
 }
 
 impl Writer<'_> {

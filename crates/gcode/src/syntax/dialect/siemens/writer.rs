@@ -4,7 +4,7 @@ use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::dialect::line_body::body;
-use crate::syntax::dialect::siemens::codes_of_line::check_computed;
+use crate::syntax::dialect::siemens::computed_words::check_computed;
 use crate::syntax::dialect::siemens::expression::{Evaluator, Names};
 use crate::syntax::dialect::siemens::refused_word::unknown;
 use crate::syntax::dialect::siemens::rewritten::Rewritten;
