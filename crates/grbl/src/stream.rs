@@ -175,6 +175,13 @@ impl Stream {
         self.unread.push_back(Unread { text, asked_ns });
     }
 
+    /// Lines that are not read are asked for anew.
+    pub(crate) fn ask_anew(&mut self, asked_ns: u64) {
+        for line in &mut self.unread {
+            line.asked_ns = asked_ns;
+        }
+    }
+
     /// What was read is executed, and nothing more.
     pub(crate) const fn close(&mut self) {
         if matches!(self.phase, Phase::Open) {

@@ -189,6 +189,15 @@ impl Session {
         }
     }
 
+    /// What waits is asked for now: a stop of this sender came before it, or was taken back. The machine hears of that
+    /// stop later than of the lines.
+    fn ask_anew(&mut self) {
+        for line in &mut self.lines {
+            line.asked_ns = self.asked_ns;
+        }
+        self.stream.ask_anew(self.asked_ns);
+    }
+
     /// What is known of the machine now. To be called every few milliseconds.
     pub fn see(&mut self, machine: &Machine, now: Duration) {
         let before = core::mem::replace(&mut self.machine, machine.clone());

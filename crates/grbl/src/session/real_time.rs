@@ -80,6 +80,7 @@ impl Session {
             _ => {}
         }
         self.latch = Latch::Free;
+        self.ask_anew();
     }
 
     /// Ends jogs. Those that have come and have not begun are answered, and not done.

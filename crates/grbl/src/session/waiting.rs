@@ -50,6 +50,7 @@ impl Session {
             return;
         }
         self.reset = None;
+        self.ask_anew();
         if core::mem::take(&mut self.is_asleep) {
             self.alarm = Some(Alarm::Stopped);
         }

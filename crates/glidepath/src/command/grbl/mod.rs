@@ -194,8 +194,8 @@ impl Endpoint {
         let now = self.started.elapsed();
         let (asked_ns, stood_still) = self.asked_ns();
         let machine = self.view.machine(self.sent.zero());
-        self.session.see(&machine, now);
         self.session.ask_at(asked_ns);
+        self.session.see(&machine, now);
         self.wire.turn(&mut self.session, now);
         if stood_still {
             self.session.stood_still();
