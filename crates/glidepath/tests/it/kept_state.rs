@@ -25,6 +25,15 @@ impl Machine {
         Self { folder }
     }
 
+    /// A process that goes on, in an instance.
+    fn start(&self, instance: &str, args: &[&str]) -> Running {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_glidepath"));
+        command.args(args).args(["--instance", instance]);
+        command.arg("--config").arg(self.path("mill.toml"));
+        command.stdout(Stdio::null()).stderr(Stdio::null());
+        Running(command.current_dir(self.folder.path()).spawn().unwrap())
+    }
+
     fn path(&self, name: &str) -> PathBuf {
         self.folder.path().join(name)
     }
@@ -284,13 +293,7 @@ impl Drop for Running {
 fn a_service_begins_in_the_system_that_was_chosen_meanwhile() {
     let machine = Machine::new();
     let instance = format!("kept-use-{}", std::process::id());
-    let start = |args: &[&str]| {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_glidepath"));
-        command.args(args).args(["--instance", &instance]);
-        command.arg("--config").arg(machine.path("mill.toml"));
-        command.stdout(Stdio::null()).stderr(Stdio::null());
-        Running(command.current_dir(machine.folder.path()).spawn().unwrap())
-    };
+    let start = |args: &[&str]| machine.start(&instance, args);
     let _interpolator = start(&["interpolator", "--best-effort"]);
     let _service = start(&["planner", "--listen"]);
     let ask = |args: &[&str]| machine.glidepath(&[args, &["--instance", &instance]].concat());
@@ -357,13 +360,7 @@ fn a_line_that_sets_up_what_will_be_lost_says_so() {
         if !keeps {
             machine.file("mill.toml", &text.replace("directory = \"state\"", ""));
         }
-        let start = |args: &[&str]| {
-            let mut command = Command::new(env!("CARGO_BIN_EXE_glidepath"));
-            command.args(args).args(["--instance", &instance]);
-            command.arg("--config").arg(machine.path("mill.toml"));
-            command.stdout(Stdio::null()).stderr(Stdio::null());
-            Running(command.current_dir(machine.folder.path()).spawn().unwrap())
-        };
+        let start = |args: &[&str]| machine.start(&instance, args);
         let _interpolator = start(&["interpolator", "--best-effort"]);
         let _service = start(&["planner", "--listen"]);
         let mdi = |line: &str| machine.glidepath(&["mdi", line, "--instance", &instance]);
