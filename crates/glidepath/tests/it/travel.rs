@@ -46,3 +46,27 @@ fn a_program_outside_of_the_travel_is_told_what_fits_and_can_be_looked_at() {
     std::fs::write(&moved, text).unwrap();
     assert_eq!(told(&["check", &moved]).0, Some(0));
 }
+
+/// Where an axis stands before its first move is no place of the part.
+#[test]
+fn an_axis_counts_from_its_first_move_and_what_is_too_large_is_told_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let help = |text: &str| {
+        let path = folder.path().join("part.ngc");
+        std::fs::write(&path, text).unwrap();
+        let output = glidepath(&["check", &path.display().to_string()]);
+        String::from_utf8([output.stdout, output.stderr].concat()).unwrap()
+    };
+    let far = help("G21 G90 F6000\nG0 Z-10\nG0 X1200\nG1 X1300\nM2\n");
+    assert!(
+        far.contains("move the work offset: X by -1700 to -800 mm"),
+        "{far}"
+    );
+    let large = help("G21 G90 F6000\nG0 X-600\nG1 X0\nM2\n");
+    assert!(!large.contains("no work offset fits"), "{large}");
+    let large = help("G21 G90 F6000\nG0 X-600\nG1 X600\nX0\nM2\n");
+    let times = |words: &str| large.matches(words).count();
+    let findings = times("no work offset fits");
+    assert!(findings > 0, "{large}");
+    assert_eq!(times("make the part smaller"), findings, "{large}");
+}
