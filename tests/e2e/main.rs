@@ -1,5 +1,5 @@
-//! End-to-end tests. One binary, and no more tests at a time than there are cores (see `Instance`): they
-//! run at the speed of the clock.
+//! End-to-end tests. One binary, and at most two tests at a time for each core (see `Instance`): they run at the speed
+//! of the clock.
 #![allow(
     clippy::unwrap_used,
     reason = "test code, which clippy does not see as such"
@@ -22,6 +22,7 @@ mod manual;
 mod onlookers;
 mod operating;
 mod operator;
+mod paced;
 mod probing;
 mod programs;
 mod recordings;

@@ -255,7 +255,8 @@ impl<'t> Publisher<'t> {
                 plan.wanted = wanted;
                 plan.queue.replan(wanted);
             }
-            plan.queue.ask_again();
+            plan.queue
+                .ask_again(epoch.unexecuted() <= self.pace.horizon_frames / 2);
             let turn = self.turn(&plan, &mut epoch, attend, control)?;
             waited = match turn {
                 Turn::Busy => Duration::ZERO,

@@ -32,7 +32,7 @@ pub(crate) enum Work {
     Plan {
         /// They will not be planned again.
         given: u64,
-        /// No frame waits to be given out.
+        /// No frame waits to be given out, and what was given out is executed soon.
         is_dry: bool,
     },
     /// Plan again what follows after so many frames.
@@ -76,6 +76,8 @@ struct Shared {
     room_at: Option<usize>,
     /// Frames are given out.
     has_begun: bool,
+    /// What was given out is executed soon.
+    runs_out: bool,
 }
 
 impl Shared {
@@ -124,6 +126,7 @@ impl FrameQueue {
                 is_awaited: false,
                 room_at: None,
                 has_begun: false,
+                runs_out: true,
             }),
             news: Condvar::new(),
             work: Condvar::new(),
@@ -180,9 +183,10 @@ impl FrameQueue {
         self.work.notify_one();
     }
 
-    /// Has a source asked again that had nothing.
-    pub(crate) fn ask_again(&self) {
+    /// Has a source asked again that had nothing. What was given out `runs_out` soon, or lasts for a while.
+    pub(crate) fn ask_again(&self, runs_out: bool) {
         let mut shared = self.lock();
+        shared.runs_out = runs_out;
         if matches!(shared.activity, Activity::Pending { .. }) {
             shared.activity = Activity::Planning;
             self.work.notify_one();
@@ -237,7 +241,7 @@ impl FrameQueue {
                 let waiting = shared.frames.len();
                 let is_full = waiting >= self.capacity;
                 if !is_full && (!is_sated || has_waited || waiting == 0) {
-                    let is_dry = waiting == 0;
+                    let is_dry = waiting == 0 && shared.runs_out;
                     return Work::Plan { given, is_dry };
                 }
                 // Room for some at once, so that the thread does not rise for every frame.

@@ -94,7 +94,7 @@ fn ahead<S: ItemSource + Send>(
             if frames.len() == most {
                 return (frames, None);
             }
-            queue.ask_again();
+            queue.ask_again(true);
             match queue.next() {
                 Next::Frame(frame) => {
                     frames.push(frame);
