@@ -13,9 +13,8 @@ use crate::{glidepath, seats, wall_clock};
 /// How long a status is waited for: far longer than it ever takes.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// An instance of its own. While it lives there is at most one other for each further core, in this
-/// process or another: the tests run processes at the speed of the clock, and would take each
-/// other's processor.
+/// An instance of its own. While it lives there are at most two for each core in all, in this process and
+/// others: the tests run processes at the speed of the clock, and would take each other's processor.
 #[derive(Debug)]
 pub struct Instance {
     config: LinkConfig,

@@ -92,6 +92,11 @@ fn is_package(word: &str) -> bool {
     word == "-p" || word.starts_with("--package")
 }
 
+/// Two for each core: the longest tests are those that run at the speed of the clock, and mostly wait.
+fn test_threads() -> usize {
+    2 * std::thread::available_parallelism().map_or(1, usize::from)
+}
+
 fn cargo() -> Command {
     Command::new(std::env::var_os("CARGO").unwrap_or_else(|| OsString::from("cargo")))
 }
@@ -129,6 +134,9 @@ fn test(
     command.args(["test", "--no-fail-fast"]);
     if is_whole {
         command.arg("--workspace").env("GLIDEPATH_BUILT", "1");
+    }
+    if std::env::var_os("RUST_TEST_THREADS").is_none() {
+        command.env("RUST_TEST_THREADS", test_threads().to_string());
     }
     command
         .args(arguments)
