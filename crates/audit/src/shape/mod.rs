@@ -44,6 +44,18 @@ use stop::Stops;
 /// A straight feed move has a middle half from this length on, mm.
 pub const STRAIGHT_MM: f64 = 5.0;
 
+/// Share of a move on both sides of its middle in which neither end is the nearer one.
+const MIDDLE: f64 = 0.1;
+
+/// True about the middle of the move at hand: what is on the inner side of either of its ends is inside
+/// there. Between corners that turn to different sides the motion has to go over somewhere.
+fn is_middle(follow: &Follow) -> bool {
+    follow.here().is_some_and(|here| {
+        let share = follow.here_s() / here.length_s;
+        (share - 0.5).abs() < MIDDLE
+    })
+}
+
 /// The shape figures of a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ShapeReport {
@@ -151,16 +163,19 @@ impl Shape {
             return;
         }
         let length = here.length_s;
+        let ends = [follow.previous(), follow.next()];
+        let corners = [
+            ends[0].and_then(|last| Corner::between(last, here)),
+            ends[1].and_then(|next| Corner::between(here, next)),
+        ];
         let is_late = follow.here_s() > 0.5 * length;
-        let corner = if is_late {
-            follow.next().and_then(|next| Corner::between(here, next))
-        } else {
-            follow
-                .previous()
-                .and_then(|last| Corner::between(last, here))
-        };
-        if let Some(corner) = corner {
-            let outside_mm = corner.outside_mm(position, is_late);
+        if let Some(corner) = corners[usize::from(is_late)] {
+            let mut outside_mm = corner.outside_mm(position, is_late);
+            if is_middle(follow) {
+                let of_other = corners[usize::from(!is_late)]
+                    .map_or(0.0, |other| other.outside_mm(position, !is_late));
+                outside_mm = outside_mm.min(of_other);
+            }
             self.outside.see(outside_mm, line);
             if self.corners == Corners::Inner {
                 let finding = ShapeFinding {
@@ -171,8 +186,8 @@ impl Shape {
                 self.findings.see(here.number + u64::from(is_late), finding);
             }
         }
-        let is_middle = (0.25 * length..=0.75 * length).contains(&follow.here_s());
-        if length >= STRAIGHT_MM && is_middle {
+        let is_middle_half = (0.25 * length..=0.75 * length).contains(&follow.here_s());
+        if length >= STRAIGHT_MM && is_middle_half {
             self.beside.see(corner::beside_mm(&chord, position), line);
             if self.straight.replace(here.number) != Some(here.number) {
                 self.straight_moves += 1;
@@ -186,19 +201,24 @@ impl Shape {
             return;
         };
         let is_late = follow.here_s() > 0.5 * here.length_s;
-        let stops = if is_late {
-            follow.next().and_then(|next| Stops::between(here, next))
-        } else {
-            let last = follow.previous();
-            last.and_then(|last| Stops::between(last, here))
-        };
-        let Some(stops) = stops else {
+        let (last, next) = (follow.previous(), follow.next());
+        let stops = [
+            last.and_then(|last| Stops::between(last, here)),
+            next.and_then(|next| Stops::between(here, next)),
+        ];
+        let Some(nearer) = stops[usize::from(is_late)] else {
             return;
         };
+        let other = stops[usize::from(!is_late)];
         for axis in Axis::ALL {
+            let mut distance_mm = nearer.beyond_mm(position, axis.index());
+            if is_middle(follow) {
+                let of_other = other.map_or(0.0, |stops| stops.beyond_mm(position, axis.index()));
+                distance_mm = distance_mm.min(of_other);
+            }
             let finding = ShapeFinding {
                 axis: Some(axis),
-                distance_mm: stops.beyond_mm(position, axis.index()),
+                distance_mm,
                 line,
             };
             self.findings.see(here.number + u64::from(is_late), finding);

@@ -244,3 +244,30 @@ fn on_either_side_nothing_is_a_finding() {
         assert!(told.below[2].distance_mm > 0.018, "{told:?}");
     }
 }
+
+/// Between corners that turn to different sides the motion goes over from one side to the other: about the
+/// middle neither of them is the nearer one.
+#[test]
+fn about_the_middle_either_corner_of_a_move_is_the_one_that_counts() {
+    let program =
+        |last_x| [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (last_x, 10.0)].map(|(x, y)| point(x, y));
+    // The coordinate of Y, what X is off there, how often that is a finding where the second corner turns back,
+    // and where it turns on.
+    let cases = [
+        (3.0, 0.012, 1, 1),
+        (3.0, -0.012, 0, 0),
+        (4.6, 0.012, 0, 1),
+        (5.4, -0.012, 0, 0),
+        (7.0, -0.012, 1, 0),
+        (7.0, 0.012, 0, 1),
+    ];
+    for (y, off, back, on) in cases {
+        for (last_x, count) in [(20.0, back), (0.0, on)] {
+            let mut motion = walk(&program(last_x), 0.1);
+            let place = motion.iter().position(|p| p[1] >= y).unwrap();
+            bump(&mut motion, 0, place - 2, place + 3, off);
+            let told = shape(&program(last_x), &motion);
+            assert_eq!(told.finding_count, count, "{y} {off} {last_x}: {told:?}");
+        }
+    }
+}

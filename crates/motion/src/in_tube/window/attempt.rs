@@ -189,7 +189,7 @@ fn attempt<const D: usize>(
     optimiser: &mut Option<Box<Optimiser<D>>>,
     (context, view, tail, moves): Way<'_>,
 ) -> Option<WindowMotion> {
-    let optimiser = optimiser.get_or_insert_with(|| Box::new(Optimiser::new()));
+    let optimiser = optimiser.get_or_insert_with(|| Box::new(Optimiser::new(context.corners)));
     let mut path: ScaledPath<D> = ScaledPath::new(
         context.limits,
         context.reference_path,

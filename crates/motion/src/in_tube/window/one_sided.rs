@@ -29,8 +29,10 @@ use glidepath_program::Corners;
 /// measurement of it is kept.
 const FIGURE_R: f64 = 8.0;
 /// How near to a border the path is where a row is needed, in radii. The tube keeps the motion within one
-/// of the path, but along a piece samples may come out further on than they were given for.
-const NEAR_R: f64 = 8.0;
+/// of the path; along a piece samples may come out a little further on than they were given for.
+const NEAR_R: f64 = 3.0;
+/// Share of a piece by which the place of a motion on it may be taken to be another.
+const SHIFT: f64 = 0.02;
 /// What a motion may be beyond a border, in radii: a fifth of a micrometre of the usual tolerance.
 const BEYOND_R: f64 = 0.01;
 
@@ -162,8 +164,8 @@ impl<const D: usize> ScaledPath<D> {
                 });
             }
         }
-        let is_late = progress - segment.s > 0.5 * segment.length;
-        if let Some(corner) = &segment.sides.corners[usize::from(is_late)] {
+        let ends = [segment.s, segment.s + segment.length];
+        if let Some(corner) = segment.sides.corner(progress, ends) {
             for normal in corner.inner {
                 give(HalfSpace {
                     normal,
@@ -175,7 +177,7 @@ impl<const D: usize> ScaledPath<D> {
     }
 
     /// True if the end of a period is on the sides on which the motion is to stay at a parameter of a
-    /// piece, by its number on the whole path; give or take the way of the period.
+    /// piece, by its number on the whole path; give or take the way of the period, or a little of the piece.
     pub(crate) fn is_on_its_sides(
         &self,
         (index, u): (usize, f64),
@@ -187,7 +189,7 @@ impl<const D: usize> ScaledPath<D> {
         };
         let (place, progress) = (self.inside(to), segment.s + u * segment.length);
         let step = self.direction(&(to - from));
-        let way = dot(&step, &step).sqrt();
+        let way = dot(&step, &step).sqrt().min(SHIFT * segment.length);
         let allowed = BEYOND_R * segment.radius;
         let ends = [segment.s, segment.s + segment.length];
         [0.0, -way, way].into_iter().any(|shift| {

@@ -33,6 +33,7 @@ use super::travel_rows;
 use super::tube;
 use super::tube::{Extents, FEED_R, Layout, SEARCH_STEERING, STEERING, Style};
 use super::window_start::WindowStart;
+use glidepath_program::Corners;
 
 /// Rounds in which samples change pieces, and rounds in which they do not; what of the radius is
 /// used in them.
@@ -82,6 +83,9 @@ const ATTEMPTS: [Seed; 4] = [
 /// What a motion must gain of what the tail does: the search weighs smoothness too, and keeps a little
 /// below the feed, so that it may end a little behind a tail that sees as far.
 const NO_LESS_R: f64 = 0.995;
+/// From so many axes on, the work of a window is spent after a few rounds if it has to keep to the inner
+/// side: then the motion is first thought to be no faster than the guess, so that the first round finds one.
+const MANY_AXES: usize = 7;
 /// Interior point iterations in one problem. One that takes more counts as not solved ([`FAR_OFF_R`]).
 const SOLVER_ITERATIONS: usize = 40;
 /// Mean complementarity, in periods of progress, at which a problem is solved: in rounds in which lines
@@ -148,7 +152,8 @@ pub(crate) struct Optimiser<const D: usize> {
 }
 
 impl<const D: usize> Optimiser<D> {
-    pub(crate) fn new() -> Self {
+    pub(crate) fn new(corners: Corners) -> Self {
+        let is_dear = D >= MANY_AXES && corners == Corners::Inner;
         Self {
             interior: Interior::new(),
             segments: Vec::new(),
@@ -158,7 +163,7 @@ impl<const D: usize> Optimiser<D> {
             cuts: Cuts::new(),
             pins: Pins::default(),
             extents: [Extents::default(), Extents::default()],
-            pace: START_PACE,
+            pace: if is_dear { 1.0 } else { START_PACE },
         }
     }
 

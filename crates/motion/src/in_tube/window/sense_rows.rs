@@ -4,7 +4,6 @@
 //! the motion would dip into the inner side behind each corner and come back, each time through the
 //! backlash of the drive.
 
-use super::cuts::sample_at;
 use super::solver::{FAR, Problem};
 use super::tube::Layout;
 
@@ -18,12 +17,11 @@ const BACK_R: f64 = 0.1;
 /// Adds rows to the last site, which is first difference `k` of the control points.
 pub(super) fn add<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, D>, k: usize) {
     let (path, points) = (layout.path, layout.points);
-    let sample = sample_at(layout.samples, &layout.style.grid, 2 * k - 1);
-    let progress = layout.samples.progress[sample];
-    let segment = &path.segments[layout.samples.piece[sample]];
+    let (piece, progress, way) = place(layout, k);
+    let segment = &path.segments[piece];
     let radius = segment.radius;
     for (axis, sides) in segment.sides.axes.iter().enumerate() {
-        let sense = sides.sense(progress, radius);
+        let sense = sides.sense(progress, radius, way);
         let step = sense * (points[k + 1][axis] - points[k][axis]);
         let is_slow = sides.is_rest || step < SLOW_R * radius;
         if sense == 0.0 || !is_slow || problem.is_given((k, &[1.0, 1.0, 0.0, 0.0]), axis) {
@@ -33,4 +31,28 @@ pub(super) fn add<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, 
         normal[axis] = sense / (BACK_R * radius);
         problem.add_row(normal, &[0.0; D], [0.0, FAR]);
     }
+}
+
+/// Piece and progress at which first difference `k` is, in the middle of a knot interval, and the way
+/// in it.
+fn place<const D: usize>(layout: &Layout<'_, D>, k: usize) -> (usize, f64, f64) {
+    let (grid, samples) = (&layout.style.grid, layout.samples);
+    let halves = (2 * k - 1) * grid.periods;
+    let before = (halves / (2 * grid.knots)).min(samples.count() - 1);
+    #[expect(clippy::cast_precision_loss, reason = "hundreds")]
+    let (share, knots) = (
+        (halves as f64 / (2 * grid.knots) as f64 - before as f64).min(1.0),
+        grid.periods as f64 / grid.knots as f64,
+    );
+    let [from, to] = [before, before + 1].map(|k| samples.progress[k]);
+    let progress = from + share * (to - from);
+    let segments = &layout.path.segments;
+    let mut piece = samples.piece[before];
+    while piece > 0 && progress < segments[piece].s {
+        piece -= 1;
+    }
+    while piece + 1 < segments.len() && progress >= segments[piece + 1].s {
+        piece += 1;
+    }
+    (piece, progress, knots * (to - from))
 }

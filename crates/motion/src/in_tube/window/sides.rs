@@ -13,6 +13,10 @@ const REVERSAL_COS: f64 = -0.999;
 /// How far from a corner at which an axis turns round it may go either way, in radii.
 const TURNING_R: f64 = 4.0;
 
+/// Share of a piece, or of a rest, on both sides of its middle in which neither end is the nearer one:
+/// where the sides of both ends are opposite ones, the motion goes over there.
+const MIDDLE: f64 = 0.08;
+
 /// Where an axis stops, next to a piece.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Stop {
@@ -47,6 +51,11 @@ pub(super) struct Corner<const D: usize> {
     pub(super) inner: [[f64; D]; 2],
 }
 
+/// True if a progress is about the middle of a way.
+fn is_middle(progress: f64, [from, to]: [f64; 2]) -> bool {
+    (progress - 0.5 * (from + to)).abs() < MIDDLE * (to - from)
+}
+
 /// The sides of a piece.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Sides<const D: usize> {
@@ -61,6 +70,19 @@ impl<const D: usize> Sides<D> {
             axes: [AxisSides::default(); D],
             corners: [None; 2],
         }
+    }
+
+    /// The corner between whose sides the motion is at a progress on a piece with these ends: the nearer
+    /// one; none where it goes over from the side of one to that of the other.
+    pub(super) fn corner(&self, progress: f64, ends: [f64; 2]) -> Option<&Corner<D>> {
+        if let [Some(start), Some(end)] = &self.corners
+            && is_middle(progress, ends)
+            && dot(&start.inner[1], &end.inner[0]) < 0.0
+        {
+            return None;
+        }
+        let is_late = progress - ends[0] > ends[1] - progress;
+        self.corners[usize::from(is_late)].as_ref()
     }
 }
 
@@ -112,6 +134,10 @@ impl AxisSides {
             let until = (behind.sign != 0.0).then_some((-self.way, behind.at));
             return [after, until];
         }
+        let crosses = self.before.sign * self.behind.sign > 0.0;
+        if crosses && is_middle(progress, [self.before.s, self.behind.s]) {
+            return [None; 2];
+        }
         match self.nearer_stop(progress) {
             Some((stop, sign)) => [Some((sign * stop.sign, self.from)), None],
             None => [None; 2],
@@ -132,15 +158,18 @@ impl AxisSides {
         }
     }
 
-    /// The direction in which it may go at a progress; 0 if it may go either way.
-    pub(super) fn sense(&self, progress: f64, radius: f64) -> f64 {
+    /// The direction in which it may go at a progress, with so much way in a knot interval; 0 if it may
+    /// go either way.
+    pub(super) fn sense(&self, progress: f64, radius: f64, way: f64) -> f64 {
         if self.is_rest {
             return self
                 .nearer_stop(progress)
                 .map_or(0.0, |(stop, _)| stop.sign);
         }
         let is_turning = |stop: &Stop| {
-            stop.sign != 0.0 && stop.is_turn && (progress - stop.s).abs() < TURNING_R * radius
+            stop.sign != 0.0
+                && stop.is_turn
+                && (progress - stop.s).abs() < (TURNING_R * radius).max(way)
         };
         if is_turning(&self.before) || is_turning(&self.behind) {
             0.0

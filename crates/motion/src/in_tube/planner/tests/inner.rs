@@ -133,13 +133,34 @@ fn corners_are_passed_inside_whatever_their_angle() {
     }
 }
 
+/// A window sees no further than to where the motion is about to be fast again: that counts, too.
+#[test]
+fn a_corner_between_fast_moves_is_no_stop() {
+    let case = Case {
+        feed_v: 200.0,
+        ..inside(plane(&[
+            (0.0, 0.0),
+            (100.0, 0.0),
+            (100.0, 30.0),
+            (90.0, 30.0),
+        ]))
+    };
+    let periods = case.plan();
+    assert_clean(&case, &periods);
+    let gained_t = bench::exact_stop_t(&case) - periods.len() as f64 * case.period_t;
+    assert!(gained_t > 0.04, "20 ms a corner and more, not {gained_t}");
+}
+
 /// What the rules are for: the judge sees that they are broken where they do not hold.
 #[test]
 fn on_either_side_it_is_faster_and_outside() {
     let zigzag: Vec<_> = (0..12)
         .map(|k| (1.2 * f64::from(k), 2.0 * f64::from(k % 2)))
         .collect();
-    let either = Case::mill(plane(&zigzag));
+    let either = Case {
+        corners: Corners::Either,
+        ..Case::mill(plane(&zigzag))
+    };
     let periods = either.plan();
     assert_clean(&either, &periods);
     let within = inside(either.points.clone());
