@@ -23,12 +23,12 @@ pub enum Smoothing {
 /// The side of the program on which the motion may be, within the tolerance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Corners {
-    /// On either side: the motion may swing out of corners, and axes may pass the places where they stop.
-    #[default]
-    Either,
     /// On the inner side of corners between straight feed moves, as a rounded corner is; and an axis
     /// that comes to a rest, sets out from one or turns round does not pass that place.
+    #[default]
     Inner,
+    /// On either side: the motion may swing out of corners, and axes may pass the places where they stop.
+    Either,
 }
 
 /// The effort of planning: how much work it may cost.

@@ -59,14 +59,15 @@ const BENCH: [(&str, Profile, f64, f64); 14] = [
 ];
 
 impl Profile {
-    /// Planned with the curve named; `Auto` is planned optimally.
+    /// Planned with the curve named; `Auto` is planned optimally, on either side of corners as the times to beat
+    /// are.
     fn settings(self, smoothing: Smoothing) -> Settings {
         let (velocity, acceleration, jerk) = self.limits;
         Settings {
             limits: Limits::uniform(velocity, acceleration, jerk),
             tolerance_mm: self.tolerance_mm,
             smoothing,
-            corners: Corners::default(),
+            corners: Corners::Either,
             period_t: PERIOD_T,
             effort: Effort::Optimal,
         }

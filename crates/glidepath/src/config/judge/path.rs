@@ -19,7 +19,7 @@ pub(super) const EFFORTS: [(&str, Effort); 2] = [
 ];
 
 pub(super) const CORNERS: [(&str, Corners); 2] =
-    [("either", Corners::Either), ("inner", Corners::Inner)];
+    [("inner", Corners::Inner), ("either", Corners::Either)];
 
 impl Judge {
     pub(super) fn path(&mut self, raw: RawPath) -> PathConfig {

@@ -223,12 +223,12 @@ pub(super) const PATH: &[Key] = &[
     key(
         "path.corners",
         Takes::Choice {
-            of: &["either", "inner"],
+            of: &["inner", "either"],
         },
-        LeftOut::Value("\"either\""),
-        "on which side of the program effort \"optimal\" may be, within the tolerance. \"either\": corners \
-         may be swung out of; \"inner\": on the inner side of corners, and no axis passes the place where \
-         it stops or turns round",
+        LeftOut::Value("\"inner\""),
+        "on which side of the program effort \"optimal\" may be, within the tolerance. \"inner\": on the \
+         inner side of corners, and no axis passes the place where it stops or turns round; \"either\": \
+         corners may be swung out of, which is faster",
     ),
     key(
         "path.effort",
