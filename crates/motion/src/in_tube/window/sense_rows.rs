@@ -4,6 +4,8 @@
 //! the motion would dip into the inner side behind each corner and come back, each time through the
 //! backlash of the drive.
 
+use super::scaled_path::ScaledPath;
+use super::sides::TURNING_R;
 use super::solver::{FAR, Problem};
 use super::tube::Layout;
 
@@ -17,14 +19,17 @@ const BACK_R: f64 = 0.1;
 /// Adds rows to the last site, which is first difference `k` of the control points.
 pub(super) fn add<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, D>, k: usize) {
     let (path, points) = (layout.path, layout.points);
-    let (piece, progress, way) = place(layout, k);
-    let segment = &path.segments[piece];
+    let place = Place::of(layout, k);
+    let segment = &path.segments[place.piece];
     let radius = segment.radius;
     for (axis, sides) in segment.sides.axes.iter().enumerate() {
-        let sense = sides.sense(progress, radius, way);
+        let sense = sides.sense(place.progress, radius, place.way);
         let step = sense * (points[k + 1][axis] - points[k][axis]);
         let is_slow = sides.is_rest || step < SLOW_R * radius;
         if sense == 0.0 || !is_slow || problem.is_given((k, &[1.0, 1.0, 0.0, 0.0]), axis) {
+            continue;
+        }
+        if !sides.is_rest && place.is_on_a_bend(path, axis) {
             continue;
         }
         let mut normal = [0.0; D];
@@ -33,26 +38,48 @@ pub(super) fn add<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, 
     }
 }
 
-/// Piece and progress at which first difference `k` is, in the middle of a knot interval, and the way
-/// in it.
-fn place<const D: usize>(layout: &Layout<'_, D>, k: usize) -> (usize, f64, f64) {
-    let (grid, samples) = (&layout.style.grid, layout.samples);
-    let halves = (2 * k - 1) * grid.periods;
-    let before = (halves / (2 * grid.knots)).min(samples.count() - 1);
-    #[expect(clippy::cast_precision_loss, reason = "hundreds")]
-    let (share, knots) = (
-        (halves as f64 / (2 * grid.knots) as f64 - before as f64).min(1.0),
-        grid.periods as f64 / grid.knots as f64,
-    );
-    let [from, to] = [before, before + 1].map(|k| samples.progress[k]);
-    let progress = from + share * (to - from);
-    let segments = &layout.path.segments;
-    let mut piece = samples.piece[before];
-    while piece > 0 && progress < segments[piece].s {
-        piece -= 1;
+/// Where a first difference of the control points is, in the middle of a knot interval.
+struct Place {
+    piece: usize,
+    progress: f64,
+    /// The way in the interval.
+    way: f64,
+}
+
+impl Place {
+    fn of<const D: usize>(layout: &Layout<'_, D>, k: usize) -> Self {
+        let (grid, samples) = (&layout.style.grid, layout.samples);
+        let halves = (2 * k - 1) * grid.periods;
+        let before = (halves / (2 * grid.knots)).min(samples.count() - 1);
+        #[expect(clippy::cast_precision_loss, reason = "hundreds")]
+        let (share, knots) = (
+            (halves as f64 / (2 * grid.knots) as f64 - before as f64).min(1.0),
+            grid.periods as f64 / grid.knots as f64,
+        );
+        let [from, to] = [before, before + 1].map(|k| samples.progress[k]);
+        let progress = from + share * (to - from);
+        let segments = &layout.path.segments;
+        let mut piece = samples.piece[before];
+        while piece > 0 && progress < segments[piece].s {
+            piece -= 1;
+        }
+        while piece + 1 < segments.len() && progress >= segments[piece + 1].s {
+            piece += 1;
+        }
+        Self {
+            piece,
+            progress,
+            way: knots * (to - from),
+        }
     }
-    while piece + 1 < segments.len() && progress >= segments[piece + 1].s {
-        piece += 1;
+
+    /// True if the program itself turns round here, along a curve: the motion need not do so at the same
+    /// place to the bit, and would tremble if it had to.
+    fn is_on_a_bend<const D: usize>(&self, path: &ScaledPath<D>, axis: usize) -> bool {
+        let radius = path.segments[self.piece].radius;
+        let reach = (TURNING_R * radius).max(self.way);
+        let [before, behind] =
+            [-reach, reach].map(|shift| path.heading(self.piece, self.progress + shift)[axis]);
+        before * behind < 0.0
     }
-    (piece, progress, knots * (to - from))
 }

@@ -10,8 +10,8 @@ use super::solver::dot;
 
 /// Cosine beyond which the path comes back on itself, and neither side of it is the outer one.
 const REVERSAL_COS: f64 = -0.999;
-/// How far from a corner at which an axis turns round it may go either way, in radii.
-const TURNING_R: f64 = 4.0;
+/// How far from a place at which an axis turns round it may go either way, in radii.
+pub(super) const TURNING_R: f64 = 4.0;
 
 /// Share of a piece, or of a rest, on both sides of its middle in which neither end is the nearer one:
 /// where the sides of both ends are opposite ones, the motion goes over there.
