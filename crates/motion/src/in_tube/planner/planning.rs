@@ -20,12 +20,14 @@ use crate::in_tube::window::{
 };
 use glidepath_geometry::{AXES, AxisVector, ROTARY_ABC, feed_length};
 
-/// Intervals before a leg brakes at which a window is tried.
+/// Intervals before a leg brakes at which a window is tried: it begins nearly as fast as the leg
+/// gets. No measurement of it is kept.
 const TRIAL_INTERVALS: f64 = 4.0;
-/// Share of a window that is worth handing out by itself.
+/// One part in so many of what is usually handed out of a window is worth handing out by itself. No
+/// measurement of it is kept.
 const LEAST_COMMIT: usize = 4;
 /// A window that would have to stop in less than one part in so many of the way that takes is not
-/// tried.
+/// tried. No measurement of it is kept.
 const FAR_TOO_FAST: f64 = 2.0;
 
 impl PlannerState {

@@ -7,10 +7,11 @@ use crate::in_tube::window::{Grid, LEAST_INTERVALS, View, WindowMotion, at_feed_
 use glidepath_geometry::feed_length;
 
 /// What goes on at the feed is handed out without another window, up to so long before it slows
-/// down, s.
+/// down, s. No measurement of it is kept.
 const SETTLING_T: f64 = 0.05;
 
-/// What a window may lose of its lead over the baseline, of the time it is handed out for.
+/// What a window may lose of its lead over the baseline, of the time it is handed out for. No measurement
+/// of it is kept.
 const LITTLE_R: f64 = 0.05;
 
 /// A window that may be taken.
@@ -144,7 +145,8 @@ impl PlannerState {
     }
 }
 
-/// Periods after which the next window starts.
+/// Periods after which the next window starts: those of a third of the intervals, for the reason that is
+/// told at [`LEAST_INTERVALS`].
 pub(super) fn commit(grid: &Grid, view: &View) -> usize {
     grid.periods_in(grid.whole_periods(view.intervals / 3).max(grid.knots))
 }

@@ -16,7 +16,9 @@ use glidepath_program::{Corners, Limits};
 /// further rests at the end of them.
 const MOST_PIECES: usize = 4096;
 /// Intervals of a window, at least and at most. Work and memory are linear in them; with fewer a window
-/// sees its own stop too soon, with more each costs longer before anything of it is handed out.
+/// sees its own stop too soon, with more each costs longer before anything of it is handed out. With 60, of
+/// which 20 were handed out, motions of a first version were within .2 to 2.7 % of the optimum from rest to
+/// rest; with 30 handed out they took up to 1.8 % longer. Of the most no measurement is kept.
 pub(crate) const LEAST_INTERVALS: usize = 60;
 const MOST_INTERVALS: usize = 160;
 /// The same where the motion goes on at the feed: most of them are then handed out.

@@ -45,6 +45,7 @@ struct Phase {
 /// The rounds of one attempt: what comes and goes at the edge of the tube is given more and more
 /// room. A phase ends with the first round of polishing that passes, the attempt once progress settles;
 /// the fastest motion that has passed is kept, so the smaller radii of later phases cost no time of it.
+/// Of the numbers no measurement is kept.
 const PHASES: [Phase; 3] = [
     Phase {
         search: 3,
@@ -73,7 +74,8 @@ enum Seed {
 }
 
 /// The attempts, in turn, until one has found a motion. Fast first: a sample that is on a piece too
-/// early comes back in one round, one that is late moves on by a tube length a round.
+/// early comes back in one round, one that is late moves on by a tube length a round. Of the
+/// paces no measurement is kept.
 const ATTEMPTS: [Seed; 4] = [
     Seed::Guess(1.0),
     Seed::Guess(0.9),
@@ -86,29 +88,34 @@ const NO_LESS_R: f64 = 0.995;
 /// From so many axes on, the work of a window is spent after a few rounds if it has to keep to the inner
 /// side: then the motion is first thought to be no faster than the guess, so that the first round finds one.
 const MANY_AXES: usize = 7;
-/// Interior point iterations in one problem. One that takes more counts as not solved ([`FAR_OFF_R`]).
+/// Interior point iterations in one problem, of which it usually takes 6 to 20. One that takes more counts
+/// as not solved ([`FAR_OFF_R`]).
 const SOLVER_ITERATIONS: usize = 40;
 /// Mean complementarity, in periods of progress, at which a problem is solved: in rounds in which lines
-/// may leave the path, and in others.
+/// may leave the path, and in others. With 1e-7 the motion wanders less within the tube where the feed
+/// binds, but has as much jerk: what is wanted there is said by prices ([`Style::jerk`]), not by μ.
 const SEARCH_MU: f64 = 1e-4;
 const EXACT_MU: f64 = 1e-5;
-/// [`Goal::damping`] times the square of the way in a knot at the top speed.
+/// [`Goal::damping`] times the square of the way in a knot at the top speed. No measurement
+/// of it is kept.
 const DAMPING: f64 = 1e-7;
 /// Share of every limit that is planned with: the residual of a solution may be half of the rest.
 const LIMIT_R: f64 = 1.0 - 2e-6;
 /// Lines may leave the path by this many radii while searching: large, so that a sample that is on a
 /// piece too early or too late does not bind the motion before it is given out again. Careful attempts
-/// and rounds of polishing have 1 in its place.
+/// and rounds of polishing have 1 in its place. No measurement of it is kept.
 const SEARCH_STRAY_R: f64 = 12.0;
-/// A motion of no solution whose samples are further off than this, in radii, is not gone on from.
+/// A motion of no solution whose samples are further off than this, in radii, is not gone on from. No
+/// measurement of it is kept.
 const FAR_OFF_R: f64 = 3.0;
 /// Where samples come out further off than this while searching, in radii, they are given out half-way
 /// back, from the third round on: else some problems go there and back between too early and too late.
 const TOO_FAR_R: f64 = 1.02;
-/// Rounds of a search that may go there and back.
+/// Rounds of a search that may go there and back ([`TOO_FAR_R`]).
 const FREE_ROUNDS: usize = 2;
 
-/// How much faster than the guess the first window is thought to be.
+/// How much faster than the guess the first window is thought to be. Of this and the paces below no
+/// measurement is kept.
 const START_PACE: f64 = 1.2;
 /// After a window without a motion the next one is slower by this, down to a least pace.
 const SLOWER_R: f64 = 0.85;
