@@ -17,7 +17,7 @@ use super::spline::Grid;
 /// Part of the radius from which a gentle corner gets rows: with less, every vertex of a fine polyline
 /// has some, with more a motion may come out of the ball before there is a plane.
 pub(crate) const CLOSE_R: f64 = 0.85;
-/// Planes kept for each ball, the newest ones: each is a row of the problem.
+/// Planes kept for each ball, the newest ones: each is a row of the problem. No measurement of it is kept.
 const KEPT: usize = 5;
 /// Directions kept in which a velocity was above the feed. With six, chords of a circle took three periods
 /// more in one unit of length; for slow curves in wide tubes, which six were tried for, a stronger pull

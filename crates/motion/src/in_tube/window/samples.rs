@@ -12,14 +12,18 @@ use super::scaled_path::ScaledPath;
 use super::solver::{combine, dot};
 use super::spline::Grid;
 
-/// From this part of the radius on a motion is worth a plane.
+/// From this part of the radius on a motion is worth a plane. Of this and the numbers of [`leads`] and
+/// [`Samples::project`] no measurement is kept.
 pub(crate) const WORTH_R: f64 = 0.5;
-/// Cosine of the turn from which a corner holds samples back.
+/// Cosine of the turn from which a corner holds samples back: without it they jump over reversals and
+/// short spikes, whose two sides are near each other.
 const FOLD_COS: f64 = 0.2;
-/// Share of the radius before the end of a piece at which a sample goes over to the next.
+/// Share of the radius before the end of a piece at which a sample goes over to the next: where it is in
+/// the tubes of both, mostly. No measurement of it is kept.
 const HOP_R: f64 = 0.3;
 
-/// Most length of path to a length moved, where the path does not stay within the tube.
+/// Most length of path to a length moved, where the path does not stay within the tube. A right angle
+/// is 1.41 times as long as its cut. No measurement of it is kept.
 const MOST_DETOUR: f64 = 1.5;
 
 /// Share of the radius by which rounding may put a sample beyond the end of its piece.
@@ -192,6 +196,8 @@ impl Samples {
             if may_lead && !self.is_too_fast[k] && leads(path, &y, piece, s) {
                 self.at_least[k] = piece + 1;
             }
+            // A sample that came out at the edge, or a little beyond, gets a smaller radius, and keeps it.
+            // One that is further out is left to the next giving out.
             if distance_r > 0.9995 && distance_r < 1.5 {
                 self.shrink[k] = (self.shrink[k] * 0.998 / distance_r).max(0.7);
             }
@@ -305,7 +311,8 @@ fn nearest<const D: usize>(path: &ScaledPath<D>, y: &[f64; D], at: Place, ahead:
     best
 }
 
-/// A sample near the end of a piece that is in the tube of the next one as well.
+/// True if a sample near the end of a piece is in the tube of the next one as well: at a corner, and nearer
+/// to it than 4 radii over the turn.
 fn leads<const D: usize>(path: &ScaledPath<D>, y: &[f64; D], piece: usize, s: f64) -> bool {
     let next = path.segments.get(piece + 1);
     let Some(next) = next.filter(|_| !path.changes_rate_after(piece)) else {

@@ -20,7 +20,8 @@ pub(crate) struct SearchBias {
 
 impl SearchBias {
     /// For whatever is planned once. All along a hundred samples an offset of the whole radius costs 1.5
-    /// periods of mean progress, jerk at its limit .5.
+    /// periods of mean progress, jerk at its limit .5. A pull of .1 cost 10 to 32 periods of 770 on a zigzag;
+    /// with neither, the search takes as long a motion and more work.
     pub(crate) const USUAL: Self = Self {
         pull: 0.03,
         jerk: 0.01,

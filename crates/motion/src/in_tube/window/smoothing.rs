@@ -34,10 +34,13 @@ use super::way::at_feed_until;
 use super::window_start::WindowStart;
 
 /// What an offset of the whole radius costs at one sample, and what jerk at its limit does, in periods of
-/// mean progress: about three times what a usual search has ([`SearchBias::USUAL`]).
+/// mean progress: about three times what a usual search has ([`SearchBias::USUAL`]). At the feed an arc of
+/// 8 mm was 1.7 µm too small with the latter, 1 µm with these, before way counted there
+/// ([`super::shortcuts`]).
 const PULL: f64 = 0.1;
 const JERK: f64 = 0.03;
-/// The weights that are tried, relative to these, until no more progress is lost than may be.
+/// The weights that are tried, relative to these, until no more progress is lost than may be. No measurement
+/// of the steps is kept.
 const WEIGHTS: [f64; 3] = [1.0, 0.1, 0.01];
 /// Rounds for each: on curves the planes that bound the feed are learnt in them.
 const ROUNDS: usize = 3;

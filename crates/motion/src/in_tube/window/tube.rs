@@ -18,6 +18,12 @@
 //! ball is nearer by half the way. Together that is just what the judge asks.
 //!
 //! The round parts are bounded by planes ([`super::cuts`]).
+//!
+//! The objective counts in periods. A sample that is a period's way at the top speed further on counts
+//! 1/N of N samples, so what is gained at a place counts as much as samples behind it have a part in the
+//! window: from nearly one where it begins to nothing where it ends, however long it is. Offsets are paid
+//! at each sample, in the same measure. So a longer window weighs a corner or an arc against the pull like
+//! a short one, and prices need no division by N.
 
 use super::cuts::{CLOSE_R, Cuts, HALF_WAY, Passing, Plane, nearest_to_corner};
 use super::one_sided;
@@ -27,14 +33,16 @@ use super::scaled_path::{SHARP, ScaledPath};
 use super::solver::{FAR, Problem, dot};
 use super::spline::Grid;
 
-/// Most of the radius of a corner that is left to chords that cut it off.
+/// Most of the radius of a corner that is left to chords that cut it off: the radius that rows have must
+/// stay well above 0, which they are divided by. No measurement of it is kept.
 const MOST_SAGITTA_R: f64 = 0.5;
-/// Most corners between two samples that get rows.
+/// Most corners between two samples that get rows: those furthest from it. No measurement
+/// of it is kept.
 const MOST_CORNERS: usize = 4;
 /// Share of the feed that is planned with at most. It is a period in 80 s; with all of the feed the
 /// motion trembles here and there behind corners.
 pub(crate) const FEED_R: f64 = 0.999_95;
-/// Price of velocity across the path ([`Style::steering`]).
+/// Price of velocity across the path ([`Style::steering`]). Of this and the next no measurement is kept.
 pub(crate) const STEERING: f64 = 0.5;
 /// The same as long as samples find their places: at corners it is paid in time.
 pub(crate) const SEARCH_STEERING: f64 = 0.1;
@@ -57,7 +65,8 @@ pub(crate) struct Style {
     /// Pull towards the programmed path: what an offset of the whole radius costs, in gains of
     /// progress of one sample in all of the time.
     pub(crate) ridge: f64,
-    /// What jerk at its limit costs, in the same measure.
+    /// What jerk at its limit costs, in the same measure, for each knot interval: with more knots in a
+    /// period a time costs more of it beside the pull, which counts by sample.
     pub(crate) jerk: f64,
     /// What a velocity across the path as large as the feed costs where the feed is slow, in the same
     /// measure ([`super::feed_rows`]).
@@ -75,13 +84,16 @@ pub(crate) struct Style {
     pub(crate) has_motion: bool,
 }
 
-/// What the motion takes to settle, in times in which jerk strays by a tolerance: the times of the
-/// two pulls ([`Style::ridge`], [`Style::jerk`]) are in it, which make less than one.
+/// What the motion takes to settle, in times in which jerk strays by a tolerance: 15 periods of 4 ms where
+/// jerk is 4e4 and the tolerance .02 mm, with which axes were first pinned. One of the two pulls
+/// ([`Style::ridge`], [`Style::jerk`]) against the other is the sixth root of their ratio, .83, of such a
+/// time.
 const SETTLING: f64 = 7.5;
 
 impl Style {
     /// The jerk of each axis that costs [`Style::jerk`], in tolerances: its limit, but no more than
-    /// can be seen in a period.
+    /// a tolerance per period³, about what can be seen in one. With a limit far above that the price
+    /// would be none. That it is just a period is a choice, of which no measurement is kept.
     pub(crate) fn priced_jerk<const D: usize>(&self, path: &ScaledPath<D>) -> [f64; D] {
         path.jerk.map(|jerk| jerk.min(self.period_t.powi(-3)))
     }
@@ -126,6 +138,9 @@ impl Extents {
             return span;
         }
         let segment = &path.segments[i];
+        // A line goes on until the path has left it by half a radius: half a radius beyond a sharp
+        // corner, far along gentle chords. With that, steps need no bound of their own. The cap is the way
+        // of four knots at the top speed. Of the numbers no measurement is kept.
         let stray = 0.5 * style.stray_r * segment.radius;
         let cap = (4.0 * segment.top * style.grid.knot_t).max(segment.radius);
         let last = path.segments.len() - 1;
@@ -147,6 +162,7 @@ impl Extents {
                 cap,
             )
         } else {
+            // Of what was before the first piece nothing is seen. Why .3 is not on record.
             0.3 * segment.radius
         };
         self.spans[i] = Some([back, over]);
@@ -257,6 +273,7 @@ fn add_tube<const D: usize>(
     for normal in &segment.normals[..D - 1] {
         problem.add_row(normal.map(|n| n / radius), &segment.start, [-1.0, 1.0]);
     }
+    // To be beyond an end costs a quarter of being out of the tube by as much; why is not on record.
     let scale = 4.0 * radius;
     let ends = [-back / scale, (segment.length + over) / scale];
     problem.add_row(segment.tangent.map(|t| t / scale), &segment.start, ends);

@@ -11,7 +11,8 @@ use super::tube::{FEED_R, STEERING, Style};
 /// of both is left for what else a curve needs.
 const BRAKE_A: f64 = 2.0;
 const BRAKE_J: f64 = 9.0;
-/// Most of the time that a tail takes that counts as slowing down for its rest.
+/// Most of the time that a tail takes that counts as slowing down for its rest. No measurement of it is
+/// kept.
 const SLOWING_R: f64 = 0.4;
 /// A sample that stops at a vertex is taken to be so far before it, in radii or lengths of the piece:
 /// where samples go over to the next one ([`super::samples`]), and a hundredth more, so that it waits.
