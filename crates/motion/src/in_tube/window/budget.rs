@@ -18,7 +18,7 @@ pub(crate) const PLAN_WORK: usize = 70_000_000;
 pub(crate) const FIRST_WORK: usize = 50_000_000;
 
 /// Work wanted for the search, for making it smooth, and for the end of a window of three axes; that
-/// of more grows with their square.
+/// of more grows with their square. No measurement of the numbers is kept.
 const SEARCH_WORK: usize = 30_000_000;
 const SMOOTHING_WORK: usize = 10_000_000;
 const FINISH_WORK: usize = 10_000_000;

@@ -32,7 +32,8 @@ pub(in crate::in_tube::window) const PRICE: f64 = 30.0;
 /// The same where a violation must not buy a smaller one elsewhere.
 pub(in crate::in_tube::window) const FIRM_PRICE: f64 = 1000.0;
 /// A bound that does not bind, in units of its row: rows are made near where they matter, and such a
-/// side has a multiplier of μ / 1000. Walls, which are made for a whole axis, have one further away.
+/// side has a multiplier of μ / 1000. Walls, which are made for a whole axis, have one further away. Whoever
+/// has a small unit has to see that a thousand of it are out of reach.
 pub(in crate::in_tube::window) const FAR: f64 = 1e3;
 
 /// Cosine from which two directions are the same, but for the rounding of both: 1.4e-6 rad.
