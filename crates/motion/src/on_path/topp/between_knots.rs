@@ -25,12 +25,14 @@ const PLACES_OF_TRANSITION: u32 = 20;
 const ENOUGH_R: f64 = 1.0 - 1e-4;
 const ENOUGH_JERK_R: f64 = 1.0 - 1e-3;
 /// Where a limit is exceeded by more than this factor, another knot is put in: the path changes too much
-/// between two for less of its limits to be a remedy.
+/// between two for less of its limits to be a remedy. No measurement of it is kept.
 const MUCH_R: f64 = 1.05;
-/// The least share of the limits: of less, there is none to start from. The first start is .85 times as
-/// fast as the S-curves, so it asks for .85 of their speed, .72 of their acceleration, .61 of their jerk.
+/// The least share of the limits. A start that is .85 times as fast as the S-curves asks for .85 of their
+/// speed, .72 of their acceleration, .61 of their jerk. So where S-curves are at the top speed, shares below
+/// .85 leave no such start, where they are at the limit of acceleration those below .72; from rest to rest a
+/// slower start is tried then, elsewhere there is no parametrisation.
 const LEAST_SHARE_R: f64 = 0.7;
-/// Taken off more than was exceeded, for the places between these.
+/// Taken off more than was exceeded, for the places between these. No measurement of it is kept.
 const MORE_R: f64 = 1e-3;
 
 /// The largest share of what is enough of a limit of an axis that a phase of a time parametrisation

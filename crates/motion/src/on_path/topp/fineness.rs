@@ -1,6 +1,7 @@
 //! How closely the least time is sought.
 
-/// How closely the least time is sought, and how much work that is.
+/// How closely the least time is sought, and how much work that is. Of single numbers no measurement is
+/// kept, but of what they do together.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Fineness {
     /// The longest time from knot to knot on the S-curves, s, and that as a share of the time in
@@ -9,7 +10,7 @@ pub(crate) struct Fineness {
     pub(crate) knot_r: f64,
     /// Knots nearer than this share of their distance to a place where pieces meet are left out.
     pub(crate) nearest_r: f64,
-    /// What is left to gain in the end, as a share of the time.
+    /// What is left to gain in the end, as a share of the time, if three limits bind at each knot.
     pub(crate) gap_r: f64,
     /// The square of a step for each knot, in the measure of the barrier, that counts as small: about
     /// as much is still to be gained, where three times as much are left by the gap.

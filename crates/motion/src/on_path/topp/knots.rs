@@ -18,7 +18,8 @@ const MOST_KNOTS: f64 = 30_000.0;
 const LEAST_KNOT_T: f64 = 0.002;
 /// Time of the phase of constant jerk next to a rest, and its largest share of the S-curve's. At a rest
 /// b ~ s^(4/3) has a second derivative beyond all bounds, which no spline follows; the shorter the
-/// phase, the more knots next to it ([`REST_GROWTH`]).
+/// phase, the more knots next to it ([`REST_GROWTH`]). No measurement of either is
+/// kept.
 const REST_T: f64 = 0.001;
 const REST_R: f64 = 0.25;
 /// The time in which a start goes over from the speed of the S-curves, squared, in speeds for the
@@ -100,6 +101,8 @@ impl KnotPath {
         };
         let knots = knot_path.knots(course);
         knot_path.lay(course, &knots, limits);
+        // Two coefficients are given at either end: of three intervals one is left. Why five are asked for is
+        // not on record.
         (knot_path.intervals.len() > 4).then_some(knot_path)
     }
 

@@ -11,7 +11,7 @@ use crate::scurve::PathState;
 use glidepath_program::Limits;
 
 /// Times a time parametrisation is made anew where it demands too much between its knots: a peak
-/// between two knots gives way less than their limits do.
+/// between two knots gives way less than their limits do. No measurement of it is kept.
 const ROUNDS: u32 = 8;
 
 /// The parametrisation near the least time that starts and ends as the S-curves do, some times as
