@@ -20,6 +20,18 @@
 //! invariant that makes this safe: **at every tick, following what is committed breaks no limit and
 //! needs no frame that is not here.** A steady rate r ≤ 1 is inside the limits because the plan is.
 //!
+//! Nothing is minimised here: what is looked for is a change of the rate that is known to pass. What is
+//! tried has an order, best first, and the first that passes is taken. Whether one passes depends on what
+//! the plan leaves at the very ticks that the ramp goes through, here more, there less; that one fails says
+//! little of the next. And a tick has to be over in time: all is counted in *samples*, positions of the plan
+//! that are computed and compared with the limits, and a budget of them is what a tick may spend.
+//!
+//! | | in |
+//! |---|---|
+//! | rate r, its slope, its bend | periods of program time per tick; 1 per tick, 1 per tick² |
+//! | limits | differences of published positions, mm: V·T, A·T², J·T³ ([`crate::differences`]) |
+//! | pace of a ramp | 1 over its stretching in time: of acceleration it takes that, of jerk the square |
+//!
 //! What is tried, in this order, until one passes or the tick's budget of samples is used up (the
 //! next tick then goes on from there):
 //!
@@ -37,6 +49,10 @@
 //! goes on only with a stop in reserve, played through beforehand ([`reserve_search`]; how it is
 //! found: [`stop_search`]). To come to rest at the end of a block is a reserve, too, that ends at a
 //! given frame and is taken on purpose: see [`arrival_search`].
+//!
+//! What happens where none is found: an earlier start and another way to search are tried; in the last ticks
+//! before the reserve begins, a little slower; then the reserve is taken, which costs a stop and breaks
+//! nothing. From rest the search goes on, at a lower rate, too ([`stop_choice`], [`reserve_search`]).
 //!
 //! A ramp to rate 1 is stretched so that it ends on the grid of the frames: from there on the
 //! setpoints are the frames, bit for bit. Between its grid points a plan may exceed its jerk limit

@@ -16,7 +16,7 @@ use glidepath_program::Limits;
 
 /// Frames ahead to go on with, in stops.
 const STOPS_AHEAD: f64 = 3.0;
-/// Frames on top of that, for very short stops.
+/// Frames on top of that, for very short stops. No measurement of it is kept, nor of [`QUIET_TICKS`].
 const SPARE: u64 = 10;
 
 /// Ticks without a new frame after which no more are expected soon.

@@ -48,7 +48,8 @@ pub(super) const CANDIDATES: [Candidate; 18] = {
     all
 };
 
-/// What it costs to set up a candidate, and to stretch one from a slope, in samples.
+/// What it costs to set up a candidate, and to stretch one from a slope, in samples. No measurement of them
+/// is kept.
 const SET_UP: u32 = 4;
 const STRETCHING: u32 = 6;
 /// Most refinements of a stretching.

@@ -43,14 +43,16 @@ const SLOPES: [f64; 8] = [0.0, -0.05, -0.1, -0.2, -0.35, -0.5, -0.75, -1.0];
 /// The steepest is looked up at every so many ticks: it is the longest stop time of as many frames as a
 /// stop takes, which hardly changes from one tick to the next.
 const STEEPEST: usize = 4;
-/// From this share of the rate on ramps to rest are tried, with one pace after the other.
+/// From this share of the rate on ramps to rest are tried, with one pace after the other. Of the paces no
+/// measurement is kept.
 const ROOM: f64 = 0.95;
 const PACES: [f64; 3] = [1.0, 0.7, 0.45];
 /// Share of an interval that a slope keeps away from its ends. The interval is of first order in the slope:
 /// at its very ends the position that is played may be outside.
 const INSIDE: f64 = 0.02;
 /// What it costs to compute an interval and to follow a slope, and about the least to follow all
-/// branches for a tick, in samples of a ramp.
+/// branches for a tick, in samples of a ramp: the first needs velocities beside positions. No measurement
+/// of them is kept.
 const INTERVAL: u32 = 3;
 const SLOPE: u32 = 2;
 const TICK: u32 = 30;

@@ -8,7 +8,8 @@ use super::state::Rate;
 use crate::ramp::Ramp;
 
 /// Samples a tick may spend on playing candidates through, unless stops are longer. The dearest ticks are
-/// made by this and by searches for stops; what is left over goes on in the next tick.
+/// made by this and by searches for stops; what is left over goes on in the next tick. No measurement of it
+/// is kept.
 const BUDGET: u32 = 170;
 /// The least change of the rate worth a ramp part of the way: less frees 3 ‰ of the jerk at most.
 const LEAST_CHANGE: f64 = 1e-3;

@@ -12,7 +12,8 @@ use super::stop_search::{StopOutcome, StopSearch};
 use crate::ramp::Ramp;
 
 /// The stop after a ramp begins no earlier than so many ticks after its end, if there are frames
-/// for that: in these a later one is found.
+/// for that: in these a later one is found. Where it began at once, a plan that is at its limits
+/// everywhere was not played as fast as planned.
 const AFTERWARDS: u32 = 12;
 
 /// What trying a ramp has shown.

@@ -37,7 +37,7 @@ use crate::ramp::Ramp;
 /// The starts of a stop that are tried: which share of the ticks between the latest possible and the
 /// earliest useful it is before the latest. Late first: the later a stop begins, the longer no other has
 /// to be found. There is nothing to bisect, for a plan has room here and none there: that one start fails
-/// says nothing of an earlier one. So a few are tried that are far apart.
+/// says nothing of an earlier one. So a few are tried that are far apart; of where, no measurement is kept.
 const STARTS: [f64; 6] = [0.0, 0.2, 0.4, 0.8, 0.95, 1.0];
 /// From this one on with a greedy descent, which finds later starts, too: the steady rate is one of its
 /// branches, so it may go down from any tick behind its start.

@@ -7,7 +7,7 @@ use crate::ramp::Bounds;
 use crate::stop_time::StopTime;
 use crate::track::Track;
 
-/// What it costs to set up a stop, in samples.
+/// What it costs to set up a stop, in samples. No measurement of it is kept.
 pub(super) const SET_UP: u32 = 6;
 /// The most samples a tick may spend: what it takes where three stops fill the track, which is the
 /// shortest period a configuration may have.

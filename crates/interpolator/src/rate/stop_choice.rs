@@ -9,23 +9,25 @@ use super::state::Rate;
 use crate::ramp::Ramp;
 
 /// Samples a tick may spend on finding a reserve while there is time, and when there is little:
-/// then the plan is hard to stop on, and whatever is found saves the motion from slowing down.
+/// then the plan is hard to stop on, and whatever is found saves the motion from slowing down. With 120
+/// where there is little, from 40 ticks on, eight of 200 near-optimal random programs took up to 2 % longer
+/// than planned, and the dearest tick of an easy path 41 300 instructions instead of 23 900.
 const BUDGET: u32 = 60;
 const URGENT_BUDGET: u32 = 240;
-/// The same for the way to rest at the end of a block, and for going slower.
+/// The same for the way to rest at the end of a block, and for going slower. No measurement of it is kept.
 const TRIAL_BUDGET: u32 = 120;
 /// A reserve is replaced only by one that begins this much later, ticks: a search costs the same however
 /// little it gains.
 const GAIN: u32 = 3;
 /// Before a reserve begins, this many ticks are left to find a later one. From twice as many on a tick may
-/// spend [`URGENT_BUDGET`]. With fewer the reserve is taken before one is found; with more the dearest
-/// ticks come more often.
+/// spend [`URGENT_BUDGET`]. With fewer the reserve is taken before one is found; with twice as many the
+/// dearest tick of an ordinary plan took 78 000 instructions instead of 25 000.
 const URGENT: u32 = 14;
 /// With so many left, and no more than two stops take, only greedy descents are tried: while ramps are
-/// tried in vain it becomes too late.
+/// tried in vain it becomes too late, as it did where frames came in bursts of a tenth of a second.
 const SHORT: u32 = 2 * URGENT;
 
-/// In the last ticks before a reserve begins it is tried to go slower instead.
+/// In the last ticks before a reserve begins it is tried to go slower instead. No measurement of it is kept.
 const SLOWER_IN_TICKS: u32 = 4;
 /// By which share of the rate, and at which pace: some of the steps of a search for a stop, the smallest
 /// first, because what is lost here is time.
@@ -96,7 +98,7 @@ impl Rate {
         let reach = frames(situation.reach.max(16));
         let ahead = situation.track.end();
         let ahead = frames(ahead.saturating_sub(self.now.time.sequence));
-        // Two thirds of what is ahead of a stop, but three to four stops.
+        // Two thirds of what is ahead of a stop, but three to four stops. No measurement of it is kept.
         (2 * ahead.saturating_sub(reach) / 3).clamp(3 * reach, 4 * reach)
     }
 
