@@ -80,7 +80,9 @@ pub(super) fn newton(
     Err(KinematicsError::NotConverged)
 }
 
-/// A, B and C of R = Rz(C) Ry(B) Rx(A), with B from −90° to 90°.
+/// A, B and C of R = Rz(C) Ry(B) Rx(A), with B from −90° to 90°. Every pose has other angles, too, A + 180°,
+/// 180° − B, C + 180°: where an axis B is beyond ±90°, these are what it has, and what is given here is not.
+/// At ±90° only one of A and C is settled by the pose, and rounding settles the other.
 fn angles_deg(r: &Matrix3<f64>) -> [f64; 3] {
     let a = r.m32.atan2(r.m33);
     let b = (-r.m31).atan2(r.m32.hypot(r.m33));
