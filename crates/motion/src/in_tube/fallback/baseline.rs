@@ -22,7 +22,7 @@ use std::collections::VecDeque;
 
 /// What a motion on knots may lose against an S-curve to the same rest, periods.
 pub(crate) const TRUST_PERIODS: f64 = 1.0;
-/// Share of a velocity that may point elsewhere than to the end of the piece.
+/// Share of a velocity that may point elsewhere than to the end of the piece. No measurement of it is kept.
 const ASIDE: f64 = 0.02;
 /// By what share rounding may make a phase shorter.
 const ROUNDING: f64 = 1e-9;

@@ -323,7 +323,9 @@ fn leg_tail(leg: &StopLeg, leg_t: f64, grid: &Grid, intervals: usize) -> Vec<Axi
     points
 }
 
-/// Half the time in which jerk strays by a tolerance: the grid on which corners are still resolved.
+/// Half the time in which jerk strays by a tolerance: the grid on which corners are still resolved. On a mill
+/// (tolerance .02 mm, jerk 4e4) that is 4 ms, and 8 ms were too coarse for small figures; on a stiff machine
+/// (.03 mm, 1e6) it is 1.6 ms, where 2 ms did and 1 ms gained nothing.
 fn wanted_grid(planner: &PlannerState, piece: &TubePiece) -> Grid {
     let limits = &planner.limits;
     let moved = piece.end - piece.start;

@@ -8,7 +8,8 @@ use crate::joints::SharedJoints;
 use glidepath_geometry::AxisVector;
 use glidepath_program::{Corners, Limits};
 
-/// Most legs from vertex to vertex before windows are tried again.
+/// Most legs from vertex to vertex before windows are tried again. With 32, legs along the chords of an arc
+/// took seconds.
 pub(crate) const MOST_LEGS: usize = 8;
 
 /// What moves the machine.

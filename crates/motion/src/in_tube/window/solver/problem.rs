@@ -27,7 +27,8 @@
 
 /// Price of violating an elastic row by one. Progress gains at most about one by it, so a row that
 /// can be kept is kept: a penalty proportional to the violation is exact as long as the price is above
-/// the multiplier that the row would have if it were hard. With less, rows are traded for progress.
+/// the multiplier that the row would have if it were hard. With less, rows are traded for progress. No
+/// measurement of it is kept, nor of the next.
 pub(in crate::in_tube::window) const PRICE: f64 = 30.0;
 /// The same where a violation must not buy a smaller one elsewhere.
 pub(in crate::in_tube::window) const FIRM_PRICE: f64 = 1000.0;
