@@ -70,15 +70,13 @@ impl Guess {
             for k in 0..D {
                 let jump = jumps[k].abs();
                 let (a, j) = (path.acceleration[k], path.jerk[k]);
-                // As long as the tube allows, J·τ³/4 = radius. A change at constant acceleration A strays
-                // by the radius, too, where it is √(8·A·radius); τ = 2·A/J is where that is J·τ². In a
-                // wider tube, or with more jerk, it would be the lower one of both, and more than the
-                // 4·A²/J that the cap stays at: with A 2000, J 1e7, radius .02 mm eleven times as much.
-                let tau_t = (4.0 * before.radius.min(after.radius) / j)
-                    .cbrt()
-                    .min(2.0 * a / j);
-                if jump * cap_v > j * tau_t * tau_t {
-                    cap_v = j * tau_t * tau_t / jump;
+                // As long as the tube allows: by jerk J·τ², where J·τ³/4 is the radius, and by a constant
+                // acceleration over T, which strays by A·T²/8, A·T. Both are the same where τ = 2·A/J.
+                let radius = before.radius.min(after.radius);
+                let tau_t = (4.0 * radius / j).cbrt();
+                let most_v = (j * tau_t * tau_t).min((8.0 * a * radius).sqrt());
+                if jump * cap_v > most_v {
+                    cap_v = most_v / jump;
                 }
             }
             self.speeds_v.push(cap_v.min(curve_speed(path, i)));
