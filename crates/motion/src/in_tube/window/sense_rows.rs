@@ -6,7 +6,8 @@
 
 use super::scaled_path::ScaledPath;
 use super::sides::TURNING_R;
-use super::solver::{FAR, Problem};
+use super::solver::Problem;
+use super::travel_rows::NOWHERE;
 use super::tube::Layout;
 
 /// How slow an axis is, in radii a knot, where it might turn round. An axis that is faster than that in one
@@ -34,10 +35,9 @@ pub(super) fn add<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, 
         }
         let mut normal = [0.0; D];
         normal[axis] = sense / (BACK_R * radius);
-        // The upper side is not meant to bind, but it is no further away than 100 radii a knot: 25 mm/s at
-        // a tolerance of 1 µm and knots of 4 ms. An axis that rests in the last motion, as all do in the
-        // tail's rest, and is faster than that in the next one is held by it for a round.
-        problem.add_row(normal, &[0.0; D], [0.0, FAR]);
+        // An axis that rests in the last motion, as all do in the tail's rest, may be fast in the next one:
+        // `FAR` would be 25 mm/s at a tolerance of 1 µm and knots of 4 ms.
+        problem.add_row(normal, &[0.0; D], [0.0, NOWHERE]);
     }
 }
 

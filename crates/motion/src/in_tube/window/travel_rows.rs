@@ -25,7 +25,7 @@ const NEAR_R: f64 = 8.0;
 const LEFT_R: f64 = 3e-6;
 /// The side of a row that is not the wall: further away than any motion is, in tolerances. `FAR`
 /// is 20 mm at a tolerance of 20 µm.
-const NOWHERE: f64 = 1e7;
+pub(super) const NOWHERE: f64 = 1e7;
 /// The points of both halves of an interval.
 const POINTS: [[f64; 4]; 4] = [
     [1.0 / 12.0, 2.0 / 3.0, 0.25, 0.0],
