@@ -34,14 +34,10 @@ pub(super) fn forward(
 ) -> Result<AxisVector, KinematicsError> {
     let (pose, _) = newton(hexapod, joints, hexapod.pose(near))?;
     let tip = pose.position + pose.rotation * hexapod.tool;
-    let angles = angles_deg(&pose.rotation);
+    let angles = angles_deg(&pose.rotation, [near[3], near[4], near[5]]);
     let mut axes = AxisVector::zeros();
     axes.fixed_rows_mut::<3>(0).copy_from(&tip);
-    for (i, angle) in angles.into_iter().enumerate() {
-        // Angles of a matrix are within a turn; an axis may have made several.
-        let turns = ((near[3 + i] - angle) / 360.0).round();
-        axes[3 + i] = angle + 360.0 * turns;
-    }
+    axes.fixed_rows_mut::<3>(3).copy_from_slice(&angles);
     Ok(axes)
 }
 
@@ -80,14 +76,38 @@ pub(super) fn newton(
     Err(KinematicsError::NotConverged)
 }
 
-/// A, B and C of R = Rz(C) Ry(B) Rx(A), with B from −90° to 90°. Every pose has other angles, too, A + 180°,
-/// 180° − B, C + 180°: where an axis B is beyond ±90°, these are what it has, and what is given here is not.
-/// At ±90° only one of A and C is settled by the pose, and rounding settles the other.
-fn angles_deg(r: &Matrix3<f64>) -> [f64; 3] {
-    let a = r.m32.atan2(r.m33);
-    let b = (-r.m31).atan2(r.m32.hypot(r.m33));
-    let c = r.m21.atan2(r.m11);
-    [a, b, c].map(f64::to_degrees)
+/// The cosine of B below which A and C turn about the same axis: a pose settles their sum or difference
+/// alone, and rounding would settle the rest.
+const POLE_COS: f64 = 1e-9;
+
+/// A, B and C of R = Rz(C) Ry(B) Rx(A) nearest to some others. Every pose has two such triples: one with B
+/// from −90° to 90°, and A + 180°, 180° − B, C + 180°.
+fn angles_deg(r: &Matrix3<f64>, near: [f64; 3]) -> [f64; 3] {
+    let cos = r.m32.hypot(r.m33);
+    let b = (-r.m31).atan2(cos);
+    let [a, c] = if cos > POLE_COS {
+        [r.m32.atan2(r.m33), r.m21.atan2(r.m11)]
+    } else {
+        // The second column of R·Rx(−A) = Rz(C)·Ry(B) is (−sin C, cos C, 0), whatever A is.
+        let (sin_a, cos_a) = near[0].to_radians().sin_cos();
+        let [x, y] = [[r.m12, r.m13], [r.m22, r.m23]].map(|[s, t]| cos_a * s - sin_a * t);
+        [near[0].to_radians(), (-x).atan2(y)]
+    };
+    let [a, b, c] = [a, b, c].map(f64::to_degrees);
+    let [first, second] = [[a, b, c], [a + 180.0, 180.0 - b, c + 180.0]].map(|angles| {
+        // Angles of a matrix are within a turn; an axis may have made several.
+        let turned = |i: usize| angles[i] + 360.0 * ((near[i] - angles[i]) / 360.0).round();
+        [turned(0), turned(1), turned(2)]
+    });
+    let away = |angles: &[f64; 3]| -> f64 {
+        let pairs = angles.iter().zip(near);
+        pairs.map(|(angle, near)| (angle - near).abs()).sum()
+    };
+    if away(&second) < away(&first) {
+        second
+    } else {
+        first
+    }
 }
 
 #[cfg(test)]
@@ -114,6 +134,25 @@ mod tests {
             worst = worst.max(steps);
         }
         assert!(worst <= 7, "{worst} steps");
+    }
+
+    #[test]
+    fn angles_are_those_next_to_the_ones_that_they_were() {
+        for b in [-120.0, -90.0, -89.0, 0.0, 60.0, 90.0, 91.0, 120.0, 300.0] {
+            let axes = AxisVector::from_column_slice(&[0., 0., 0., 10.0, b, 350.0, 0., 0., 0.]);
+            let pose = Hexapod::paired(150.0, 150.0, 8.0).pose(&axes);
+            let angles = angles_deg(&pose.rotation, [11.0, b - 0.5, 349.0]);
+            let back = AxisVector::from_column_slice(&[
+                0., 0., 0., angles[0], angles[1], angles[2], 0., 0., 0.,
+            ]);
+            let again = Hexapod::paired(150.0, 150.0, 8.0).pose(&back);
+            assert!((again.rotation - pose.rotation).norm() < 1e-9, "{b}");
+            let is_near = |angle: f64, wanted: f64| (angle - wanted).abs() < 3.0;
+            assert!(
+                is_near(angles[0], 10.0) && is_near(angles[1], b) && is_near(angles[2], 350.0),
+                "{b}: {angles:?}"
+            );
+        }
     }
 
     #[test]
