@@ -182,6 +182,7 @@ pub(crate) fn rest_to_rest_t(length: f64, top: f64, limits: PathLimits) -> f64 {
 fn curve_speed<const D: usize>(path: &ScaledPath<D>, i: usize) -> f64 {
     let segments = &path.segments;
     let at = segments[i].s;
+    let middle = |i: usize| segments[i].s + 0.5 * segments[i].length;
     // An arc that turns by an angle over twice the reach is angle·reach/4 high: a radius, where half of
     // angle·reach is two.
     let room = 2.0 * segments[i - 1].radius.min(segments[i].radius);
@@ -194,11 +195,10 @@ fn curve_speed<const D: usize>(path: &ScaledPath<D>, i: usize) -> f64 {
             core::array::from_fn(|k| segments[high].tangent[k] - segments[low].tangent[k]);
         let angle = dot(&turn, &turn).sqrt();
         if 0.5 * angle * reach >= room {
-            // Of an arc (2 − 1/n) times its curvature, with n chords on either side: their directions turn
-            // over nearly twice the reach. So it is up to 1.41 times slower than acceleration would allow,
-            // 1.59 times than jerk would. The pace of windows learns that. One that goes on at the feed
-            // has none ([`super::at_feed`]): arcs whose feed is between both are searched for.
-            let curvature = angle / reach;
+            // Chords have the directions of an arc in their middles. Where one side goes on far, the bend
+            // is within the reach.
+            let bend = (middle(high) - middle(low)).min(2.0 * reach);
+            let curvature = angle / bend;
             for k in 0..D {
                 let share = turn[k].abs() / angle;
                 let (a, j) = (path.acceleration[k], path.jerk[k]);
