@@ -13,24 +13,25 @@ use std::time::{Duration, Instant};
 const PATIENCE: Duration = Duration::from_secs(40);
 
 struct Machine {
-    instance: String,
+    /// Where its processes meet. They are killed, and would leave their shared memory elsewhere.
+    runtime: tempfile::TempDir,
     interpolator: Child,
     planner: Child,
 }
 
 impl Machine {
     fn start() -> Self {
-        let instance = format!("jobs-{}", std::process::id());
+        let runtime = tempfile::tempdir_in("/dev/shm").unwrap();
         let start = |args: &[&str]| {
             let mut command = Command::new(env!("CARGO_BIN_EXE_glidepath"));
-            let command = command.args(args).args(["--instance", &instance]);
+            let command = command.args(args).env("XDG_RUNTIME_DIR", runtime.path());
             let command = command.stdin(Stdio::null()).stdout(Stdio::null());
             command.stderr(Stdio::null()).spawn().unwrap()
         };
         let interpolator = start(&["interpolator", "--best-effort"]);
         let planner = start(&["planner", "--listen"]);
         let machine = Self {
-            instance,
+            runtime,
             interpolator,
             planner,
         };
@@ -43,7 +44,9 @@ impl Machine {
 
     fn begin(&self, args: &[&str]) -> Child {
         let mut command = Command::new(env!("CARGO_BIN_EXE_glidepath"));
-        let command = command.args(args).args(["--instance", &self.instance]);
+        let command = command
+            .args(args)
+            .env("XDG_RUNTIME_DIR", self.runtime.path());
         let command = command.stdin(Stdio::null()).stdout(Stdio::piped());
         command.stderr(Stdio::piped()).spawn().unwrap()
     }

@@ -14,6 +14,8 @@ use std::sync::atomic::{AtomicU32, Ordering};
 
 struct Machine {
     folder: tempfile::TempDir,
+    /// Where its processes meet. They are killed, and would leave their shared memory elsewhere.
+    runtime: tempfile::TempDir,
 }
 
 impl Machine {
@@ -22,12 +24,19 @@ impl Machine {
         let mill = include_str!("../../../../config/mill.toml");
         let mill = mill.replace("# directory = \"state\"", "directory = \"state\"");
         std::fs::write(folder.path().join("mill.toml"), mill).unwrap();
-        Self { folder }
+        let runtime = tempfile::tempdir_in("/dev/shm").unwrap();
+        Self { folder, runtime }
+    }
+
+    fn command(&self) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_glidepath"));
+        command.env("XDG_RUNTIME_DIR", self.runtime.path());
+        command
     }
 
     /// A process that goes on, in an instance.
     fn start(&self, instance: &str, args: &[&str]) -> Running {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_glidepath"));
+        let mut command = self.command();
         command.args(args).args(["--instance", instance]);
         command.arg("--config").arg(self.path("mill.toml"));
         command.stdout(Stdio::null()).stderr(Stdio::null());
@@ -44,7 +53,7 @@ impl Machine {
     }
 
     fn glidepath(&self, args: &[&str]) -> Output {
-        Command::new(env!("CARGO_BIN_EXE_glidepath"))
+        self.command()
             .args(args)
             .arg("--config")
             .arg(self.path("mill.toml"))
@@ -66,7 +75,8 @@ impl Machine {
         static STARTED: AtomicU32 = AtomicU32::new(0);
         let number = STARTED.fetch_add(1, Ordering::Relaxed);
         let instance = format!("kept-{}-{number}", std::process::id());
-        let mut interpolator = Command::new(env!("CARGO_BIN_EXE_glidepath"))
+        let mut interpolator = self
+            .command()
             .args([
                 "interpolator",
                 "--best-effort",

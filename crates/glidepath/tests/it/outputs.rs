@@ -401,6 +401,40 @@ fn a_limit_of_the_size_of_files_is_told_where_it_is_met() {
     assert_eq!(names(here), ["part.ngc"]);
 }
 
+/// A run that is killed removes nothing: the next one does, when the processes of the first have ended.
+#[test]
+fn the_shared_memory_of_a_run_that_was_killed_goes_with_the_next_run() {
+    let folder = tempfile::tempdir_in("/dev/shm").unwrap();
+    let here = folder.path();
+    fs::write(here.join("part.ngc"), "G21 G90\nG1 X10 F60\nM2\n").unwrap();
+    fs::write(here.join("short.ngc"), "G21 G90\nG0 X.1\nM2\n").unwrap();
+    let run = |program: &str| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_glidepath"));
+        command
+            .current_dir(here)
+            .env("XDG_RUNTIME_DIR", here)
+            .args(["run", program, "--best-effort", "--force"]);
+        command.stdout(Stdio::null()).stderr(Stdio::null());
+        command.spawn().unwrap()
+    };
+    let left = || {
+        let runs = fs::read_dir(here.join("glidepath")).into_iter().flatten();
+        runs.count()
+    };
+    let begun = Instant::now();
+    let mut killed = run("part.ngc");
+    while left() == 0 {
+        assert!(begun.elapsed() < Duration::from_secs(60));
+    }
+    killed.kill().unwrap();
+    killed.wait().unwrap();
+    assert_eq!(left(), 1);
+    while left() > 0 {
+        assert!(begun.elapsed() < Duration::from_secs(60));
+        assert!(run("short.ngc").wait().unwrap().success());
+    }
+}
+
 /// Waits until a command that reads a program of a folder has two more of its files open, named or not.
 fn wait_for_outputs(command: &mut Child, folder: &Path, program: &str) {
     let descriptors = format!("/proc/{}/fd", command.id());

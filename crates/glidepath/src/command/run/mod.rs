@@ -10,6 +10,7 @@
 //! processes end, then the instance's shared memory is removed.
 
 mod child;
+mod instance;
 mod left;
 mod monitor;
 mod pipe;
@@ -28,7 +29,7 @@ use crate::progress::Progress;
 use crate::recording::Recording;
 use crate::report::{DiagnosisReport, Planning, RunReport};
 use child::Process;
-use glidepath_link::{Ipc, LinkConfig, Status, remove_leftovers};
+use glidepath_link::{Ipc, Status};
 use left::Left;
 use monitor::Monitor;
 pub(in crate::command) use pipe::Farewell;
@@ -139,14 +140,6 @@ fn plot_path(args: &RunArgs, guard: &Guard) -> Option<PathBuf> {
     }
 }
 
-/// A name for the shared memory that no other run has.
-#[expect(clippy::disallowed_methods, reason = "a name")]
-fn own_instance() -> String {
-    let since = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH);
-    let nanos = since.unwrap_or_default().subsec_nanos();
-    format!("run-{}-{nanos:x}", std::process::id())
-}
-
 /// What a run came to.
 struct Played {
     planning: Planning,
@@ -154,17 +147,6 @@ struct Played {
     received: Received,
     /// What the bridge to emulated drives reports; `None` without.
     drives: Option<Value>,
-}
-
-/// Removes an instance's shared memory when everything that used it is gone.
-struct Leftovers(LinkConfig);
-
-impl Drop for Leftovers {
-    fn drop(&mut self) {
-        if let Err(error) = remove_leftovers(&self.0) {
-            output::note(&format!("cannot remove the shared memory: {error}"));
-        }
-    }
 }
 
 struct Supervisor<'a> {
@@ -185,8 +167,9 @@ impl Supervisor<'_> {
             .instance
             .clone()
             .or_else(|| self.config.instance.clone());
-        let instance = named.unwrap_or_else(own_instance);
-        let leftovers = Leftovers(session::link(&instance, self.config));
+        let instance = named.unwrap_or_else(instance::own);
+        instance::remove_killed_runs(&session::link(&instance, self.config));
+        let leftovers = instance::Leftovers(session::link(&instance, self.config));
         let transport = Ipc::connect(&leftovers.0)?;
         let mut monitor = Monitor::new(&transport, &leftovers.0)?;
 
