@@ -190,6 +190,26 @@ fn finishing_executes_the_profile_and_comes_back() {
 }
 
 #[test]
+fn what_a_cycle_along_a_profile_would_leave_undone_is_refused() {
+    finds("G98\nG71 U2.5 R0.5 M8", &["2:1 not-supported"]);
+    finds(
+        "G98\nG71 P10 Q50 U0.6 F300 T0101",
+        &["2:23 not-supported"],
+    );
+    finds("G98\nG70 P10 Q50 M8", &["2:1 not-supported"]);
+    // A corner in front of it has no second move.
+    finds(
+        "G98\nG0 X62 Z2\nG1 X60 F300 ,R2\nG71 U2 R1",
+        &["4:1 not-supported"],
+    );
+    // The passes would be those of the values from before the profile.
+    finds(
+        "G98\nG0 X62 Z2\nG71 U2 R1\nG71 P10 Q50 U0 F300\nN10 G0 X20\n#1=40\nN50 G1 X#1 F100",
+        &["6:1 not-supported"],
+    );
+}
+
+#[test]
 fn grooves_and_holes_go_by_depths() {
     let drill = ends("G98\nG0 X0 Z2\nG74 R1\nG74 Z-10 Q5000 F300");
     assert_eq!(

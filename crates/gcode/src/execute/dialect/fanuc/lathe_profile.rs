@@ -29,6 +29,7 @@ use crate::execute::program::Program;
 use crate::execute::scope::ProgramScope;
 use crate::execute::state::fanuc_modal::Repeating;
 use crate::syntax::block::Block;
+use crate::syntax::codes::Codes;
 use crate::syntax::dialect::fanuc::{Statement, is_label, is_numbered, statement};
 use crate::syntax::letters::Letters;
 use crate::syntax::modes::{LatheCycle, Motion, Units};
@@ -46,6 +47,8 @@ impl<R: BufRead> Program<R> {
         let block = self.block.clone();
         self.begun = true;
         self.interpreter.begin(line);
+        check_alone(&block)?;
+        self.settle_corner_before_cycle(&block)?;
         let numbers = [b'P', b'Q'].map(|letter| whole(&block, letter, MOST_NUMBER));
         let [first, last] = numbers;
         match (first?, last?) {
@@ -82,6 +85,13 @@ impl<R: BufRead> Program<R> {
             }
         }
         Ok(true)
+    }
+
+    /// A corner that is broken has its second move in front of the cycle.
+    fn settle_corner_before_cycle(&mut self, block: &Block) -> Outcome<()> {
+        let span = block.motion_span();
+        self.interpreter
+            .settle_corner_before(block, span, &mut self.items)
     }
 
     /// The first and the last line of the profile.
@@ -121,8 +131,8 @@ impl<R: BufRead> Program<R> {
         line: u32,
     ) -> Outcome<()> {
         let used = match cycle {
-            LatheCycle::Repeat => Letters::of(b"PQUWFSTDIK"),
-            _ => Letters::of(b"PQUWFSTD"),
+            LatheCycle::Repeat => Letters::of(b"PQUWFSDIK"),
+            _ => Letters::of(b"PQUWFSD"),
         };
         if let Some((letter, span)) = block.unused(used) {
             return Err(unused(letter, span));
@@ -166,17 +176,17 @@ impl<R: BufRead> Program<R> {
     /// Takes a block into the profile.
     fn draw_fanuc_block(&mut self, text: &[u8], profile: &mut LatheProfile) -> Outcome<()> {
         if statement(text).0 != Statement::Block {
-            let span = SourceSpan::new(0, text.len());
-            let message = "a statement in the profile of a cycle";
-            return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
-                .because("a profile is drawn by G0, G1, G2 and G3 alone")
-                .help("write its blocks out"));
+            return Err(statement_in_profile(SourceSpan::new(0, text.len())));
         }
         let scope = ProgramScope {
             parameters: &self.parameters,
             interpreter: &self.interpreter,
         };
         self.block.parse(text, &scope)?;
+        // Roughing would draw with the values from before it.
+        if let Some(assignment) = self.block.assignments.first() {
+            return Err(statement_in_profile(assignment.span));
+        }
         let motion = self.block.codes.motion.and_then(|coded| coded.code);
         let motion = motion.or(profile.motion);
         self.block
@@ -199,7 +209,7 @@ impl<R: BufRead> Program<R> {
 
     /// G70: goes to the profile; [`Program::end_finishing`] comes back.
     fn finish_profile(&mut self, block: &Block, [first, last]: [usize; 2]) -> Outcome<()> {
-        if let Some((letter, span)) = block.unused(Letters::of(b"PQFST")) {
+        if let Some((letter, span)) = block.unused(Letters::of(b"PQFS")) {
             return Err(unused(letter, span));
         }
         if self.finishing.is_some() {
@@ -233,6 +243,9 @@ impl<R: BufRead> Program<R> {
         };
         let mut items = Vec::new();
         let block = self.block.clone();
+        let span = block.first_span();
+        self.interpreter
+            .settle_corner_before(&block, span, &mut items)?;
         self.interpreter
             .straight(&block, finishing.start, Pace::Rapid, &mut items)?;
         self.items = items;
@@ -240,6 +253,45 @@ impl<R: BufRead> Program<R> {
         self.tape.go_to(finishing.back);
         Ok(())
     }
+}
+
+/// Refuses what the block of a cycle would leave undone: it has the words of the cycle, F, S, and the codes
+/// that say how these two count.
+fn check_alone(block: &Block) -> Outcome<()> {
+    let refuse = |span: SourceSpan, message: &str, reason: &str| {
+        Err(Fault::new(DiagnosticCode::NotSupported, span, message)
+            .because(reason)
+            .help("write it into a block before the cycle"))
+    };
+    if block.get(b'T').is_some() {
+        return refuse(
+            block.span(b'T'),
+            "T in the block of a cycle along a profile",
+            "with which offset its first way would be made depends on the control",
+        );
+    }
+    let others = Codes {
+        motion: None,
+        feed_mode: None,
+        spindle_mode: None,
+        ..block.codes
+    };
+    if others.any() {
+        return refuse(
+            block.motion_span(),
+            "another code beside a cycle along a profile",
+            "the block of the cycle has its words alone, F and S",
+        );
+    }
+    Ok(())
+}
+
+#[cold]
+fn statement_in_profile(span: SourceSpan) -> Box<Fault> {
+    let message = "a statement in the profile of a cycle";
+    Fault::new(DiagnosticCode::NotSupported, span, message)
+        .because("a profile is drawn by G0, G1, G2 and G3 alone")
+        .help("write its blocks out")
 }
 
 impl Interpreter {
