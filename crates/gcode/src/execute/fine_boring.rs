@@ -29,6 +29,12 @@ impl Interpreter {
                 .because("the tool goes aside along X and Y")
                 .help("write G17 before it"));
         }
+        if self.offsets.is_turned() {
+            let message = "G76 in coordinates that are turned, mirrored or scaled";
+            return Err(Fault::new(DiagnosticCode::CannedCycle, span, message)
+                .because("the spindle stops at an angle of the machine: turned with the coordinates, the way aside would lead the tip into the wall")
+                .help("end what is in force before it (G69, G50, G50.1), or write G86"));
+        }
         self.require_connection(span, "spindle that stops in a known position")?;
         let mm = self.state.modal.units.mm();
         let way = [b'I', b'J'].map(|letter| block.get(letter));

@@ -273,6 +273,8 @@ fn bored_holes_are_left_beside_the_wall() {
         ("G76 X1 Z-10 R2 I0 F100", "2:1 canned-cycle"),
         ("G18 G76 X1 Y-10 R2 I1 F100", "2:5 canned-cycle"),
         ("M5\nG76 X1 Z-10 R2 I1 F100", "3:1 spindle"),
+        ("G68 X0 Y0 R90\nG76 X1 Z-10 R2 I1 F100", "3:1 canned-cycle"),
+        ("G51.1 X0\nG76 X1 Z-10 R2 I1 F100", "3:1 canned-cycle"),
     ] {
         finds(&format!("{head}{words}"), &[expected]);
     }
