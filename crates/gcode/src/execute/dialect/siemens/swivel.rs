@@ -4,7 +4,7 @@
 //! Y0, Z0, the axes turn by A, B and C one after the other, about those that MODE names, and in the new
 //! axes the zero goes on by X1, Y1, Z1. Then the rotary axes turn until the tool stands along the
 //! normal: DIR says by which of the two ways. With FR 1 the tool goes up along the machine's Z before
-//! that, with ones of ST that are 1 the plane counts in the one in force.
+//! that, with ones of ST that are 1 the plane counts in the one in force. Its tens to ten thousands are 0.
 
 use std::io::BufRead;
 
@@ -222,6 +222,15 @@ fn check_rest(
             "CYCLE800 with other ones of ST than 0 and 1 is not supported",
             "0 is a new plane, 1 one that counts in the plane in force",
             "write the plane as a whole, with ST 0",
+        );
+    }
+    // The hundred thousands say how the dialog shows DIR.
+    let others = (value(2).abs() / 10.0).trunc() % 10_000.0;
+    if others > 0.0 {
+        return refuse(
+            "CYCLE800 with tens to ten thousands of ST is not supported",
+            "they have the tip stay where it is while the rotary axes turn, or align the tool",
+            "write 0 there, and TRAORI where the tip is to stay",
         );
     }
     if numbers.len() > COUNT {
