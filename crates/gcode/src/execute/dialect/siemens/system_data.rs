@@ -141,6 +141,7 @@ impl<R: BufRead> Program<R> {
             EdgePart::Length(axis) => tool.offset[axis] = value_mm,
             EdgePart::Radius => tool.diameter_mm = 2.0 * value_mm,
         });
+        self.interpreter.changes = self.interpreter.changes.saturating_add(1);
         Ok(())
     }
 }
