@@ -66,15 +66,18 @@ impl Interpreter {
         })
     }
 
-    /// True for a block that puts another tool, or another way to follow the path, in force: the two moves
-    /// of a corner have to have the same.
+    /// True for a block that puts another plane, another tool, or another way to follow the path, in force: the
+    /// two moves of a corner have to have the same.
     fn changes_path(&self, block: &Block) -> bool {
         let codes = &block.codes;
         let changes_tool = codes.tool_change.is_some()
             || block.dialect != Dialect::LinuxCnc && block.has_any(Letters::of(b"TDH"));
         let changes_speed = codes.spindle_mode.is_some() || block.get(b'S').is_some();
+        let plane = self.state.modal.plane;
+        let changes_plane = codes.plane.is_some_and(|coded| coded.code != plane);
         let counts_turns = self.state.modal.feed_mode == FeedMode::PerRevolution;
         changes_tool
+            || changes_plane
             || codes.cutter_radius.is_some()
             || codes.tool_length.is_some()
             || codes.tip.is_some()
@@ -305,7 +308,8 @@ fn no_second_move(span: SourceSpan) -> Box<Fault> {
 
 #[cold]
 fn changed_between(span: SourceSpan) -> Box<Fault> {
-    let message = "a corner that is broken in front of another tool, compensation or spindle speed";
+    let message =
+        "a corner that is broken in front of another plane, tool, compensation or spindle speed";
     Fault::new(DiagnosticCode::NotSupported, span, message)
         .because("both moves of a corner have to be made with the same")
         .help("write the change into the block before the corner, or write the chamfer or arc out")
