@@ -5,6 +5,7 @@ use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::output;
 use crate::report::awaited_code;
+use glidepath_interpolator::{Answer, Gates};
 use glidepath_link::{
     Auxiliary, Ipc, LinkError, MachineState, Record as _, Status, Subscriber, Transport as _,
 };
@@ -22,11 +23,13 @@ const EVERY: Duration = Duration::from_millis(20);
 const SILENCE: Duration = Duration::from_secs(1);
 
 /// What the machine waits for, and what of it was told.
-pub(super) struct Attention {
+struct Attention {
     statuses: Box<dyn Subscriber<Status>>,
     records: Box<dyn Subscriber<Auxiliary>>,
     told: Option<Auxiliary>,
     names: ToolNames,
+    /// Who answers the M codes that are waited for.
+    gates: Gates,
     /// Whether anything was heard of an interpolator.
     is_heard: bool,
     /// Where something was asked, since when, and whether that was told: the epoch and the frames
@@ -61,9 +64,12 @@ impl Waiting {
         }
         self.looked = Instant::now();
         if let Some(attention) = &mut self.attention
-            && attention.look().is_err()
+            && let Err(failure) = attention.look()
         {
             self.attention = None;
+            output::note(&format!(
+                "what the machine waits for is not told any more: {failure}; see `glidepath status`"
+            ));
         }
     }
 
@@ -82,19 +88,20 @@ impl Waiting {
 }
 
 impl Attention {
-    pub(super) fn new(transport: &Ipc, config: &MachineConfig) -> Result<Self, Failure> {
+    fn new(transport: &Ipc, config: &MachineConfig) -> Result<Self, Failure> {
         Ok(Self {
             statuses: transport.status_source()?,
             records: transport.auxiliary_source()?,
             told: None,
             names: ToolNames::new(config),
+            gates: config.gates(),
             is_heard: false,
             asked: None,
         })
     }
 
     /// Tells what is waited for, once.
-    pub(super) fn look(&mut self) -> Result<(), Failure> {
+    fn look(&mut self) -> Result<(), Failure> {
         while let Some(record) = self.records.take()? {
             record.check().map_err(LinkError::from)?;
             self.told = Some(record);
@@ -152,21 +159,36 @@ impl Attention {
             return None;
         }
         let line = status.awaited_line;
-        let asked = match status.awaited_event().ok()?? {
-            Event::MCode(6) | Event::Await(6) => match self.names.asked(status, self.told.as_ref())
-            {
-                Some(tool) => format!("change to {tool}"),
-                None => "change the tool".to_owned(),
-            },
-            Event::MCode(_) | Event::Await(_) => {
-                format!("the program asks {}", awaited_code(status))
-            }
+        let (Event::MCode(code) | Event::Await(code)) = status.awaited_event().ok()?? else {
             // The spindle answers that.
-            _ => return None,
+            return None;
+        };
+        let answer = self.gates.of(code).map(|gate| gate.answer);
+        let done = how_done(answer)?;
+        let asked = match self.names.asked(status, self.told.as_ref()) {
+            Some(tool) => format!("change to {tool}"),
+            None if code == 6 => "change the tool".to_owned(),
+            None => format!("the program asks {}", awaited_code(status)),
         };
         Some(format!(
-            "line {line}: {asked}; when that is done: `glidepath acknowledge`, and if it cannot be \
-             done: `glidepath acknowledge --fail \"why\"`"
+            "line {line}: {asked}; {done}, and if it cannot be done: `glidepath acknowledge --fail \"why\"`"
         ))
+    }
+}
+
+/// How it is known that what was asked is done; `None`: the spindle says so, and nobody has to do anything.
+fn how_done(answer: Option<Answer>) -> Option<String> {
+    match answer {
+        None | Some(Answer::Nobody | Answer::Acknowledgement) => {
+            Some("when that is done: `glidepath acknowledge`".to_owned())
+        }
+        Some(Answer::Input { number, .. }) => Some(format!("input {number} says when that is done")),
+        Some(Answer::Planner) => Some("the input says when that is done".to_owned()),
+        Some(
+            Answer::SpindleAtSpeed
+            | Answer::SpindleStopped
+            | Answer::SpindleOriented
+            | Answer::SpindleAngle,
+        ) => None,
     }
 }

@@ -1,6 +1,6 @@
 //! `glidepath mdi` and `glidepath run-file`: what the planner's service is to execute.
 
-use super::attention::Attention;
+use super::attention::Waiting;
 use super::operator::reach;
 use super::session;
 use crate::cli::{InstanceArgs, MdiArgs, RunFileArgs};
@@ -106,7 +106,8 @@ fn execute(
 ) -> Result<String, Failure> {
     let interrupt = Interrupt::install().map_err(Failure::Signals)?;
     let transport = session::join(args, config)?;
-    let mut attention = Attention::new(&transport, config)?;
+    // Where the machine cannot be watched, the job goes on, and this waits for its end.
+    let mut waiting = Waiting::new(Some((&transport, config)));
     let link = session::link(&session::instance(args, config), config);
     let mut desk = Desk {
         client: transport.job_client()?,
@@ -122,7 +123,6 @@ fn execute(
         let text = reply.text.as_str().to_owned();
         match reply.state().map_err(LinkError::from)? {
             JobState::Running => {
-                attention.look()?;
                 desk.is_taken = true;
                 desk.told.tell(&text);
                 let wish = desk.wish()?;
@@ -158,7 +158,7 @@ fn execute(
                 });
             }
         }
-        std::thread::sleep(POLL);
+        waiting.pause(POLL);
     }
 }
 
