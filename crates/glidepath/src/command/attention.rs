@@ -32,9 +32,9 @@ struct Attention {
     gates: Gates,
     /// Whether anything was heard of an interpolator.
     is_heard: bool,
-    /// Where something was asked, since when, and whether that was told: the epoch and the frames
-    /// executed. What is said of it comes a moment later.
-    asked: Option<((u64, u64), Instant, bool)>,
+    /// Where something was asked, since when, and whether that was told: the epoch, the frames
+    /// executed and the code of the state. What is said of it comes a moment later.
+    asked: Option<((u64, u64, u32), Instant, bool)>,
 }
 
 /// A client's waiting, at which it looks now and then what the machine waits for.
@@ -119,7 +119,7 @@ impl Attention {
             self.asked = None;
             return Ok(());
         };
-        let place = (status.epoch, status.frames_executed);
+        let place = (status.epoch, status.frames_executed, status.state);
         let of_place = self.asked.filter(|(asked, ..)| *asked == place);
         let (_, since, is_told) = of_place.unwrap_or((place, Instant::now(), false));
         let is_held = matches!(
