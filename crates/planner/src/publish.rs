@@ -166,6 +166,12 @@ impl<'t> Publisher<'t> {
         self.machine.line()
     }
 
+    /// Number of the epoch that the machine is in, or was in last; `None` if unknown.
+    #[must_use]
+    pub fn epoch(&self) -> Option<u64> {
+        Some(self.machine.status()?.epoch)
+    }
+
     /// Answers what the program asks of inputs, once the machine rests where it asks.
     fn answer_inputs(&mut self, epoch: &Epoch, waited: Duration) -> Result<(), RunError> {
         let Some(inputs) = &mut self.inputs else {

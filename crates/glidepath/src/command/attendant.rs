@@ -18,8 +18,8 @@ use std::cell::{Cell, RefCell};
 #[derive(Debug)]
 pub(super) struct Attendant {
     quiet: bool,
-    /// Whether a frame was delivered.
-    has_started: Cell<bool>,
+    /// The epoch of which a frame was delivered first.
+    first_epoch: Cell<Option<u64>>,
     keeper: RefCell<Option<Keeper>>,
     remarks: RemarkLog,
     inputs: InputDesk,
@@ -41,7 +41,7 @@ impl Attendant {
         });
         Ok(Self {
             quiet,
-            has_started: Cell::new(false),
+            first_epoch: Cell::new(None),
             keeper: RefCell::new(keeper),
             remarks: RemarkLog::default(),
             inputs: InputDesk::default(),
@@ -80,7 +80,14 @@ impl Attendant {
 
     /// Whether a frame was delivered.
     pub(super) fn has_started(&self) -> bool {
-        self.has_started.get()
+        self.first_epoch.get().is_some()
+    }
+
+    /// Whether the machine came into the program: what it says of blocks and of its end is of this one. A frame
+    /// that was delivered may have been too late for that.
+    pub(super) fn has_begun(&self, publisher: &Publisher<'_>) -> bool {
+        let first = self.first_epoch.get();
+        first.zip(publisher.epoch()).is_some_and(|(first, now)| now >= first)
     }
 
     /// Whether what programs leave behind is kept in files.
@@ -156,7 +163,10 @@ impl Attendant {
     /// Takes notice of how the run goes, and says nothing of it.
     pub(super) fn notice(&self, notice: &Notice<'_>, config: &MachineConfig) {
         match notice {
-            Notice::Started { .. } => self.has_started.set(true),
+            Notice::Started { epoch } => {
+                let first = self.first_epoch.get().unwrap_or(*epoch);
+                self.first_epoch.set(Some(first));
+            }
             Notice::Progress(progress) => {
                 if let Some(keeper) = &mut *self.keeper.borrow_mut() {
                     keeper.executed(progress.block, config);
@@ -179,22 +189,26 @@ impl Attendant {
         let Some(keeper) = self.keeper.take() else {
             return Ok(());
         };
+        // Where nobody answers any more, nobody knows whether the machine rests, or how far it came.
+        let is_lost = matches!(
+            published,
+            Err(RunError::InterpolatorLost
+                | RunError::InterpolatorSilent { .. }
+                | RunError::Link(_))
+        );
+        // Before the program has begun, the machine tells of the one before it.
+        let has_begun = self.has_begun(publisher);
         let kept = match (published, publisher.resume_point()) {
-            (Ok(_), _) | (_, Err(RunError::Resume(ResumeError::Completed))) => {
+            (Ok(_), _) => keeper.completed(publisher.position(), config),
+            (Err(_), Err(RunError::Resume(ResumeError::Completed))) if has_begun => {
                 keeper.completed(publisher.position(), config)
             }
-            (Err(error), Ok(point)) if self.has_started.get() => {
-                // Where nobody answers any more, nobody knows whether the machine rests.
-                let is_lost = matches!(
-                    error,
-                    RunError::InterpolatorLost
-                        | RunError::InterpolatorSilent { .. }
-                        | RunError::Link(_)
-                );
+            (Err(_), Ok(point)) if has_begun => {
                 let position = (!is_lost).then_some(point.position);
                 keeper.left(point.block, position, config)
             }
-            (Err(_), _) => keeper.left(0, None, config),
+            (Err(_), _) if has_begun || is_lost => keeper.left(0, None, config),
+            (Err(_), _) => keeper.not_begun(),
         };
         let failed = kept.map_err(Failure::from);
         // The run has failed already, and is told as that.

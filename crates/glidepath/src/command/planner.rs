@@ -253,7 +253,8 @@ impl Job<'_> {
     /// Why the motion ended before the program, with what goes on with it, if that is a file. Whoever
     /// started this one has a way of its own.
     fn ended_early(&self, error: RunError, is_pipe: bool) -> Failure {
-        let may_go_on = !is_pipe && !self.attendant.is_quiet() && self.attendant.has_started();
+        let has_begun = self.attendant.has_begun(&self.publisher);
+        let may_go_on = !is_pipe && !self.attendant.is_quiet() && has_begun;
         let how = ("planner", self.file.path());
         let left = may_go_on.then(|| going_on::told(&error, &self.publisher, how));
         match left.flatten() {

@@ -120,6 +120,9 @@ impl<'c> Workshop<'c> {
         });
         // Where the motion ended before the lines did, what its executed part has left.
         let left = in_force.or_else(|| {
+            if !attendant.has_begun(bench.publisher) {
+                return None;
+            }
             let ended = JobLeft::of(bench.publisher, bench.control);
             let in_force = inbox.in_force_at(bench.publisher.block())?;
             let began = self.in_force.as_ref().map_or(0, InForce::tool);
@@ -382,7 +385,7 @@ impl<'c> Workshop<'c> {
                 stop => stop,
             },
             error => {
-                let file = bench.file.filter(|_| attendant.has_started());
+                let file = bench.file.filter(|_| attendant.has_begun(bench.publisher));
                 let left = file
                     .and_then(|file| going_on::told(&error, bench.publisher, ("run-file", file)));
                 Stop::Failed(match left {
@@ -408,7 +411,7 @@ impl<'c> Workshop<'c> {
         if left.is_some() {
             self.in_force = left;
         }
-        if run.is_ok() || !attendant.has_started() {
+        if run.is_ok() || !attendant.has_begun(bench.publisher) {
             return;
         }
         let ended = JobLeft::of(bench.publisher, bench.control);

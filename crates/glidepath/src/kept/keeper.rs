@@ -30,6 +30,8 @@ pub(crate) struct Keeper {
     before: (Offsets, Arc<ToolTable>),
     log: ChangeLog,
     is_resumed: bool,
+    /// The program under way before it.
+    replaced: Option<UnderWay>,
     folder: PathBuf,
     store: Writing,
     _lock: DirectoryLock,
@@ -81,6 +83,7 @@ impl Keeper {
             kept,
             log: ChangeLog::default(),
             is_resumed: false,
+            replaced: None,
             folder,
             store: Writing::Here(store),
             _lock: lock,
@@ -123,6 +126,7 @@ impl Keeper {
     /// It cannot be written: nothing may move.
     pub(crate) fn begin(mut self, program: u64, start: &AxisVector) -> Result<Self, StateError> {
         let begun = self.kept.under_way.take();
+        self.replaced.clone_from(&begun);
         // A program that is resumed began when it did; one from a pipe cannot be resumed.
         self.kept.under_way = begun.filter(|_| self.is_resumed).or_else(|| {
             let begun = UnderWay {
@@ -176,6 +180,12 @@ impl Keeper {
             self.take(&set_up, config);
         }
         self.end(position)
+    }
+
+    /// Nothing of the program was executed: what was left before it is what can be resumed.
+    pub(crate) fn not_begun(mut self) -> Result<(), StateError> {
+        self.kept.under_way = self.replaced.take();
+        self.end(None)
     }
 
     fn end(mut self, position: Option<AxisVector>) -> Result<(), StateError> {
