@@ -394,7 +394,9 @@ impl<'c> Workshop<'c> {
                 })
             }
         });
-        let run = run.and_then(|statistics| kept.map(|()| statistics).map_err(Stop::from));
+        // It was executed, and cannot be refused any more.
+        let not_kept = |failure: Failure| Stop::Failed(format!("executed, but {failure}"));
+        let run = run.and_then(|statistics| kept.map(|()| statistics).map_err(not_kept));
         (run, left)
     }
 
@@ -410,6 +412,7 @@ impl<'c> Workshop<'c> {
     ) {
         if left.is_some() {
             self.in_force = left;
+            return;
         }
         if run.is_ok() || !attendant.has_begun(bench.publisher) {
             return;
