@@ -37,12 +37,14 @@ impl JobLeft {
         mut source: ProgramSource<R>,
     ) -> Result<InForce, Refusal> {
         let began = source.in_force().tool();
-        let mut last = None;
+        let (mut last, mut line) = (None, 0);
         for _ in 0..self.block {
             match source.next_item() {
-                Supply::Item(item) => last = Some(item.kind),
+                Supply::Item(item) => (last, line) = (Some(item.kind), item.line),
                 Supply::Refused(error) => return Err(error),
-                Supply::Pending | Supply::Probe | Supply::End => break,
+                // What follows depends on an answer that is not kept.
+                Supply::Pending | Supply::Probe => return Err(Refusal::AnswerUnknown { line }),
+                Supply::End => break,
             }
         }
         let in_force = source.in_force();

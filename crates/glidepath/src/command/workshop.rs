@@ -157,10 +157,10 @@ impl<'c> Workshop<'c> {
         let attended = source(options()).attended(attendant.attending());
         self.keep_resume_point(bench.publisher);
         let pipeline = Pipeline::new(attended, config.settings(), start);
-        let (run, in_force) = Self::publish(pipeline, (&config, &attendant), start, bench, |p| {
+        let (mut run, in_force) = Self::publish(pipeline, (&config, &attendant), start, bench, |p| {
             Some(p.in_force())
         });
-        self.settle(&run, in_force, bench, &attendant, || {
+        self.settle(&mut run, in_force, bench, &attendant, || {
             let options = unwatched(&config).program_options(start);
             Ok(Some(source(options).attended(recalling(&config, 0))))
         });
@@ -255,8 +255,8 @@ impl<'c> Workshop<'c> {
                 })
             }
         };
-        let (run, in_force) = run;
-        self.settle(&run, in_force, bench, &attendant, || {
+        let (mut run, in_force) = run;
+        self.settle(&mut run, in_force, bench, &attendant, || {
             let options = unwatched(&config).program_options(begins.start);
             let source = FileSource::unchecked(file.path, options, &settings)?;
             Ok(match source.attended(recalling(&config, fingerprint)) {
@@ -404,7 +404,7 @@ impl<'c> Workshop<'c> {
     /// it did, what it left at the block that was executed.
     fn settle<R: io::BufRead>(
         &mut self,
-        run: &Result<Statistics, Stop>,
+        run: &mut Result<Statistics, Stop>,
         left: Option<InForce>,
         bench: &mut Bench<'_, '_, '_>,
         attendant: &Attendant,
@@ -429,7 +429,12 @@ impl<'c> Workshop<'c> {
             Ok(Ok(Some(in_force))) => self.in_force = Some(in_force),
             Ok(Ok(None)) | Err(_) => {}
             Ok(Err(error)) => {
-                output::note(&format!("planner: what was in force is not known: {error}"));
+                // Whoever goes on has to know: the next job begins with what was so before this one.
+                let unknown = format!("modes and offsets are those from before it: {error}");
+                match run {
+                    Err(Stop::Failed(text)) => *text = format!("{text}; {unknown}"),
+                    _ => output::note(&format!("planner: {unknown}")),
+                }
             }
         }
     }
