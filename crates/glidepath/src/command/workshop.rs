@@ -222,19 +222,26 @@ impl<'c> Workshop<'c> {
                 let restoring = rest.restoring(&now);
                 let restoring = restoring.map_err(|error| Stop::Refused(error.to_string()))?;
                 attendant.begin_here()?;
-                (self.has_lines, self.left) = (false, None);
                 let line = rest.line();
                 let pipeline = Pipeline::resuming(rest, settings).beginning_with(restoring, line);
-                Self::publish(pipeline, (&config, &attendant), start, bench, |rest| {
+                let run = Self::publish(pipeline, (&config, &attendant), start, bench, |rest| {
                     rest.source().in_force()
-                })
+                });
+                // Until then it can be resumed as before.
+                if attendant.has_begun(bench.publisher) {
+                    (self.has_lines, self.left) = (false, None);
+                }
+                run
             }
             (None, None) => {
-                self.begin(fingerprint, start, &config);
                 let pipeline = Pipeline::new(source, settings, start);
-                Self::publish(pipeline, (&config, &attendant), start, bench, |source| {
+                let run = Self::publish(pipeline, (&config, &attendant), start, bench, |source| {
                     source.in_force()
-                })
+                });
+                if attendant.has_begun(bench.publisher) {
+                    self.begin(fingerprint, start, &config);
+                }
+                run
             }
             (None, Some(from)) => {
                 let approach = approach(&config, start, bench.publisher, bench.control)?;
@@ -247,12 +254,15 @@ impl<'c> Workshop<'c> {
                     return Err(Stop::ToConfirm(text));
                 }
                 attendant.begin_with(found.block())?;
-                self.begin(fingerprint, start, &config);
                 let rest = found.approached(&approach);
                 let pipeline = Pipeline::resuming(rest, settings);
-                Self::publish(pipeline, (&config, &attendant), start, bench, |rest| {
+                let run = Self::publish(pipeline, (&config, &attendant), start, bench, |rest| {
                     rest.source().in_force()
-                })
+                });
+                if attendant.has_begun(bench.publisher) {
+                    self.begin(fingerprint, start, &config);
+                }
+                run
             }
         };
         let (mut run, in_force) = run;
@@ -273,7 +283,7 @@ impl<'c> Workshop<'c> {
         ))
     }
 
-    /// A program begins: no other one is resumed from now on.
+    /// A program has begun: no other one is resumed from now on.
     fn begin(&mut self, program: u64, start: AxisVector, config: &MachineConfig) {
         let in_force = config.program.in_force.clone();
         self.begun = Some(Begun {
