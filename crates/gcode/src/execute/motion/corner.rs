@@ -18,9 +18,13 @@ use crate::execute::motion::speed::Pace;
 use crate::execute::motion::tangent_arc::direction_behind;
 use crate::execute::state::open_corner::OpenCorner;
 use crate::syntax::block::{Block, CornerKind, CornerWord};
+use crate::syntax::codes::Codes;
 use crate::syntax::dialect::Dialect;
 use crate::syntax::letters::Letters;
 use crate::syntax::modes::{FeedMode, Motion};
+
+/// Most items of blocks between the two moves of a corner.
+const MOST_BEHIND: usize = 8;
 
 /// A move in the plane that begins where the tool is, or at a corner.
 #[derive(Debug, Clone, Copy)]
@@ -54,6 +58,9 @@ impl Interpreter {
         );
         let changes_path = self.changes_path(block);
         if is_move && block.codes.non_modal.is_none() && !changes_path {
+            return Ok(());
+        }
+        if corner.behind.len() < MOST_BEHIND && says_codes_alone(block) {
             return Ok(());
         }
         if corner.may_stay {
@@ -296,6 +303,21 @@ impl Interpreter {
         self.push_move(segment, speed, out);
         Ok(())
     }
+}
+
+/// True for a block of a SINUMERIK with M codes alone that change nothing of the path: the move behind it is the
+/// second one of the corner.
+fn says_codes_alone(block: &Block) -> bool {
+    let codes = &block.codes;
+    let says = codes.coolant.is_some() || codes.user.is_some();
+    let others = Codes {
+        coolant: None,
+        user: None,
+        ..*codes
+    };
+    let has_words = block.unused(Letters::of(b"")).is_some();
+    let is_alone = !others.any() && !has_words && block.corner.is_none();
+    block.dialect == Dialect::Siemens && says && is_alone
 }
 
 #[cold]
