@@ -38,8 +38,8 @@ pub enum ResumeError {
     },
     /// Another tool is in the spindle than the program has put there.
     #[error(
-        "the program was left with {} in the spindle, and now there is {}: put that back, by \
-         `glidepath mdi 'T{expected} M6'`",
+        "the program was left with {} in the spindle, and now there is {}: put that back as programs of \
+         this machine do, in LinuxCNC's words by `glidepath mdi 'T{expected} M6'`",
         ToolName(*.expected), ToolName(*.tool)
     )]
     OtherTool {
