@@ -39,6 +39,7 @@ impl Interpreter {
     /// G96, G97 and S.
     pub(crate) fn spindle_speed(&mut self, block: &Block, out: &mut Vec<Item>) -> Outcome<()> {
         self.speed_limit(block)?;
+        self.end_by_feed_mode(block);
         if let Some(Coded { code, span }) = block.codes.spindle_mode {
             // D of SINUMERIK is the edge of a tool.
             let word = block
@@ -101,6 +102,18 @@ impl Interpreter {
             self.tell_speed(self.state.spindle.allowed(), out);
         }
         Ok(())
+    }
+
+    /// On a SINUMERIK G93 to G97 are one group: a feed mode alone ends G96 and G97, at the speed that there is.
+    fn end_by_feed_mode(&mut self, block: &Block) {
+        let codes = &block.codes;
+        let ends = codes.feed_mode.is_some() && codes.spindle_mode.is_none();
+        if block.dialect == Dialect::Siemens && ends {
+            let spindle = &mut self.state.spindle;
+            spindle.asked = spindle.speed;
+            spindle.is_limited = false;
+            spindle.surface = None;
+        }
     }
 
     /// LIMS.

@@ -162,6 +162,16 @@ fn the_limit_of_the_speed_holds_for_revolutions_too() {
         speeds("G97 S500 LIMS=300 M3\nG973\nG97"),
         [300.0, 500.0, 300.0]
     );
+    // G94 and G95 are of the group of G96: they end it, at the speed that there is.
+    let cutting = "G18\nG0 X100 Z0\nG96 S100 LIMS=3000 M3";
+    assert_eq!(
+        speeds(&format!("{cutting}\nG95 S800\nG1 X5 F0.1")).last(),
+        Some(&800.0)
+    );
+    assert_eq!(
+        speeds(&format!("{cutting}\nG94\nG1 X5 F100")),
+        speeds(cutting)
+    );
     finds("LIMS=0", &["1:1 invalid-value"]);
     finds("LIMS=-5", &["1:1 invalid-value"]);
 }
