@@ -9,6 +9,7 @@ use crate::execute::program::Program;
 use crate::execute::state::coolant::Coolant;
 use crate::execute::state::fanuc_modal::FanucModal;
 use crate::execute::state::in_force::{InForce, InForceParts};
+use crate::execute::state::modal::Modal;
 use crate::execute::state::pole::Pole;
 use crate::execute::state::spindle::Spindle;
 use crate::syntax::modes::{Distance, FeedMode, Motion};
@@ -24,9 +25,12 @@ impl<R: BufRead> Program<R> {
         (state.on_contour, state.leaving_contour, state.cubic_tail) = (false, false, None);
         if self.ended && !self.ran_out {
             let modal = &mut state.modal;
-            modal.plane = Plane::Xy;
             modal.distance = Distance::Absolute;
-            modal.feed_mode = FeedMode::PerMinute;
+            // A lathe of FANUC has one plane, and keeps G98 and G99.
+            if !self.block.is_lathe {
+                modal.plane = Plane::Xy;
+                modal.feed_mode = FeedMode::PerMinute;
+            }
             modal.motion = Some(Motion::Linear);
             state.spindle = Spindle {
                 turning: None,
@@ -44,6 +48,8 @@ impl<R: BufRead> Program<R> {
             offsets: interpreter.offsets.clone(),
             tools: interpreter.tools.clone(),
             parameters,
+            dialect: self.block.dialect,
+            is_lathe: self.block.is_lathe,
         }))
     }
 
@@ -56,6 +62,8 @@ impl<R: BufRead> Program<R> {
             offsets,
             tools,
             parameters,
+            dialect,
+            is_lathe,
         } = in_force.0.as_ref();
         let interpreter = &mut self.interpreter;
         let start = interpreter.options.start;
@@ -65,6 +73,8 @@ impl<R: BufRead> Program<R> {
         interpreter.state.tip = interpreter.options.first_tip();
         interpreter.state.tilted = None;
         interpreter.state.rounds_mm = 0.0;
+        interpreter.state.corner_feed = None;
+        interpreter.state.diameter_by_distance = false;
         interpreter.state.pole = Pole::default();
         interpreter.state.feeds_in_mm = false;
         let map = interpreter.tip_map();
@@ -88,6 +98,28 @@ impl<R: BufRead> Program<R> {
         // Those of another language mean something else.
         if parameters.is_like(&self.parameters) {
             self.parameters = parameters.clone();
+        }
+        if self.block.is_lathe && *is_lathe {
+            self.interpreter.state.fanuc.is_feed_unsaid = state.fanuc.is_feed_unsaid;
+        } else if *dialect != self.block.dialect || self.block.is_lathe != *is_lathe {
+            self.begin_behind_another_language(*is_lathe);
+        }
+    }
+
+    /// Whether X is a diameter, and on lathes of FANUC the plane and what F is, are of a language, and not of what
+    /// another one has left.
+    fn begin_behind_another_language(&mut self, was_lathe: bool) {
+        let options = &self.interpreter.options;
+        let (at_start, feed) = (
+            Modal::new(options.default_feed_mm_min),
+            options.fanuc.feed_at_start,
+        );
+        let modal = &mut self.interpreter.state.modal;
+        modal.diameter = at_start.diameter;
+        if was_lathe || self.block.is_lathe {
+            (modal.motion, modal.plane) = (at_start.motion, at_start.plane);
+            (modal.feed_mode, modal.feed) = (at_start.feed_mode, at_start.feed);
+            self.power_on(feed);
         }
     }
 }

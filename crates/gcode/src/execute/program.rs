@@ -132,7 +132,7 @@ impl<R: BufRead> Program<R> {
     }
 
     /// What is in force when a control of the dialect is switched on, where that is other than LinuxCNC's.
-    fn power_on(&mut self, feed: FeedAtStart) {
+    pub(super) fn power_on(&mut self, feed: FeedAtStart) {
         let state = &mut self.interpreter.state;
         let modal = &mut state.modal;
         match self.block.dialect {

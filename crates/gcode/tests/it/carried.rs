@@ -3,7 +3,10 @@
 
 use std::sync::Arc;
 
-use glidepath_gcode::{Connections, Dialect, InForce, Options, Program, Tool, ToolTable};
+use glidepath_gcode::{
+    Connections, Dialect, FanucControl, FanucParameters, FeedAtStart, InForce, Options, Program, Tool,
+    ToolTable,
+};
 use glidepath_geometry::AxisVector;
 use glidepath_program::{Item, ItemKind};
 
@@ -108,4 +111,45 @@ fn text_of_others_does_no_harm() {
     assert_ne!(wild, text);
     let carried: InForce = toml::from_str(&wild).expect("what is in force");
     assert!(!items("G1 X1 Y2\n", Dialect::LinuxCnc, Some(carried)).is_empty());
+}
+
+/// A lathe of FANUC with a feed per revolution at its start.
+fn lathe(in_force: Option<InForce>) -> Options {
+    Options {
+        fanuc: FanucParameters {
+            control: Some(FanucControl::LatheA),
+            feed_at_start: FeedAtStart::PerRevolution,
+            ..FanucParameters::default()
+        },
+        in_force,
+        ..options(Dialect::Fanuc)
+    }
+}
+
+/// Where the moves end in X, which is a radius there, and what is left.
+fn xs_and_left(text: &str, options: Options) -> (Vec<f64>, InForce) {
+    let mut program = Program::new(text.as_bytes(), options);
+    let ends = program.by_ref().filter_map(|item| {
+        match item.unwrap_or_else(|d| panic!("{text}\n{d}")).kind {
+            ItemKind::Move { segment, .. } => Some(segment.end()[0]),
+            _ => None,
+        }
+    });
+    (ends.collect(), program.in_force())
+}
+
+#[test]
+fn x_is_a_diameter_in_its_own_language_alone() {
+    let (_, line) = xs_and_left("G17 G90 G1 X1 F100\n", options(Dialect::LinuxCnc));
+    let turning = "G0 X50. Z0.\nS500 M3\nG1 Z-5. F0.2\nG2 X60. Z-10. R5.\nM30\n";
+    let (alone, left) = xs_and_left(turning, lathe(None));
+    assert_eq!(alone, [25.0, 25.0, 30.0]);
+    // Behind a line of another language, and behind another program of the same.
+    assert_eq!(xs_and_left(turning, lathe(Some(line))).0, alone);
+    assert_eq!(xs_and_left(turning, lathe(Some(left.clone()))).0, alone);
+    let behind = Options {
+        in_force: Some(left),
+        ..options(Dialect::LinuxCnc)
+    };
+    assert_eq!(xs_and_left("G90 G0 X50\n", behind).0, [50.0]);
 }

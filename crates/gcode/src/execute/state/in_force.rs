@@ -11,6 +11,7 @@ use crate::execute::state::program_state::State;
 use crate::execute::state::words_in_force::words_in_force;
 use crate::setup::tool_table::ToolTable;
 use crate::setup::work_offsets::WorkOffsets;
+use crate::syntax::dialect::Dialect;
 
 /// All that is in force behind a block: modes, feed, spindle, tool, offsets, parameters. Where the
 /// machine stands is no part of it. Clones are the same; it equals nothing but them.
@@ -22,6 +23,12 @@ pub struct InForce(pub(crate) Arc<InForceParts>);
 
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct InForceParts {
+    /// The language of what left it.
+    #[serde(default)]
+    pub(crate) dialect: Dialect,
+    /// It was one of FANUC's lathes.
+    #[serde(default)]
+    pub(crate) is_lathe: bool,
     pub(crate) state: State,
     pub(crate) offsets: Offsets,
     pub(crate) tools: Option<Arc<ToolTable>>,
