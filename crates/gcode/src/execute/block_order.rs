@@ -306,6 +306,9 @@ impl Interpreter {
         {
             self.follow_tip(coded)?;
         }
+        if let Some(Coded { code, .. }) = block.codes.arc_feed {
+            self.state.arc_feed = code;
+        }
         if block.dialect == Dialect::Siemens {
             self.choose_edge(block)?;
         }

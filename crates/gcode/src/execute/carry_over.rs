@@ -40,6 +40,7 @@ impl<R: BufRead> Program<R> {
             };
             state.coolant = Coolant::default();
             state.overrides_off = false;
+            state.arc_feed = self.arc_feed_at_start();
         }
         let mut parameters = self.parameters.clone();
         parameters.leave_all();
@@ -109,6 +110,7 @@ impl<R: BufRead> Program<R> {
     /// Whether X is a diameter, and on lathes of FANUC the plane and what F is, are of a language, and not of what
     /// another one has left.
     fn begin_behind_another_language(&mut self, was_lathe: bool) {
+        self.interpreter.state.arc_feed = self.arc_feed_at_start();
         let options = &self.interpreter.options;
         let (at_start, feed) = (
             Modal::new(options.default_feed_mm_min),

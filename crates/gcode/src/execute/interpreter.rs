@@ -30,7 +30,7 @@ use crate::execute::state::sticky_words::CycleSeries;
 use crate::setup::options::Options;
 use crate::setup::tool_table::ToolTable;
 use crate::syntax::letters::Letters;
-use crate::syntax::modes::Side;
+use crate::syntax::modes::{ArcFeed, Side};
 
 /// Moves that were left out because they go nowhere.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -123,6 +123,7 @@ impl Interpreter {
                 extruder: ExtruderMode::default(),
                 gcode_offset: [0.0; 3],
                 on_contour: false,
+                arc_feed: ArcFeed::default(),
                 contour_side: Side::Left,
                 leaving_contour: false,
                 cubic_tail: None,

@@ -29,7 +29,7 @@ use crate::syntax::block::Block;
 use crate::syntax::cursor::Cursor;
 use crate::syntax::dialect::Dialect;
 use crate::syntax::line_source::LineSource;
-use crate::syntax::modes::{FeedMode, Motion};
+use crate::syntax::modes::{ArcFeed, FeedMode, Motion};
 use crate::syntax::straight_line::StraightLine;
 
 /// A program being read: an iterator of [`Item`]s in constant memory.
@@ -131,8 +131,20 @@ impl<R: BufRead> Program<R> {
         program
     }
 
+    /// What F counts on arcs beside G41 and G42 where a program begins.
+    pub(super) const fn arc_feed_at_start(&self) -> ArcFeed {
+        match self.block.dialect {
+            // MD 20150: CFC.
+            Dialect::Siemens => ArcFeed::Contour,
+            // Internal circular cutting, whatever G62 says.
+            Dialect::Fanuc if !self.block.is_lathe => ArcFeed::Inside,
+            Dialect::Fanuc | Dialect::LinuxCnc | Dialect::Marlin => ArcFeed::Center,
+        }
+    }
+
     /// What is in force when a control of the dialect is switched on, where that is other than LinuxCNC's.
     pub(super) fn power_on(&mut self, feed: FeedAtStart) {
+        self.interpreter.state.arc_feed = self.arc_feed_at_start();
         let state = &mut self.interpreter.state;
         let modal = &mut state.modal;
         match self.block.dialect {

@@ -10,8 +10,8 @@ use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::setup::m_codes::MCodes;
 use crate::syntax::modes::{
-    CannedCycle, CutterRadius, Distance, FeedMode, LatheCycle, Motion, NonModal, Pockets, Probe,
-    Retract, Side, SpindleMode, Spline, Stop, ToolLength, Units,
+    ArcFeed, CannedCycle, CutterRadius, Distance, FeedMode, LatheCycle, Motion, NonModal, Pockets,
+    Probe, Retract, Side, SpindleMode, Spline, Stop, ToolLength, Units,
 };
 use crate::syntax::refused::{refused_g, refused_m, unknown_g, unknown_m};
 
@@ -103,6 +103,8 @@ pub(crate) struct Codes {
     pub(crate) frame: Option<Coded<FrameCode>>,
     /// True for G43.4 of FANUC and TRAORI: the axes follow the tip of the tool; false for TRAFOOF.
     pub(crate) tip: Option<Coded<bool>>,
+    /// CFC, CFIN and CFTCP of SINUMERIK.
+    pub(crate) arc_feed: Option<Coded<ArcFeed>>,
     /// M428 to M430 of LinuxCNC's five-axis machines: which kinematics.
     pub(crate) kinematics: Option<Coded<u32>>,
     /// G43.5 of FANUC: I, J and K of straight moves are the direction of the tool.
@@ -195,6 +197,7 @@ impl Codes {
             || self.spindle_mode.is_some()
             || self.diameter.is_some()
             || self.diameter_by_distance.is_some()
+            || self.arc_feed.is_some()
             || self.system.is_some()
             || self.path_mode.is_some()
             || self.tool_change.is_some()

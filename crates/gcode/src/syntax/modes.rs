@@ -263,6 +263,33 @@ pub enum Retract {
     RPlane,
 }
 
+/// What F counts on arcs while G41 or G42 is in force.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub(crate) enum ArcFeed {
+    /// The path of the tool's centre (CFTCP of SINUMERIK).
+    #[default]
+    Center,
+    /// The contour on the inner side of arcs, on the outer one the path of the centre (CFIN, and FANUC's mills).
+    Inside,
+    /// The contour (CFC).
+    Contour,
+}
+
+impl ArcFeed {
+    /// The least share of F that is left where the tool is nearly as large as the arc.
+    const LEAST: f64 = 0.01;
+
+    /// The share of F that the centre goes at, whose path has a radius, on a contour with another one.
+    pub(crate) fn share(self, center_mm: f64, contour_mm: f64) -> f64 {
+        let share = center_mm / contour_mm;
+        match self {
+            Self::Contour if share.is_finite() => share.max(Self::LEAST),
+            Self::Inside if share < 1.0 => share.max(Self::LEAST),
+            Self::Center | Self::Inside | Self::Contour => 1.0,
+        }
+    }
+}
+
 /// Meaning of S (group 14).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum SpindleMode {

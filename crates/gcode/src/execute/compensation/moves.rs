@@ -42,6 +42,7 @@ impl Interpreter {
     ) -> Outcome<()> {
         let line = self.line;
         let mode = self.state.modal.path_mode;
+        let arc_feed = self.state.arc_feed;
         let Some(compensation) = &mut self.compensation else {
             return Ok(());
         };
@@ -53,15 +54,24 @@ impl Interpreter {
             }) => Some((*center, *sweep_rad)),
             _ => None,
         };
+        let contour = Element {
+            start: in_plane(&segment.start()),
+            end: in_plane(&segment.end()),
+            arc,
+        };
+        // What has no offset is refused below.
+        let share = arc.zip(contour.offset(compensation.left)).map_or(
+            1.0,
+            |((center, _), of_center)| {
+                let radius = |element: &Element| distance(element.start, center);
+                arc_feed.share(radius(&of_center), radius(&contour))
+            },
+        );
         let next = ContourMove {
             line,
-            contour: Element {
-                start: in_plane(&segment.start()),
-                end: in_plane(&segment.end()),
-                arc,
-            },
+            contour,
             to: segment.end(),
-            speed,
+            speed: speed.times(share),
             mode,
             span: block.motion_span(),
         };

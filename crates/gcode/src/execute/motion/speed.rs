@@ -24,6 +24,15 @@ pub(crate) enum Speed {
 }
 
 impl Speed {
+    /// A share of a feed; what takes a time stays.
+    pub(crate) fn times(self, share: f64) -> Self {
+        match self {
+            Self::Feed(feed_v) => Self::Feed(feed_v * share),
+            Self::PerRevolution(feed_v) => Self::PerRevolution(feed_v * share),
+            Self::Rapid | Self::Moves(_) => self,
+        }
+    }
+
     pub(crate) fn rate(self, segment: &Segment) -> Rate {
         match self {
             Self::Rapid => Rate::Rapid,

@@ -13,7 +13,7 @@ use crate::execute::state::spindle::Spindle;
 use crate::execute::state::sticky_words::CycleSeries;
 use crate::execute::state::thread_setup::ThreadSetup;
 use crate::execute::state::tip::{Tilt, Tip};
-use crate::syntax::modes::Side;
+use crate::syntax::modes::{ArcFeed, Side};
 
 /// The part of the state a block may change, offsets apart.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
@@ -48,6 +48,9 @@ pub(crate) struct State {
     pub(crate) gcode_offset: [f64; 3],
     /// G41 or G42 is in force, be it with a radius of zero.
     pub(crate) on_contour: bool,
+    /// What F counts on arcs beside it.
+    #[serde(default)]
+    pub(crate) arc_feed: ArcFeed,
     /// Which of the two, the last time.
     pub(crate) contour_side: Side,
     /// Cutter radius compensation was turned off and no move has been made since.

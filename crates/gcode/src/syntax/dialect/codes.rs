@@ -9,8 +9,8 @@ use crate::syntax::dialect::marlin::{function_with_decimal, is_function};
 use crate::syntax::dialect::words::fanuc_systems::{OtherSystem, SystemCode};
 use crate::syntax::dialect::words::{Meaning, fanuc, fanuc_lathe, marlin, no_g, no_m, refused};
 use crate::syntax::modes::{
-    CannedCycle, FeedMode, LatheCycle, Motion, NonModal, Pockets, PoleFrom, Probe, SpindleMode,
-    ToolLength, Turning, Units,
+    ArcFeed, CannedCycle, FeedMode, LatheCycle, Motion, NonModal, Pockets, PoleFrom, Probe,
+    SpindleMode, ToolLength, Turning, Units,
 };
 use glidepath_program::PathMode;
 
@@ -152,6 +152,9 @@ impl Codes {
         match code_number(value * 10.0) {
             Some(90) => set(&mut self.exact_stop, (), span),
             Some(72) => set(&mut self.diameter_by_distance, (), span),
+            Some(161) => set(&mut self.arc_feed, ArcFeed::Contour, span),
+            Some(162) => set(&mut self.arc_feed, ArcFeed::Center, span),
+            Some(163) => set(&mut self.arc_feed, ArcFeed::Inside, span),
             Some(971) => set(
                 &mut self.spindle_mode,
                 SpindleMode::UnlimitedRevolutions,

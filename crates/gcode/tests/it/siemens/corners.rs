@@ -135,6 +135,25 @@ fn corners_and_blocks_have_feeds_of_their_own() {
 }
 
 #[test]
+fn the_feed_is_that_of_the_contour() {
+    // The radius of the tool is 3: inside of an arc of 12 its centre goes 9/12 as far, outside 15/12.
+    let around = |word: &str, arc: &str| {
+        rates(&format!(
+            "T1 M6 D1\n{word}\nF600\nG0 X0 Y-20\nG1 G41 X0 Y-10\nY0\n{arc} Y12 CR=12\nG1 Y30\nG40 Y50"
+        ))[3]
+    };
+    for (word, inside, outside) in [
+        ("", 450.0, 750.0),
+        ("CFC", 450.0, 750.0),
+        ("CFIN", 450.0, 600.0),
+        ("CFTCP", 600.0, 600.0),
+    ] {
+        assert_eq!(around(word, "G3 X-12"), inside, "{word}");
+        assert_eq!(around(word, "G2 X12"), outside, "{word}");
+    }
+}
+
+#[test]
 fn polar_coordinates_are_added_to_the_last_ones() {
     let text = "G111 X0 Y0\nG0 RP=10 AP=0\nG1 AP=IC(90) F600\nAP=IC(90) RP=IC(5)\nRP=AC(2)";
     let expected = [[10.0, 0.0], [0.0, 10.0], [-15.0, 0.0], [-2.0, 0.0]];

@@ -59,6 +59,9 @@ const fn code_named(name: &[u8]) -> Option<&'static [u8]> {
         b"DIAMON" => b"G7",
         b"DIAMOF" => b"G8",
         b"DIAM90" => b"G7.2",
+        b"CFC" => b"G16.1",
+        b"CFTCP" => b"G16.2",
+        b"CFIN" => b"G16.3",
         b"SUPA" => b"G53",
         _ => return None,
     })

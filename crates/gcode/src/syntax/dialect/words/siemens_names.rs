@@ -18,9 +18,6 @@ const READ_OVER: &[&str] = &[
     "FFWON",
     "FFWOF",
     "FNORM",
-    "CFC",
-    "CFIN",
-    "CFTCP",
     "CPRECON",
     "CPRECOF",
     "NORM",
@@ -84,9 +81,9 @@ const READ_OVER: &[&str] = &[
 
 /// Names whose meaning is made.
 const MADE: &[&str] = &[
-    "SUPA", "CIP", "CT", "DIAMON", "DIAMOF", "DIAM90", "TRAORI", "TRAFOOF", "CYCLE800", "CYCLE832",
-    "CTOL", "RET", "AP", "RP", "AR", "ANG", "CR", "TURN", "RND", "RNDM", "CHR", "CHF", "FRC",
-    "FRCM", "FB", "ADIS", "LIMS", "SPOS", "SETMS", "SF",
+    "SUPA", "CIP", "CT", "DIAMON", "DIAMOF", "DIAM90", "CFC", "CFIN", "CFTCP", "TRAORI", "TRAFOOF",
+    "CYCLE800", "CYCLE832", "CTOL", "RET", "AP", "RP", "AR", "ANG", "CR", "TURN", "RND", "RNDM", "CHR",
+    "CHF", "FRC", "FRCM", "FB", "ADIS", "LIMS", "SPOS", "SETMS", "SF",
 ];
 
 /// Names that are refused: what they are, and what to do instead.
