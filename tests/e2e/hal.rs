@@ -389,7 +389,9 @@ fn hal_plays_what_is_recorded_and_opens_its_enable_chain_when_lines_stay_away() 
 
     // Power, home and hand-over, from the pins and back.
     let pulse = Pulse::start();
-    machine.operate(&["enable"]);
+    if !machine.operate_in_time(&["enable"], &pulse) {
+        return;
+    }
     let status = machine.wait_for(MachineState::NotHomed);
     assert_eq!(status.power(), Ok(Power::On));
     if !machine.operate_in_time(&["home"], &pulse) {

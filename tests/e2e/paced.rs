@@ -4,6 +4,7 @@ use std::process::Stdio;
 use std::time::{Duration, Instant};
 
 use glidepath_link::Setpoint;
+use glidepath_testing::{is_crowded, skip};
 use glidepath_tests::{Instance, Process, Services, Tape, Watchdog};
 
 use crate::faults::Chance;
@@ -79,6 +80,18 @@ fn driven(
     way(&tape.since(place))
 }
 
+/// True, and told, if frames ran out on a host that let the planner wait: the motion then slows where it would not.
+fn kept_waiting(services: &Services<'_>) -> bool {
+    let is_kept = services.wait(|_| true).starved_ticks > 0 && is_crowded();
+    if is_kept {
+        skip(
+            "lines that come in time",
+            "the host had other things to do, and frames ran out",
+        );
+    }
+    is_kept
+}
+
 #[test]
 fn what_comes_in_time_is_driven_as_if_it_had_been_there_and_what_is_there_moves() {
     let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
@@ -88,6 +101,9 @@ fn what_comes_in_time_is_driven_as_if_it_had_been_there_and_what_is_there_moves(
     let mut chance = Chance::new(1);
     for effort in ["optimal", "fast"] {
         let (at_once, rests) = driven(machine, effort, |_| Duration::ZERO);
+        if kept_waiting(&services) {
+            return;
+        }
         assert_eq!(rests, [] as [f64; 0], "{effort}");
 
         // Every line is there long before the motion needs it: 10 to 200 ms apart, it makes no difference.
@@ -95,6 +111,9 @@ fn what_comes_in_time_is_driven_as_if_it_had_been_there_and_what_is_there_moves(
             1..=LEAD => Duration::ZERO,
             _ => chance.millis(10, 200),
         });
+        if kept_waiting(&services) {
+            return;
+        }
         assert_eq!(rests, [] as [f64; 0], "{effort}");
         assert!(
             in_time == at_once,
@@ -103,6 +122,9 @@ fn what_comes_in_time_is_driven_as_if_it_had_been_there_and_what_is_there_moves(
 
         // From the first line on: it may rest until there is a lead, and no more.
         let (_, rests) = driven(machine, effort, |_| chance.millis(10, 200));
+        if kept_waiting(&services) {
+            return;
+        }
         let late: Vec<_> = rests.iter().filter(|x| **x > end_mm(LEAD)).collect();
         assert!(late.is_empty(), "{effort}: it rests at {late:?}");
 

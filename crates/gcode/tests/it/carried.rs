@@ -4,8 +4,8 @@
 use std::sync::Arc;
 
 use glidepath_gcode::{
-    Connections, Dialect, FanucControl, FanucParameters, FeedAtStart, InForce, Options, Program, Tool,
-    ToolTable,
+    Connections, Dialect, FanucControl, FanucParameters, FeedAtStart, InForce, Options, Program,
+    Tool, ToolTable,
 };
 use glidepath_geometry::AxisVector;
 use glidepath_program::{Item, ItemKind};

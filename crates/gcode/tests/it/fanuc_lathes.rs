@@ -192,10 +192,7 @@ fn finishing_executes_the_profile_and_comes_back() {
 #[test]
 fn what_a_cycle_along_a_profile_would_leave_undone_is_refused() {
     finds("G98\nG71 U2.5 R0.5 M8", &["2:1 not-supported"]);
-    finds(
-        "G98\nG71 P10 Q50 U0.6 F300 T0101",
-        &["2:23 not-supported"],
-    );
+    finds("G98\nG71 P10 Q50 U0.6 F300 T0101", &["2:23 not-supported"]);
     finds("G98\nG70 P10 Q50 M8", &["2:1 not-supported"]);
     // A corner in front of it has no second move.
     finds(

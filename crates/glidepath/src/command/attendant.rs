@@ -87,7 +87,9 @@ impl Attendant {
     /// that was delivered may have been too late for that.
     pub(super) fn has_begun(&self, publisher: &Publisher<'_>) -> bool {
         let first = self.first_epoch.get();
-        first.zip(publisher.epoch()).is_some_and(|(first, now)| now >= first)
+        first
+            .zip(publisher.epoch())
+            .is_some_and(|(first, now)| now >= first)
     }
 
     /// Whether what programs leave behind is kept in files.

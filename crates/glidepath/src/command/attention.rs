@@ -182,7 +182,9 @@ fn how_done(answer: Option<Answer>) -> Option<String> {
         None | Some(Answer::Nobody | Answer::Acknowledgement) => {
             Some("when that is done: `glidepath acknowledge`".to_owned())
         }
-        Some(Answer::Input { number, .. }) => Some(format!("input {number} says when that is done")),
+        Some(Answer::Input { number, .. }) => {
+            Some(format!("input {number} says when that is done"))
+        }
         Some(Answer::Planner) => Some("the input says when that is done".to_owned()),
         Some(
             Answer::SpindleAtSpeed

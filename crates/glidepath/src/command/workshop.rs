@@ -157,9 +157,10 @@ impl<'c> Workshop<'c> {
         let attended = source(options()).attended(attendant.attending());
         self.keep_resume_point(bench.publisher);
         let pipeline = Pipeline::new(attended, config.settings(), start);
-        let (mut run, in_force) = Self::publish(pipeline, (&config, &attendant), start, bench, |p| {
-            Some(p.in_force())
-        });
+        let (mut run, in_force) =
+            Self::publish(pipeline, (&config, &attendant), start, bench, |p| {
+                Some(p.in_force())
+            });
         self.settle(&mut run, in_force, bench, &attendant, || {
             let options = unwatched(&config).program_options(start);
             Ok(Some(source(options).attended(recalling(&config, 0))))

@@ -60,13 +60,12 @@ impl Interpreter {
             arc,
         };
         // What has no offset is refused below.
-        let share = arc.zip(contour.offset(compensation.left)).map_or(
-            1.0,
-            |((center, _), of_center)| {
-                let radius = |element: &Element| distance(element.start, center);
-                arc_feed.share(radius(&of_center), radius(&contour))
-            },
-        );
+        let share =
+            arc.zip(contour.offset(compensation.left))
+                .map_or(1.0, |((center, _), of_center)| {
+                    let radius = |element: &Element| distance(element.start, center);
+                    arc_feed.share(radius(&of_center), radius(&contour))
+                });
         let next = ContourMove {
             line,
             contour,

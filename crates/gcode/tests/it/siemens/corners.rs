@@ -65,7 +65,10 @@ fn arcs_have_corners_too() {
     let text = "F600 RNDM=2\nG1 X10\nY10\nX0 RNDM=0\nX-5";
     let with_codes = text.replace("\nY10", "\nM8\nY10");
     assert_eq!(flat(&with_codes), flat(text));
-    finds("G17 F600\nG2 X10 I5 RND=1\nG18 G1 X20", &["3:5 not-supported"]);
+    finds(
+        "G17 F600\nG2 X10 I5 RND=1\nG18 G1 X20",
+        &["3:5 not-supported"],
+    );
 }
 
 proptest! {

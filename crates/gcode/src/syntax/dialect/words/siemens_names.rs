@@ -82,8 +82,8 @@ const READ_OVER: &[&str] = &[
 /// Names whose meaning is made.
 const MADE: &[&str] = &[
     "SUPA", "CIP", "CT", "DIAMON", "DIAMOF", "DIAM90", "CFC", "CFIN", "CFTCP", "TRAORI", "TRAFOOF",
-    "CYCLE800", "CYCLE832", "CTOL", "RET", "AP", "RP", "AR", "ANG", "CR", "TURN", "RND", "RNDM", "CHR",
-    "CHF", "FRC", "FRCM", "FB", "ADIS", "LIMS", "SPOS", "SETMS", "SF",
+    "CYCLE800", "CYCLE832", "CTOL", "RET", "AP", "RP", "AR", "ANG", "CR", "TURN", "RND", "RNDM",
+    "CHR", "CHF", "FRC", "FRCM", "FB", "ADIS", "LIMS", "SPOS", "SETMS", "SF",
 ];
 
 /// Names that are refused: what they are, and what to do instead.
