@@ -390,11 +390,13 @@ fn hal_plays_what_is_recorded_and_opens_its_enable_chain_when_lines_stay_away() 
     // Power, home and hand-over, from the pins and back.
     let pulse = Pulse::start();
     if !machine.operate_in_time(&["enable"], &pulse) {
+        let _setpoints = recorder.end();
         return;
     }
     let status = machine.wait_for(MachineState::NotHomed);
     assert_eq!(status.power(), Ok(Power::On));
     if !machine.operate_in_time(&["home"], &pulse) {
+        let _setpoints = recorder.end();
         return;
     }
     let status = machine.wait_for(MachineState::Idle);
@@ -409,6 +411,7 @@ fn hal_plays_what_is_recorded_and_opens_its_enable_chain_when_lines_stay_away() 
 
     let program = instance.file("program.ngc", PROGRAM);
     if !machine.operate_in_time(&["planner", &program], &pulse) {
+        let _setpoints = recorder.end();
         return;
     }
     let status = machine.wait_for(MachineState::Idle);

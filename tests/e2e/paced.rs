@@ -97,11 +97,18 @@ fn what_comes_in_time_is_driven_as_if_it_had_been_there_and_what_is_there_moves(
     let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
     let services = Services::start(&instance);
     let tape = Tape::start(&instance);
-    let machine = (&instance, &services, &tape);
+    drive((&instance, &services, &tape));
+    drop(services.end());
+    assert_eq!(tape.judge(), Vec::<String>::new());
+}
+
+/// Drives the lines, with all pauses.
+fn drive(machine: (&Instance, &Services<'_>, &Tape)) {
+    let (instance, services, _) = machine;
     let mut chance = Chance::new(1);
     for effort in ["optimal", "fast"] {
         let (at_once, rests) = driven(machine, effort, |_| Duration::ZERO);
-        if kept_waiting(&services) {
+        if kept_waiting(services) {
             return;
         }
         assert_eq!(rests, [] as [f64; 0], "{effort}");
@@ -111,7 +118,7 @@ fn what_comes_in_time_is_driven_as_if_it_had_been_there_and_what_is_there_moves(
             1..=LEAD => Duration::ZERO,
             _ => chance.millis(10, 200),
         });
-        if kept_waiting(&services) {
+        if kept_waiting(services) {
             return;
         }
         assert_eq!(rests, [] as [f64; 0], "{effort}");
@@ -122,25 +129,26 @@ fn what_comes_in_time_is_driven_as_if_it_had_been_there_and_what_is_there_moves(
 
         // From the first line on: it may rest until there is a lead, and no more.
         let (_, rests) = driven(machine, effort, |_| chance.millis(10, 200));
-        if kept_waiting(&services) {
+        if kept_waiting(services) {
             return;
         }
         let late: Vec<_> = rests.iter().filter(|x| **x > end_mm(LEAD)).collect();
         assert!(late.is_empty(), "{effort}: it rests at {late:?}");
 
         // Slower than it is driven: what has come is done, each line by itself.
-        let mut planner = pipe(&instance, &services, effort);
+        let mut planner = pipe(instance, services, effort);
         for number in 1..=MOVES {
             std::thread::sleep(chance.millis(10, 200));
             planner.write(&line(number));
             let written = Instant::now();
             let _there = services.wait(|status| (status.position[0] - end_mm(number)).abs() < 1e-9);
             let took = written.elapsed();
-            assert!(took < SOON, "{effort}: line {number} took {took:?}");
+            assert!(
+                took < SOON || is_crowded(),
+                "{effort}: line {number} took {took:?}"
+            );
         }
         planner.close();
         let _done = planner.wait().expect(0);
     }
-    drop(services.end());
-    assert_eq!(tape.judge(), Vec::<String>::new());
 }

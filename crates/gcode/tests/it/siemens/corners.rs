@@ -142,7 +142,7 @@ fn the_feed_is_that_of_the_contour() {
     // The radius of the tool is 3: inside of an arc of 12 its centre goes 9/12 as far, outside 15/12.
     let around = |word: &str, arc: &str| {
         rates(&format!(
-            "T1 M6 D1\n{word}\nF600\nG0 X0 Y-20\nG1 G41 X0 Y-10\nY0\n{arc} Y12 CR=12\nG1 Y30\nG40 Y50"
+            "T6 M6 D1\n{word}\nF600\nG0 X0 Y-20\nG1 G41 X0 Y-10\nY0\n{arc} Y12 CR=12\nG1 Y30\nG40 Y50"
         ))[3]
     };
     for (word, inside, outside) in [
