@@ -23,6 +23,7 @@ mod onlookers;
 mod operating;
 mod operator;
 mod paced;
+mod part_positions;
 mod probing;
 mod programs;
 mod recordings;

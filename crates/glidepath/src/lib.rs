@@ -70,4 +70,5 @@ pub mod service_manager;
 pub mod setpoints;
 mod shown_diagnostic;
 pub mod text_file;
+mod tool_length_note;
 mod work_zero;

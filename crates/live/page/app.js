@@ -186,10 +186,13 @@ function hover(p) {
 }
 
 /* ---- digits */
+/* A position of the machine, from part zero: of the tip of the tool in force, as programs have it. */
 function work(position) {
   const offset = S.status && S.status.offset;
   if (!offset) return position;
-  const out = position.map((x, k) => x - (offset.origin[AXES()[k].name] || 0)), turn = offset.rotation_deg * Math.PI / 180;
+  // What the rotary axes make of it, the page leaves to who knows the machine.
+  if (offset.turns_with_rotary_axes) return AXES().map(axis => S.status.work_position[axis.name]);
+  const out = position.map((x, k) => x - (offset.origin[AXES()[k].name] || 0) - (offset.tool_length[AXES()[k].name] || 0)), turn = offset.rotation_deg * Math.PI / 180;
   if (turn && out.length > 1) [out[0], out[1]] = [out[0] * Math.cos(turn) + out[1] * Math.sin(turn), out[1] * Math.cos(turn) - out[0] * Math.sin(turn)];
   return out;
 }

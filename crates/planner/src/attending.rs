@@ -1,12 +1,14 @@
 //! The state that a program shares with whoever attends to its run.
 
-use crate::{ChangeLog, InputDesk, RemarkLog};
+use crate::{ChangeLog, InputDesk, RemarkLog, ToolLengthLog};
 
 /// The state that a program shares with whoever attends to its run. Clones are the same.
 #[derive(Debug, Clone, Default)]
 pub struct Attending {
     /// Where changes of how the machine is set up are noted.
     pub changes: Option<ChangeLog>,
+    /// Where the length of the tool in force is noted: at the beginning, and where it changes.
+    pub lengths: Option<ToolLengthLog>,
     /// Where is noted what the program says to people.
     pub remarks: Option<RemarkLog>,
     /// Where inputs are asked, where the program's inputs are real.

@@ -110,7 +110,7 @@ mod unchanged_file;
 
 pub use attend::{Attend, Attended};
 pub use attending::Attending;
-pub use changes::{ChangeLog, SetUp};
+pub use changes::{BlockLog, ChangeLog, SetUp, ToolLengthLog};
 pub use client_watch::CLIENT_SILENCE;
 pub use control::{Control, Notice, Progress};
 pub use curve::CurveSource;

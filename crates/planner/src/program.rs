@@ -5,14 +5,16 @@ use std::io::{self, BufRead, BufReader, Seek};
 use std::path::Path;
 
 use glidepath_gcode::{
-    Diagnostic, InForce, InputWait, Options, Probed, Program, Subroutines, diagnostics,
+    Diagnostic, InForce, InputWait, Options, Probed, Program, Subroutines, ToolLength, diagnostics,
 };
-use glidepath_program::{Event, ItemKind};
+use glidepath_program::{Event, Item, ItemKind};
 
 use crate::desk::{Answer, Answered, InputDesk, Question};
 use crate::fingerprint::Fingerprinting;
 use crate::unchanged_file::UnchangedFile;
-use crate::{Attending, ChangeLog, ItemSource, Refusal, RemarkLog, SetUp, Settled, Supply};
+use crate::{
+    Attending, ChangeLog, ItemSource, Refusal, RemarkLog, SetUp, Settled, Supply, ToolLengthLog,
+};
 
 /// Bytes read from a file or pipe at a time.
 pub(crate) const BUFFER: usize = 64 * 1024;
@@ -26,6 +28,8 @@ pub struct ProgramSource<R> {
     given: u32,
     /// Where changes of how the machine is set up are noted, and how many of them were.
     log: Option<(ChangeLog, u64)>,
+    /// Where the length of the tool in force is noted, and what was noted last.
+    lengths: Option<(ToolLengthLog, Option<ToolLength>)>,
     remarks: Option<RemarkLog>,
     /// Where inputs are asked.
     inputs: Option<InputDesk>,
@@ -46,6 +50,7 @@ impl<R: BufRead> ProgramSource<R> {
             fingerprint: 0,
             given: 0,
             log: None,
+            lengths: None,
             remarks: None,
             inputs: None,
             wait: None,
@@ -82,6 +87,7 @@ impl<R: BufRead> ProgramSource<R> {
     pub fn attended(self, attending: Attending) -> Self {
         let Attending {
             changes,
+            lengths,
             remarks,
             inputs,
         } = attending;
@@ -95,6 +101,7 @@ impl<R: BufRead> ProgramSource<R> {
             remarks,
             inputs,
             log: changes.map(|log| (log, 0)),
+            lengths: lengths.map(|log| (log, None)),
             ..self
         }
     }
@@ -187,6 +194,27 @@ impl<R: BufRead> ProgramSource<R> {
         }
     }
 
+    /// Notes the length of the tool that holds from the item on that is about to be handed over. The blocks of
+    /// a line are handed over one after the other, and its G43 counts behind its M6.
+    fn note_length(&mut self, next: Option<&Item>) {
+        let is_before_the_tool = next.is_some_and(|item| {
+            matches!(
+                item.kind,
+                ItemKind::Event(
+                    Event::SpindleSpeed(_) | Event::SelectTool(_) | Event::MCode(6 | 61)
+                )
+            )
+        });
+        if let Some((log, noted)) = &mut self.lengths
+            && !is_before_the_tool
+        {
+            let length = self.program.tool_length();
+            if noted.replace(length) != Some(length) {
+                log.note(self.given, length);
+            }
+        }
+    }
+
     /// Notes that the item handed over last puts another tool into the spindle.
     fn note_tool(&self) {
         if let Some((log, _)) = &self.log {
@@ -253,6 +281,7 @@ impl<R: BufRead> ItemSource for ProgramSource<R> {
         }
         let next = self.program.next();
         self.note_changes();
+        self.note_length(next.as_ref().and_then(|next| next.as_ref().ok()));
         self.note_remarks();
         match next {
             Some(Ok(item)) => {

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use glidepath_geometry::AxisVector;
 
+use crate::execute::motion::tool_length::ToolLength;
 use crate::execute::program::Program;
 use crate::execute::state::modal::Modal;
 use crate::execute::state::words_in_force::words_in_force;
@@ -74,6 +75,15 @@ impl<R: BufRead> Program<R> {
     #[must_use]
     pub const fn tool_offset(&self) -> &AxisVector {
         &self.interpreter.offsets.tool
+    }
+
+    /// The length of the tool in force after the last block read.
+    #[must_use]
+    pub const fn tool_length(&self) -> ToolLength {
+        ToolLength {
+            offset: self.interpreter.offsets.tool,
+            tip: self.interpreter.state.tip,
+        }
     }
 
     /// Tool in the spindle after the last block read; 0: none.

@@ -7,12 +7,15 @@ use crate::kept::answers::Journal;
 use crate::kept::keeper::Keeper;
 use crate::output;
 use crate::report::counted;
-use glidepath_gcode::Connections;
+use crate::tool_length_note::ToolLengthNote;
+use glidepath_gcode::{Connections, ToolLength};
 use glidepath_geometry::AxisVector;
 use glidepath_planner::{
     Attending, InputDesk, Notice, Publisher, RemarkLog, ResumeError, RunError, Statistics,
+    ToolLengthLog,
 };
 use std::cell::{Cell, RefCell};
+use std::path::PathBuf;
 
 /// Attends to one program.
 #[derive(Debug)]
@@ -21,16 +24,24 @@ pub(super) struct Attendant {
     /// The epoch of which a frame was delivered first.
     first_epoch: Cell<Option<u64>>,
     keeper: RefCell<Option<Keeper>>,
+    lengths: ToolLengthLog,
+    /// Where the length of the tool in force is noted.
+    note: ToolLengthNote,
     remarks: RemarkLog,
     inputs: InputDesk,
 }
 
 impl Attendant {
-    /// Puts what is kept into the configuration, if the machine keeps anything.
+    /// Puts what is kept into the configuration, if the machine keeps anything. `directory`: that of the
+    /// instance.
     ///
     /// # Errors
     /// What is kept cannot be used.
-    pub(super) fn new(config: &mut MachineConfig, quiet: bool) -> Result<Self, Failure> {
+    pub(super) fn new(
+        config: &mut MachineConfig,
+        directory: PathBuf,
+        quiet: bool,
+    ) -> Result<Self, Failure> {
         let opened = Keeper::open(config)?;
         let keeper = opened.map(|(keeper, notes)| {
             notes
@@ -43,6 +54,8 @@ impl Attendant {
             quiet,
             first_epoch: Cell::new(None),
             keeper: RefCell::new(keeper),
+            lengths: ToolLengthLog::default(),
+            note: ToolLengthNote::new(directory),
             remarks: RemarkLog::default(),
             inputs: InputDesk::default(),
         })
@@ -56,6 +69,7 @@ impl Attendant {
     pub(super) fn attending(&self) -> Attending {
         Attending {
             changes: self.keeper.borrow().as_ref().map(Keeper::log),
+            lengths: Some(self.lengths.clone()),
             remarks: Some(self.remarks.clone()),
             inputs: Some(self.inputs.clone()),
         }
@@ -170,11 +184,23 @@ impl Attendant {
                 self.first_epoch.set(Some(first));
             }
             Notice::Progress(progress) => {
+                self.note_length(self.lengths.executed(progress.block));
                 if let Some(keeper) = &mut *self.keeper.borrow_mut() {
                     keeper.executed(progress.block, config);
                 }
             }
             _ => {}
+        }
+    }
+
+    /// Notes which length of a tool is in force from now on. Where that fails the program goes on all the
+    /// same: whoever shows positions shows them with the one before.
+    fn note_length(&self, length: Option<ToolLength>) {
+        let noted = length.map(|length| self.note.leave(&length));
+        if let Some(Err(error)) = noted {
+            output::note(&format!(
+                "planner: positions are shown without the length of the tool now in force: {error}"
+            ));
         }
     }
 
@@ -188,6 +214,17 @@ impl Attendant {
         publisher: &Publisher<'_>,
         config: &MachineConfig,
     ) -> Result<(), Failure> {
+        let point = publisher.resume_point();
+        // Before the program has begun, the machine tells of the one before it.
+        let has_begun = self.has_begun(publisher);
+        self.note_length(match (published, &point) {
+            (Ok(_), _) => self.lengths.all_executed(),
+            (Err(_), Err(RunError::Resume(ResumeError::Completed))) if has_begun => {
+                self.lengths.all_executed()
+            }
+            (Err(_), Ok(point)) if has_begun => self.lengths.executed(point.block),
+            (Err(_), _) => None,
+        });
         let Some(keeper) = self.keeper.take() else {
             return Ok(());
         };
@@ -198,9 +235,7 @@ impl Attendant {
                 | RunError::InterpolatorSilent { .. }
                 | RunError::Link(_))
         );
-        // Before the program has begun, the machine tells of the one before it.
-        let has_begun = self.has_begun(publisher);
-        let kept = match (published, publisher.resume_point()) {
+        let kept = match (published, point) {
             (Ok(_), _) => keeper.completed(publisher.position(), config),
             (Err(_), Err(RunError::Resume(ResumeError::Completed))) if has_begun => {
                 keeper.completed(publisher.position(), config)

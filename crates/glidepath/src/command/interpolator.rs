@@ -58,7 +58,7 @@ pub(super) fn interpolator(
     if args.basic.json {
         output::object(&status_object(&instance, &status, None));
     } else {
-        output::result(&status_text(&instance, &status, None));
+        output::result(&status_text(&instance, &status, None, None));
     }
     Ok(interrupt.exit())
 }

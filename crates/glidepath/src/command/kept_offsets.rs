@@ -1,26 +1,35 @@
-//! The work offsets that the machine keeps.
+//! The work offsets that the machine keeps, and the length of the tool in force.
 
 use crate::config::MachineConfig;
 use crate::kept::convert::system_name;
 use crate::report::WorkOffset;
+use crate::tool_length_note;
+use glidepath_gcode::ToolLength;
 use glidepath_kept::{Directory, Store};
+use glidepath_kinematics::FiveAxis;
+use glidepath_link::LinkConfig;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-/// Between two looks.
+/// Between two looks at the offsets. The length of a tool is looked at every time: it changes under way.
 const EVERY: Duration = Duration::from_secs(1);
 
 /// What is kept, looked at now and then.
 pub(super) struct KeptOffsets {
     folder: Option<PathBuf>,
+    /// The directory of the instance.
+    directory: PathBuf,
+    five_axis: Option<FiveAxis>,
     looked: Option<Instant>,
     offset: Option<WorkOffset>,
 }
 
 impl KeptOffsets {
-    pub(super) fn new(config: &MachineConfig) -> Self {
+    pub(super) fn new(config: &MachineConfig, link: &LinkConfig) -> Self {
         Self {
             folder: config.state_directory.clone(),
+            directory: link.directory(),
+            five_axis: config.five_axis(),
             looked: None,
             offset: None,
         }
@@ -33,7 +42,11 @@ impl KeptOffsets {
             self.looked = Some(Instant::now());
             self.offset = self.read();
         }
-        self.offset.clone()
+        let offset = self.offset.clone()?;
+        Some(WorkOffset {
+            tool: tool_length_note::in_force(&self.directory),
+            ..offset
+        })
     }
 
     fn read(&self) -> Option<WorkOffset> {
@@ -45,6 +58,8 @@ impl KeptOffsets {
             name: system_name(kept.offsets.active),
             origin: system.origin,
             rotation_deg: system.rotation_deg,
+            tool: ToolLength::default(),
+            five_axis: self.five_axis,
         })
     }
 }

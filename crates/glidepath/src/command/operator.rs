@@ -3,6 +3,7 @@
 //! by its panel.
 
 use super::active_program::active_program;
+use super::kept_offsets::KeptOffsets;
 use super::other_users::OtherUsers;
 use super::session;
 use super::tool_names::ToolNames;
@@ -17,7 +18,7 @@ use glidepath_link::{
     Record as _, Status, Transport as _,
 };
 use glidepath_realtime::{Clock as _, Monotonic};
-use serde_json::json;
+use serde_json::{Value, json};
 use std::time::{Duration, Instant};
 
 /// How long an interpolator may take to answer.
@@ -221,13 +222,21 @@ pub(super) fn status(args: &OperatorArgs, config: &MachineConfig) -> Result<Exit
     let status = read_status(&operator, &link)?;
     let active = active_program(&link, &status);
     let tool = asked_tool(&link, config, &status);
+    let offset = KeptOffsets::new(config, &link).look();
     if args.basic.json {
         let mut object = status_object(&instance, &status, tool.as_ref());
+        let [system, part] = offset
+            .as_ref()
+            .map_or([Value::Null, Value::Null], |offset| {
+                offset.objects(&status.position, &config.axis_names())
+            });
+        (object["offset"], object["work_position"]) = (system, part);
         object["active_program"] = active_object(active.as_ref());
         output::object(&object);
     } else {
         let active = active.as_ref().map(active_text).unwrap_or_default();
-        output::result(&(status_text(&instance, &status, tool.as_ref()) + &active));
+        let text = status_text(&instance, &status, tool.as_ref(), offset.as_ref());
+        output::result(&(text + &active));
     }
     Ok(Exit::Done)
 }

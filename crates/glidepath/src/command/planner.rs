@@ -19,6 +19,7 @@ use crate::kept::read::{read, set_up};
 use crate::output;
 use crate::program_file::ProgramFile;
 use crate::report::{counted, peak_rss_bytes, seconds};
+use crate::tool_length_note::ToolLengthNote;
 use glidepath_geometry::AxisVector;
 use glidepath_link::{Ipc, LinkConfig, Operator, Transport};
 use glidepath_planner::{
@@ -75,7 +76,7 @@ pub(super) fn planner(
     if args.end_with.is_some() {
         only_read(&mut config)?;
     }
-    let attendant = Attendant::new(&mut config, quiet)?;
+    let attendant = Attendant::new(&mut config, link.directory(), quiet)?;
     let mut notify = |notice: &Notice<'_>| {
         attendant.notice(notice, &config);
         tell(notice, quiet);
@@ -311,6 +312,8 @@ fn serve(
     if Operator::find(link).is_err() {
         output::note("planner: no interpolator runs yet; it is waited for");
     }
+    // The first job begins without one.
+    ToolLengthNote::new(link.directory()).clear();
     let mut workshop = Workshop::new(config, link.clone(), board);
     match serve_jobs(transport, &listening, Some(&mut workshop), control) {
         Ok(()) | Err(RunError::Interrupted) => Ok(interrupt.exit()),

@@ -92,7 +92,7 @@ impl<'c> Workshop<'c> {
     /// The configuration and the attendant of the next job.
     fn set_up(&self, publisher: &Publisher<'_>) -> Result<(MachineConfig, Attendant), Failure> {
         let mut config = self.config.clone();
-        let attendant = Attendant::new(&mut config, true)?;
+        let attendant = Attendant::new(&mut config, self.link.directory(), true)?;
         if let Some(in_force) = self.in_force.as_ref().filter(|_| !attendant.keeps()) {
             config.program.offsets = in_force.work_offsets();
             config.program.tools = in_force.tools().cloned().or(config.program.tools);

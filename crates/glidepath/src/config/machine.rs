@@ -9,7 +9,8 @@ use glidepath_gcode::{
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_interpolator::{AdaptiveFeed, Answer, Gate, Gates, JointHoming, StopSettings};
 use glidepath_kinematics::{
-    AxisRates, AxisShare, JOINTS, JointLimits, JointWatch, Kinematics as _, Mechanism, PathCaps,
+    AxisRates, AxisShare, FiveAxis, JOINTS, JointLimits, JointWatch, Kinematics as _, Mechanism,
+    PathCaps,
 };
 use glidepath_motion::preview::AdvanceRetreat;
 use glidepath_program::{Corners, Effort, Limits, PathBounds, Settings, Smoothing};
@@ -298,6 +299,14 @@ impl MachineConfig {
         self.axes.iter().map(|axis| axis.axis).collect()
     }
 
+    /// The mechanism, if it is one of five axes.
+    pub(crate) const fn five_axis(&self) -> Option<FiveAxis> {
+        match self.mechanism {
+            Mechanism::FiveAxis(machine) => Some(machine),
+            _ => None,
+        }
+    }
+
     /// How to read a program for this machine standing at `start` (mm, degrees).
     #[must_use]
     pub fn program_options(&self, start: AxisVector) -> Options {
@@ -328,10 +337,7 @@ impl MachineConfig {
             dialect: self.program.dialect.unwrap_or_default(),
             fanuc: self.program.fanuc,
             siemens: self.program.siemens,
-            five_axis: match self.mechanism {
-                Mechanism::FiveAxis(machine) => Some(machine),
-                _ => None,
-            },
+            five_axis: self.five_axis(),
             extruder: self.program.extruder,
             firmware: self.program.firmware,
             connections: self.program.connections,

@@ -14,6 +14,7 @@ mod shape;
 mod smoothness;
 mod status;
 mod view;
+mod work_offset;
 
 pub use active_program::{active_object, active_text};
 pub use auxiliary::{coolant_words, spindle_words};
@@ -31,4 +32,5 @@ pub use status::{
     quantiles_object, quantiles_text, realtime_object, realtime_text, status_object, status_text,
     timing_text,
 };
-pub use view::{Place, View, WorkOffset, view_object, view_text};
+pub use view::{Place, View, view_object, view_text};
+pub use work_offset::WorkOffset;

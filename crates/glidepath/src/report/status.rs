@@ -2,6 +2,7 @@
 
 use super::machine::{AskedTool, awaited_text, by_axis, machine_object, power_text};
 use super::quantity::{decimals, grouped, microseconds};
+use super::work_offset::WorkOffset;
 use crate::machine_options::complete;
 use core::fmt::Write as _;
 use glidepath_geometry::{AXES, Axis};
@@ -212,14 +213,18 @@ fn away_text(status: &Status) -> Option<String> {
     (!away.is_empty()).then(|| format!("{away}, from the path"))
 }
 
-/// A status for people, with the tool that the machine waits for.
+/// A status for people, with the tool that the machine waits for and the coordinate system in force.
 #[must_use]
-pub fn status_text(instance: &str, status: &Status, tool: Option<&AskedTool>) -> String {
+pub fn status_text(
+    instance: &str,
+    status: &Status,
+    tool: Option<&AskedTool>,
+    offset: Option<&WorkOffset>,
+) -> String {
     let mut text = String::new();
     let state = status.state().map_or("unknown", MachineState::name);
-    let position = positions_text(&status.position, |axis, value| {
-        axis.index() < 3 || value != 0.0
-    });
+    let is_told = |axis: Axis, value: f64| axis.index() < 3 || value != 0.0;
+    let position = positions_text(&status.position, is_told);
     // Writing to a String does not fail.
     let doing = status.state_text().unwrap_or_default();
     let _ = writeln!(text, "{instance}: {state}, process {}", status.pid);
@@ -236,6 +241,10 @@ pub fn status_text(instance: &str, status: &Status, tool: Option<&AskedTool>) ->
         let _ = writeln!(text, "  job           {job}");
     }
     let _ = writeln!(text, "  position      {}", position);
+    if let Some(offset) = offset {
+        let part = positions_text(&offset.work(&status.position), is_told);
+        let _ = writeln!(text, "  part          {part}  ({})", offset.name);
+    }
     if let Some(away) = away_text(status) {
         let _ = writeln!(text, "  away          {away}");
     }

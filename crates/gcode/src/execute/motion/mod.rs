@@ -32,3 +32,4 @@ mod target;
 pub(crate) mod thread;
 pub(crate) mod tilted_plane;
 pub(crate) mod tip_map;
+pub(crate) mod tool_length;

@@ -114,6 +114,7 @@ pub(super) fn live(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Fail
     let (set_up, seat) = (Arc::clone(&pages.set_up), Arc::clone(&pages.seat));
     let running = server.start(Arc::new(pages), &feed)?;
     tell(args, &instance, &urls, port);
+    let offsets = KeptOffsets::new(config, &link);
     let mut machine = Machine {
         config,
         instance,
@@ -125,7 +126,7 @@ pub(super) fn live(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Fail
         shown,
         following,
         asked: Asked::new(config),
-        offsets: KeptOffsets::new(config),
+        offsets,
         feed,
         set_up,
         seat,

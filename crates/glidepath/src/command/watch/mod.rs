@@ -54,7 +54,7 @@ pub(super) fn watch(args: &StatusArgs, config: &MachineConfig) -> Result<Exit, F
     let screen = Screen::new(as_json);
     let names = ToolNames::new(config);
     let mut history = History::default();
-    let mut offsets = KeptOffsets::new(config);
+    let mut offsets = KeptOffsets::new(config, &link);
     let every = Duration::from_secs_f64(args.every);
     let mut silent_since = None::<Instant>;
     while !interrupt.is_set() && !output::has_no_reader() {

@@ -2,18 +2,16 @@
 
 use super::seen::View;
 use crate::report::auxiliary::{coolant_words, spindle_words};
-use glidepath_geometry::AXES;
 use serde_json::{Map, Value, json};
 
 /// What a view tells besides its status, as an object.
 #[must_use]
 pub fn view_object(view: &View<'_>) -> Map<String, Value> {
-    let by_axis = |values: &[f64; AXES]| -> Map<String, Value> {
-        let axes = view.axes.iter();
-        axes.filter_map(|axis| Some((axis.to_string(), (*values.get(axis.index())?).into())))
-            .collect()
-    };
     let place = view.place.as_ref();
+    let offset = view.offsets.as_ref();
+    let [offset, work] = offset.map_or([Value::Null, Value::Null], |offset| {
+        offset.objects(&view.status.position, view.axes)
+    });
     let object = json!({
         "updated_ns": view.status.updated_ns,
         "program": place.map(|place| place.program.as_str()),
@@ -25,13 +23,8 @@ pub fn view_object(view: &View<'_>) -> Map<String, Value> {
         "tool_selected": view.auxiliary.map(|record| record.prepared_tool),
         "spindle": view.auxiliary.map(spindle_words),
         "coolant": view.auxiliary.map(coolant_words),
-        "offset": view.offsets.as_ref().map(|offset| json!({
-            "system": offset.name,
-            "origin": by_axis(&offset.origin),
-            "rotation_deg": offset.rotation_deg,
-        })),
-        "work_position": view.offsets.as_ref()
-            .map(|offset| by_axis(&offset.work(&view.status.position))),
+        "offset": offset,
+        "work_position": work,
         "events": view.events.iter()
             .map(|(ago, text)| json!({ "ago_s": ago.as_secs_f64(), "text": text }))
             .collect::<Vec<_>>(),

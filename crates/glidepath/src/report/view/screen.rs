@@ -208,8 +208,10 @@ mod tests {
 
     use super::*;
     use crate::report::view::object::view_object;
-    use crate::report::view::seen::{Place, WorkOffset};
+    use crate::report::view::seen::Place;
+    use crate::report::work_offset::WorkOffset;
     use core::time::Duration;
+    use glidepath_gcode::ToolLength;
     use glidepath_geometry::Axis;
     use glidepath_link::Auxiliary;
     use glidepath_program::Event;
@@ -254,6 +256,8 @@ mod tests {
                 name: "G54".to_owned(),
                 origin,
                 rotation_deg: 0.0,
+                tool: ToolLength::default(),
+                five_axis: None,
             }),
             asked_tool: None,
             events: vec![(
@@ -302,18 +306,5 @@ mod tests {
         assert!(lines.len() == 2 && lines.iter().all(|line| line.chars().count() <= WIDTH));
         assert!(lines[1].starts_with("            homed on,"), "{lines:?}");
         assert_eq!(wrapped(&"x".repeat(200)).len(), 3);
-    }
-
-    #[test]
-    fn a_turned_system_turns_positions_back() {
-        let offset = WorkOffset {
-            name: "G55".to_owned(),
-            origin: [0.0; AXES],
-            rotation_deg: 90.0,
-        };
-        let mut machine = [0.0; AXES];
-        machine[1] = 5.0;
-        let work = offset.work(&machine);
-        assert!((work[0] - 5.0).abs() < 1e-12 && work[1].abs() < 1e-12);
     }
 }

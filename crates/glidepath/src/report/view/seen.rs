@@ -1,8 +1,9 @@
 //! The content of the view: what is known of a machine that works.
 
 use crate::report::machine::AskedTool;
+use crate::report::work_offset::WorkOffset;
 use core::time::Duration;
-use glidepath_geometry::{AXES, Axis};
+use glidepath_geometry::Axis;
 use glidepath_link::{Auxiliary, Status};
 
 /// The place of the machine in a program that is known.
@@ -18,33 +19,6 @@ pub struct Place {
     pub elapsed_t: Option<f64>,
     /// It could not be planned here.
     pub has_failed: bool,
-}
-
-/// A coordinate system.
-#[derive(Debug, Clone, PartialEq)]
-pub struct WorkOffset {
-    /// Its name, as G54.
-    pub name: String,
-    /// Its zero, in machine coordinates, mm or degrees.
-    pub origin: [f64; AXES],
-    /// How far X and Y are turned about Z, degrees.
-    pub rotation_deg: f64,
-}
-
-impl WorkOffset {
-    /// A machine position in this system.
-    pub(super) fn work(&self, machine: &[f64; AXES]) -> [f64; AXES] {
-        let mut work = *machine;
-        for (place, origin) in work.iter_mut().zip(&self.origin) {
-            *place -= origin;
-        }
-        let (sin, cos) = self.rotation_deg.to_radians().sin_cos();
-        let [x, y, ..] = work;
-        if self.rotation_deg != 0.0 {
-            [work[0], work[1]] = [x * cos + y * sin, y * cos - x * sin];
-        }
-        work
-    }
 }
 
 /// The content of the view.

@@ -1,0 +1,83 @@
+//! What is told of positions from part zero: those of the tip of the tool in force, as programs have them.
+
+use std::time::Duration;
+
+use glidepath_link::MachineState;
+use glidepath_tests::{Instance, Operated, Watchdog};
+use rustix::process::Signal;
+use serde_json::Value;
+
+const PATIENCE: Duration = Duration::from_secs(240);
+
+/// Without drives that answer.
+const SIMULATED: (&str, &str) = ("source = \"drives\"", "source = \"none\"");
+
+/// The tool is changed, and its length called, in one block.
+const PROGRAM: &str = "G21 G90 G54\nG0 Z-1\nT2 M6 G43.1 Z30\nM0\nG0 Z5\nM0\nM2\n";
+
+/// Z of the machine and of the part, and the length, of plain `status` and of the watch.
+fn told(bench: &Operated<'_>) -> [f64; 3] {
+    let once = bench.operate(&["status", "--json"]).json();
+    let watch = bench.process(&["status", "--watch", "--json", "--every", "0.05"]);
+    watch.wait_until_it_says("\n");
+    watch.signal(Signal::INT);
+    let watched = watch.wait().expect(0).stdout;
+    let watched: Value = serde_json::from_str(watched.lines().next().unwrap()).unwrap();
+    for key in ["offset", "work_position", "position"] {
+        let axis = |object: &Value| match key {
+            "offset" => object[key].clone(),
+            _ => object[key]["Z"].clone(),
+        };
+        assert_eq!(axis(&once), axis(&watched), "{key}");
+    }
+    let number = |value: &Value| value.as_f64().unwrap_or(f64::NAN);
+    let (machine, part) = (&once["position"]["Z"], &once["work_position"]["Z"]);
+    [machine, part, &once["offset"]["tool_length"]["Z"]].map(number)
+}
+
+#[test]
+fn positions_from_part_zero_are_those_of_the_tip_from_the_move_behind_g43_on() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let state = format!("directory = {:?}", instance.path("kept"));
+    let changes = [SIMULATED, ("# directory = \"state\"", state.as_str())];
+    let bench = Operated::new(&instance, &changes, "");
+    let interpolator = bench.process(&["interpolator", "--best-effort"]);
+    let _idle = bench.wait_for(MachineState::Idle);
+    let service = bench.process(&["planner", "--listen"]);
+    bench.operate(&["mdi", "G10 L2 P1 Z-10"]);
+    assert_eq!(told(&bench), [0.0, 10.0, 0.0]);
+    bench.operate(&["mdi", "G43.1 Z4"]);
+    assert_eq!(told(&bench), [0.0, 6.0, 4.0]);
+    let text = bench.operate(&["status"]).stdout;
+    assert!(
+        text.contains("  part          X 0.0000  Y 0.0000  Z 6.0000  (G54)"),
+        "{text}"
+    );
+
+    // While the tool is changed, the one before is in force.
+    let program = instance.file("program.ngc", PROGRAM);
+    let job = bench.process(&["run-file", &program]);
+    let _asked = bench.wait_for(MachineState::Awaiting);
+    assert_eq!(told(&bench), [-7.0, -1.0, 4.0]);
+    bench.operate(&["acknowledge"]);
+    let _stop = bench.wait_for(MachineState::ProgramStop);
+    bench.operate(&["resume"]);
+    let _moved =
+        bench.wait(|status| status.state == MachineState::ProgramStop.code() && status.line == 6);
+    assert_eq!(told(&bench), [25.0, 5.0, 30.0]);
+    // What was executed is in force, also behind an abort.
+    bench.operate(&["abort"]);
+    let _ended = job.wait();
+    let _idle = bench.wait_for(MachineState::Idle);
+    assert_eq!(told(&bench), [25.0, 5.0, 30.0]);
+    bench.operate(&["mdi", "G49"]);
+    assert_eq!(told(&bench), [25.0, 35.0, 0.0]);
+
+    // A service that begins, begins without.
+    bench.operate(&["mdi", "G43.1 Z4"]);
+    let _service = service.end().expect(0);
+    let service = bench.process(&["planner", "--listen"]);
+    bench.operate(&["mdi", "G4 P0.1"]);
+    assert_eq!(told(&bench), [25.0, 35.0, 0.0]);
+    drop((service, interpolator));
+}
