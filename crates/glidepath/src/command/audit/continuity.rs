@@ -3,9 +3,10 @@
 
 use super::finding::{Finding, Findings};
 use super::led::Led;
+use super::trace::LOST;
 use crate::config::MachineConfig;
 use glidepath_geometry::{AXES, Axis};
-use glidepath_link::{MachineState, Record as _, Setpoint};
+use glidepath_link::{MachineState, Record as _, Setpoint, Status};
 use glidepath_program::Travel;
 
 /// A limit counts as kept up to this factor, as in the audit of a plan.
@@ -26,6 +27,8 @@ pub(super) struct Continuity {
     /// The last setpoint, and whether it was led by the drives.
     last: Option<(Setpoint, bool)>,
     led: Led,
+    /// A joint did not know where it is, as a status told last.
+    is_lost: bool,
     pub(super) findings: Findings,
     pub(super) setpoints: u64,
     /// The largest velocity, acceleration and jerk over its limit.
@@ -64,10 +67,16 @@ impl Continuity {
             period_t: config.period_t(),
             last: None,
             led: Led::default(),
+            is_lost: false,
             findings: Findings::default(),
             setpoints: 0,
             most: [0.0; 3],
         }
+    }
+
+    /// Takes what a status tells of the joints that know where they are.
+    pub(super) const fn know(&mut self, status: &Status) {
+        self.is_lost = status.joints & !status.homed != 0;
     }
 
     pub(super) fn take(&mut self, setpoint: &Setpoint) {
@@ -127,12 +136,21 @@ impl Continuity {
         });
     }
 
-    /// In a program every axis is inside its travel; by hand one that stands outside is brought back.
+    /// In a program every axis is inside its travel; by hand one that stands outside is brought back. The
+    /// ends of travel are places of a machine that knows where it is: on the way home, and before that, they
+    /// mean nothing.
     fn judge_travel(&mut self, setpoint: &Setpoint) {
-        let by_hand = setpoint.epoch == 0 || setpoint.state() == Ok(MachineState::Jogging);
+        let state = setpoint.state();
+        let by_hand = setpoint.epoch == 0 || state == Ok(MachineState::Jogging);
         // Rows of values say nothing of epochs.
         let is_row = setpoint.boot_id == 0;
-        if by_hand && !is_row {
+        let is_lost = match state {
+            Ok(state) if LOST.contains(&state) => true,
+            // No program runs before all joints are at home: a status may be older than that.
+            Ok(MachineState::Idle | MachineState::Stopping | MachineState::Faulted) => self.is_lost,
+            _ => false,
+        };
+        if (by_hand && !is_row) || is_lost {
             return;
         }
         let beyond = self.axes.iter().find_map(|state| {
@@ -275,6 +293,36 @@ mod tests {
         assert_eq!(found(&|setpoint| faulted(setpoint, false)), 0);
         assert!(found(&|setpoint| faulted(setpoint, true)) > 0);
         assert!(found(&|_| {}) > 0, "a step of 3 mm in a period");
+    }
+
+    #[test]
+    fn travel_is_not_judged_before_a_machine_knows_where_it_is() {
+        let config = config::parse("built-in machine", config::EMBEDDED).unwrap();
+        let end = config.limits().travel.highest[0];
+        let found = |homed: u32, state: MachineState| {
+            let mut continuity = Continuity::new(&config);
+            let mut status = Status::zeroed();
+            (status.joints, status.homed) = (0b111, homed);
+            continuity.know(&status);
+            let mut setpoint = Setpoint::zeroed();
+            // A program was executed before, whose epoch is told on.
+            (setpoint.boot_id, setpoint.number, setpoint.epoch) = (1, 1, 4);
+            (setpoint.state, setpoint.enable) = (state.code(), 0b111);
+            setpoint.position[0] = end + 2.0;
+            continuity.take(&setpoint);
+            let findings = continuity.findings.listed.iter();
+            findings
+                .filter(|finding| finding.text.contains("beyond"))
+                .count()
+        };
+        for state in [MachineState::Homing, MachineState::NotHomed] {
+            assert_eq!(found(0b111, state), 0, "{state:?}: a status may be late");
+        }
+        for state in [MachineState::Stopping, MachineState::Faulted] {
+            assert_eq!(found(0b101, state), 0, "{state:?}");
+            assert_eq!(found(0b111, state), 1, "{state:?}");
+        }
+        assert_eq!(found(0b101, MachineState::Running), 1);
     }
 
     #[test]

@@ -76,6 +76,7 @@ fn judge(file: &ProgramFile, program: &Program) -> Result<Verdict, Failure> {
                 last = Some(setpoint);
             }
             Entry::Status(status) => {
+                continuity.know(&status);
                 outline.has_statuses = true;
                 outline.end = status.end_of_epoch().ok();
                 if status.epoch != 0 {

@@ -1,6 +1,7 @@
 //! The outline of a file, from a first look: which motions are in it, and how they went.
 
 use super::led::Led;
+use super::trace::LOST;
 use glidepath_geometry::AxisVector;
 use glidepath_link::{EndOfEpoch, MachineState, Setpoint};
 
@@ -33,7 +34,8 @@ impl Outline {
         let is_led = self.led.see(setpoint);
         self.is_cut |= is_led && self.epochs.last() == Some(&setpoint.epoch);
         // Behind a motion the machine rests in its epoch.
-        if setpoint.epoch == 0 || self.is_idle || is_led {
+        let is_lost = state.is_ok_and(|state| LOST.contains(&state));
+        if setpoint.epoch == 0 || self.is_idle || is_lost || is_led {
             return;
         }
         let is_new = self.epochs.last() != Some(&setpoint.epoch);

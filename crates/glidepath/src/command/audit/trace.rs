@@ -23,6 +23,9 @@ pub(super) enum Trace {
 /// More than the longest row, of nine axes and as many joints.
 const MOST_ROW_BYTES: u64 = 1 << 14;
 
+/// The states of a machine that does not know where it is.
+pub(super) const LOST: [MachineState; 2] = [MachineState::Homing, MachineState::NotHomed];
+
 /// Rows of setpoints as `plan`, `run` and `servo` write them.
 pub(super) struct Csv {
     rows: BufReader<File>,
@@ -171,7 +174,8 @@ impl Csv {
         setpoint.fraction = if self.is_steady { 0.0 } else { 0.5 };
         setpoint.scheduled_ns = setpoint.tick.wrapping_mul(self.period_ns);
         setpoint.apply_ns = setpoint.scheduled_ns.wrapping_add(self.period_ns);
-        setpoint.epoch = 1;
+        // What moves before a machine knows where it is, is of no program.
+        setpoint.epoch = u64::from(!LOST.contains(&state));
         setpoint.effective_override = 1.0;
         for column in &self.columns {
             let value = values.next()?;
@@ -191,6 +195,10 @@ impl Csv {
 
     /// The state of a row. A run rests while its first frames are planned, whatever that is called.
     fn state(&mut self, name: &str, tick: u64) -> MachineState {
+        if let Some(lost) = LOST.into_iter().find(|state| state.name() == name) {
+            self.has_rested |= self.begun_at.is_none();
+            return lost;
+        }
         let runs = name == "running";
         if self.begun_at.is_none() {
             if !runs {
