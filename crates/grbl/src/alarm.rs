@@ -13,6 +13,8 @@ pub enum Alarm {
     ProbeAtFirst,
     /// The probe has not found what it looked for.
     ProbeNothing,
+    /// The sender has ended the search for home.
+    HomingEnded,
     /// Homing failed.
     Homing,
     /// Emergency stop.
@@ -33,6 +35,7 @@ impl Alarm {
             Self::Stopped => 3,
             Self::ProbeAtFirst => 4,
             Self::ProbeNothing => 5,
+            Self::HomingEnded => 6,
             Self::Homing => 9,
             Self::EmergencyStop => 10,
             Self::Spindle => 14,

@@ -16,6 +16,8 @@ pub(super) enum Waiting {
     Home {
         since: Duration,
         has_begun: bool,
+        /// The sender has ended it.
+        is_ended: bool,
     },
 }
 

@@ -253,6 +253,8 @@ impl Session {
         match act {
             // At rest there is nothing to hold or to end: what keeps lines from beginning is kept here.
             Act::Hold | Act::Abort | Act::LetGo => {}
+            // It was taken back, and what it waits for tells so.
+            Act::Home(_) if matches!(self.waiting, Waiting::Home { is_ended: true, .. }) => {}
             Act::Home(_) if matches!(self.waiting, Waiting::Home { .. }) => {
                 self.waiting = Waiting::Nothing;
                 self.answer_error(ErrorNumber::NO_HOMING, why);

@@ -46,6 +46,12 @@ impl Session {
     }
 
     fn hold(&mut self, latch: Latch) {
+        if self.looks_for_home() {
+            // Joints between their switches have no path to be held on. Who wants them to stand is obeyed.
+            self.message("A search for home cannot be held: it ends");
+            self.end_home();
+            return;
+        }
         match self.state() {
             State::Alarm | State::Sleep | State::Check | State::Home => {}
             State::Jog => {

@@ -177,6 +177,7 @@ impl Session {
         self.waiting = Waiting::Home {
             since: now,
             has_begun: false,
+            is_ended: false,
         };
         false
     }

@@ -83,7 +83,10 @@ impl Desk {
                 }
                 Act::Abort => {
                     self.over = Some(End::Failed("aborted".to_owned()));
-                    self.machine.doing = Doing::Idle;
+                    self.machine.doing = match self.machine.doing {
+                        Doing::Homing | Doing::NotHomed => Doing::NotHomed,
+                        _ => Doing::Idle,
+                    };
                 }
                 Act::Hold => self.machine.doing = Doing::Held,
                 Act::Resume => self.machine.doing = Doing::Running,
@@ -424,6 +427,46 @@ fn homing_is_answered_at_its_end() {
     desk.machine.doing = Doing::Idle;
     desk.looks(3);
     assert_eq!(answers(&desk.said()), ["ok"]);
+}
+
+#[test]
+fn a_hold_ends_a_search_for_home_and_its_line_is_answered() {
+    for stop in [&b"!"[..], b"\x84"] {
+        let mut desk = Desk::new();
+        desk.machine.doing = Doing::NotHomed;
+        desk.look();
+        desk.says(b"$H\n");
+        desk.machine.doing = Doing::Homing;
+        desk.looks(3);
+        desk.acts.clear();
+        let said = desk.says(stop);
+        assert!(said.iter().any(|line| line.contains("cannot be held")));
+        assert_eq!(desk.acts, [Act::Abort]);
+        assert!(said.contains(&"ALARM:6".to_owned()), "{said:?}");
+        assert_eq!(answers(&said), ["error:9"]);
+    }
+}
+
+#[test]
+fn a_stop_right_behind_the_order_of_a_search_for_home_is_obeyed() {
+    for stop in [&b"$H\n!"[..], b"$H\n\x18"] {
+        let mut desk = Desk::new();
+        desk.machine.doing = Doing::NotHomed;
+        desk.look();
+        desk.acts.clear();
+        desk.says(stop);
+        assert_eq!(desk.acts, [Act::Abort], "it has not begun");
+    }
+    // The order is on its way already.
+    for stop in [&b"!"[..], b"\x18"] {
+        let mut desk = Desk::new();
+        desk.machine.doing = Doing::NotHomed;
+        desk.look();
+        desk.says(b"$H\n");
+        desk.acts.clear();
+        desk.says(stop);
+        assert_eq!(desk.acts, [Act::Abort]);
+    }
 }
 
 #[test]

@@ -13,6 +13,8 @@ const POWER_PATIENCE: Duration = Duration::from_secs(3);
 const HOMING_PATIENCE: Duration = Duration::from_secs(1);
 /// How long the machine may take to come to rest.
 const REST_PATIENCE: Duration = Duration::from_secs(10);
+/// Why a search for home has found none that its sender has ended.
+const ENDED: &str = "the search for home was ended: begin it again";
 
 impl Session {
     /// Ends all that goes on. What came before is not answered; what comes behind waits until the machine
@@ -24,7 +26,9 @@ impl Session {
         self.cancel_jogs();
         let was_open = self.stream.is_open();
         self.stream.cancel();
-        if was_open || !self.machine.doing.is_free() {
+        if self.looks_for_home() {
+            self.end_home();
+        } else if was_open || !self.machine.doing.is_free() {
             self.acts.push(Act::Abort);
         }
         (self.waiting, self.latch) = (Waiting::Nothing, Latch::Free);
@@ -81,12 +85,17 @@ impl Session {
                     self.answer_ok();
                 }
             }
-            Waiting::Home { since, has_begun } => {
+            Waiting::Home {
+                since,
+                has_begun,
+                is_ended,
+            } => {
                 let is_homing = doing == Doing::Homing;
                 if is_homing && !has_begun {
                     self.waiting = Waiting::Home {
                         since,
                         has_begun: true,
+                        is_ended,
                     };
                 }
                 let is_late = now.saturating_sub(since) >= HOMING_PATIENCE;
@@ -99,20 +108,39 @@ impl Session {
                         self.alarm = None;
                         self.answer_ok();
                     }
+                    _ if is_ended => self.fail_home(Alarm::HomingEnded, ENDED),
                     // Some joints are at home, and others have not been asked to be.
                     Doing::NotHomed if has_begun => {
                         self.is_unlocked = true;
                         self.answer_ok();
                     }
                     _ => {
-                        self.alarm = Some(Alarm::Homing);
-                        self.say(&format!("ALARM:{}", Alarm::Homing.number()));
                         let why = self.machine.fault.clone().map(|(_, why)| why);
                         let why = why.unwrap_or_else(|| "no home was found".to_owned());
-                        self.answer_error(ErrorNumber::LOCKED, &why);
+                        self.fail_home(Alarm::Homing, &why);
                     }
                 }
             }
+        }
+    }
+
+    fn fail_home(&mut self, alarm: Alarm, why: &str) {
+        self.alarm = Some(alarm);
+        self.say(&format!("ALARM:{}", alarm.number()));
+        self.answer_error(ErrorNumber::LOCKED, why);
+    }
+
+    /// Whether a search for home is under way, or asked for.
+    pub(super) fn looks_for_home(&self) -> bool {
+        matches!(self.waiting, Waiting::Home { .. }) || self.machine.doing == Doing::Homing
+    }
+
+    /// Ends a search for home, also one that was asked for just now.
+    pub(super) fn end_home(&mut self) {
+        self.acts.retain(|act| !matches!(act, Act::Home(_)));
+        self.acts.push(Act::Abort);
+        if let Waiting::Home { is_ended, .. } = &mut self.waiting {
+            *is_ended = true;
         }
     }
 }

@@ -13,6 +13,8 @@ use std::io;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Duration;
 
+/// Why a command was not given.
+const STOPPED: &str = "a stop was asked for behind it";
 /// How long the interpolator may take for an answer.
 const PATIENCE: Duration = Duration::from_secs(2);
 
@@ -116,18 +118,35 @@ impl Hands {
 /// Gives commands until nobody has any more.
 fn give(link: &LinkConfig, commands: &Receiver<Order>, refusals: &Sender<Refusal>) {
     while let Ok(first) = commands.recv() {
-        let mut waiting: Vec<Order> = core::iter::once(first).chain(commands.try_iter()).collect();
-        // A stop waits for no override.
-        waiting.sort_by_key(|(_, command, _)| !command.stops());
-        for (act, command, asked_ns) in waiting {
-            let Err(why) = give_one(link, command, asked_ns) else {
-                continue;
-            };
-            if refusals.send((act, why)).is_err() {
+        let waiting = core::iter::once(first).chain(commands.try_iter()).collect();
+        let (given, dropped) = in_order(waiting);
+        let dropped = dropped.into_iter().map(|act| (act, STOPPED.to_owned()));
+        let refused = given.into_iter().filter_map(|(act, command, asked_ns)| {
+            let why = give_one(link, command, asked_ns).err()?;
+            Some((act, why))
+        });
+        for refusal in dropped.chain(refused) {
+            if refusals.send(refusal).is_err() {
                 return;
             }
         }
     }
+}
+
+/// The order in which commands that wait are given: a stop waits for no override, and what was to set out
+/// before it does not set out behind it. The second part is what is not given.
+fn in_order(mut waiting: Vec<Order>) -> (Vec<Order>, Vec<Act>) {
+    let last_stop = waiting
+        .iter()
+        .rposition(|(_, command, _)| command.stops())
+        .unwrap_or(0);
+    let behind = waiting.split_off(last_stop);
+    let (dropped, before): (Vec<Order>, Vec<Order>) = waiting
+        .into_iter()
+        .partition(|(_, command, _)| command.sets_out());
+    let mut given: Vec<Order> = before.into_iter().chain(behind).collect();
+    given.sort_by_key(|(_, command, _)| !command.stops());
+    (given, dropped.into_iter().map(|(act, ..)| act).collect())
 }
 
 fn give_one(link: &LinkConfig, command: Command, asked_ns: u64) -> Result<(), String> {
@@ -143,5 +162,32 @@ fn give_one(link: &LinkConfig, command: Command, asked_ns: u64) -> Result<(), St
         Ok(Ok(())) => Ok(()),
         Ok(Err(refusal)) => Err(reply.why(refusal)),
         Err(error) => Err(error.to_string()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_stop_overtakes_what_waits_and_nothing_sets_out_behind_it_that_was_asked_before() {
+        let orders = |commands: &[Command]| -> Vec<Order> {
+            commands
+                .iter()
+                .map(|command| (Act::Hold, *command, 0))
+                .collect()
+        };
+        let given = |commands: &[Command]| -> (Vec<Command>, usize) {
+            let (given, dropped) = in_order(orders(commands));
+            let given = given.into_iter().map(|(_, command, _)| command);
+            (given.collect(), dropped.len())
+        };
+        let (slow, home) = (Command::FeedOverride(0.5), Command::Home(7));
+        use Command::{Abort, Hold, Resume};
+        assert_eq!(given(&[slow, home, Abort]), (vec![Abort, slow], 1));
+        assert_eq!(given(&[Resume, Hold]), (vec![Hold], 1));
+        assert_eq!(given(&[Hold, Resume]), (vec![Hold, Resume], 0));
+        assert_eq!(given(&[Resume, Hold, Resume]), (vec![Hold, Resume], 1));
+        assert_eq!(given(&[home, slow]), (vec![home, slow], 0));
     }
 }
