@@ -109,6 +109,35 @@ fn a_run_whose_child_dies_ends_as_a_fault_and_leaves_nothing_behind_but_what_was
 }
 
 #[test]
+fn a_run_ends_when_its_servo_stops_by_itself_and_says_why() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let program = instance.file("program.ngc", &long_program());
+    let csv = instance.path("stopped.csv");
+    let run = Process::join(&instance, &recorded(&program, &csv));
+    wait_for_motion(&instance);
+    let children = children_of(run.id());
+    let interpolator = children
+        .iter()
+        .find(|pid| command_of(**pid).contains(&"interpolator".to_owned()));
+    // Longer than drives go on without a setpoint, and shorter than what is a fault of the interpolator's.
+    send(*interpolator.unwrap(), Signal::STOP);
+    std::thread::sleep(Duration::from_millis(60));
+    send(*interpolator.unwrap(), Signal::CONT);
+    let told = run.wait().expect(5).json();
+    let error = told["error"].as_str().unwrap();
+    assert!(
+        error.contains("the servo ended: it stopped by itself"),
+        "{error}"
+    );
+    assert_eq!(told["ended_early"], true, "{told:#}");
+    let why = told["played"]["servo_stopped"].as_str().unwrap();
+    assert!(error.contains(why), "{why}: {error}");
+    let lines = long_program().lines().count() as u64;
+    assert!(told["line"].as_u64().unwrap() < lines - 1, "{told:#}");
+    assert_eq!(instance.shared_memory(), Vec::<String>::new());
+}
+
+#[test]
 fn a_program_ten_times_as_long_takes_no_more_memory() {
     let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
     let peak_rss = |blocks: u32| {
@@ -175,6 +204,10 @@ fn command_of(pid: u32) -> Vec<String> {
 }
 
 fn kill(pid: u32) {
+    send(pid, Signal::KILL);
+}
+
+fn send(pid: u32, signal: Signal) {
     let pid = rustix::process::Pid::from_raw(pid.try_into().unwrap()).unwrap();
-    rustix::process::kill_process(pid, Signal::KILL).unwrap();
+    rustix::process::kill_process(pid, signal).unwrap();
 }

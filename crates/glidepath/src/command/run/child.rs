@@ -79,6 +79,15 @@ impl Process {
         }
     }
 
+    /// The failure of a servo that has stopped by itself.
+    pub(super) fn stopped(&self, why: &str) -> Failure {
+        Failure::ProcessEnded {
+            name: self.name,
+            reason: format!("it stopped by itself, and played nothing more: {why}"),
+            exit: Exit::Fault,
+        }
+    }
+
     /// What a planner that has ended reports.
     pub(super) fn planning(&mut self) -> Result<Planning, Failure> {
         let report = self.report();

@@ -33,6 +33,10 @@ impl Left {
         let audited = (&received.audit, received.played);
         let planning = Planning::default();
         let mut report = RunReport::new(&planning, audited, &received.counts, &last, config);
+        report.servo_own_stops = received.farewell.own_stops;
+        report
+            .servo_stopped
+            .clone_from(&received.farewell.first_stop);
         report.motion.program = program.name().display().to_string();
         report.motion.setpoints.clone_from(&setpoints);
         report.motion.plot.clone_from(&plot);

@@ -204,7 +204,7 @@ impl Supervisor<'_> {
         if let Err(failure) = played {
             rest(&mut monitor);
             let status = monitor.status().copied();
-            let was_over = relay.is_over();
+            let (was_over, has_given_all) = (relay.is_over(), relay.given_all.is_so());
             // What it has received is whole when it has ended.
             servo.end().map_err(Failure::Process)?;
             return Err(match relay.finish() {
@@ -214,9 +214,11 @@ impl Supervisor<'_> {
                 // Whoever interrupts a run has no use for half of it.
                 Ok(_) if self.interrupt.is_set() => failure,
                 Ok(received) => {
+                    let stopped = received.farewell.first_stop.as_deref();
+                    let stopped = stopped.map(|why| servo.stopped(why));
                     *left = Some(Left { received, status });
-                    let of_servo = servo.must_live().err().filter(|_| was_over);
-                    of_servo.unwrap_or(failure)
+                    let of_servo = || servo.must_live().err().filter(|_| has_given_all);
+                    stopped.or_else(of_servo).unwrap_or(failure)
                 }
             });
         }
@@ -344,7 +346,7 @@ impl Supervisor<'_> {
                 return Err(Failure::Interrupted);
             }
             // Before the servo, which ends when nobody takes what it gives.
-            if relay.is_over() {
+            if relay.is_over() || relay.given_all.is_so() {
                 return Err(Failure::Thread("the thread that receives setpoints"));
             }
             for other in others.iter_mut() {

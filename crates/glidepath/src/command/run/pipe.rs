@@ -16,6 +16,17 @@ const PIECE: usize = 1 << 15;
 /// 4 ms, a minute of those every 250 µs. The memory is taken as it is needed.
 const MOST: usize = 1 << 28;
 
+/// Whether the servo has ended what it gives.
+#[derive(Debug, Clone)]
+pub(super) struct GivenAll(Arc<Shared>);
+
+impl GivenAll {
+    /// Whether it has, however much of it was asked for by now.
+    pub(super) fn is_so(&self) -> bool {
+        self.0.kept().end.is_some()
+    }
+}
+
 /// Reads ahead of whoever reads it.
 #[derive(Debug)]
 pub(super) struct ReadAhead {
@@ -51,6 +62,11 @@ impl ReadAhead {
     /// Begins to read, until the end, an error, or until nobody reads this any more.
     pub(super) fn of(from: impl Read + Send + 'static) -> Self {
         Self::keeping(from, MOST)
+    }
+
+    /// Tells when there is nothing more to be read from the pipe.
+    pub(super) fn given_all(&self) -> GivenAll {
+        GivenAll(Arc::clone(&self.shared))
     }
 
     fn keeping(from: impl Read + Send + 'static, most: usize) -> Self {

@@ -1,7 +1,7 @@
 //! The relay of what the mock servo receives, on its way through this process: counted, audited,
 //! recorded.
 
-use super::pipe::{Farewell, Pipe, ReadAhead};
+use super::pipe::{Farewell, GivenAll, Pipe, ReadAhead};
 use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::play_time::{PlayTime, PlayedTime};
@@ -59,6 +59,8 @@ pub(super) struct Received {
 #[derive(Debug)]
 pub(super) struct Relay {
     pub(super) seen: Arc<Seen>,
+    /// The servo has ended its output: it has stopped by itself, or died.
+    pub(super) given_all: GivenAll,
     thread: JoinHandle<Result<Received, Failure>>,
 }
 
@@ -73,12 +75,18 @@ impl Relay {
         let seen = Arc::new(Seen::default());
         let shared = Arc::clone(&seen);
         let (program, config) = (program.to_owned(), config.clone());
+        let from = ReadAhead::of(from);
+        let given_all = from.given_all();
         let thread =
             std::thread::spawn(move || receive(from, (&program, &config), recording, &shared));
-        Self { seen, thread }
+        Self {
+            seen,
+            given_all,
+            thread,
+        }
     }
 
-    /// True if the servo's output has ended.
+    /// True if nothing is received any more: all there was, or what is received cannot be kept.
     pub(super) fn is_over(&self) -> bool {
         self.thread.is_finished()
     }
@@ -91,13 +99,13 @@ impl Relay {
 }
 
 fn receive(
-    from: impl Read + Send + 'static,
+    from: ReadAhead,
     (program, config): (&Path, &MachineConfig),
     mut recording: Recording,
     seen: &Seen,
 ) -> Result<Received, Failure> {
     let period_t = config.period_t();
-    let (pipe, farewell) = Pipe::new(BufReader::new(ReadAhead::of(from)));
+    let (pipe, farewell) = Pipe::new(BufReader::new(from));
     // Only its counts are wanted: the servo process has played these setpoints in its own time.
     let mut servo = Servo::new(Box::new(pipe), ServoSettings::default());
     let mut play_time = PlayTime::new(period_t);

@@ -19,22 +19,21 @@ use std::time::Duration;
 /// Between two looks for setpoints: a fraction of a period, and a small one of the queue.
 const POLL: Duration = Duration::from_millis(1);
 
-/// The outcome of the setpoints that were played.
-#[derive(Debug)]
-pub(super) struct Played {
-    pub(super) counts: ServoCounts,
-    /// Why the servo stopped the joints by itself first, if it did.
-    pub(super) first_stop: Option<String>,
+/// What whoever has setpoints played is told.
+pub(super) enum Told<'a> {
+    /// The next setpoint.
+    Setpoint(&'a Setpoint),
+    /// The servo has stopped the joints by itself, for the first time, for this reason.
+    Stopped(&'a str),
 }
 
-/// Plays setpoints and hands over every one, until `take` gives false or the process is asked to
-/// end.
+/// Plays setpoints and tells of every one, until `take` gives false or the process is asked to end.
 pub(super) fn play(
     args: &ServoArgs,
     config: &MachineConfig,
     interrupt: &Interrupt,
-    mut take: impl FnMut(&Setpoint) -> Result<bool, Failure>,
-) -> Result<Played, Failure> {
+    mut take: impl FnMut(Told<'_>) -> Result<bool, Failure>,
+) -> Result<ServoCounts, Failure> {
     let transport = session::join(&args.instance, config)?;
     let mut servo = Servo::new(transport.setpoint_source()?, settings(config));
     // What only passes setpoints on leaves the drives to somebody else.
@@ -48,24 +47,25 @@ pub(super) fn play(
     let mut notices = Notices::new(args.relay);
     'playing: while !interrupt.is_set() {
         while let Some(setpoint) = servo.receive(Monotonic.now_ns())? {
-            if !take(&setpoint)? {
+            if !take(Told::Setpoint(&setpoint))? {
                 break 'playing;
             }
         }
         // A real servo stack hands this to its drives, and asks them where they are.
         let now_ns = Monotonic.now_ns();
         let demand = servo.demand(now_ns);
-        notices.look(&servo, &args.instance, config);
+        if let Some(why) = notices.look(&servo, &args.instance, config)
+            && !take(Told::Stopped(why))?
+        {
+            break;
+        }
         plant.step(now_ns, servo.last(), demand.as_ref());
         if let (Some(measured), Some(feedback)) = (plant.feedback(), &mut feedback) {
             feedback.publish(&measured)?;
         }
         std::thread::sleep(POLL);
     }
-    Ok(Played {
-        counts: *servo.counts(),
-        first_stop: notices.into_first_stop(),
-    })
+    Ok(*servo.counts())
 }
 
 /// How far away the home switch of a joint is that has one, mm or degrees.

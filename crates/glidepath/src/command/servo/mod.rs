@@ -20,11 +20,12 @@ use crate::output;
 use crate::recording::Recording;
 use crate::report::{counted, grouped};
 use crate::sample::Sample;
+use desk::Told;
 use glidepath_hal::HalCounts;
 use glidepath_link::Setpoint;
 use glidepath_link::servo::ServoCounts;
 use serde_json::json;
-use std::io::{BufWriter, Write as _};
+use std::io::{BufWriter, Write};
 
 /// Receives until asked to end.
 ///
@@ -39,7 +40,7 @@ pub(super) fn servo(args: &ServoArgs, config: &MachineConfig) -> Result<Exit, Fa
     let guard = session::guard(None, &args.basic, config, args.overwrite);
     let mut recording = Recording::create(config, args.setpoints.as_deref(), None, &guard)?;
     let period_t = config.period_t();
-    let take = |setpoint: &Setpoint| {
+    let mut take = |setpoint: &Setpoint| {
         recording.push(&Sample::received(setpoint, period_t))?;
         Ok(true)
     };
@@ -47,7 +48,11 @@ pub(super) fn servo(args: &ServoArgs, config: &MachineConfig) -> Result<Exit, Fa
         let (counts, hal) = hal::play(args, config, &interrupt, take)?;
         (counts, Some(hal))
     } else {
-        (desk::play(args, config, &interrupt, take)?.counts, None)
+        let counts = desk::play(args, config, &interrupt, |told| match told {
+            Told::Setpoint(setpoint) => take(setpoint),
+            Told::Stopped(_) => Ok(true),
+        })?;
+        (counts, None)
     };
     recording.finish("", "")?;
     report(args, &counts, hal.as_ref());
@@ -97,20 +102,44 @@ fn report(args: &ServoArgs, counts: &ServoCounts, hal: Option<&HalCounts>) {
     }
 }
 
-/// Passes every setpoint on, as it is in memory, until the reader goes away; and behind the last one
-/// whether the servo stopped by itself.
+/// Passes every setpoint on, as it is in memory, until the reader goes away or the servo stops by itself:
+/// nothing is played behind that. Whoever reads is told so at once, by the end of the pipe; the drives
+/// answer until the process is asked to end.
 fn relay(args: &ServoArgs, config: &MachineConfig, interrupt: &Interrupt) -> Result<Exit, Failure> {
-    let mut out = BufWriter::new(std::io::stdout().lock());
-    let played = desk::play(args, config, interrupt, |setpoint| {
-        let written = out.write_all(bytemuck::bytes_of(setpoint));
-        Ok(written.and_then(|()| out.flush()).is_ok())
+    let mut out = Some(BufWriter::new(std::io::stdout().lock()));
+    let mut farewell = Farewell::default();
+    desk::play(args, config, interrupt, |told| {
+        let Some(pipe) = &mut out else {
+            return Ok(true);
+        };
+        match told {
+            Told::Setpoint(setpoint) => {
+                let written = pipe.write_all(bytemuck::bytes_of(setpoint));
+                Ok(written.and_then(|()| pipe.flush()).is_ok())
+            }
+            Told::Stopped(why) => {
+                (farewell.own_stops, farewell.first_stop) = (1, Some(why.to_owned()));
+                say(&farewell, pipe);
+                out = None;
+                end_output().map_err(Failure::Process)?;
+                Ok(true)
+            }
+        }
     })?;
-    let farewell = Farewell {
-        own_stops: played.counts.stops,
-        first_stop: played.first_stop,
-    };
-    // Nobody is left to tell where the reader went away.
-    let _ = out.write_all(&farewell.to_bytes());
-    let _ = out.flush();
+    if let Some(mut pipe) = out {
+        say(&farewell, &mut pipe);
+    }
     Ok(interrupt.exit())
+}
+
+fn say(farewell: &Farewell, pipe: &mut impl Write) {
+    // Nobody is left to tell where the reader went away.
+    let _ = pipe.write_all(&farewell.to_bytes());
+    let _ = pipe.flush();
+}
+
+/// Ends standard output: who reads it is at its end.
+fn end_output() -> std::io::Result<()> {
+    let nowhere = std::fs::OpenOptions::new().write(true).open("/dev/null")?;
+    Ok(rustix::stdio::dup2_stdout(nowhere)?)
 }

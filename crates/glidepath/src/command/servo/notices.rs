@@ -36,13 +36,13 @@ impl Notices {
         }
     }
 
-    /// Says what is new.
+    /// Says what is new. Gives why the servo has stopped by itself, the first time.
     pub(super) fn look<S: Subscriber<Setpoint>>(
         &mut self,
         servo: &Servo<S>,
         instance: &InstanceArgs,
         config: &MachineConfig,
-    ) {
+    ) -> Option<&str> {
         let waits = !self.has_said_that_it_waits && servo.counts().received == 0;
         if waits && self.waits_from.elapsed() > NOTICE_AFTER {
             self.has_said_that_it_waits = true;
@@ -62,12 +62,10 @@ impl Notices {
             self.stops = servo.counts().stops;
             let why = why.to_string();
             output::note(&format!("servo: stopped by itself: {why}"));
-            self.first_stop.get_or_insert(why);
+            if self.first_stop.is_none() {
+                return Some(self.first_stop.insert(why));
+            }
         }
-    }
-
-    /// Why the servo stopped by itself first, if it did.
-    pub(super) fn into_first_stop(self) -> Option<String> {
-        self.first_stop
+        None
     }
 }
