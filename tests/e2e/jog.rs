@@ -80,6 +80,13 @@ fn steps_move_the_axes_and_a_program_goes_on_from_there() {
         "{text}"
     );
     assert!(jog(&["A5"]).expect(5).stderr.contains("no axis A"));
+    // Cut short, and at the end already: a script has to know.
+    let report_of_way = jog(&["Z1000", "--json"]).expect(7).json();
+    assert_eq!(report_of_way["at_end_of_travel"][0], "Z");
+    let report = jog(&["Z1", "--json"]).expect(7).json();
+    assert!(report["error"].as_str().unwrap().contains("travel ends"));
+    let back = report_of_way["not_moved"]["Z"].as_f64().unwrap() - 1000.0;
+    let _back = jog(&[&format!("Z{back}")]).expect(0);
     assert!(jog(&["Q5"]).expect(2).stderr.contains("such as X10"));
     assert!(jog(&[]).expect(5).stderr.contains("need a terminal"));
     let nowhere = Process::join(&instance, &["return"]).wait().expect(5);

@@ -20,6 +20,8 @@ pub enum Exit {
     Fault = 5,
     /// The program could not be checked to its end, and nothing wrong was found before.
     Unchecked = 6,
+    /// A jog ended before what was asked for, because the travel or the reach of the machine ends there.
+    Short = 7,
     /// Interrupted from the keyboard or by a signal.
     Interrupted = 130,
 }

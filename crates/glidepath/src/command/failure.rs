@@ -209,6 +209,14 @@ pub(super) enum Failure {
         /// Why.
         reason: String,
     },
+    /// A jog cannot begin: every axis of it is at the end of its travel already.
+    #[error("{}", refused("jog", .reason))]
+    AtEndOfTravel {
+        /// What the machine does.
+        state: &'static str,
+        /// Which axes, and where.
+        reason: String,
+    },
     /// A motion that was accepted did not come to its end.
     #[error("{command} has ended before its end: {reason}")]
     CutShort {

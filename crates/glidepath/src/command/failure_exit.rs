@@ -86,6 +86,7 @@ impl Failure {
             | Self::Jitter(_)
             | Self::Answers(_)
             | Self::Thread(_) => Exit::Fault,
+            Self::AtEndOfTravel { .. } => Exit::Short,
             Self::Left {
                 source: planner::RunError::Interrupted,
                 ..

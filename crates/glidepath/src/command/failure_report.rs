@@ -60,7 +60,10 @@ fn failure_object(failure: &Failure) -> Value {
         "exit_code": failure.exit() as u8,
         "findings": found,
     });
-    if let Failure::CommandRefused { state, .. } | Failure::CutShort { state, .. } = failure {
+    if let Failure::CommandRefused { state, .. }
+    | Failure::AtEndOfTravel { state, .. }
+    | Failure::CutShort { state, .. } = failure
+    {
         object["state"] = (*state).into();
     }
     if let Failure::Planner(RunError::Fault(fault))

@@ -87,12 +87,15 @@ impl Arrival {
         })
     }
 
-    /// Done; a fault where the drives are elsewhere, or something ended the jog.
+    /// Done; a fault where the drives are elsewhere, or something ended the jog; short where an axis did not go
+    /// as far as it was asked to.
     pub(super) fn exit(&self) -> Exit {
-        if self.have_followed() && self.ended_by.is_none() {
+        if !self.have_followed() || self.ended_by.is_some() {
+            Exit::Fault
+        } else if self.short.is_empty() {
             Exit::Done
         } else {
-            Exit::Fault
+            Exit::Short
         }
     }
 
@@ -279,8 +282,10 @@ mod tests {
             }
         };
         assert_eq!(told([high + 7.0, -4.0]).text(), "");
+        assert_eq!(told([high + 7.0, -4.0]).exit(), Exit::Done);
         let at_end = told([high, -4.0]);
         assert_eq!(at_end.not_moved(), [(x, 7.0)]);
+        assert_eq!(at_end.exit(), Exit::Short);
         assert_eq!(at_end.at_end_of_travel(), ["X"]);
         assert!(is_at_end(&config, x, high) && !is_at_end(&config, x, high - 1.0));
         assert_eq!(

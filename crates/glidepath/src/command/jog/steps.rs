@@ -56,7 +56,8 @@ pub(super) fn jog(
         && is_homed
         && let Some(reason) = at_end_already(&start, &value, config)
     {
-        return Err(refused(state.name(), reason));
+        let state = state.name();
+        return Err(Failure::AtEndOfTravel { state, reason });
     }
     let most_v = args.feed.map_or(0.0, |feed| feed / 60.0);
     panel
