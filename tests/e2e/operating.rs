@@ -29,12 +29,19 @@ fn a_machine_is_switched_on_homed_used_and_recovers_from_the_loss_of_its_drives(
     machine.operate(&["enable"]);
     let status = machine.wait_for(MachineState::NotHomed);
     assert_eq!((status.power(), status.homed), (Ok(Power::On), 0));
+    // What is shown of a machine that does not know where it is, is marked.
+    let told = machine.operate(&["status"]).stdout;
+    assert!(told.contains("X 0.0000 (not homed)"), "{told}");
+    let told = machine.operate(&["status", "--json"]).json();
+    assert_eq!(told["axes_not_homed"], serde_json::json!(["X", "Y", "Z"]));
     machine.operate(&["set-position", "J1", "7.25"]);
     let _set = machine.wait(|status| (status.position[1] - 7.25).abs() < 1e-12);
     machine.operate(&["home"]);
     let status = machine.wait_for(MachineState::Idle);
     assert_eq!(status.position[..3], [7.5, -8.0, 35.0]);
     assert_eq!(status.homed, 0b111);
+    let told = machine.operate(&["status"]).stdout;
+    assert!(!told.contains("(not homed)"), "{told}");
 
     // A program begins where the machine stands.
     machine.operate(&["planner", &program]);

@@ -207,7 +207,9 @@ function digits() {
   axes.forEach((axis, k) => {
     const text = num(shown[k], 3);
     fill($(`#w${axis.name}`), `${text.slice(0, -2)}<i>${text.slice(-2)}</i>`);
-    put($(`#m${axis.name}`), s.offset ? num(machine[k], 3) : axis.travel ? `${num(axis.travel[0], 0)} … ${num(axis.travel[1], 0)}` : 'turns');
+    const lost = (s.axes_not_homed || []).includes(axis.name);
+    $(`#w${axis.name}`).parentElement.classList.toggle('lost', lost);
+    put($(`#m${axis.name}`), lost ? 'not homed' : s.offset ? num(machine[k], 3) : axis.travel ? `${num(axis.travel[0], 0)} … ${num(axis.travel[1], 0)}` : 'turns');
     const rail = $(`#t${axis.name}`);
     rail.parentElement.hidden = !axis.travel;
     if (axis.travel) rail.style.left = `${Math.max(0, Math.min(100, (machine[k] - axis.travel[0]) / (axis.travel[1] - axis.travel[0]) * 100)).toFixed(2)}%`;

@@ -74,7 +74,8 @@ function setUpDigits() {
   put($('#s-system'), s.offset ? s.offset.system : '');
   AXES().forEach((axis, k) => {
     put($(`#s${axis.name}`), num(shown[k], 3)); put($(`#sm${axis.name}`), num(machine[k], 3));
-    const joint = (SETUP.joints || []).indexOf(axis.name), homed = joint < 0 || !(s.not_homed || []).includes(`J${joint}`);
+    const homed = !(s.axes_not_homed || []).includes(axis.name);
+    $(`#s${axis.name}`).parentElement.classList.toggle('lost', !homed);
     fill($(`#h${axis.name}`), `<path d="${ICONS.home}"/>`); $(`#h${axis.name}`).classList.toggle('ok', homed); $(`#h${axis.name}`).classList.toggle('warn', !homed);
     const rail = $(`#st${axis.name}`);
     rail.parentElement.hidden = !axis.travel;

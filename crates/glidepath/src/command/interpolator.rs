@@ -7,7 +7,7 @@ use crate::config::{HomingBy, MachineConfig};
 use crate::exit::Exit;
 use crate::interrupt::{Interrupt, end_with};
 use crate::output;
-use crate::report::{status_object, status_text};
+use crate::report::{Beside, status_object, status_text};
 use crate::service_manager::ServiceManager;
 use core::sync::atomic::{AtomicBool, Ordering};
 use core::time::Duration;
@@ -58,7 +58,11 @@ pub(super) fn interpolator(
     if args.basic.json {
         output::object(&status_object(&instance, &status, None));
     } else {
-        output::result(&status_text(&instance, &status, None, None));
+        let beside = Beside {
+            not_homed: config.axes_not_homed(&status),
+            ..Beside::default()
+        };
+        output::result(&status_text(&instance, &status, &beside));
     }
     Ok(interrupt.exit())
 }

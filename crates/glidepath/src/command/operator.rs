@@ -12,7 +12,9 @@ use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::exit::Exit;
 use crate::output;
-use crate::report::{AskedTool, active_object, active_text, status_object, status_text};
+use crate::report::{
+    AskedTool, Beside, active_object, active_text, names, status_object, status_text,
+};
 use glidepath_link::{
     Command, CommandReply, CommandRequest, Ipc, LinkConfig, LinkError, Operator, Power,
     Record as _, Status, Transport as _,
@@ -221,21 +223,24 @@ pub(super) fn status(args: &OperatorArgs, config: &MachineConfig) -> Result<Exit
     let operator = reach(&link)?;
     let status = read_status(&operator, &link)?;
     let active = active_program(&link, &status);
-    let tool = asked_tool(&link, config, &status);
-    let offset = KeptOffsets::new(config, &link).look();
+    let beside = Beside {
+        asked_tool: asked_tool(&link, config, &status),
+        offset: KeptOffsets::new(config, &link).look(),
+        not_homed: config.axes_not_homed(&status),
+    };
     if args.basic.json {
-        let mut object = status_object(&instance, &status, tool.as_ref());
-        let [system, part] = offset
-            .as_ref()
-            .map_or([Value::Null, Value::Null], |offset| {
-                offset.objects(&status.position, &config.axis_names())
-            });
+        let mut object = status_object(&instance, &status, beside.asked_tool.as_ref());
+        object["axes_not_homed"] = names(&beside.not_homed);
+        let offset = beside.offset.as_ref();
+        let [system, part] = offset.map_or([Value::Null, Value::Null], |offset| {
+            offset.objects(&status.position, &config.axis_names())
+        });
         (object["offset"], object["work_position"]) = (system, part);
         object["active_program"] = active_object(active.as_ref());
         output::object(&object);
     } else {
         let active = active.as_ref().map(active_text).unwrap_or_default();
-        let text = status_text(&instance, &status, tool.as_ref(), offset.as_ref());
+        let text = status_text(&instance, &status, &beside);
         output::result(&(text + &active));
     }
     Ok(Exit::Done)

@@ -12,6 +12,7 @@ use glidepath_kinematics::{
     AxisRates, AxisShare, FiveAxis, JOINTS, JointLimits, JointWatch, Kinematics as _, Mechanism,
     PathCaps,
 };
+use glidepath_link::Status;
 use glidepath_motion::preview::AdvanceRetreat;
 use glidepath_program::{Corners, Effort, Limits, PathBounds, Settings, Smoothing};
 use std::path::PathBuf;
@@ -209,6 +210,25 @@ impl MachineConfig {
     pub fn axis_of_joints(&self) -> Vec<Axis> {
         let second = self.gantries.iter().map(|(axis, _)| *axis);
         self.axis_names().into_iter().chain(second).collect()
+    }
+
+    /// The axes that do not know where they are, as a status tells of their joints. Where joints are not axes,
+    /// every joint has to do with every axis.
+    #[must_use]
+    pub fn axes_not_homed(&self, status: &Status) -> Vec<Axis> {
+        let lost = status.joints & !status.homed;
+        let mut axes = self.axis_names();
+        if self.joints() == 0 {
+            let of_joints = self.axis_of_joints();
+            let is_lost = |axis: &Axis| {
+                let mut joints = of_joints.iter().enumerate();
+                joints.any(|(joint, of)| of == axis && lost & (1 << joint) != 0)
+            };
+            axes.retain(is_lost);
+        } else if lost == 0 {
+            axes.clear();
+        }
+        axes
     }
 
     /// How many drives the machine has.

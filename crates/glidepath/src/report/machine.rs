@@ -16,6 +16,12 @@ pub(super) fn by_axis(values: &[f64; AXES]) -> Map<String, Value> {
         .collect()
 }
 
+/// The names of axes.
+#[must_use]
+pub fn names(axes: &[Axis]) -> Value {
+    axes.iter().map(ToString::to_string).collect()
+}
+
 /// The names of the joints of a mask.
 fn joints_of(mask: u32) -> Vec<String> {
     (0..AXES)

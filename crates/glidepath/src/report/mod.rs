@@ -2,6 +2,7 @@
 
 mod active_program;
 mod auxiliary;
+mod beside;
 mod diagnosis;
 mod diagnostic;
 mod fit;
@@ -18,10 +19,11 @@ mod work_offset;
 
 pub use active_program::{active_object, active_text};
 pub use auxiliary::{coolant_words, spindle_words};
+pub use beside::Beside;
 pub use diagnosis::{DiagnosisReport, PlaceReport};
 pub use diagnostic::{ProgramDiagnostic, diagnostic_object};
 pub use fit::{FitReport, FittedRun};
-pub use machine::{AskedTool, awaited_code};
+pub use machine::{AskedTool, awaited_code, names};
 pub use memory::peak_rss_bytes;
 pub use motion::{MotionReport, Planning};
 pub use quantity::{counted, decimals, grouped, rough_time, seconds};

@@ -1,8 +1,8 @@
 //! The state of an interpolator, as text and as JSON.
 
+use super::beside::Beside;
 use super::machine::{AskedTool, awaited_text, by_axis, machine_object, power_text};
 use super::quantity::{decimals, grouped, microseconds};
-use super::work_offset::WorkOffset;
 use crate::machine_options::complete;
 use core::fmt::Write as _;
 use glidepath_geometry::{AXES, Axis};
@@ -197,34 +197,40 @@ pub(super) fn manner_text(status: &Status) -> String {
     in_force.map(|(_, text)| text).collect()
 }
 
-/// The values of axes that are meant, with their names.
-fn positions_text(values: &[f64; AXES], is_meant: impl Fn(Axis, f64) -> bool) -> String {
+/// The values of axes that are meant, with their names; those mean nothing that are not homed.
+fn positions_text(
+    values: &[f64; AXES],
+    not_homed: &[Axis],
+    is_meant: impl Fn(Axis, f64) -> bool,
+) -> String {
     let axes = Axis::ALL.into_iter().zip(values);
     let meant = axes.filter(|(axis, value)| is_meant(*axis, **value));
     let meant: Vec<String> = meant
-        .map(|(axis, value)| format!("{axis} {}", decimals(*value, 4)))
+        .map(|(axis, value)| {
+            let mark = if not_homed.contains(&axis) {
+                " (not homed)"
+            } else {
+                ""
+            };
+            format!("{axis} {}{mark}", decimals(*value, 4))
+        })
         .collect();
     meant.join("  ")
 }
 
 /// How far the axes are from the path, if they are away from it.
 fn away_text(status: &Status) -> Option<String> {
-    let away = positions_text(&status.away, |_, value| value != 0.0);
+    let away = positions_text(&status.away, &[], |_, value| value != 0.0);
     (!away.is_empty()).then(|| format!("{away}, from the path"))
 }
 
-/// A status for people, with the tool that the machine waits for and the coordinate system in force.
+/// A status for people, with what is known beside it.
 #[must_use]
-pub fn status_text(
-    instance: &str,
-    status: &Status,
-    tool: Option<&AskedTool>,
-    offset: Option<&WorkOffset>,
-) -> String {
+pub fn status_text(instance: &str, status: &Status, beside: &Beside) -> String {
     let mut text = String::new();
     let state = status.state().map_or("unknown", MachineState::name);
     let is_told = |axis: Axis, value: f64| axis.index() < 3 || value != 0.0;
-    let position = positions_text(&status.position, is_told);
+    let position = positions_text(&status.position, &beside.not_homed, is_told);
     // Writing to a String does not fail.
     let doing = status.state_text().unwrap_or_default();
     let _ = writeln!(text, "{instance}: {state}, process {}", status.pid);
@@ -234,15 +240,16 @@ pub fn status_text(
         let remedy = complete(remedy(status).unwrap_or(HOW_TO_CLEAR));
         let _ = writeln!(text, "  to clear it   {remedy}");
     }
-    if let Some(awaited) = awaited_text(status, tool) {
+    if let Some(awaited) = awaited_text(status, beside.asked_tool.as_ref()) {
         let _ = writeln!(text, "  awaits        {awaited}");
     }
     if let Some(job) = job_text(status) {
         let _ = writeln!(text, "  job           {job}");
     }
     let _ = writeln!(text, "  position      {}", position);
-    if let Some(offset) = offset {
-        let part = positions_text(&offset.work(&status.position), is_told);
+    if let Some(offset) = &beside.offset {
+        let part = offset.work(&status.position);
+        let part = positions_text(&part, &beside.not_homed, is_told);
         let _ = writeln!(text, "  part          {part}  ({})", offset.name);
     }
     if let Some(away) = away_text(status) {

@@ -303,6 +303,7 @@ impl Machine<'_> {
             auxiliary: self.auxiliary.as_ref(),
             asked_tool: None,
             axes: &self.config.axis_names(),
+            not_homed: &self.config.axes_not_homed(&status),
             place,
             offsets: self.offsets.look(),
             events: Vec::new(),

@@ -1,6 +1,7 @@
 //! The messages of telemetry, as JSON.
 
 use crate::config::MachineConfig;
+use crate::report::names;
 use glidepath_link::{MachineState, Power, Status};
 use serde_json::{Map, Value, json};
 use std::time::{SystemTime, UNIX_EPOCH};
@@ -51,6 +52,7 @@ pub(super) fn status(status: Option<&Status>, now_ns: u64, config: &MachineConfi
         "power": status.power() == Ok(Power::On),
         "line": status.line,
         "position": position,
+        "axes_not_homed": names(&config.axes_not_homed(status)),
         "feed_mm_s": rounded(status.feed_v),
         "override": rounded(status.effective_override),
         "buffer_s": rounded(f64::from(status.queue_depth) * config.period_t()),

@@ -80,6 +80,7 @@ pub(super) fn watch(args: &StatusArgs, config: &MachineConfig) -> Result<Exit, F
             auxiliary: auxiliary.as_ref(),
             asked_tool: asked_tool.clone(),
             axes: &config.axis_names(),
+            not_homed: &config.axes_not_homed(&status),
             place,
             offsets: offsets.look(),
             events: history.events(),

@@ -2,6 +2,7 @@
 
 use super::seen::View;
 use crate::report::auxiliary::{coolant_words, spindle_words};
+use crate::report::machine::names;
 use serde_json::{Map, Value, json};
 
 /// What a view tells besides its status, as an object.
@@ -23,6 +24,7 @@ pub fn view_object(view: &View<'_>) -> Map<String, Value> {
         "tool_selected": view.auxiliary.map(|record| record.prepared_tool),
         "spindle": view.auxiliary.map(spindle_words),
         "coolant": view.auxiliary.map(coolant_words),
+        "axes_not_homed": names(view.not_homed),
         "offset": offset,
         "work_position": work,
         "events": view.events.iter()

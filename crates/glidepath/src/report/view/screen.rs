@@ -145,6 +145,9 @@ fn position_lines(view: &View<'_>, lines: &mut Vec<String>) {
         if is_away {
             let _ = write!(line, "{:>14}", number(&status.away));
         }
+        if view.not_homed.contains(axis) {
+            line.push_str("  not homed");
+        }
         lines.push(line.trim_end().to_owned());
     }
     let turned = view
@@ -245,6 +248,7 @@ mod tests {
             status: &status,
             auxiliary: Some(&auxiliary),
             axes: &[Axis::X, Axis::Y, Axis::Z],
+            not_homed: &[Axis::Y],
             place: Some(Place {
                 program: "part.ngc".to_owned(),
                 text: "G1 X10 F1200 ".to_owned() + &"(a long comment)".repeat(9),
@@ -277,7 +281,8 @@ mod tests {
             "  line      12     G1 X10 F1200 (a long",
             "  progress  [######------------------] 25 % of 1:40, about 5:00 left",
             "  input     the adaptive feed, or the spindle in G95, lets through 50 %",
-            "  X             110.0000       10.0000",
+            "  X             110.0000       10.0000\n",
+            "  Y               0.0000        0.0000  not homed\n",
             "  tool      T3, T4 selected, spindle M3 S8000, coolant M8",
             "  says      clean the vice",
             "  buffer    150 of 768 frames, 0.60 s; starved for 0 ticks so far",
@@ -287,6 +292,7 @@ mod tests {
         }
         let object = Value::Object(view_object(&view));
         assert_eq!(object["progress"], 0.25);
+        assert_eq!(object["axes_not_homed"], serde_json::json!(["Y"]));
         assert_eq!(object["left_s"], 300.0);
         assert_eq!(object["work_position"]["X"], 10.0);
         assert_eq!(

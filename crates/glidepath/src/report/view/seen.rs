@@ -34,6 +34,8 @@ pub struct View<'a> {
     pub asked_tool: Option<AskedTool>,
     /// The machine's axes.
     pub axes: &'a [Axis],
+    /// Those that do not know where they are: their positions mean nothing yet.
+    pub not_homed: &'a [Axis],
     /// Where it is in the program; `None` if that is not known.
     pub place: Option<Place>,
     /// The coordinate system in force; `None` if none is kept.
