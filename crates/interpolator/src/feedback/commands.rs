@@ -1,6 +1,7 @@
 //! The commands about drives and joints: whether they are possible, and what concerns the count.
 
 use super::book::DriveBook;
+use super::claims::Joints;
 use crate::message::Report;
 use glidepath_kinematics::JOINTS;
 use glidepath_link::{Command, MachineState, Objection, Power};
@@ -61,18 +62,20 @@ impl DriveBook {
             // Without a program, what is left to abort is a latched fault.
             Command::Reset | Command::Abort => {
                 self.conductor.drop_job();
-                self.reset(report).map(|()| true)
+                self.reset(report, now_ns).map(|()| true)
             }
         }
     }
 
     /// Whether a fault would not come again at once: a joint that does not stand where it was told
-    /// to be is not led from there.
-    fn reset(&self, report: &Report) -> Result<(), Objection> {
+    /// to be is not led from there, nor one whose drive is silent or reports a fault. Without power nobody is led.
+    fn reset(&self, report: &Report, now_ns: u64) -> Result<(), Objection> {
         if report.power != Power::On {
             return Ok(());
         }
         let joints = self.claims.joints();
+        refuse(self.is_fresh(&joints, now_ns), Objection::NoPosition)?;
+        refuse(joints.fault == 0, Objection::DriveFault)?;
         let mut pairs = self.pairs.iter();
         let are_apart = pairs.any(|pair| {
             let apart = self.apart(&joints, pair);
@@ -93,11 +96,15 @@ impl DriveBook {
         refuse(is_clear, Objection::FaultLatched)?;
         let is_off = report.state == MachineState::Off && report.power == Power::Off;
         refuse(is_off, Objection::PowerAsked)?;
-        let stale_ns = self.settings.stale_after.as_nanos();
-        let is_fresh = u128::from(self.age_ns(&joints, now_ns)) <= stale_ns;
-        refuse(is_fresh, Objection::NoPosition)?;
+        refuse(self.is_fresh(&joints, now_ns), Objection::NoPosition)?;
         refuse(self.has_pose, Objection::NoPose)?;
         refuse(joints.fault == 0, Objection::DriveFault)
+    }
+
+    /// Whether the drives say where they are.
+    fn is_fresh(&self, joints: &Joints, now_ns: u64) -> bool {
+        let stale_ns = self.settings.stale_after.as_nanos();
+        u128::from(self.age_ns(joints, now_ns)) <= stale_ns
     }
 
     fn set_position(

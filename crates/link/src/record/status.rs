@@ -233,7 +233,16 @@ pub struct Status {
     pub job_end: Text,
 }
 
+/// Drives that have said nothing for so long are silent: nobody knows where they are, ns.
+const SILENT_NS: u64 = 500_000_000;
+
 impl Status {
+    /// Whether drives that are to say where they are have said nothing for half a second, or nothing yet.
+    #[must_use]
+    pub const fn drives_are_silent(&self) -> bool {
+        self.feedback_age_ns > SILENT_NS
+    }
+
     /// The state of the machine.
     ///
     /// # Errors

@@ -1,8 +1,9 @@
-//! Why a machine rests in a program, where its state alone does not tell what goes on from there.
+//! Why a machine rests, where its state alone does not tell what goes on from there.
 
 use crate::record::{MachineState, Status};
 
-/// What keeps a machine at rest in a program besides a hold or a stop, or instead of it.
+/// What keeps a machine at rest besides what its state tells: in a program besides a hold or a stop, or instead
+/// of it; without power besides the want of that.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum AtRest {
     /// The axes were jogged away from the path.
@@ -17,6 +18,8 @@ pub enum AtRest {
     NoRapid,
     /// An input, or the spindle at a feed per revolution, lets nothing through.
     Adaptive,
+    /// The drives have no power, and nobody says where they are.
+    Silent,
 }
 
 impl AtRest {
@@ -28,6 +31,7 @@ impl AtRest {
         Self::NoFeed,
         Self::NoRapid,
         Self::Adaptive,
+        Self::Silent,
     ];
 
     /// The states in which it may be.
@@ -38,6 +42,7 @@ impl AtRest {
             Self::Backwards | Self::NoOverride | Self::NoFeed | Self::NoRapid | Self::Adaptive => {
                 &[MachineState::Held]
             }
+            Self::Silent => &[MachineState::Off],
         }
     }
 
@@ -69,6 +74,10 @@ impl AtRest {
                 "at rest on the path, because the adaptive feed, or the spindle in G95, lets nothing \
                  through; it goes on by itself when they do, after a hold with `glidepath resume`"
             }
+            Self::Silent => {
+                "the drives have no power, and do not say where they are; start the servo stack, then \
+                 `glidepath enable` gives it"
+            }
         }
     }
 
@@ -79,7 +88,9 @@ impl AtRest {
             is_zero(status.feed_override),
             is_zero(status.rapid_override),
         );
-        let found = if status.away.iter().any(|away| *away != 0.0) {
+        let found = if state == MachineState::Off {
+            return status.drives_are_silent().then_some(Self::Silent);
+        } else if status.away.iter().any(|away| *away != 0.0) {
             Self::Away
         } else if status.feed_override.is_sign_negative() {
             Self::Backwards
@@ -132,6 +143,12 @@ mod tests {
                 status.state = state.code();
                 assert_eq!(told(&status), Ok(AtRest::Away.text()));
             }
+        }
+        status.state = MachineState::Off.code();
+        assert_eq!(told(&status), Ok(MachineState::Off.text()));
+        for silent_ns in [600_000_000, u64::MAX] {
+            status.feedback_age_ns = silent_ns;
+            assert_eq!(told(&status), Ok(AtRest::Silent.text()));
         }
         status.state = 99;
         assert!(status.state_text().is_err());

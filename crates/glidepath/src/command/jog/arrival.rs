@@ -20,8 +20,6 @@ const POLL: Duration = Duration::from_millis(10);
 const PATIENCE: Duration = Duration::from_millis(1_500);
 /// Nearer than this a joint has followed, mm or degrees.
 const FOLLOWED: f64 = 0.05;
-/// Drives that have said nothing for so long are not known to have followed.
-const SILENT_NS: u64 = 500_000_000;
 /// Less than this is rounding, mm or degrees.
 const ROUNDING: f64 = 1e-6;
 
@@ -222,7 +220,7 @@ fn followed(status: &Status, joints: usize) -> Followed {
     if status.power() != Ok(Power::On) {
         return Followed::Yes;
     }
-    if status.feedback_age_ns > SILENT_NS {
+    if status.drives_are_silent() {
         return Followed::Silent;
     }
     let errors = status.following_error.iter().take(joints).enumerate();

@@ -47,6 +47,28 @@ fn feedback_that_stays_away_stops_the_motion_and_then_takes_the_power() {
 }
 
 #[test]
+fn a_fault_is_not_reset_while_what_it_is_of_goes_on() {
+    let mut bench = Bench::mill();
+    bench.enable(MachineState::Idle);
+    bench.upset(Upset::Dropout(true));
+    assert!(bench.run_to(MachineState::Faulted, 10));
+    assert_ne!(
+        bench.last().enable,
+        0,
+        "not for long enough to take the power"
+    );
+    for command in [Command::Reset, Command::Abort] {
+        let why = bench.command(command).unwrap_err();
+        assert!(why.contains("do not say where they are"), "{why}");
+    }
+    bench.upset(Upset::Dropout(false));
+    bench.run(2);
+    bench.command(Command::Reset).unwrap();
+    bench.run(5);
+    assert_eq!((bench.state(), bench.fault()), (MachineState::Idle, None));
+}
+
+#[test]
 fn after_an_emergency_stop_setpoints_never_lead_the_drives() {
     let mut bench = running(2, 120);
     bench.upset(Upset::EmergencyStop(true));
