@@ -3,7 +3,7 @@
 use std::process::Stdio;
 use std::time::{Duration, Instant};
 
-use glidepath_link::MachineState;
+use glidepath_link::{JobStage, MachineState};
 use glidepath_tests::{Instance, Process, Watchdog};
 use rustix::process::Signal;
 
@@ -44,9 +44,15 @@ fn the_end_of_its_client_ends_a_stream_and_its_motion() {
             bench.stays(&before);
         }
 
-        // While the client checks its program nothing is streamed.
+        // While the client checks its program nothing is streamed, and everybody sees that it is a job.
         let client = bench.operated.process(&["feed", &bench.slow]);
-        std::thread::sleep(Duration::from_millis(500));
+        let reads = bench.operated.wait_for(MachineState::Preparing);
+        assert_eq!(reads.job_stage(), Ok(JobStage::Preparing));
+        let job = bench
+            .operated
+            .wait(|status| status.job.as_str().contains("client"));
+        let told = "a stream of segments: waits for its client, which reads it";
+        assert_eq!(job.job.as_str(), told);
         client.signal(signal);
         let output = ended_within(client, SOON).expect(130);
         let told = output.stderr.contains("nothing was streamed");

@@ -24,6 +24,11 @@ pub trait Attend {
         let _nobody = followed;
     }
 
+    /// What is being done before the first frame, if that is not planning.
+    fn doing(&self) -> Option<&'static str> {
+        None
+    }
+
     /// Asked when the first frame is ready, until the answer is yes.
     fn may_begin(&mut self) -> bool {
         true

@@ -51,9 +51,10 @@ pub struct Fed {
     pub lines: u64,
 }
 
-/// Streams a program to a listening planner and waits until it is executed. `make_source` opens the program for a machine
-/// at the given position, in a thread of its own, and gives the watch to whatever reads it: by that the reading is ended.
-/// Nothing is streamed if it refuses.
+/// Streams a program to a listening planner and waits until it is executed. The stream is opened first: while the program
+/// is read it is a job that everybody sees, and nobody else moves the machine. `make_source` opens the program for a
+/// machine at the given position, in a thread of its own, and gives the watch to whatever reads it: by that the reading is
+/// ended. Nothing is streamed if it refuses.
 ///
 /// # Errors
 /// [`FeedError`]. If the source fails midway, the stream ends after the last good item, and that is
@@ -64,35 +65,51 @@ pub fn feed<S: ItemSource>(
     make_source: impl FnOnce(AxisVector, ReadingWatch) -> Result<S, Refusal> + Send,
     control: &mut Control<'_>,
 ) -> Result<Fed, FeedError> {
-    let position = machine_position(transport, control)?;
+    must_be_there(transport, control)?;
+    let mut feeder = Feeder::new(transport, feeding.asked_ns)?;
+    let fed = feeder
+        .open(control)
+        .and_then(|position| read_and_stream(&mut feeder, position, make_source, control));
+    match fed {
+        Err(FeedError::Interrupted) => Err(feeder.call_off(feeding.abort, control)),
+        fed => fed,
+    }
+}
+
+/// From the opening of the program to the end of its motion.
+fn read_and_stream<S: ItemSource>(
+    feeder: &mut Feeder,
+    position: AxisVector,
+    make_source: impl FnOnce(AxisVector, ReadingWatch) -> Result<S, Refusal> + Send,
+    control: &mut Control<'_>,
+) -> Result<Fed, FeedError> {
     let watch = ReadingWatch::default();
     std::thread::scope(|scope| {
         let reading = watch.clone();
         let reader = Reader::spawn(scope, watch.clone(), move || make_source(position, reading));
-        let fed = reader
-            .map_err(|error| Refusal::from(error).into())
-            .and_then(|mut reader| {
-                reader.opened(control)?;
-                let mut feeder = Feeder::new(transport, feeding.asked_ns)?;
-                match stream(&mut feeder, position, &mut reader, control) {
-                    Err(FeedError::Interrupted) => Err(feeder.call_off(feeding.abort, control)),
-                    fed => fed,
-                }
-            });
+        let fed = match reader {
+            Ok(mut reader) => stream(feeder, &mut reader, control),
+            Err(error) => Err(Refusal::from(error).into()),
+        };
         // Whoever reads may be far from the next item.
         watch.end();
         fed
     })
 }
 
-/// From the opening of the stream to the end of its motion.
+/// From the opened stream to the end of its motion.
 fn stream(
     feeder: &mut Feeder,
-    position: AxisVector,
     reader: &mut Reader,
     control: &mut Control<'_>,
 ) -> Result<Fed, FeedError> {
-    feeder.open(position, control)?;
+    match feeder.wait_for(reader, control) {
+        Err(FeedError::Refused(refusal)) => {
+            feeder.give_up(control);
+            return Err(refusal.into());
+        }
+        opened => opened?,
+    }
     let refusal = match feeder.stream(reader, control) {
         Err(error @ FeedError::RefusedByPlanner { .. }) => {
             // What was accepted is executed; better to say at once that there is no more.
@@ -113,17 +130,14 @@ fn stream(
     }
 }
 
-/// Where the machine stands, from its status.
-fn machine_position(
-    transport: &dyn Transport,
-    control: &mut Control<'_>,
-) -> Result<AxisVector, FeedError> {
+/// Waits for a machine that says where it stands.
+fn must_be_there(transport: &dyn Transport, control: &mut Control<'_>) -> Result<(), FeedError> {
     let mut status = transport.status_source()?;
     let mut waited = Duration::ZERO;
     while waited < PATIENCE {
         if let Some(status) = status.take()? {
             status.check().map_err(LinkError::from)?;
-            return Ok(AxisVector::from(status.position));
+            return Ok(());
         }
         pause(POLL, control)?;
         waited += POLL;

@@ -413,6 +413,11 @@ impl Attend for Attendant<'_> {
         Attended::GoesOn
     }
 
+    fn doing(&self) -> Option<&'static str> {
+        let has_items = lock(self.received).stream.has_items();
+        (!has_items).then_some("waits for its client, which reads it")
+    }
+
     fn may_begin(&mut self) -> bool {
         let received = lock(self.received);
         // The first frame is at rest, and there before anything is known that moves.

@@ -238,9 +238,11 @@ impl<'t> Publisher<'t> {
             }
             // A fault tells more than that the job is over.
             epoch.follow(self.standing(&epoch)?);
-            if epoch.is_known() {
-                self.say("");
-            }
+            self.say(if epoch.is_known() {
+                ""
+            } else {
+                attend.doing().unwrap_or("planning")
+            });
             self.tend(waited)?;
             if let Err(error) = self.answer_inputs(&epoch, waited) {
                 self.abort(&epoch, control)?;

@@ -27,9 +27,6 @@ pub enum FeedError {
     /// No interpolator tells where the machine stands.
     #[error("no interpolator tells where the machine stands; `glidepath interpolator` starts one")]
     MachineLost,
-    /// The machine moved between the reading of the program and the start.
-    #[error("the machine moved while the program was read; start again")]
-    Moved,
     /// The caller's stop flag ended it before a stream was open: nothing of it moves.
     #[error("interrupted: nothing was streamed")]
     Interrupted,

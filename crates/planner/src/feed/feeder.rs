@@ -58,13 +58,9 @@ impl Feeder {
         self.accepted.saturating_sub(1)
     }
 
-    /// Opens the stream, and makes sure that the machine is where the program was opened for.
+    /// Opens the stream; where the machine stands, which is the stream's from now on.
     /// Waits a while for a planner or machine that is not ready yet.
-    pub(super) fn open(
-        &mut self,
-        position: AxisVector,
-        control: &mut Control<'_>,
-    ) -> Result<(), FeedError> {
+    pub(super) fn open(&mut self, control: &mut Control<'_>) -> Result<AxisVector, FeedError> {
         let mut waited = Duration::ZERO;
         loop {
             let reply = match self.repeat(self.open, control) {
@@ -78,14 +74,30 @@ impl Feeder {
             match reply.outcome().map_err(LinkError::from)? {
                 Ok(()) => {
                     self.accepted = 1;
-                    let is_there = AxisVector::from(reply.position) == position;
-                    return is_there.then_some(()).ok_or(FeedError::Moved);
+                    return Ok(AxisVector::from(reply.position));
                 }
                 Err(SegmentRefusal::Stopped) if waited < PATIENCE => pause(RETRY, control)?,
                 Err(refusal) => return Err(refused(0, refusal, &reply)),
             }
             waited += RETRY;
         }
+    }
+
+    /// Waits until the program is open, and shows meanwhile that this client lives.
+    pub(super) fn wait_for(
+        &mut self,
+        reader: &mut Reader,
+        control: &mut Control<'_>,
+    ) -> Result<(), FeedError> {
+        let mut silent = Interval::new(HEARTBEAT);
+        while !reader.is_open()? {
+            pause(POLL, control)?;
+            if silent.is_over_after(POLL) {
+                self.heartbeat(control)?;
+                silent.restart();
+            }
+        }
+        Ok(())
     }
 
     /// Streams what is read to its end; returns why it ended early, if it did.
@@ -190,7 +202,8 @@ impl Feeder {
             match reply.outcome()? {
                 Ok(()) => self.accepted = self.accepted.max(reply.accepted),
                 Err(SegmentRefusal::NoCredit | SegmentRefusal::OutOfOrder) => {}
-                Err(_) if self.accepted == 0 => return Ok(Some(FeedError::Interrupted)),
+                // The stream may be open, and nothing of it has come.
+                Err(_) if self.accepted <= 1 => return Ok(Some(FeedError::Interrupted)),
                 Err(refusal) => {
                     let message = message_of(refusal, &reply);
                     return Ok(Some(FeedError::CalledOff { message }));

@@ -10,8 +10,7 @@ use std::time::Duration;
 use glidepath_gcode::ReadingWatch;
 
 use super::FeedError;
-use super::wait::{POLL, pause};
-use crate::{Control, ItemSource, Refusal, Supply};
+use crate::{ItemSource, Refusal, Supply};
 
 /// Items read ahead.
 const READ_AHEAD: usize = 256;
@@ -59,14 +58,15 @@ impl Reader {
         })
     }
 
-    /// Waits until the source is open.
-    pub(super) fn opened(&mut self, control: &mut Control<'_>) -> Result<(), FeedError> {
-        loop {
-            match self.opened.try_recv() {
-                Ok(opened) => return Ok(opened?),
-                Err(TryRecvError::Disconnected) => return Err(died().into()),
-                Err(TryRecvError::Empty) => pause(POLL, control)?,
-            }
+    /// Whether the source is open.
+    ///
+    /// # Errors
+    /// Why it is not opened.
+    pub(super) fn is_open(&mut self) -> Result<bool, FeedError> {
+        match self.opened.try_recv() {
+            Ok(opened) => Ok(opened.map(|()| true)?),
+            Err(TryRecvError::Disconnected) => Err(died().into()),
+            Err(TryRecvError::Empty) => Ok(false),
         }
     }
 
