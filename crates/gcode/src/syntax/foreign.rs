@@ -32,7 +32,7 @@ pub(crate) fn foreign(text: &[u8], ahead: &[u8]) -> Option<Box<Fault>> {
             "a program in HEIDENHAIN's DIN/ISO",
             "let the CAM system write it for LinuxCNC, FANUC or SINUMERIK",
         )
-    } else if is_okuma(first) {
+    } else if is_okuma(first) || lines().any(has_okuma_words) {
         (
             "a program of an Okuma control",
             "let the CAM system write it for LinuxCNC, FANUC or SINUMERIK",
@@ -78,6 +78,36 @@ fn is_okuma(line: &[u8]) -> bool {
         .strip_prefix(b"$")
         .and_then(|line| line.strip_suffix(b"%"));
     name.is_some_and(|name| name.contains(&b'.'))
+}
+
+/// `G15 H1` (a coordinate system), `CALL O10` (a subroutine), `VZOFZ[1]=0` (its zero), `NOEX` in front of a block
+/// that is not shown: what no other control has, behind the number of a block.
+fn has_okuma_words(line: &[u8]) -> bool {
+    let bare: Vec<u8> = line
+        .iter()
+        .take_while(|byte| !b"(;".contains(byte))
+        .filter(|byte| !byte.is_ascii_whitespace())
+        .map(u8::to_ascii_uppercase)
+        .collect();
+    let words = match bare.as_slice() {
+        [b'N', rest @ ..] if rest.first().is_some_and(u8::is_ascii_digit) => {
+            let digits = rest.iter().take_while(|byte| byte.is_ascii_digit()).count();
+            rest.get(digits..).unwrap_or_default()
+        }
+        line => line,
+    };
+    let is_followed_by_digit = |head: &[u8]| {
+        let rest = words.strip_prefix(head);
+        rest.and_then(<[u8]>::first).is_some_and(u8::is_ascii_digit)
+    };
+    let is_offset = |head: &[u8]| {
+        let rest = words.strip_prefix(head);
+        rest.is_some_and(|rest| matches!(rest, [b'X'..=b'Z' | b'A'..=b'C', b'[' | b'=', ..]))
+    };
+    is_followed_by_digit(b"G15H")
+        || is_followed_by_digit(b"CALLO")
+        || is_offset(b"VZOF")
+        || words.starts_with(b"NOEXV")
 }
 
 /// What a file is whose first bytes say so.
@@ -144,6 +174,9 @@ mod tests {
             "; header\n0  BEGIN PGM A INCH\n",
             "%TEST G71 *\nN10 G30 G17 X+0 Y+0 Z-20 *\n",
             "$PART.MIN%\nO1\nG15 H1\n",
+            "OPART\nG0 G90\nN10 G15 H1\nG56 Z100 H1\n",
+            "O1\nN1 CALL O10 PX=5\n",
+            "(SETUP)\nNOEX VC1=5\nVZOFZ[1]=12.5\n",
             "<!doctype html>\n<html>\n",
             "%PDF-1.4\n",
             "this is no program at all\nbut a note to whoever\nreads the folder next\n",
@@ -162,6 +195,9 @@ mod tests {
             "DEF REAL A\nDEF REAL B\nDEF REAL C\nG0 X1\n",
             "PART NUMBER ONE\nREVISION B OF IT\nMADE BY ME AND YOU\n%\nO1\nG0 X1\n",
             "$H\nG0 X1\n",
+            "G15\nG16\nG0 X1\n",
+            "G0 X1 (G15 H1)\nG15\nH1\n",
+            "CALL \"O10\"\nG0 X1\n",
             "",
         ] {
             assert!(!told(text), "{text}");
