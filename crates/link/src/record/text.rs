@@ -5,6 +5,16 @@ use crate::wording::in_one_line;
 use iceoryx2::prelude::ZeroCopySend;
 use std::borrow::Cow;
 
+/// The end of a text that was cut.
+const CUT: &str = "…";
+
+/// The beginning of a text that is so many bytes long at most, in whole characters.
+fn fitting(text: &str, bytes: usize) -> &str {
+    let ends = (0..=text.len().min(bytes)).rev();
+    let end = ends.into_iter().find(|end| text.is_char_boundary(*end));
+    text.get(..end.unwrap_or(0)).unwrap_or_default()
+}
+
 macro_rules! text {
     ($(#[$about:meta])* $name:ident, $capacity:literal, $shown:expr) => {
 $(#[$about])*
@@ -18,18 +28,18 @@ impl $name {
     /// Longest text, bytes.
     pub const CAPACITY: usize = $capacity;
 
-    /// A text, cut at the last whole character that fits.
+    /// A text; one that does not fit is cut at the last whole character, and ends in `…`.
     #[must_use]
     pub fn new(text: &str) -> Self {
         let shown: Cow<'_, str> = $shown(text);
         let text = &*shown;
-        let mut end = text.len().min(Self::CAPACITY);
-        while !text.is_char_boundary(end) {
-            end -= 1;
-        }
+        let (text, sign) = match fitting(text, Self::CAPACITY) {
+            whole if whole.len() == text.len() => (whole, ""),
+            _ => (fitting(text, Self::CAPACITY - CUT.len()), CUT),
+        };
         let mut bytes = [0; Self::CAPACITY];
-        for (to, from) in bytes.iter_mut().zip(text.as_bytes().iter().take(end)) {
-            *to = *from;
+        for (to, from) in bytes.iter_mut().zip(text.bytes().chain(sign.bytes())) {
+            *to = from;
         }
         Self { bytes }
     }
