@@ -173,8 +173,9 @@ impl fmt::Display for Violation {
                 end,
             } => write!(
                 f,
-                "{axis} is at {position:.6}, {:.6} beyond the end of its travel at {end}",
-                (position - end).abs()
+                "{axis} is at {position:.6}{unit}, {:.6}{unit} beyond the end of its travel at {end}{unit}",
+                (position - end).abs(),
+                unit = unit(axis)
             ),
             ViolationKind::AlongPath { ratio } => {
                 write!(f, "{ratio:.6} of the acceleration allowed along the path")
@@ -205,7 +206,8 @@ impl fmt::Display for Violation {
             ViolationKind::NotStill { axis, off_mm } => {
                 write!(
                     f,
-                    "{axis} is left alone by the program and off by {off_mm:.3e}"
+                    "{axis} is left alone by the program and off by {off_mm:.3e}{}",
+                    unit(axis)
                 )
             }
             ViolationKind::Unsteady {
@@ -214,12 +216,18 @@ impl fmt::Display for Violation {
                 allowed_j,
             } => write!(
                 f,
-                "{axis} has jerk at constant feed that is {over_j:.1} off that of the path, where {allowed_j:.1} is allowed"
+                "{axis} has jerk at constant feed that is {over_j:.1}{unit}/s³ off that of the path, where {allowed_j:.1}{unit}/s³ is allowed",
+                unit = unit(axis)
             ),
             ViolationKind::Lost => write!(f, "the motion does not follow the program any more"),
             ViolationKind::Incomplete => write!(f, "the motion ends before the program does"),
         }
     }
+}
+
+/// The unit of an axis, as it stands behind a number.
+fn unit(axis: Axis) -> &'static str {
+    if axis.is_rotary() { "°" } else { " mm" }
 }
 
 /// Violations kept in full; the others are counted.

@@ -22,18 +22,18 @@ impl<'a> Account<'a> {
         }
     }
 
-    /// Writes into a report when it was, and counts the wake-up. Returns whether too many ticks
-    /// were missed in the present second.
-    pub(crate) fn stamp(&mut self, report: &mut Report, wake: &Wake) -> bool {
+    /// Writes into a report when it was, and counts the wake-up. Returns how many ticks
+    /// were missed in the present second, and how many may be, where those are too many.
+    pub(crate) fn stamp(&mut self, report: &mut Report, wake: &Wake) -> Option<(u64, u64)> {
         if wake.missed > 0 {
             self.happenings.write(Happening::Missed {
                 tick: wake.tick,
                 count: wake.missed,
             });
         }
-        let are_too_many = self.counters.count(wake);
+        let too_many = self.counters.count(wake);
         self.counters.stamp(report, wake);
-        are_too_many
+        too_many
     }
 
     /// Keeps how long the tick took, for the next report.

@@ -42,8 +42,9 @@ impl Counters {
         }
     }
 
-    /// Counts a wake-up. Returns whether too many ticks were missed in the present second.
-    pub(crate) const fn count(&mut self, wake: &Wake) -> bool {
+    /// Counts a wake-up. Returns how many ticks were missed in the present second, and how many may be, where those are
+    /// too many.
+    pub(crate) fn count(&mut self, wake: &Wake) -> Option<(u64, u64)> {
         let second = wake.tick / self.ticks_per_s;
         if second != self.second {
             self.second = second;
@@ -54,7 +55,8 @@ impl Counters {
         if self.is_late(wake) {
             self.late_ticks += 1;
         }
-        wake.missed > 0 && self.missed_in_second > self.missed_allowed
+        let are_too_many = wake.missed > 0 && self.missed_in_second > self.missed_allowed;
+        are_too_many.then_some((self.missed_in_second, self.missed_allowed))
     }
 
     /// Writes into a report when it was, and how the host kept time so far.

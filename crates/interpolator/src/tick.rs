@@ -80,8 +80,8 @@ impl Interpolator<'_> {
     /// What is left to do at the deadline: the time it really was.
     #[cfg_attr(glidepath_rtsan, sanitize(realtime = "nonblocking"))]
     pub(crate) fn stamp(&mut self, report: &mut Report, wake: &Wake) {
-        if self.account.stamp(report, wake) {
-            self.fail(FaultCause::MissedTicks);
+        if let Some((missed, allowed)) = self.account.stamp(report, wake) {
+            self.fail_by_missed(missed, allowed);
         }
     }
 

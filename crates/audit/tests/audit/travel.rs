@@ -72,7 +72,8 @@ fn what_is_beyond_between_samples_is_found() {
         "{report:?}"
     );
     let text = report.violations.iter().map(ToString::to_string);
-    let want = "line 1, tick 1: X is at 100.002500, 0.002500 beyond the end of its travel at 100";
+    let want =
+        "line 1, tick 1: X is at 100.002500 mm, 0.002500 mm beyond the end of its travel at 100 mm";
     assert!(
         text.clone().any(|text| text == want),
         "{:?}",

@@ -137,6 +137,20 @@ impl<'a> Interpolator<'a> {
             .fail(Fault::new(cause, self.passed.line, self.passed.sequence));
     }
 
+    /// So many ticks were missed within a second, where so many are allowed.
+    #[allow(
+        clippy::cast_precision_loss,
+        reason = "ticks of a second are far fewer"
+    )]
+    pub(super) fn fail_by_missed(&mut self, missed: u64, allowed: u64) {
+        let cause = FaultCause::MissedTicks;
+        self.requests.fail(Fault {
+            value: missed as f64,
+            limit: allowed as f64,
+            ..Fault::new(cause, self.passed.line, self.passed.sequence)
+        });
+    }
+
     /// Tells of a setpoint that exceeds a limit, and stops the motion for one that is far above.
     pub(super) fn judge(&mut self, written: Written, tick: u64) {
         if let Written::Excess(part) = written {

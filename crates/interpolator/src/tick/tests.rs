@@ -136,5 +136,11 @@ fn too_many_missed_ticks_stop_the_motion() {
         rig.last.unwrap().fault.map(|f| f.cause),
         Some(FaultCause::MissedTicks)
     );
+    let told = rig.last.unwrap().fault.map(|fault| fault.to_string());
+    let told = told.unwrap_or_default();
+    assert!(
+        told.contains("4 within a second, where 3 are allowed"),
+        "{told}"
+    );
     assert!(rig.worst_ratio() <= INSIDE);
 }

@@ -187,7 +187,7 @@ pub struct FaultReport {
     pub drive_fault: u32,
     /// What was found, in the unit of the limit.
     pub value: f64,
-    /// What is allowed, mm or degrees by the time that the cause has, or s for an age; 0 for nothing.
+    /// What is allowed, mm or degrees by the time that the cause has, s for an age, or a count; 0 for nothing.
     pub limit: f64,
     /// Source line, 0 for none.
     pub line: u32,
@@ -211,6 +211,10 @@ impl fmt::Display for FaultReport {
                 f,
                 ": what they said last is {age} s old, where {allowed} s is allowed"
             )?;
+        } else if self.value != 0.0 && self.cause == FaultCause::MissedTicks {
+            // Counts, which are whole.
+            let (missed, allowed) = (self.value, self.limit);
+            write!(f, ": {missed} within a second, where {allowed} are allowed")?;
         } else if self.limit != 0.0 {
             let (value, limit) = apart(self.value, self.limit);
             // Which joints turn is known to the mechanism alone.
@@ -300,6 +304,16 @@ mod tests {
             report.to_string(),
             "a joint is too far from where it is to be, joint J1, 3.21 where 0.5 mm or ° is allowed"
         );
+        (report.cause, report.joint) = (FaultCause::MissedTicks, None);
+        for allowed in [0.0, 3.0] {
+            (report.value, report.limit) = (7.0, allowed);
+            assert_eq!(
+                report.to_string(),
+                format!(
+                    "too many ticks were missed: 7 within a second, where {allowed} are allowed"
+                )
+            );
+        }
         (report.cause, report.joint) = (FaultCause::FeedbackLost, None);
         (report.value, report.limit, report.line) = (0.016_000_1, 0.012, 7);
         assert_eq!(

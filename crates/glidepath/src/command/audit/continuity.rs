@@ -159,7 +159,10 @@ impl Continuity {
             let end = at.max(low).min(high);
             ((at - end).abs() > Travel::ROUNDING).then(|| {
                 let (axis, off) = (state.axis, (at - end).abs());
-                format!("{axis} is at {at:.6}, {off:.6} beyond the end of its travel at {end}")
+                let unit = unit(axis);
+                format!(
+                    "{axis} is at {at:.6}{unit}, {off:.6}{unit} beyond the end of its travel at {end}{unit}"
+                )
             })
         });
         if let Some(text) = beyond {
@@ -210,11 +213,11 @@ impl Continuity {
             let (axis, rounding) = (state.axis, ROUNDING * state.magnitude);
             let mut power = 1.0;
             let orders = [
-                (first, "velocity"),
-                (second, "acceleration"),
-                (third, "jerk"),
+                (first, "a velocity", "/s"),
+                (second, "an acceleration", "/s²"),
+                (third, "a jerk", "/s³"),
             ];
-            for (order, (difference, name)) in (0_u32..).zip(orders) {
+            for (order, (difference, name, per)) in (0_u32..).zip(orders) {
                 power *= t;
                 // Behind a gap a difference needs as many samples as its order, and one more.
                 if state.run <= order {
@@ -233,7 +236,10 @@ impl Continuity {
                     let value = difference / power;
                     found.push((
                         "limit",
-                        format!("{axis} has a {name} of {value:.3}, {ratio:.4} of its limit"),
+                        format!(
+                            "{axis} has {name} of {value:.3}{}{per}, {ratio:.4} of its limit",
+                            unit(axis)
+                        ),
                     ));
                 }
             }
@@ -244,7 +250,10 @@ impl Continuity {
                 let v = of(&setpoint.velocity);
                 found.push((
                     "frozen",
-                    format!("{axis} stays at {now:.6} and says that it moves at {v:.3}"),
+                    format!(
+                        "{axis} stays at {now:.6}{unit} and says that it moves at {v:.3}{unit}/s",
+                        unit = unit(axis)
+                    ),
                 ));
             }
         }
@@ -252,6 +261,11 @@ impl Continuity {
             self.find(setpoint, kind, text);
         }
     }
+}
+
+/// The unit of an axis, as it stands behind a number.
+fn unit(axis: Axis) -> &'static str {
+    if axis.is_rotary() { "°" } else { " mm" }
 }
 
 #[cfg(test)]
