@@ -151,9 +151,9 @@ int main(int argc, char **argv) {
         fail("gp_servo_read_state");
         return 1;
     }
-    printf("%" PRIu64 " received, %" PRIu64 " lost, %" PRIu64 " jumps, %" PRIu64 " own stops, "
+    printf("%" PRIu64 " received, %" PRIu64 " lost, %" PRIu64 " jumps, %" PRIu64 " own stop%s, "
            "stopped %" PRIu32 ", at %.6f\n",
-           state.received, state.lost, state.jumps, state.stops, state.stopped,
+           state.received, state.lost, state.jumps, state.stops, state.stops == 1 ? "" : "s", state.stopped,
            atomic_load(&shared.position[0]));
     if (gp_servo_close(shared.servo) < 0 || gp_feedback_close(sink) < 0 || gp_close(link) < 0) {
         fail("closing");

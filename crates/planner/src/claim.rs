@@ -80,7 +80,11 @@ impl Claim {
             JobStage::Refused => Err(RunError::NotBegun {
                 why: status.job_end.as_str().to_owned(),
             }),
-            _ => Ok(()),
+            JobStage::None
+            | JobStage::Waiting
+            | JobStage::Preparing
+            | JobStage::Begun
+            | JobStage::Over => Ok(()),
         }
     }
 }

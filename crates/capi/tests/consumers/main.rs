@@ -92,7 +92,7 @@ fn a_servo_in_c_follows_and_stops_by_itself() {
     let (_, told, _) = servo.finish();
     // All arrived; then none, and it came to rest by itself.
     assert!(
-        told.contains("150 received, 0 lost, 0 jumps, 1 own stops, stopped 1, at "),
+        told.contains("150 received, 0 lost, 0 jumps, 1 own stop, stopped 1, at "),
         "{told}"
     );
     let place: f64 = told.rsplit(' ').next().unwrap().trim().parse().unwrap();

@@ -167,7 +167,9 @@ fn job_stage(status: &Status) -> Option<&'static str> {
         Ok(JobStage::Waiting) => Some("waiting"),
         Ok(JobStage::Preparing) => Some("preparing"),
         Ok(JobStage::Begun) => Some("begun"),
-        _ => None,
+        Ok(JobStage::None | JobStage::Aborted | JobStage::Refused | JobStage::Over) | Err(_) => {
+            None
+        }
     }
 }
 
