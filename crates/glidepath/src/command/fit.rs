@@ -12,6 +12,7 @@ use crate::curve_file;
 use crate::dense_runs::{ProgramPiece, Run, Runs};
 use crate::exit::Exit;
 use crate::file_error::FileError;
+use crate::interrupt::Interrupt;
 use crate::output;
 use crate::output_file::{self, OutputKind};
 use crate::plot::curve::{CurvePlot, Mark};
@@ -23,7 +24,10 @@ use glidepath_gcode::Program;
 use glidepath_planner::UnchangedFile;
 use std::io::BufReader;
 use std::path::Path;
+use std::time::Duration;
 
+/// Between two looks whether the process was asked to end.
+const POLL: Duration = Duration::from_millis(20);
 /// Steps of the progress bar for each run.
 const STEPS: f64 = 1000.0;
 
@@ -34,10 +38,8 @@ const STEPS: f64 = 1000.0;
 /// tolerance.
 pub(super) fn fit(args: &FitArgs, config: &MachineConfig) -> Result<Exit, Failure> {
     args.file.open()?;
+    let interrupt = Interrupt::install().map_err(Failure::Signals)?;
     let config = &for_program(&args.file, config);
-    check::accepted(&args.file, config, args.basic.json)?;
-    let pieces = read(args.file.path(), config)?;
-    let runs: Vec<&Run> = pieces.iter().filter_map(run).collect();
     let settings = Settings {
         method: match args.method {
             FitMethod::LeastSquares => Method::LeastSquares,
@@ -48,9 +50,18 @@ pub(super) fn fit(args: &FitArgs, config: &MachineConfig) -> Result<Exit, Failur
         ..Settings::new(args.tolerance)
     };
     let guard = session::guard(Some(&args.file), &args.basic, config, args.overwrite);
-    let start = clock::elapsed();
-    let results = fit_runs(&runs, &settings);
-    let wall_s = (clock::elapsed() - start).as_secs_f64();
+    let (file, machine, json) = (args.file.clone(), config.clone(), args.basic.json);
+    let fitted = interruptible(&interrupt, move || {
+        check::accepted(&file, &machine, json)?;
+        let pieces = read(file.path(), &machine)?;
+        let runs: Vec<&Run> = pieces.iter().filter_map(run).collect();
+        let start = clock::elapsed();
+        let results = fit_runs(&runs, &settings);
+        let wall_s = (clock::elapsed() - start).as_secs_f64();
+        Ok((pieces, results, wall_s))
+    });
+    let (pieces, results, wall_s) = fitted?;
+    let runs: Vec<&Run> = pieces.iter().filter_map(run).collect();
     if let Some(path) = &args.output {
         let text = written(path, &pieces, &runs, &results, config, args.tolerance)?;
         let kind = if is_curve_file(path) {
@@ -86,6 +97,26 @@ pub(super) fn fit(args: &FitArgs, config: &MachineConfig) -> Result<Exit, Failur
     } else {
         Exit::Rejected
     })
+}
+
+/// Has something done in a thread of its own that takes long and writes nothing, until it is done or the process is
+/// asked to end: then it is left where it is.
+fn interruptible<T: Send + 'static>(
+    interrupt: &Interrupt,
+    work: impl FnOnce() -> Result<T, Failure> + Send + 'static,
+) -> Result<T, Failure> {
+    let thread = std::thread::Builder::new().name("fitting".to_owned());
+    let worker = thread.spawn(work).map_err(Failure::Process)?;
+    while !worker.is_finished() {
+        if interrupt.is_set() {
+            return Err(Failure::Interrupted);
+        }
+        std::thread::sleep(POLL);
+    }
+    match worker.join() {
+        Ok(done) => done,
+        Err(panic) => std::panic::resume_unwind(panic),
+    }
 }
 
 fn read(path: &Path, config: &MachineConfig) -> Result<Vec<ProgramPiece>, Failure> {

@@ -8,6 +8,7 @@
 )]
 
 use std::fs::{self, File};
+use std::io::Read as _;
 use std::os::unix::fs::FileTypeExt as _;
 use std::os::unix::process::ExitStatusExt as _;
 use std::path::Path;
@@ -257,6 +258,58 @@ fn an_interrupted_command_leaves_what_was_there() {
     assert_eq!((status.code(), status.signal()), (Some(130), None));
     assert_eq!(fs::read_to_string(here.join("out.csv")).unwrap(), old);
     assert_eq!(names(here), ["long.ngc", "out.csv"]);
+}
+
+#[test]
+fn a_fit_that_is_interrupted_ends_with_a_word_and_writes_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    // A loop that is checked for long, and runs that are fitted for long.
+    let mut dense = String::from("G21 G90 F600\n");
+    for i in 0..60_000 {
+        let x = f64::from(i) * 0.01;
+        dense += &format!(
+            "G1 X{:.4} Y{:.4}\n",
+            90.0 * (x / 9.0).cos(),
+            90.0 * (x / 7.0).sin()
+        );
+    }
+    fs::write(here.join("dense.ngc"), dense + "M2\n").unwrap();
+    for (signal, after) in [("-INT", 300), ("-TERM", 1500)] {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_glidepath"))
+            .current_dir(here)
+            .args([
+                "fit",
+                "dense.ngc",
+                "--method",
+                "hybrid",
+                "--output",
+                "out.ngc",
+            ])
+            .stdout(Stdio::null())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        std::thread::sleep(std::time::Duration::from_millis(after));
+        let asked = std::time::Instant::now();
+        let kill = Command::new("kill")
+            .args([signal, &child.id().to_string()])
+            .status();
+        assert!(kill.unwrap().success());
+        let status = child.wait().unwrap();
+        let took = asked.elapsed();
+        assert_eq!((status.code(), status.signal()), (Some(130), None));
+        assert!(took < std::time::Duration::from_secs(5), "{took:?}");
+        let mut told = String::new();
+        child
+            .stderr
+            .take()
+            .unwrap()
+            .read_to_string(&mut told)
+            .unwrap();
+        assert!(told.contains("interrupted"), "{told}");
+        assert_eq!(names(here), ["dense.ngc"]);
+    }
 }
 
 #[test]
