@@ -58,6 +58,7 @@ mod ipc;
 mod port;
 mod record;
 mod service;
+mod stall;
 mod wording;
 
 pub use error::{BoxedError, LinkError};
@@ -78,6 +79,7 @@ pub use record::{
     StreamItem, TOLD_SYSTEMS, Text, decode,
 };
 pub use service::Capacity;
+pub use stall::STALL;
 pub use wording::{
     AtRest, FaultReport, Objection, SWITCHED_OFF, StateChange, TOLD_TO_END, is_printable,
     printable, refused,

@@ -7,14 +7,13 @@
 
 use std::time::{Duration, Instant};
 
+use glidepath_link::STALL;
+
 /// A client from which nothing was heard for so long is taken for dead.
 pub const CLIENT_SILENCE: Duration = Duration::from_secs(2);
 
 /// A turn counts for so long at most towards that silence.
 const LONGEST_TURN: Duration = Duration::from_millis(50);
-
-/// A look that is late by more says that this process stood still.
-const STALL: Duration = Duration::from_millis(500);
 
 /// What waits for the client before the first frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -30,7 +30,7 @@ use checking::Checking;
 use error::EndpointError;
 use glidepath_geometry::AXES;
 use glidepath_grbl::{Act, MachineSettings, Session};
-use glidepath_link::{Auxiliary, Ipc, Record as _, Status, Subscriber, Transport as _};
+use glidepath_link::{Auxiliary, Ipc, Record as _, STALL, Status, Subscriber, Transport as _};
 use glidepath_realtime::{Clock as _, Monotonic};
 use hands::Hands;
 use sent::Sent;
@@ -45,8 +45,6 @@ const BUSY_POLL: Duration = Duration::from_millis(2);
 const QUIET_POLL: Duration = Duration::from_millis(10);
 /// How long an interpolator may take to tell what the machine does, before senders are told that nobody knows.
 const PATIENCE: Duration = Duration::from_secs(2);
-/// An endpoint that stood still for longer does not know when a sender sent what has come meanwhile.
-const STALL_NS: u64 = 500_000_000;
 /// Between two looks for what dead processes hold.
 const CLEAN_UP_EVERY: Duration = Duration::from_secs(1);
 
@@ -211,7 +209,8 @@ impl Endpoint {
     fn asked_ns(&mut self) -> (u64, bool) {
         let now_ns = Monotonic.now_ns();
         let looked_ns = core::mem::replace(&mut self.looked_ns, now_ns);
-        let stood_still = now_ns.saturating_sub(looked_ns) > STALL_NS;
+        let late = Duration::from_nanos(now_ns.saturating_sub(looked_ns));
+        let stood_still = late > STALL;
         (if stood_still { looked_ns } else { now_ns }, stood_still)
     }
 
