@@ -25,15 +25,19 @@ function whyNoGo(s) {
   if (isAway(s) && ['held', 'program-stop'].includes(S.state)) return 'return first';
   if (['held', 'program-stop'].includes(S.state)) return '';
   if (S.state === 'preparing' && s.job && s.job.begins_held) return '';
+  if (S.state === 'stale') return 'state not known';
   return S.state === 'running' ? 'it runs' : 'nothing is held';
 }
 function paintBar() {
   const s = S.status || {}, not = notOperating(), moves = !['idle', 'stale', 'none', 'off', 'not-homed', 'faulted'].includes(S.state);
-  setKey(BAR.hold, `${icon('hold')}Hold`, { why: may('hold') ? '' : `this page may only ${S.may}`, sub: moves ? 'at once' : 'nothing moves', kind: 'hold' });
-  setKey(BAR.abort, `${icon('abort')}Abort`, { press: LONG, why: may('hold') ? moves || S.state === 'preparing' ? '' : 'nothing runs' : `this page may only ${S.may}`, sub: 'press 1 s' });
-  const why = not || whyNoGo(s), single = s.single_block;
+  // What is not known is not said: a page that hears nothing holds and aborts all the same.
+  const isUnknown = S.state === 'stale', resting = isUnknown ? 'state not known' : S.state === 'none' ? 'no machine' : 'nothing moves';
+  setKey(BAR.hold, `${icon('hold')}Hold`, { why: may('hold') ? '' : `this page may only ${S.may}`, sub: moves ? 'at once' : resting, kind: 'hold' });
+  setKey(BAR.abort, `${icon('abort')}Abort`, { press: LONG, why: may('hold') ? moves || isUnknown ? '' : 'nothing runs' : `this page may only ${S.may}`, sub: 'press 1 s' });
+  // Beside these keys stands who operates, which needs the room.
+  const barred = not && 'not here', why = barred || whyNoGo(s), single = s.single_block;
   setKey(BAR.go, `${icon('running')}${single && S.state === 'program-stop' && !(s.asked && s.asked.says) ? 'Next block' : 'Resume'}`, { press: SHORT, why, sub: 'press ½ s', kind: why ? '' : 'main' });
-  setKey(BAR.single, `${icon('step')}Single`, { why: not, sub: single ? 'block: on' : 'block: off', kind: single ? 'on' : '' });
+  setKey(BAR.single, `${icon('step')}Single`, { why: barred, sub: single ? 'block: on' : 'block: off', kind: single ? 'on' : '' });
   paintWho();
 }
 function paintWho() {
@@ -42,7 +46,7 @@ function paintWho() {
   let html;
   if (S.refusal) html = `${icon('warn', 'warn')}<span>${safe(S.refusal)}</span>`;
   else if (S.asked_for) html = `<span><b>Another page wants to operate.</b></span>${key('give-seat', 'Give', { press: SHORT })}${key('keep-seat', 'Keep')}`;
-  else if (S.may === 'operate' && !S.operates) html = `<span><b>Another page operates.</b><br>${S.asks ? 'It is asked.' : 'This one holds and aborts.'}</span>${S.asks ? '' : key('ask-seat', 'Ask for it')}`;
+  else if (S.may === 'operate' && !S.operates) html = `<span><b>Another page operates.</b>${S.asks ? '<br>It is asked.' : ''}</span>${S.asks ? '' : key('ask-seat', 'Ask for it')}`;
   else if (S.may === 'operate') html = '<span><b>You operate.</b><br>Not for emergencies.</span>';
   else if (S.may === 'hold') html = '<span><b>Hold and abort.</b><br>Not for emergencies.</span>';
   else html = `<span class="big">${icon('lock')}</span><span>This page<br>only looks.</span>`;

@@ -168,7 +168,7 @@ class Path3D {
     });
     const length = nice(60 / this.scale), px = length * this.scale, y = h - foot - 10;
     c.fillStyle = T.css.quiet; c.fillRect(14, y, px, 1.5); c.fillRect(14, y - 3, 1.5, 7.5); c.fillRect(14 + px - 1.5, y - 3, 1.5, 7.5);
-    c.textAlign = 'left'; c.fillText(length >= 1 ? `${length} mm` : `${Math.round(length * 1000)} µm`, 14, y - 11);
+    c.textAlign = 'left'; c.fillText(lengthWords(length), 14, y - 11);
   }
   /* How high the legend is. */
   foot() { const legend = this.box.parentElement && $('.legend', this.box.parentElement); return (legend ? legend.offsetHeight : 0) + 16; }

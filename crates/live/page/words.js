@@ -1,22 +1,25 @@
 'use strict';
 // What the machine does, in words: the word, the cause in a sentence, and what clears it.
 
-/* state of the machine → icon, word, how much it concerns a person, colour */
-const WORDS = {
-  idle: ['idle', 'Ready', 0, 'idle'], running: ['running', 'Running', 0, 'running'], holding: ['hold', 'Slowing down', 1, 'held'], held: ['hold', 'Held', 1, 'held'],
-  starving: ['warn', 'Slowing down', 1, 'held'], starved: ['warn', 'Out of plan', 1, 'held'], 'program-stop': ['await', 'Program stop', 2, 'await'], stopping: ['abort', 'Ending', 1, 'held'],
-  faulted: ['fault', 'Fault', 3, 'fault'], waiting: ['stale', 'Sender paused', 0, 'idle'], awaiting: ['await', 'Needs you', 2, 'await'], jogging: ['running', 'By hand', 1, 'held'],
-  homing: ['home', 'Homing', 1, 'held'], off: ['power', 'Off', 0, 'idle'], 'not-homed': ['home', 'Not homed', 0, 'idle'], preparing: ['running', 'Preparing', 0, 'idle'],
-  stale: ['stale', 'No contact', 3, 'stale'], none: ['stale', 'No machine', 0, 'stale'], file: ['plot', 'Plan', 0, 'running'],
+/* state of the machine → icon, how much it concerns a person, colour; the word is the state's own name, as the status,
+   the log and the manual have it */
+const SIGNS = {
+  idle: ['idle', 0, 'idle'], running: ['running', 0, 'running'], holding: ['hold', 1, 'held'], held: ['hold', 1, 'held'],
+  starving: ['warn', 1, 'held'], starved: ['warn', 1, 'held'], 'program-stop': ['await', 2, 'await'], stopping: ['abort', 1, 'held'],
+  faulted: ['fault', 3, 'fault'], waiting: ['stale', 0, 'idle'], awaiting: ['await', 2, 'await'], jogging: ['running', 1, 'held'],
+  homing: ['home', 1, 'held'], off: ['power', 0, 'idle'], 'not-homed': ['home', 0, 'idle'], preparing: ['running', 0, 'idle'],
 };
-/* The same, where the state alone does not tell. */
+/* The same where there is no machine to name its state. */
+const WORDS = { stale: ['stale', 'No contact', 3, 'stale'], none: ['stale', 'No machine', 0, 'stale'], file: ['plot', 'Plan', 0, 'running'] };
 function wordsNow() {
-  const s = S.status;
-  if (S.state === 'running' && s.mode === 'backwards') return ['back', 'Going back', 1, 'held'];
-  if (S.state === 'held' && s && isAway(s)) return ['hold', 'Held, off the path', 1, 'held'];
-  if (S.state === 'awaiting' && !s.asked) return ['stale', 'Machine busy', 0, 'idle'];
-  if (S.state === 'program-stop' && s.single_block && !(s.asked && s.asked.says)) return ['step', 'Block done', 1, 'held'];
-  return WORDS[S.state] || WORDS.stale;
+  const s = S.status, own = WORDS[S.state];
+  if (own) return own;
+  const word = sentence(S.state.replaceAll('-', ' ')), [sign, level, colour] = SIGNS[S.state] || ['stale', 3, 'stale'];
+  // The same state, where it concerns a person otherwise.
+  if (S.state === 'running' && s.mode === 'backwards') return ['back', `${word}, backwards`, 1, 'held'];
+  if (S.state === 'awaiting' && !s.asked) return ['stale', word, 0, 'idle'];
+  if (S.state === 'program-stop' && s.single_block && !(s.asked && s.asked.says)) return ['step', word, 1, 'held'];
+  return [sign, word, level, colour];
 }
 const isAway = s => Object.values(s.away || {}).some(x => Math.abs(x) > 1e-9);
 const line = status => status.line ? `line ${status.line}${status.program_is_shown && INFO.program && INFO.program.lines ? ` of ${grouped(INFO.program.lines)}` : ''}` : 'before its first line';

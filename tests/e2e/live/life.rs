@@ -154,3 +154,47 @@ fn a_machine_is_run_with_the_mouse_alone() {
     browser.wait("S.status.day.some(job => job.name === 'life.ngc' && job.end === 'aborted')");
     drop(live);
 }
+
+#[test]
+fn a_page_says_whole_words_and_no_more_than_it_knows() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let Some(mut browser) = Browser::start(1024, 768) else {
+        return;
+    };
+    let operated = Operated::new(&instance, &[], "");
+    let _interpolator = operated.process(&["interpolator", "--best-effort"]);
+    let config = ["--config", operated.config()];
+    let live = Live::start(&instance, &[&["--may", "operate"], &config[..]].concat());
+    browser.open(&live.url);
+    browser.wait("typeof S !== 'undefined' && S.operates && S.state === 'off'");
+    // States are called as everywhere else.
+    for state in MachineState::ALL {
+        let name = state.name();
+        let word = browser.evaluate(&format!(
+            "(() => {{ const was = S.state; S.state = '{name}'; const word = wordsNow()[1]; S.state = was; return word; }})()"
+        ));
+        let word = word.as_str().unwrap().to_lowercase().replace(' ', "-");
+        assert_eq!(word, name);
+    }
+    // A short length has a number.
+    assert_eq!(browser.evaluate("lengthWords(0.0002)"), "200 nm");
+    assert_eq!(browser.evaluate("lengthWords(0.05)"), "50 µm");
+    assert_eq!(browser.evaluate("lengthWords(2000)"), "2 000 mm");
+    // Who operates is said in whole words.
+    let fits = "(() => { S.operates = false; S.asks = false; paintBar(); \
+                const e = document.querySelector('#mode span'); const text = e.textContent; \
+                return [text, e.scrollWidth <= e.clientWidth && e.scrollHeight <= e.clientHeight + 1]; })()";
+    let fits = browser.evaluate(fits);
+    assert_eq!(fits[0], "Another page operates.");
+    assert_eq!(fits[1], true);
+    // What was not heard is not known, and a stop is given all the same.
+    let unheard = "(() => { S.state = 'stale'; S.heard = 0; paintBar(); \
+                   const key = c => document.querySelector(`[data-c=${c}]`); \
+                   return [key('hold').textContent, key('hold').ariaDisabled, key('abort').ariaDisabled]; })()";
+    let unheard = browser.evaluate(unheard);
+    assert_eq!(unheard[0], "Holdstate not known", "{unheard}");
+    for key in [1, 2] {
+        assert_ne!(unheard[key], "true", "{unheard}");
+    }
+    drop(live);
+}
