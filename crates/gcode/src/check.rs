@@ -10,6 +10,7 @@ use crate::diagnostic::{Diagnostic, MAX_DIAGNOSTICS};
 use crate::execute::cycle_words::name;
 use crate::execute::program::Program;
 use crate::setup::options::Options;
+use crate::summary::part_box::{PartBox, PartBoxes};
 use crate::summary::survey::Survey;
 use crate::summary::totals::Totals;
 use crate::syntax::dialect::Dialect;
@@ -31,6 +32,9 @@ pub struct Report {
     pub lacks_end: bool,
     /// Counts and sums over the blocks without diagnostics.
     pub totals: Totals,
+    /// Where the feed moves go, in the coordinates of each coordinate system that they are in; none of a curve, which
+    /// has none.
+    pub part: Vec<PartBox>,
     /// What was seen along the path.
     pub survey: Survey,
     /// Machine position at the end, over the blocks without diagnostics.
@@ -82,15 +86,19 @@ pub struct Diagnostics {
 /// a consequence of an earlier diagnostic is not told. A diagnostic in an O word, a subroutine or a loop ends the
 /// check, as does one that leaves nothing to understand (the input cannot be read).
 pub fn check<R: BufRead>(reader: R, options: Options) -> Report {
-    let mut survey = Survey::default();
+    let (mut survey, mut part) = (Survey::default(), PartBoxes::default());
     let mut program = Program::new(reader, options);
-    let found = read(&mut program, |item| survey.add(item));
+    let found = read(&mut program, |program, item| {
+        survey.add(item);
+        part.add(&program.interpreter, item);
+    });
     Report {
         diagnostics: found.diagnostics,
         more: found.more,
         given_up_at: found.given_up_at,
         lacks_end: found.lacks_end,
         totals: *program.totals(),
+        part: part.into_boxes(),
         survey,
         final_position: *program.position(),
     }
@@ -101,7 +109,7 @@ pub fn check<R: BufRead>(reader: R, options: Options) -> Report {
 pub fn diagnostics<R: BufRead>(reader: R, options: Options) -> Diagnostics {
     let mut least_time_s = 0.0;
     let mut program = Program::new(reader, options).only_judged();
-    let found = read(&mut program, |item| match &item.kind {
+    let found = read(&mut program, |_, item| match &item.kind {
         ItemKind::Move { segment, rate, .. } => {
             let time_s = |feed_v| segment.length() / feed_v;
             least_time_s += rate.feed_v().map_or(0.0, time_s);
@@ -116,7 +124,10 @@ pub fn diagnostics<R: BufRead>(reader: R, options: Options) -> Diagnostics {
 }
 
 /// Reads a program to its end, or for as long as its loops may go on.
-fn read<R: BufRead>(program: &mut Program<R>, mut see: impl FnMut(&Item)) -> Diagnostics {
+fn read<R: BufRead>(
+    program: &mut Program<R>,
+    mut see: impl FnMut(&Program<R>, &Item),
+) -> Diagnostics {
     let most = program.interpreter.options.loops.checked_lines;
     let mut found = Diagnostics::default();
     let mut without_tools = WithoutTools::default();
@@ -129,7 +140,8 @@ fn read<R: BufRead>(program: &mut Program<R>, mut see: impl FnMut(&Item)) -> Dia
         match program.next_line() {
             Some(Ok(())) => {
                 bred.is_series_in_doubt &= program.block().codes.motion.is_none();
-                program.items().iter().for_each(&mut see);
+                let program = &*program;
+                program.items().iter().for_each(|item| see(program, item));
             }
             Some(Err(diagnostic)) => {
                 let lacks_words = bred.lacks_words_of_series(&diagnostic, program);

@@ -178,6 +178,7 @@ pub fn check_file(
             given_up_at: None,
             lacks_end: false,
             totals: glidepath_gcode::Totals::default(),
+            part: Vec::new(),
             survey: glidepath_gcode::Survey::default(),
             final_position,
         }),

@@ -122,6 +122,7 @@ impl FileMoves {
             lacks_end: false,
             given_up_at: found.gave_up.then_some(self.line),
             totals: self.totals,
+            part: Vec::new(),
             survey: found.survey,
             final_position: self.position,
         }

@@ -14,9 +14,9 @@ use crate::program_file::ProgramFile;
 use crate::progress::Progress;
 use crate::report::{counted, diagnostic_object};
 use glidepath_gcode::{Diagnostic, Diagnostics, Report};
-use glidepath_geometry::Axis;
+use glidepath_geometry::{Axis, AxisVector};
 use glidepath_planner::{check_file, find_in_file};
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 /// What is said of a program that just ends.
 const NO_END: &str =
@@ -205,8 +205,8 @@ fn not_checked(name: &str, line: u32) -> String {
 fn survey(report: &Report) -> String {
     let totals = &report.totals;
     let mut text = String::new();
-    if let Some((low, high)) = totals.bounding_box {
-        text.push_str("  box:");
+    let mut tell = |of: &str, (low, high): (&AxisVector, &AxisVector)| {
+        text.push_str(&format!("  {of}:"));
         for axis in Axis::ALL {
             let i = axis.index();
             if low[i] != 0.0 || high[i] != 0.0 {
@@ -214,6 +214,16 @@ fn survey(report: &Report) -> String {
             }
         }
         text.push('\n');
+    };
+    for part in &report.part {
+        let of = format!("box of the feed moves, in {}", part.system);
+        tell(&of, (&part.low, &part.high));
+    }
+    if let Some((low, high)) = &totals.bounding_box {
+        tell(
+            "box of all moves from the start on, in machine coordinates",
+            (low, high),
+        );
     }
     text.push_str(&format!(
         "  at the feedrates, without acceleration: {:.1} s straight, {:.1} s in arcs, {:.1} s dwell\n",
@@ -267,6 +277,7 @@ fn program(name: &str, report: &Report) -> Value {
         "feed_length_mm": totals.feed_length_mm,
         "rapid_length_mm": totals.rapid_length_mm,
         "box": bounding_box(report),
+        "part_boxes": part_boxes(report),
         "straight_time_s": report.survey.straight_time_s,
         "arc_time_s": report.survey.arc_time_s,
         "dwell_s": totals.dwell_s,
@@ -284,14 +295,24 @@ fn program(name: &str, report: &Report) -> Value {
 
 /// Lowest and highest machine coordinate of every axis that moves.
 fn bounding_box(report: &Report) -> Value {
-    let mut object = serde_json::Map::new();
-    if let Some((low, high)) = report.totals.bounding_box {
-        for axis in Axis::ALL {
-            let i = axis.index();
-            if low[i] != 0.0 || high[i] != 0.0 {
-                object.insert(axis.to_string(), json!([low[i], high[i]]));
-            }
-        }
-    }
-    Value::Object(object)
+    let of = report.totals.bounding_box.as_ref();
+    Value::Object(of.map_or_else(Map::new, |(low, high)| box_object(low, high)))
+}
+
+/// The same of the feed moves, in the coordinates of each system.
+fn part_boxes(report: &Report) -> Value {
+    let boxes = report.part.iter().map(|part| {
+        let mut object = box_object(&part.low, &part.high);
+        object.insert("system".to_owned(), part.system.as_str().into());
+        Value::Object(object)
+    });
+    boxes.collect()
+}
+
+fn box_object(low: &AxisVector, high: &AxisVector) -> Map<String, Value> {
+    let axes = Axis::ALL.into_iter().map(|axis| (axis, axis.index()));
+    let moved = axes.filter(|(_, i)| low[*i] != 0.0 || high[*i] != 0.0);
+    moved
+        .map(|(axis, i)| (axis.to_string(), json!([low[i], high[i]])))
+        .collect()
 }

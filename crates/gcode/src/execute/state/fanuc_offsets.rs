@@ -63,7 +63,8 @@ pub(crate) fn system_key(index: usize) -> u32 {
     u32::try_from(index).unwrap_or(u32::MAX - FIRST_KEY) + FIRST_KEY
 }
 
-const FIRST_KEY: u32 = 1000;
+/// Numbers from here on are those of systems that the machine does not keep.
+pub(crate) const FIRST_KEY: u32 = 1000;
 
 /// A scale about a point, mm.
 #[derive(Debug, Clone, Copy, PartialEq)]

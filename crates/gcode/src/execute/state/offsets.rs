@@ -12,7 +12,7 @@
 use glidepath_geometry::{AXES, AxisVector, Plane};
 use serde::{Deserialize, Serialize};
 
-use crate::execute::state::fanuc_offsets::{FanucOffsets, system_key};
+use crate::execute::state::fanuc_offsets::{FIRST_KEY, FanucOffsets, system_key};
 use crate::execute::state::frame::{Frame, PlaneImage};
 use crate::setup::work_offsets::{CoordinateSystem, SYSTEMS, WorkOffsets};
 
@@ -96,6 +96,20 @@ impl Offsets {
         } else {
             0
         }]
+    }
+
+    /// Which coordinate system is in force: its index, and the number of an extended one.
+    pub(crate) const fn system_in_use(&self) -> (usize, Option<u32>) {
+        (self.active, self.fanuc.active)
+    }
+
+    /// The name of the coordinate system in force, as a program calls it.
+    pub(crate) fn system_name(&self) -> String {
+        match self.fanuc.active.filter(|_| self.fanuc.system().is_some()) {
+            None => system_code(self.active),
+            Some(number) if number < FIRST_KEY => format!("G54.1 P{number}"),
+            Some(number) => format!("system {}", number - FIRST_KEY + 1),
+        }
     }
 
     /// True where the coordinate system is turned.
@@ -206,6 +220,14 @@ impl Offsets {
             }
         }
         self.saved_shift = self.shift;
+    }
+}
+
+/// The code of a coordinate system by its index: G54 to G59, G59.1 and on.
+pub(crate) fn system_code(index: usize) -> String {
+    match index {
+        0..=5 => format!("G{}", 54 + index),
+        index => format!("G59.{}", index - 5),
     }
 }
 

@@ -4,7 +4,7 @@ use glidepath_geometry::Plane;
 
 use crate::execute::state::coolant::Coolant;
 use crate::execute::state::modal::Modal;
-use crate::execute::state::offsets::Offsets;
+use crate::execute::state::offsets::{Offsets, system_code};
 use crate::execute::state::program_state::State;
 use crate::execute::state::spindle::SpindleDirection;
 use crate::syntax::modes::{CannedCycle, Distance, FeedMode, Motion, Probe, Spline, Units};
@@ -13,10 +13,7 @@ use crate::syntax::modes::{CannedCycle, Distance, FeedMode, Motion, Probe, Splin
 /// speed: `G1 G54 G17 G21 G90 G94 M3 M8 T2 F600 S8000`.
 pub(crate) fn words_in_force(state: &State, offsets: &Offsets) -> String {
     let modal = &state.modal;
-    let system = match offsets.active {
-        index @ 0..=5 => format!("G{}", 54 + index),
-        index => format!("G59.{}", index - 5),
-    };
+    let system = system_code(offsets.active);
     let spindle = match state.spindle.turning {
         None => "M5",
         Some(SpindleDirection::Clockwise) => "M3",
