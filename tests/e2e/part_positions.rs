@@ -1,4 +1,5 @@
 //! What is told of positions from part zero: those of the tip of the tool in force, as programs have them.
+#![allow(clippy::float_cmp, reason = "values are exact")]
 
 use std::time::Duration;
 

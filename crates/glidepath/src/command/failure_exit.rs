@@ -87,13 +87,17 @@ impl Failure {
             | Self::Answers(_)
             | Self::Thread(_) => Exit::Fault,
             Self::AtEndOfTravel { .. } => Exit::Short,
-            Self::Left {
-                source: planner::RunError::Interrupted,
-                ..
-            } => Exit::Interrupted,
-            Self::Left { .. } => Exit::Fault,
+            Self::Left { source, .. } => left(source),
             Self::ProcessEnded { exit, .. } | Self::Job { exit, .. } => *exit,
             Self::EndedEarly { source, .. } => source.exit(),
         }
+    }
+}
+
+/// That of a motion that ended before its program did.
+const fn left(source: &planner::RunError) -> Exit {
+    match source {
+        planner::RunError::Interrupted => Exit::Interrupted,
+        _ => Exit::Fault,
     }
 }

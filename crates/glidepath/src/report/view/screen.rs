@@ -292,7 +292,6 @@ mod tests {
         }
         let object = Value::Object(view_object(&view));
         assert_eq!(object["progress"], 0.25);
-        assert_eq!(object["axes_not_homed"], serde_json::json!(["Y"]));
         assert_eq!(object["left_s"], 300.0);
         assert_eq!(object["work_position"]["X"], 10.0);
         assert_eq!(
