@@ -144,12 +144,13 @@ impl Continuity {
         let by_hand = setpoint.epoch == 0 || state == Ok(MachineState::Jogging);
         // Rows of values say nothing of epochs.
         let is_row = setpoint.boot_id == 0;
-        let is_lost = match state {
-            Ok(state) if LOST.contains(&state) => true,
-            // No program runs before all joints are at home: a status may be older than that.
-            Ok(MachineState::Idle | MachineState::Stopping | MachineState::Faulted) => self.is_lost,
-            _ => false,
-        };
+        // No program runs before all joints are at home: a status may be older than that.
+        let is_out_of_program = matches!(
+            state,
+            Ok(MachineState::Idle | MachineState::Stopping | MachineState::Faulted)
+        );
+        let is_lost = state.is_ok_and(|state| LOST.contains(&state));
+        let is_lost = is_lost || (self.is_lost && is_out_of_program);
         if (by_hand && !is_row) || is_lost {
             return;
         }
