@@ -50,7 +50,9 @@ fn way(told: &[Setpoint]) -> (Vec<u64>, Vec<f64>) {
     along.drain(..begun);
     let ended = along.iter().position(|x| *x >= last).unwrap_or_default();
     along.truncate(ended + 1);
-    let rests = along.windows(2).filter(|pair| pair[0] == pair[1]);
+    let rests = along
+        .windows(2)
+        .filter(|pair| pair[0].total_cmp(&pair[1]).is_eq());
     let rests: Vec<f64> = rests
         .map(|pair| pair[0])
         .filter(|x| *x > START_MM)

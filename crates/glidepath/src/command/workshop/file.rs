@@ -1,0 +1,177 @@
+//! Files: a program from its beginning, from a line, or from where it was left.
+
+use std::path::Path;
+
+use glidepath_gcode::InForce;
+use glidepath_geometry::AxisVector;
+use glidepath_planner::{
+    FileSource, ItemSource as _, LineStart, Pipeline, Refusal, Remainder, ResumePoint, StartLine,
+    Statistics,
+};
+
+use super::bench::Bench;
+use super::stop::{End, Stop, refusal};
+use super::{Workshop, unwatched};
+use crate::begun::Part;
+use crate::command::attendant::{Attendant, recalling};
+use crate::command::differences::{agreement, approach};
+use crate::command::reading::for_program;
+use crate::config::MachineConfig;
+use crate::joints;
+use crate::program_file::ProgramFile;
+use crate::report::counted;
+
+/// A file, and how it is to begin.
+pub(super) struct FileJob<'j> {
+    pub(super) path: &'j Path,
+    pub(super) from: Option<StartLine>,
+    pub(super) confirmed: bool,
+    pub(super) resumes: bool,
+}
+
+/// A file with the configuration for it, and what is kept beside it.
+type FileWork<'f> = (&'f FileJob<'f>, &'f MachineConfig, &'f Attendant);
+/// How a motion ended, and what is in force then.
+type Published = (Result<Statistics, Stop>, Option<InForce>);
+
+impl Workshop<'_> {
+    /// A file, from its beginning, from a line, or from where it was left.
+    pub(super) fn file(
+        &mut self,
+        file: &FileJob<'_>,
+        start: AxisVector,
+        bench: &mut Bench<'_, '_, '_>,
+    ) -> End {
+        must_be_a_file(file.path)?;
+        let (config, attendant) = self.set_up(bench.publisher)?;
+        let mut config = for_program(&ProgramFile::named(file.path), &config);
+        let begins = self.begins(file, start, &mut config, (&attendant, &*bench))?;
+        let config = config;
+        let source = bench.work("checking", || open(file.path, &config, begins.start))?;
+        let source = source.map_err(|e| refusal(&e))?;
+        let source = source.attended(attendant.attending());
+        let fingerprint = source.fingerprint();
+        let is_whole = begins.point.is_none() && file.from.is_none();
+        let part = if is_whole { Part::Whole } else { Part::Rest };
+        self.board.tell(&config, (file.path, fingerprint), part);
+        let settings = config.settings();
+        let job = (file, &config, &attendant);
+        let run = match (begins.point, file.from) {
+            (Some(point), _) => self.rest(source, point, job, start, bench)?,
+            (None, None) => self.whole(source, job, start, bench),
+            (None, Some(from)) => self.from_line(source, from, job, start, bench)?,
+        };
+        let (mut run, in_force) = run;
+        self.settle(&mut run, in_force, bench, &attendant, || {
+            let options = unwatched(&config).program_options(begins.start);
+            let source = FileSource::unchecked(file.path, options, &settings)?;
+            Ok(match source.attended(recalling(&config, fingerprint)) {
+                FileSource::Program(source) => Some(*source),
+                FileSource::Curve(_) | FileSource::Nurbs(_) => None,
+            })
+        });
+        let statistics = run?;
+        Ok(format!(
+            "{}: executed; {}, {}",
+            file.path.display(),
+            counted(statistics.lines, "line"),
+            counted(statistics.segments, "segment")
+        ))
+    }
+
+    /// All of a program.
+    fn whole(
+        &mut self,
+        source: FileSource,
+        (_, config, attendant): FileWork<'_>,
+        start: AxisVector,
+        bench: &mut Bench<'_, '_, '_>,
+    ) -> Published {
+        let fingerprint = source.fingerprint();
+        let pipeline = Pipeline::new(source, config.settings(), start);
+        let run = bench.publish(pipeline, (config, attendant), start, FileSource::in_force);
+        if attendant.has_begun(bench.publisher) {
+            self.begin(fingerprint, start, config);
+        }
+        run
+    }
+
+    /// A program from where it was left on.
+    fn rest(
+        &mut self,
+        source: FileSource,
+        point: ResumePoint,
+        (_, config, attendant): FileWork<'_>,
+        start: AxisVector,
+        bench: &mut Bench<'_, '_, '_>,
+    ) -> Result<Published, Stop> {
+        let settings = config.settings();
+        let find = || Remainder::find(source, point, settings.tolerance_mm);
+        let rest = bench.work("reading up to where it was left", find)?;
+        let rest = rest.map_err(|error| Stop::Refused(error.to_string()))?;
+        // What an abort or a fault has stopped turns before anything moves.
+        let now = bench.publisher.auxiliary(bench.control);
+        let now = now.map_err(|error| Stop::Failed(error.to_string()))?;
+        let restoring = rest.restoring(&now);
+        let restoring = restoring.map_err(|error| Stop::Refused(error.to_string()))?;
+        attendant.begin_here()?;
+        let line = rest.line();
+        let pipeline = Pipeline::resuming(rest, settings).beginning_with(restoring, line);
+        let run = bench.publish(pipeline, (config, attendant), start, |rest| {
+            rest.source().in_force()
+        });
+        // Until then it can be resumed as before.
+        if attendant.has_begun(bench.publisher) {
+            (self.has_lines, self.left) = (false, None);
+        }
+        Ok(run)
+    }
+
+    /// A program from a line on.
+    fn from_line(
+        &mut self,
+        source: FileSource,
+        from: StartLine,
+        (file, config, attendant): FileWork<'_>,
+        start: AxisVector,
+        bench: &mut Bench<'_, '_, '_>,
+    ) -> Result<Published, Stop> {
+        let fingerprint = source.fingerprint();
+        let approach = approach(config, start, bench.publisher, bench.control)?;
+        attendant.recall(fingerprint)?;
+        let find = || LineStart::find(source, from, &approach);
+        let found = bench.work("reading up to its line", find)?;
+        let mut found = found.map_err(|error| Stop::Refused(error.to_string()))?;
+        if !file.confirmed {
+            let text = agreement(from, &mut found, &approach, config);
+            return Err(Stop::ToConfirm(text));
+        }
+        attendant.begin_with(found.block())?;
+        let rest = found.approached(&approach);
+        let pipeline = Pipeline::resuming(rest, config.settings());
+        let run = bench.publish(pipeline, (config, attendant), start, |rest| {
+            rest.source().in_force()
+        });
+        if attendant.has_begun(bench.publisher) {
+            self.begin(fingerprint, start, config);
+        }
+        Ok(run)
+    }
+}
+
+/// A program as a file, checked from its beginning to its end.
+fn open(path: &Path, config: &MachineConfig, start: AxisVector) -> Result<FileSource, Refusal> {
+    joints::check_plan(path, config, start, &mut |_| {})?;
+    FileSource::open(path, config.program_options(start), &config.settings())
+}
+
+/// A device gives bytes without end, and a pipe none until somebody else writes: nobody else would be
+/// served meanwhile.
+fn must_be_a_file(path: &Path) -> Result<(), Stop> {
+    let why = match path.metadata() {
+        Ok(there) if there.is_file() => return Ok(()),
+        Ok(_) => "it is no ordinary file".to_owned(),
+        Err(error) => error.to_string(),
+    };
+    Err(Stop::Refused(format!("{}: {why}", path.display())))
+}

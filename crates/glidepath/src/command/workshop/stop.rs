@@ -1,0 +1,26 @@
+//! Why a job was not executed to its end.
+
+use glidepath_planner::Refusal;
+
+use crate::command::failure::Failure;
+use crate::command::program_diagnostics::refusal_text;
+
+/// Why a job was not executed to its end.
+pub(in crate::command) enum Stop {
+    Refused(String),
+    Failed(String),
+    ToConfirm(String),
+}
+
+pub(super) type End = Result<String, Stop>;
+
+impl From<Failure> for Stop {
+    fn from(failure: Failure) -> Self {
+        Self::Refused(failure.to_string())
+    }
+}
+
+/// A refusal in a few lines.
+pub(super) fn refusal(refusal: &Refusal) -> Stop {
+    Stop::Refused(refusal_text(refusal))
+}
