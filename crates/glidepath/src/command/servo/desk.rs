@@ -46,13 +46,15 @@ pub(super) fn play(
     }
     let mut notices = Notices::new(args.relay);
     'playing: while !interrupt.is_set() {
-        while let Some(setpoint) = servo.receive(Monotonic.now_ns())? {
+        // The time from before it looks for setpoints: where a busy host lets it wait in between, what came meanwhile
+        // is no silence.
+        let now_ns = Monotonic.now_ns();
+        while let Some(setpoint) = servo.receive(now_ns)? {
             if !take(Told::Setpoint(&setpoint))? {
                 break 'playing;
             }
         }
         // A real servo stack hands this to its drives, and asks them where they are.
-        let now_ns = Monotonic.now_ns();
         let demand = servo.demand(now_ns);
         if let Some(why) = notices.look(&servo, &args.instance, config)
             && !take(Told::Stopped(why))?

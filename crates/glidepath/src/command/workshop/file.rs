@@ -59,7 +59,7 @@ impl Workshop<'_> {
         let run = match (begins.point, file.from) {
             (Some(point), _) => self.rest(source, point, job, start, bench)?,
             (None, None) => self.whole(source, job, start, bench),
-            (None, Some(from)) => self.from_line(source, from, job, start, bench)?,
+            (None, Some(from)) => self.behind_line(source, from, job, start, bench)?,
         };
         let (mut run, in_force) = run;
         self.settle(&mut run, in_force, bench, &attendant, || {
@@ -128,7 +128,7 @@ impl Workshop<'_> {
     }
 
     /// A program from a line on.
-    fn from_line(
+    fn behind_line(
         &mut self,
         source: FileSource,
         from: StartLine,
