@@ -29,10 +29,10 @@ impl Kinematics for CoreXy {
         2 + self.others.len()
     }
 
-    fn inverse_series<const N: usize>(
+    fn inverse_series<const N: usize, T: Number>(
         &self,
-        axes: &AxisSeries<N>,
-    ) -> Result<JointSeries<N>, KinematicsError> {
+        axes: &AxisSeries<N, T>,
+    ) -> Result<JointSeries<N, T>, KinematicsError> {
         let mut joints = [Series::constant(0.0); crate::JOINTS];
         joints[0] = axes[0] + axes[1];
         joints[1] = axes[0] - axes[1];

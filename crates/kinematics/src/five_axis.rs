@@ -102,7 +102,11 @@ impl FiveAxis {
         (sign(self.tilt_reversed), sign(self.rotary_reversed))
     }
 
-    fn turns<const N: usize>(&self, tilt: Series<N>, rotary: Series<N>) -> (Turn<N>, Turn<N>) {
+    fn turns<const N: usize, T: Number>(
+        &self,
+        tilt: Series<N, T>,
+        rotary: Series<N, T>,
+    ) -> (Turn<N, T>, Turn<N, T>) {
         let (t, r) = self.signs();
         (
             Turn::new(self.tilt_about(), tilt.scale(t)),
@@ -111,17 +115,17 @@ impl FiveAxis {
     }
 
     /// The joints' linear part as a function of the tip; with `back`, the other way.
-    fn linear<const N: usize>(
+    fn linear<const N: usize, T: Number>(
         &self,
-        point: Point<N>,
-        tilt: Series<N>,
-        rotary: Series<N>,
+        point: Point<N, T>,
+        tilt: Series<N, T>,
+        rotary: Series<N, T>,
         back: bool,
-    ) -> Point<N> {
+    ) -> Point<N, T> {
         let (tilt, rotary) = self.turns(tilt, rotary);
         let one = Series::constant(1.0);
         let up = stretched(&Vector3::new(0.0, 0.0, self.tool_mm), one);
-        let minus = |p: Point<N>| p.map(|c| -c);
+        let minus = |p: Point<N, T>| p.map(|c| -c);
         match &self.rotaries {
             Rotaries::TableTable {
                 tilt_point: a,
@@ -221,10 +225,10 @@ impl Kinematics for FiveAxis {
         5
     }
 
-    fn inverse_series<const N: usize>(
+    fn inverse_series<const N: usize, T: Number>(
         &self,
-        axes: &AxisSeries<N>,
-    ) -> Result<JointSeries<N>, KinematicsError> {
+        axes: &AxisSeries<N, T>,
+    ) -> Result<JointSeries<N, T>, KinematicsError> {
         let (tilt, rotary) = (axes[self.tilt_axis().index()], axes[Axis::C.index()]);
         let [x, y, z] = self.linear([axes[0], axes[1], axes[2]], tilt, rotary, false);
         let mut joints = [Series::constant(0.0); JOINTS];

@@ -14,7 +14,8 @@
 //! [`Series`](glidepath_geometry::number::Series): truncated Taylor series. Fed with positions it
 //! gives positions; fed with position, velocity and acceleration along time it gives q, q̇ = J ẋ
 //! and q̈ = J ẍ + J̇ ẋ without J ever being formed; fed with unit directions it gives the columns
-//! of J. One formula, nothing to keep in step with it.
+//! of J. Fed with series of numbers that carry partial derivatives it gives J as it changes along the
+//! curve ([`CurveRates`]). One formula, nothing to keep in step with it.
 //!
 //! In the pipeline it is met in three places: the configuration builds a [`Mechanism`] with its
 //! [`JointLimits`]; the planner slows the axes where joints are weaker ([`AxisShare`] anywhere in the
@@ -50,6 +51,7 @@
 mod axes;
 mod axis_share;
 mod core_xy;
+mod curve_rates;
 mod error;
 mod five_axis;
 mod hexapod;
@@ -69,6 +71,7 @@ mod watch;
 pub use axes::AxisList;
 pub use axis_share::{AxisRates, AxisShare};
 pub use core_xy::CoreXy;
+pub use curve_rates::CurveRates;
 pub use error::KinematicsError;
 pub use five_axis::{FiveAxis, Rotaries, Tilt};
 pub use hexapod::{Guards, Hexapod};

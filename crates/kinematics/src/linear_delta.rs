@@ -49,17 +49,17 @@ impl Kinematics for LinearDelta {
         3 + self.others.len()
     }
 
-    fn inverse_series<const N: usize>(
+    fn inverse_series<const N: usize, T: Number>(
         &self,
-        axes: &AxisSeries<N>,
-    ) -> Result<JointSeries<N>, KinematicsError> {
+        axes: &AxisSeries<N, T>,
+    ) -> Result<JointSeries<N, T>, KinematicsError> {
         let mut joints = [Series::constant(0.0); crate::JOINTS];
         for (joint, tower) in self.towers().into_iter().enumerate() {
             let dx = axes[0] - Series::constant(tower.x);
             let dy = axes[1] - Series::constant(tower.y);
             let rest = Series::constant(self.rod_mm * self.rod_mm) - dx.square() - dy.square();
             // A rod that lies flat cannot lift; nor does a position that is not a number.
-            if rest.value().partial_cmp(&0.0) != Some(core::cmp::Ordering::Greater) {
+            if rest.nominal().partial_cmp(&0.0) != Some(core::cmp::Ordering::Greater) {
                 return Err(KinematicsError::Unreachable { joint });
             }
             joints[joint] = axes[2] + rest.sqrt();

@@ -2,7 +2,7 @@
 //! vectors.
 
 use crate::KinematicsError;
-use glidepath_geometry::number::Series;
+use glidepath_geometry::number::{Number, Series};
 use glidepath_geometry::{AXES, Axis, AxisVector};
 use nalgebra::{SMatrix, SVector};
 
@@ -14,10 +14,10 @@ pub const JOINTS: usize = 9;
 pub type JointVector = SVector<f64, JOINTS>;
 
 /// The nine axes along one parameter.
-pub type AxisSeries<const N: usize> = [Series<N>; AXES];
+pub type AxisSeries<const N: usize, T = f64> = [Series<N, T>; AXES];
 
 /// The joints along one parameter.
-pub type JointSeries<const N: usize> = [Series<N>; JOINTS];
+pub type JointSeries<const N: usize, T = f64> = [Series<N, T>; JOINTS];
 
 /// Joints with their first two derivatives by time.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -64,16 +64,17 @@ pub trait Kinematics {
     /// Number of joints, 1 to [`JOINTS`].
     fn joints(&self) -> usize;
 
-    /// Joints along any curve of the axes (mm, degrees), as truncated Taylor series.
+    /// Joints along any curve of the axes (mm, degrees), as truncated Taylor series, of whatever the
+    /// axes are series of: of numbers that carry derivatives it gives the derivatives of the joints.
     ///
     /// Bounded work, no allocation.
     ///
     /// # Errors
     /// A position out of reach.
-    fn inverse_series<const N: usize>(
+    fn inverse_series<const N: usize, T: Number>(
         &self,
-        axes: &AxisSeries<N>,
-    ) -> Result<JointSeries<N>, KinematicsError>;
+        axes: &AxisSeries<N, T>,
+    ) -> Result<JointSeries<N, T>, KinematicsError>;
 
     /// The position of the axes that belongs to joints. Where there are several, the one next to
     /// `near`, which should be the last known position. Axes the mechanism does not use are zero.

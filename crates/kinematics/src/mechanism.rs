@@ -6,6 +6,7 @@ use crate::{
     TranslationalHexapod, Trivial,
 };
 use glidepath_geometry::AxisVector;
+use glidepath_geometry::number::Number;
 
 /// A machine's mechanism: plain data, copied to whoever needs it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,10 +53,10 @@ impl Kinematics for Mechanism {
         each!(self, machine => machine.joints())
     }
 
-    fn inverse_series<const N: usize>(
+    fn inverse_series<const N: usize, T: Number>(
         &self,
-        axes: &AxisSeries<N>,
-    ) -> Result<JointSeries<N>, KinematicsError> {
+        axes: &AxisSeries<N, T>,
+    ) -> Result<JointSeries<N, T>, KinematicsError> {
         each!(self, machine => machine.inverse_series(axes))
     }
 

@@ -32,7 +32,11 @@ pub struct RotaryDelta {
 }
 
 impl RotaryDelta {
-    fn arm<const N: usize>(&self, axes: &AxisSeries<N>, arm_deg: f64) -> Option<Series<N>> {
+    fn arm<const N: usize, T: Number>(
+        &self,
+        axes: &AxisSeries<N, T>,
+        arm_deg: f64,
+    ) -> Option<Series<N, T>> {
         let (sin, cos) = (arm_deg * RAD).sin_cos();
         let (x, y, z) = (axes[0], axes[1], axes[2]);
         let outwards = x.scale(cos) + y.scale(sin);
@@ -42,12 +46,12 @@ impl RotaryDelta {
         let k = (a.square() + across.square() + z.square() + Series::constant(rf * rf - re * re))
             .scale((2.0 * rf).recip());
         let rest = a.square() + z.square() - k.square();
-        if rest.value().partial_cmp(&0.0) != Some(core::cmp::Ordering::Greater) {
+        if rest.nominal().partial_cmp(&0.0) != Some(core::cmp::Ordering::Greater) {
             return None;
         }
         let (middle, swing) = ((-z).atan2(a), rest.sqrt().atan2(k));
         let branches = [middle - swing, middle + swing];
-        let outer = usize::from(branches[1].value().cos() > branches[0].value().cos());
+        let outer = usize::from(branches[1].nominal().cos() > branches[0].nominal().cos());
         Some(branches[outer].scale(RAD.recip()))
     }
 }
@@ -57,10 +61,10 @@ impl Kinematics for RotaryDelta {
         3
     }
 
-    fn inverse_series<const N: usize>(
+    fn inverse_series<const N: usize, T: Number>(
         &self,
-        axes: &AxisSeries<N>,
-    ) -> Result<JointSeries<N>, KinematicsError> {
+        axes: &AxisSeries<N, T>,
+    ) -> Result<JointSeries<N, T>, KinematicsError> {
         let mut joints = [Series::constant(0.0); JOINTS];
         for (joint, arm_deg) in self.arm_deg.into_iter().enumerate() {
             joints[joint] = self

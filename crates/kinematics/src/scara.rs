@@ -38,10 +38,10 @@ impl Kinematics for Scara {
         4
     }
 
-    fn inverse_series<const N: usize>(
+    fn inverse_series<const N: usize, T: Number>(
         &self,
-        axes: &AxisSeries<N>,
-    ) -> Result<JointSeries<N>, KinematicsError> {
+        axes: &AxisSeries<N, T>,
+    ) -> Result<JointSeries<N, T>, KinematicsError> {
         let (a, b) = (self.upper_arm_mm, self.forearm_mm);
         let heading = axes[5].scale(RAD);
         let (sin, cos) = heading.sin_cos();
@@ -51,7 +51,7 @@ impl Kinematics for Scara {
         let cos_elbow = (x.square() + y.square() - Series::constant(a * a + b * b))
             .scale((2.0 * a * b).recip());
         let rest = Series::constant(1.0) - cos_elbow.square();
-        if rest.value().partial_cmp(&0.0) != Some(core::cmp::Ordering::Greater) {
+        if rest.nominal().partial_cmp(&0.0) != Some(core::cmp::Ordering::Greater) {
             return Err(KinematicsError::Unreachable { joint: 1 });
         }
         let sign = match self.elbow {
@@ -65,7 +65,7 @@ impl Kinematics for Scara {
             .atan2(cos_elbow.scale(b) + Series::constant(a));
         let shoulder = y.atan2(x) - inner;
         let turn = core::f64::consts::TAU;
-        let back = -(shoulder.value() / turn).round() * turn;
+        let back = -(shoulder.nominal() / turn).round() * turn;
         let shoulder = shoulder + Series::constant(back);
         let mut joints = [Series::constant(0.0); JOINTS];
         joints[0] = shoulder.scale(RAD.recip());

@@ -4,52 +4,55 @@ use glidepath_geometry::number::{Number, Series};
 use nalgebra::Vector3;
 
 /// A point along a parameter.
-pub(crate) type Point<const N: usize> = [Series<N>; 3];
+pub(crate) type Point<const N: usize, T = f64> = [Series<N, T>; 3];
 
 /// Degrees to radians.
 pub(crate) const RAD: f64 = core::f64::consts::PI / 180.0;
 
 /// Sum of two vectors.
-pub(crate) fn add<const N: usize>(a: Point<N>, b: Point<N>) -> Point<N> {
+pub(crate) fn add<const N: usize, T: Number>(a: Point<N, T>, b: Point<N, T>) -> Point<N, T> {
     core::array::from_fn(|i| a[i] + b[i])
 }
 
 /// A vector and a constant one.
-pub(crate) fn offset<const N: usize>(a: Point<N>, b: &Vector3<f64>) -> Point<N> {
+pub(crate) fn offset<const N: usize, T: Number>(a: Point<N, T>, b: &Vector3<f64>) -> Point<N, T> {
     core::array::from_fn(|i| a[i] + Series::constant(b[i]))
 }
 
 /// A constant vector.
-pub(crate) fn constant<const N: usize>(a: &Vector3<f64>) -> Point<N> {
+pub(crate) fn constant<const N: usize, T: Number>(a: &Vector3<f64>) -> Point<N, T> {
     core::array::from_fn(|i| Series::constant(a[i]))
 }
 
 /// A constant vector times a series.
-pub(crate) fn stretched<const N: usize>(a: &Vector3<f64>, by: Series<N>) -> Point<N> {
+pub(crate) fn stretched<const N: usize, T: Number>(
+    a: &Vector3<f64>,
+    by: Series<N, T>,
+) -> Point<N, T> {
     core::array::from_fn(|i| by.scale(a[i]))
 }
 
 /// Length squared.
-pub(crate) fn norm_squared<const N: usize>(a: Point<N>) -> Series<N> {
+pub(crate) fn norm_squared<const N: usize, T: Number>(a: Point<N, T>) -> Series<N, T> {
     a[0].square() + a[1].square() + a[2].square()
 }
 
 /// A rotation about one of the axes of space, 0 for x, by an angle in degrees.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Turn<const N: usize> {
+pub(crate) struct Turn<const N: usize, T = f64> {
     axis: usize,
-    sin: Series<N>,
-    cos: Series<N>,
+    sin: Series<N, T>,
+    cos: Series<N, T>,
 }
 
-impl<const N: usize> Turn<N> {
-    pub(crate) fn new(axis: usize, angle_deg: Series<N>) -> Self {
+impl<const N: usize, T: Number> Turn<N, T> {
+    pub(crate) fn new(axis: usize, angle_deg: Series<N, T>) -> Self {
         let (sin, cos) = angle_deg.scale(RAD).sin_cos();
         Self { axis, sin, cos }
     }
 
     /// Right-handed about the axis.
-    pub(crate) fn apply(&self, a: Point<N>) -> Point<N> {
+    pub(crate) fn apply(&self, a: Point<N, T>) -> Point<N, T> {
         let (i, j) = ((self.axis + 1) % 3, (self.axis + 2) % 3);
         let mut turned = a;
         turned[i] = self.cos * a[i] - self.sin * a[j];
@@ -58,7 +61,7 @@ impl<const N: usize> Turn<N> {
     }
 
     /// The other way round.
-    pub(crate) fn undo(&self, a: Point<N>) -> Point<N> {
+    pub(crate) fn undo(&self, a: Point<N, T>) -> Point<N, T> {
         Self {
             sin: -self.sin,
             ..*self

@@ -8,13 +8,17 @@
 use crate::{JOINTS, JointLimits, JointVector, Kinematics, KinematicsError, axis_series};
 use glidepath_geometry::{AxisVector, Jet};
 
-/// First and second derivative of the joints by path position.
+/// The joints at a point of a path, and their first three derivatives by path position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PathRates {
+    /// q.
+    pub position: JointVector,
     /// q′.
     pub d1: JointVector,
     /// q″.
     pub d2: JointVector,
+    /// q‴.
+    pub d3: JointVector,
 }
 
 /// Largest speeds along the path, mm/s; infinite where no joint limits it.
@@ -34,12 +38,14 @@ impl PathRates {
     /// # Errors
     /// The point is out of reach.
     pub fn at(machine: &impl Kinematics, path: &Jet) -> Result<Self, KinematicsError> {
-        let derivatives: [AxisVector; 3] = [path.position, path.d1, path.d2];
-        let joints = machine.inverse_series(&axis_series::<3>(&derivatives))?;
+        let derivatives: [AxisVector; 4] = [path.position, path.d1, path.d2, path.d3];
+        let joints = machine.inverse_series(&axis_series::<4>(&derivatives))?;
         let derivative = |k| JointVector::from_fn(|i, _| joints[i].derivative(k));
         Ok(Self {
+            position: derivative(0),
             d1: derivative(1),
             d2: derivative(2),
+            d3: derivative(3),
         })
     }
 

@@ -74,10 +74,10 @@ impl Kinematics for TranslationalHexapod {
         STRUTS
     }
 
-    fn inverse_series<const N: usize>(
+    fn inverse_series<const N: usize, T: Number>(
         &self,
-        axes: &AxisSeries<N>,
-    ) -> Result<JointSeries<N>, KinematicsError> {
+        axes: &AxisSeries<N, T>,
+    ) -> Result<JointSeries<N, T>, KinematicsError> {
         let mut joints = [Series::constant(0.0); JOINTS];
         let height = (axes[2] - Series::constant(self.base_z_mm)).square();
         for (joint, direction) in Self::directions().into_iter().enumerate() {
@@ -85,7 +85,7 @@ impl Kinematics for TranslationalHexapod {
             let dx = axes[0] - Series::constant(foot.x);
             let dy = axes[1] - Series::constant(foot.y);
             let square = dx.square() + dy.square() + height;
-            if square.value().partial_cmp(&0.0) != Some(core::cmp::Ordering::Greater) {
+            if square.nominal().partial_cmp(&0.0) != Some(core::cmp::Ordering::Greater) {
                 return Err(KinematicsError::Unreachable { joint });
             }
             joints[joint] = square.sqrt();

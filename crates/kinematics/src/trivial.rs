@@ -17,10 +17,10 @@ impl Kinematics for Trivial {
         self.axes.len()
     }
 
-    fn inverse_series<const N: usize>(
+    fn inverse_series<const N: usize, T: Number>(
         &self,
-        axes: &AxisSeries<N>,
-    ) -> Result<JointSeries<N>, KinematicsError> {
+        axes: &AxisSeries<N, T>,
+    ) -> Result<JointSeries<N, T>, KinematicsError> {
         let mut joints = [Series::constant(0.0); JOINTS];
         pass_through(self.axes, axes, &mut joints);
         Ok(joints)
@@ -66,10 +66,10 @@ impl Kinematics for Trivial {
 }
 
 /// Copies axes to the joints at the beginning of `joints`.
-pub(crate) fn pass_through<const N: usize>(
+pub(crate) fn pass_through<const N: usize, T: Number>(
     list: AxisList,
-    axes: &AxisSeries<N>,
-    joints: &mut [Series<N>],
+    axes: &AxisSeries<N, T>,
+    joints: &mut [Series<N, T>],
 ) {
     for (joint, axis) in joints.iter_mut().zip(list.iter()) {
         *joint = axes[axis.index()];

@@ -1,21 +1,21 @@
-//! A value and its partial derivatives by x, y and z.
+//! A value and its partial derivatives by some variables.
 
 use super::Number;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-/// A value and its partial derivatives by three variables.
+/// A value and its partial derivatives by `D` variables, x, y and z if nothing else is said.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Gradient<T = f64> {
+pub struct Gradient<T = f64, const D: usize = 3> {
     /// The value.
     pub value: T,
-    /// By x, y and z.
-    pub partial: [T; 3],
+    /// By each of the variables.
+    pub partial: [T; D],
 }
 
-impl<T: Number> Gradient<T> {
-    /// The three variables themselves, at a point.
+impl<T: Number, const D: usize> Gradient<T, D> {
+    /// The variables themselves, at a point.
     #[must_use]
-    pub fn variables(point: [T; 3]) -> [Self; 3] {
+    pub fn variables(point: [T; D]) -> [Self; D] {
         core::array::from_fn(|i| Self {
             value: point[i],
             partial: core::array::from_fn(|j| T::constant(if i == j { 1.0 } else { 0.0 })),
@@ -31,7 +31,7 @@ impl<T: Number> Gradient<T> {
     }
 }
 
-impl<T: Number> Add for Gradient<T> {
+impl<T: Number, const D: usize> Add for Gradient<T, D> {
     type Output = Self;
     fn add(self, other: Self) -> Self {
         Self {
@@ -41,7 +41,7 @@ impl<T: Number> Add for Gradient<T> {
     }
 }
 
-impl<T: Number> Sub for Gradient<T> {
+impl<T: Number, const D: usize> Sub for Gradient<T, D> {
     type Output = Self;
     fn sub(self, other: Self) -> Self {
         Self {
@@ -51,7 +51,7 @@ impl<T: Number> Sub for Gradient<T> {
     }
 }
 
-impl<T: Number> Neg for Gradient<T> {
+impl<T: Number, const D: usize> Neg for Gradient<T, D> {
     type Output = Self;
     fn neg(self) -> Self {
         Self {
@@ -65,7 +65,7 @@ impl<T: Number> Neg for Gradient<T> {
     clippy::suspicious_arithmetic_impl,
     reason = "the rules of differentiation mix operations"
 )]
-impl<T: Number> Mul for Gradient<T> {
+impl<T: Number, const D: usize> Mul for Gradient<T, D> {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
         Self {
@@ -81,7 +81,7 @@ impl<T: Number> Mul for Gradient<T> {
     clippy::suspicious_arithmetic_impl,
     reason = "the rules of differentiation mix operations"
 )]
-impl<T: Number> Div for Gradient<T> {
+impl<T: Number, const D: usize> Div for Gradient<T, D> {
     type Output = Self;
     fn div(self, other: Self) -> Self {
         let value = self.value / other.value;
@@ -94,11 +94,11 @@ impl<T: Number> Div for Gradient<T> {
     }
 }
 
-impl<T: Number> Number for Gradient<T> {
+impl<T: Number, const D: usize> Number for Gradient<T, D> {
     fn constant(value: f64) -> Self {
         Self {
             value: T::constant(value),
-            partial: [T::constant(0.0); 3],
+            partial: [T::constant(0.0); D],
         }
     }
 
@@ -132,6 +132,10 @@ impl<T: Number> Number for Gradient<T> {
             value: self.value.atan2(x.value),
             partial: core::array::from_fn(|i| self.partial[i] * by_y - x.partial[i] * by_x),
         }
+    }
+
+    fn nominal(self) -> f64 {
+        self.value.nominal()
     }
 
     fn is_finite(self) -> bool {

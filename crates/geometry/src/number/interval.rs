@@ -262,6 +262,10 @@ impl Number for Interval {
         Self::outward(low, high, LIBRARY_ULPS)
     }
 
+    fn nominal(self) -> f64 {
+        0.5 * (self.low + self.high)
+    }
+
     fn is_finite(self) -> bool {
         self.low.is_finite() && self.high.is_finite()
     }

@@ -6,7 +6,7 @@
 //! |---|---|
 //! | `f64` | the value |
 //! | [`Series`] | the value and its derivatives along one parameter, exact to rounding |
-//! | [`Gradient`] | the value and its partial derivatives by x, y, z |
+//! | [`Gradient`] | the value and its partial derivatives by some variables |
 //! | [`Interval`] | an interval that holds every value for arguments in intervals |
 //!
 //! and as any of the first three over the others: a [`Series`] of [`Interval`]s encloses
@@ -70,6 +70,10 @@ pub trait Number:
     #[must_use]
     fn atan2(self, x: Self) -> Self;
 
+    /// The number itself, without what comes with it; of an interval the middle. For what has no
+    /// derivative: which branch of a function is meant.
+    fn nominal(self) -> f64;
+
     /// Whether the value and everything that comes with it is finite.
     fn is_finite(self) -> bool;
 
@@ -122,6 +126,10 @@ impl Number for f64 {
 
     fn atan2(self, x: Self) -> Self {
         self.atan2(x)
+    }
+
+    fn nominal(self) -> f64 {
+        self
     }
 
     fn is_finite(self) -> bool {

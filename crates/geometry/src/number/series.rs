@@ -217,6 +217,10 @@ impl<const N: usize, T: Number> Number for Series<N, T> {
         })
     }
 
+    fn nominal(self) -> f64 {
+        self.0[0].nominal()
+    }
+
     fn is_finite(self) -> bool {
         self.0.into_iter().all(T::is_finite)
     }

@@ -37,12 +37,12 @@ impl Kinematics for Hexapod {
         STRUTS
     }
 
-    fn inverse_series<const N: usize>(
+    fn inverse_series<const N: usize, T: Number>(
         &self,
-        axes: &AxisSeries<N>,
-    ) -> Result<JointSeries<N>, KinematicsError> {
+        axes: &AxisSeries<N, T>,
+    ) -> Result<JointSeries<N, T>, KinematicsError> {
         let rows = rotation_rows([axes[3], axes[4], axes[5]]);
-        let turned = |b: &Vector3<f64>| -> Point<N> {
+        let turned = |b: &Vector3<f64>| -> Point<N, T> {
             rows.map(|[x, y, z]| x.scale(b.x) + y.scale(b.y) + z.scale(b.z))
         };
         let tip = [axes[0], axes[1], axes[2]];
@@ -50,7 +50,7 @@ impl Kinematics for Hexapod {
         for (i, joint) in joints.iter_mut().take(STRUTS).enumerate() {
             let lever = turned(&(self.platform[i] - self.tool));
             let square = norm_squared(offset(add(tip, lever), &-self.base[i]));
-            if square.value().partial_cmp(&0.0) != Some(core::cmp::Ordering::Greater) {
+            if square.nominal().partial_cmp(&0.0) != Some(core::cmp::Ordering::Greater) {
                 return Err(KinematicsError::Unreachable { joint: i });
             }
             *joint = square.sqrt();
@@ -78,7 +78,7 @@ impl Kinematics for Hexapod {
 /// The rows of Rz(C) Ry(B) Rx(A) along a parameter, from the angles A, B, C in degrees. Written
 /// out, it takes a third of the products three turns one after the other take: it is computed at
 /// every tick.
-fn rotation_rows<const N: usize>(angles_deg: [Series<N>; 3]) -> [Point<N>; 3] {
+fn rotation_rows<const N: usize, T: Number>(angles_deg: [Series<N, T>; 3]) -> [Point<N, T>; 3] {
     let [(sa, ca), (sb, cb), (sc, cc)] = angles_deg.map(|angle| angle.scale(RAD).sin_cos());
     let (cc_sb, sc_sb) = (cc * sb, sc * sb);
     [

@@ -1,6 +1,7 @@
 //! Tests of mechanisms, held against vectors, and there and back.
 
 mod caps;
+mod curve_rates;
 mod five_axis;
 mod mechanisms;
 mod support;
