@@ -3,6 +3,7 @@
 use crate::along::AlongAudit;
 use crate::end::End;
 use crate::event_places::EventPlaces;
+use crate::joints::{JointAudit, JointBounds};
 use crate::limits::LimitAudit;
 use crate::matching::Matching;
 use crate::report::Report;
@@ -18,6 +19,8 @@ use glidepath_program::{Event, Frame, Item};
 #[derive(Debug)]
 pub struct Audit {
     limits: LimitAudit,
+    joints: Option<JointAudit>,
+    period_t: f64,
     travel: TravelAudit,
     along: AlongAudit,
     matching: Matching,
@@ -30,11 +33,20 @@ impl Audit {
     pub fn new(settings: &AuditSettings) -> Self {
         Self {
             limits: LimitAudit::new(settings),
+            joints: None,
+            period_t: settings.period_t,
             travel: TravelAudit::new(settings),
             along: AlongAudit::new(settings),
             matching: Matching::new(settings),
             events: EventPlaces::new(settings.period_t),
         }
+    }
+
+    /// Judges joints, too, J0 first: where they are has to be told ([`Audit::joints`]).
+    #[must_use]
+    pub fn with_joints(mut self, bounds: Vec<JointBounds>) -> Self {
+        self.joints = Some(JointAudit::new(bounds, self.period_t));
+        self
     }
 
     /// Allows the feed times a factor > 0: the largest override at which the motion was run.
@@ -59,6 +71,14 @@ impl Audit {
     /// The next sample of the motion.
     pub fn sample(&mut self, sample: &Sample) {
         self.see(&sample.into());
+    }
+
+    /// Where the joints are at a tick, J0 first, mm or degrees. Ticks follow each other; of a motion that was
+    /// not seen everywhere each part counts by itself.
+    pub fn joints(&mut self, tick: u64, line: u32, positions: &[f64]) {
+        if let Some(joints) = &mut self.joints {
+            joints.sample(tick, line, positions);
+        }
     }
 
     /// An event happens before the next sample, so many ns after the last one.
@@ -116,8 +136,11 @@ impl Audit {
     fn finish_at(mut self, end: End) -> Report {
         self.matching.finish(end);
         self.limits.finish();
+        if let Some(joints) = &mut self.joints {
+            joints.finish();
+        }
         Report::new(
-            (&self.limits, &self.travel),
+            (&self.limits, self.joints.as_ref(), &self.travel),
             &self.along,
             &self.matching,
             &self.events,

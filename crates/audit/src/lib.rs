@@ -7,6 +7,8 @@
 //!
 //! * every axis' velocity, acceleration and jerk by finite differences (`limits`), with the machine
 //!   at rest before the first and after the last sample;
+//! * every joint's velocity, acceleration and jerk likewise, and its range, where joints are not axes and it
+//!   is told where they are (`joints`);
 //! * the reported velocity and acceleration against those differences, and the sequence for gaps;
 //! * the deviation, both ways and in order (`matching`): each sample and the straight line between
 //!   two samples is within tolerance of the programmed path, each programmed point within tolerance
@@ -49,6 +51,7 @@ mod feed;
 mod flatten;
 mod follow;
 mod free_space;
+mod joints;
 mod judge;
 mod limits;
 mod matching;
@@ -68,8 +71,9 @@ mod violation;
 mod widen;
 
 pub use audit::Audit;
+pub use joints::{JointBounds, WorstJoint};
 pub use passed::Passed;
 pub use report::Report;
 pub use sample::Sample;
 pub use settings::AuditSettings;
-pub use violation::{Inconsistency, Violation, ViolationKind, Worst};
+pub use violation::{Inconsistency, JointRate, Violation, ViolationKind, Worst};

@@ -2,6 +2,7 @@
 
 use crate::along::AlongAudit;
 use crate::event_places::EventPlaces;
+use crate::joints::{JointAudit, WorstJoint};
 use crate::limits::LimitAudit;
 use crate::matching::Matching;
 use crate::travel::TravelAudit;
@@ -20,6 +21,9 @@ pub struct Report {
     pub max_acceleration_ratio: Worst,
     /// Largest jerk over limit, of any axis.
     pub max_jerk_ratio: Worst,
+    /// Velocity, acceleration and jerk of joints that are not the axes over their limits, where they were
+    /// judged.
+    pub max_joint_ratios: Option<[WorstJoint; 3]>,
     /// Largest path speed over programmed feed, between two samples.
     pub max_feed_ratio: Worst,
     /// Largest acceleration along and across the path and jerk along it, over their limits.
@@ -89,12 +93,18 @@ impl Report {
     }
 
     pub(crate) fn new(
-        (limits, travel): (&LimitAudit, &TravelAudit),
+        (limits, joints, travel): (&LimitAudit, Option<&JointAudit>, &TravelAudit),
         along: &AlongAudit,
         matching: &Matching,
         events: &EventPlaces,
     ) -> Self {
         let mut violations = limits.violations.kept.clone();
+        let of_joints = joints.map(|joints| &joints.violations);
+        violations.extend(
+            of_joints
+                .iter()
+                .flat_map(|found| found.kept.iter().copied()),
+        );
         violations.extend_from_slice(&travel.violations.kept);
         violations.extend_from_slice(&along.violations.kept);
         violations.extend_from_slice(&matching.violations.kept);
@@ -117,6 +127,7 @@ impl Report {
             max_velocity_ratio: limits.worst[0],
             max_acceleration_ratio: limits.worst[1],
             max_jerk_ratio: limits.worst[2],
+            max_joint_ratios: joints.map(|joints| joints.worst),
             max_feed_ratio: matching.max_feed,
             max_path_ratios: along.worst,
             max_velocity: limits.maxima[0],
@@ -142,6 +153,7 @@ impl Report {
             final_position: limits.last_position(),
             violations,
             violation_count: limits.violations.count
+                + of_joints.map_or(0, |found| found.count)
                 + travel.violations.count
                 + along.violations.count
                 + matching.violations.count

@@ -49,6 +49,24 @@ pub enum ViolationKind {
         /// The end of travel.
         end: f64,
     },
+    /// A joint did more than it can.
+    Joint {
+        /// The joint, 0 for J0.
+        joint: usize,
+        /// Which of its limits.
+        rate: JointRate,
+        /// What it did over the limit.
+        ratio: f64,
+    },
+    /// A joint left its range.
+    JointRange {
+        /// The joint, 0 for J0.
+        joint: usize,
+        /// Where it was, mm or degrees.
+        position: f64,
+        /// The end of its range.
+        end: f64,
+    },
     /// Acceleration along the path beyond its limit.
     AlongPath {
         /// Acceleration over limit.
@@ -143,6 +161,30 @@ impl Inconsistency {
     }
 }
 
+/// The quantity of a joint that a limit is of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum JointRate {
+    /// Velocity.
+    Velocity,
+    /// Acceleration.
+    Acceleration,
+    /// Jerk.
+    Jerk,
+}
+
+impl JointRate {
+    /// In the order of the differences.
+    pub(crate) const ALL: [Self; 3] = [Self::Velocity, Self::Acceleration, Self::Jerk];
+
+    const fn text(self) -> &'static str {
+        match self {
+            Self::Velocity => "velocity",
+            Self::Acceleration => "acceleration",
+            Self::Jerk => "jerk",
+        }
+    }
+}
+
 /// A broken rule, and where.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Violation {
@@ -176,6 +218,18 @@ impl fmt::Display for Violation {
                 "{axis} is at {position:.6}{unit}, {:.6}{unit} beyond the end of its travel at {end}{unit}",
                 (position - end).abs(),
                 unit = unit(axis)
+            ),
+            ViolationKind::Joint { joint, rate, ratio } => {
+                write!(f, "J{joint} has {ratio:.6} of its {} limit", rate.text())
+            }
+            ViolationKind::JointRange {
+                joint,
+                position,
+                end,
+            } => write!(
+                f,
+                "J{joint} is at {position:.6}, {:.6} beyond the end of its range at {end}",
+                (position - end).abs()
             ),
             ViolationKind::AlongPath { ratio } => {
                 write!(f, "{ratio:.6} of the acceleration allowed along the path")

@@ -3,6 +3,7 @@
 mod arcs;
 mod brute_force;
 mod deviation;
+mod joints;
 mod limits;
 mod planted;
 mod program;
