@@ -114,7 +114,7 @@ mod tests {
     fn track(blocks: &[(u32, u32)]) -> Track {
         let mut track = Track::new(
             0.004,
-            mill(),
+            (&mill(), None),
             crate::gates::Gates::NONE,
             crate::track::TRACK_CAPACITY,
         );

@@ -3,6 +3,7 @@
 use crate::feedback::FeedbackSettings;
 use crate::gates::Gates;
 use crate::homing::JointBounds;
+use crate::limited_joints::LimitedJoints;
 use crate::stops::StopSettings;
 use core::time::Duration;
 use glidepath_geometry::{Axis, AxisVector};
@@ -106,6 +107,9 @@ pub struct Config {
     pub period_ns: u64,
     /// What each axis can do. Frames that ask for more are refused.
     pub limits: Limits,
+    /// What each axis can do whatever the others do at the same time: where joints are not axes, less, so
+    /// that no joint has more to do than it can. Motion by hand keeps to that.
+    pub hand_limits: Limits,
     /// Where each axis may be. Frames outside are refused.
     pub soft_limits: SoftLimits,
     /// What turns axes into joints.
@@ -154,6 +158,7 @@ impl Config {
         Self {
             period_ns,
             limits,
+            hand_limits: limits,
             soft_limits: SoftLimits::none(),
             mechanism: Mechanism::Trivial(Trivial {
                 axes: AxisList::new(&Axis::ALL),
@@ -179,6 +184,12 @@ impl Config {
     pub fn joint_watch(&self) -> Option<JointWatch> {
         let is_trivial = matches!(self.mechanism, Mechanism::Trivial(_));
         (!is_trivial).then(|| JointWatch::new(self.mechanism, self.joint_limits, self.period_t()))
+    }
+
+    /// The joints whose motion is limited beside that of the axes.
+    pub(crate) fn limited_joints(&self) -> Option<LimitedJoints> {
+        let is_trivial = matches!(self.mechanism, Mechanism::Trivial(_));
+        (!is_trivial).then(|| LimitedJoints::new(self.mechanism, &self.joint_limits))
     }
 
     /// The joints of the machine, one bit each, J0 lowest.

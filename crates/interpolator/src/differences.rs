@@ -1,4 +1,5 @@
-//! The limits on finite differences of the published positions: what a drive sees.
+//! The limits on finite differences of the published positions: what a drive sees. Of joints that are not the
+//! axes, too.
 //!
 //! With positions x one period T apart, every axis obeys |Δx| ≤ V·T, |Δ²x| ≤ A·T², |Δ³x| ≤ J·T³.
 //! The differences are averages of the derivatives of any motion through the positions, so a motion
@@ -7,6 +8,7 @@
 use crate::pairs::{self, PAIRS, Pair, larger, smaller, sub};
 use crate::quintic::Quintic;
 use glidepath_geometry::AxisVector;
+use glidepath_kinematics::JointVector;
 use glidepath_program::Limits;
 
 /// Share of a limit that may be lost to rounding; half of what an audit allows.
@@ -17,13 +19,37 @@ const ROUNDING: f64 = 1e-12;
 /// The limits on one, two and three differences, mm.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Allowed {
+    axes: AllowedPairs,
+    /// Those of joints that are not the axes; of no pair where they are.
+    joints: AllowedPairs,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct AllowedPairs {
     pairs: [[Pair; 3]; PAIRS],
     /// Pairs with limits. The others are not looked at.
     used: usize,
 }
 
 impl Allowed {
-    pub(crate) fn new(limits: &Limits, period_t: f64) -> Self {
+    /// The limits of axes, and those of joints that are not these.
+    pub(crate) fn new(axes: &Limits, joints: Option<&Limits>, period_t: f64) -> Self {
+        Self {
+            axes: AllowedPairs::new(axes, period_t),
+            joints: joints.map_or(AllowedPairs::NONE, |joints| {
+                AllowedPairs::new(joints, period_t)
+            }),
+        }
+    }
+}
+
+impl AllowedPairs {
+    const NONE: Self = Self {
+        pairs: [[[f64::INFINITY; 2]; 3]; PAIRS],
+        used: 0,
+    };
+
+    fn new(limits: &Limits, period_t: f64) -> Self {
         let t = period_t;
         let raw = [
             limits.velocity * t,
@@ -31,7 +57,7 @@ impl Allowed {
             limits.jerk * (t * t * t),
         ];
         let raw = raw.map(|limit| limit * (1.0 + ALLOWANCE) + AxisVector::repeat(ROUNDING));
-        let mut all = [[[f64::INFINITY; 2]; 3]; PAIRS];
+        let mut all = Self::NONE.pairs;
         for (k, limit) in raw.iter().enumerate() {
             for (slots, pair) in all.iter_mut().zip(pairs::pairs(limit.as_slice())) {
                 if let Some(slot) = slots.get_mut(k) {
@@ -84,36 +110,64 @@ impl Past {
 
 const INSIDE: Pair = [1.0; 2];
 
+/// Where the axes are, and the joints that are not these; zero without such joints.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Place {
+    pub(crate) axes: AxisVector,
+    pub(crate) joints: JointVector,
+}
+
 /// The last published position and its differences.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Differences([Past; PAIRS]);
+pub(crate) struct Differences {
+    axes: [Past; PAIRS],
+    /// Of joints that are not the axes.
+    joints: [Past; PAIRS],
+}
 
 impl Differences {
     /// At rest at zero.
-    pub(crate) const NONE: Self = Self(
-        [Past {
+    pub(crate) const NONE: Self = {
+        let none = [Past {
             position: [0.0; 2],
             first: [0.0; 2],
             second: [0.0; 2],
-        }; PAIRS],
-    );
+        }; PAIRS];
+        Self {
+            axes: none,
+            joints: none,
+        }
+    };
 
     /// At rest for ever.
-    pub(crate) fn at_rest(position: AxisVector) -> Self {
-        let Self(mut all) = Self::NONE;
-        for (past, position) in all.iter_mut().zip(pairs::pairs(position.as_slice())) {
-            past.position = position;
+    pub(crate) fn at_rest(place: &Place) -> Self {
+        let mut still = Self::NONE;
+        let all = [
+            (&mut still.axes, &place.axes),
+            (&mut still.joints, &place.joints),
+        ];
+        for (pasts, position) in all {
+            for (past, position) in pasts.iter_mut().zip(pairs::pairs(position.as_slice())) {
+                past.position = position;
+            }
         }
-        Self(all)
+        still
     }
 
     pub(crate) fn position(&self) -> AxisVector {
-        pairs::axes(&self.0.map(|past| past.position))
+        pairs::axes(&self.axes.map(|past| past.position))
+    }
+
+    pub(crate) fn place(&self) -> Place {
+        Place {
+            axes: self.position(),
+            joints: pairs::axes(&self.joints.map(|past| past.position)),
+        }
     }
 
     /// Whether the last three positions are the same.
     pub(crate) fn is_at_rest(&self) -> bool {
-        self.0.iter().all(|past| {
+        self.axes.iter().all(|past| {
             let moves = pairs::zip(past.first, past.second, |one, other| {
                 larger(one.abs(), other.abs())
             });
@@ -123,96 +177,155 @@ impl Differences {
 
     /// Adds one more position, wherever it is.
     pub(crate) fn go_to(&mut self, position: &AxisVector) {
-        for (past, position) in self.0.iter_mut().zip(pairs::pairs(position.as_slice())) {
-            let first = sub(position, past.position);
-            *past = Past {
-                position,
-                first,
-                second: sub(first, past.first),
-            };
-        }
+        go_to(&mut self.axes, position);
+    }
+
+    /// The same of joints that are not the axes.
+    pub(crate) fn joints_go_to(&mut self, joints: &JointVector) {
+        go_to(&mut self.joints, joints);
     }
 
     /// Whether one more position is within the limits.
     pub(crate) fn allows(&self, position: &AxisVector, allowed: &Allowed) -> bool {
         let positions = pairs::pairs(position.as_slice());
         let mut inside = INSIDE;
-        for ((past, position), most) in self.0.iter().zip(positions).zip(allowed.used()) {
+        for ((past, position), most) in self.axes.iter().zip(positions).zip(allowed.axes.used()) {
             inside = { *past }.append(position, most, inside);
         }
         inside == INSIDE
     }
 
+    /// The same of joints that are not the axes.
+    pub(crate) fn allows_joints(&self, joints: &JointVector, allowed: &Allowed) -> bool {
+        let mut pasts = self.joints;
+        append(&mut pasts, joints, &allowed.joints)
+    }
+
     /// Adds one more position; returns whether it is within the limits. Of axes without limits
     /// nothing is kept.
     pub(crate) fn append(&mut self, position: &AxisVector, allowed: &Allowed) -> bool {
-        let positions = pairs::pairs(position.as_slice());
-        let mut inside = INSIDE;
-        for ((past, position), most) in self.0.iter_mut().zip(positions).zip(allowed.used()) {
-            inside = past.append(position, most, inside);
-        }
-        inside == INSIDE
+        append(&mut self.axes, position, &allowed.axes)
+    }
+
+    /// The same of joints that are not the axes.
+    pub(crate) fn append_joints(&mut self, joints: &JointVector, allowed: &Allowed) -> bool {
+        append(&mut self.joints, joints, &allowed.joints)
     }
 
     /// Appends a position between two frames: most of the work of a tick that looks for a stop.
     pub(crate) fn append_at(&mut self, quintic: &Quintic, u: f64, allowed: &Allowed) -> bool {
-        let mut inside = INSIDE;
-        for ((past, pair), most) in self.0.iter_mut().zip(quintic.pairs()).zip(allowed.used()) {
-            inside = past.append(pair.position(u), most, inside);
-        }
-        inside == INSIDE
+        append_at(&mut self.axes, quintic, u, &allowed.axes)
+    }
+
+    /// The same of joints that are not the axes.
+    pub(crate) fn append_joints_at(
+        &mut self,
+        quintic: &Quintic,
+        u: f64,
+        allowed: &Allowed,
+    ) -> bool {
+        append_at(&mut self.joints, quintic, u, &allowed.joints)
     }
 
     /// From where to where the next position may be moved until a limit is reached, from one
     /// between two frames along the velocity there, in parts of that. Exact where the motion is
     /// straight.
     pub(crate) fn room(&self, quintic: &Quintic, u: f64, allowed: &Allowed) -> (f64, f64) {
-        let (mut low, mut high) = ([f64::NEG_INFINITY; 2], [f64::INFINITY; 2]);
-        for ((past, pair), most) in self.0.iter().zip(quintic.pairs()).zip(allowed.used()) {
-            let (position, velocity) = pair.motion(u);
-            let first = sub(position, past.position);
-            let second = sub(first, past.first);
-            let third = sub(second, past.second);
-            let scale = pairs::map(velocity, |v| v.abs().recip());
-            for (difference, most) in [first, second, third].into_iter().zip(*most) {
-                // What the differences are along the velocity. An axis that stands is not limited
-                // by it.
-                let along = pairs::zip(difference, velocity, |d, v| d.copysign(d * v));
-                let lowest = pairs::zip(most, along, |most, along| -most - along);
-                let highest = sub(most, along);
-                low = pairs::zip(pairs::zip(lowest, scale, |l, s| l * s), low, larger);
-                high = pairs::zip(pairs::zip(highest, scale, |h, s| h * s), high, smaller);
-            }
-        }
-        let ([low, other_low], [high, other_high]) = (low, high);
-        (larger(low, other_low), smaller(high, other_high))
+        room(&self.axes, quintic, u, &allowed.axes)
     }
 
-    /// Largest ratio to a limit one more position would have; not a number if one is none.
+    /// The same of joints that are not the axes.
+    pub(crate) fn joint_room(&self, quintic: &Quintic, u: f64, allowed: &Allowed) -> (f64, f64) {
+        room(&self.joints, quintic, u, &allowed.joints)
+    }
+
+    /// Largest ratio to any limit one more position would have; not a number if one is none.
     #[cold]
     pub(crate) fn ratio(&self, position: &AxisVector, allowed: &Allowed) -> f64 {
-        let positions = pairs::pairs(position.as_slice());
-        let mut most_ratio = [0.0_f64; 2];
-        for ((past, position), most) in self.0.iter().zip(positions).zip(allowed.used()) {
-            let first = sub(position, past.position);
-            let second = sub(first, past.first);
-            let third = sub(second, past.second);
-            for (difference, most) in [first, second, third].into_iter().zip(*most) {
-                let ratio = pairs::zip(difference, most, |d, most| d.abs() / most);
-                most_ratio = pairs::zip(ratio, most_ratio, |ratio, most| {
-                    if ratio <= most || most.is_nan() {
-                        most
-                    } else {
-                        ratio
-                    }
-                });
-            }
+        ratio(&self.axes, position, &allowed.axes)
+    }
+
+    /// The same of joints that are not the axes.
+    #[cold]
+    pub(crate) fn joint_ratio(&self, joints: &JointVector, allowed: &Allowed) -> f64 {
+        ratio(&self.joints, joints, &allowed.joints)
+    }
+}
+
+fn go_to(pasts: &mut [Past; PAIRS], position: &AxisVector) {
+    for (past, position) in pasts.iter_mut().zip(pairs::pairs(position.as_slice())) {
+        let first = sub(position, past.position);
+        *past = Past {
+            position,
+            first,
+            second: sub(first, past.first),
+        };
+    }
+}
+
+fn append(pasts: &mut [Past; PAIRS], position: &AxisVector, allowed: &AllowedPairs) -> bool {
+    let positions = pairs::pairs(position.as_slice());
+    let mut inside = INSIDE;
+    for ((past, position), most) in pasts.iter_mut().zip(positions).zip(allowed.used()) {
+        inside = past.append(position, most, inside);
+    }
+    inside == INSIDE
+}
+
+#[inline]
+fn append_at(pasts: &mut [Past; PAIRS], quintic: &Quintic, u: f64, allowed: &AllowedPairs) -> bool {
+    let mut inside = INSIDE;
+    for ((past, pair), most) in pasts.iter_mut().zip(quintic.pairs()).zip(allowed.used()) {
+        inside = past.append(pair.position(u), most, inside);
+    }
+    inside == INSIDE
+}
+
+#[inline]
+fn room(pasts: &[Past; PAIRS], quintic: &Quintic, u: f64, allowed: &AllowedPairs) -> (f64, f64) {
+    let (mut low, mut high) = ([f64::NEG_INFINITY; 2], [f64::INFINITY; 2]);
+    for ((past, pair), most) in pasts.iter().zip(quintic.pairs()).zip(allowed.used()) {
+        let (position, velocity) = pair.motion(u);
+        let first = sub(position, past.position);
+        let second = sub(first, past.first);
+        let third = sub(second, past.second);
+        let scale = pairs::map(velocity, |v| v.abs().recip());
+        for (difference, most) in [first, second, third].into_iter().zip(*most) {
+            // What the differences are along the velocity. An axis that stands is not limited
+            // by it.
+            let along = pairs::zip(difference, velocity, |d, v| d.copysign(d * v));
+            let lowest = pairs::zip(most, along, |most, along| -most - along);
+            let highest = sub(most, along);
+            low = pairs::zip(pairs::zip(lowest, scale, |l, s| l * s), low, larger);
+            high = pairs::zip(pairs::zip(highest, scale, |h, s| h * s), high, smaller);
         }
-        let [one, other] = most_ratio;
-        if one <= other || other.is_nan() {
-            other
-        } else {
-            one
+    }
+    let ([low, other_low], [high, other_high]) = (low, high);
+    (larger(low, other_low), smaller(high, other_high))
+}
+
+fn ratio(pasts: &[Past; PAIRS], position: &AxisVector, allowed: &AllowedPairs) -> f64 {
+    let positions = pairs::pairs(position.as_slice());
+    let mut most_ratio = [0.0_f64; 2];
+    for ((past, position), most) in pasts.iter().zip(positions).zip(allowed.used()) {
+        let first = sub(position, past.position);
+        let second = sub(first, past.first);
+        let third = sub(second, past.second);
+        for (difference, most) in [first, second, third].into_iter().zip(*most) {
+            let ratio = pairs::zip(difference, most, |d, most| d.abs() / most);
+            most_ratio = pairs::zip(ratio, most_ratio, |ratio, most| {
+                if ratio <= most || most.is_nan() {
+                    most
+                } else {
+                    ratio
+                }
+            });
         }
+    }
+    let [one, other] = most_ratio;
+    if one <= other || other.is_nan() {
+        other
+    } else {
+        one
     }
 }

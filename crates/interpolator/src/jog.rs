@@ -102,7 +102,7 @@ pub(crate) struct Jog {
 impl Jog {
     pub(crate) fn new(config: &Config) -> Self {
         let settings = config.jog;
-        let mut limits = config.limits;
+        let mut limits = config.hand_limits;
         limits.velocity = limits.velocity.inf(&settings.velocity);
         let ns = |t: core::time::Duration| u64::try_from(t.as_nanos()).unwrap_or(u64::MAX);
         Self {

@@ -125,11 +125,15 @@ impl Joints {
         self.stand(&joints);
     }
 
-    /// Writes into a setpoint what the joints are to do for its axes.
+    /// Writes into a setpoint what the joints are to do for its axes. Returns where they are then, in the
+    /// machine's count.
     ///
     /// # Errors
     /// The mechanism cannot be there. The joints are told to stay where they were.
-    pub(crate) fn follow(&mut self, setpoint: &mut Setpoint) -> Result<(), KinematicsError> {
+    pub(crate) fn follow(
+        &mut self,
+        setpoint: &mut Setpoint,
+    ) -> Result<JointVector, KinematicsError> {
         let motion = self.mechanism.motion(
             &setpoint.position.into(),
             &setpoint.velocity.into(),
@@ -146,7 +150,7 @@ impl Joints {
                 setpoint.joint_position = self.last.into();
                 setpoint.joint_velocity = motion.velocity.into();
                 setpoint.joint_acceleration = motion.acceleration.into();
-                Ok(())
+                Ok(motion.position)
             }
             Err(error) => {
                 setpoint.joint_position = self.last.into();

@@ -119,6 +119,7 @@ mod homing;
 mod job;
 mod jog;
 mod joints;
+mod limited_joints;
 mod loops;
 mod message;
 mod output;

@@ -1,11 +1,12 @@
 //! The output of every tick: its setpoint, held against the limits of the axes.
 
 use crate::config::Config;
-use crate::differences::{Allowed, Differences};
+use crate::differences::{Allowed, Differences, Place};
 use crate::feedback::Observation;
 use crate::frame_summary::FrameSummary;
 use crate::jog::AxesMotion;
 use crate::joints::Joints;
+use crate::limited_joints::LimitedJoints;
 use crate::rate::Progress;
 use crate::setpoint::SetpointWriter;
 use crate::track::Track;
@@ -31,16 +32,21 @@ pub(crate) struct Output {
     allowed: Allowed,
     setpoints: SetpointWriter,
     joints: Joints,
+    /// Joints that are not the axes, with limits of their own.
+    limited: Option<LimitedJoints>,
 }
 
 impl Output {
     pub(crate) fn new(config: &Config, boot_id: u64) -> Self {
         let period_t = config.period_t();
+        let limited = config.limited_joints();
+        let of_joints = limited.as_ref().map(|joints| &joints.limits);
         Self {
-            published: Differences::at_rest(config.start_position),
-            allowed: Allowed::new(&config.limits, period_t),
+            published: at_rest(limited.as_ref(), &config.start_position),
+            allowed: Allowed::new(&config.limits, of_joints, period_t),
             setpoints: SetpointWriter::new(period_t, boot_id, config.joints()),
             joints: Joints::new(config),
+            limited,
         }
     }
 
@@ -61,7 +67,7 @@ impl Output {
 
     /// The machine stays where it is.
     pub(crate) fn rest(&mut self) {
-        self.published = Differences::at_rest(self.published.position());
+        self.published = Differences::at_rest(&self.published.place());
     }
 
     /// Writes the setpoint at the present program time, and compares its position with the limits.
@@ -164,7 +170,7 @@ impl Output {
 
     /// Takes the position over from the drives.
     pub(crate) fn hand_over(&mut self, seen: &Observation) {
-        self.published = Differences::at_rest(seen.axes);
+        self.published = at_rest(self.limited.as_ref(), &seen.axes);
         self.joints.count_from(&seen.offset);
         self.joints.stand(&seen.joints);
         self.setpoints.begin_reference();
@@ -180,18 +186,40 @@ impl Output {
         follows: u32,
         setpoint: &mut Setpoint,
     ) {
-        self.published = Differences::at_rest(seen.axes);
+        self.published = at_rest(self.limited.as_ref(), &seen.axes);
         self.joints.count_from(&seen.offset);
         self.setpoints
             .write_standing(epoch, passed, &seen.axes, setpoint);
         self.joints.repeat(&seen.joints, follows, setpoint);
     }
 
-    /// Writes into the setpoint what the joints are to do for its axes.
+    /// Writes into the setpoint what the joints are to do for its axes, and compares that with their
+    /// limits, where they are not the axes.
     ///
     /// # Errors
     /// The mechanism cannot be there. The joints are told to stay where they were.
-    pub(crate) fn write_joints(&mut self, setpoint: &mut Setpoint) -> Result<(), KinematicsError> {
-        self.joints.follow(setpoint)
+    pub(crate) fn write_joints(
+        &mut self,
+        setpoint: &mut Setpoint,
+    ) -> Result<Written, KinematicsError> {
+        let joints = self.joints.follow(setpoint)?;
+        if self.limited.is_none() {
+            return Ok(Written::Inside);
+        }
+        let written = if self.published.allows_joints(&joints, &self.allowed) {
+            Written::Inside
+        } else {
+            Written::Excess(self.published.joint_ratio(&joints, &self.allowed) - 1.0)
+        };
+        self.published.joints_go_to(&joints);
+        Ok(written)
     }
+}
+
+/// Axes at rest for ever, and the joints that are not these.
+fn at_rest(limited: Option<&LimitedJoints>, axes: &AxisVector) -> Differences {
+    Differences::at_rest(&Place {
+        axes: *axes,
+        joints: limited.map_or_else(JointVector::zeros, |joints| joints.at(axes)),
+    })
 }

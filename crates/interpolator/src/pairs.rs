@@ -60,7 +60,7 @@ pub(crate) fn sub(one: Pair, other: Pair) -> Pair {
 }
 
 /// The larger of two numbers, the second if one is none: an instruction, which `f64::max` is not.
-pub(crate) fn larger(one: f64, other: f64) -> f64 {
+pub(crate) const fn larger(one: f64, other: f64) -> f64 {
     if one > other { one } else { other }
 }
 

@@ -28,11 +28,29 @@ pub(crate) struct Quintic([Coefficients; PAIRS]);
 /// Position, velocity and acceleration of a pair at a frame.
 type State = [Pair; 3];
 
-fn states(frame: &SetpointFrame) -> impl Iterator<Item = State> {
-    pairs::pairs(&frame.position)
-        .zip(pairs::pairs(&frame.velocity))
-        .zip(pairs::pairs(&frame.acceleration))
-        .map(|((position, velocity), acceleration)| [position, velocity, acceleration])
+/// Where axes or joints are at a frame, and how they move.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct MotionState<'a> {
+    pub(crate) position: &'a [f64],
+    pub(crate) velocity: &'a [f64],
+    pub(crate) acceleration: &'a [f64],
+}
+
+impl MotionState<'_> {
+    const fn of(frame: &SetpointFrame) -> MotionState<'_> {
+        MotionState {
+            position: &frame.position,
+            velocity: &frame.velocity,
+            acceleration: &frame.acceleration,
+        }
+    }
+
+    fn pairs(&self) -> impl Iterator<Item = State> {
+        pairs::pairs(self.position)
+            .zip(pairs::pairs(self.velocity))
+            .zip(pairs::pairs(self.acceleration))
+            .map(|((position, velocity), acceleration)| [position, velocity, acceleration])
+    }
 }
 
 impl Quintic {
@@ -42,7 +60,13 @@ impl Quintic {
 
     /// Becomes the one between two frames.
     pub(crate) fn set_between(&mut self, from: &SetpointFrame, to: &SetpointFrame, period_t: f64) {
-        let ends = states(from).zip(states(to));
+        self.set(&MotionState::of(from), &MotionState::of(to), period_t);
+    }
+
+    /// Becomes the one between two states.
+    #[inline]
+    pub(crate) fn set(&mut self, from: &MotionState<'_>, to: &MotionState<'_>, period_t: f64) {
+        let ends = from.pairs().zip(to.pairs());
         for (pair, (from, to)) in self.0.iter_mut().zip(ends) {
             pair.set_between(from, to, period_t);
         }

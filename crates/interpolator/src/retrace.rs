@@ -26,6 +26,7 @@
 //! frames, bit for bit, on all three ways.
 
 use crate::gates::Gates;
+use crate::limited_joints::LimitedJoints;
 use crate::program_time::ProgramTime;
 use crate::track::{TRACK_CAPACITY, Track};
 use glidepath_link::SetpointFrame;
@@ -83,7 +84,7 @@ pub(crate) struct Retrace {
 }
 
 impl Retrace {
-    pub(crate) fn new(period_t: f64, limits: Limits) -> Self {
+    pub(crate) fn new(period_t: f64, limits: (&Limits, Option<LimitedJoints>)) -> Self {
         Self {
             other: Track::new(period_t, limits, Gates::NONE, TRACK_CAPACITY),
             floor: 0,

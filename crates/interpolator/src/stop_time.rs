@@ -2,7 +2,6 @@
 //! out.
 
 use crate::pairs::{self, PAIRS, Pair, larger};
-use glidepath_link::SetpointFrame;
 use glidepath_program::Limits;
 
 /// How many ticks it takes to lose the speed at a frame: at the acceleration limit, and, squared,
@@ -11,6 +10,16 @@ use glidepath_program::Limits;
 pub(crate) struct StopTime {
     pub(crate) by_acceleration: f64,
     pub(crate) by_jerk_squared: f64,
+}
+
+impl StopTime {
+    /// The longer of both.
+    pub(crate) const fn longer(self, other: Self) -> Self {
+        Self {
+            by_acceleration: larger(self.by_acceleration, other.by_acceleration),
+            by_jerk_squared: larger(self.by_jerk_squared, other.by_jerk_squared),
+        }
+    }
 }
 
 /// What limits the time to stop: acceleration and jerk, of the pairs of axes that have limits.
@@ -34,10 +43,11 @@ impl StopLimits {
         }
     }
 
-    pub(crate) fn stop_time(&self, frame: &SetpointFrame, period_t: f64) -> StopTime {
+    /// From so much velocity of the axes, or of joints in their place.
+    pub(crate) fn stop_time(&self, velocity: &[f64], period_t: f64) -> StopTime {
         let (mut by_acceleration, mut by_jerk) = ([0.0; 2], [0.0; 2]);
         let used = self.pairs.iter().take(self.used);
-        for (velocity, [acceleration, jerk]) in pairs::pairs(&frame.velocity).zip(used) {
+        for (velocity, [acceleration, jerk]) in pairs::pairs(velocity).zip(used) {
             // Where there is no second axis that is not a number, and less than any.
             let part = |limit: &Pair| pairs::zip(velocity, *limit, |v, limit| v.abs() / limit);
             by_acceleration = pairs::zip(part(acceleration), by_acceleration, larger);

@@ -22,8 +22,15 @@ const SPARE: u64 = 10;
 /// Ticks without a new frame after which no more are expected soon.
 const QUIET_TICKS: u64 = 5;
 
-/// The longest time an axis takes to stop from full speed, s.
-fn stop_t(limits: &Limits) -> f64 {
+/// The longest time an axis or a joint takes to stop from full speed, s.
+fn stop_t(config: &Config) -> f64 {
+    let of_joints = config.limited_joints();
+    let joints_t = of_joints.map_or(0.0, |joints| slowest_t(&joints.limits));
+    slowest_t(&config.limits).max(joints_t)
+}
+
+/// The longest time one of some axes, or joints, takes to stop from full speed, s.
+fn slowest_t(limits: &Limits) -> f64 {
     let by_axis = limits.velocity.component_div(&limits.acceleration)
         + limits.acceleration.component_div(&limits.jerk);
     // An axis without limits stops in no time; it would only hide the others.
@@ -44,7 +51,7 @@ fn stop_t(limits: &Limits) -> f64 {
 )]
 pub(crate) fn least_horizon(config: &Config) -> u64 {
     const ROUNDING: f64 = 1e-9;
-    (STOPS_AHEAD * stop_t(&config.limits) / config.period_t() - ROUNDING).ceil() as u64
+    (STOPS_AHEAD * stop_t(config) / config.period_t() - ROUNDING).ceil() as u64
 }
 
 /// Watch over the frames ahead.
@@ -71,7 +78,7 @@ impl Supply {
         reason = "a number of ticks; the cast saturates"
     )]
     pub(crate) fn new(config: &Config) -> Self {
-        let stop_t = stop_t(&config.limits);
+        let stop_t = stop_t(config);
         let reach = (0.5 * stop_t / config.period_t()).ceil().min(1e6);
         let enough = (STOPS_AHEAD * reach) as u64 + SPARE;
         let patience_ticks = config.planner_lost_after.map_or(u64::MAX, |patience| {

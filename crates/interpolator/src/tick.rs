@@ -53,7 +53,7 @@ impl Interpolator<'_> {
             self.follow_mover(tick, &mut report.setpoint);
         } else if self.jog.owns_axes() {
             self.follow_jog(due, &mut report.setpoint);
-            self.write_joints(&mut report.setpoint);
+            self.write_joints(tick, &mut report.setpoint);
         } else if self.is_open() {
             if !(self.pass.is_in_use() && self.follow_spindle(due, &mut report.setpoint)) {
                 self.look_for_block_end();
@@ -61,12 +61,12 @@ impl Interpolator<'_> {
                 self.advance_program_time(tick);
                 self.write_moving(tick, &mut report.setpoint);
             }
-            self.write_joints(&mut report.setpoint);
+            self.write_joints(tick, &mut report.setpoint);
         } else if self.drives.following() != 0 && self.drives.seen().is_known {
             self.write_following(&mut report.setpoint);
         } else {
             self.write_standing(&mut report.setpoint);
-            self.write_joints(&mut report.setpoint);
+            self.write_joints(tick, &mut report.setpoint);
         }
         if self.stops.is_due() {
             self.tell_stops(&mut report.setpoint);
@@ -97,11 +97,11 @@ impl Interpolator<'_> {
         self.account.keep_timing(timing);
     }
 
-    pub(super) fn write_joints(&mut self, setpoint: &mut Setpoint) {
-        if self.output.write_joints(setpoint).is_err() {
-            // Every frame passed a judge of the joints, so this cannot be; if it were, the motion
-            // ends.
-            self.fail(FaultCause::Output);
+    pub(super) fn write_joints(&mut self, tick: u64, setpoint: &mut Setpoint) {
+        match self.output.write_joints(setpoint) {
+            Ok(written) => self.judge(written, tick),
+            // Every frame passed a judge of the joints, so this cannot be; if it were, the motion ends.
+            Err(_) => self.fail(FaultCause::Output),
         }
     }
 

@@ -14,13 +14,16 @@
 //! first, and the *barrier*, the latest frame at rest, until it is known how to stop after it.
 //! Program time stands there: everything later is evaluated as that frame.
 
-use crate::differences::{Allowed, Differences};
+use crate::differences::{Allowed, Differences, Place};
 use crate::gates::{Gate, Gates};
+use crate::limited_joints::{JointTrack, LimitedJoints};
+use crate::pairs::{larger, smaller};
 use crate::program_time::ProgramTime;
 use crate::quintic::{Kinematic, Quintic};
 use crate::rest::is_at_rest;
 use crate::stop_time::{StopLimits, StopTime};
 use glidepath_geometry::AxisVector;
+use glidepath_kinematics::JointVector;
 use glidepath_link::SetpointFrame;
 use glidepath_program::{FrameFlags, Limits};
 
@@ -54,12 +57,19 @@ pub(crate) struct Track {
     block_end: Option<u64>,
     period_t: f64,
     limits: StopLimits,
+    /// Where joints are not the axes, these along the frames, and what limits their stops.
+    joints: Option<(JointTrack, StopLimits)>,
     gates: Gates,
 }
 
 impl Track {
     /// An empty track that keeps at least so many frames. Allocates all it will ever use.
-    pub(crate) fn new(period_t: f64, limits: Limits, gates: Gates, kept: usize) -> Self {
+    pub(crate) fn new(
+        period_t: f64,
+        (limits, joints): (&Limits, Option<LimitedJoints>),
+        gates: Gates,
+        kept: usize,
+    ) -> Self {
         let kept = kept.max(TRACK_CAPACITY).next_power_of_two();
         let blank = <SetpointFrame as bytemuck::Zeroable>::zeroed();
         let quintic = Quintic::zeros();
@@ -74,7 +84,11 @@ impl Track {
             barrier: None,
             block_end: None,
             period_t,
-            limits: StopLimits::new(&limits),
+            limits: StopLimits::new(limits),
+            joints: joints.map(|joints| {
+                let limits = StopLimits::new(&joints.limits);
+                (JointTrack::new(joints, TRACK_CAPACITY), limits)
+            }),
             gates,
         }
     }
@@ -142,7 +156,8 @@ impl Track {
         let Some(frame) = self.frames.get(place) else {
             return;
         };
-        if self.is_empty() {
+        let is_first = self.is_empty();
+        if is_first {
             self.oldest = sequence;
         } else if let (Some(previous), Some(quintic)) = (
             self.frames.get(before),
@@ -151,8 +166,15 @@ impl Track {
             quintic.set_between(previous, frame, self.period_t);
         }
         self.len += 1;
+        let mut stop_time = self.limits.stop_time(&frame.velocity, self.period_t);
+        if let Some((joints, limits)) = &mut self.joints {
+            let before = (!is_first).then(|| Self::slot(sequence.wrapping_sub(1)));
+            let velocity = joints.own(frame, Self::slot(sequence), before, self.period_t);
+            let of_joints = limits.stop_time(velocity.as_slice(), self.period_t);
+            stop_time = stop_time.longer(of_joints);
+        }
         if let Some(slot) = self.stop_times.get_mut(Self::slot(sequence)) {
-            *slot = self.limits.stop_time(frame, self.period_t);
+            *slot = stop_time;
         }
         if is_at_rest(frame) {
             self.barrier = Some(sequence);
@@ -317,10 +339,7 @@ impl Track {
     pub(crate) fn longest_stop(&self, from: u64, count: u64) -> StopTime {
         (from.max(self.oldest)..self.end().min(from + count))
             .filter_map(|sequence| self.stop_times.get(Self::slot(sequence)))
-            .fold(StopTime::default(), |longest, at| StopTime {
-                by_acceleration: longest.by_acceleration.max(at.by_acceleration),
-                by_jerk_squared: longest.by_jerk_squared.max(at.by_jerk_squared),
-            })
+            .fold(StopTime::default(), |longest, at| longest.longer(*at))
     }
 
     /// Planned position at a time; `None` outside the owned frames.
@@ -330,6 +349,23 @@ impl Track {
             return Some(AxisVector::from(frame.position));
         }
         Some(self.quintic(time.sequence)?.position(time.fraction))
+    }
+
+    /// Whether joints that are not the axes are known along the frames.
+    pub(crate) const fn has_joints(&self) -> bool {
+        self.joints.is_some()
+    }
+
+    /// Planned position at a time with that of joints that are not the axes; `None` outside the owned
+    /// frames.
+    pub(crate) fn whereabouts(&self, time: ProgramTime) -> Option<Place> {
+        let axes = self.position(time)?;
+        let joints = match (&self.joints, time.fraction <= 0.0) {
+            (None, _) => JointVector::zeros(),
+            (Some((joints, _)), true) => *joints.position(Self::slot(time.sequence))?,
+            (Some(_), false) => self.joint_quintic(time.sequence)?.position(time.fraction),
+        };
+        Some(Place { axes, joints })
     }
 
     /// The motion from a frame to the next; `None` outside the owned frames.
@@ -342,6 +378,13 @@ impl Track {
         }
     }
 
+    /// The joints from a frame to the next, where they are not the axes; for whoever knows that both are
+    /// owned.
+    fn joint_quintic(&self, sequence: u64) -> Option<&Quintic> {
+        let (joints, _) = self.joints.as_ref()?;
+        joints.quintic(Self::slot(sequence))
+    }
+
     /// Appends the planned position at a time to others; returns whether it is within the limits,
     /// and within the owned frames.
     pub(crate) fn append_to(
@@ -351,10 +394,21 @@ impl Track {
         allowed: &Allowed,
     ) -> bool {
         if let Some(quintic) = self.quintic(time.sequence) {
-            return published.append_at(quintic, time.fraction, allowed);
+            let is_inside = published.append_at(quintic, time.fraction, allowed);
+            return match self.joint_quintic(time.sequence) {
+                None => is_inside,
+                Some(joints) => {
+                    is_inside & published.append_joints_at(joints, time.fraction, allowed)
+                }
+            };
         }
         let position = self.position(time);
-        position.is_some_and(|position| published.append(&position, allowed))
+        let is_inside = position.is_some_and(|position| published.append(&position, allowed));
+        let joints = self.joints.as_ref();
+        match joints.and_then(|(joints, _)| joints.position(Self::slot(time.sequence))) {
+            None => is_inside,
+            Some(joints) => is_inside && published.append_joints(joints, allowed),
+        }
     }
 
     /// By how much the planned position at a time may be moved along the path: see
@@ -366,7 +420,12 @@ impl Track {
         allowed: &Allowed,
     ) -> Option<(f64, f64)> {
         let quintic = self.quintic(time.sequence)?;
-        Some(published.room(quintic, time.fraction, allowed))
+        let room = published.room(quintic, time.fraction, allowed);
+        let Some(joints) = self.joint_quintic(time.sequence) else {
+            return Some(room);
+        };
+        let of_joints = published.joint_room(joints, time.fraction, allowed);
+        Some((larger(room.0, of_joints.0), smaller(room.1, of_joints.1)))
     }
 
     /// Position and derivatives between frames; `None` outside the owned frames.

@@ -15,7 +15,7 @@ use super::greedy_descent::{DescentOutcome, GreedyDescent};
 use super::kept_stop::{DelayedRamp, DescentSlopes, KeptStop};
 use super::steady_rate::SteadyRate;
 use super::*;
-use crate::differences::{Allowed, Differences};
+use crate::differences::{Allowed, Differences, Place};
 use crate::program_time::ProgramTime;
 use crate::rest::is_at_rest;
 use crate::testing::{audit, mill, plan, records};
@@ -42,7 +42,12 @@ struct Player {
 impl Player {
     fn new(frames: Vec<SetpointFrame>, limits: Limits) -> Self {
         let start = AxisVector::from(frames[0].position);
-        let mut track = Track::new(PERIOD_T, limits, crate::gates::Gates::NONE, TRACK_CAPACITY);
+        let mut track = Track::new(
+            PERIOD_T,
+            (&limits, None),
+            crate::gates::Gates::NONE,
+            TRACK_CAPACITY,
+        );
         for frame in frames.iter().take(TRACK_CAPACITY) {
             track.push(frame);
         }
@@ -50,8 +55,11 @@ impl Player {
             frames,
             track,
             rate: Rate::new(ProgramTime::at(0), 1.0),
-            published: Differences::at_rest(start),
-            allowed: Allowed::new(&limits, PERIOD_T),
+            published: Differences::at_rest(&Place {
+                axes: start,
+                joints: AxisVector::zeros(),
+            }),
+            allowed: Allowed::new(&limits, None, PERIOD_T),
             positions: vec![start; 3],
             sets_out_at: 1.0,
         }

@@ -139,7 +139,7 @@ impl Interpolator<'_> {
             self.fail(FaultCause::Output);
             self.mover.end();
             self.write_standing(setpoint);
-            self.write_joints(setpoint);
+            self.write_joints(tick, setpoint);
         }
         if !self.mover.is_active() {
             self.output.keep_joints();

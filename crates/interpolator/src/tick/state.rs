@@ -72,9 +72,10 @@ impl<'a> Interpolator<'a> {
         happenings: EventWriter<'a, Happening>,
     ) -> Self {
         let period_t = config.period_t();
+        let limits = (&config.limits, config.limited_joints());
         Self {
-            track: Track::new(period_t, config.limits, config.gates, frames_kept(period_t)),
-            retrace: Retrace::new(period_t, config.limits),
+            track: Track::new(period_t, limits, config.gates, frames_kept(period_t)),
+            retrace: Retrace::new(period_t, limits),
             rate: Rate::new(ProgramTime::at(0), 0.0),
             requests: StopRequests::default(),
             supply: Supply::new(config),
@@ -86,7 +87,7 @@ impl<'a> Interpolator<'a> {
             tap_overtravel: config.tap_overtravel,
             simulated_spindle: SimulatedSpindle::default(),
             stops: Stops::new(config.stops),
-            limits: config.limits,
+            limits: config.hand_limits,
             jog: Jog::new(config),
             mover: Mover::new(config),
             drives: Drives::new(config),
