@@ -13,6 +13,7 @@
 )]
 
 mod bursts;
+mod mechanisms;
 mod overrides;
 mod random;
 mod reaction;

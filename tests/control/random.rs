@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use crate::supervisor::{BENCH, EFFORTS, Job, Supervisor, assert_limits};
 use crate::times;
 
-fn command() -> impl Strategy<Value = Command> {
+pub(crate) fn command() -> impl Strategy<Value = Command> {
     let stops = prop_oneof![
         3 => Just(Command::Hold),
         2 => Just(Command::StopAtEndOfBlock),
@@ -55,6 +55,15 @@ proptest! {
 
 /// Carries out commands, each followed by some ticks, and the rest of the program.
 fn carry_out(job: &Job, commands: &[(Command, usize)]) -> Result<(), TestCaseError> {
+    carry_out_and(job, commands, |_| Ok(()))
+}
+
+/// The same, and judges what came of it.
+pub(crate) fn carry_out_and(
+    job: &Job,
+    commands: &[(Command, usize)],
+    judge: impl FnOnce(&Supervisor<'_, '_, '_>) -> Result<(), TestCaseError>,
+) -> Result<(), TestCaseError> {
     job.supervised(|supervisor| {
         let mut largest_override = 1.0_f64;
         for &(command, ticks) in commands {
@@ -70,7 +79,7 @@ fn carry_out(job: &Job, commands: &[(Command, usize)]) -> Result<(), TestCaseErr
         let end = supervisor.frames.last().unwrap().position;
         prop_assert_eq!(supervisor.setpoints.last().unwrap().position, end);
         assert_bits(supervisor)?;
-        Ok(())
+        judge(supervisor)
     })
 }
 

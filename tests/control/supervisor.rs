@@ -7,6 +7,7 @@ use glidepath_audit::{Audit, AuditSettings, Passed, Report, Sample};
 use glidepath_gcode::Options;
 use glidepath_geometry::AxisVector;
 use glidepath_interpolator::{Config, Stepped, stepped};
+use glidepath_kinematics::PathCaps;
 use glidepath_link::{Command, MachineState, Setpoint, SetpointFrame};
 use glidepath_planner::{Output, Pipeline, ProgramSource};
 use glidepath_program::{Effort, Item, Limits, Override, Settings, Smoothing};
@@ -66,6 +67,9 @@ fn on_the_mill(effort: Effort) -> Settings {
 pub(crate) struct Job {
     text: String,
     pub(crate) settings: Settings,
+    /// Where joints are not the axes, these.
+    joints: Option<PathCaps>,
+    start: AxisVector,
 }
 
 impl Job {
@@ -80,6 +84,8 @@ impl Job {
         Self {
             text: std::fs::read_to_string(file).unwrap(),
             settings,
+            joints: None,
+            start: AxisVector::zeros(),
         }
     }
 
@@ -88,17 +94,38 @@ impl Job {
         Self {
             text,
             settings: on_the_mill(Effort::Optimal),
+            joints: None,
+            start: AxisVector::zeros(),
+        }
+    }
+
+    /// A program for a machine whose joints are not its axes, from where it stands.
+    pub(crate) fn of_joints(
+        text: &str,
+        limits: Limits,
+        joints: PathCaps,
+        (start, effort): (AxisVector, Effort),
+    ) -> Self {
+        let settings = Settings {
+            limits,
+            ..on_the_mill(effort)
+        };
+        Self {
+            text: text.to_owned(),
+            settings,
+            joints: Some(joints),
+            start,
         }
     }
 
     fn pipeline(&self) -> Pipeline<ProgramSource<&[u8]>> {
-        let start = AxisVector::zeros();
+        let start = self.start;
         let options = Options {
             start,
             ..Options::default()
         };
         let source = ProgramSource::new(self.text.as_bytes(), options);
-        Pipeline::new(source, self.settings, start)
+        Pipeline::new(source, self.settings, start).with_joints(self.joints)
     }
 
     /// Periods of a plan at an override.
@@ -114,7 +141,16 @@ impl Job {
 
     /// Runs the program under a supervisor, which `work` tells what to do.
     pub(crate) fn supervised<R>(&self, work: impl FnOnce(&mut Supervisor<'_, '_, '_>) -> R) -> R {
-        let config = Config::new(self.settings.limits, PERIOD_NS);
+        let mut config = Config {
+            start_position: self.start,
+            ..Config::new(self.settings.limits, PERIOD_NS)
+        };
+        if let Some(joints) = &self.joints {
+            config.mechanism = joints.mechanism;
+            config.joint_limits = joints.limits;
+            config.hand_limits.acceleration = joints.rates.acceleration;
+            config.hand_limits.jerk = joints.rates.jerk;
+        }
         stepped(&config, |stepped| {
             work(&mut Supervisor {
                 stepped,

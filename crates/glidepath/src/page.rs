@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 /// A motion of a machine with nothing in it.
 #[must_use]
 pub fn motion(config: &MachineConfig) -> Motion {
-    let limits = config.limits();
+    let limits = config.axis_limits();
     let axes: Vec<AxisScale> = config
         .axis_names()
         .into_iter()
@@ -70,7 +70,7 @@ const fn limit_of(binding: Option<Binding>) -> (LimitKind, usize) {
 /// The machine as the page knows it, as an object.
 #[must_use]
 pub fn machine_object(config: &MachineConfig, instance: &str) -> Value {
-    let limits = config.limits();
+    let limits = config.axis_limits();
     let axes: Vec<Value> = config
         .axes
         .iter()

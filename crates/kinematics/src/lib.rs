@@ -18,9 +18,9 @@
 //! curve ([`CurveRates`]). One formula, nothing to keep in step with it.
 //!
 //! In the pipeline it is met in three places: the configuration builds a [`Mechanism`] with its
-//! [`JointLimits`]; the planner slows the axes where joints are weaker ([`AxisShare`] anywhere in the
-//! travel, [`PathCaps`] place by place) and judges each plan ([`JointWatch`]); the interpolator
-//! maps every setpoint to joints. The mechanisms are [`Trivial`], [`CoreXy`], [`LinearDelta`],
+//! [`JointLimits`]; the planner keeps these along a path by the exact rates of joints ([`PathRates`]), slows
+//! the axes where nobody looks at joints ([`AxisShare`] anywhere in the travel, [`PathCaps`] place by
+//! place) and judges each plan ([`JointWatch`]); the interpolator maps every setpoint to joints. The mechanisms are [`Trivial`], [`CoreXy`], [`LinearDelta`],
 //! [`RotaryDelta`], [`Scara`], [`FiveAxis`], [`Hexapod`] and [`TranslationalHexapod`].
 //!
 //! What always holds:

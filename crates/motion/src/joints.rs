@@ -1,13 +1,16 @@
-//! The joints of a mechanism as planning in the tube sees them, where they are not the axes.
+//! The joints of a mechanism as planning sees them, where they are not the axes.
 //!
-//! Where a corner is rounded, the motion goes in directions that no side of the corner has, and how
-//! fast joints are in them only the mechanism knows. So whoever knows it implements [`Joints`]: a
-//! window keeps their speeds like the feed, as rows of its problem, and no motion is taken that they
-//! cannot follow. Where no such window is found, the motion goes straight to the next vertex, at
-//! the rates of the items, which have to be such that joints can follow along them.
+//! How fast joints are where the axes go, only the mechanism knows. So whoever knows it implements
+//! [`Joints`]. Along a path that is given their limits are kept like those of the axes, at every place
+//! ([`JointRows`]). In the tube, axes do no more than leaves every joint what it can do, wherever it is
+//! ([`Joints::anywhere`]), and items keep to rates that joints can follow with that ([`ItemPacer`]). Where a
+//! corner is rounded, the motion goes in directions that no side of it has: there a window keeps the joints'
+//! speeds like the feed, as rows of its problem, and no motion is taken that they cannot follow. Where no such
+//! window is found, the motion goes straight to the next vertex.
 
 use core::fmt;
-use glidepath_geometry::AxisVector;
+use glidepath_geometry::{AxisVector, DerivativeBounds, Jet};
+use glidepath_program::{Item, Limits, PathBounds, Settings, Travel};
 use std::sync::Arc;
 
 /// The joints of a mechanism, seen from its axes.
@@ -19,7 +22,115 @@ pub trait Joints: fmt::Debug + Send + Sync {
     /// True if every joint keeps its limits on the way to the first of four positions that are a
     /// period (s) apart, the newest first.
     fn allow(&self, positions: &[AxisVector; 4], period_t: f64) -> bool;
+
+    /// The joints along a path, J0 first: where they are and their first three derivatives by its
+    /// position, from those of the axes. `None` where the mechanism cannot be.
+    fn along(&self, path: &Jet) -> Option<Jet>;
+
+    /// Velocity (mm/s, °/s), acceleration and jerk of the joints that a plan may use, J0 first;
+    /// [`Limits::UNLIMITED`] where there is no limit.
+    fn limits(&self) -> [AxisVector; 3];
+
+    /// The limits of axes with which no joint has more to do than it can, wherever these are and in
+    /// whatever direction they go; `limits` are those of the axes alone.
+    fn anywhere(&self, limits: &Limits) -> Limits;
+
+    /// Keeps items, one after the other, at rates that joints can follow where axes are limited by
+    /// [`Joints::anywhere`].
+    fn pacer(&self, settings: &Settings) -> Box<dyn ItemPacer>;
+}
+
+/// Keeps the items of a program at rates that joints can follow.
+pub trait ItemPacer: fmt::Debug + Send + Sync {
+    /// The next item, at a rate that joints can follow.
+    fn pace(&mut self, item: &Item) -> Item;
+
+    /// The same pacer once more, after the same items.
+    fn again(&self) -> Box<dyn ItemPacer>;
 }
 
 /// The joints that limit a motion, if they do so beside the axes.
 pub(crate) type SharedJoints = Option<Arc<dyn Joints>>;
+
+/// The joints as limits along a path: what axes are there, with the derivatives of joints in place of
+/// those of axes.
+#[derive(Debug, Clone)]
+pub(crate) struct JointRows {
+    joints: Arc<dyn Joints>,
+    /// Of the joints, J0 in the place of X and so on, and along the path.
+    pub(crate) limits: Limits,
+}
+
+impl JointRows {
+    /// Those of a machine with these limits along the path.
+    pub(crate) fn new(joints: Arc<dyn Joints>, path: PathBounds) -> Self {
+        let [velocity, acceleration, jerk] = joints.limits();
+        Self {
+            joints,
+            limits: Limits {
+                velocity,
+                acceleration,
+                jerk,
+                path,
+                travel: Travel::unlimited(),
+            },
+        }
+    }
+
+    /// The joints where the path has these derivatives. `None` where the mechanism cannot be.
+    pub(crate) fn along(&self, path: &Jet) -> Option<Jet> {
+        self.joints.along(path)
+    }
+
+    /// Bounds of the joints' derivatives along a part of a path, from so many steps along it: the
+    /// largest at the places, and half of what changes between two of them for what is between.
+    pub(crate) fn bounds(
+        &self,
+        steps: u32,
+        jet_at: impl Fn(f64) -> Jet,
+    ) -> Option<DerivativeBounds> {
+        let mut before = self.along(&jet_at(0.0))?;
+        let mut most = [before.d1.abs(), before.d2.abs(), before.d3.abs()];
+        let mut change = [AxisVector::zeros(); 3];
+        for step in 1..=steps {
+            let here = self.along(&jet_at(f64::from(step) / f64::from(steps)))?;
+            let derivatives = [
+                (here.d1, before.d1),
+                (here.d2, before.d2),
+                (here.d3, before.d3),
+            ];
+            for ((most, change), (here, before)) in
+                most.iter_mut().zip(&mut change).zip(derivatives)
+            {
+                *most = most.sup(&here.abs());
+                *change = change.sup(&(here - before).abs());
+            }
+            before = here;
+        }
+        let [d1, d2, d3] = [0, 1, 2].map(|k| most[k] + change[k] * 0.5);
+        Some(DerivativeBounds { d1, d2, d3 })
+    }
+}
+
+/// What limits a motion along a path: axes, and joints where these are others.
+#[derive(Debug, Clone)]
+pub(crate) struct MachineLimits {
+    pub(crate) axes: Limits,
+    pub(crate) joints: Option<JointRows>,
+}
+
+impl MachineLimits {
+    /// Of a machine whose joints are its axes.
+    pub(crate) const fn of_axes(axes: Limits) -> Self {
+        Self { axes, joints: None }
+    }
+
+    /// The same with joints beside the axes.
+    pub(crate) fn with_joints(self, joints: SharedJoints) -> Self {
+        let path = self.axes.path;
+        Self {
+            joints: joints.map(|joints| JointRows::new(joints, path)),
+            ..self
+        }
+    }
+}

@@ -62,13 +62,17 @@ impl Planner {
 
     /// The same planner, before its first item, for a machine whose joints are not its axes.
     ///
-    /// They count where corners are rounded with [`glidepath_program::Effort::Optimal`]. Along the
-    /// items they have to be able to follow at the rates given.
+    /// Along a path they are limits like those of the axes. In the tube, where a short stretch is searched
+    /// with [`glidepath_program::Effort::Optimal`], axes do no more than leaves every joint what it can do.
     #[must_use]
     pub fn with_joints(mut self, joints: Arc<dyn Joints>) -> Self {
-        if let Engine::Stretches(engine) = &mut self.engine {
-            engine.set_joints(joints);
-        }
+        self.engine = match self.engine {
+            Engine::OnPath(engine) => Engine::OnPath(Box::new(engine.with_joints(Some(joints)))),
+            Engine::Stretches(mut engine) => {
+                engine.set_joints(joints);
+                Engine::Stretches(engine)
+            }
+        };
         self
     }
 

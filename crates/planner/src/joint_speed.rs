@@ -13,6 +13,7 @@
 
 use glidepath_geometry::{Axis, AxisVector, ROTARY_ABC, Segment, limit_along};
 use glidepath_kinematics::{Heading, PathCaps, PlaceCaps};
+use glidepath_motion::ItemPacer;
 use glidepath_program::{Item, ItemKind, PathMode, Settings};
 
 /// Largest change of any axis between two places that are looked at, mm or degrees.
@@ -21,7 +22,7 @@ const STEP: f64 = 1.0;
 const STEPS_PER_OCTAVE: f64 = 16.0;
 
 /// Keeps the speed of items where joints can follow.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct JointSpeed {
     caps: PathCaps,
     settings: Settings,
@@ -33,7 +34,7 @@ pub(crate) struct JointSpeed {
 }
 
 impl JointSpeed {
-    pub(crate) fn new(caps: PathCaps, settings: Settings) -> Self {
+    pub(crate) const fn new(caps: PathCaps, settings: Settings) -> Self {
         Self {
             caps,
             settings,
@@ -42,17 +43,8 @@ impl JointSpeed {
         }
     }
 
-    /// The same item, at a rate that joints can follow.
-    pub(crate) fn keep(&mut self, item: Item) -> Item {
-        let ItemKind::Move {
-            segment,
-            rate,
-            mode,
-        } = item.kind
-        else {
-            self.last = None;
-            return item;
-        };
+    /// The speed that joints can follow along a move, if that is less than what axes can.
+    fn limit(&mut self, segment: &Segment, mode: PathMode) -> Option<f64> {
         let tolerance_mm = match mode {
             PathMode::ExactStop | PathMode::ExactPath => 0.0,
             PathMode::Continuous { tolerance_mm } => {
@@ -60,21 +52,11 @@ impl JointSpeed {
             }
         };
         let spread = self
-            .curvature(&segment)
+            .curvature(segment)
             .map(|curvature_k| (2.0 * tolerance_mm * curvature_k).sqrt());
-        let (joints_v, axes_v) = self.along(&segment, spread);
-        if joints_v >= axes_v {
-            return item;
-        }
+        let (joints_v, axes_v) = self.along(segment, spread);
         let octaves = (joints_v.log2() * STEPS_PER_OCTAVE).floor() / STEPS_PER_OCTAVE;
-        Item {
-            kind: ItemKind::Move {
-                segment,
-                rate: rate.up_to(octaves.exp2()),
-                mode,
-            },
-            ..item
-        }
+        (joints_v < axes_v).then(|| octaves.exp2())
     }
 
     /// How curved the path is, 1/mm and °/mm², at a segment or where it begins or the last one did.
@@ -132,6 +114,29 @@ impl JointSpeed {
         }
         let (_, caps) = self.place.as_ref()?;
         caps.speed(position, heading).ok()
+    }
+}
+
+impl ItemPacer for JointSpeed {
+    fn pace(&mut self, item: &Item) -> Item {
+        let mut paced = *item;
+        let ItemKind::Move {
+            segment,
+            rate,
+            mode,
+        } = &mut paced.kind
+        else {
+            self.last = None;
+            return paced;
+        };
+        if let Some(most_v) = self.limit(segment, *mode) {
+            *rate = rate.up_to(most_v.min(rate.most_v()));
+        }
+        paced
+    }
+
+    fn again(&self) -> Box<dyn ItemPacer> {
+        Box::new(self.clone())
     }
 }
 

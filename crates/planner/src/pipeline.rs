@@ -23,7 +23,6 @@ use glidepath_program::{Event, Frame, Item, ItemKind, Override, Settings};
 use crate::blocks::Blocks;
 use crate::history::History;
 use crate::joint_bounds::JointBounds;
-use crate::joint_speed::JointSpeed;
 use crate::planning::{Kept, Planning, Stage};
 use crate::step::{Output, Statistics, Step};
 use crate::{ItemSource, Refusal, Remainder, Supply};
@@ -54,8 +53,6 @@ pub struct Pipeline<S> {
     settings: Settings,
     /// For going back to an earlier frame.
     history: Option<History>,
-    /// What keeps joints inside their limits.
-    joints: Option<JointSpeed>,
 }
 
 impl<S: ItemSource> Pipeline<Remainder<S>> {
@@ -102,7 +99,6 @@ impl<S: ItemSource> Pipeline<S> {
             clock: None,
             settings,
             history: None,
-            joints: None,
         }
     }
 
@@ -111,7 +107,6 @@ impl<S: ItemSource> Pipeline<S> {
     #[must_use]
     pub fn with_joints(self, caps: Option<PathCaps>) -> Self {
         Self {
-            joints: caps.map(|caps| JointSpeed::new(caps, self.settings)),
             planning: self.planning.with_joints(caps.map(JointBounds::shared)),
             ..self
         }
@@ -385,10 +380,6 @@ impl<S: ItemSource> Pipeline<S> {
     }
 
     fn plan(&mut self, item: Item) -> Result<Step, Refusal> {
-        let item = match &mut self.joints {
-            Some(joints) => joints.keep(item),
-            None => item,
-        };
         match self.planning.take(item) {
             Ok(numbered) => self.item = numbered,
             Err(error) => {

@@ -198,6 +198,7 @@ pub(super) fn settings(config: &MachineConfig, best_effort: bool) -> Config {
         real_time: RealTime { mode, request },
         // On a desk the clock is what it is: missed ticks are counted and reported.
         missed_ticks_allowed: (!best_effort).then_some(config.interpolator.max_missed_ticks),
-        ..Config::new(config.limits(), config.period_ns())
+        hand_limits: config.limits(),
+        ..Config::new(config.axis_limits(), config.period_ns())
     }
 }

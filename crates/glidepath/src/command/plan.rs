@@ -157,7 +157,7 @@ impl Pass {
             turn: Vec::with_capacity(STEPS_PER_TURN),
             items: Vec::with_capacity(STEPS_PER_TURN),
             frames: Vec::with_capacity(STEPS_PER_TURN),
-            audit: Audit::new(&judged),
+            audit: audit(config),
             diagnosis: Diagnosis::new(&judged),
             joints: PlanWatch::new(path, config),
             mechanism: config.mechanism,
@@ -180,6 +180,12 @@ impl Pass {
                 recording.program(item);
             } else if let Some(frame) = frames.next() {
                 self.audit.frame(frame);
+                if self.joints.is_some()
+                    && let Ok(joints) = self.mechanism.inverse(&frame.position)
+                {
+                    self.audit
+                        .joints(frame.sequence, frame.line, joints.as_slice());
+                }
                 let binding = self.diagnosis.frame(frame);
                 if let Some(joints) = &mut self.joints {
                     joints
@@ -231,6 +237,15 @@ impl Pass {
         report.max_joint_line_error = self.joints.map(|joints| joints.line_error());
         report.diagnosis = Some(DiagnosisReport::new(&self.diagnosis.finish(), config));
         report
+    }
+}
+
+/// An audit of a plan for a machine, its joints and all.
+fn audit(config: &MachineConfig) -> Audit {
+    let audit = Audit::new(&config.judged());
+    match config.joint_bounds() {
+        Some(bounds) => audit.with_joints(bounds),
+        None => audit,
     }
 }
 

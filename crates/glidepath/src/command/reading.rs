@@ -79,13 +79,13 @@ pub(super) fn for_program(file: &ProgramFile, config: &MachineConfig) -> Machine
     }
 }
 
-/// Says what joints leave of the axes' limits, where that is not all.
+/// Says what joints leave of the axes' limits where nobody looks at the joints, if that is not all.
 fn tell_share(share: &AxisShare) {
     let parts = [(share.acceleration, "acceleration"), (share.jerk, "jerk")];
     for ((part, name), joint) in parts.into_iter().zip(share.joints) {
         if let Some(joint) = joint {
             output::note(&format!(
-                "joint J{joint} leaves {:.0} % of the axes' {name}, which is what is used",
+                "moves by hand use {:.0} % of the axes' {name}: joint J{joint} allows no more everywhere",
                 100.0 * part
             ));
         }

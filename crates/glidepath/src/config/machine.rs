@@ -3,14 +3,15 @@
 use super::probe::ProbeConfig;
 use super::program::ProgramConfig;
 use super::spindle::SpindleConfig;
+use glidepath_audit::{AuditSettings, JointBounds};
 use glidepath_gcode::{
     Connections, LoopLimits, MCodes, Machine, Options, SpindleAxis, Threading, Travel, WaitsAt,
 };
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_interpolator::{AdaptiveFeed, Answer, Gate, Gates, JointHoming, StopSettings};
 use glidepath_kinematics::{
-    AxisRates, AxisShare, FiveAxis, JOINTS, JointLimits, JointWatch, Kinematics as _, Mechanism,
-    PathCaps,
+    AxisRates, AxisShare, FiveAxis, JOINTS, JointLimit, JointLimits, JointWatch, Kinematics as _,
+    Mechanism, PathCaps,
 };
 use glidepath_link::Status;
 use glidepath_motion::preview::AdvanceRetreat;
@@ -284,16 +285,26 @@ impl MachineConfig {
         (low, high)
     }
 
-    /// Limits over all nine axes, as far as joints leave them, and their travel; an axis the machine
-    /// does not have is unlimited.
+    /// Limits over all nine axes, as far as joints leave them wherever the axes are, and their travel:
+    /// what axes do whose joints nobody looks at. An axis the machine does not have is unlimited.
     #[must_use]
     pub fn limits(&self) -> Limits {
+        self.limits_at(self.axis_share)
+    }
+
+    /// The same as the file has them: what no axis exceeds. Joints may leave less, place by place.
+    #[must_use]
+    pub fn axis_limits(&self) -> Limits {
+        self.limits_at(AxisShare::FULL)
+    }
+
+    fn limits_at(&self, share: AxisShare) -> Limits {
         let mut limits = Limits::uniform(Limits::UNLIMITED, Limits::UNLIMITED, Limits::UNLIMITED);
         for axis in &self.axes {
             let i = axis.axis.index();
             limits.velocity[i] = axis.max_velocity;
-            limits.acceleration[i] = axis.max_acceleration * self.axis_share.acceleration;
-            limits.jerk[i] = axis.max_jerk * self.axis_share.jerk;
+            limits.acceleration[i] = axis.max_acceleration * share.acceleration;
+            limits.jerk[i] = axis.max_jerk * share.jerk;
         }
         limits.path = self.path.bounds;
         (limits.travel.lowest, limits.travel.highest) = self.travel();
@@ -304,13 +315,31 @@ impl MachineConfig {
     #[must_use]
     pub fn settings(&self) -> Settings {
         Settings {
-            limits: self.limits(),
+            limits: self.axis_limits(),
             tolerance_mm: self.path.tolerance_mm,
             smoothing: self.path.smoothing,
             corners: self.path.corners,
             period_t: self.period_t(),
             effort: self.path.effort,
         }
+    }
+
+    /// What a motion of the machine is judged by.
+    #[must_use]
+    pub fn judged(&self) -> AuditSettings {
+        AuditSettings::from(&self.settings())
+    }
+
+    /// What joints are judged by, where they are not the axes.
+    #[must_use]
+    pub fn joint_bounds(&self) -> Option<Vec<JointBounds>> {
+        let count = self.joints();
+        let of_joint = |limit: &JointLimit| JointBounds {
+            range: [limit.min_position, limit.max_position],
+            rates: [limit.velocity, limit.acceleration, limit.jerk],
+        };
+        let limits = self.joint_limits.0.iter().take(count);
+        (count > 0).then(|| limits.map(of_joint).collect())
     }
 
     /// The axes in the order X Y Z A B C U V W.

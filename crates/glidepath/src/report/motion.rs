@@ -62,6 +62,15 @@ pub struct MotionReport {
     pub max_acceleration_ratio: f64,
     /// Largest jerk, as a share of the axis' limit.
     pub max_jerk_ratio: f64,
+    /// Largest velocity of a joint, as a share of its limit, where joints are not axes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_joint_velocity_ratio: Option<f64>,
+    /// Largest acceleration likewise.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_joint_acceleration_ratio: Option<f64>,
+    /// Largest jerk likewise.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_joint_jerk_ratio: Option<f64>,
     /// Largest path speed, as a share of the programmed feedrate.
     pub max_feed_ratio: f64,
     /// How far joints that go straight between setpoints are off half-way, at most, mm or degrees;
@@ -119,6 +128,9 @@ impl MotionReport {
                 audit.final_position[axis.axis.index()],
             )
         };
+        let joints = audit
+            .max_joint_ratios
+            .map(|worst| worst.map(|worst| worst.ratio));
         Self {
             lines: planning.lines,
             segments: planning.segments,
@@ -134,6 +146,9 @@ impl MotionReport {
             max_velocity_ratio: audit.max_velocity_ratio.ratio,
             max_acceleration_ratio: audit.max_acceleration_ratio.ratio,
             max_jerk_ratio: audit.max_jerk_ratio.ratio,
+            max_joint_velocity_ratio: joints.map(|[velocity, ..]| velocity),
+            max_joint_acceleration_ratio: joints.map(|[_, acceleration, _]| acceleration),
+            max_joint_jerk_ratio: joints.map(|[.., jerk]| jerk),
             max_feed_ratio: audit.max_feed_ratio.ratio,
             events: (audit.events > 0).then_some(audit.events),
             max_event_off_mm: (audit.events > 0).then_some(audit.max_event_off_mm),
@@ -209,6 +224,19 @@ impl MotionReport {
             percent(self.max_jerk_ratio),
             percent(self.max_feed_ratio)
         )?;
+        if let (Some(velocity), Some(acceleration), Some(jerk)) = (
+            self.max_joint_velocity_ratio,
+            self.max_joint_acceleration_ratio,
+            self.max_joint_jerk_ratio,
+        ) {
+            writeln!(
+                text,
+                "  joints used   velocity {}, acceleration {}, jerk {}",
+                percent(velocity),
+                percent(acceleration),
+                percent(jerk)
+            )?;
+        }
         self.write_events(text)?;
         self.write_planning(text)?;
         let end: Vec<String> = self

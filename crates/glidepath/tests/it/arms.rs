@@ -170,8 +170,9 @@ fn motion_is_as_slow_as_its_arms() {
         let weak = format!("{}{weak}", &config[..from]);
         let slow = planned(program, &weak, &["X"]);
         assert_inside_limits(&slow, &weak);
+        // Only where the joint has to move much.
         assert!(
-            slow.len() > 2 * usual.len(),
+            2 * slow.len() > 3 * usual.len(),
             "{} {}",
             slow.len(),
             usual.len()

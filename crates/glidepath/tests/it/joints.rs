@@ -195,7 +195,7 @@ fn motion_is_as_slow_as_its_joints() {
     let (_, most, said) = plan(&weak);
     assert!(most[1] <= 400.0 && most[2] <= 6000.0, "{most:?}");
     assert!(
-        said.contains("of the axes' acceleration, which is what is used"),
+        said.contains("% of the axes' acceleration: joint J"),
         "{said}"
     );
 }

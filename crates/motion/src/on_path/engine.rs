@@ -9,6 +9,7 @@ use super::refining::{RATE_R, Refiner};
 use super::sampler::{NextFrame, Sampler};
 use super::slowing::Slowing;
 use crate::PlanError;
+use crate::joints::{MachineLimits, SharedJoints};
 use glidepath_geometry::{AxisVector, Segment};
 use glidepath_program::{Frame, Item, ItemKind, Limits, Override, Settings};
 use std::collections::VecDeque;
@@ -37,7 +38,7 @@ impl OnPathEngine {
         Self {
             front,
             scheduler: Scheduler::new(settings.limits, settings.period_t),
-            refiner: Refiner::new(settings.limits),
+            refiner: Refiner::new(MachineLimits::of_axes(settings.limits)),
             sampler: Sampler::new(settings.period_t, start),
             elements: Vec::new(),
             settled: VecDeque::new(),
@@ -46,6 +47,14 @@ impl OnPathEngine {
             period_t: settings.period_t,
             wanted: None,
         }
+    }
+
+    /// The same, before its first item, for joints that are not the axes.
+    pub(crate) fn with_joints(mut self, joints: SharedJoints) -> Self {
+        let limits = MachineLimits::of_axes(self.limits).with_joints(joints);
+        self.front = self.front.with_joints(limits.joints.clone());
+        self.refiner = Refiner::new(limits);
+        self
     }
 
     /// Takes the next item; see [`crate::Planner::push`].

@@ -361,6 +361,7 @@ mod tests {
             length_s: 3.0,
             limit: rule.limit(Override::NONE, &Limits::uniform(200.0, 2000.0, 40_000.0)),
             rule,
+            joints: None,
             planned: Override::NONE,
             line: ProgramLine {
                 number: 17,

@@ -57,9 +57,15 @@ impl PartPlanner {
     /// As [`crate::Planner::with_joints`].
     #[must_use]
     pub fn with_joints(mut self, joints: Arc<dyn Joints>) -> Self {
-        if let PartEngine::Stretches(engine) = &mut self.engine {
-            engine.set_joints(joints);
-        }
+        self.engine = match self.engine {
+            PartEngine::OnPath(engine) => {
+                PartEngine::OnPath(Box::new(engine.with_joints(Some(joints))))
+            }
+            PartEngine::Stretches(mut engine) => {
+                engine.set_joints(joints);
+                PartEngine::Stretches(engine)
+            }
+        };
         self
     }
 

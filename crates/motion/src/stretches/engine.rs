@@ -12,9 +12,6 @@ use glidepath_geometry::AxisVector;
 use glidepath_program::{Frame, Item, Override, Settings};
 use std::sync::Arc;
 
-/// How a stretch is driven that is planned as it comes.
-const ALONE: Manner = Manner::InTube(SearchBias::USUAL);
-
 /// Plans stretch by stretch, as [`crate::Planner`] uses it.
 #[derive(Debug, Clone)]
 pub(crate) struct StretchEngine {
@@ -126,6 +123,16 @@ impl StretchEngine {
         }
     }
 
+    /// How a stretch is driven that is planned as it comes. Where joints are not the axes, in the tube they
+    /// are not used as much as along the path.
+    const fn alone(&self) -> Manner {
+        if self.joints.is_some() {
+            Manner::OnPath
+        } else {
+            Manner::InTube(SearchBias::USUAL)
+        }
+    }
+
     fn arrive(&mut self, length_s: f64) {
         self.position = self.end;
         self.path_s += length_s;
@@ -152,12 +159,12 @@ impl StretchEngine {
                 };
                 self.drive = match Planned::new(entry.clone())? {
                     Some(planned) => Drive::Planned(Box::new(planned)),
-                    None => Drive::Live(entry.way(ALONE)?),
+                    None => Drive::Live(entry.way(self.alone())?),
                 };
             }
             Task::Part(item) => {
                 if matches!(self.drive, Drive::None) {
-                    let way = Way::new(ALONE, self.outset());
+                    let way = Way::new(self.alone(), self.outset());
                     self.drive = Drive::Live(way);
                 }
                 if let Drive::Live(way) = &mut self.drive {

@@ -3,9 +3,9 @@
 #![allow(clippy::expect_used, reason = "tests")]
 
 use super::support::{FREE, at, optimal};
-use glidepath_geometry::{AxisVector, Segment};
-use glidepath_motion::{Joints, Planner};
-use glidepath_program::{Item, ItemKind, Rate, Settings};
+use glidepath_geometry::{AxisVector, Jet, Segment};
+use glidepath_motion::{ItemPacer, Joints, Planner};
+use glidepath_program::{Item, ItemKind, Limits, Rate, Settings};
 use std::sync::Arc;
 
 /// A joint that is the X axis, and slower.
@@ -25,6 +25,45 @@ impl Joints for SlowX {
         let step = positions[0][0] - positions[1][0];
         step.abs() <= self.velocity_v * period_t * (1.0 + 1e-6)
     }
+
+    fn along(&self, path: &Jet) -> Option<Jet> {
+        let only_x = |of: &AxisVector| at(of[0], 0.0);
+        Some(Jet {
+            position: only_x(&path.position),
+            d1: only_x(&path.d1),
+            d2: only_x(&path.d2),
+            d3: only_x(&path.d3),
+        })
+    }
+
+    fn limits(&self) -> [AxisVector; 3] {
+        let mut velocity = AxisVector::repeat(Limits::UNLIMITED);
+        velocity[0] = self.velocity_v;
+        let free = AxisVector::repeat(Limits::UNLIMITED);
+        [velocity, free, free]
+    }
+
+    fn anywhere(&self, limits: &Limits) -> Limits {
+        *limits
+    }
+
+    fn pacer(&self, _: &Settings) -> Box<dyn ItemPacer> {
+        Box::new(AsItIs)
+    }
+}
+
+/// Items at their own rates.
+#[derive(Debug)]
+struct AsItIs;
+
+impl ItemPacer for AsItIs {
+    fn pace(&mut self, item: &Item) -> Item {
+        *item
+    }
+
+    fn again(&self) -> Box<dyn ItemPacer> {
+        Box::new(Self)
+    }
 }
 
 /// A joint that can never follow.
@@ -38,6 +77,22 @@ impl Joints for Stuck {
 
     fn allow(&self, _: &[AxisVector; 4], _: f64) -> bool {
         false
+    }
+
+    fn along(&self, _: &Jet) -> Option<Jet> {
+        None
+    }
+
+    fn limits(&self) -> [AxisVector; 3] {
+        [AxisVector::repeat(Limits::UNLIMITED); 3]
+    }
+
+    fn anywhere(&self, limits: &Limits) -> Limits {
+        *limits
+    }
+
+    fn pacer(&self, _: &Settings) -> Box<dyn ItemPacer> {
+        Box::new(AsItIs)
     }
 }
 

@@ -10,7 +10,6 @@ use glidepath_program::{Item, Settings};
 use super::bounds::Bounds;
 use super::message::{Batch, Gone, Part, Planned};
 use crate::blocks::Blocks;
-use crate::joint_speed::JointSpeed;
 use crate::{ItemSource, Refusal, Supply};
 
 /// Items that are handed over together.
@@ -108,17 +107,15 @@ pub(super) fn read<S: ItemSource>(
     source: S,
     settings: &Settings,
     start: AxisVector,
-    joints: Option<JointSpeed>,
     outlets: Outlets,
 ) -> Option<ReadEnd> {
-    hand_all(source, settings, start, joints, outlets).ok()
+    hand_all(source, settings, start, outlets).ok()
 }
 
 fn hand_all<S: ItemSource>(
     mut source: S,
     settings: &Settings,
     start: AxisVector,
-    mut joints: Option<JointSpeed>,
     outlets: Outlets,
 ) -> Result<ReadEnd, Gone> {
     let mut handing = Handing::new(outlets, start)?;
@@ -135,9 +132,6 @@ fn hand_all<S: ItemSource>(
             Supply::Probe | Supply::End => break None,
             Supply::Refused(refusal) => break Some(refusal),
         };
-        if let Some(joints) = &mut joints {
-            item = joints.keep(item);
-        }
         blocks.number(&mut item);
         if let Err(error) = cutter.take(item, &mut placed) {
             source.unplannable(&error);

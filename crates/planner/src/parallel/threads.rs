@@ -15,7 +15,6 @@ use super::message::Planned;
 use super::reader::{Outlets, ReadEnd, read};
 use super::worker::work;
 use crate::ItemSource;
-use crate::joint_speed::JointSpeed;
 
 /// Parts whose plans wait, or are made, for each worker.
 const PARTS_PER_WORKER: usize = 16;
@@ -57,9 +56,8 @@ impl Threads {
             plans,
             bounds: Arc::clone(bounds),
         };
-        let joints = joints.map(|caps| JointSpeed::new(caps, settings));
         let reader = Builder::new().name("reading".to_owned());
-        let reader = reader.spawn(move || read(source, &settings, start, joints, outlets))?;
+        let reader = reader.spawn(move || read(source, &settings, start, outlets))?;
         threads.reader = Some(reader);
         Ok((threads, planned))
     }

@@ -131,7 +131,7 @@ fn hexapod() -> (Settings, Joints) {
     };
     let mut limits = JointLimits::NONE;
     limits.0[..6].fill(joint);
-    let mut settings = settings();
+    let settings = settings();
     let travel = [
         (Axis::X, -60.0, 60.0),
         (Axis::Y, -60.0, 60.0),
@@ -149,7 +149,6 @@ fn hexapod() -> (Settings, Joints) {
         jerk: linear(settings.limits.jerk),
     };
     let rates = AxisShare::over(&mechanism, &limits, &travel, &rates).of(&rates);
-    (settings.limits.acceleration, settings.limits.jerk) = (rates.acceleration, rates.jerk);
     let joints = Joints {
         caps: PathCaps {
             mechanism,

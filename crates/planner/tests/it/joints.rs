@@ -199,11 +199,7 @@ fn used(machine: &Machine, effort: Effort, text: &str, feed_r: f64) -> [f64; 3] 
     assert!(share.acceleration < 1.0 && share.jerk < 1.0, "{share:?}");
     let AxisRates { acceleration, jerk } = share.of(&rates);
     let settings = Settings {
-        limits: Limits {
-            acceleration,
-            jerk,
-            ..machine.limits
-        },
+        limits: machine.limits,
         tolerance_mm: 0.02,
         smoothing: Smoothing::Auto,
         corners: glidepath_program::Corners::default(),

@@ -49,7 +49,7 @@ struct AxisState {
 
 impl Continuity {
     pub(super) fn new(config: &MachineConfig) -> Self {
-        let limits = config.limits();
+        let limits = config.axis_limits();
         let axes = config.axis_names().into_iter().map(|axis| {
             let i = axis.index();
             AxisState {

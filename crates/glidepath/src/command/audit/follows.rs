@@ -7,7 +7,7 @@ use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::plan_steps::PlanSteps;
 use glidepath_audit::shape::{ShapeAudit, ShapeReport};
-use glidepath_audit::{Audit, AuditSettings, Passed, Sample, ViolationKind};
+use glidepath_audit::{Audit, Passed, Sample, ViolationKind};
 use glidepath_geometry::AxisVector;
 use glidepath_link::{MachineState, Setpoint};
 use glidepath_planner::{FileSource, ItemSource as _, Step, Supply};
@@ -50,7 +50,7 @@ impl Follows {
             let options = config.program_options(stands);
             FileSource::unchecked(path, options, &config.settings())
         };
-        let settings = AuditSettings::from(&config.settings());
+        let settings = config.judged();
         // Another override plans other frames.
         #[allow(clippy::float_cmp, reason = "an override of 100 % is exactly 1")]
         let is_plain = least == 1.0 && most == 1.0;

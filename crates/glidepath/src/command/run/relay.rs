@@ -9,7 +9,7 @@ use crate::recording::Recording;
 use crate::sample::Sample;
 use glidepath_audit as audit;
 use glidepath_audit::diagnosis::{Diagnosis, Summary};
-use glidepath_audit::{Audit, AuditSettings, Passed};
+use glidepath_audit::{Audit, Passed};
 use glidepath_geometry::AxisVector;
 use glidepath_link::servo::{Servo, ServoCounts, ServoSettings};
 use glidepath_link::{MachineState, Setpoint};
@@ -161,14 +161,17 @@ impl Judge {
     fn new(path: &Path, config: &MachineConfig, stands: AxisVector) -> Result<Self, Failure> {
         let options = config.program_options(stands);
         let program = FileSource::unchecked(path, options, &config.settings())?;
-        let judged = AuditSettings {
-            limits: config.limits(),
-            period_t: config.period_t(),
-            tolerance_mm: config.path.tolerance_mm,
-            corners: config.path.corners,
-        };
+        let judged = config.judged();
+        let mut audit = Audit::new(&judged);
+        if let Some(mut bounds) = config.joint_bounds() {
+            // Drives may count from elsewhere.
+            for bounds in &mut bounds {
+                bounds.range = [f64::NEG_INFINITY, f64::INFINITY];
+            }
+            audit = audit.with_joints(bounds);
+        }
         Ok(Self {
-            audit: Audit::new(&judged),
+            audit,
             diagnosis: Diagnosis::new(&judged),
             program,
             told_s: 0.0,
@@ -192,6 +195,8 @@ impl Judge {
             position: AxisVector::from(setpoint.position),
             reported: None,
         };
+        self.audit
+            .joints(judged.tick, judged.line, &setpoint.joint_position);
         self.audit.raise_override(setpoint.effective_override);
         for told in setpoint.events() {
             if let Ok(event) = told.event() {

@@ -2,11 +2,12 @@
 //!
 //! The interpolator moves only while it holds enough frames to stop on. If the horizon were shorter
 //! than that, it would stand in the middle of a program and wait for frames that never come. A stop
-//! from full speed takes V/A + A/J on the slowest axis; the horizon is to be three of them: one to
+//! from full speed takes V/A + A/J on the slowest axis or joint; the horizon is to be three of them: one to
 //! stop on, one for what comes in while it stops, one to go on with.
 
 use crate::config::diagnostic::ConfigDiagnostic;
 use crate::config::machine::{AxisConfig, InterpolatorConfig};
+use glidepath_kinematics::JointLimits;
 
 /// Most frames published ahead of the machine: fewer than the interpolator can hold.
 pub const MAX_FRAMES_AHEAD: u32 = 512;
@@ -25,22 +26,24 @@ pub(super) fn stop_t(axis: &AxisConfig) -> f64 {
     axis.max_velocity / axis.max_acceleration + axis.max_acceleration / axis.max_jerk
 }
 
-/// The shortest horizon a machine can do with, s.
-pub(super) fn shortest_t(axes: &[AxisConfig]) -> f64 {
-    STOPS * axes.iter().map(stop_t).fold(0.0, f64::max)
+/// The shortest horizon a machine can do with, s. Joints without limits stop in no time.
+pub(super) fn shortest_t(axes: &[AxisConfig], joints: &JointLimits) -> f64 {
+    let by_joints = joints.0.iter().filter(|joint| joint.velocity.is_finite());
+    let joints_t = by_joints
+        .map(|joint| joint.velocity / joint.acceleration + joint.acceleration / joint.jerk);
+    STOPS * axes.iter().map(stop_t).chain(joints_t).fold(0.0, f64::max)
 }
 
 /// The horizon where the file gives none, s.
-pub(super) fn default_t(axes: &[AxisConfig]) -> f64 {
-    USUAL_T.max(shortest_t(axes))
+pub(super) fn default_t(shortest_t: f64) -> f64 {
+    USUAL_T.max(shortest_t)
 }
 
 /// What is wrong with a horizon, without a place in the file.
 pub(super) fn diagnostic(
     interpolator: &InterpolatorConfig,
-    axes: &[AxisConfig],
+    shortest_t: f64,
 ) -> Option<ConfigDiagnostic> {
-    let shortest_t = shortest_t(axes);
     let period_us = f64::from(interpolator.period_us);
     let reach_t = f64::from(MAX_FRAMES_AHEAD) * period_us / 1e6;
     if interpolator.horizon_t < shortest_t {

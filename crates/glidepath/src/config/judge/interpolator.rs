@@ -5,13 +5,14 @@ use super::stops;
 use super::values::{Judge, Range};
 use crate::config::machine::{AxisConfig, InterpolatorConfig};
 use crate::config::raw::{RawAxis, RawInterpolator};
+use glidepath_kinematics::JointLimits;
 use toml::Spanned;
 
 impl Judge {
     pub(super) fn interpolator(
         &mut self,
         raw: &RawInterpolator,
-        axes: &[AxisConfig],
+        (axes, joints): (&[AxisConfig], &JointLimits),
         raw_axes: &[&RawAxis],
     ) -> InterpolatorConfig {
         let range = Range {
@@ -28,7 +29,8 @@ impl Judge {
                 "µs between two setpoints",
             )
         });
-        let horizon_t = horizon::default_t(axes);
+        let shortest_t = horizon::shortest_t(axes, joints);
+        let horizon_t = horizon::default_t(shortest_t);
         let horizon_t = self.number_or("interpolator.horizon_s", &raw.horizon_s, &range, horizon_t);
         // What follows has no part in how the motion stops.
         let times_are_good = !self.has_found(&["interpolator"]);
@@ -66,7 +68,7 @@ impl Judge {
         }
         if times_are_good
             && !self.has_found(&["axis", "joint", "machine"])
-            && let Some(mut diagnostic) = horizon::diagnostic(&config, axes)
+            && let Some(mut diagnostic) = horizon::diagnostic(&config, shortest_t)
         {
             let (horizon, period) = (raw.horizon_s.as_ref(), raw.period_us.as_ref());
             let span = horizon
@@ -89,13 +91,7 @@ impl Judge {
             if self.has_found(&[&format!("axis.{}", axis.axis)]) {
                 continue;
             }
-            // The values of the file, not what joints leave of them.
-            let axis = AxisConfig {
-                max_acceleration: *raw.max_acceleration.as_ref(),
-                max_jerk: *raw.max_jerk.as_ref(),
-                ..*axis
-            };
-            if let Some(mut diagnostic) = stops::diagnostic(&axis, interpolator) {
+            if let Some(mut diagnostic) = stops::diagnostic(axis, interpolator) {
                 let is_jerk = diagnostic.key.ends_with("max_jerk");
                 let value = if is_jerk {
                     &raw.max_jerk

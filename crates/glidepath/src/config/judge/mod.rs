@@ -31,9 +31,8 @@ pub(crate) use values::{Judge, Range};
 use super::diagnostic::ConfigDiagnostic;
 use super::machine::{AxisConfig, MachineConfig};
 use super::raw::RawConfig;
-use axis_share::axis_share;
 use glidepath_geometry::Axis;
-use glidepath_kinematics::{AxisShare, Mechanism};
+use glidepath_kinematics::Mechanism;
 use home::HomeSurroundings;
 use spindle::SpindleSurroundings;
 use toml::Spanned;
@@ -59,18 +58,12 @@ pub(super) fn judge(
     let names: Vec<Axis> = axes.iter().map(|axis| axis.axis).collect();
     let mechanism = judge.mechanism(&raw.machine, &names);
     let joint_limits = judge.joints(&raw.joint, &mechanism);
-    // Looked for all over the travel, so only of a machine that can be.
-    let axis_share = if judge.has_found(&["axis", "joint", "machine"]) {
-        AxisShare::FULL
-    } else {
-        axis_share(&mechanism, &joint_limits, &axes)
-    };
-    let braking = braking(&axes, axis_share);
+    let axis_share = judge.axis_share(&mechanism, &joint_limits, &axes);
     let interpolator = {
         let raw_axes: Vec<_> = raw_axes()
             .filter_map(|(_, raw)| raw.as_ref().map(Spanned::as_ref))
             .collect();
-        judge.interpolator(&raw.interpolator, &braking, &raw_axes)
+        judge.interpolator(&raw.interpolator, (&axes, &joint_limits), &raw_axes)
     };
     let jog = judge.jog(
         raw.jog,
@@ -136,14 +129,4 @@ fn no_axis(span: core::ops::Range<usize>) -> ConfigDiagnostic {
         help: Some("add a table such as [axis.X]".to_owned()),
         span: Some(span),
     }
-}
-
-/// The axes as they stop: that takes as long as joints let them.
-fn braking(axes: &[AxisConfig], share: AxisShare) -> Vec<AxisConfig> {
-    let slowed = axes.iter().map(|axis| AxisConfig {
-        max_acceleration: axis.max_acceleration * share.acceleration,
-        max_jerk: axis.max_jerk * share.jerk,
-        ..*axis
-    });
-    slowed.collect()
 }

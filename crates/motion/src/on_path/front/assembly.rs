@@ -5,8 +5,9 @@
 
 use super::kept_blocks::KeptBlocks;
 use super::pending::Pending;
+use crate::joints::JointRows;
 use crate::on_path::junction::{Junction, chord_error_mm, join};
-use crate::on_path::pieces::{CurveRule, Element, Piece, Shape, SpeedRule};
+use crate::on_path::pieces::{CurveRule, Element, JointRule, Piece, Shape, SpeedRule};
 use crate::programmed_rate::ProgrammedRate;
 use crate::rest::{Rest, RestKind};
 use glidepath_geometry::{Quintic, Segment, limit_along};
@@ -16,6 +17,8 @@ use glidepath_program::{Event, Limits, Override, PathMode, ProgramLine, Settings
 #[derive(Debug, Clone)]
 pub(crate) struct Assembly {
     pub(crate) settings: Settings,
+    /// Where joints are not the axes, these limit the motion, too.
+    pub(crate) joints: Option<JointRows>,
     pub(crate) wanted: Override,
     /// The segment whose end is not decided.
     pub(crate) pending: Option<Pending>,
@@ -31,6 +34,7 @@ impl Assembly {
     pub(crate) const fn new(settings: Settings) -> Self {
         Self {
             settings,
+            joints: None,
             wanted: Override::NONE,
             pending: None,
             blocks: KeptBlocks::new(),
@@ -52,7 +56,12 @@ impl Assembly {
 
     /// Decides the junction between two segments and puts out all of the first.
     pub(crate) fn join(&mut self, before: Pending, next: &mut Pending, out: &mut Vec<Element>) {
-        let junction = join(before.ending(), next.starting(), &self.settings);
+        let junction = join(
+            before.ending(),
+            next.starting(),
+            &self.settings,
+            self.joints.as_ref(),
+        );
         let (line, rates) = (before.last_line(), [before.rate, next.rate]);
         match junction {
             Junction::Straight => self.put_segment(before, 0.0, out),
@@ -140,7 +149,7 @@ impl Assembly {
     /// Tells of the other way to drive up to the rest that comes next.
     pub(crate) fn put_stops(&self, stops: Option<Vec<Piece>>, out: &mut Vec<Element>) {
         if let Some(pieces) = stops {
-            let exact = self.stop_cut_mm() > 0.05 * self.settings.tolerance_mm;
+            let exact = self.stops_cut_mm(&pieces) > 0.05 * self.settings.tolerance_mm;
             out.push(Element::Stops { pieces, exact });
         }
     }
@@ -149,8 +158,20 @@ impl Assembly {
     pub(crate) fn stop_cut_mm(&self) -> f64 {
         let jerk_j = self.settings.limits.jerk;
         let limited = jerk_j.iter().filter(|j| **j < Limits::UNLIMITED);
-        let greatest_j = limited.fold(0.0_f64, |a, b| a.max(*b));
-        greatest_j * self.settings.period_t.powi(3) / 48.0
+        self.cut_mm(limited.copied())
+    }
+
+    /// The same at the ends of some pieces: where joints limit the motion, there is much less jerk than
+    /// axes allow.
+    fn stops_cut_mm(&self, pieces: &[Piece]) -> f64 {
+        if self.joints.is_none() {
+            return self.stop_cut_mm();
+        }
+        self.cut_mm(pieces.iter().map(|piece| piece.limit.alone.jerk_j))
+    }
+
+    fn cut_mm(&self, jerk_j: impl Iterator<Item = f64>) -> f64 {
+        jerk_j.fold(0.0_f64, f64::max) * self.settings.period_t.powi(3) / 48.0
     }
 
     /// A piece of a shape: where in the shape it starts, and how long it is.
@@ -161,20 +182,38 @@ impl Assembly {
         rule: SpeedRule,
         line: ProgramLine,
     ) -> Piece {
-        Piece {
+        let limits = &self.settings.limits;
+        let mut piece = Piece {
             shape,
             from_s,
             length_s,
-            limit: rule.limit(self.wanted, &self.settings.limits),
+            limit: rule.limit(self.wanted, limits),
             rapid: rule.is_rapid(),
             synchronised: rule.is_synchronised(),
             per_revolution: rule.is_per_revolution(),
             rule,
+            joints: None,
             planned: self.wanted,
             line,
             lines: Vec::new(),
             events: Vec::new(),
+        };
+        if let Some(joints) = &self.joints {
+            piece.joints = joint_rule(joints, &piece).map(Box::new);
+            piece.limit = piece.limit_under(limits);
         }
+        piece
+    }
+}
+
+/// What joints make of the speed limit of a piece.
+fn joint_rule(joints: &JointRows, piece: &Piece) -> Option<JointRule> {
+    let jet_at = |part: f64| piece.jet(part * piece.length_s);
+    match (&piece.shape, &piece.rule) {
+        (Shape::Transition(_), SpeedRule::Curve { curve, .. }) => {
+            JointRule::of_transition(joints, curve.gentle, jet_at)
+        }
+        _ => JointRule::of_curve(joints, piece.length_s, jet_at),
     }
 }
 

@@ -10,6 +10,7 @@ use super::dense_blocks::DenseBlocks;
 use super::pending::Pending;
 use crate::PlanError;
 use crate::intake::{Intake, check_dwell};
+use crate::joints::JointRows;
 use crate::on_path::pieces::{Element, Shape, SpeedRule};
 use crate::programmed_rate::{ProgrammedRate, axes_speed, axes_speed_along};
 use crate::rest::{Rest, RestKind};
@@ -34,6 +35,12 @@ impl PathFront {
             assembly: Assembly::new(settings),
             last_rate: Rate::Rapid,
         }
+    }
+
+    /// The same, before its first item, for joints that are not the axes.
+    pub(crate) fn with_joints(mut self, joints: Option<JointRows>) -> Self {
+        self.assembly.joints = joints;
+        self
     }
 
     /// Plans what follows with another override.

@@ -17,11 +17,12 @@
 //! the transition, the junction is a stop.
 
 use super::stop_or_pass::{Side, stop_is_faster};
-use crate::on_path::pieces::{CurveRule, SpeedLimit, straight_limit};
+use crate::joints::JointRows;
+use crate::on_path::pieces::{CurveRule, JointRule, SpeedLimit, straight_limit};
 use glidepath_geometry::{
-    AXES, AxisVector, DerivativeBounds, PairShape, Segment, Transition, Turn, feed_length,
+    AXES, AxisVector, DerivativeBounds, Jet, PairShape, Segment, Transition, Turn, feed_length,
 };
-use glidepath_program::{PathMode, Settings, Smoothing, Travel, tolerance_norm};
+use glidepath_program::{Limits, PathMode, Settings, Smoothing, Travel, tolerance_norm};
 
 /// One of the two segments of a junction.
 #[derive(Debug, Clone, Copy)]
@@ -80,7 +81,12 @@ enum Family {
 }
 
 /// Decides how `from` is joined to `to`: in the path mode of `from`.
-pub(crate) fn join(from: JunctionSide<'_>, to: JunctionSide<'_>, settings: &Settings) -> Junction {
+pub(crate) fn join(
+    from: JunctionSide<'_>,
+    to: JunctionSide<'_>,
+    settings: &Settings,
+    joints: Option<&JointRows>,
+) -> Junction {
     let rate_v = from.rate_v.min(to.rate_v);
     let jet_in = from.segment.jet(from.length_s);
     let jet_out = to.segment.jet(0.0);
@@ -100,13 +106,20 @@ pub(crate) fn join(from: JunctionSide<'_>, to: JunctionSide<'_>, settings: &Sett
     };
     let step_d1 = jet_out.d1 - jet_in.d1;
     let step_d2 = jet_out.d2 - jet_in.d2;
-    if continues(&step_d1, &step_d2, &jet_in.d1, rate_v, settings) {
+    let straight = Straight {
+        corner: jet_out.position,
+        settings,
+        joints,
+    };
+    if continues(&step_d1, &step_d2, &jet_in.d1, rate_v, settings)
+        && straight.joints_continue([&jet_in, &jet_out], rate_v)
+    {
         return Junction::Straight;
     }
     let turn = Turn::between(&jet_in.d1, &jet_out.d1);
     let stop = Junction::Stop {
         exact: from.mode == PathMode::ExactPath
-            || cut_by_chord_mm(&jet_in.d1, &jet_out.d1, settings) > 0.5 * tolerance_mm,
+            || straight.cut_by_chord_mm(&jet_in.d1, &jet_out.d1) > 0.5 * tolerance_mm,
     };
     if stop_wanted || turn.cb < REVERSAL_CB {
         return stop;
@@ -127,7 +140,7 @@ pub(crate) fn join(from: JunctionSide<'_>, to: JunctionSide<'_>, settings: &Sett
         gentle: turn.sb <= GENTLE_SB && turn.cb > 0.0,
         tolerance_mm: tolerance_mm - from.error_mm.max(to.error_mm),
         family,
-        settings,
+        straight,
     };
     match corner.best() {
         // What follows the spindle does not wait for it at a corner.
@@ -154,16 +167,50 @@ pub(crate) fn is_exact_corner(
     !continues(&step_d1, &step_d2, &jet_in.d1, rate_v, settings)
 }
 
-/// How far from a corner the chord of one period can pass if the machine rests there between two
-/// setpoints: half a period before or after the rest it is at most J·(T/2)³/6 away.
-fn cut_by_chord_mm(t1: &AxisVector, t2: &AxisVector, settings: &Settings) -> f64 {
-    [t1, t2]
-        .map(|tangent| {
-            let limit = straight_limit(tangent, f64::INFINITY, &settings.limits);
-            tolerance_norm(tangent) * limit.change.jerk_j * settings.period_t.powi(3) / 48.0
-        })
-        .into_iter()
-        .fold(0.0, f64::max)
+/// What limits straight motion beside a corner.
+#[derive(Debug, Clone, Copy)]
+struct Straight<'a> {
+    corner: AxisVector,
+    settings: &'a Settings,
+    joints: Option<&'a JointRows>,
+}
+
+impl Straight<'_> {
+    /// The speed limit in a direction.
+    fn limit(&self, tangent: &AxisVector, rate_v: f64) -> SpeedLimit {
+        let of_axes = straight_limit(tangent, rate_v, &self.settings.limits);
+        let of_place = |joints| JointRule::of_place(joints, self.corner, tangent);
+        match self.joints.and_then(of_place) {
+            Some(joints) => joints.within(of_axes),
+            None => of_axes,
+        }
+    }
+
+    /// The same as [`continues`] of joints.
+    fn joints_continue(&self, jets: [&Jet; 2], rate_v: f64) -> bool {
+        let Some(rows) = self.joints else {
+            return true;
+        };
+        let [Some(before), Some(after)] = jets.map(|jet| rows.along(jet)) else {
+            return true;
+        };
+        let top_v = self.limit(&jets[0].d1, rate_v).top_v;
+        let steps = [after.d1 - before.d1, after.d2 - before.d2];
+        are_rounding(steps, top_v, &rows.limits, self.settings.period_t)
+    }
+
+    /// How far from the corner the chord of one period can pass if the machine rests there between two
+    /// setpoints: half a period before or after the rest it is at most J·(T/2)³/6 away.
+    fn cut_by_chord_mm(&self, t1: &AxisVector, t2: &AxisVector) -> f64 {
+        [t1, t2]
+            .map(|tangent| {
+                let limit = self.limit(tangent, f64::INFINITY);
+                let jerk_j = limit.change.jerk_j;
+                tolerance_norm(tangent) * jerk_j * self.settings.period_t.powi(3) / 48.0
+            })
+            .into_iter()
+            .fold(0.0, f64::max)
+    }
 }
 
 /// True if passing from one derivative to the other at the full rate is no more than rounding: the
@@ -179,6 +226,16 @@ fn continues(
         limits, period_t, ..
     } = settings;
     let v = straight_limit(d1, rate_v, limits).top_v;
+    are_rounding([*step_d1, *step_d2], v, limits, *period_t)
+}
+
+/// Whether steps of both derivatives, passed at a speed, are no more than rounding.
+fn are_rounding(
+    [step_d1, step_d2]: [AxisVector; 2],
+    v: f64,
+    limits: &Limits,
+    period_t: f64,
+) -> bool {
     (0..AXES).all(|i| {
         let velocity_step_v = step_d1[i].abs() * v;
         let acceleration_step_a = step_d2[i].abs() * v * v;
@@ -197,7 +254,7 @@ struct Corner<'a> {
     gentle: bool,
     tolerance_mm: f64,
     family: Family,
-    settings: &'a Settings,
+    straight: Straight<'a>,
 }
 
 /// A transition that takes `d_s` from each side.
@@ -279,10 +336,10 @@ impl Corner<'_> {
 
     /// The rate at which the straight parts beside the corner can be driven.
     fn full_speed_v(&self) -> f64 {
-        let limits = &self.settings.limits;
-        straight_limit(&self.t1, self.rate_v, limits)
-            .top_v
-            .min(straight_limit(&self.t2, self.rate_v, limits).top_v)
+        [&self.t1, &self.t2]
+            .map(|tangent| self.straight.limit(tangent, self.rate_v).top_v)
+            .into_iter()
+            .fold(f64::INFINITY, f64::min)
     }
 
     fn candidate(&self, d_s: f64) -> Option<Candidate> {
@@ -300,8 +357,10 @@ impl Corner<'_> {
             ),
         };
         let bounds = transition.bounds();
-        let limits = &self.settings.limits;
-        let travel = &limits.travel;
+        let Straight {
+            settings, joints, ..
+        } = self.straight;
+        let travel = &settings.limits.travel;
         let mut curve = CurveRule {
             bounds,
             gentle: self.gentle,
@@ -311,13 +370,17 @@ impl Corner<'_> {
             },
             chord_v: f64::INFINITY,
         };
-        let limit = curve.limit(self.rate_v, limits);
+        let jet_at = |part: f64| transition.jet(part * transition.length());
+        let mut limit = curve.limit(self.rate_v, &settings.limits);
+        if let Some(joints) = joints {
+            limit = JointRule::of_candidate(joints, self.gentle, jet_at)?.within(limit);
+        }
         let deviation_mm = match self.family {
             Family::Hermite => self.measured_deviation_mm(&transition, d_s),
             // Both families are symmetric: they are farthest from the program at the corner.
             _ => tolerance_norm(&(transition.jet(0.5 * transition.length()).position - corner)),
         };
-        let period_t = self.settings.period_t;
+        let period_t = settings.period_t;
         let error_mm = if transition.is_within(&travel.lowest, &travel.highest, Travel::ROUNDING) {
             deviation_mm + chord_error_mm(&bounds, limit.top_v, period_t)
         } else {
@@ -353,9 +416,8 @@ impl Corner<'_> {
 
     /// Whether resting at the corner costs less time than the transition.
     fn stop_is_faster(&self, found: &Candidate) -> bool {
-        let limits = &self.settings.limits;
         let side = |leg: JunctionSide<'_>, tangent: &AxisVector| {
-            let SpeedLimit { top_v, change, .. } = straight_limit(tangent, leg.rate_v, limits);
+            let SpeedLimit { top_v, change, .. } = self.straight.limit(tangent, leg.rate_v);
             Side {
                 length_s: leg.length_s,
                 left_s: leg.length_s - found.d_s,

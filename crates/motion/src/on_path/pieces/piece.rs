@@ -1,6 +1,8 @@
 //! Pieces of smooth path.
 
+use super::joint_rule::JointRule;
 use super::speed_limit::{SpeedLimit, SpeedRule};
+use crate::scurve::Extremes;
 use glidepath_geometry::{Cubic, Jet, Segment, Transition};
 use glidepath_program::{Event, Limits, Override, ProgramLine};
 
@@ -12,6 +14,8 @@ pub(crate) struct Piece {
     pub from_s: f64,
     pub length_s: f64,
     pub rule: SpeedRule,
+    /// What joints make of its limit, where they are not the axes.
+    pub joints: Option<Box<JointRule>>,
     pub limit: SpeedLimit,
     /// The override that `limit` was computed with.
     pub planned: Override,
@@ -46,7 +50,8 @@ impl Piece {
             Shape::Spline(spline) => size_of_val(&**spline),
         };
         let of_lines = self.lines.capacity() * size_of::<(f64, ProgramLine)>();
-        of_shape + of_lines + self.events.capacity() * size_of::<Event>()
+        let of_joints = self.joints.as_deref().map_or(0, size_of_val);
+        of_shape + of_joints + of_lines + self.events.capacity() * size_of::<Event>()
     }
 
     /// True for a line.
@@ -66,12 +71,26 @@ impl Piece {
     }
 
     /// The same piece under another override.
-    pub(crate) fn under(self, planned: Override, limits: &Limits) -> Self {
-        Self {
-            limit: self.rule.limit(planned, limits),
-            planned,
-            ..self
+    pub(crate) fn under(mut self, planned: Override, limits: &Limits) -> Self {
+        self.planned = planned;
+        self.limit = self.limit_under(limits);
+        self
+    }
+
+    /// What the piece allows under the override that it is planned with.
+    pub(crate) fn limit_under(&self, limits: &Limits) -> SpeedLimit {
+        let of_axes = self.rule.limit(self.planned, limits);
+        match &self.joints {
+            Some(joints) => joints.within(of_axes),
+            None => of_axes,
         }
+    }
+
+    /// True if it may be driven with so much speed, acceleration and jerk along the path, all at once.
+    pub(crate) fn permits(&self, most: &Extremes, limits: &Limits) -> bool {
+        let by_joints = self.joints.as_ref();
+        self.rule.permits(&self.limit, most, limits)
+            && by_joints.is_none_or(|joints| joints.permits(most))
     }
 
     /// The piece up to `s` after its start.

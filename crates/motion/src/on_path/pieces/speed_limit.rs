@@ -91,6 +91,17 @@ impl SpeedRule {
 }
 
 impl SpeedLimit {
+    /// What both allow.
+    pub(crate) fn weaker(&self, other: &Self) -> Self {
+        Self {
+            top_v: self.top_v.min(other.top_v),
+            change: self.change.weaker(other.change),
+            constant_above_v: self.constant_above_v.min(other.constant_above_v),
+            peak_v: self.peak_v.min(other.peak_v),
+            alone: self.alone.weaker(other.alone),
+        }
+    }
+
     fn within(mut self, bounds: &PathBounds, curvature_k: f64) -> Self {
         let bounding = PathLimits {
             accel_a: bounds.tangential_a,
@@ -126,7 +137,6 @@ impl SpeedRule {
             accel_a,
             jerk_j,
         } = *most;
-        let below = |x: f64, limit: f64| x <= limit * (1.0 + ROUNDING_R);
         if !below(v, own.peak_v) {
             return false;
         }
@@ -245,6 +255,12 @@ impl CurveRule {
 
 /// More than a limit by less than this is rounding.
 const ROUNDING_R: f64 = 1e-9;
+
+/// Whether a limit is kept.
+pub(super) fn below(x: f64, limit: f64) -> bool {
+    x <= limit * (1.0 + ROUNDING_R)
+}
+
 /// Share of an axis' acceleration and jerk spent on following a curve at its top speed. More is a higher
 /// speed and less to change it with. Of jerk .4 and [`CROSS_JERK_R`] leave .3 for changes; where one of
 /// these is not needed, limit boosting finds out. No measurement of them is kept.

@@ -48,6 +48,17 @@ impl MotionChain {
         });
     }
 
+    /// Sums up how long the legs take, once they take another time.
+    pub(super) fn time(&mut self) {
+        let (mut passed, mut duration_t) = (0, 0.0);
+        for end in &mut self.ends {
+            let own = self.legs.iter().take(end.legs).skip(passed);
+            duration_t += own.map(|leg| leg.profile.duration_t()).sum::<f64>();
+            (passed, end.duration_t) = (end.legs, duration_t);
+        }
+        self.duration_t = duration_t;
+    }
+
     pub(super) fn exit_v(&self) -> f64 {
         self.legs.last().map_or(0.0, |leg| leg.profile.exit_v())
     }

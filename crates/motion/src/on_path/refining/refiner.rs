@@ -13,11 +13,11 @@
 
 use super::motion_chain::MotionChain;
 use super::worth::{blocks_on, is_dense, is_worthwhile};
+use crate::joints::MachineLimits;
 use crate::on_path::look_ahead::{Planned, Settled};
 use crate::on_path::pieces::{Element, Piece};
-use crate::on_path::speed::{Course, Leg};
-use crate::on_path::topp::{Fineness, KnotPath, Parametrisation, optimise};
-use glidepath_program::Limits;
+use crate::on_path::speed::{Course, Leg, boost_leg};
+use crate::on_path::topp::{Fineness, KnotPath, Parametrisation, keeps_limits, optimise};
 use std::collections::VecDeque;
 
 /// Motion that is optimised together, s, as the S-curves drive it, and its most pieces: little
@@ -57,7 +57,7 @@ const HOPELESS_R: f64 = 2.0;
 /// Takes what is settled and gives it on, some of it driven faster.
 #[derive(Debug, Clone)]
 pub(crate) struct Refiner {
-    limits: Limits,
+    limits: MachineLimits,
     /// A NURBS has come: what is still to be driven gets parametrisations, from the next rest on.
     is_wanted: bool,
     /// The motion was planned anew from a speed: it keeps to S-curves up to the next rest.
@@ -72,7 +72,7 @@ pub(crate) struct Refiner {
 }
 
 impl Refiner {
-    pub(crate) fn new(limits: Limits) -> Self {
+    pub(crate) fn new(limits: MachineLimits) -> Self {
         Self {
             limits,
             is_wanted: false,
@@ -101,7 +101,7 @@ impl Refiner {
             is_wanted: self.is_wanted,
             is_fixed: entry_v > 0.0 && !is_slowed,
             is_slowed,
-            ..Self::new(self.limits)
+            ..Self::new(self.limits.clone())
         };
     }
 
@@ -133,7 +133,7 @@ impl Refiner {
     fn alone(&self, stretch: Vec<Settled>) -> VecDeque<Settled> {
         let mut refiner = Self {
             is_wanted: self.is_wanted,
-            ..Self::new(self.limits)
+            ..Self::new(self.limits.clone())
         };
         let mut out = VecDeque::new();
         for settled in stretch {
@@ -223,6 +223,7 @@ impl Refiner {
     /// end, which it may reach at their speed.
     fn refine(&mut self, at_speed: bool, out: &mut VecDeque<Settled>) {
         let mut chain = core::mem::take(&mut self.waiting);
+        self.boost(&mut chain);
         for _ in 0..MOST_STARTS {
             if chain.legs.is_empty() {
                 return;
@@ -248,6 +249,21 @@ impl Refiner {
             out.extend(core::mem::replace(&mut chain, remainder).settled());
         }
         out.extend(chain.settled());
+    }
+
+    /// Faster S-curves where joints are not the axes: those at hand keep to what joints leave wherever they
+    /// are on a piece.
+    fn boost(&self, chain: &mut MotionChain) {
+        if self.limits.joints.is_none() {
+            return;
+        }
+        let course = Course::new(&chain.pieces);
+        for leg in &mut chain.legs {
+            boost_leg(leg, &course, |faster| {
+                keeps_limits(faster, &course, &self.limits)
+            });
+        }
+        chain.time();
     }
 
     /// A time parametrisation along a chain that takes less time than S-curves, as fast as these at
@@ -311,6 +327,8 @@ impl Refiner {
             legs.iter().map(|leg| leg.profile.duration_t()).sum(),
         ) {
             Fineness::COARSE
+        } else if self.limits.joints.is_some() {
+            Fineness::OF_JOINTS
         } else {
             Fineness::QUICK
         };

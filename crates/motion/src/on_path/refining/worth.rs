@@ -1,5 +1,6 @@
 //! The judgement of whether a time parametrisation is worth its work.
 
+use crate::joints::MachineLimits;
 use crate::on_path::pieces::{Piece, Shape};
 use glidepath_geometry::{Segment, limit_along};
 use glidepath_program::Limits;
@@ -37,13 +38,15 @@ pub(super) fn blocks_on(pieces: &[Piece]) -> usize {
 /// True if S-curves that take so long may lose time along some pieces: there are curves on it, on which limits bind.
 ///
 /// Along lines an S-curve is the motion of least time; of lines and the transitions between them,
-/// S-curves are what the junctions were decided with.
-pub(super) fn is_worthwhile((pieces, duration_t): (&[Piece], f64), limits: &Limits) -> bool {
+/// S-curves are what the junctions were decided with. Joints that are not axes are limits that change along
+/// any of them.
+pub(super) fn is_worthwhile((pieces, duration_t): (&[Piece], f64), limits: &MachineLimits) -> bool {
     let is_curve = |piece: &Piece| match piece.shape {
         Shape::Segment(Segment::Line(_)) | Shape::Transition(_) => false,
         Shape::Segment(Segment::Arc(_) | Segment::Curve(_)) | Shape::Spline(_) => true,
     };
-    if !pieces.iter().any(is_curve) {
+    // Where joints are not axes, a line is a curve to them.
+    if limits.joints.is_none() && !pieces.iter().any(is_curve) {
         return false;
     }
     if duration_t < LEAST_PIECE_T * pieces.len() as f64 {
@@ -54,9 +57,12 @@ pub(super) fn is_worthwhile((pieces, duration_t): (&[Piece], f64), limits: &Limi
     if duration_t <= GOOD_R * pieces.iter().map(at_rate_t).sum::<f64>() {
         return false;
     }
+    if limits.joints.is_some() {
+        return true;
+    }
     let (mut steady_t, mut varying_t) = (0.0, 0.0);
     for piece in pieces {
-        let (steady, varying) = top_speed_t(piece, limits);
+        let (steady, varying) = top_speed_t(piece, &limits.axes);
         steady_t += steady;
         varying_t += varying;
     }

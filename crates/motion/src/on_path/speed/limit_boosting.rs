@@ -113,13 +113,19 @@ pub(crate) fn boost_limits(legs: &mut [Leg], course: &Course<'_>, limits: &Limit
     for leg in legs {
         let to_s = leg.from_s + leg.profile.length_s();
         let touched = course.touched(leg.from_s, to_s);
-        let Some((safe, alone)) = weakest(&pieces[touched.clone()]) else {
-            continue;
-        };
         let is_bent = |piece: &Piece| matches!(piece.shape, Shape::Spline(_));
-        if !pieces[touched.clone()].iter().any(is_bent) {
-            continue;
+        if pieces[touched].iter().any(is_bent) {
+            boost_leg(leg, course, |faster| holds(faster, course, limits));
         }
+    }
+}
+
+/// Replaces an S-curve by a faster one over the same path between the same speeds that a judge lets pass.
+pub(crate) fn boost_leg(leg: &mut Leg, course: &Course<'_>, holds: impl Fn(&Leg) -> bool) {
+    let pieces = course.pieces;
+    let to_s = leg.from_s + leg.profile.length_s();
+    let touched = course.touched(leg.from_s, to_s);
+    if let Some((safe, alone)) = weakest(&pieces[touched.clone()]) {
         let (from_s, length_s) = (leg.from_s, leg.profile.length_s());
         let (entry_v, exit_v) = (leg.profile.entry_v(), leg.profile.exit_v());
         // One after the other from the best so far: whatever is not faster than that is not looked at.
@@ -135,7 +141,7 @@ pub(crate) fn boost_limits(legs: &mut [Leg], course: &Course<'_>, limits: &Limit
                 let faster = Leg { from_s, profile };
                 if profile.duration_t() >= below_t {
                     Verdict::IsSlow
-                } else if holds(&faster, course, limits) {
+                } else if holds(&faster) {
                     Verdict::Good(faster)
                 } else {
                     Verdict::Breaks
@@ -200,6 +206,6 @@ fn holds(leg: &Leg, course: &Course<'_>, limits: &Limits) -> bool {
         let piece_to_s = course.starts_s[m + 1].min(to_s) - leg.from_s;
         let (most, next) = leg.profile.extremes(&place, piece_to_s);
         place = next;
-        piece.rule.permits(&piece.limit, &most, limits)
+        piece.permits(&most, limits)
     })
 }

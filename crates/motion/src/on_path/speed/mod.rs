@@ -6,5 +6,5 @@ mod run;
 mod valley_first;
 
 pub(crate) use course::{Course, Leg};
-pub(crate) use limit_boosting::{boost_limits, drive_together};
+pub(crate) use limit_boosting::{boost_leg, boost_limits, drive_together};
 pub(crate) use run::Run;

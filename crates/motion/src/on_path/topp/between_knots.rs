@@ -9,8 +9,9 @@
 use super::fineness::Fineness;
 use super::interval::Interval;
 use super::parametrisation::{MotionPhase, Parametrisation};
+use crate::joints::MachineLimits;
 use crate::on_path::pieces::Shape;
-use crate::on_path::speed::Course;
+use crate::on_path::speed::{Course, Leg};
 use crate::scurve::PathState;
 use glidepath_geometry::{Cubic, Jet};
 use glidepath_program::Limits;
@@ -35,6 +36,9 @@ const LEAST_SHARE_R: f64 = 0.7;
 /// Taken off more than was exceeded, for the places between these. No measurement of it is kept.
 const MORE_R: f64 = 1e-3;
 
+/// A speed above a cap by less than this is rounding.
+const SPEED_ROUNDING_R: f64 = 1e-9;
+
 /// The largest share of what is enough of a limit of an axis that a phase of a time parametrisation
 /// uses.
 fn worst(
@@ -42,7 +46,7 @@ fn worst(
     duration_t: f64,
     interval: &Interval,
     course: &Course<'_>,
-    limits: &Limits,
+    limits: &MachineLimits,
 ) -> f64 {
     let piece = &course.pieces[interval.piece];
     let from_s = course.starts_s[interval.piece];
@@ -60,7 +64,7 @@ fn worst(
         } else {
             piece.jet((state.position_s - from_s).clamp(0.0, piece.length_s))
         };
-        worst = worst.max(used(&jet, &state, phase, limits));
+        worst = worst.max(used_by_all(&jet, &state, phase, limits));
     }
     worst
 }
@@ -71,7 +75,7 @@ fn worst_of_span(
     phase: &MotionPhase,
     interval: &Interval,
     (span, span_s, places): (&Cubic, f64, u32),
-    limits: &Limits,
+    limits: &MachineLimits,
 ) -> f64 {
     let ends_s = [interval.from_s, interval.from_s + interval.length_s];
     let [from_u, to_u] = ends_s.map(|s| span.parameter_at(s - span_s));
@@ -80,15 +84,76 @@ fn worst_of_span(
         let u = from_u + (to_u - from_u) * f64::from(k) / f64::from(places);
         let jet = span.jet_at_parameter(u);
         let state = phase.at_position(span_s + span.position_at(u));
-        worst = worst.max(used(&jet, &state, phase, limits));
+        worst = worst.max(used_by_all(&jet, &state, phase, limits));
     }
     for (jet, s) in [&interval.start, &interval.end].into_iter().zip(ends_s) {
-        worst = worst.max(used(jet, &phase.at_position(s), phase, limits));
+        worst = worst.max(used_by_all(jet, &phase.at_position(s), phase, limits));
     }
     worst
 }
 
-/// The largest share of what is enough of a limit of an axis that a state on a phase uses.
+/// The largest share of what is enough of a limit of an axis or a joint that a state on a phase uses.
+#[inline]
+fn used_by_all(jet: &Jet, state: &PathState, phase: &MotionPhase, limits: &MachineLimits) -> f64 {
+    let by_axes = used(jet, state, phase, &limits.axes);
+    let rows = limits.joints.as_ref();
+    let by_joints = rows.and_then(|rows| Some(used(&rows.along(jet)?, state, phase, &rows.limits)));
+    by_axes.max(by_joints.unwrap_or(0.0))
+}
+
+/// True if an S-curve keeps the limits of axes and joints, at places of each of its phases and of each
+/// piece.
+pub(crate) fn keeps_limits(leg: &Leg, course: &Course<'_>, limits: &MachineLimits) -> bool {
+    let phases = leg
+        .profile
+        .phases()
+        .filter(|(duration_t, ..)| *duration_t > 0.0);
+    let phases: Vec<_> = phases
+        .map(|(duration_t, start, jerk_j)| {
+            let phase = MotionPhase {
+                from_t: 0.0,
+                start,
+                jerk_j,
+                growth: 0.0,
+            };
+            (duration_t, phase)
+        })
+        .collect();
+    let is_kept = |state: &PathState, phase: &MotionPhase, piece: usize| {
+        let at_s = leg.from_s + state.position_s;
+        let own = &course.pieces[piece];
+        let jet = own.jet((at_s - course.starts_s[piece]).clamp(0.0, own.length_s));
+        // The rate of the program is among what bounds the speed on a piece.
+        state.speed_v <= own.limit.peak_v * (1.0 + SPEED_ROUNDING_R)
+            && used_by_all(&jet, state, phase, limits) <= 1.0
+    };
+    let along_phases = phases.iter().all(|(duration_t, phase)| {
+        (0..=PLACES).all(|k| {
+            let state = phase.at(duration_t * f64::from(k) / f64::from(PLACES));
+            let at_s = leg.from_s + state.position_s;
+            is_kept(&state, phase, course.touched(at_s, at_s).start)
+        })
+    });
+    let to_s = leg.from_s + leg.profile.length_s();
+    along_phases
+        && course.touched(leg.from_s, to_s).all(|piece| {
+            let places = match course.pieces[piece].shape {
+                Shape::Transition(_) => PLACES_OF_TRANSITION,
+                Shape::Segment(_) | Shape::Spline(_) => PLACES,
+            };
+            let ends_s = [course.starts_s[piece], course.starts_s[piece + 1]];
+            (0..=places).all(|k| {
+                let share_r = f64::from(k) / f64::from(places);
+                let at_s = ends_s[0] + share_r * (ends_s[1] - ends_s[0]) - leg.from_s;
+                let at_s = at_s.clamp(0.0, leg.profile.length_s());
+                let passed = phases.partition_point(|(_, phase)| phase.start.position_s <= at_s);
+                let phase = phases.get(passed.saturating_sub(1));
+                phase.is_none_or(|(_, phase)| is_kept(&leg.profile.at_position(at_s), phase, piece))
+            })
+        })
+}
+
+/// The same of axes, or of joints in their place.
 #[inline]
 fn used(jet: &Jet, state: &PathState, phase: &MotionPhase, limits: &Limits) -> f64 {
     let (v, a) = (state.speed_v, state.accel_a);
@@ -126,7 +191,7 @@ pub(crate) fn lessen(
     firmness: f64,
     intervals: &[Interval],
     course: &Course<'_>,
-    (limits, fineness): (&Limits, &Fineness),
+    (limits, fineness): (&MachineLimits, &Fineness),
 ) -> Remedy {
     let given = shares.to_vec();
     let mut remedy = Remedy {

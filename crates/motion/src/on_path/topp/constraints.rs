@@ -3,10 +3,11 @@
 use super::interval::{BETWEEN_R, Interval};
 use super::knots::KnotPath;
 use super::parabola::{Parabola, Taylor};
+use crate::joints::MachineLimits;
 use glidepath_geometry::{AXES, Jet};
 use glidepath_program::Limits;
 
-/// The limits of an axis, or of the path, at a place: |½·d1·b′ + d2·b| ≤ A and
+/// The limits of an axis, a joint, or of the path, at a place: |½·d1·b′ + d2·b| ≤ A and
 /// |½·d1·b″ + 3/2·d2·b′ + d3·b|·√b ≤ J. One that cannot bind there is infinite.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Row {
@@ -89,7 +90,8 @@ const IDLE_R: f64 = 1.5;
 
 impl Problem {
     /// `shares`: of its limits that each interval may use.
-    pub(crate) fn new(knot_path: &KnotPath, limits: &Limits, shares: &[f64]) -> Self {
+    pub(crate) fn new(knot_path: &KnotPath, limits: &MachineLimits, shares: &[f64]) -> Self {
+        let MachineLimits { axes, joints } = limits;
         let count = knot_path.intervals.len();
         let mut problem = Self {
             places: Vec::with_capacity(3 * count),
@@ -101,8 +103,15 @@ impl Problem {
             let parabola = knot_path.parabola(k);
             let half_s = 0.5 * interval.length_s;
             let (start, end) = (&interval.start, &interval.end);
-            problem.axes((start, interval.start_v), limits, *share_r, true);
-            problem.path(limits);
+            let of_joints = joints
+                .as_ref()
+                .map(|rows| &rows.limits)
+                .zip(interval.joints.as_ref());
+            problem.axes((start, interval.start_v), axes, *share_r, true);
+            if let Some((limits, [start, _])) = of_joints {
+                problem.axes((start, interval.start_v), limits, *share_r, true);
+            }
+            problem.path(axes);
             // The speed of S-curves is within the top speed, or at it: there is no room to ask for.
             let is_given = |is_end: bool, end: usize| is_end && knot_path.ends_r[end].is_some();
             let (from_given, to_given) = (is_given(k == 0, 0), is_given(k + 1 == count, 1));
@@ -118,8 +127,11 @@ impl Problem {
             // Within a piece, only the jerk is another at the start of the next interval.
             let next = knot_path.intervals.get(k + 1);
             let is_inside = next.is_some_and(|next| next.piece == interval.piece);
-            problem.axes((end, interval.end_v), limits, *share_r, !is_inside);
-            problem.path(limits);
+            problem.axes((end, interval.end_v), axes, *share_r, !is_inside);
+            if let Some((limits, [_, end])) = of_joints {
+                problem.axes((end, interval.end_v), limits, *share_r, !is_inside);
+            }
+            problem.path(axes);
             let end_v = if is_inside || to_given {
                 f64::INFINITY
             } else {

@@ -1,6 +1,6 @@
 //! The path between two knots, and what bounds the speed there.
 
-use glidepath_geometry::{AXES, Jet, feed_length};
+use glidepath_geometry::{AXES, Jet, feed_length, limit_along};
 use glidepath_program::Limits;
 
 /// Share of what a curve allows, for the places between knots.
@@ -24,6 +24,8 @@ pub(crate) struct Interval {
     pub(crate) length_s: f64,
     pub(crate) start: Jet,
     pub(crate) end: Jet,
+    /// The joints at start and end, where they are not the axes.
+    pub(crate) joints: Option<[Jet; 2]>,
     pub(crate) start_v: f64,
     pub(crate) middle_v: f64,
     pub(crate) end_v: f64,
@@ -39,5 +41,10 @@ impl Interval {
         let by_chord = (own.chord_a / curvature_k).sqrt();
         let by_curve = by_chord.min(limits.path.speed_v(curvature_k));
         own.rate_v.min(by_axes).min(BETWEEN_R * by_curve)
+    }
+
+    /// The highest speed at which joints with these derivatives along the path can follow, mm/s.
+    pub(crate) fn joints_v(joints: &Jet, limits: &Limits) -> f64 {
+        BETWEEN_R * limit_along(&joints.d1, &limits.velocity)
     }
 }

@@ -4,6 +4,7 @@
 use super::fineness::Fineness;
 use super::interval::{Caps, Interval};
 use super::parabola::Parabola;
+use crate::joints::MachineLimits;
 use crate::on_path::pieces::{Piece, Shape};
 use crate::on_path::speed::{Course, Leg};
 use crate::scurve::PathState;
@@ -18,7 +19,7 @@ const MOST_KNOTS: f64 = 30_000.0;
 const LEAST_KNOT_T: f64 = 0.002;
 /// Time of the phase of constant jerk next to a rest, and its largest share of the S-curve's. At a rest
 /// b ~ s^(4/3) has a second derivative beyond all bounds, which no spline follows; the shorter the
-/// phase, the more knots next to it ([`REST_GROWTH`]). No measurement of either is
+/// phase, the more knots next to it ([`Fineness::rest_growth`]). No measurement of either is
 /// kept.
 const REST_T: f64 = 0.001;
 const REST_R: f64 = 0.25;
@@ -28,9 +29,6 @@ const REST_R: f64 = 0.25;
 /// second derivatives of up to 5.77 · .15 of it; five times as much is 1.4 and 4.3.
 const RAMP_JERK: f64 = 4.3;
 const RAMP_ACCEL: f64 = 1.4;
-/// Next to a rest, the time to a knot grows by this factor from the one before: b ~ t⁴ then grows by the
-/// same factor, about two, on each interval.
-const REST_GROWTH: f64 = 1.2;
 
 /// A place on the S-curves: time and path position.
 #[derive(Debug, Clone, Copy)]
@@ -56,6 +54,7 @@ pub(crate) struct KnotPath {
     /// Time from knot to knot, s.
     knot_t: f64,
     nearest_r: f64,
+    rest_growth: f64,
     /// At start and end; `None` where the motion does not rest.
     pub(crate) rests: [Option<RestPhase>; 2],
     pub(crate) ends_v: [f64; 2],
@@ -72,7 +71,7 @@ impl KnotPath {
     pub(crate) fn new(
         course: &Course<'_>,
         legs: &[Leg],
-        limits: &Limits,
+        limits: &MachineLimits,
         fineness: &Fineness,
         ends_r: [Option<f64>; 2],
     ) -> Option<Self> {
@@ -94,10 +93,11 @@ impl KnotPath {
             rests,
             ends_v: [first.entry_v(), last.exit_v()],
             ends_r,
-            ramps_s: [first.entry_v(), last.exit_v()].map(|v| ramp_length(v, limits)),
+            ramps_s: [first.entry_v(), last.exit_v()].map(|v| ramp_length(v, course, limits)),
             length_s: course.length_s(),
             knot_t,
             nearest_r: fineness.nearest_r,
+            rest_growth: fineness.rest_growth,
         };
         let knots = knot_path.knots(course);
         knot_path.lay(course, &knots, limits);
@@ -134,7 +134,7 @@ impl KnotPath {
         // From both ends to the middle.
         let [mut times, mut back] = self
             .rests
-            .map(|rest| times(rest, 0.5 * duration_t, self.knot_t));
+            .map(|rest| times(rest, 0.5 * duration_t, (self.knot_t, self.rest_growth)));
         back.reverse();
         let left = back.into_iter().map(|t| duration_t - t);
         times.extend(left.filter(|t| *t > 0.5 * (duration_t + self.knot_t)));
@@ -192,7 +192,7 @@ impl KnotPath {
     }
 
     /// Puts knots into the middle of some intervals, in rising order.
-    pub(crate) fn halve(&mut self, halved: &[usize], course: &Course<'_>, limits: &Limits) {
+    pub(crate) fn halve(&mut self, halved: &[usize], course: &Course<'_>, limits: &MachineLimits) {
         let mut knots = Vec::with_capacity(self.intervals.len() + halved.len() + 1);
         let mut next = halved.iter().peekable();
         for (k, interval) in self.intervals.drain(..).enumerate() {
@@ -206,7 +206,7 @@ impl KnotPath {
     }
 
     /// The path between the knots.
-    fn lay(&mut self, course: &Course<'_>, knots: &[f64], limits: &Limits) {
+    fn lay(&mut self, course: &Course<'_>, knots: &[f64], limits: &MachineLimits) {
         for window in knots.windows(2) {
             let (from_s, to_s) = (window[0], window[1]);
             let middle_s = 0.5 * (from_s + to_s);
@@ -219,16 +219,27 @@ impl KnotPath {
                 _ => jet(from_s),
             };
             let [middle, end] = [middle_s, to_s].map(jet);
-            let top_v = |jet: &Jet| Interval::cap_v(jet, &caps, limits);
+            let own_v = |jet: &Jet| Interval::cap_v(jet, &caps, &limits.axes);
+            let joints = JointEnds::new(
+                self.intervals.last(),
+                index,
+                [&start, &middle, &end],
+                limits,
+            );
+            let by_joints_v = joints
+                .as_ref()
+                .map_or([f64::INFINITY; 3], |joints| joints.caps_v);
+            let top_v = |jet: &Jet, place: usize| own_v(jet).min(by_joints_v[place]);
             self.intervals.push(Interval {
                 piece: index,
                 from_s,
                 length_s: to_s - from_s,
-                start_v: top_v(&start),
-                middle_v: top_v(&middle),
-                end_v: top_v(&end),
+                start_v: top_v(&start, 0),
+                middle_v: top_v(&middle, 1),
+                end_v: top_v(&end, 2),
                 start,
                 end,
+                joints: joints.map(|joints| joints.ends),
             });
         }
     }
@@ -303,6 +314,40 @@ impl KnotPath {
     }
 }
 
+/// The joints on an interval, where they are not the axes.
+struct JointEnds {
+    /// At its start and its end.
+    ends: [Jet; 2],
+    /// How fast they can follow at its start, in its middle and at its end, mm/s.
+    caps_v: [f64; 3],
+}
+
+impl JointEnds {
+    /// From the path at the three places; what the interval before on the same piece has is not computed
+    /// again.
+    fn new(
+        before: Option<&Interval>,
+        piece: usize,
+        [start, middle, end]: [&Jet; 3],
+        limits: &MachineLimits,
+    ) -> Option<Self> {
+        let rows = limits.joints.as_ref()?;
+        let known = before
+            .filter(|before| before.piece == piece)
+            .and_then(|before| before.joints.map(|[_, end]| end));
+        let start = match known {
+            Some(start) => start,
+            None => rows.along(start)?,
+        };
+        let [middle, end] = [rows.along(middle)?, rows.along(end)?];
+        let caps_v = [&start, &middle, &end].map(|joints| Interval::joints_v(joints, &rows.limits));
+        Some(Self {
+            ends: [start, end],
+            caps_v,
+        })
+    }
+}
+
 /// What bounds the speed on a piece whatever the axes can do. Where the curvature changes within a
 /// period, as on all curves but those of the program, which are long, its largest counts.
 fn caps(piece: &Piece) -> Caps {
@@ -317,9 +362,15 @@ fn caps(piece: &Piece) -> Caps {
 }
 
 /// The length on which a motion can easily go from the speed of the S-curves to that of a start.
-fn ramp_length(speed_v: f64, limits: &Limits) -> f64 {
+fn ramp_length(speed_v: f64, course: &Course<'_>, limits: &MachineLimits) -> f64 {
     let least = |of: &AxisVector| of.iter().copied().fold(f64::INFINITY, f64::min);
-    let (jerk_j, accel_a) = (least(&limits.jerk), least(&limits.acceleration));
+    let (mut jerk_j, mut accel_a) = (least(&limits.axes.jerk), least(&limits.axes.acceleration));
+    if limits.joints.is_some() {
+        let along = course.pieces.iter().map(|piece| piece.limit.change);
+        for change in along {
+            (jerk_j, accel_a) = (jerk_j.min(change.jerk_j), accel_a.min(change.accel_a));
+        }
+    }
     speed_v
         * (RAMP_JERK * speed_v / jerk_j)
             .sqrt()
@@ -327,7 +378,11 @@ fn ramp_length(speed_v: f64, limits: &Limits) -> f64 {
 }
 
 /// Time from knot to knot.
-fn knot_time(limits: &Limits, fineness: &Fineness) -> f64 {
+fn knot_time(limits: &MachineLimits, fineness: &Fineness) -> f64 {
+    let limits = limits
+        .joints
+        .as_ref()
+        .map_or(&limits.axes, |joints| &joints.limits);
     let axes = limits.acceleration.iter().zip(&limits.jerk);
     let limited = axes.filter(|(_, jerk_j)| **jerk_j < Limits::UNLIMITED);
     let rises_t = limited.map(|(accel_a, jerk_j)| accel_a / jerk_j);
@@ -338,12 +393,12 @@ fn knot_time(limits: &Limits, fineness: &Fineness) -> f64 {
 }
 
 /// Times of knots from an end of the motion up to some time, without the end.
-fn times(rest: Option<RestPhase>, to_t: f64, knot_t: f64) -> Vec<f64> {
+fn times(rest: Option<RestPhase>, to_t: f64, (knot_t, growth): (f64, f64)) -> Vec<f64> {
     let mut times = Vec::new();
     let mut t = rest.map_or(0.0, |rest| rest.duration_t);
     loop {
         t += match rest {
-            Some(_) => ((REST_GROWTH - 1.0) * t).min(knot_t),
+            Some(_) => ((growth - 1.0) * t).min(knot_t),
             None => knot_t,
         };
         let is_before = t > 0.0 && t < to_t;

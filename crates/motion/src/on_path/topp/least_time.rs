@@ -6,9 +6,9 @@ use super::constraints::Problem;
 use super::fineness::Fineness;
 use super::knots::{KnotPath, RestPhase};
 use super::parametrisation::{Builder, Parametrisation};
+use crate::joints::MachineLimits;
 use crate::on_path::speed::Course;
 use crate::scurve::PathState;
-use glidepath_program::Limits;
 
 /// Times a time parametrisation is made anew where it demands too much between its knots: a peak
 /// between two knots gives way less than their limits do. No measurement of it is kept.
@@ -20,7 +20,7 @@ const ROUNDS: u32 = 8;
 pub(crate) fn optimise(
     mut knot_path: KnotPath,
     course: &Course<'_>,
-    limits: &Limits,
+    limits: &MachineLimits,
     (rates, fineness): (&[f64], &Fineness),
 ) -> Option<Parametrisation> {
     let mut shares = vec![1.0; knot_path.intervals.len()];

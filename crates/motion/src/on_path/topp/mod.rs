@@ -51,6 +51,7 @@ mod least_time;
 mod parabola;
 mod parametrisation;
 
+pub(crate) use between_knots::keeps_limits;
 pub(crate) use fineness::Fineness;
 pub(crate) use knots::KnotPath;
 pub(crate) use least_time::optimise;
