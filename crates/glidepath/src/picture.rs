@@ -58,7 +58,7 @@ impl Picture {
                 text: String::new(),
             }));
         }
-        let plot = Plot::new(&config.axis_names(), config.axis_limits(), config.period_t());
+        let plot = Plot::new(&config.axis_names(), config.own_limits(), config.period_t());
         let plot = plot.with_joints(&config.joint_limits, config.joints());
         Self::Svg(Box::new(plot), Box::new(config.clone()))
     }

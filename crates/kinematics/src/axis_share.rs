@@ -20,7 +20,8 @@
 //! spread evenly between them. What they miss is found by whoever judges the motion itself.
 
 use crate::{JOINTS, JointLimits, JointWatch, Kinematics as _, Mechanism};
-use glidepath_geometry::{Axis, AxisVector};
+use glidepath_geometry::{AXES, Axis, AxisVector};
+use nalgebra::SMatrix;
 
 /// Part of a joint's acceleration that axes leave for the bends of the mechanism.
 const BENDS_A: f64 = 0.1;
@@ -38,6 +39,57 @@ pub struct AxisRates {
     pub acceleration: AxisVector,
     /// mm/s³ or °/s³.
     pub jerk: AxisVector,
+}
+
+/// What joints let each axis do by itself, anywhere in the travel, if the others stand.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AloneLimits {
+    /// mm/s or °/s; infinite of an axis that no joint follows.
+    pub velocity: AxisVector,
+    /// mm/s² or °/s².
+    pub acceleration: AxisVector,
+    /// mm/s³ or °/s³.
+    pub jerk: AxisVector,
+}
+
+impl AloneLimits {
+    /// Those of a mechanism, from the first terms alone: nothing is left for its bends.
+    #[must_use]
+    pub fn over(mechanism: &Mechanism, limits: &JointLimits, travel: &[(Axis, f64, f64)]) -> Self {
+        let none = AxisVector::repeat(f64::INFINITY);
+        let mut alone = Self {
+            velocity: none,
+            acceleration: none,
+            jerk: none,
+        };
+        for jacobian in jacobians(mechanism, limits, travel) {
+            for (axis, ..) in travel {
+                let k = axis.index();
+                for (joint, limit) in limits.0.iter().enumerate() {
+                    let by = jacobian[(joint, k)].abs();
+                    if by > 0.0 {
+                        alone.velocity[k] = alone.velocity[k].min(limit.velocity / by);
+                        alone.acceleration[k] = alone.acceleration[k].min(limit.acceleration / by);
+                        alone.jerk[k] = alone.jerk[k].min(limit.jerk / by);
+                    }
+                }
+            }
+        }
+        alone
+    }
+}
+
+/// The Jacobians at places in the travel where the mechanism may stand.
+fn jacobians<'a>(
+    mechanism: &'a Mechanism,
+    limits: &JointLimits,
+    travel: &'a [(Axis, f64, f64)],
+) -> impl Iterator<Item = SMatrix<f64, JOINTS, AXES>> + 'a {
+    // Judges standing only, so the period does not matter.
+    let watch = JointWatch::new(*mechanism, *limits, 1.0);
+    places(travel)
+        .filter(move |place| watch.stand(place).is_ok())
+        .filter_map(|place| mechanism.jacobian(&place).ok())
 }
 
 /// Factors on the limits of all axes, each above 0 and at most 1.
@@ -67,16 +119,8 @@ impl AxisShare {
         travel: &[(Axis, f64, f64)],
         rates: &AxisRates,
     ) -> Self {
-        // Judges standing only, so the period does not matter.
-        let watch = JointWatch::new(*mechanism, *limits, 1.0);
         let mut share = Self::FULL;
-        for place in places(travel) {
-            if watch.stand(&place).is_err() {
-                continue;
-            }
-            let Ok(jacobian) = mechanism.jacobian(&place) else {
-                continue;
-            };
+        for jacobian in jacobians(mechanism, limits, travel) {
             for joint in 0..JOINTS {
                 let needed = |limits: &AxisVector| -> f64 {
                     let axes = travel.iter().map(|(axis, ..)| axis.index());

@@ -69,7 +69,7 @@ mod trivial;
 mod watch;
 
 pub use axes::AxisList;
-pub use axis_share::{AxisRates, AxisShare};
+pub use axis_share::{AloneLimits, AxisRates, AxisShare};
 pub use core_xy::CoreXy;
 pub use curve_rates::CurveRates;
 pub use error::KinematicsError;

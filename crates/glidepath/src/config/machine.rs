@@ -32,7 +32,13 @@ pub struct AxisConfig {
     pub max_acceleration: f64,
     /// mm/s³.
     pub max_jerk: f64,
+    /// Which of the three the file gives. The others are what joints let the axis do alone, anywhere in
+    /// its travel: motion by hand keeps to that, plans to the joints themselves.
+    pub has_own: [bool; 3],
 }
+
+/// What no axis exceeds, as far as the file may give it: velocity, acceleration and jerk.
+pub(super) const MOST_OF_AXES: [f64; 3] = [1e5, 1e7, 1e10];
 
 /// The tolerance and how it is used.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -295,7 +301,31 @@ impl MachineConfig {
     /// The same as the file has them: what no axis exceeds. Joints may leave less, place by place.
     #[must_use]
     pub fn axis_limits(&self) -> Limits {
-        self.limits_at(AxisShare::FULL)
+        self.own_limits_or(MOST_OF_AXES)
+    }
+
+    /// The same, unlimited where the file gives none.
+    #[must_use]
+    pub fn own_limits(&self) -> Limits {
+        self.own_limits_or([Limits::UNLIMITED; 3])
+    }
+
+    fn own_limits_or(&self, most: [f64; 3]) -> Limits {
+        let mut limits = self.limits_at(AxisShare::FULL);
+        for axis in &self.axes {
+            let i = axis.axis.index();
+            let own = [
+                &mut limits.velocity,
+                &mut limits.acceleration,
+                &mut limits.jerk,
+            ];
+            for (k, limit) in own.into_iter().enumerate() {
+                if !axis.has_own[k] {
+                    limit[i] = most[k];
+                }
+            }
+        }
+        limits
     }
 
     fn limits_at(&self, share: AxisShare) -> Limits {

@@ -109,9 +109,9 @@ impl RawAxes {
 pub(super) struct RawAxis {
     pub(super) min_position: Optional<f64>,
     pub(super) max_position: Optional<f64>,
-    pub(super) max_velocity: Spanned<f64>,
-    pub(super) max_acceleration: Spanned<f64>,
-    pub(super) max_jerk: Spanned<f64>,
+    pub(super) max_velocity: Optional<f64>,
+    pub(super) max_acceleration: Optional<f64>,
+    pub(super) max_jerk: Optional<f64>,
     pub(super) jog_velocity: Optional<f64>,
     pub(super) gantry_difference: Optional<f64>,
 }

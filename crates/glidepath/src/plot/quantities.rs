@@ -4,6 +4,7 @@ use super::colour::CURVES;
 use super::envelope::Envelope;
 use super::strip::Strip;
 use glidepath_kinematics::JointVector;
+use glidepath_program::Limits;
 
 /// One position, of an axis or a joint, and what is drawn of it.
 #[derive(Debug)]
@@ -76,7 +77,7 @@ impl Quantities {
                     unit: position.units[k],
                     colour: CURVES[k],
                     curve,
-                    limit: Some(position.limits[k]),
+                    limit: Some(position.limits[k]).filter(|limit| *limit < Limits::UNLIMITED),
                     band: None,
                     signed: true,
                 })

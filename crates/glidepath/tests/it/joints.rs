@@ -201,6 +201,45 @@ fn motion_is_as_slow_as_its_joints() {
 }
 
 #[test]
+fn axes_need_no_limits_where_joints_have_theirs() {
+    // The shipped machine without what its axes can do.
+    let (mut table, mut bare) = ("", String::new());
+    for line in HEXAPOD.lines() {
+        if line.starts_with('[') {
+            table = line;
+        }
+        let is_limit = line.starts_with("max_") && !line.contains("_position");
+        if !(table.starts_with("[axis.") && is_limit) {
+            bare.push_str(line);
+            bare.push('\n');
+        }
+    }
+    assert!(bare.len() + 200 < HEXAPOD.len());
+    let config = config::parse("hexapod.toml", &bare).unwrap();
+    // By hand an axis does what joints let it do alone: along Z a strut moves by less than that does.
+    let (alone, joint) = (
+        config.limits().velocity[2],
+        config.joint_limits.0[0].velocity,
+    );
+    assert!(alone > joint && alone < 2.0 * joint, "{alone}");
+
+    let across = "G21 G90\nG0 Z500\nG1 X80 F60000\nG1 Y40\nG0 X0 Y0 Z480 A5\nM2\n";
+    let [with, without] = [HEXAPOD, &bare].map(|config| {
+        let output = glidepath("plan", across, config, &["--json"]);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let number = |key: &str| report[key].as_f64().unwrap();
+        for key in ["velocity", "acceleration", "jerk"] {
+            let used = number(&format!("max_joint_{key}_ratio"));
+            assert!(used > 0.0 && used <= 1.0 + 1e-6, "{key}: {report}");
+        }
+        (number("cycle_time_s"), number("max_joint_jerk_ratio"))
+    });
+    assert!(without.0 < with.0, "{with:?} {without:?}");
+    assert!(without.1 > 0.95, "{without:?}");
+}
+
+#[test]
 fn struts_are_straight_enough_between_setpoints() {
     // 100 mm/s at the edge of the workspace, where the struts bend most.
     let fast = HEXAPOD.replace("max_velocity = 60.0", "max_velocity = 120.0");

@@ -1,6 +1,6 @@
 //! Tests of the joints' rates along curves, by vectors with forty digits and by differences.
 
-#![allow(clippy::unwrap_used, reason = "a test")]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test")]
 
 use crate::support::*;
 use glidepath_geometry::{Axis, AxisVector};

@@ -1,19 +1,23 @@
 //! `[axis.X]`: limits and travel of an axis.
 
+use super::axis_share::travel_of;
 use super::values::{Judge, Range};
 use crate::config::diagnostic::ConfigDiagnostic;
-use crate::config::machine::AxisConfig;
+use crate::config::machine::{AxisConfig, MOST_OF_AXES};
 use crate::config::raw::{Optional, RawAxis};
 use glidepath_geometry::Axis;
+use glidepath_kinematics::{AloneLimits, JointLimits, Mechanism};
 use toml::Spanned;
 
 impl Judge {
     pub(super) fn axis(&mut self, axis: Axis, raw: &Spanned<RawAxis>) -> AxisConfig {
         let table = raw.as_ref();
         let unit = Units::of(axis);
-        let mut limit = |name: &str, value: &Spanned<f64>, unit: &'static str, max: f64| {
+        let mut limit = |name: &str, value: &Optional<f64>, unit: &'static str, max: f64| {
             let help = "a limit of the drive, in any direction of motion";
-            self.number(
+            // One that is left out is that of the joints, or is missed once it is known that there are none.
+            let value = value.as_ref()?;
+            Some(self.number(
                 &format!("axis.{axis}.{name}"),
                 value,
                 &Range {
@@ -22,16 +26,21 @@ impl Judge {
                     unit,
                     help,
                 },
-            )
+            ))
         };
-        let max_velocity = limit("max_velocity", &table.max_velocity, unit.velocity, 1e5);
-        let max_acceleration = limit(
-            "max_acceleration",
-            &table.max_acceleration,
-            unit.acceleration,
-            1e7,
-        );
-        let max_jerk = limit("max_jerk", &table.max_jerk, unit.jerk, 1e10);
+        let [most_v, most_a, most_j] = MOST_OF_AXES;
+        let given = [
+            limit("max_velocity", &table.max_velocity, unit.velocity, most_v),
+            limit(
+                "max_acceleration",
+                &table.max_acceleration,
+                unit.acceleration,
+                most_a,
+            ),
+            limit("max_jerk", &table.max_jerk, unit.jerk, most_j),
+        ];
+        let [max_velocity, max_acceleration, max_jerk] =
+            [0, 1, 2].map(|k| given[k].unwrap_or(MOST_OF_AXES[k]));
         let travel = self.travel(axis, raw);
         AxisConfig {
             axis,
@@ -39,6 +48,73 @@ impl Judge {
             max_velocity,
             max_acceleration,
             max_jerk,
+            has_own: given.map(|limit| limit.is_some()),
+        }
+    }
+
+    /// Completes axes by what joints let them do, where these are others; else tells what is missing.
+    pub(super) fn complete(
+        &mut self,
+        axes: &mut [AxisConfig],
+        raw_axes: &[(Axis, &Spanned<RawAxis>)],
+        (mechanism, joints): (&Mechanism, &JointLimits),
+    ) {
+        let is_complete = |axis: &AxisConfig| axis.has_own == [true; 3];
+        if axes.iter().all(is_complete) {
+            return;
+        }
+        if matches!(mechanism, Mechanism::Trivial(_)) {
+            for (axis, (_, raw)) in axes.iter().zip(raw_axes) {
+                self.miss_limits(axis, raw);
+            }
+            return;
+        }
+        // Looked for all over the travel, so only of a machine that can be.
+        if self.has_found(&["axis", "joint", "machine"]) {
+            return;
+        }
+        let alone = AloneLimits::over(mechanism, joints, &travel_of(axes));
+        for axis in axes {
+            let i = axis.axis.index();
+            let own = [
+                &mut axis.max_velocity,
+                &mut axis.max_acceleration,
+                &mut axis.max_jerk,
+            ];
+            let by_joints = [alone.velocity[i], alone.acceleration[i], alone.jerk[i]];
+            for (k, limit) in own.into_iter().enumerate() {
+                if !axis.has_own[k] {
+                    *limit = by_joints[k].min(MOST_OF_AXES[k]);
+                }
+            }
+        }
+    }
+
+    fn miss_limits(&mut self, axis: &AxisConfig, raw: &Spanned<RawAxis>) {
+        let names = ["max_velocity", "max_acceleration", "max_jerk"];
+        let missing = names.iter().zip(axis.has_own).filter(|(_, has)| !has);
+        for (missing, _) in missing {
+            // A name that is nearly this one was told already.
+            let meant = format!("did you mean `{missing}`");
+            let is_told = |found: &ConfigDiagnostic| {
+                found
+                    .help
+                    .as_ref()
+                    .is_some_and(|help| help.starts_with(&meant))
+            };
+            if self.diagnostics.iter().any(is_told) {
+                continue;
+            }
+            self.diagnostics.push(ConfigDiagnostic {
+                key: format!("axis.{}.{missing}", axis.axis),
+                message: format!("the key `{missing}` is missing"),
+                help: Some(format!(
+                    "add `{missing} = …` to [axis.{}]; only where joints are not the axes, and have \
+                     limits of their own, it may be left out",
+                    axis.axis
+                )),
+                span: Some(raw.span()),
+            });
         }
     }
 

@@ -91,6 +91,9 @@ impl Judge {
             if self.has_found(&[&format!("axis.{}", axis.axis)]) {
                 continue;
             }
+            if axis.has_own != [true; 3] {
+                continue;
+            }
             if let Some(mut diagnostic) = stops::diagnostic(axis, interpolator) {
                 let is_jerk = diagnostic.key.ends_with("max_jerk");
                 let value = if is_jerk {
@@ -98,7 +101,7 @@ impl Judge {
                 } else {
                     &raw.max_velocity
                 };
-                diagnostic.span = Some(value.span());
+                diagnostic.span = value.as_ref().map(Spanned::span);
                 self.diagnostics.push(diagnostic);
             }
         }

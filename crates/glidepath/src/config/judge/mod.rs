@@ -49,7 +49,7 @@ pub(super) fn judge(
     let axes_span = raw.axis.span();
     let raw_axes = raw.axis.into_inner().in_order();
     let raw_axes = || Axis::ALL.into_iter().zip(&raw_axes);
-    let axes: Vec<AxisConfig> = raw_axes()
+    let mut axes: Vec<AxisConfig> = raw_axes()
         .filter_map(|(axis, raw)| Some(judge.axis(axis, raw.as_ref()?)))
         .collect();
     if axes.is_empty() {
@@ -58,6 +58,10 @@ pub(super) fn judge(
     let names: Vec<Axis> = axes.iter().map(|axis| axis.axis).collect();
     let mechanism = judge.mechanism(&raw.machine, &names);
     let joint_limits = judge.joints(&raw.joint, &mechanism);
+    let given: Vec<_> = raw_axes()
+        .filter_map(|(axis, raw)| Some((axis, raw.as_ref()?)))
+        .collect();
+    judge.complete(&mut axes, &given, (&mechanism, &joint_limits));
     let axis_share = judge.axis_share(&mechanism, &joint_limits, &axes);
     let interpolator = {
         let raw_axes: Vec<_> = raw_axes()

@@ -39,7 +39,8 @@ pub(super) const AXIS: &[Key] = &[
         "axis.X.max_velocity",
         number(1e-3, 1e5, "mm/s or °/s"),
         LeftOut::Refused,
-        "what the drive can do, in either direction of motion",
+        "what the drive can do, in either direction of motion. Not needed where joints that are not the \
+         axes have their limits; nor are the two below",
     ),
     key(
         "axis.X.max_acceleration",
