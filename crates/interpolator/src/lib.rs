@@ -30,6 +30,7 @@
 //! * `jog` moves the axes by hand, and away from a path that is held and back to it, with a `tracker`
 //!   for what follows no program;
 //! * `setpoint` writes what is published, and `joints` turns its axes into those of the mechanism;
+//!   `limited_joints` are these along the frames ahead, as limits of the rate;
 //! * `admission` judges every frame before the real-time thread sees it, and `commands` every
 //!   command;
 //! * `ports` is one turn of the ports thread, `loops` are the two threads on their common grid.
