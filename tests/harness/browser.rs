@@ -2,11 +2,14 @@
 
 use std::io::{Read as _, Write as _};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use glidepath_testing::skip;
 use serde_json::{Value, json};
 use tempfile::TempDir;
+
+/// How long something may take until it is true on the page.
+const PATIENCE: Duration = Duration::from_secs(100);
 
 /// Chromium with one page. Dropping it ends it.
 #[derive(Debug)]
@@ -117,9 +120,11 @@ impl Browser {
         self.call("Runtime.evaluate", &asked)["result"]["value"].clone()
     }
 
-    /// Waits until an expression is true on the page.
+    /// Waits until an expression is true on the page; the test ends with the expression if it never is.
     pub fn wait(&mut self, expression: &str) {
+        let begun = Instant::now();
         while self.evaluate(&format!("!!({expression})")) != true {
+            assert!(begun.elapsed() < PATIENCE, "never true: {expression}");
             std::thread::sleep(Duration::from_millis(50));
         }
     }

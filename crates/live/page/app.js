@@ -92,6 +92,7 @@ function setInfo(info) {
   S.axes = {};
   info.machine.axes.forEach((axis, k) => { S.axes[axis.name] = k < 3; });
   if (!S.file) RINGED = new Ring(info.machine.axes.length, info.machine.period_s);
+  overView.hidden = isLathe();
   layDigits(); paintTools();
   if (!S.file) laySetUp();
 }
@@ -107,7 +108,7 @@ function setView(view) {
   const other = S.view !== view;
   S.view = view; $('#app').dataset.view = view;
   if (!S.file && other) { endJog(); usePlan(); if (view === 'programs') { fetchPrograms(); lookAtChosen(); } if (view === 'setup') paintTables(); }
-  $$('#tabs button').forEach(b => b.setAttribute('aria-current', b.dataset.v === view));
+  markTab();
   const box = $(`#${view} [data-path]`);
   if (box) box.append(SPACE.box, overMode, overView, legend);
   paintLegend(); paintTools(); paintTune(); paintState(); redraw();
@@ -216,7 +217,7 @@ function digits() {
     if (k < 3) put($(`#g${axis.name}`), num(shown[k], 2));
   });
   feedDigits(speed * 60, moving);
-  if (s.mode === 'backwards') put($('#feedof'), moving ? 'back along the path' : 'backwards: no way, or held');
+  if (s.mode === 'backwards') put($('#feedof'), moving ? 'back along the path' : 'backwards');
   for (const [key, ratio] of [['feed-override', s.feed_override], ['rapid-override', s.rapid_override]]) {
     const tile = $(`[data-ov=${key}]`);
     fill($('[data-v]', tile), `${Math.round(ratio * 100)}<span class="unit">%</span>`);
@@ -243,16 +244,21 @@ function feedDigits(v, moving) {
 }
 function blocks(line) {
   if (!INFO.program || !line || !S.status.program_is_shown) { fill($('#blocks'), '<div></div><div></div><div class="cur"></div><div></div><div></div>'); return; }
+  $('#blocks').style.setProperty('--digits', Math.max(3, String(line + 2).length));
   fill($('#blocks'), [-2, -1, 0, 1, 2].map(k => { const text = LINES.get(line + k); return `<div class="${k ? '' : 'cur'}"><span class="k">${text === undefined ? '' : line + k}</span><span>${text ? safe(text.trim()) : ' '}</span></div>`; }).join(''));
 }
 
+/* What was heard is old after a while. */
+function growOld() {
+  if (S.heard && performance.now() - S.heard > 1500 && S.state !== 'stale') { S.state = 'stale'; paintState(); redraw(); }
+}
 /* ---- the loop */
 let lastDigits = 0, lastHealth = 0, lastSpectrum = 0;
 const FRAMES = { count: 0, since: 0, rate: 0 };
 function frame(t) {
   FRAMES.count++;
   if (t - FRAMES.since > 1000) { FRAMES.rate = FRAMES.count * 1000 / (t - FRAMES.since); FRAMES.count = 0; FRAMES.since = t; }
-  if (!S.file && S.heard && performance.now() - S.heard > 1500 && S.state !== 'stale') { S.state = 'stale'; paintState(); redraw(); }
+  if (!S.file) growOld();
   if (t - lastDigits > 66) {
     lastDigits = t; digits(); paintState();
     if (S.view === 'setup') { setUpDigits(); paintSetUp(); }
@@ -266,11 +272,22 @@ function frame(t) {
   if (S.view === 'glance') eventLog();
   requestAnimationFrame(frame);
 }
+/* A telephone, upright or on its side, has a view of its own: in the others Hold would not be on its screen. */
+const isPhone = () => innerWidth < 600 || innerHeight < 420;
+function fitView() {
+  if (S.file || isPhone() === S.phone) return;
+  S.phone = !S.phone;
+  if (S.phone) S.wide = S.view;
+  setView(S.phone ? 'glance' : S.wide || 'operate');
+}
 const VIEWS = { setup: 'Set up', programs: 'Programs', operate: 'Run', tune: 'Tune', health: 'Health' };
+const markTab = () => $$('#tabs button').forEach(b => { b.setAttribute('aria-current', b.dataset.v === S.view); b.setAttribute('aria-selected', b.dataset.v === S.view); });
 function paintTabs() {
   const views = S.file ? ['tune'] : S.may === 'operate' ? Object.keys(VIEWS) : ['operate', 'tune', 'health'];
-  fill($('#tabs'), views.map(v => `<button data-v="${v}">${S.file ? 'Plan' : VIEWS[v]}</button>`).join(''));
-  $$('#tabs button').forEach(b => { b.onclick = () => setView(b.dataset.v); b.setAttribute('aria-current', b.dataset.v === S.view); });
+  $('#tabs').setAttribute('role', 'tablist');
+  fill($('#tabs'), views.map(v => `<button role="tab" data-v="${v}">${S.file ? 'Plan' : VIEWS[v]}</button>`).join(''));
+  $$('#tabs button').forEach(b => { b.onclick = () => setView(b.dataset.v); });
+  markTab();
 }
 function start() {
   paintTabs();
@@ -287,7 +304,7 @@ function start() {
   try { kept = localStorage.getItem('glidepath-theme'); } catch { /* none */ }
   recolour(hash.get('theme') || kept || (matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light'));
   if (S.file) startFile(); else startLive();
-  addEventListener('resize', () => { SPACE.stale = true; paintTune(); redraw(); });
+  addEventListener('resize', () => { fitView(); SPACE.stale = true; paintTune(); redraw(); });
   const begin = () => { redraw(); requestAnimationFrame(frame); };
   document.fonts.ready.then(begin, begin);
 }
@@ -305,8 +322,9 @@ function startLive() {
   try { if (TOKEN) sessionStorage.setItem('glidepath-token', TOKEN); else TOKEN = sessionStorage.getItem('glidepath-token') || ''; } catch { /* none */ }
   // The token leaves the address, so that it is in no picture of the screen.
   if (hash.get('token')) { hash.delete('token'); history.replaceState(null, '', hash.toString() ? `#${hash}` : location.pathname); }
-  layBar(); layOverrides(); layLine(); layPrograms();
-  setView(hash.get('view') || (innerWidth < 600 ? 'glance' : 'operate'));
+  layBar(); layBell(); layOverrides(); layLine(); layPrograms();
+  S.phone = isPhone();
+  setView(S.phone ? 'glance' : hash.get('view') || 'operate');
   startHands();
   fetchPlan().then(listen);
 }

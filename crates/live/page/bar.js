@@ -11,7 +11,16 @@ function layDeeds() {
   DEEDS.hold = () => { endJog(); order('hold'); };
   DEEDS.abort = () => { endJog(); order('abort'); };
   DEEDS.single = () => order('single-block', { on: !(S.status && S.status.single_block) });
-  DEEDS.go = () => order(S.status && S.status.mode === 'backwards' ? 'forward' : 'resume');
+  DEEDS.go = async () => {
+    // Held on the way back, it turns round first.
+    const turns = S.status && S.status.mode === 'backwards', rests = S.state === 'held';
+    const said = turns ? await order('forward') : null;
+    if (!said || (said.accepted && rests)) order('resume');
+  };
+  DEEDS.back = async () => {
+    const said = S.status && S.status.mode === 'backwards' ? null : await order('reverse');
+    if (!said || said.accepted) order('resume');
+  };
   DEEDS.reset = () => order('reset');
   DEEDS.return = () => order('return');
   DEEDS.done = b => order('acknowledge', JSON.parse(b.dataset.event));
@@ -36,7 +45,7 @@ function paintBar() {
   setKey(BAR.abort, `${icon('abort')}Abort`, { press: LONG, why: may('hold') ? moves || isUnknown ? '' : 'nothing runs' : `this page may only ${S.may}`, sub: 'press 1 s' });
   // Beside these keys stands who operates, which needs the room.
   const barred = not && 'not here', why = barred || whyNoGo(s), single = s.single_block;
-  setKey(BAR.go, `${icon('running')}${single && S.state === 'program-stop' && !(s.asked && s.asked.says) ? 'Next block' : 'Resume'}`, { press: SHORT, why, sub: 'press ½ s', kind: why ? '' : 'main' });
+  setKey(BAR.go, `${icon('running')}${single && S.state === 'program-stop' && !(s.asked && s.asked.says) ? 'Next block' : s.mode === 'backwards' ? 'Forward' : 'Resume'}`, { press: SHORT, why, sub: 'press ½ s', kind: why ? '' : 'main' });
   setKey(BAR.single, `${icon('step')}Single`, { why: barred, sub: single ? 'block: on' : 'block: off', kind: single ? 'on' : '' });
   paintWho();
 }
@@ -71,8 +80,16 @@ function attentionKeys() {
 S.read = '';
 DEEDS.read = () => { S.read = `${S.status.epoch} ${S.status.message}`; paintSays(); };
 function paintSays() {
+  paintWay();
   const s = S.status, said = s && s.message && s.end_of_epoch === 'open' && !(s.asked && s.asked.says) && S.read !== `${s.epoch} ${s.message}` ? s.message : '';
   fill($('#says'), said ? `<p><span class="lab">The program says</span><br>${safe(said)}</p>${key('read', 'Read')}` : '');
+}
+/* The way back along the path, where the program is held. */
+function paintWay() {
+  const s = S.status, isBack = s && s.mode === 'backwards', held = S.state === 'held' && !isAway(s);
+  if (S.may !== 'operate' || !s || !(held || (S.state === 'running' && isBack))) { fill($('#way'), ''); return; }
+  const not = notOperating();
+  fill($('#way'), held ? `${key('back', `${icon('back')}Back`, { press: SHORT, why: not, sub: 'press ½ s' })}<p>Goes back along the path, for at most a minute of it, until you press Hold. ${isBack ? 'Forward goes on to the end.' : ''}</p>` : '<p>It goes back along the path. Press Hold where it is to rest.</p>');
 }
 /* ---- overrides, in steps of 5 % */
 function layOverrides() {

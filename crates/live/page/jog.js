@@ -57,9 +57,10 @@ addEventListener('pointerdown', e => {
   try { button.setPointerCapture(e.pointerId); } catch { /* a pointer that is gone */ }
   beginJog(JSON.parse(button.dataset.ways), button);
 });
+const LATHE_ARROWS = { ArrowLeft: { Z: -1 }, ArrowRight: { Z: 1 }, ArrowDown: { X: -1 }, ArrowUp: { X: 1 } };
 const ARROWS = { ArrowLeft: { X: -1 }, ArrowRight: { X: 1 }, ArrowDown: { Y: -1 }, ArrowUp: { Y: 1 }, PageDown: { Z: -1 }, PageUp: { Z: 1 } };
 addEventListener('keydown', e => {
-  const ways = ARROWS[e.key];
+  const ways = (isLathe() ? LATHE_ARROWS : ARROWS)[e.key];
   if (!ways || S.view !== 'setup' || e.target.closest('input,select,[role=tab]') || !AXES().some(a => a.name in ways)) return;
   e.preventDefault();
   if (!e.repeat) { beginJog(ways, null); if (JOG.gesture) JOG.gesture.key = e.key; }
@@ -68,15 +69,17 @@ addEventListener('keyup', e => { if (JOG.gesture && JOG.gesture.key === e.key) e
 
 /* ---- the pad */
 const ways = of => safe(JSON.stringify(of));
-const jogKey = (of, sign, label, place = '') => `<button class="jog ${place}" data-ways="${ways(of)}" aria-label="move ${label}"><b>${sign}</b><span>${label}</span></button>`;
+const jogKey = (of, sign, label, place = '', name = label) => `<button class="jog ${place}" data-ways="${ways(of)}" aria-label="move ${name}"><b>${sign}</b><span>${label}</span></button>`;
 function layPad() {
   const names = AXES().map(a => a.name), has = name => names.includes(name);
   let html = '';
   if (has('X') && has('Y')) {
-    const d = (x, y, sign) => jogKey({ X: x, Y: y }, sign, '', 'diagonal');
+    const d = (x, y, sign) => jogKey({ X: x, Y: y }, sign, '', 'diagonal', `X${x < 0 ? '−' : '+'} Y${y < 0 ? '−' : '+'}`);
     html += `<div class="cross">${d(-1, 1, '◤')}${jogKey({ Y: 1 }, '▲', 'Y+')}${d(1, 1, '◥')}${jogKey({ X: -1 }, '◀', 'X−')}<span class="hint">press and keep pressed</span>${jogKey({ X: 1 }, '▶', 'X+')}${d(-1, -1, '◣')}${jogKey({ Y: -1 }, '▼', 'Y−')}${d(1, -1, '◢')}</div>`;
   }
-  const rest = names.filter(name => !(has('X') && has('Y') && 'XY'.includes(name)));
+  // As the path is drawn: Z along, X across.
+  if (isLathe()) html += `<div class="cross"><i></i>${jogKey({ X: 1 }, '▲', 'X+')}<i></i>${jogKey({ Z: -1 }, '◀', 'Z−')}<span class="hint">press and keep pressed</span>${jogKey({ Z: 1 }, '▶', 'Z+')}<i></i>${jogKey({ X: -1 }, '▼', 'X−')}<i></i></div>`;
+  const inCross = has('X') && has('Y') ? 'XY' : isLathe() ? 'XZ' : '', rest = names.filter(name => !inCross.includes(name));
   html += `<div class="columns">${rest.map(name => `<div>${jogKey({ [name]: 1 }, '▲', `${name}+`)}${jogKey({ [name]: -1 }, '▼', `${name}−`)}</div>`).join('')}</div>`;
   html += `<div class="speed"><label><span class="lab">Jog speed</span><b id="jogpart"></b><input type="range" id="jogspeed" min="1" max="100" aria-label="jog speed, percent"></label><span id="jogmm"></span><p id="jogslip" class="lab-text"></p></div>`;
   html += '<div class="steps" id="steps" role="radiogroup" aria-label="how far"></div>';

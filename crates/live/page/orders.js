@@ -57,8 +57,13 @@ document.addEventListener('visibilitychange', letGo);
 addEventListener('pointermove', e => {
   if (PRESSED.button && !PRESSED.key && e.isPrimary && !PRESSED.button.contains(document.elementFromPoint(e.clientX, e.clientY))) letGo();
 });
+/* Space and Pause hold, wherever the focus is but in a field. Shift and Escape, pressed for a second, abort. */
 addEventListener('keydown', e => {
-  if (e.key !== 'Enter' && e.key !== ' ') return;
+  const types = e.target.closest && e.target.closest('input:not([type=range],[type=radio])');
+  if (e.key === 'Pause' || (e.key === ' ' && !types)) { e.preventDefault(); if (!e.repeat && may('hold')) DEEDS.hold(); return; }
+  if (e.key === 'Escape' && e.shiftKey) { e.preventDefault(); if (!e.repeat) { press(BAR.abort); PRESSED.key = 'Escape'; } return; }
+  if (e.key === 'Escape' && S.sheet !== null) { DEEDS['close-sheet'](); return; }
+  if (e.key !== 'Enter') return;
   const button = e.target.closest && e.target.closest('[data-do]');
   if (!button) return;
   e.preventDefault();
@@ -69,7 +74,12 @@ addEventListener('contextmenu', e => { if (e.target.closest('[data-do],.jog')) e
 
 /* A button in its place: what it does, how long it is pressed, and why it cannot be, if it cannot. */
 const key = (deed, text, { press = 0, why = '', kind = '', sub = '', data = '' } = {}) =>
-  `<button class="key ${kind}" data-do="${deed}" data-press="${press}" ${data} ${why ? 'aria-disabled="true"' : ''}><i class="fill"></i><span>${text}</span>${why || sub ? `<small>${safe(why || sub)}</small>` : ''}</button>`;
+  `<button class="key ${kind}" data-do="${deed}" data-press="${press}" data-sub="${safe(sub)}" ${data} ${why ? 'aria-disabled="true"' : ''}><i class="fill"></i><span>${text}</span><small>${safe(why || sub)}</small></button>`;
+/* Says of keys that stay where they are why they cannot be pressed now, or that they can. */
+function setWhy(button, why) {
+  put($('small', button), why || button.dataset.sub || '');
+  if (why) button.setAttribute('aria-disabled', 'true'); else button.removeAttribute('aria-disabled');
+}
 /* Sets what changed of a button that stays where it is, so that a finger on it is not lost. */
 function setKey(button, text, { press = 0, why = '', sub = '', kind = '' } = {}) {
   fill($('span', button), text); put($('small', button), why || sub);
@@ -105,5 +115,5 @@ async function startHands() {
   addEventListener('pagehide', () => { if (S.operates) order('leave-seat', {}, true); });
 }
 /* The commands of texts, as the buttons of this page. */
-const BUTTONS = { resume: 'Resume', hold: 'Hold', abort: 'Abort', reset: 'Reset', enable: 'Power', home: 'Home', return: 'Return', acknowledge: 'the answer below' };
+const BUTTONS = { resume: 'Resume', hold: 'Hold', abort: 'Abort', reset: 'Reset', forward: 'Forward', enable: 'Power', home: 'Home', return: 'Return', acknowledge: 'the answer below' };
 const buttonWords = text => S.may === 'operate' ? String(text).replace(/`glidepath ([a-z-]+)[^`]*`/g, (whole, name) => BUTTONS[name] || whole.replaceAll('`', '')) : plain(String(text));

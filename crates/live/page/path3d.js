@@ -3,6 +3,10 @@
 // motion advances; tool, tail and marks are on a second canvas above it.
 
 const TAIL_S = 1;
+/* X, Y and Z of something that is known by axis of the machine; 0 for an axis that it has not. */
+const inSpace = of => ['X', 'Y', 'Z'].map(name => { const k = AXES().findIndex(axis => axis.name === name); return k < 0 ? 0 : of(k); });
+/* A lathe is looked at as in its drawings: Z to the right, X up, and the spindle's axis in sight. */
+const isLathe = () => { const names = AXES().map(axis => axis.name); return names.includes('X') && names.includes('Z') && !names.includes('Y'); };
 
 class Path3D {
   constructor() {
@@ -17,6 +21,7 @@ class Path3D {
     this.hands();
   }
   basis() {
+    if (isLathe()) return [[0, 0, 1], [-1, 0, 0]];
     const cy = Math.cos(this.yaw), sy = Math.sin(this.yaw), cp = Math.cos(this.pitch), sp = Math.sin(this.pitch);
     return [[cy, -sy, 0], [-sy * sp, -cy * sp, -cp]]; // to the right and down on the screen
   }
@@ -24,7 +29,8 @@ class Path3D {
   /* The projection: screen = R·point + offset. */
   project(w, h) {
     const track = this.track(), [right, down] = this.basis();
-    const low = track ? track.low : [-50, -50, 0], high = track ? track.high : [50, 50, 0];
+    const low = [...(track ? track.low : [-50, -50, 0])], high = [...(track ? track.high : [50, 50, 0])];
+    if (isLathe()) { low[0] = Math.min(0, low[0]); high[0] = Math.max(0, high[0]); }
     this.mid = low.map((l, k) => (l + high[k]) / 2);
     const reach = axis => axis.reduce((sum, a, k) => sum + Math.abs(a) * (high[k] - low[k]), 0) || 1;
     const small = h < 230, top = small ? 30 : 62, bottom = small ? 12 : 56;
@@ -140,12 +146,19 @@ class Path3D {
   grid(c) {
     const track = this.track();
     if (!track) return;
+    if (isLathe()) { this.centre(c, track); return; }
     const [lx, ly, lz] = track.low, [hx, hy] = track.high, step = nice(Math.max(hx - lx, hy - ly, 1) / 9);
     const x0 = Math.floor(lx / step) * step, x1 = Math.ceil(hx / step) * step, y0 = Math.floor(ly / step) * step, y1 = Math.ceil(hy / step) * step;
     c.strokeStyle = T.css.faint; c.lineWidth = 1; c.beginPath();
     for (let x = x0; x <= x1 + step / 2; x += step) { c.moveTo(...this.at(x, y0, lz)); c.lineTo(...this.at(x, y1, lz)); }
     for (let y = y0; y <= y1 + step / 2; y += step) { c.moveTo(...this.at(x0, y, lz)); c.lineTo(...this.at(x1, y, lz)); }
     c.stroke();
+  }
+  /* The axis that the part turns about. */
+  centre(c, track) {
+    const beyond = (track.high[2] - track.low[2]) * 0.05;
+    c.strokeStyle = T.css.quiet; c.lineWidth = 1; c.setLineDash([14, 4, 3, 4]); c.beginPath();
+    c.moveTo(...this.at(0, 0, track.low[2] - beyond)); c.lineTo(...this.at(0, 0, track.high[2] + beyond)); c.stroke(); c.setLineDash([]);
   }
   overlay(p, w, h) {
     const [c] = fit(this.over);
@@ -174,13 +187,13 @@ class Path3D {
   foot() { const legend = this.box.parentElement && $('.legend', this.box.parentElement); return (legend ? legend.offsetHeight : 0) + 16; }
   tail(c) {
     const ring = RINGED;
-    if (!ring || ring.axes.length < 3 || !ring.count) return;
+    if (!ring || !ring.count) return;
     const first = ring.at(ring.now - TAIL_S), last = ring.count - 1, m = RING - 1;
     c.strokeStyle = T.css.ink; c.lineCap = 'round';
     for (let part = 0; part < 4; part++) {
       c.lineWidth = 1.6 + part * 1.2; c.globalAlpha = 0.25 + part * 0.25; c.beginPath();
       const from = first + Math.floor((last - first) * part / 4), to = first + Math.ceil((last - first) * (part + 1) / 4);
-      for (let k = from; k <= to; k++) { const q = this.at(ring.axes[0].position[k & m], ring.axes[1].position[k & m], ring.axes[2].position[k & m]); k === from ? c.moveTo(...q) : c.lineTo(...q); }
+      for (let k = from; k <= to; k++) { const q = this.at(...inSpace(axis => ring.axes[axis].position[k & m])); k === from ? c.moveTo(...q) : c.lineTo(...q); }
       c.stroke();
     }
     c.globalAlpha = 1; c.lineCap = 'butt';
@@ -188,7 +201,7 @@ class Path3D {
   tool(c) {
     const ring = RINGED;
     if (!ring || !ring.count) return;
-    const place = [0, 1, 2].map(k => AXES()[k] && AXES()[k].name === 'XYZ'[k] ? ring.last_position(k) : 0);
+    const place = inSpace(k => ring.last_position(k));
     const tip = this.at(...place), up = this.basis()[1][2] * -1, r = 8, length = 46 * up, flat = Math.max(2, r * Math.abs(Math.sin(this.pitch)));
     c.strokeStyle = T.css.ink; c.fillStyle = T.css.panel; c.lineWidth = 1.6;
     if (length > 8) {
@@ -199,7 +212,7 @@ class Path3D {
     c.fillStyle = T.css.ink; c.beginPath(); c.arc(...tip, 4, 0, 7); c.fill();
   }
   mark(c, w, h) {
-    const q = this.at(...[0, 1, 2].map(k => PLAN.position(k, S.hover))), bin = PLAN.bin(S.hover), line = PLAN.line[bin];
+    const q = this.at(...inSpace(k => PLAN.position(k, S.hover))), bin = PLAN.bin(S.hover), line = PLAN.line[bin];
     c.lineWidth = 2; c.strokeStyle = T.css.ink; c.beginPath(); c.arc(...q, 8, 0, 7); c.stroke();
     c.beginPath(); for (const [x, y] of [[1, 0], [-1, 0], [0, 1], [0, -1]]) { c.moveTo(q[0] + x * 8, q[1] + y * 8); c.lineTo(q[0] + x * 15, q[1] + y * 15); } c.stroke();
     const words = [`line ${line}  ${(LINES.get(line) || '').slice(0, 30)}`, `${num(S.hover * PLAN.dt, 3)} s   ${num(PLAN.feed.hi[bin], 1)} mm/s`, limitText(PLAN.code[bin])];
@@ -238,7 +251,7 @@ class Path3D {
     this.zoom = Math.max(this.zoom, 60 / Math.max(1e-9, this.whole * 1)); this.pan = [0, 0];
     const w = this.box.clientWidth, h = this.box.clientHeight;
     this.project(w, h);
-    const q = this.at(...[0, 1, 2].map(k => PLAN.position(k, p)));
+    const q = this.at(...inSpace(k => PLAN.position(k, p)));
     this.pan = [w / 2 - q[0], h / 2 - q[1]]; this.change();
   }
   hands() {

@@ -3,7 +3,7 @@
 // line, and the jobs that the machine has had.
 
 const FOLDER = { list: [], folder: '', trouble: '', chosen: null, search: '', sending: '' };
-const LOOK = { info: null, timer: 0, plan: null, motion: null, program: null, lines: [], key: '' };
+const LOOK = { info: null, timer: 0, plan: null, motion: null, program: null, lines: [], key: '', at: {} };
 S.agree = null;
 async function fetchPrograms() {
   try {
@@ -14,18 +14,20 @@ async function fetchPrograms() {
   paintPrograms();
 }
 const size = bytes => bytes < 1000 ? `${bytes} bytes` : bytes < 1e6 ? `${(bytes / 1e3).toFixed(1)} kB` : `${(bytes / 1e6).toFixed(1)} MB`;
+/* As short as it can be, and the same everywhere. */
+const dayAndTime = ms => { const d = new Date(ms); return `${d.getFullYear()}-${two(d.getMonth() + 1)}-${two(d.getDate())} ${clock(ms).slice(0, 5)}`; };
 function paintPrograms() {
   if (S.view !== 'programs') return;
   const words = FOLDER.search.toLowerCase(), list = FOLDER.list.filter(p => p.name.toLowerCase().includes(words));
   put($('#folder'), FOLDER.folder);
-  fill($('#list'), FOLDER.trouble ? `<p class="lab-text">${safe(plain(FOLDER.trouble))}</p>` : list.map(p => `<button class="program" data-do="choose" data-name="${safe(p.name)}" aria-current="${p.name === FOLDER.chosen}"><b>${safe(p.name)}</b><span class="lab">${size(p.bytes)}, ${new Date(p.changed_ms).toLocaleString()}</span></button>`).join('') || '<p class="lab-text">There are no programs in the folder. Drop some here.</p>');
+  fill($('#list'), FOLDER.trouble ? `<p class="lab-text">${safe(plain(FOLDER.trouble))}</p>` : list.map(p => `<button class="program" data-do="choose" data-name="${safe(p.name)}" aria-current="${p.name === FOLDER.chosen}"><b>${safe(p.name)}</b><span class="lab">${size(p.bytes)}, ${dayAndTime(p.changed_ms)}</span></button>`).join('') || '<p class="lab-text">There are no programs in the folder. Drop some here.</p>');
   put($('#dropof'), FOLDER.sending || (notOperating() ? 'Programs are put here by the page that operates.' : 'Drop programs here, or choose some.'));
   paintChosen(); paintDay();
 }
 /* Nothing of the program before is shown with the name of this one. */
 function choose(name) {
   FOLDER.chosen = name; S.agree = null;
-  Object.assign(LOOK, { info: null, plan: null, motion: null, program: null, lines: [], key: '' });
+  Object.assign(LOOK, { info: null, plan: null, motion: null, program: null, lines: [], key: '', at: {} });
   usePlan(); lookAtChosen(); paintPrograms();
 }
 DEEDS.choose = b => choose(b.dataset.name);
@@ -37,7 +39,7 @@ async function lookAtChosen() {
   if (name !== FOLDER.chosen) return;
   LOOK.info = info;
   if (info) {
-    const wants = `${info.generation} ${!!info.program_path} ${!!info.report}`;
+    const wants = `${info.generation} ${!!info.program_path} ${!!info.report} ${!!info.failed}`;
     if (wants !== LOOK.key) {
       LOOK.key = wants;
       const of = `?of=${info.generation}`, get = async (is, path) => is ? api(path + of) : null;
@@ -46,6 +48,8 @@ async function lookAtChosen() {
       LOOK.plan = whole ? new Plan(columns) : null; LOOK.motion = whole ? new Track(path) : null; LOOK.program = program ? new Track(program) : null;
       LOOK.lines = lines || [];
       usePlan();
+      LOOK.at = {};
+      if (info.failed) fetchFindings(info);
     }
     if (!info.report && !info.failed) LOOK.timer = setTimeout(lookAtChosen, 400);
   }
@@ -55,25 +59,66 @@ const whyNoRun = () => notOperating() || (S.state === 'idle' ? '' : S.state === 
 function paintChosen() {
   const name = FOLDER.chosen, info = LOOK.info, why = whyNoRun();
   $('#programs').dataset.chosen = name ? 1 : 0;
+  $('#programs').dataset.sheet = name && S.agree ? 1 : 0;
   if (!name) { fill($('#title'), '<span class="lab-text">Choose a program.</span>'); fill($('#runkeys'), ''); fill($('#found'), ''); return; }
   // What changes while it is planned stands by itself, so that a finger on a key is not lost.
   fill($('#title'), `<b>${safe(name)}</b><span class="lab">${info && info.program ? `${grouped(info.program.lines)} lines` : ''}${info && info.seconds ? `, ${span(info.seconds)} of motion at 100 %` : info && !info.failed ? `, is planned: ${span(info.planned_so_far_s || 0)} so far` : ''}</span>`);
-  fill($('#runkeys'), `${key('from-line', 'From line…', { why: notOperating() })}${key('run', 'Run', { press: SHORT, why, sub: 'press ½ s', kind: why ? '' : 'main' })}`);
+  fill($('#runkeys'), `${key('from-line', 'From line…', { why: notOperating() })}${key('run', 'Run', { press: SHORT, why, sub: 'press ½ s', kind: why || (info && info.failed) ? '' : 'main' })}`);
   const failed = info && info.failed;
-  fill($('#found'), S.agree ? agreement() : failed ? `<div class="h"><b>${icon('warn', 'warn')} What was found</b></div><p class="lines">${safe(failed)}</p>` : `<div class="h"><b>${info && info.report ? `${icon('ok', 'ok')} Nothing was found` : 'It is read'}</b></div><pre class="lines">${safe((LOOK.lines || []).slice(0, 6).join('\n'))}</pre>`);
+  fill($('#found'), S.agree ? agreement() : failed ? `<div class="h"><b>${icon('warn', 'warn')} What was found</b></div>${findings(failed)}` : `<div class="h"><b>${info && info.report ? `${icon('ok', 'ok')} Nothing was found` : 'It is read'}</b></div><pre class="lines">${safe((LOOK.lines || []).slice(0, 6).join('\n'))}</pre>`);
+}
+/* What is wrong with a program, each with its line of the text. */
+const MOST_FINDINGS = 100;
+function findings(failed) {
+  const all = failed.split('\n'), more = all.length - MOST_FINDINGS;
+  return all.slice(0, MOST_FINDINGS).map(said => {
+    const of = /^line (\d+)(?:, column (\d+))?/.exec(said), text = of && LOOK.at[of[1]];
+    const marked = column => `${safe(text.slice(0, column - 1))}<mark>${safe(text.slice(column - 1, column) || ' ')}</mark>${safe(text.slice(column))}`;
+    return `<div class="finding"><p class="lines">${safe(said)}</p>${text === null || text === undefined ? '' : `<pre class="lines"><span class="k">${of[1]}</span>${of[2] ? marked(+of[2]) : safe(text)}</pre>`}</div>`;
+  }).join('') + (more > 0 ? `<p class="lab-text">And ${grouped(more)} more.</p>` : '');
+}
+async function fetchFindings(info) {
+  const wanted = new Set(info.failed.split('\n').slice(0, MOST_FINDINGS).map(said => (/^line (\d+)/.exec(said) || [])[1]).filter(Boolean));
+  for (const n of wanted) {
+    const lines = await api(`/api/preview/lines?of=${info.generation}&from=${n}&count=1`, 'json');
+    if (LOOK.info !== info) return;
+    if (lines && lines.length) LOOK.at[n] = lines[0];
+  }
+  paintChosen();
 }
 DEEDS.run = () => runChosen({});
 async function runChosen(more) {
   const said = await order('run', { name: FOLDER.chosen, ...more });
-  if (said.to_confirm) { S.agree = { ...more, text: said.to_confirm }; paintChosen(); return; }
+  if (said.to_confirm) { S.agree = { ...more, text: said.to_confirm }; paintChosen(); fetchAround(); return; }
   if (said.accepted) { S.agree = null; setView('operate'); }
 }
 /* ---- from a line: what is different there, and what happens, before anything does */
 DEEDS['from-line'] = () => { S.agree = S.agree ? null : { asks: true }; paintChosen(); const input = $('#fromline'); if (input) input.focus(); };
 function agreement() {
   const a = S.agree, why = whyNoRun();
-  if (a.asks) return `<div class="h"><b>From which line?</b></div><div class="row"><label class="field"><span class="lab">Line</span><input id="fromline" inputmode="numeric"></label><label class="field"><span class="lab">Pass</span><input id="pass" inputmode="numeric" value="1"></label>${key('compare', 'Compare', { why })}</div><p class="lab-text">The program is read up to there. What is different from now is shown before anything moves.</p>`;
-  return `<div class="h"><b>Begin at line ${a.from_line}</b></div><pre class="lines">${safe(plain(a.text))}</pre><div class="row">${key('begin-there', `Begin at line ${a.from_line}`, { press: LONG, why, sub: 'press 1 s', kind: 'main' })}${key('from-line', 'Leave it')}</div>`;
+  if (a.asks) return `<div class="h"><b>From which line?</b></div><div class="row"><label class="field"><span class="lab">Line</span><input id="fromline" inputmode="numeric"></label><label class="field"><span class="lab">Pass</span><input id="pass" inputmode="numeric" value="1"></label>${key('compare', 'Compare', { why })}${key('from-line', 'Leave it')}</div><p class="lab-text">The program is read up to there. What is different from now is shown before anything moves.</p>`;
+  const { rows, notes } = differences(a.text);
+  const row = ([what, now, then]) => `<tr class="${now === then ? '' : 'differs'}"><th scope="row">${safe(what)}</th><td class="n">${safe(now)}</td><td>${now === then ? '' : '≠'}</td><td class="n">${safe(then)}</td></tr>`;
+  const around = (a.around || []).map(([n, text]) => `<div class="${n === a.from_line ? 'cur' : ''}"><span class="k">${n}</span><span>${safe(text) || ' '}</span></div>`).join('');
+  return `<div class="agree"><div class="h"><b>Begin at line ${a.from_line}</b><span>${a.pass > 1 ? `pass ${a.pass}` : ''}</span></div><div class="what"><table><tr><th></th><th>machine now</th><th></th><th>program there</th></tr>${rows.map(row).join('') || '<tr><td colspan="4">Nothing is different.</td></tr>'}</table>${notes.map(text => `<p>${safe(sentence(plain(text)))}.</p>`).join('')}<div class="around">${around}</div></div><div class="row">${key('begin-there', `Begin at line ${a.from_line}`, { press: LONG, why, sub: 'press 1 s', kind: 'main' })}${key('from-line', 'Leave it')}</div></div>`;
+}
+/* What the service says is different, a row each; positions by axis. The rest are notes. */
+function differences(text) {
+  const rows = [], notes = [];
+  for (const said of text.split('\n').slice(1)) {
+    const of = /^([^:]+): (.*) -> (.*)$/.exec(said);
+    if (!of) { notes.push(said); continue; }
+    const [, what, now, then] = of, there = then.split(' ');
+    if (what === 'position') now.split(' ').forEach((at, k) => rows.push([at.charAt(0), at.slice(1), (there[k] || '').slice(1)]));
+    else rows.push([sentence(what), now, then]);
+  }
+  return { rows, notes };
+}
+/* The text around the line where it begins. */
+async function fetchAround() {
+  const a = S.agree, info = LOOK.info, from = Math.max(1, a.from_line - 2);
+  const lines = info && await api(`/api/preview/lines?of=${info.generation}&from=${from}&count=5`, 'json');
+  if (lines && S.agree === a) { a.around = lines.map((text, k) => [from + k, text]); paintChosen(); }
 }
 DEEDS.compare = () => { const from_line = Math.round(+$('#fromline').value), pass = Math.max(1, Math.round(+$('#pass').value || 1)); if (from_line > 0) runChosen({ from_line, pass }); else $('#fromline').focus(); };
 DEEDS['begin-there'] = () => { const { from_line, pass } = S.agree; runChosen({ from_line, pass, agreed: true }); };

@@ -31,7 +31,10 @@ function paintSetUp() {
     + step('home', 'Home', homed, homed ? 'all axes' : `${(s.not_homed || []).join(' ')}: press ½ s`, not || fault || (on ? S.state === 'homing' ? 'under way' : rests ? '' : 'not now' : 'power first'), on && !homed)
     + step('show-zero', 'Part zero', hasZero, SETUP.keeps ? zero ? `${zero.name}${hasZero ? '' : ' is at 0'}` : 'none is kept yet' : 'not kept', '', on && homed && !hasZero)
     + step('show-tools', 'Tool', !!s.tool, s.tool ? `T${s.tool}` : 'none told', '', false));
-  paintSheet(); paintPad(); paintLines();
+  const why = whyNoLine();
+  $$('#table .key').forEach(b => setWhy(b, b.dataset.do === 'touch-go' ? whyNoTouch() : why));
+  paintTouch();
+  paintSheet(); paintPad(); paintLines(); paintUndo();
 }
 DEEDS.power = () => order('enable');
 DEEDS['power-off'] = () => order('disable');
@@ -59,6 +62,7 @@ function paintSheet() {
 const touched = () => AXES()[S.sheet];
 const entered = () => { const text = $('#number').value.trim().replace(',', '.').replace('−', '-'); return text !== '' && isFinite(+text) ? +text : null; };
 async function setWork(value) {
+  keepForUndo(touched().name);
   const said = await mdi(`G21 G10 L20 P0 ${touched().name}${mm(value)}`);
   if (said.accepted) { S.sheet = null; paintSheet(); }
 }
@@ -83,28 +87,40 @@ function setUpDigits() {
   });
 }
 
+/* ---- what was in force before the last change of a part zero or of a table */
+S.undo = null;
+function keepForUndo(axis) {
+  const zero = active();
+  S.undo = axis && zero ? { what: `${zero.name}, ${axis}`, was: num(zero.origin[axis], 3), line: `G21 G10 L2 P${zero.number} ${AXES().map(a => `${a.name}${mm(zero.origin[a.name])}`).join(' ')}` } : null;
+}
+function paintUndo() {
+  const undo = S.undo;
+  fill($('#undo'), undo ? `<span>${safe(undo.what)} was ${undo.was}.</span>${key('undo', 'Undo', { why: whyNoLine() })}` : '');
+}
+DEEDS.undo = async () => { const { undo } = S, said = undo && await mdi(undo.line); if (said && said.accepted && S.undo === undo) { S.undo = null; paintUndo(); } };
+
 /* ---- tables that are edited in place */
 function showTable(name) { S.table = name; S.editing = null; paintTables(); }
-for (const name of ['move', 'offsets', 'tools', 'spindle']) DEEDS[`table-${name}`] = () => showTable(name);
+for (const name of ['move', 'offsets', 'tools', 'touch', 'spindle']) DEEDS[`table-${name}`] = () => showTable(name);
 function paintTables() {
-  const tabs = [['move', 'Move'], ['offsets', 'Offsets'], ['tools', 'Tools'], ['spindle', 'Spindle']];
+  const tabs = [['move', 'Move'], ['offsets', 'Offsets'], ['tools', 'Tools'], ['touch', 'Touch off'], ['spindle', 'Spindle']];
   fill($('#tables-tabs'), tabs.map(([name, title]) => `<button role="tab" class="t-${name}" aria-selected="${S.table === name}" data-do="table-${name}">${title}</button>`).join(''));
   $('#setup').dataset.table = S.table;
   if (S.editing) return;
-  fill($('#table'), S.table === 'tools' ? toolTable() : S.table === 'spindle' ? spindleKeys() : offsetTable());
+  fill($('#table'), S.table === 'tools' ? toolTable() : S.table === 'touch' ? touchTable() : S.table === 'spindle' ? spindleKeys() : offsetTable());
 }
-const cell = (edit, value, digits) => `<td><button class="cell n" data-do="edit" data-edit="${safe(edit)}" data-value="${value}">${num(value, digits)}</button></td>`;
+const cell = (what, edit, value, digits) => `<td><button class="cell n" data-do="edit" data-edit="${safe(edit)}" data-value="${value}" aria-label="${safe(what)}">${num(value, digits)}</button></td>`;
 function offsetTable() {
   if (!SETUP.keeps) return '<p class="lab-text">Nothing is kept over a restart, so there is no table. Name a folder: directory of [state] of the configuration.</p>';
   if (SETUP.trouble) return `<p class="lab-text">${safe(plain(SETUP.trouble))}</p>`;
   if (!SETUP.systems) return '<p class="lab-text">Nothing is kept yet. Press a position and set it: that is the first entry.</p>';
   const axes = AXES().map(a => a.name);
-  return `<table class="edit"><tr><th>system</th>${axes.map(a => `<th>${a}</th>`).join('')}<th>turned</th><th></th></tr>${SETUP.systems.map(system => `<tr class="${system.name === SETUP.active ? 'on' : ''}"><td><b>${system.name}</b></td>${axes.map(a => cell(`G21 G10 L2 P${system.number} ${a}`, system.origin[a], 3)).join('')}${cell(`G21 G10 L2 P${system.number} R`, system.rotation_deg, 2)}<td>${system.name === SETUP.active ? '<span class="chip">in use</span>' : key('use', 'Use', { why: whyNoLine(), data: `data-line="${system.name}"` })}</td></tr>`).join('')}</table>`;
+  return `<table class="edit"><tr><th>system</th>${axes.map(a => `<th>${a}</th>`).join('')}<th>turned</th><th></th></tr>${SETUP.systems.map(system => `<tr class="${system.name === SETUP.active ? 'on' : ''}"><td><b>${system.name}</b></td>${axes.map(a => cell(`${system.name}, ${a}`, `G21 G10 L2 P${system.number} ${a}`, system.origin[a], 3)).join('')}${cell(`${system.name}, turned`, `G21 G10 L2 P${system.number} R`, system.rotation_deg, 2)}<td>${system.name === SETUP.active ? '<span class="chip">in use</span>' : key('use', 'Use', { why: whyNoLine(), data: `data-line="${system.name}"` })}</td></tr>`).join('')}</table>`;
 }
 function toolTable() {
   if (!(SETUP.tools || []).length) return '<p class="lab-text">There are no tools. Name a table: tool_table of [program] of the configuration.</p>';
   const axes = AXES().map(a => a.name).filter(a => a === 'Z' || SETUP.tools.some(tool => tool.offset[a]));
-  return `<table class="edit"><tr><th>tool</th><th class="l">name</th>${axes.map(a => `<th>${a === 'Z' ? 'length Z' : a}</th>`).join('')}<th>Ø</th></tr>${SETUP.tools.map(tool => `<tr class="${S.status && tool.number === S.status.tool ? 'on' : ''}"><td><b>T${tool.number}</b></td><td class="l">${safe(tool.name || '')}</td>${axes.map(a => cell(`G21 G10 L1 P${tool.number} ${a}`, tool.offset[a], 3)).join('')}${cell(`G21 G10 L1 P${tool.number} R`, tool.diameter_mm, 3)}</tr>`).join('')}</table>${SETUP.keeps ? '' : '<p class="lab-text">Changes last as long as the planner’s service: name a folder, directory of [state].</p>'}`;
+  return `<table class="edit"><tr><th>tool</th><th class="l">name</th>${axes.map(a => `<th>${a === 'Z' ? 'length Z' : a}</th>`).join('')}<th>Ø</th></tr>${SETUP.tools.map(tool => `<tr class="${S.status && tool.number === S.status.tool ? 'on' : ''}"><td><b>T${tool.number}</b></td><td class="l">${safe(tool.name || '')}</td>${axes.map(a => cell(`T${tool.number}, ${a === 'Z' ? 'length' : a}`, `G21 G10 L1 P${tool.number} ${a}`, tool.offset[a], 3)).join('')}${cell(`T${tool.number}, Ø`, `G21 G10 L1 P${tool.number} R`, tool.diameter_mm, 3)}</tr>`).join('')}</table>${SETUP.keeps ? '' : '<p class="lab-text">Changes last as long as the planner’s service: name a folder, directory of [state].</p>'}`;
 }
 function spindleKeys() {
   const why = whyNoLine(), s = S.status || {}, told = s.spindle;
@@ -129,8 +145,11 @@ DEEDS.edit = b => {
     if (input.value.trim() === '' || !isFinite(value)) return;
     // R of a tool is a radius.
     const edit = b.dataset.edit, isTool = edit.includes(' L1 ');
-    const said = await mdi(edit + mm(isTool && edit.endsWith('R') ? value / 2 : value));
-    if (said.accepted) leave();
+    const line = x => edit + mm(isTool && edit.endsWith('R') ? x / 2 : x), was = +b.dataset.value;
+    const said = await mdi(line(value));
+    if (!said.accepted) return;
+    S.undo = { what: b.getAttribute('aria-label'), was: num(was, 3), line: line(was) };
+    leave();
   };
 };
 

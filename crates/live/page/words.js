@@ -41,6 +41,7 @@ function cause() {
   if (S.state === 'awaiting' && s.asked) return `${program}line ${s.asked.line}: ${askedWords(s)}`;
   if (S.state === 'awaiting' && s.awaited) return `${program}${line(s)}: ${s.awaited.event} of line ${s.awaited.line} is awaited, for ${span(s.awaited.waited_s)}.`;
   if (S.state === 'program-stop' && s.asked && s.asked.says) return `${program}${line(s)}: “${s.asked.says}”`;
+  if (S.state === 'held' && s.mode === 'backwards' && S.may === 'operate' && !isAway(s)) return `${program}${line(s)}: held at rest on the way back. Forward goes on to the end.`;
   // In these nothing of a program is under way.
   const alone = ['idle', 'preparing', 'off', 'not-homed', 'homing', 'jogging'].includes(S.state);
   const text = told(s.state_text || S.state);

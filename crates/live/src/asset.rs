@@ -23,11 +23,13 @@ const SHOWING: [(&str, &str); 9] = [
 ];
 
 /// What operates a machine, behind that.
-const HANDS: [(&str, &str); 5] = [
+const HANDS: [(&str, &str); 7] = [
     ("/orders.js", include_str!("../page/orders.js")),
     ("/bar.js", include_str!("../page/bar.js")),
+    ("/bell.js", include_str!("../page/bell.js")),
     ("/jog.js", include_str!("../page/jog.js")),
     ("/setup.js", include_str!("../page/setup.js")),
+    ("/touch.js", include_str!("../page/touch.js")),
     ("/programs.js", include_str!("../page/programs.js")),
 ];
 

@@ -8,11 +8,11 @@ use glidepath_tests::{Browser, Instance, Operated, Watchdog};
 
 use super::{Live, PATIENCE};
 
-const HALF: Duration = Duration::from_millis(800);
-const WHOLE: Duration = Duration::from_millis(1400);
+pub(super) const HALF: Duration = Duration::from_millis(800);
+pub(super) const WHOLE: Duration = Duration::from_millis(1400);
 
 /// Presses a key for long enough, as soon as it can be pressed.
-fn press(browser: &mut Browser, selector: &str, long: Duration) {
+pub(super) fn press(browser: &mut Browser, selector: &str, long: Duration) {
     browser.wait(&format!(
         "document.querySelector('{selector}:not([aria-disabled=true])')"
     ));

@@ -4,6 +4,9 @@
 mod following;
 mod hands;
 mod life;
+mod screens;
+mod touch;
+mod way;
 
 use std::io::{BufRead as _, BufReader, Read as _, Write as _};
 use std::net::TcpStream;

@@ -457,7 +457,7 @@ impl MachineConfig {
     }
 
     /// The highest feed at which the probe may be used, mm/s or °/s.
-    fn probing_v(&self) -> Option<f64> {
+    pub(crate) fn probing_v(&self) -> Option<f64> {
         let limit = |axis: &AxisConfig| (axis.max_acceleration, axis.max_jerk);
         let limits: Vec<_> = self.axes.iter().map(limit).collect();
         let probe = self.probe.as_ref()?;

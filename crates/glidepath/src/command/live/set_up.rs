@@ -5,6 +5,7 @@ use super::super::tool_names::ToolNames;
 use crate::config::{HomingBy, MachineConfig};
 use crate::kept::convert::system_name;
 use crate::kept::read::{read, set_up, table};
+use glidepath_gcode::Connections;
 use glidepath_geometry::AXES;
 use glidepath_kept::Kept;
 use serde_json::{Map, Value, json};
@@ -91,6 +92,7 @@ impl SetUp {
                 "increments": config.jog.increments,
                 "dead_man_ms": config.jog.dead_man_ms,
             },
+            "probe": self.probe(),
             "joints": joints,
             "power": config.feedback.is_expected,
             "homing": match config.feedback.homing {
@@ -98,6 +100,13 @@ impl SetUp {
                 _ => "wanted",
             },
         })
+    }
+
+    /// The probe; null if there is none. Of one that only simulates nothing can be learnt of the part.
+    fn probe(&self) -> Value {
+        let is_real = self.config.program.connections == Connections::Real;
+        let most_v = self.config.probing_v().filter(|_| is_real);
+        most_v.map_or(Value::Null, |v| json!({ "most_mm_min": v * 60.0 }))
     }
 
     fn by_axis(&self, values: &[f64; AXES]) -> Map<String, Value> {
