@@ -52,6 +52,7 @@ mod watch;
 mod workshop;
 
 use crate::cli::{Cli, Command, Switch};
+use crate::clock;
 use crate::config::{self, MachineConfig};
 use crate::exit::Exit;
 use crate::machine_options::{self, MachineOptions};
@@ -59,7 +60,6 @@ use crate::output;
 use crate::program_file::ProgramFile;
 use failure::Failure;
 use glidepath_link as link;
-use glidepath_realtime::{Clock as _, Monotonic};
 use serde_json::json;
 
 /// Does what the command line asks for, and prints its result.
@@ -105,7 +105,7 @@ pub fn usage(error: &clap::Error) -> Exit {
 fn dispatch(command: &Command) -> Result<Exit, Failure> {
     let config = || machine(command);
     // However long the configuration, the tool table or the program takes to be read.
-    let asked_ns = Monotonic.now_ns();
+    let asked_ns = clock::started_ns();
     match command {
         Command::Offsets(command) => offsets::offsets(command, &config()?),
         Command::Config(args) => configuration::configuration(args),

@@ -8,6 +8,7 @@ use super::other_users::OtherUsers;
 use super::session;
 use super::tool_names::ToolNames;
 use crate::cli::{JointsArgs, OperatorArgs, OverrideArgs};
+use crate::clock;
 use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::exit::Exit;
@@ -133,7 +134,9 @@ fn commands(
     let operator = reach(&link).map_err(|failure| failure.of_command(name))?;
     let mut state = "";
     for command in commands {
-        let reply = send(&operator, &link, *command).map_err(|failure| failure.of_command(name))?;
+        let asked = (*command, clock::started_ns());
+        let reply = send_asked(&operator, &link, asked, "");
+        let reply = reply.map_err(|failure| failure.of_command(name))?;
         state = reply.state().map_err(LinkError::from)?.name();
         if let Err(refusal) = reply.outcome().map_err(LinkError::from)? {
             let reason = reply.why(refusal);
@@ -188,8 +191,18 @@ pub(super) fn send_saying(
     command: Command,
     text: &str,
 ) -> Result<CommandReply, Failure> {
+    send_asked(operator, link, (command, Monotonic.now_ns()), text)
+}
+
+/// The same for a command that was asked for at a time of the host's steady clock, ns.
+fn send_asked(
+    operator: &Operator,
+    link: &LinkConfig,
+    (command, asked_ns): (Command, u64),
+    text: &str,
+) -> Result<CommandReply, Failure> {
     let request = CommandRequest::new(u64::from(std::process::id()), 1, command);
-    let request = request.saying(text).asked_at(Monotonic.now_ns());
+    let request = request.saying(text).asked_at(asked_ns);
     let reply = operator.call(&request, PATIENCE);
     let reply = reply.map_err(|error| of_link(error, link))?;
     reply.ok_or_else(|| silent(operator, link))
