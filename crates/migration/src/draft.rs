@@ -97,8 +97,31 @@ impl Draft {
         self.table(table).push(Line::Remark(text.to_owned()));
     }
 
+    /// Where joints are not the axes, axes do without limits of their own: nobody is asked for them.
+    fn leave_out_what_joints_limit(&mut self) {
+        let is_of_joints = self.tables.iter().any(|(table, lines)| {
+            let is_mechanism = |line: &Line| {
+                matches!(line, Line::Known { key, value, .. }
+                    if key == "kinematics" && *value != quoted("trivial"))
+            };
+            table == "machine" && lines.iter().any(is_mechanism)
+        });
+        if !is_of_joints {
+            return;
+        }
+        let is_limit = |key: &str| ["max_velocity", "max_acceleration", "max_jerk"].contains(&key);
+        let axes = self
+            .tables
+            .iter_mut()
+            .filter(|(table, _)| table.starts_with("axis."));
+        for (_, lines) in axes {
+            lines.retain(|line| !matches!(line, Line::Asked { key, .. } if is_limit(key)));
+        }
+    }
+
     /// The configuration, and the lists.
-    pub(crate) fn finish(self, inputs: &Inputs, of: &str) -> Conversion {
+    pub(crate) fn finish(mut self, inputs: &Inputs, of: &str) -> Conversion {
+        self.leave_out_what_joints_limit();
         let asked = self.asked();
         let [converted, changed, no_counterpart] =
             [Fate::Converted, Fate::Changed, Fate::NoCounterpart].map(|fate| inputs.of(fate));

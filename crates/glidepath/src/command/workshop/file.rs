@@ -10,8 +10,9 @@ use glidepath_planner::{
 };
 
 use super::bench::Bench;
+use super::file_job::FileJob;
+use super::state::{Workshop, unwatched};
 use super::stop::{End, Stop, refusal};
-use super::{Workshop, unwatched};
 use crate::begun::Part;
 use crate::command::attendant::{Attendant, recalling};
 use crate::command::differences::{agreement, approach};
@@ -20,14 +21,6 @@ use crate::config::MachineConfig;
 use crate::joints;
 use crate::program_file::ProgramFile;
 use crate::report::counted;
-
-/// A file, and how it is to begin.
-pub(super) struct FileJob<'j> {
-    pub(super) path: &'j Path,
-    pub(super) from: Option<StartLine>,
-    pub(super) confirmed: bool,
-    pub(super) resumes: bool,
-}
 
 /// A file with the configuration for it, and what is kept beside it.
 type FileWork<'f> = (&'f FileJob<'f>, &'f MachineConfig, &'f Attendant);

@@ -7,8 +7,8 @@ use glidepath_geometry::AxisVector;
 use glidepath_planner::{LineInbox, Pipeline, ProgramSource, Refusal, SentLines};
 
 use super::bench::Bench;
+use super::state::{Workshop, of_sender, unwatched};
 use super::stop::{End, Stop, refusal};
-use super::{Workshop, of_sender, unwatched};
 use crate::command::attendant::recalling;
 use crate::command::left_in_force::JobLeft;
 use crate::config::MachineConfig;

@@ -1,23 +1,14 @@
 //! The program that can be resumed: what it began with, and where it was left.
 
-use glidepath_gcode::InForce;
 use glidepath_geometry::AxisVector;
 use glidepath_planner::{Publisher, ResumePoint, RunError};
 
-use super::Workshop;
 use super::bench::Bench;
-use super::file::FileJob;
+use super::file_job::FileJob;
+use super::state::{Begun, Workshop};
 use super::stop::Stop;
 use crate::command::attendant::Attendant;
 use crate::config::MachineConfig;
-
-/// A program, and what it began with.
-#[derive(Debug)]
-pub(super) struct Begun {
-    program: u64,
-    start: AxisVector,
-    in_force: Option<InForce>,
-}
 
 /// What a program is read from.
 pub(super) struct Begins {

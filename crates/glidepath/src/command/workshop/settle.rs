@@ -6,8 +6,8 @@ use std::time::Duration;
 use glidepath_gcode::InForce;
 use glidepath_planner::{ProgramSource, Refusal, Statistics};
 
-use super::Workshop;
 use super::bench::Bench;
+use super::state::Workshop;
 use super::stop::Stop;
 use crate::command::attendant::Attendant;
 use crate::command::left_in_force::JobLeft;

@@ -6,7 +6,7 @@ use crate::command::failure::Failure;
 use crate::command::program_diagnostics::refusal_text;
 
 /// Why a job was not executed to its end.
-pub(in crate::command) enum Stop {
+pub(super) enum Stop {
     Refused(String),
     Failed(String),
     ToConfirm(String),

@@ -106,7 +106,7 @@ impl Problem {
             let of_joints = joints
                 .as_ref()
                 .map(|rows| &rows.limits)
-                .zip(interval.joints.as_ref());
+                .zip(interval.joints.as_deref());
             problem.axes((start, interval.start_v), axes, *share_r, true);
             if let Some((limits, [start, _])) = of_joints {
                 problem.axes((start, interval.start_v), limits, *share_r, true);

@@ -24,8 +24,9 @@ pub(crate) struct Interval {
     pub(crate) length_s: f64,
     pub(crate) start: Jet,
     pub(crate) end: Jet,
-    /// The joints at start and end, where they are not the axes.
-    pub(crate) joints: Option<[Jet; 2]>,
+    /// The joints at start and end, where they are not the axes. Apart, because most machines have none, and
+    /// slow curves very many intervals.
+    pub(crate) joints: Option<Box<[Jet; 2]>>,
     pub(crate) start_v: f64,
     pub(crate) middle_v: f64,
     pub(crate) end_v: f64,

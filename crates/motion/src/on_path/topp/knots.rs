@@ -239,7 +239,7 @@ impl KnotPath {
                 end_v: top_v(&end, 2),
                 start,
                 end,
-                joints: joints.map(|joints| joints.ends),
+                joints: joints.map(|joints| Box::new(joints.ends)),
             });
         }
     }
@@ -334,7 +334,7 @@ impl JointEnds {
         let rows = limits.joints.as_ref()?;
         let known = before
             .filter(|before| before.piece == piece)
-            .and_then(|before| before.joints.map(|[_, end]| end));
+            .and_then(|before| before.joints.as_ref().map(|joints| joints[1]));
         let start = match known {
             Some(start) => start,
             None => rows.along(start)?,

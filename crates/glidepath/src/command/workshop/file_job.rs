@@ -1,0 +1,13 @@
+//! A file to be executed, and how it is to begin.
+
+use std::path::Path;
+
+use glidepath_planner::StartLine;
+
+/// A file, and how it is to begin.
+pub(super) struct FileJob<'j> {
+    pub(super) path: &'j Path,
+    pub(super) from: Option<StartLine>,
+    pub(super) confirmed: bool,
+    pub(super) resumes: bool,
+}
