@@ -18,7 +18,7 @@ use glidepath_program::Effort;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fs;
-use std::io::{self, Write as _};
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -114,11 +114,7 @@ impl Board {
                 .collect::<io::Result<_>>()?,
         };
         let text = toml::to_string(&begun).map_err(io::Error::other)?;
-        let mut file = tempfile::NamedTempFile::new_in(&self.directory)?;
-        file.write_all(text.as_bytes())?;
-        // All of it at once: somebody may be reading the one before.
-        file.persist(self.directory.join(FILE))?;
-        Ok(())
+        text_file::replace(&self.directory, FILE, &text)
     }
 
     /// What moves next is no program in a file.

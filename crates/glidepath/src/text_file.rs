@@ -1,7 +1,7 @@
-//! The reader of whole files: no more of them than they may have.
+//! Whole files: read, no more of them than they may have, and put in the place of others.
 
 use std::fs::File;
-use std::io::{self, Read as _};
+use std::io::{self, Read as _, Write as _};
 use std::path::Path;
 
 /// The text of a file of at most so many bytes. Of a longer one, or a device that gives bytes
@@ -31,4 +31,16 @@ pub fn bytes(path: &Path, most_bytes: u64) -> io::Result<Vec<u8>> {
         return Err(io::Error::new(io::ErrorKind::InvalidData, message));
     }
     Ok(text)
+}
+
+/// Puts a text as a file into a directory, in the place of the one of that name: all of it at once, since
+/// somebody may be reading the one before.
+///
+/// # Errors
+/// It cannot be written.
+pub fn replace(directory: &Path, name: &str, text: &str) -> io::Result<()> {
+    let mut file = tempfile::NamedTempFile::new_in(directory)?;
+    file.write_all(text.as_bytes())?;
+    file.persist(directory.join(name))?;
+    Ok(())
 }

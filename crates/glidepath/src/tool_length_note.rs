@@ -8,7 +8,7 @@
 use crate::text_file;
 use glidepath_gcode::ToolLength;
 use std::fs;
-use std::io::{self, Write as _};
+use std::io;
 use std::path::{Path, PathBuf};
 
 /// The file in the instance's directory.
@@ -34,11 +34,7 @@ impl ToolLengthNote {
     /// It cannot be written.
     pub(crate) fn leave(&self, length: &ToolLength) -> io::Result<()> {
         let text = toml::to_string(length).map_err(io::Error::other)?;
-        let mut file = tempfile::NamedTempFile::new_in(&self.directory)?;
-        file.write_all(text.as_bytes())?;
-        // All of it at once: somebody may be reading the one before.
-        file.persist(self.directory.join(FILE))?;
-        Ok(())
+        text_file::replace(&self.directory, FILE, &text)
     }
 
     /// No length is in force.
