@@ -111,6 +111,27 @@ fn an_abort_counts_for_what_still_reads_its_program() {
     }
 }
 
+/// What begins motion is asked for when its process starts, however long it reads its configuration.
+#[test]
+fn an_abort_counts_for_a_command_that_still_reads_its_configuration() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let bench = Bench::start(&instance);
+    let config = std::fs::read_to_string(bench.operated.config()).unwrap();
+    for command in ["home", "enable"] {
+        let before = bench.operated.wait(|_| true);
+        let arguments = [command, "--config", "/dev/stdin"];
+        let mut client = Process::join_with(&instance, &arguments, Stdio::piped());
+        std::thread::sleep(Duration::from_secs(1));
+        bench.operated.operate(&["abort"]);
+        client.write(&config);
+        client.close();
+        let output = client.wait();
+        assert_ne!(output.status.code(), Some(0), "{output:#?}");
+        assert!(output.stderr.contains("was stopped after"), "{output:#?}");
+        bench.stays(&before);
+    }
+}
+
 /// Whether this process ignores a signal, and so does what it starts until that has a handler of its own: a shell has
 /// what it runs in the background ignore SIGINT.
 fn is_ignored(signal: Signal) -> bool {

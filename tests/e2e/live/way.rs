@@ -41,7 +41,7 @@ fn back_and_forward(browser: &mut Browser, services: &Services<'_>) {
         "S.state === 'running' && S.status.mode === 'backwards' && S.status.line < {held} - 1"
     ));
     // The page is painted a moment after its state is known.
-    browser.wait("document.querySelector('#word').textContent.startsWith('Going back')");
+    browser.wait("document.querySelector('#word').textContent.includes('backwards')");
     key_press(browser, " ", "Space");
     let _held = services.wait_for(MachineState::Held);
     browser.wait("S.state === 'held' && document.querySelector('[data-c=go] span').textContent === 'Forward'");
