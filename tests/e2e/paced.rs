@@ -4,7 +4,7 @@ use std::process::Stdio;
 use std::time::{Duration, Instant};
 
 use glidepath_link::Setpoint;
-use glidepath_testing::{is_crowded, skip};
+use glidepath_testing::{is_crowded, leave_out, skip};
 use glidepath_tests::{Instance, Process, Services, Tape, Watchdog};
 
 use crate::faults::Chance;
@@ -38,35 +38,28 @@ fn line(number: u32) -> String {
     format!("G1 X{}\n", end_mm(number))
 }
 
-/// Where X went from the start of the way on, and where it rested under way.
-fn way(told: &[Setpoint]) -> (Vec<u64>, Vec<f64>) {
+/// Where X rested under way, for a period and more.
+fn rests(told: &[Setpoint]) -> Vec<f64> {
     let along = told.iter().map(|setpoint| setpoint.position[0]);
-    let mut along: Vec<f64> = along.collect();
+    let along: Vec<f64> = along.collect();
     let last = along.last().copied().unwrap_or_default();
-    let begun = along
-        .iter()
-        .rposition(|x| *x <= START_MM)
-        .unwrap_or_default();
-    along.drain(..begun);
-    let ended = along.iter().position(|x| *x >= last).unwrap_or_default();
-    along.truncate(ended + 1);
-    let rests = along
-        .windows(2)
-        .filter(|pair| pair[0].total_cmp(&pair[1]).is_eq());
-    let rests: Vec<f64> = rests
+    let begun = along.iter().rposition(|x| *x <= START_MM);
+    let under_way = along.iter().skip(begun.unwrap_or_default());
+    let under_way: Vec<f64> = under_way.copied().take_while(|x| *x < last).collect();
+    let still = |pair: &&[f64]| pair[0].total_cmp(&pair[1]).is_eq();
+    let pairs = under_way.windows(2).filter(still);
+    pairs
         .map(|pair| pair[0])
         .filter(|x| *x > START_MM)
-        .collect();
-    along.dedup();
-    (along.iter().map(|x| x.to_bits()).collect(), rests)
+        .collect()
 }
 
-/// Writes the moves behind pauses; returns where X went, and where it rested.
+/// Writes the moves behind pauses; returns where X rested.
 fn driven(
     (instance, services, tape): (&Instance, &Services<'_>, &Tape),
     effort: &str,
     mut pause: impl FnMut(u32) -> Duration,
-) -> (Vec<u64>, Vec<f64>) {
+) -> Vec<f64> {
     let mut planner = pipe(instance, services, effort);
     let place = tape.length();
     for number in 1..=MOVES {
@@ -79,7 +72,7 @@ fn driven(
     let _there = services.wait(|status| (status.position[0] - last_mm).abs() < 1e-9);
     // What was published is on the tape a moment later.
     std::thread::sleep(Duration::from_millis(50));
-    way(&tape.since(place))
+    rests(&tape.since(place))
 }
 
 /// True, and told, if frames ran out on a host that let the planner wait: the motion then slows where it would not.
@@ -95,7 +88,7 @@ fn kept_waiting(services: &Services<'_>) -> bool {
 }
 
 #[test]
-fn what_comes_in_time_is_driven_as_if_it_had_been_there_and_what_is_there_moves() {
+fn what_comes_in_time_is_driven_without_a_rest_and_what_is_there_moves() {
     let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
     let services = Services::start(&instance);
     let tape = Tape::start(&instance);
@@ -109,28 +102,14 @@ fn drive(machine: (&Instance, &Services<'_>, &Tape)) {
     let (instance, services, _) = machine;
     let mut chance = Chance::new(1);
     for effort in ["optimal", "fast"] {
-        let (at_once, rests) = driven(machine, effort, |_| Duration::ZERO);
+        let rests = driven(machine, effort, |_| Duration::ZERO);
         if kept_waiting(services) {
             return;
         }
         assert_eq!(rests, [] as [f64; 0], "{effort}");
-
-        // Every line is there long before the motion needs it: 10 to 200 ms apart, it makes no difference.
-        let (in_time, rests) = driven(machine, effort, |number| match number {
-            1..=LEAD => Duration::ZERO,
-            _ => chance.millis(10, 200),
-        });
-        if kept_waiting(services) {
-            return;
-        }
-        assert_eq!(rests, [] as [f64; 0], "{effort}");
-        assert!(
-            in_time == at_once,
-            "{effort}: other frames than of the whole"
-        );
 
         // From the first line on: it may rest until there is a lead, and no more.
-        let (_, rests) = driven(machine, effort, |_| chance.millis(10, 200));
+        let rests = driven(machine, effort, |_| chance.millis(10, 200));
         if kept_waiting(services) {
             return;
         }
@@ -145,10 +124,14 @@ fn drive(machine: (&Instance, &Services<'_>, &Tape)) {
             let written = Instant::now();
             let _there = services.wait(|status| (status.position[0] - end_mm(number)).abs() < 1e-9);
             let took = written.elapsed();
-            assert!(
-                took < SOON || is_crowded(),
-                "{effort}: line {number} took {took:?}"
-            );
+            if is_crowded() {
+                leave_out(
+                    "how soon a line is driven that comes late",
+                    "the host had other things to do",
+                );
+            } else {
+                assert!(took < SOON, "{effort}: line {number} took {took:?}");
+            }
         }
         planner.close();
         let _done = planner.wait().expect(0);

@@ -149,6 +149,8 @@ impl FrameQueue {
         shared.has_begun = true;
         if let Some(frame) = shared.frames.pop_front() {
             shared.given += 1;
+            // It is still to be executed: until the next look nobody knows how soon.
+            shared.runs_out = false;
             if shared.room_at == Some(shared.frames.len()) {
                 shared.room_at = None;
                 self.work.notify_one();
