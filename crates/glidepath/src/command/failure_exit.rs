@@ -23,6 +23,7 @@ impl Failure {
             | Self::State(
                 StateError::Damaged(_)
                 | StateError::Lost { .. }
+                | StateError::Gone { .. }
                 | StateError::OtherMachine { .. }
                 | StateError::NoFolder,
             ) => Exit::Configuration,

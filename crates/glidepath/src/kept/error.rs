@@ -26,6 +26,18 @@ pub(crate) enum StateError {
         /// What is wrong with the last file that was read.
         source: KeptError,
     },
+    /// What was there before is there no longer.
+    #[error(
+        "what the machine keeps in {folder} is gone or was set back: generation {newest} was there before. Nothing \
+         moves with other offsets than those. Put the files kept.0 and kept.1 back, or mount their disk; to go on \
+         with what is there now, restart the planner's service"
+    )]
+    Gone {
+        /// The folder.
+        folder: String,
+        /// The newest generation that was there.
+        newest: u64,
+    },
     /// What inputs and the probe answered is not known any more.
     #[error(
         "{0}. The program cannot be taken up again behind what it asked of inputs or the probe; run it \

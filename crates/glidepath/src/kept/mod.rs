@@ -9,3 +9,4 @@ pub(crate) mod error;
 pub(crate) mod keeper;
 pub(crate) mod machine;
 pub(crate) mod read;
+mod seen;

@@ -335,6 +335,20 @@ fn a_service_begins_in_the_system_that_was_chosen_meanwhile() {
     goes(&["mdi", "G54 X0"], 7.0);
     machine.object(&["offsets", "set", "G54", "X9"]);
     goes(&["mdi", "X0"], 9.0);
+
+    // Lost under the service, as with their disk: no line begins with other offsets, and none when they are back.
+    let (state, away) = (machine.path("state"), machine.path("away"));
+    std::fs::rename(&state, &away).unwrap();
+    for args in [&["mdi", "X5"][..], &["run-file", &part]] {
+        let output = ask(args);
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(!output.status.success(), "{told}");
+        assert!(told.contains("is gone or was set back"), "{told}");
+        assert!((x() - 9.0).abs() < 1e-9, "{args:?}: X {}", x());
+    }
+    std::fs::remove_dir_all(&state).unwrap();
+    std::fs::rename(&away, &state).unwrap();
+    goes(&["mdi", "X5"], 14.0);
 }
 
 /// FANUC keeps its variables from #500 to #999, and so are they here, whatever the language.

@@ -1,0 +1,66 @@
+//! The generations that this process has seen of what machines keep, so that files that are lost under a running
+//! service are not taken for a machine that keeps nothing yet.
+
+use crate::kept::error::StateError;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+/// The newest generation of each folder.
+static SEEN: Mutex<BTreeMap<PathBuf, u64>> = Mutex::new(BTreeMap::new());
+
+/// A look into a folder, or a change of what is there, that has begun.
+#[derive(Debug)]
+pub(super) struct Look<'f> {
+    folder: &'f Path,
+    /// The newest generation that was seen there before.
+    newest: u64,
+}
+
+impl<'f> Look<'f> {
+    /// Before the files are looked at: what another thread writes meanwhile is no reason to refuse what is read.
+    pub(super) fn begin(folder: &'f Path) -> Self {
+        let seen = SEEN.lock().unwrap_or_else(PoisonError::into_inner);
+        let newest = seen.get(folder).copied().unwrap_or(0);
+        Self { folder, newest }
+    }
+
+    /// Notes what was read or written; 0 if nothing is kept.
+    ///
+    /// # Errors
+    /// This process had seen a newer generation there.
+    pub(super) fn end(self, generation: u64) -> Result<(), StateError> {
+        let Self { folder, newest } = self;
+        if generation < newest {
+            let folder = folder.display().to_string();
+            return Err(StateError::Gone { folder, newest });
+        }
+        let mut seen = SEEN.lock().unwrap_or_else(PoisonError::into_inner);
+        let newest = seen.entry(folder.to_owned()).or_insert(0);
+        *newest = generation.max(*newest);
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_folder_never_goes_back() {
+        let (one, other) = (Path::new("/no/such/one"), Path::new("/no/such/other"));
+        for generation in [0, 0, 1, 2, 2, 7] {
+            Look::begin(one).end(generation).unwrap();
+        }
+        Look::begin(other).end(1).unwrap();
+        for generation in [0, 1, 6] {
+            let told = Look::begin(one).end(generation).unwrap_err().to_string();
+            assert!(told.contains("generation 7"), "{told}");
+        }
+        // Read before another thread wrote.
+        let look = Look::begin(one);
+        Look::begin(one).end(8).unwrap();
+        look.end(7).unwrap();
+        assert!(Look::begin(one).end(7).is_err());
+    }
+}
