@@ -120,13 +120,22 @@ impl Browser {
         self.call("Runtime.evaluate", &asked)["result"]["value"].clone()
     }
 
-    /// Waits until an expression is true on the page; the test ends with the expression if it never is.
+    /// Waits until an expression is true on the page; the test ends with the expression if it never is, or if the page
+    /// could not paint something.
     pub fn wait(&mut self, expression: &str) {
         let begun = Instant::now();
         while self.evaluate(&format!("!!({expression})")) != true {
-            assert!(begun.elapsed() < PATIENCE, "never true: {expression}");
+            if begun.elapsed() > PATIENCE {
+                let shown = self.evaluate("document.body.innerText.replace(/\\s+/g, ' ')");
+                panic!("never true: {expression}; the page shows: {shown}");
+            }
             std::thread::sleep(Duration::from_millis(50));
         }
+        let failures = self.evaluate("typeof S === 'undefined' ? '' : (S.failures || []).join()");
+        assert!(
+            failures.as_str().unwrap_or("").is_empty(),
+            "{expression}: {failures}"
+        );
     }
 
     /// Presses the middle of an element, and lets it go.

@@ -200,7 +200,7 @@ function work(position) {
 function digits() {
   const s = S.status;
   if (S.file) { put($('#left'), span(PLAN ? PLAN.seconds : 0)); return; }
-  if (!s || S.state === 'none') { put($('#left'), '–:––.–'); put($('#ends'), ''); put($('#why'), cause()); return; }
+  if (!s || S.state === 'none') { put($('#left'), '–:––.–'); put($('#ends'), ''); paintWhy(); return; }
   const ring = RINGED, fresh = ring && ring.count, axes = AXES(), speed = Math.abs(fresh ? ring.feed[(ring.count - 1) & (RING - 1)] : s.feed_mm_s);
   const machine = axes.map((a, k) => fresh ? ring.last_position(k) : s.position[a.name]), shown = work(machine), moving = speed > 1e-6 && S.state !== 'stale';
   $('#app').classList.toggle('moving', moving);
@@ -232,7 +232,7 @@ function digits() {
   put($('#left'), S.state === 'stale' || !known ? '–:––.–' : span(s.left_s)); put($('#g-left'), $('#left').textContent);
   put($('#ends'), S.state === 'stale' ? 'not known' : ends ? `ends ${ends}` : known ? 'after resume' : ''); put($('#g-end'), ends || '––:––:––');
   put($('#g-line'), String(s.line)); put($('#g-ov'), `${Math.round(s.feed_override * 100)} %`); put($('#g-feed'), grouped(speed * 60));
-  put($('#why'), cause());
+  paintWhy();
   blocks(s.line);
 }
 function feedDigits(v, moving) {
@@ -255,22 +255,35 @@ function growOld() {
 /* ---- the loop */
 let lastDigits = 0, lastHealth = 0, lastSpectrum = 0;
 const FRAMES = { count: 0, since: 0, rate: 0 };
+/* What could not be painted, by part, and the last such failures. The other parts go on, and the band tells of it: a page that
+   stands still would show what was. */
+S.unpainted = {}; S.failures = [];
+function paintPart(part, paint) {
+  try { paint(); S.unpainted[part] = ''; } catch (error) {
+    S.unpainted[part] = String(error);
+    S.failures = [...S.failures, `${part}: ${error.stack || error}`].slice(-9);
+    console.error(error);
+  }
+}
 function frame(t) {
+  requestAnimationFrame(frame);
   FRAMES.count++;
   if (t - FRAMES.since > 1000) { FRAMES.rate = FRAMES.count * 1000 / (t - FRAMES.since); FRAMES.count = 0; FRAMES.since = t; }
   if (!S.file) growOld();
   if (t - lastDigits > 66) {
-    lastDigits = t; digits(); paintState();
-    if (S.view === 'setup') { setUpDigits(); paintSetUp(); }
-    if (S.view === 'programs') { paintChosen(); paintDay(); }
+    lastDigits = t;
+    paintPart('state', paintState);
+    if (S.unpainted.state) { put($('#word'), 'Not shown'); put($('#why'), unpainted()); }
+    paintPart('digits', digits);
+    if (S.view === 'setup') paintPart('set-up', () => { setUpDigits(); paintSetUp(); });
+    if (S.view === 'programs') paintPart('programs', () => { paintChosen(); paintDay(); });
   }
-  if (dirty.path && $(`#${S.view} [data-path]`)) { SPACE.draw(S.p); dirty.path = false; }
-  if (dirty.strips && S.view === 'tune') { strips(); dirty.strips = false; }
-  if (dirty.ribbon) { ribbon(); dirty.ribbon = false; }
-  if (dirty.tune && S.view === 'tune' && S.box === 'spec' && t - lastSpectrum > 250) { lastSpectrum = t; spectrum(); dirty.tune = false; }
-  if (dirty.health && S.view === 'health' && t - lastHealth > 200) { lastHealth = t; health(); dirty.health = false; }
-  if (S.view === 'glance') eventLog();
-  requestAnimationFrame(frame);
+  if (dirty.path && $(`#${S.view} [data-path]`)) { dirty.path = false; paintPart('path', () => SPACE.draw(S.p)); }
+  if (dirty.strips && S.view === 'tune') { dirty.strips = false; paintPart('strips', strips); }
+  if (dirty.ribbon) { dirty.ribbon = false; paintPart('ribbon', ribbon); }
+  if (dirty.tune && S.view === 'tune' && S.box === 'spec' && t - lastSpectrum > 250) { lastSpectrum = t; dirty.tune = false; paintPart('spectrum', spectrum); }
+  if (dirty.health && S.view === 'health' && t - lastHealth > 200) { lastHealth = t; dirty.health = false; paintPart('health', health); }
+  if (S.view === 'glance') paintPart('events', eventLog);
 }
 /* A telephone, upright or on its side, has a view of its own: in the others Hold would not be on its screen. */
 const isPhone = () => innerWidth < 600 || innerHeight < 420;

@@ -104,13 +104,20 @@ function exchange(asked) {
   return `<div class="exchange">${before ? box('comes out', before) : ''}${wanted ? box('put in', wanted) : ''}</div>`;
 }
 
+/* What the page cannot paint, and what to do; nothing if it can. */
+const unpainted = () => {
+  const parts = Object.keys(S.unpainted).filter(part => S.unpainted[part]);
+  return parts.length ? ` This page cannot paint everything (${parts.join(', ')}): load it again.` : '';
+};
+const paintWhy = () => put($('#why'), cause() + unpainted());
+
 /* The band on top, and which commands there are. */
 function paintState() {
   const [sign, word, level, colour] = wordsNow(), app = $('#app'), panel = S.file ? '' : attention();
   app.dataset.state = colour; app.dataset.level = level; app.dataset.machine = S.state; app.dataset.attn = panel ? 1 : 0;
   fill($('#sym'), icon(sign).replace('class="i "', ''));
   fill($('#word'), `${word}<span id="mach">${safe(INFO.machine.instance)}</span>`);
-  put($('#why'), cause());
+  paintWhy();
   if (S.file) return;
   const keys = panel ? attentionKeys() : '';
   fill($('#attn'), panel + (keys ? `<div class="row keysrow">${keys}</div>` : ''));
