@@ -181,6 +181,7 @@ fn a_demand_is_seen_in_the_setpoints_within_two_ticks() {
         client: 1,
         number: 0,
         sent_ns: 0,
+        asked_ns: 0,
         mode: JogMode::None.code(),
         mask: 1,
         by_joint: 0,

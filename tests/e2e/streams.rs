@@ -117,9 +117,9 @@ fn an_abort_counts_for_a_command_that_still_reads_its_configuration() {
     let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
     let bench = Bench::start(&instance);
     let config = std::fs::read_to_string(bench.operated.config()).unwrap();
-    for command in ["home", "enable"] {
+    for command in [&["home"][..], &["enable"], &["jog", "X1"]] {
         let before = bench.operated.wait(|_| true);
-        let arguments = [command, "--config", "/dev/stdin"];
+        let arguments = [command, &["--config", "/dev/stdin"]].concat();
         let mut client = Process::join_with(&instance, &arguments, Stdio::piped());
         std::thread::sleep(Duration::from_secs(1));
         bench.operated.operate(&["abort"]);

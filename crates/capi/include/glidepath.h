@@ -47,9 +47,9 @@ extern "C" {
 
 /* layout: begin, written by a test of the library */
 /* The version of the ABI: functions and structures. */
-#define GP_ABI 5u
+#define GP_ABI 6u
 /* What the structures of this header are, as one number. */
-#define GP_LAYOUT UINT64_C(0x78768845dc1d4dd9)
+#define GP_LAYOUT UINT64_C(0xcf5fd4d6531d8395)
 /* Axes X Y Z A B C U V W, and joints J0 to J8. */
 #define GP_AXES 9
 
@@ -911,7 +911,7 @@ GP_FIELD(gp_reply, state, 20, 4);
 GP_FIELD(gp_reply, message, 24, 128);
 
 /* How the axes, or the joints, are to be moved by hand. The latest counts; the first client
-   owns the axes until they are at rest. The record glidepath.JogDemand.v1. */
+   owns the axes until they are at rest. The record glidepath.JogDemand.v2. */
 typedef struct gp_jog {
     /* Who asks. Filled in. */
     uint64_t client;
@@ -919,6 +919,9 @@ typedef struct gp_jog {
     uint64_t number;
     /* When it was sent, ns of CLOCK_MONOTONIC. Filled in. */
     uint64_t sent_ns;
+    /* When it was asked for, by gp_now_ns. What was asked for before the machine was stopped
+       moves nothing. Filled in where it is 0. */
+    uint64_t asked_ns;
     /* A GP_JOG_MODE_. */
     uint32_t mode;
     /* The axes, or joints, that are meant, one bit each, X or J0 lowest. */
@@ -936,17 +939,18 @@ typedef struct gp_jog {
        counts of the wheel since it was switched on. */
     double value[9];
 } gp_jog;
-GP_ASSERT(sizeof(gp_jog) == 128, "gp_jog has another size");
+GP_ASSERT(sizeof(gp_jog) == 136, "gp_jog has another size");
 GP_FIELD(gp_jog, client, 0, 8);
 GP_FIELD(gp_jog, number, 8, 8);
 GP_FIELD(gp_jog, sent_ns, 16, 8);
-GP_FIELD(gp_jog, mode, 24, 4);
-GP_FIELD(gp_jog, mask, 28, 4);
-GP_FIELD(gp_jog, by_joint, 32, 4);
-GP_FIELD(gp_jog, reserved, 36, 4);
-GP_FIELD(gp_jog, velocity_v, 40, 8);
-GP_FIELD(gp_jog, scale, 48, 8);
-GP_FIELD(gp_jog, value, 56, 72);
+GP_FIELD(gp_jog, asked_ns, 24, 8);
+GP_FIELD(gp_jog, mode, 32, 4);
+GP_FIELD(gp_jog, mask, 36, 4);
+GP_FIELD(gp_jog, by_joint, 40, 4);
+GP_FIELD(gp_jog, reserved, 44, 4);
+GP_FIELD(gp_jog, velocity_v, 48, 8);
+GP_FIELD(gp_jog, scale, 56, 8);
+GP_FIELD(gp_jog, value, 64, 72);
 
 /* A piece of a stream. Fields that a kind does not use are zero. The record
    glidepath.SegmentRequest.v3. */

@@ -50,8 +50,7 @@ impl Desk<'_, '_> {
     }
 
     fn has_room(&self) -> bool {
-        let orders = &self.ends.orders;
-        orders.capacity() - orders.len() >= ORDERS_PER_COMMAND
+        self.ends.room() >= ORDERS_PER_COMMAND
     }
 
     fn carry_out(&mut self, request: &CommandRequest) -> (CommandOutcome, String) {
@@ -175,7 +174,7 @@ impl Desk<'_, '_> {
 
     fn order(&mut self, order: Order) {
         // There is room: that was looked at before.
-        self.ends.orders.enqueue(order).ok();
+        self.ends.order(order);
     }
 
     /// Whether the real-time thread has to know of a command.

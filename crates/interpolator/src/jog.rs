@@ -76,6 +76,8 @@ pub(crate) struct Jog {
     ahead: AxisVector,
     clearance: Clearance,
     holder: Holder,
+    /// Stops so far, by orders.
+    stops: u64,
     wheel: Wheel,
     /// What is followed.
     demand: Option<Demand>,
@@ -113,6 +115,7 @@ impl Jog {
             ahead: stopping_distances(&limits),
             clearance: Clearance::new(config),
             holder: Holder::new(ns(settings.dead_man), config.period_ns),
+            stops: 0,
             wheel: Wheel::new(ns(settings.wheel_quiet)),
             demand: None,
             goal: Goal::Stop,
@@ -166,6 +169,10 @@ impl Jog {
         let is_wheel = matches!(demand.mode, JogMode::Wheel | JogMode::WheelVelocity);
         if is_wheel && turned.amax() <= 0.0 {
             return false; // It stands. How long it has stood is looked at elsewhere.
+        }
+        let is_outdated = demand.is_outdated || demand.behind_stops < self.stops;
+        if is_outdated && demand.wants_motion() {
+            return false;
         }
         let was_active = self.is_active();
         let may_start = around.may_start && !was_active;
@@ -252,6 +259,12 @@ impl Jog {
         self.demand = None;
         self.goal = Goal::Stop;
         self.way_back = WayBack::NONE;
+    }
+
+    /// A hold, an abort, or the power is taken: what was demanded before moves nothing, also if it is still on its way.
+    pub(crate) fn stop(&mut self) {
+        self.stops += 1;
+        self.cancel();
     }
 
     /// Ends a jog or a return from elsewhere. Who jogs has to let go before beginning another.

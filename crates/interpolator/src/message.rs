@@ -49,10 +49,41 @@ pub(crate) struct Inputs<'a> {
 /// The ends of the rings that the ports thread writes and reads.
 pub(crate) struct PortsEnds<'a> {
     pub(crate) frames: Producer<'a, SetpointFrame>,
-    pub(crate) orders: Producer<'a, Order>,
-    pub(crate) demands: Producer<'a, Demand>,
+    orders: Producer<'a, Order>,
+    demands: Producer<'a, Demand>,
     pub(crate) observations: Producer<'a, Observation>,
     pub(crate) reports: Consumer<'a, Report>,
+    /// Stops that were ordered so far: holds, aborts, the power taken.
+    stops: u64,
+}
+
+impl PortsEnds<'_> {
+    /// How many more orders there is room for.
+    pub(crate) fn room(&self) -> usize {
+        self.orders.capacity() - self.orders.len()
+    }
+
+    /// Passes an order on; false if the ring is full.
+    pub(crate) fn order(&mut self, order: Order) -> bool {
+        let is_stop = matches!(
+            order,
+            Order::Command(Command::Hold | Command::Abort | Command::Disable)
+        );
+        let is_passed = self.orders.enqueue(order).is_ok();
+        self.stops += u64::from(is_passed && is_stop);
+        is_passed
+    }
+
+    /// Passes a demand on; false if the ring is full. Demands have a ring of their own, so that they take no room
+    /// from orders: so each says which stops it came behind.
+    pub(crate) fn demand(&mut self, demand: Demand) -> bool {
+        let behind_stops = self.stops;
+        let demand = Demand {
+            behind_stops,
+            ..demand
+        };
+        self.demands.enqueue(demand).is_ok()
+    }
 }
 
 impl Rings {
@@ -69,6 +100,7 @@ impl Rings {
             demands: demands_in,
             observations: observations_in,
             reports,
+            stops: 0,
         };
         let inputs = Inputs {
             frames,

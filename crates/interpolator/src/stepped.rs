@@ -54,7 +54,7 @@ impl Stepped<'_> {
 
     /// Gives it a command; false if there are too many, or it is not one of the motion.
     pub fn command(&mut self, command: Command) -> bool {
-        command != Command::Ping && self.ends.orders.enqueue(Order::Command(command)).is_ok()
+        command != Command::Ping && self.ends.order(Order::Command(command))
     }
 
     /// Gives it a demand for a jog; false if there are too many, or it is none of this machine.
@@ -62,7 +62,7 @@ impl Stepped<'_> {
         let Ok(demand) = self.reader.read(demand) else {
             return false;
         };
-        self.ends.demands.enqueue(demand).is_ok()
+        self.ends.demand(demand)
     }
 
     /// One period, on time.

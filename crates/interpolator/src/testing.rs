@@ -156,7 +156,7 @@ impl Rig {
     }
 
     pub(crate) fn command(&mut self, command: Command) {
-        self.ends.orders.enqueue(Order::Command(command)).unwrap();
+        assert!(self.ends.order(Order::Command(command)));
     }
 
     /// When the last tick was due.
@@ -167,7 +167,7 @@ impl Rig {
     /// Demands a jog, as a client does at the present time.
     pub(crate) fn jog(&mut self, record: &JogDemand) {
         let demand = DemandReader::new(&self.config).read(record).unwrap();
-        self.ends.demands.enqueue(demand).unwrap();
+        assert!(self.ends.demand(demand));
     }
 
     /// Moves up to `count` frames into the ring.

@@ -71,9 +71,9 @@ layout!(feedback, Feedback, "glidepath.Feedback.v1", 808, {
     spindle_angle: 360, spindle_v: 368, spindle_index_count: 376, spindle_flags: 384, reserved: 388,
     latch: 392,
 });
-layout!(jog_demand, JogDemand, "glidepath.JogDemand.v1", 128, {
-    client: 0, number: 8, sent_ns: 16, mode: 24, mask: 28, by_joint: 32, reserved: 36,
-    velocity_v: 40, scale: 48, value: 56,
+layout!(jog_demand, JogDemand, "glidepath.JogDemand.v2", 136, {
+    client: 0, number: 8, sent_ns: 16, asked_ns: 24, mode: 32, mask: 36, by_joint: 40, reserved: 44,
+    velocity_v: 48, scale: 56, value: 64,
 });
 layout!(job_request, JobRequest, "glidepath.JobRequest.v3", 1072, {
     client: 0, number: 8, asked_ns: 16, kind: 24, from_line: 28, pass: 32, confirmed: 36, resumes: 40, wish: 44,

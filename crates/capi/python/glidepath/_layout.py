@@ -6,8 +6,8 @@ Written by a test of the library: do not change it here.
 import ctypes
 import enum
 
-ABI = 5
-LAYOUT = 0x78768845dc1d4dd9
+ABI = 6
+LAYOUT = 0xcf5fd4d6531d8395
 AXES = 9
 
 
@@ -566,6 +566,7 @@ class JogRecord(ctypes.Structure):
         ("client", ctypes.c_uint64),
         ("number", ctypes.c_uint64),
         ("sent_ns", ctypes.c_uint64),
+        ("asked_ns", ctypes.c_uint64),
         ("mode", ctypes.c_uint32),
         ("mask", ctypes.c_uint32),
         ("by_joint", ctypes.c_uint32),
@@ -879,17 +880,18 @@ PLACES = {
         "state": 20,
         "message": 24,
     }),
-    JogRecord: (128, {
+    JogRecord: (136, {
         "client": 0,
         "number": 8,
         "sent_ns": 16,
-        "mode": 24,
-        "mask": 28,
-        "by_joint": 32,
-        "reserved": 36,
-        "velocity_v": 40,
-        "scale": 48,
-        "value": 56,
+        "asked_ns": 24,
+        "mode": 32,
+        "mask": 36,
+        "by_joint": 40,
+        "reserved": 44,
+        "velocity_v": 48,
+        "scale": 56,
+        "value": 64,
     }),
     SegmentRecord: (360, {
         "session": 0,

@@ -35,6 +35,9 @@ impl JogSink {
     fn ask(&mut self, mut demand: JogDemand) -> Result<(), Failure> {
         demand.client = self.asked.client;
         demand.number = self.asked.number + 1;
+        if demand.asked_ns == 0 {
+            demand.asked_ns = gp_now_ns();
+        }
         demand.check()?;
         self.asked = demand;
         self.send()

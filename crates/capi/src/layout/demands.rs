@@ -7,13 +7,16 @@ use glidepath_link::{JogDemand, Record, SegmentReply, SegmentRequest, Text};
 structure! {
     /// How the axes, or the joints, are to be moved by hand. The latest counts; the first client owns
     /// the axes until they are at rest.
-    JOG: "gp_jog" = JogDemand, JogDemand::NAME, 128 {
+    JOG: "gp_jog" = JogDemand, JogDemand::NAME, 136 {
         /// Who asks. Filled in.
         client: u64,
         /// Counts what the client asks for. Filled in.
         number: u64,
         /// When it was sent, ns of CLOCK_MONOTONIC. Filled in.
         sent_ns: u64,
+        /// When it was asked for, by gp_now_ns. What was asked for before the machine was stopped moves nothing. Filled
+        /// in where it is 0.
+        asked_ns: u64,
         /// A GP_JOG_MODE_.
         mode: u32,
         /// The axes, or joints, that are meant, one bit each, X or J0 lowest.

@@ -14,6 +14,10 @@ pub(crate) struct Demand {
     pub(crate) client: u64,
     pub(crate) number: u64,
     pub(crate) sent_ns: u64,
+    /// It was asked for before the machine was stopped last.
+    pub(crate) is_outdated: bool,
+    /// Stops that were ordered before it was passed on.
+    pub(crate) behind_stops: u64,
     pub(crate) mode: JogMode,
     /// How fast at most where no velocity is given; infinite for as fast as may be.
     pub(crate) most_v: f64,
@@ -49,6 +53,14 @@ pub(crate) struct DemandReader {
     has_axis: [bool; AXES],
     /// The axis of each joint, where joints are axes.
     of_joint: Option<[Option<Axis>; AXES]>,
+}
+
+impl Demand {
+    /// Whether it wants the axes to move, or to go on moving.
+    pub(crate) fn wants_motion(&self) -> bool {
+        let is_wheel = matches!(self.mode, JogMode::Wheel | JogMode::WheelVelocity);
+        self.mode != JogMode::None && (is_wheel || self.value.amax() > 0.0)
+    }
 }
 
 impl DemandReader {
@@ -92,6 +104,8 @@ impl DemandReader {
             client: record.client,
             number: record.number,
             sent_ns: record.sent_ns,
+            is_outdated: false,
+            behind_stops: 0,
             mode: record.mode()?,
             most_v,
             scale: record.scale,

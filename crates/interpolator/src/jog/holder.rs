@@ -77,9 +77,7 @@ impl Holder {
             number: demand.number,
             sent_ns: demand.sent_ns,
         };
-        let is_wheel = matches!(demand.mode, JogMode::Wheel | JogMode::WheelVelocity);
-        let lets_go = demand.mode == JogMode::None || (!is_wheel && demand.value.amax() <= 0.0);
-        if lets_go {
+        if !demand.wants_motion() {
             if self.shut_out.is_some_and(|out| out.client == caller.client) {
                 self.shut_out = None;
             }
@@ -173,6 +171,8 @@ mod tests {
             client,
             number,
             sent_ns: sent_ms * MS,
+            is_outdated: false,
+            behind_stops: 0,
             mode,
             most_v: f64::INFINITY,
             scale: 1.0,

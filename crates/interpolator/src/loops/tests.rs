@@ -99,7 +99,7 @@ impl Script<'_> {
     }
 
     fn give(&mut self, order: Order) {
-        self.ends.orders.enqueue(order).unwrap();
+        assert!(self.ends.order(order));
     }
 
     fn demand(&mut self, mode: JogMode, xyz: [f64; 3]) {
@@ -109,12 +109,14 @@ impl Script<'_> {
             client: 1,
             number: self.demands,
             sent_ns: self.number * 4_000_000,
+            is_outdated: false,
+            behind_stops: 0,
             mode,
             most_v: f64::INFINITY,
             scale: 0.1,
             value,
         };
-        self.ends.demands.enqueue(demand).unwrap();
+        assert!(self.ends.demand(demand));
     }
 
     /// One tick: what there is goes in, and its report comes out.

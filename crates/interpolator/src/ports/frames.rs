@@ -49,7 +49,7 @@ impl Ports<'_> {
                     self.ends.frames.enqueue(frame).ok(); // There is room: it was ready.
                 }
                 Verdict::Known => {
-                    self.ends.orders.enqueue(Order::PlannerLives).ok();
+                    self.ends.order(Order::PlannerLives);
                 }
                 Verdict::Later => {
                     self.pending = Some(frame);
@@ -116,8 +116,8 @@ impl Ports<'_> {
         let epoch = self.admission.next_epoch(machine_epoch);
         self.admission.bar(epoch);
         // The ring has room for many more orders than there are commands in a turn.
-        self.ends.orders.enqueue(Order::Bar(epoch)).ok();
-        self.ends.orders.enqueue(Order::Prepare(false)).ok();
+        self.ends.order(Order::Bar(epoch));
+        self.ends.order(Order::Prepare(false));
         self.status_due_ns = 0;
     }
 }

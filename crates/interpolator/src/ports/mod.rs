@@ -22,8 +22,8 @@ use crate::status::{StatusBook, grants_of};
 use crate::stops::StopCause;
 use crate::told_by_hand;
 use glidepath_link::{
-    Command, EndOfEpoch, FaultCause, LinkError, MachineState, Setpoint, SetpointFrame, Status,
-    TOLD_TO_END, Transport,
+    Command, EndOfEpoch, FaultCause, LinkError, MachineState, Objection, Setpoint, SetpointFrame,
+    Status, TOLD_TO_END, Transport,
 };
 use glidepath_realtime::{EventReader, Grants, Mode};
 use links::Links;
@@ -48,6 +48,8 @@ pub(crate) struct Ports<'a> {
     log: &'a mut dyn FnMut(&str),
     admission: Admission,
     reader: DemandReader,
+    /// The client whose demand was passed on last, and its number.
+    demanded_by: Option<(u64, u64)>,
     /// Number of the setpoint after which a demand was passed on that may begin a jog.
     demanded_after: Option<u64>,
     /// The client whose demand was refused last, so that the log names it once.
@@ -93,6 +95,7 @@ impl<'a> Ports<'a> {
             log,
             admission: Admission::new(config),
             reader: DemandReader::new(config),
+            demanded_by: None,
             demanded_after: None,
             refused_jogger: None,
             drives: config
@@ -141,10 +144,7 @@ impl<'a> Ports<'a> {
         if self.removed.is_none() {
             self.book.last_error(TOLD_TO_END);
         }
-        self.ends
-            .orders
-            .enqueue(Order::Command(Command::Abort))
-            .ok();
+        self.ends.order(Order::Command(Command::Abort));
     }
 
     pub(crate) const fn status(&self) -> &Status {
@@ -204,7 +204,7 @@ impl<'a> Ports<'a> {
 
     fn fault(&mut self, fault: Fault) {
         // The ring has room for many more orders than there are commands in a turn.
-        self.ends.orders.enqueue(Order::Fault(fault)).ok();
+        self.ends.order(Order::Fault(fault));
     }
 
     /// Takes note of the reports whose setpoints were handed over.
@@ -277,7 +277,7 @@ impl<'a> Ports<'a> {
             .into_iter()
             .flatten()
         {
-            self.ends.orders.enqueue(order).ok();
+            self.ends.order(order);
         }
         if let Some(told) = told {
             self.tell(&told);
@@ -350,13 +350,21 @@ impl<'a> Ports<'a> {
                 return Ok(());
             };
             match self.reader.read(&record) {
-                Ok(demand) => {
-                    if told_by_hand::may_begin(&report, &demand) {
+                Ok(mut demand) => {
+                    demand.is_outdated = self.jobs.was_stopped_after(record.asked_ns);
+                    let caller = (demand.client, demand.number);
+                    let is_new = self.demanded_by.replace(caller) != Some(caller);
+                    if demand.is_outdated && demand.wants_motion() {
+                        // What was followed before the stop is told to have ended by it.
+                        if is_new {
+                            self.tell(Objection::StoppedSince.text());
+                        }
+                    } else if told_by_hand::may_begin(&report, &demand) {
                         self.book.last_error("");
                     }
                     self.demanded_after = Some(report.setpoint.number);
                     // A full ring is a real-time thread that hangs: nothing begins then.
-                    self.ends.demands.enqueue(demand).ok();
+                    self.ends.demand(demand);
                 }
                 Err(error) => {
                     if self.refused_jogger != Some(record.client) {

@@ -48,9 +48,9 @@ impl Interpolator<'_> {
     /// Carries out what a command is to the jog. Returns whether it is one to the program, too.
     fn is_for_program(&mut self, command: Command) -> bool {
         match command {
-            Command::Hold => self.jog.cancel(),
+            Command::Hold => self.jog.stop(),
             Command::Abort | Command::Disable => {
-                self.jog.cancel();
+                self.jog.stop();
                 self.mover.cancel();
                 if command == Command::Abort && !self.has_program() {
                     self.stops.ask(StopCause::Abort);

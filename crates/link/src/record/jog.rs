@@ -29,7 +29,7 @@ coded! {
 /// counts; the first client owns the axes until they are at rest.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.JogDemand.v1")]
+#[type_name("glidepath.JogDemand.v2")]
 pub struct JogDemand {
     /// Who asks: any number that no other client has.
     pub client: u64,
@@ -38,6 +38,9 @@ pub struct JogDemand {
     /// When it was sent, ns of `CLOCK_MONOTONIC` of this host. A bridge from another host stamps
     /// anew what came fresh from there, and nothing else.
     pub sent_ns: u64,
+    /// When `number` was asked for, on the same clock; 0 if nobody knows. What was asked for before the machine
+    /// was stopped moves nothing.
+    pub asked_ns: u64,
     /// Code of a [`JogMode`].
     pub mode: u32,
     /// The axes, or joints, that are meant, one bit each, X or J0 lowest.
@@ -67,7 +70,7 @@ impl JogDemand {
 }
 
 impl Record for JogDemand {
-    const NAME: &'static str = "glidepath.JogDemand.v1";
+    const NAME: &'static str = "glidepath.JogDemand.v2";
 
     fn check(&self) -> Result<(), RecordError> {
         let fields = Fields(Self::NAME);

@@ -23,9 +23,10 @@ impl Demands {
         Self { port, demand }
     }
 
-    /// Demands something new.
+    /// Demands something new, that was asked for at this time.
     pub(in crate::command) fn ask(
         &mut self,
+        asked_ns: u64,
         mode: JogMode,
         value: [f64; AXES],
         most_v: f64,
@@ -34,6 +35,7 @@ impl Demands {
         let mask = (0..AXES).filter(|axis| value.get(*axis).is_some_and(|v| *v != 0.0));
         self.demand.mask = mask.fold(0, |mask, axis| mask | 1 << axis);
         self.demand.number += 1;
+        self.demand.asked_ns = asked_ns;
         self.demand.mode = mode.code();
         self.demand.value = value;
         self.demand.velocity_v = most_v;
@@ -49,7 +51,7 @@ impl Demands {
 
     /// Lets go.
     pub(in crate::command) fn let_go(&mut self) -> Result<(), LinkError> {
-        self.ask(JogMode::None, [0.0; AXES], 0.0, false)
+        self.ask(Monotonic.now_ns(), JogMode::None, [0.0; AXES], 0.0, false)
     }
 }
 
@@ -59,6 +61,7 @@ const fn nothing() -> JogDemand {
         client: 0,
         number: 0,
         sent_ns: 0,
+        asked_ns: 0,
         mode: 0,
         mask: 0,
         by_joint: 0,

@@ -22,6 +22,7 @@ use crate::report::decimals;
 use core::time::Duration;
 use glidepath_geometry::{AXES, Axis};
 use glidepath_link::{JogMode, MachineState};
+use glidepath_realtime::{Clock as _, Monotonic};
 use std::io::{IsTerminal as _, Write as _};
 use std::time::Instant;
 
@@ -239,7 +240,8 @@ impl<'m> Hand<'m> {
             let is_over = self.sent.elapsed() > PRESS && Panel::objection(panel.state()?).is_none();
             if is_over {
                 let demands = &mut panel.demands;
-                demands.ask(JogMode::Incremental, along(*step), v, self.by_joint)?;
+                let (mode, value) = (JogMode::Incremental, along(*step));
+                demands.ask(Monotonic.now_ns(), mode, value, v, self.by_joint)?;
                 self.sent = Instant::now();
             }
             return Ok(());
@@ -251,7 +253,8 @@ impl<'m> Hand<'m> {
         self.pressed = Some((axis, side, until));
         if !is_same {
             let demands = &mut panel.demands;
-            demands.ask(JogMode::Continuous, along(v), 0.0, self.by_joint)?;
+            let (mode, value) = (JogMode::Continuous, along(v));
+            demands.ask(Monotonic.now_ns(), mode, value, 0.0, self.by_joint)?;
             self.sent = Instant::now();
         }
         Ok(())

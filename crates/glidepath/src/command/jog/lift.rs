@@ -9,6 +9,7 @@ use crate::output;
 use core::time::Duration;
 use glidepath_geometry::AXES;
 use glidepath_link::{JogMode, LinkConfig, MachineState};
+use glidepath_realtime::{Clock as _, Monotonic};
 use std::time::Instant;
 
 /// Between two looks at the machine.
@@ -24,7 +25,7 @@ const PATIENCE: Duration = Duration::from_secs(10);
 pub(in crate::command) fn lift(link: &LinkConfig, config: &MachineConfig) -> Result<(), Failure> {
     let interrupt = Interrupt::install().map_err(Failure::Signals)?;
     let mut panel = Panel::open(link, config)?;
-    let started = Instant::now();
+    let (started, asked_ns) = (Instant::now(), Monotonic.now_ns());
     while panel.state()? != MachineState::Idle {
         if interrupt.is_set() || started.elapsed() > PATIENCE {
             output::note("abort: the machine is not ready for a jog; the tool is not lifted");
@@ -38,7 +39,8 @@ pub(in crate::command) fn lift(link: &LinkConfig, config: &MachineConfig) -> Res
     if let Some(slot) = value.get_mut(axis.index()) {
         *slot = config.jog.lift;
     }
-    panel.demands.ask(JogMode::Incremental, value, 0.0, false)?;
+    let demands = &mut panel.demands;
+    demands.ask(asked_ns, JogMode::Incremental, value, 0.0, false)?;
     set_out(&mut panel, &start, &interrupt)?;
     while panel.state()? == MachineState::Jogging {
         if interrupt.is_set() {

@@ -3,6 +3,7 @@
 use super::arrival::{Arrival, at_end_already};
 use super::panel::Panel;
 use crate::cli::JogArgs;
+use crate::clock;
 use crate::command::ending;
 use crate::command::failure::Failure;
 use crate::config::MachineConfig;
@@ -60,9 +61,10 @@ pub(super) fn jog(
         return Err(Failure::AtEndOfTravel { state, reason });
     }
     let most_v = args.feed.map_or(0.0, |feed| feed / 60.0);
+    let (asked_ns, by_joint) = (clock::started_ns(), args.by_joint);
     panel
         .demands
-        .ask(JogMode::Incremental, value, most_v, args.by_joint)?;
+        .ask(asked_ns, JogMode::Incremental, value, most_v, by_joint)?;
     set_out(&mut panel, &start, &interrupt)?;
     let mut has_let_go = false;
     // Held, the machine is slowing for as long as its last differences are not those of rest.

@@ -12,6 +12,7 @@ use super::gesture::{Gesture, Heard};
 use crate::command::jog::Demands;
 use glidepath_geometry::AXES;
 use glidepath_link::{Ipc, JogMode, LinkConfig, LinkError, Transport as _};
+use glidepath_realtime::{Clock as _, Monotonic};
 use std::collections::VecDeque;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::time::{Duration, Instant};
@@ -84,6 +85,12 @@ fn serve(link: &LinkConfig, hands: &Receiver<(Hand, Instant)>) {
     }
 }
 
+/// When a message came, by the clock that demands are stamped with.
+fn ns_of(at: Instant) -> u64 {
+    let age_ns = u64::try_from(at.elapsed().as_nanos()).unwrap_or(u64::MAX);
+    Monotonic.now_ns().saturating_sub(age_ns)
+}
+
 /// What moves, and by whom.
 struct Hands {
     demands: Demands,
@@ -145,7 +152,8 @@ impl Hands {
                     return Ok(());
                 }
                 self.step = Some((at + STEP_SAID, Instant::now()));
-                self.demands.ask(JogMode::Incremental, by, most_v, false)
+                let demands = &mut self.demands;
+                demands.ask(ns_of(at), JogMode::Incremental, by, most_v, false)
             }
         }
     }
@@ -175,7 +183,8 @@ impl Hands {
         self.step = None;
         if is_new || velocity.map(f64::to_bits) != self.velocity.map(f64::to_bits) {
             self.velocity = velocity;
-            return self.demands.ask(JogMode::Continuous, velocity, 0.0, false);
+            let demands = &mut self.demands;
+            return demands.ask(ns_of(at), JogMode::Continuous, velocity, 0.0, false);
         }
         self.demands.again()
     }

@@ -349,6 +349,27 @@ fn only_the_first_client_moves_the_axes_until_they_rest() {
 }
 
 #[test]
+fn what_was_demanded_before_a_stop_and_is_heard_with_it_moves_nothing() {
+    let (mut rig, mut hand) = (jogged(), Hand::new(1));
+    rig.tick();
+    for stop in [Command::Hold, Command::Abort, Command::Hold] {
+        // Both wait for the same tick, which takes orders first.
+        hand.ask(&mut rig, JogMode::Incremental, [5.0, 0.0, 0.0]);
+        rig.command(stop);
+        let before = x(&rig);
+        for _ in 0..50 {
+            rig.tick();
+        }
+        assert_eq!(x(&rig).to_bits(), before.to_bits(), "{stop:?}");
+        rig.command(stop);
+        hand.ask(&mut rig, JogMode::Incremental, [5.0, 0.0, 0.0]);
+        rig.tick();
+        assert!(x(&rig) > before, "{stop:?}");
+        settle(&mut rig, MachineState::Idle);
+    }
+}
+
+#[test]
 fn a_key_that_was_down_before_or_comes_late_starts_nothing() {
     let (mut rig, _) = rig(5, 3, 200);
     let mut hand = Hand::new(1);
