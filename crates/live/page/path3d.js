@@ -113,7 +113,7 @@ class Path3D {
   draw(p) {
     const w = this.box.clientWidth, h = this.box.clientHeight;
     if (!w || !h) return;
-    const track = this.track(), done = track === MOTION ? p : -1, start = performance.now();
+    const track = this.track(), done = track && track === MOTION ? p : -1, start = performance.now();
     const key = [w, h, this.yaw, this.pitch, this.zoom, ...this.pan, this.mode, T.dark, this.showProgram, devicePixelRatio].join();
     const level = track ? this.level(track) : 0;
     const anew = this.stale || key !== this.drawn.key || track !== this.drawn.track || done < this.drawn.p || (level !== this.drawn.level && performance.now() - this.moved > 180);
@@ -133,7 +133,7 @@ class Path3D {
       this.stale = false;
       // Finer, once the view rests.
       if (track && level < track.levels.length - 1) setTimeout(() => { dirty.path = true; }, 200);
-    } else if (track === MOTION && !S.file && done > this.drawn.p) {
+    } else if (track && track === MOTION && !S.file && done > this.drawn.p) {
       const c = this.base.getContext('2d');
       this.segments(c, track, this.drawn.level, this.drawn.p, done, { width: 2.6, rapid: 1.2 }, w, h);
       const first = track.before(done);

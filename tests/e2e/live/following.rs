@@ -4,7 +4,7 @@
 use std::process::Stdio;
 
 use glidepath_link::MachineState;
-use glidepath_tests::{Instance, Operated, Process, Services, Watchdog};
+use glidepath_tests::{Browser, Instance, Operated, Process, Services, Watchdog};
 use serde_json::{Value, json};
 
 use super::{Live, PATIENCE};
@@ -99,6 +99,32 @@ fn nothing_of_another_program_is_shown_in_the_place_of_what_runs() {
     let _on = services.wait(|status| status.frames_executed > moving.frames_executed);
     let _aborted = Process::join(&instance, &["abort"]).wait().expect(0);
     drop((live, late, planner.wait()));
+    drop(services.end());
+}
+
+/// What has no plan that could be drawn is followed all the same.
+#[test]
+fn a_page_without_a_plan_goes_on_painting() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let Some(mut browser) = Browser::start(1024, 768) else {
+        return;
+    };
+    let services = Services::start(&instance);
+    let live = Live::start(&instance, &[]);
+    browser.open(&live.url);
+    browser.wait("typeof S !== 'undefined' && S.state === 'idle'");
+    let mut pipe = Process::join_with(&instance, &["planner", "-"], Stdio::piped());
+    pipe.feed(&long_program());
+    browser.wait("S.state === 'running' && PLAN === null && S.status.feed_mm_s > 1");
+    // Where the motion is may be known before its plan has come.
+    let drawn = browser.evaluate("(SPACE.draw(3), SPACE.draw(9), true)");
+    assert_eq!(drawn, true);
+    let painted = browser.evaluate("FRAMES.count").as_u64().unwrap();
+    browser.wait(&format!("FRAMES.count > {painted} + 20"));
+    let _held = Process::join(&instance, &["hold"]).wait().expect(0);
+    browser.wait("document.querySelector('#word').textContent.startsWith('Held')");
+    let _aborted = Process::join(&instance, &["abort"]).wait().expect(0);
+    drop((live, pipe.wait()));
     drop(services.end());
 }
 
