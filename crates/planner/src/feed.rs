@@ -14,7 +14,7 @@ mod wait;
 
 pub use error::FeedError;
 
-use std::time::Duration;
+use std::time::Instant;
 
 use glidepath_gcode::ReadingWatch;
 use glidepath_geometry::AxisVector;
@@ -133,14 +133,13 @@ fn stream(
 /// Waits for a machine that says where it stands.
 fn must_be_there(transport: &dyn Transport, control: &mut Control<'_>) -> Result<(), FeedError> {
     let mut status = transport.status_source()?;
-    let mut waited = Duration::ZERO;
-    while waited < PATIENCE {
+    let began = Instant::now();
+    while began.elapsed() < PATIENCE {
         if let Some(status) = status.take()? {
             status.check().map_err(LinkError::from)?;
             return Ok(());
         }
         pause(POLL, control)?;
-        waited += POLL;
     }
     Err(FeedError::MachineLost)
 }

@@ -15,8 +15,8 @@ use std::time::{Duration, Instant};
 /// How long what is said of a stop may be on its way.
 const MOMENT: Duration = Duration::from_millis(150);
 
-/// A hold that is over sooner needs no word.
-const HELD_MOMENT: Duration = Duration::from_secs(1);
+/// A hold, or another state that is over sooner, needs no word.
+const PASSING: Duration = Duration::from_secs(1);
 /// Between two looks of whoever does something else meanwhile.
 const EVERY: Duration = Duration::from_millis(20);
 /// How long nothing is heard of an interpolator before it is said that it is waited for.
@@ -122,11 +122,11 @@ impl Attention {
         let place = (status.epoch, status.frames_executed, status.state);
         let of_place = self.asked.filter(|(asked, ..)| *asked == place);
         let (_, since, is_told) = of_place.unwrap_or((place, Instant::now(), false));
-        let is_held = matches!(
+        let is_asked = matches!(
             status.state(),
-            Ok(MachineState::Held | MachineState::Preparing)
+            Ok(MachineState::Awaiting | MachineState::ProgramStop)
         );
-        let moment = if is_held { HELD_MOMENT } else { MOMENT };
+        let moment = if is_asked { MOMENT } else { PASSING };
         let is_due = !is_told && since.elapsed() >= moment;
         if is_due {
             output::note(&words);
@@ -152,6 +152,10 @@ impl Attention {
             let doing = status.state_text().unwrap_or_default();
             return Some(format!("line {}: {doing}", status.line));
         }
+        if not_ready(state) {
+            let doing = status.state_text().unwrap_or_default();
+            return Some(format!("waiting for the machine: {doing}"));
+        }
         if state == MachineState::Preparing && status.job_held == 1 {
             return Some("the job begins held; `glidepath resume` begins it".to_owned());
         }
@@ -174,6 +178,15 @@ impl Attention {
             "line {line}: {asked}; {done}, and if it cannot be done: `glidepath acknowledge --fail \"why\"`"
         ))
     }
+}
+
+/// Whether no job can begin, for as long as the state lasts.
+const fn not_ready(state: MachineState) -> bool {
+    use MachineState::{Faulted, Homing, Jogging, NotHomed, Off, Stopping};
+    matches!(
+        state,
+        Faulted | Homing | Jogging | NotHomed | Off | Stopping
+    )
 }
 
 /// How it is known that what was asked is done; `None`: the spindle says so, and nobody has to do anything.

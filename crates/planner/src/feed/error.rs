@@ -22,10 +22,14 @@ pub enum FeedError {
         message: String,
     },
     /// The planner did not answer.
-    #[error("the planner does not answer; `glidepath planner --listen` starts it")]
+    #[error(
+        "the planner's service does not answer: it hangs, or has ended; `glidepath planner --listen` starts one"
+    )]
     PlannerLost,
     /// No interpolator tells where the machine stands.
-    #[error("no interpolator tells where the machine stands; `glidepath interpolator` starts one")]
+    #[error(
+        "no interpolator tells where the machine stands: none runs, which `glidepath interpolator` mends, or it hangs"
+    )]
     MachineLost,
     /// The caller's stop flag ended it before a stream was open: nothing of it moves.
     #[error("interrupted: nothing was streamed")]

@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 use std::hash::{BuildHasher, Hasher, RandomState};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use glidepath_geometry::AxisVector;
 use glidepath_link::{
@@ -61,12 +61,11 @@ impl Feeder {
     /// Opens the stream; where the machine stands, which is the stream's from now on.
     /// Waits a while for a planner or machine that is not ready yet.
     pub(super) fn open(&mut self, control: &mut Control<'_>) -> Result<AxisVector, FeedError> {
-        let mut waited = Duration::ZERO;
+        let began = Instant::now();
         loop {
             let reply = match self.repeat(self.open, control) {
-                Err(FeedError::Link(LinkError::NoServer { .. })) if waited < PATIENCE => {
+                Err(FeedError::Link(LinkError::NoServer { .. })) if began.elapsed() < PATIENCE => {
                     pause(RETRY, control)?;
-                    waited += RETRY;
                     continue;
                 }
                 reply => reply?,
@@ -76,10 +75,11 @@ impl Feeder {
                     self.accepted = 1;
                     return Ok(AxisVector::from(reply.position));
                 }
-                Err(SegmentRefusal::Stopped) if waited < PATIENCE => pause(RETRY, control)?,
+                Err(SegmentRefusal::Stopped) if began.elapsed() < PATIENCE => {
+                    pause(RETRY, control)?;
+                }
                 Err(refusal) => return Err(refused(0, refusal, &reply)),
             }
-            waited += RETRY;
         }
     }
 
@@ -286,13 +286,12 @@ impl Feeder {
     }
 
     fn reply(&mut self, control: &mut Control<'_>) -> Result<SegmentReply, FeedError> {
-        let mut waited = Duration::ZERO;
-        while waited < PATIENCE {
+        let began = Instant::now();
+        while began.elapsed() < PATIENCE {
             if let Some(reply) = self.take_reply()? {
                 return Ok(reply);
             }
             pause(POLL, control)?;
-            waited += POLL;
         }
         Err(FeedError::PlannerLost)
     }
