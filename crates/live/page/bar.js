@@ -8,18 +8,20 @@ function layBar() {
   layDeeds();
 }
 function layDeeds() {
-  DEEDS.hold = () => { endJog(); order('hold'); };
-  DEEDS.abort = () => { endJog(); order('abort'); };
+  // Nothing that another finger is about to begin begins behind a stop.
+  DEEDS.hold = () => { if (PRESSED.button !== BAR.abort) letGo(); endJog(); TOUCH.stopped = true; order('hold'); };
+  DEEDS.abort = () => { endJog(); TOUCH.stopped = true; order('abort'); };
   DEEDS.single = () => order('single-block', { on: !(S.status && S.status.single_block) });
   DEEDS.go = async () => {
     // Held on the way back, it turns round first.
-    const turns = S.status && S.status.mode === 'backwards', rests = S.state === 'held';
-    const said = turns ? await order('forward') : null;
-    if (!said || (said.accepted && rests)) order('resume');
+    const turns = S.status && S.status.mode === 'backwards', rests = S.state === 'held', heard_ms = S.clock_ms;
+    const said = turns ? await order('forward', { heard_ms }) : null;
+    // It was asked for when the key was: a hold that came meanwhile counts.
+    if (!said || (said.accepted && rests)) order('resume', { heard_ms });
   };
   DEEDS.back = async () => {
-    const said = S.status && S.status.mode === 'backwards' ? null : await order('reverse');
-    if (!said || said.accepted) order('resume');
+    const heard_ms = S.clock_ms, said = S.status && S.status.mode === 'backwards' ? null : await order('reverse', { heard_ms });
+    if (!said || said.accepted) order('resume', { heard_ms });
   };
   DEEDS.reset = () => order('reset');
   DEEDS.return = () => order('return');

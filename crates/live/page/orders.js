@@ -30,44 +30,59 @@ const mm = x => String(+x.toFixed(6));
 
 /* ---- buttons. `data-press` is how long they are pressed, ms; `data-do` what they do. */
 const DEEDS = {};
-const PRESSED = { button: null, timer: 0, key: null };
+const PRESSED = { button: null, timer: 0, key: null, pointer: null };
+/* What a button means to whoever presses it: one that stays in its place may come to mean something else. */
+const meaning = button => `${$('span', button).textContent} ${button === BAR.go ? S.state : ''}`;
+/* Gives back whether it has to be pressed for longer. */
 function press(button) {
-  if (PRESSED.button || button.getAttribute('aria-disabled') === 'true') return;
   const wait = +(button.dataset.press || 0), deed = DEEDS[button.dataset.do];
-  if (!deed) return;
-  if (!wait) { deed(button); return; }
+  if (!deed || button.getAttribute('aria-disabled') === 'true') return false;
+  // What stops waits for no other finger.
+  if (button === BAR.hold) { deed(button); return false; }
+  if (button === BAR.abort) letGo();
+  if (PRESSED.button) return false;
+  if (!wait) { deed(button); return false; }
+  const seen = meaning(button);
   PRESSED.button = button;
   button.style.setProperty('--press', `${wait}ms`);
   button.classList.add('down');
-  // One that was painted anew meanwhile may mean something else.
-  PRESSED.timer = setTimeout(() => { letGo(); if (button.isConnected && button.getAttribute('aria-disabled') !== 'true') deed(button); }, wait);
+  PRESSED.timer = setTimeout(() => {
+    letGo();
+    if (button.getAttribute('aria-disabled') === 'true') return;
+    if (button.isConnected && meaning(button) === seen) deed(button); else refuse('this key changed under the finger; look at it, and press anew');
+  }, wait);
+  return true;
 }
+/* Says beside the buttons why something was not done. */
+function refuse(text) { S.refusal = text; S.refused_at = performance.now(); paintBar(); }
 function letGo() {
   clearTimeout(PRESSED.timer);
   if (PRESSED.button) PRESSED.button.classList.remove('down');
-  PRESSED.button = PRESSED.key = null;
+  PRESSED.button = PRESSED.key = PRESSED.pointer = null;
 }
 addEventListener('pointerdown', e => {
   const button = e.target.closest('[data-do]');
   if (!button || e.button) return;
-  press(button);
+  if (press(button)) PRESSED.pointer = e.pointerId;
 });
+// Who reads the screen by ear may press without a finger: a stop is taken from them, too.
+addEventListener('click', e => { if (!e.detail && BAR.hold && BAR.hold.contains(e.target)) press(BAR.hold); });
 for (const end of ['pointerup', 'pointercancel', 'blur']) addEventListener(end, letGo);
 document.addEventListener('visibilitychange', letGo);
 addEventListener('pointermove', e => {
-  if (PRESSED.button && !PRESSED.key && e.isPrimary && !PRESSED.button.contains(document.elementFromPoint(e.clientX, e.clientY))) letGo();
+  if (PRESSED.pointer === e.pointerId && !PRESSED.button.contains(document.elementFromPoint(e.clientX, e.clientY))) letGo();
 });
 /* Space and Pause hold, wherever the focus is but in a field. Shift and Escape, pressed for a second, abort. */
 addEventListener('keydown', e => {
   const types = e.target.closest && e.target.closest('input:not([type=range],[type=radio])');
   if (e.key === 'Pause' || (e.key === ' ' && !types)) { e.preventDefault(); if (!e.repeat && may('hold')) DEEDS.hold(); return; }
-  if (e.key === 'Escape' && e.shiftKey) { e.preventDefault(); if (!e.repeat) { press(BAR.abort); PRESSED.key = 'Escape'; } return; }
+  if (e.key === 'Escape' && e.shiftKey) { e.preventDefault(); if (!e.repeat && press(BAR.abort)) PRESSED.key = 'Escape'; return; }
   if (e.key === 'Escape' && S.sheet !== null) { DEEDS['close-sheet'](); return; }
   if (e.key !== 'Enter') return;
   const button = e.target.closest && e.target.closest('[data-do]');
   if (!button) return;
   e.preventDefault();
-  if (!e.repeat) { press(button); PRESSED.key = e.key; }
+  if (!e.repeat && press(button)) PRESSED.key = e.key;
 });
 addEventListener('keyup', e => { if (e.key === PRESSED.key) letGo(); });
 addEventListener('contextmenu', e => { if (e.target.closest('[data-do],.jog')) e.preventDefault(); });
@@ -89,6 +104,9 @@ function setKey(button, text, { press = 0, why = '', sub = '', kind = '' } = {})
   button.dataset.press = press; button.className = `key ${kind}${button.classList.contains('down') ? ' down' : ''}`;
   if (why) button.setAttribute('aria-disabled', 'true'); else button.removeAttribute('aria-disabled');
 }
+
+/* Why nothing is known of the machine; nothing if it is. */
+const unknown = () => ({ stale: 'state not known', none: 'no machine' })[S.state] || '';
 
 /* ---- who operates */
 S.may = 'look'; S.operates = false; S.asks = false; S.asked_for = false;

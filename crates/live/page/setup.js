@@ -170,7 +170,7 @@ DEEDS['run-line'] = async () => {
 function layLine() {
   const input = $('#mdi'), button = $('#runline');
   input.addEventListener('keydown', e => {
-    if (e.key === 'Enter') { e.preventDefault(); if (!e.repeat) { press(button); PRESSED.key = 'Enter'; } return; }
+    if (e.key === 'Enter') { e.preventDefault(); if (!e.repeat && press(button)) PRESSED.key = 'Enter'; return; }
     if (e.key !== 'ArrowUp' && e.key !== 'ArrowDown') return;
     e.preventDefault();
     const lines = (S.status && S.status.page_jobs || []).filter(job => job.is_line);

@@ -2,7 +2,7 @@
 // Touching off: a probe, or a tool over a plate, goes to the part until it touches; then the part zero, or the
 // length of the tool, is set from where it touched. Lines for the planner's service, one after the other.
 
-const TOUCH = { way: 'Z−', reach: 10, feed: 100, plate: 0, tip: 0, place: 0, back: 2, of: 'zero', step: 0, says: '' };
+const TOUCH = { way: 'Z−', reach: 10, feed: 100, plate: 0, tip: 0, place: 0, back: 2, of: 'zero', step: 0, says: '', stopped: false };
 const TOUCH_FIELDS = { reach: 'Farthest way, mm', feed: 'Feed, mm/min', plate: 'Plate under the tool, mm', tip: 'Ø of the probe, mm', place: 'The place is at, mm', back: 'Then back, mm' };
 const touchWays = () => { const names = AXES().map(a => a.name), sides = names.includes('X') && names.includes('Y') ? ['X+', 'X−', 'Y+', 'Y−'] : []; return names.includes('Z') ? ['Z−', ...sides] : sides; };
 const isLength = () => TOUCH.way === 'Z−' && TOUCH.of === 'length';
@@ -49,11 +49,12 @@ function touchLines() {
 }
 DEEDS['touch-go'] = async () => {
   if (whyNoTouch()) return;
-  TOUCH.says = '';
+  TOUCH.says = ''; TOUCH.stopped = false;
   keepForUndo(isLength() ? null : TOUCH.way[0]);
   for (const [step, line] of touchLines()) {
     TOUCH.step = step; paintTouch();
-    const why = await lineToItsEnd(line);
+    // Whoever held or aborted, be it between two lines, wants nothing more to move.
+    const why = TOUCH.stopped ? 'Hold or Abort was pressed: nothing more was done' : await lineToItsEnd(line);
     if (why) { TOUCH.says = why; paintTouch(); return; }
   }
   TOUCH.step = 4; paintTouch();
@@ -65,7 +66,7 @@ async function lineToItsEnd(line) {
   if (!said.runs) return '';
   for (;;) {
     await new Promise(done => setTimeout(done, 100));
-    if (S.state === 'stale') return 'contact was lost; look at the machine, and begin anew';
+    if (unknown()) return 'contact was lost; look at the machine, and begin anew';
     const job = (S.status.page_jobs || [])[0];
     // What is heard may be older than the order.
     if (!job || S.clock_ms === begun || job.name !== line) { if (job && job.name !== line && S.clock_ms - begun > 2000) return 'another line was handed in meanwhile'; continue; }

@@ -324,6 +324,12 @@ fn a_browser_shows_the_machine_and_holds_it() {
     browser.press("[data-c=go]");
     std::thread::sleep(Duration::from_millis(700));
     let _still_held = services.wait_for(MachineState::Held);
+    // Nothing that a finger is about to begin begins behind a stop of another one.
+    let place = browser.finger_down("[data-c=go]");
+    browser.evaluate("press(BAR.hold)");
+    std::thread::sleep(Duration::from_millis(700));
+    browser.finger_up(&place);
+    let _still_held = services.wait_for(MachineState::Held);
     browser.press_for("[data-c=go]", Duration::from_millis(700));
     let _moving = services.wait_for(MachineState::Running);
     browser.wait("S.state === 'running'");
