@@ -17,37 +17,46 @@ let version = -1, fetching = false, COME = { plan: null, motion: null, program: 
 async function fetchPlan() {
   if (fetching) return;
   fetching = true;
-  const info = await api('/api/plan', 'json');
-  if (info) {
-    const of = `?of=${info.generation}`, get = async (is, path) => is ? api(path + of) : null;
-    const [program, columns, path] = await Promise.all([get(info.program_path, '/api/program.bin'), get(info.report, '/api/columns.bin'), get(info.report, '/api/path.bin')]);
-    const whole = columns && path;
-    COME = { plan: whole ? new Plan(columns) : null, motion: whole ? new Track(path) : null, program: program ? new Track(program) : null };
-    if (info.generation !== INFO.generation) LINES.forget();
-    version = info.version;
-    setInfo(info); usePlan();
-  }
+  try { await takePlan(); S.unpainted.plan = ''; } catch (error) { failed('plan', error); }
   fetching = false;
+}
+async function takePlan() {
+  const info = await api('/api/plan', 'json');
+  if (!info) return;
+  const of = `?of=${info.generation}`, get = async (is, path) => is ? api(path + of) : null;
+  // One behind the other: a browser has six connections to a server, and hold needs one.
+  const program = await get(info.program_path, '/api/program.bin'), columns = await get(info.report, '/api/columns.bin'), path = await get(info.report, '/api/path.bin');
+  const whole = columns && path, isAll = !program === !info.program_path && !whole === !info.report;
+  // What did not come is asked for again.
+  version = isAll ? info.version : -1;
+  COME = { plan: whole ? new Plan(columns) : null, motion: whole ? new Track(path) : null, program: program ? new Track(program) : null };
+  if (info.generation !== INFO.generation) LINES.forget();
+  setInfo(info); usePlan();
+  if (!isAll) await new Promise(done => setTimeout(done, 300));
 }
 function usePlan() {
   // Before a program runs, the one that was chosen is looked at.
   const from = S.view === 'programs' ? LOOK : S.shows ? COME : {};
   PLAN = from.plan || null; MOTION = from.motion || null; PROGRAM = from.program || null;
-  RIBBON.key = ''; SPACE.stale = true;
+  RIBBON.key = ''; SPACE.stale = true; S.hover = null;
   paintLegend(); paintTune(); redraw();
 }
 /* Messages: four bytes of length, one of kind, payload. */
 async function listen() {
   let held = new Uint8Array(0);
   for (;;) {
+    // The server tells every second that nothing happens: one that is silent for longer is asked anew.
+    const way = new AbortController(), lost = () => setTimeout(() => way.abort(), 5000);
+    let late = lost();
     try {
-      const answer = await fetch('/api/stream', { headers: { 'X-Glidepath-Token': TOKEN } });
+      const answer = await fetch('/api/stream', { headers: { 'X-Glidepath-Token': TOKEN }, signal: way.signal });
       S.refused = answer.status === 403;
       if (!answer.ok) throw new Error('refused');
       const reader = answer.body.getReader();
       held = new Uint8Array(0);
       for (;;) {
         const { done, value } = await reader.read();
+        clearTimeout(late); late = lost();
         if (done) break;
         const bytes = new Uint8Array(held.length + value.length);
         bytes.set(held); bytes.set(value, held.length);
@@ -55,26 +64,36 @@ async function listen() {
         while (bytes.length - at >= 5) {
           const length = new DataView(bytes.buffer, at).getUint32(0, true);
           if (bytes.length - at < 4 + length) break;
-          heard(bytes[at + 4], bytes.slice(at + 5, at + 4 + length).buffer);
+          const kind = bytes[at + 4], payload = bytes.slice(at + 5, at + 4 + length).buffer;
+          paintPart(kind === 1 ? 'status' : 'setpoints', () => heard(kind, payload));
           at += 4 + length;
         }
         held = bytes.slice(at);
       }
     } catch { /* told by the age of what is shown */ }
+    clearTimeout(late);
     await new Promise(done => setTimeout(done, 500));
   }
 }
+S.ahead = -Infinity; S.came = 0; S.boot = '';
 function heard(kind, payload) {
   if (kind === 1) {
-    const status = JSON.parse(new TextDecoder().decode(payload));
-    S.status = status; S.heard = performance.now(); S.clock_ms = status.clock_ms;
-    S.state = status.state; S.rate = status.effective_override || 1;
+    const status = JSON.parse(new TextDecoder().decode(payload)), now = performance.now(), ahead = status.clock_ms - now;
+    // What was kept back on its way, or is told again, is as old as it is: by the server's clock, which goes ahead of that of
+    // the page by what it did for the quickest status. The clocks drift apart by less than 1 ms a second.
+    S.ahead = Math.max(ahead, S.ahead - (now - S.came) * 1e-3); S.came = now;
+    S.status = status; S.heard = now - (S.ahead - ahead); S.clock_ms = status.clock_ms;
+    S.state = isOld() ? 'stale' : status.state; S.rate = status.effective_override || 1;
+    // Another life of the interpolator counts its setpoints anew.
+    if (RINGED && status.boot && status.boot !== S.boot) { S.boot = status.boot; RINGED.reset(); }
     S.p = status.place === null ? 0 : status.place;
     // Nothing of another program is shown while one runs.
-    const shows = status.program_is_shown || status.end_of_epoch !== 'open';
+    const shows = status.end_of_epoch !== 'open' || (status.program_is_shown && status.generation === INFO.generation);
     if (shows !== S.shows) { S.shows = shows; usePlan(); }
     if (status.version !== version) fetchPlan();
     if (S.may === 'operate' && status.set_up !== undefined) fetchSetUp(status.set_up);
+    // A browser lets the timers of a page that nobody sees come late, by up to a minute.
+    if (document.hidden) callPerson();
   } else if (kind === 2 && RINGED && S.status) {
     const errors = Object.values(S.status.following_error || {}).map(v => Math.abs(v || 0));
     RINGED.take(payload, S.p, Math.max(0, ...errors) * 1000, (S.status.queue_depth || 0) * DT());
@@ -200,7 +219,7 @@ function work(position) {
 function digits() {
   const s = S.status;
   if (S.file) { put($('#left'), span(PLAN ? PLAN.seconds : 0)); return; }
-  if (!s || S.state === 'none') { put($('#left'), '–:––.–'); put($('#ends'), ''); paintWhy(); return; }
+  if (!s || S.state === 'none' || !s.position) { put($('#left'), '–:––.–'); put($('#ends'), ''); paintWhy(); return; }
   const ring = RINGED, fresh = ring && ring.count, axes = AXES(), speed = Math.abs(fresh ? ring.feed[(ring.count - 1) & (RING - 1)] : s.feed_mm_s);
   const machine = axes.map((a, k) => fresh ? ring.last_position(k) : s.position[a.name]), shown = work(machine), moving = speed > 1e-6 && S.state !== 'stale';
   $('#app').classList.toggle('moving', moving);
@@ -236,21 +255,24 @@ function digits() {
   blocks(s.line);
 }
 function feedDigits(v, moving) {
-  const bin = PLAN ? PLAN.bin(S.p) : 0, code = PLAN ? PLAN.code[bin] : 0, rapid = !!(code & 128), programmed = PLAN ? PLAN.programmed[bin] * 60 : 0;
+  // What an axis does by hand, or on its way home, is in no plan.
+  const plan = S.status.end_of_epoch === 'open' && S.status.place !== null && !['jogging', 'homing'].includes(S.state) ? PLAN : null;
+  const bin = plan ? plan.bin(S.p) : 0, code = plan ? plan.code[bin] : 0, rapid = !!(code & 128), programmed = plan ? plan.programmed[bin] * 60 : 0;
   const full = PLAN ? Math.max(PLAN.mostFeed * 60, 1) : Math.max(v, 6000), part = x => `${Math.min(100, x / full * 100)}%`;
   put($('#feed'), grouped(v));
-  $('#feedbar').style.width = part(v); $('#feedmark').style.left = part(rapid || programmed > 1e9 ? full : programmed); $('#feedmark').hidden = !PLAN;
-  put($('#feedof'), !PLAN ? '' : rapid ? (moving ? 'rapid' : 'a rapid comes') : !moving ? (programmed > 1e9 ? '' : `programmed ${grouped(programmed)}`) : `of ${grouped(programmed)}${['feed', 'none', 'rest'].includes(limitOf(code)) ? '' : `, ${limitText(code)}`}`);
+  $('#feedbar').style.width = part(v); $('#feedmark').style.left = part(rapid || programmed > 1e9 ? full : programmed); $('#feedmark').hidden = !plan;
+  put($('#feedof'), !plan ? '' : rapid ? (moving ? 'rapid' : 'a rapid comes') : !moving ? (programmed > 1e9 ? '' : `programmed ${grouped(programmed)}`) : `of ${grouped(programmed)}${['feed', 'none', 'rest'].includes(limitOf(code)) ? '' : `, ${limitText(code)}`}`);
 }
 function blocks(line) {
-  if (!INFO.program || !line || !S.status.program_is_shown) { fill($('#blocks'), '<div></div><div></div><div class="cur"></div><div></div><div></div>'); return; }
+  if (!INFO.program || !line || !S.status.program_is_shown || !S.shows) { fill($('#blocks'), '<div></div><div></div><div class="cur"></div><div></div><div></div>'); return; }
   $('#blocks').style.setProperty('--digits', Math.max(3, String(line + 2).length));
   fill($('#blocks'), [-2, -1, 0, 1, 2].map(k => { const text = LINES.get(line + k); return `<div class="${k ? '' : 'cur'}"><span class="k">${text === undefined ? '' : line + k}</span><span>${text ? safe(text.trim()) : ' '}</span></div>`; }).join(''));
 }
 
 /* What was heard is old after a while. */
+const isOld = () => performance.now() - S.heard > 1500;
 function growOld() {
-  if (S.heard && performance.now() - S.heard > 1500 && S.state !== 'stale') { S.state = 'stale'; paintState(); redraw(); }
+  if (S.heard && isOld() && S.state !== 'stale') { S.state = 'stale'; paintState(); redraw(); }
 }
 /* ---- the loop */
 let lastDigits = 0, lastHealth = 0, lastSpectrum = 0;
@@ -259,11 +281,12 @@ const FRAMES = { count: 0, since: 0, rate: 0 };
    stands still would show what was. */
 S.unpainted = {}; S.failures = [];
 function paintPart(part, paint) {
-  try { paint(); S.unpainted[part] = ''; } catch (error) {
-    S.unpainted[part] = String(error);
-    S.failures = [...S.failures, `${part}: ${error.stack || error}`].slice(-9);
-    console.error(error);
-  }
+  try { paint(); S.unpainted[part] = ''; } catch (error) { failed(part, error); }
+}
+function failed(part, error) {
+  S.unpainted[part] = String(error);
+  S.failures = [...S.failures, `${part}: ${error.stack || error}`].slice(-9);
+  console.error(error);
 }
 function frame(t) {
   requestAnimationFrame(frame);

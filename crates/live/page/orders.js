@@ -18,10 +18,11 @@ const headers = kind => ({ 'X-Glidepath-Token': TOKEN, 'X-Glidepath-Page': PAGE,
 async function order(kind, more = {}, quietly = false) {
   let said;
   try {
-    const answer = await fetch('/api/command', { method: 'POST', headers: headers('application/json'), body: JSON.stringify({ kind, heard_ms: S.clock_ms, ...more }), keepalive: true });
-    said = await answer.json();
-  } catch { said = { accepted: false, reason: `${kind} was not sent: the page's server does not answer` }; }
-  if (!quietly) { S.refusal = said.accepted ? '' : buttonWords(said.reason); S.refused_at = performance.now(); paintState(); }
+    const answer = await fetch('/api/command', { method: 'POST', priority: 'high', signal: AbortSignal.timeout(10000), headers: headers('application/json'), body: JSON.stringify({ kind, heard_ms: S.clock_ms, ...more }), keepalive: true });
+    const text = await answer.text();
+    said = text.startsWith('{') ? JSON.parse(text) : { accepted: false, reason: text };
+  } catch { said = { accepted: false, reason: `${kind}: the page's server did not answer; look whether it was done` }; }
+  if (!quietly) { S.refusal = said.accepted ? '' : buttonWords(said.reason); S.refused_at = performance.now(); paintPart('state', paintState); }
   return said;
 }
 /* A line for the planner's service. The page speaks in mm, whatever unit was in force. */
@@ -115,21 +116,27 @@ const may = role => S.may === 'operate' || S.may === role;
 const notOperating = () => S.may !== 'operate' ? `this page may only ${S.may}` : !S.operates ? 'another page operates' : '';
 async function here(kind = 'here', more = {}) {
   const said = await order(kind, more, true);
-  if (said.accepted && said.clock_ms !== undefined) S.clock_ms = said.clock_ms;
   if (said.accepted) { S.operates = said.operates; S.asks = said.asks; S.asked_for = said.operates && said.asked; paintHands(); }
 }
 DEEDS['ask-seat'] = () => here('ask-seat');
 DEEDS['give-seat'] = () => here('answer-seat', { give: true });
 DEEDS['keep-seat'] = () => here('answer-seat', { give: false });
 async function startHands() {
-  try {
-    const answer = await fetch('/api/may', { headers: { 'X-Glidepath-Token': TOKEN } });
-    if (answer.ok) S.may = await answer.text();
-  } catch { /* told by the age of what is shown */ }
+  // Without an answer this page could not even hold: it is asked for until there is one.
+  for (;;) {
+    try {
+      const answer = await fetch('/api/may', { headers: { 'X-Glidepath-Token': TOKEN } });
+      if (answer.ok) S.may = await answer.text();
+      if (answer.ok || answer.status === 403) break;
+    } catch { /* told by the age of what is shown */ }
+    await new Promise(done => setTimeout(done, 500));
+  }
   paintTabs(); paintHands();
   if (S.may !== 'operate') return;
   here();
-  setInterval(() => here(S.asks ? 'ask-seat' : 'here'), 1000);
+  // One at a time: those that wait for a server that stands still would be in the way of a hold.
+  let isSaid = true;
+  setInterval(() => { if (isSaid) { isSaid = false; here(S.asks ? 'ask-seat' : 'here').finally(() => { isSaid = true; }); } }, 1000);
   addEventListener('pagehide', () => { if (S.operates) order('leave-seat', {}, true); });
 }
 /* The commands of texts, as the buttons of this page. */

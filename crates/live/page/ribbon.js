@@ -69,6 +69,7 @@ function emptyRibbon() {
   }
   if (!INFO.program) return 'No program has run yet. The one that runs will be shown here, whoever begins it.';
   if (INFO.failed) return `${stem(INFO.program.name)} cannot be planned here: ${INFO.failed}`;
+  if (INFO.report) return `${stem(INFO.program.name)} is planned; its path is on its way to this page.`;
   return `${stem(INFO.program.name)} is being planned: ${span(s ? s.planned_so_far_s || 0 : 0)} of motion so far. The machine does not wait for this.`;
 }
 function ribbonHands(onhover) {

@@ -22,7 +22,7 @@ function wordsNow() {
   return [sign, word, level, colour];
 }
 const isAway = s => Object.values(s.away || {}).some(x => Math.abs(x) > 1e-9);
-const line = status => status.line ? `line ${status.line}${status.program_is_shown && INFO.program && INFO.program.lines ? ` of ${grouped(INFO.program.lines)}` : ''}` : 'before its first line';
+const line = status => status.line ? `line ${status.line}${status.program_is_shown && S.shows && INFO.program && INFO.program.lines ? ` of ${grouped(INFO.program.lines)}` : ''}` : 'before its first line';
 /* What the machine executes, or has executed last, whoever began it. */
 function programName() {
   const s = S.status;
@@ -34,6 +34,7 @@ function cause() {
   const s = S.status;
   if (S.file) return fileWords();
   if (S.state === 'none') return `Nothing runs as “${INFO.machine.instance}”: glidepath interpolator starts it.`;
+  if (S.state === 'stale' && S.refused) return 'The server of this page was begun anew, or does not know the page: open the address that it told. All below is old; the machine may be moving.';
   if (S.state === 'stale') return S.heard ? `Last heard ${Math.round((performance.now() - S.heard) / 1000)} s ago. All below is old; the machine may be moving.` : 'The page has not heard anything yet.';
   const name = programName(), program = name ? `${name}, ` : '';
   if (S.state === 'faulted') return `${sentence(s.fault || 'a fault')}.`;

@@ -187,6 +187,10 @@ fn a_page_says_whole_words_and_no_more_than_it_knows() {
     let fits = browser.evaluate(fits);
     assert_eq!(fits[0], "Another page operates.");
     assert_eq!(fits[1], true);
+    // What was kept back on its way is not taken for what is so now.
+    let late = "(() => { const old = { ...S.status, clock_ms: S.clock_ms - 5000 }; \
+                heard(1, new TextEncoder().encode(JSON.stringify(old)).buffer); return S.state; })()";
+    assert_eq!(browser.evaluate(late), "stale");
     // What was not heard is not known, and a stop is given all the same.
     let unheard = "(() => { S.state = 'stale'; S.heard = 0; paintBar(); \
                    const key = c => document.querySelector(`[data-c=${c}]`); \

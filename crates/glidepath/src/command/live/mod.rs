@@ -326,6 +326,7 @@ impl Machine<'_> {
             self.day.take(&status, name.as_deref(), now_ms());
             object.insert("day".to_owned(), self.day.object());
             object.insert("version".to_owned(), self.shown.version().into());
+            object.insert("generation".to_owned(), self.shown.generation().into());
             let place = in_plan.map(|elapsed_t| elapsed_t / period_t);
             object.insert("place".to_owned(), place.into());
             object.insert("planned_so_far_s".to_owned(), planned_t.into());

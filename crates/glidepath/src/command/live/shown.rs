@@ -68,6 +68,11 @@ impl Shown {
         self.known().version
     }
 
+    /// Which program is shown.
+    pub(super) fn generation(&self) -> u64 {
+        self.known().generation
+    }
+
     /// What is known, as `/api/plan` tells.
     pub(super) fn object(&self) -> Value {
         let known = self.known();
