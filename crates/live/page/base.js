@@ -19,6 +19,8 @@ const DT = () => INFO.machine.period_s;
 /* ---- numbers */
 const num = (x, digits) => { const text = Math.abs(x).toFixed(digits); return (x < 0 && +text !== 0 ? '−' : '') + text; };
 const grouped = x => (x < -0.5 ? '−' : '') + String(Math.round(Math.abs(x))).replace(/\B(?=(\d{3})+$)/g, ' ');
+/* A number as people write it, with a point or a comma; null if it is none. */
+const numberOf = text => /^[+−-]?(\d+([.,]\d*)?|[.,]\d+)$/.test(text.trim()) ? +text.trim().replace('−', '-').replace(',', '.') : null;
 const two = x => String(x).padStart(2, '0');
 const clock = (ms, fine) => { const d = new Date(ms); return `${two(d.getHours())}:${two(d.getMinutes())}:${two(d.getSeconds())}` + (fine ? `.${String(d.getMilliseconds()).padStart(3, '0')}` : ''); };
 const span = s => {

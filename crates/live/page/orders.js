@@ -28,6 +28,8 @@ async function order(kind, more = {}, quietly = false) {
 /* A line for the planner's service. The page speaks in mm, whatever unit was in force. */
 const mdi = line => order('mdi', { line });
 const mm = x => String(+x.toFixed(6));
+/* A word of such a line. What a lathe has in force, diameters or radii, stays: the page means radii. */
+const word = (name, x) => name === 'X' && isLathe() ? `X[${mm(x)}*[1+#<_lathe_diameter_mode>]]` : name + mm(x);
 
 /* ---- buttons. `data-press` is how long they are pressed, ms; `data-do` what they do. */
 const DEEDS = {};

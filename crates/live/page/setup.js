@@ -9,9 +9,12 @@ async function fetchSetUp(version) {
   if (setUpVersion === version) return;
   setUpVersion = version;
   const info = await api('/api/set-up', 'json');
+  // An answer to an older question may be older, too.
+  if (setUpVersion !== version) return;
   if (!info) { setUpVersion = null; return; }
   const first = !SETUP.jog;
   SETUP = info;
+  judgeUndo();
   if (first) layPad();
   paintPad(); paintTables(); paintSetUp();
 }
@@ -22,12 +25,12 @@ const whyNoLine = () => notOperating() || (S.state === 'idle' ? '' : S.state ===
 function paintSetUp() {
   const s = S.status;
   if (!s || !SETUP.jog || S.view !== 'setup') return;
-  const not = notOperating(), simulated = s.power === 'simulated', on = simulated || s.power === 'on', homed = !(s.not_homed || []).length;
+  const not = notOperating(), simulated = s.power === 'simulated', on = simulated || s.power === 'on', homed = !!s.not_homed && !s.not_homed.length;
   const zero = active(), hasZero = !!zero && Object.values(zero.origin).some(x => x !== 0), rests = ['idle', 'off', 'not-homed', 'faulted'].includes(S.state);
   const step = (deed, title, done, now, why, next) => `<button class="key rail ${done ? 'done' : next ? 'next' : ''}" data-do="${deed}" data-press="${SHORT}" ${why ? 'aria-disabled="true"' : ''}><i class="fill"></i><span>${icon(done ? 'ok' : 'dot')}${title}</span><small>${safe(why && !done ? why : now)}</small></button>`;
   const fault = S.state === 'faulted' ? 'reset first' : '';
   fill($('#rail'),
-    (on ? step('power-off', 'Power', true, simulated ? 'simulated' : 'on', not || (simulated ? 'simulated' : rests ? '' : 'it moves'), false) : step('power', 'Power', false, s.power === 'enabling' ? 'coming on' : 'press ½ s', not || fault, true))
+    (on ? step('power-off', 'Power', true, simulated ? 'simulated' : 'on', not || (simulated ? 'simulated' : rests ? '' : 'it moves'), false) : step('power', 'Power', false, s.power === 'enabling' ? 'coming on' : 'press ½ s', not || fault || unknown(), true))
     + step('home', 'Home', homed, homed ? 'all axes' : `${(s.not_homed || []).join(' ')}: press ½ s`, not || fault || (on ? S.state === 'homing' ? 'under way' : rests ? '' : 'not now' : 'power first'), on && !homed)
     + step('show-zero', 'Part zero', hasZero, SETUP.keeps ? zero ? `${zero.name}${hasZero ? '' : ' is at 0'}` : 'none is kept yet' : 'not kept', '', on && homed && !hasZero)
     + step('show-tools', 'Tool', !!s.tool, s.tool ? `T${s.tool}` : 'none told', '', false));
@@ -48,7 +51,7 @@ function laySetUp() {
   fill($('#setdro'), `<div class="top"><b id="s-system"></b><span>press a number to set it</span><span>machine</span></div>${axes.map((a, k) => `<div class="ax"><b>${a.name}<svg class="i" viewBox="0 0 24 24" id="h${a.name}" aria-hidden="true"></svg></b><button class="w n" id="s${a.name}" data-do="touch" data-axis="${k}" aria-label="set ${a.name}"></button><div class="m"><div class="n" id="sm${a.name}"></div><div class="travel"><i id="st${a.name}"></i></div></div></div>`).join('')}`);
   layPad();
 }
-DEEDS.touch = b => { S.sheet = S.sheet === +b.dataset.axis ? null : +b.dataset.axis; paintSheet(); if (S.sheet !== null) $('#number').focus(); };
+DEEDS.touch = b => { $('#number').value = ''; S.sheet = S.sheet === +b.dataset.axis ? null : +b.dataset.axis; paintSheet(); if (S.sheet !== null) $('#number').focus(); };
 DEEDS['close-sheet'] = () => { S.sheet = null; paintSheet(); };
 function paintSheet() {
   const axis = S.sheet === null ? null : AXES()[S.sheet];
@@ -56,20 +59,21 @@ function paintSheet() {
   if (!axis) return;
   const why = whyNoLine(), s = S.status, joint = (SETUP.joints || []).indexOf(axis.name), notHomed = (s.not_homed || []).includes(`J${joint}`);
   const system = SETUP.active || 'the work offset';
-  fill($('#sheetkeys'), `<div class="row">${key('zero', `Zero ${axis.name}`, { why, kind: 'main' })}${key('half', 'Half', { why })}${key('value', 'Set to value', { why })}</div><div class="row">${key('go-to', `Go to value`, { press: SHORT, why, sub: 'rapid: press ½ s' })}${joint >= 0 && SETUP.homing !== 'none' ? key('home', `Home ${axis.name}`, { press: SHORT, why: notOperating(), sub: notHomed ? 'not homed' : 'again: press ½ s', data: `data-joint="${joint}"` }) : ''}${key('close-sheet', 'Close')}</div>`);
+  fill($('#sheetkeys'), `<div class="row">${key('zero', `Zero ${axis.name}`, { why, kind: 'main' })}${key('half', 'Half', { why })}${key('value', 'Set to value', { why })}</div><div class="row">${key('go-to', `Go to value`, { press: SHORT, why, sub: 'rapid: press ½ s' })}${joint >= 0 && SETUP.homing !== 'none' ? key('home', `Home ${axis.name}`, { press: SHORT, why: notOperating() || unknown(), sub: notHomed ? 'not homed' : 'again: press ½ s', data: `data-joint="${joint}"` }) : ''}${key('close-sheet', 'Close')}</div>`);
   put($('#sheethead'), `${axis.name} in ${system}, ${axis.unit}`);
 }
 const touched = () => AXES()[S.sheet];
-const entered = () => { const text = $('#number').value.trim().replace(',', '.').replace('−', '-'); return text !== '' && isFinite(+text) ? +text : null; };
+const entered = () => numberOf($('#number').value);
 async function setWork(value) {
-  keepForUndo(touched().name);
-  const said = await mdi(`G21 G10 L20 P0 ${touched().name}${mm(value)}`);
-  if (said.accepted) { S.sheet = null; paintSheet(); }
+  const { sheet } = S, undo = zeroToUndo(touched().name), said = await mdi(`G21 G10 L20 P0 ${word(touched().name, value)}`);
+  if (said.accepted) { offerUndo(undo); closeSheet(sheet); }
 }
+/* Closes the sheet of an axis, unless it is that of another one by now. */
+function closeSheet(sheet) { if (S.sheet === sheet) { S.sheet = null; paintSheet(); } }
 DEEDS.zero = () => setWork(0);
 DEEDS.half = () => setWork(work(machineNow())[S.sheet] / 2);
 DEEDS.value = () => { const v = entered(); if (v !== null) setWork(v); else $('#number').focus(); };
-DEEDS['go-to'] = async () => { const v = entered(); if (v === null) { $('#number').focus(); return; } const said = await mdi(`G21 G90 G0 ${touched().name}${mm(v)}`); if (said.accepted) { S.sheet = null; paintSheet(); } };
+DEEDS['go-to'] = async () => { const v = entered(); if (v === null) { $('#number').focus(); return; } const { sheet } = S, said = await mdi(`G21 G90 G0 ${word(touched().name, v)}`); if (said.accepted) closeSheet(sheet); };
 const machineNow = () => AXES().map((a, k) => RINGED && RINGED.count ? RINGED.last_position(k) : S.status.position[a.name]);
 function setUpDigits() {
   const s = S.status;
@@ -89,9 +93,24 @@ function setUpDigits() {
 
 /* ---- what was in force before the last change of a part zero or of a table */
 S.undo = null;
-function keepForUndo(axis) {
+/* The part zero, or the tool, that a line of the page sets, as it is now. */
+function concerned(line) {
+  const [, kind, number] = /G10 L([12]) P(\d+)/.exec(line);
+  return JSON.stringify(((kind === '1' ? SETUP.tools : SETUP.systems) || []).find(of => of.number === +number) || null);
+}
+function zeroToUndo(axis) {
   const zero = active();
-  S.undo = axis && zero ? { what: `${zero.name}, ${axis}`, was: num(zero.origin[axis], 3), line: `G21 G10 L2 P${zero.number} ${AXES().map(a => `${a.name}${mm(zero.origin[a.name])}`).join(' ')}` } : null;
+  if (!zero) return null;
+  // Where it is turned, one axis moves the zero of others.
+  const line = `G21 G10 L2 P${zero.number} ${AXES().map(a => word(a.name, zero.origin[a.name])).join(' ')}`;
+  return { what: `${zero.name}, ${axis}`, was: num(zero.origin[axis], 3), line, before: concerned(line) };
+}
+function offerUndo(undo) { S.undo = undo; judgeUndo(); paintUndo(); }
+/* What somebody has changed since is not set back. */
+function judgeUndo() {
+  const { undo } = S, now = undo && concerned(undo.line);
+  if (!undo || (!undo.after && now === undo.before)) return;
+  if (!undo.after) undo.after = now; else if (undo.after !== now) S.undo = null;
 }
 function paintUndo() {
   const undo = S.undo;
@@ -115,7 +134,7 @@ function offsetTable() {
   if (SETUP.trouble) return `<p class="lab-text">${safe(plain(SETUP.trouble))}</p>`;
   if (!SETUP.systems) return '<p class="lab-text">Nothing is kept yet. Press a position and set it: that is the first entry.</p>';
   const axes = AXES().map(a => a.name);
-  return `<table class="edit"><tr><th>system</th>${axes.map(a => `<th>${a}</th>`).join('')}<th>turned</th><th></th></tr>${SETUP.systems.map(system => `<tr class="${system.name === SETUP.active ? 'on' : ''}"><td><b>${system.name}</b></td>${axes.map(a => cell(`${system.name}, ${a}`, `G21 G10 L2 P${system.number} ${a}`, system.origin[a], 3)).join('')}${cell(`${system.name}, turned`, `G21 G10 L2 P${system.number} R`, system.rotation_deg, 2)}<td>${system.name === SETUP.active ? '<span class="chip">in use</span>' : key('use', 'Use', { why: whyNoLine(), data: `data-line="${system.name}"` })}</td></tr>`).join('')}</table>`;
+  return `<table class="edit"><tr><th>system</th>${axes.map(a => `<th>${a}</th>`).join('')}<th>turned</th><th></th></tr>${SETUP.systems.map(system => `<tr class="${system.name === SETUP.active ? 'on' : ''}"><td><b>${system.name}</b></td>${axes.map(a => cell(`${system.name}, ${a}`, `G21 G10 L2 P${system.number} ${a}`, system.origin[a], 3)).join('')}${cell(`${system.name}, turned`, `G21 G10 L2 P${system.number} R`, system.rotation_deg, 2)}<td>${system.name === SETUP.active ? '<span class="chip">in use</span>' : key('use', 'Use', { press: SHORT, why: whyNoLine(), data: `data-line="${system.name}"` })}</td></tr>`).join('')}</table>`;
 }
 function toolTable() {
   if (!(SETUP.tools || []).length) return '<p class="lab-text">There are no tools. Name a table: tool_table of [program] of the configuration.</p>';
@@ -124,31 +143,32 @@ function toolTable() {
 }
 function spindleKeys() {
   const why = whyNoLine(), s = S.status || {}, told = s.spindle;
-  return `<div class="spindle"><label class="field"><span class="lab">Speed, rev/min</span><input id="speed" inputmode="numeric" value="${told && told.speed ? told.speed : 1000}"></label><div class="row">${key('spindle-cw', 'Clockwise', { press: SHORT, why, sub: 'M3: press ½ s' })}${key('spindle-ccw', 'Counterclockwise', { press: SHORT, why, sub: 'M4: press ½ s' })}${key('line', 'Stop', { why, sub: 'M5', data: 'data-line="M5"' })}</div><div class="row">${key('line', 'Mist', { why, sub: 'M7', data: 'data-line="M7"' })}${key('line', 'Flood', { why, sub: 'M8', data: 'data-line="M8"' })}${key('line', 'Coolant off', { why, sub: 'M9', data: 'data-line="M9"' })}</div></div>`;
+  return `<div class="spindle"><label class="field"><span class="lab">Speed, rev/min</span><input id="speed" inputmode="numeric" value="${told && told.speed ? told.speed : 1000}"></label><div class="row">${key('spindle-cw', 'Clockwise', { press: SHORT, why, sub: 'M3: press ½ s' })}${key('spindle-ccw', 'Counterclockwise', { press: SHORT, why, sub: 'M4: press ½ s' })}${key('line', 'Stop', { why, sub: 'M5', data: 'data-line="M5"' })}</div><div class="row">${key('line', 'Mist', { press: SHORT, why, sub: 'M7: press ½ s', data: 'data-line="M7"' })}${key('line', 'Flood', { press: SHORT, why, sub: 'M8: press ½ s', data: 'data-line="M8"' })}${key('line', 'Coolant off', { why, sub: 'M9', data: 'data-line="M9"' })}</div></div>`;
 }
-const turn = code => { const speed = +$('#speed').value; if (speed > 0) mdi(`S${speed} ${code}`); else $('#speed').focus(); };
+const turn = code => { const speed = numberOf($('#speed').value); if (speed > 0) mdi(`S${speed} ${code}`); else $('#speed').focus(); };
 DEEDS['spindle-cw'] = () => turn('M3');
 DEEDS['spindle-ccw'] = () => turn('M4');
 DEEDS.line = b => mdi(b.dataset.line);
 DEEDS.use = b => mdi(b.dataset.line);
 DEEDS.edit = b => {
   if (notOperating() || S.editing) return;
-  const input = document.createElement('input');
+  const input = document.createElement('input'), { edit } = b.dataset, before = concerned(edit);
   input.className = 'cell n'; input.inputMode = 'decimal'; input.value = mm(+b.dataset.value); input.setAttribute('aria-label', 'new value; Enter sets it, Esc leaves it');
   S.editing = input; b.replaceWith(input); input.focus(); input.select();
   const leave = () => { if (S.editing === input) { S.editing = null; $('#table').kept = ''; paintTables(); } };
   input.onblur = leave;
   input.onkeydown = async e => {
     if (e.key === 'Escape') leave();
-    if (e.key !== 'Enter') return;
-    const value = +input.value.trim().replace(',', '.').replace('−', '-');
-    if (input.value.trim() === '' || !isFinite(value)) return;
+    if (e.key !== 'Enter' || e.repeat) return;
+    const value = numberOf(input.value);
+    if (value === null) return;
+    if (concerned(edit) !== before) { refuse('it was changed meanwhile; look at it, and change it anew'); leave(); return; }
     // R of a tool is a radius.
-    const edit = b.dataset.edit, isTool = edit.includes(' L1 ');
-    const line = x => edit + mm(isTool && edit.endsWith('R') ? x / 2 : x), was = +b.dataset.value;
+    const isTool = edit.includes(' L1 '), name = edit.slice(-1);
+    const line = x => edit.slice(0, -1) + word(name, isTool && name === 'R' ? x / 2 : x), was = +b.dataset.value;
     const said = await mdi(line(value));
     if (!said.accepted) return;
-    S.undo = { what: b.getAttribute('aria-label'), was: num(was, 3), line: line(was) };
+    offerUndo({ what: b.getAttribute('aria-label'), was: num(was, 3), line: line(was), before });
     leave();
   };
 };
@@ -165,7 +185,7 @@ DEEDS['run-line'] = async () => {
   const input = $('#mdi'), line = input.value.trim();
   if (!line) { input.focus(); return; }
   const said = await mdi(line);
-  if (said.accepted) { input.value = ''; TYPED.at = -1; }
+  if (said.accepted && input.value.trim() === line) { input.value = ''; TYPED.at = -1; }
 };
 function layLine() {
   const input = $('#mdi'), button = $('#runline');

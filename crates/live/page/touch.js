@@ -50,12 +50,13 @@ function touchLines() {
 DEEDS['touch-go'] = async () => {
   if (whyNoTouch()) return;
   TOUCH.says = ''; TOUCH.stopped = false;
-  keepForUndo(isLength() ? null : TOUCH.way[0]);
+  const undo = isLength() ? null : zeroToUndo(TOUCH.way[0]);
   for (const [step, line] of touchLines()) {
     TOUCH.step = step; paintTouch();
     // Whoever held or aborted, be it between two lines, wants nothing more to move.
     const why = TOUCH.stopped ? 'Hold or Abort was pressed: nothing more was done' : await lineToItsEnd(line);
     if (why) { TOUCH.says = why; paintTouch(); return; }
+    if (step === 2 && undo) offerUndo(undo);
   }
   TOUCH.step = 4; paintTouch();
 };
@@ -77,6 +78,6 @@ async function lineToItsEnd(line) {
 addEventListener('input', e => {
   const name = e.target.dataset && e.target.dataset.touch;
   if (!name) return;
-  const text = e.target.value.trim().replace(',', '.').replace('−', '-');
-  TOUCH[name] = text === '' ? NaN : +text;
+  const number = numberOf(e.target.value);
+  TOUCH[name] = number === null ? NaN : number;
 });

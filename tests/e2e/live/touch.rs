@@ -108,6 +108,15 @@ fn part_zero_and_the_length_of_a_tool_are_touched_off() {
     );
     browser.wait("active().origin.Z === 3 && !document.querySelector('#undo').textContent");
 
+    // What somebody else has set since is not set back, and what is no plain number is none.
+    browser.evaluate("offerUndo(zeroToUndo('Z'))");
+    bench.operate(&["mdi", "G21 G10 L2 P1 X1.5"]);
+    browser.wait("active().origin.X === 1.5 && S.undo.after");
+    bench.operate(&["mdi", "G21 G10 L2 P1 X1"]);
+    browser.wait("active().origin.X === 1 && S.undo === null");
+    let read = browser.evaluate("['+1,5', '−.5', '1e3', '0x10', '', '1,000.5'].map(numberOf)");
+    assert_eq!(read, serde_json::json!([1.5, -0.5, null, null, null, null]));
+
     // The length of the tool in the spindle, over the same plate: the part is at -15 of the program.
     let change = bench.process(&["mdi", "T1 M6"]);
     let _asked = bench.wait_for(MachineState::Awaiting);
