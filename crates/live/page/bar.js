@@ -27,7 +27,7 @@ function layDeeds() {
   DEEDS.return = () => order('return');
   DEEDS.done = b => order('acknowledge', JSON.parse(b.dataset.event));
   DEEDS.cannot = b => { const reason = $('#attn [name=why]:checked'); order('acknowledge', { ...JSON.parse(b.dataset.event), fail: reason ? reason.value : 'it cannot be done' }); };
-  DEEDS['show-reasons'] = () => { S.reasons = !S.reasons; paintState(); };
+  DEEDS['show-reasons'] = b => { S.reasons = S.reasons === b.dataset.event ? '' : b.dataset.event; paintState(); };
 }
 /* Why nothing goes on; nothing if it can. */
 function whyNoGo(s) {
@@ -70,21 +70,21 @@ function attentionKeys() {
   const s = S.status, not = notOperating();
   if (S.state === 'faulted') return key('reset', 'Reset', { press: LONG, why: not, kind: 'main', sub: 'press 1 s' });
   if (S.state === 'awaiting' && s.asked && s.awaited) {
-    const event = `data-event='${safe(JSON.stringify({ boot: s.boot, epoch: s.awaited.epoch, sequence: s.awaited.sequence }))}'`, tool = s.asked.tools && s.asked.tools.wanted;
+    const which = JSON.stringify({ boot: s.boot, epoch: s.awaited.epoch, sequence: s.awaited.sequence }), event = `data-event="${safe(which)}"`, asksWhy = S.reasons === which, tool = s.asked.tools && s.asked.tools.wanted;
     const done = tool ? tool.number ? `Done: T${tool.number} is in` : 'Done: it is out' : 'Done';
-    const reasons = S.reasons ? `<div class="reasons">${REASONS.map((text, k) => `<label><input type="radio" name="why" value="${text}" ${k ? '' : 'checked'}>${text}</label>`).join('')}</div>${key('cannot', 'It cannot be done', { press: LONG, why: not, sub: 'press 1 s: the machine stops with a fault', data: event })}` : '';
-    return `${reasons}${key('done', done, { press: SHORT, why: not, kind: 'main', sub: 'press ½ s', data: event })}${key('show-reasons', S.reasons ? 'Back' : 'Cannot…', { why: not })}`;
+    const reasons = asksWhy ? `<div class="reasons">${REASONS.map((text, k) => `<label><input type="radio" name="why" value="${text}" ${k ? '' : 'checked'}>${text}</label>`).join('')}</div>${key('cannot', 'It cannot be done', { press: LONG, why: not, sub: 'press 1 s: the machine stops with a fault', data: event })}` : '';
+    return `${reasons}${key('done', done, { press: SHORT, why: not, kind: 'main', sub: 'press ½ s', data: event })}${key('show-reasons', asksWhy ? 'Back' : 'Cannot…', { why: not, data: event })}`;
   }
   if (['held', 'program-stop'].includes(S.state) && isAway(s)) return key('return', 'Return to the path', { press: SHORT, why: not, kind: 'main', sub: 'press ½ s' });
   return '';
 }
 /* What a program that runs says, until somebody has read it. Where it stops, the panel says it. */
 S.read = '';
-DEEDS.read = () => { S.read = `${S.status.epoch} ${S.status.message}`; paintSays(); };
+DEEDS.read = b => { S.read = b.dataset.message; paintSays(); };
 function paintSays() {
   paintWay();
   const s = S.status, said = s && s.message && s.end_of_epoch === 'open' && !(s.asked && s.asked.says) && S.read !== `${s.epoch} ${s.message}` ? s.message : '';
-  fill($('#says'), said ? `<p><span class="lab">The program says</span><br>${safe(said)}</p>${key('read', 'Read')}` : '');
+  fill($('#says'), said ? `<p><span class="lab">The program says</span><br>${safe(said)}</p>${key('read', 'Read', { data: `data-message="${safe(`${s.epoch} ${s.message}`)}"` })}` : '');
 }
 /* The way back along the path, where the program is held. */
 function paintWay() {
@@ -97,13 +97,20 @@ function paintWay() {
 function layOverrides() {
   $$('.ov').forEach(tile => {
     const kind = tile.dataset.ov, most = kind === 'feed-override' ? 2 : 1, [less, full, more] = $$('button', tile);
-    const now = () => S.status ? S.status[kind.replace('-', '_')] : 1;
+    // What was asked for and is not told yet is counted on, so that of two quick presses none is lost; orders go one behind the other.
+    let wanted = 0, until = 0, last = Promise.resolve();
+    const now = () => performance.now() < until ? wanted : S.status ? S.status[kind.replace('-', '_')] : 1;
+    const ask = value => {
+      const given = { value, heard_ms: S.clock_ms };
+      wanted = value; until = performance.now() + 500;
+      last = last.then(async () => { if (!(await order(kind, given)).accepted) until = 0; });
+    };
     // Whichever way the motion goes, more is faster.
     const way = () => now() < 0 || Object.is(now(), -0) ? -1 : 1;
-    const step = d => order(kind, { value: way() * Math.max(0, Math.min(most, Math.round((Math.abs(now()) + d) * 20) / 20)) });
+    const step = d => ask(way() * Math.max(0, Math.min(most, Math.round((Math.abs(now()) + d) * 20) / 20)));
     less.innerHTML = '−5'; more.innerHTML = '+5';
     less.dataset.do = `${kind}-less`; more.dataset.do = `${kind}-more`; full.dataset.do = `${kind}-full`;
-    DEEDS[`${kind}-less`] = () => step(-0.05); DEEDS[`${kind}-more`] = () => step(0.05); DEEDS[`${kind}-full`] = () => order(kind, { value: way() });
+    DEEDS[`${kind}-less`] = () => step(-0.05); DEEDS[`${kind}-more`] = () => step(0.05); DEEDS[`${kind}-full`] = () => ask(way());
   });
 }
 /* All that depends on who may what. */

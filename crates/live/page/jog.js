@@ -30,14 +30,15 @@ async function tellJog() {
   if (!gesture) return;
   const now = performance.now();
   // A page that did not run for a while does not know whether the finger is still down.
-  if (now - gesture.told > STALL) { endJog(); return; }
+  // Neither does a finger that is down move anything behind a fault, or where nobody sees what moves.
+  if (now - gesture.told > STALL || whyNoJog()) { endJog(); return; }
   gesture.told = now;
   // A browser has six connections to a server: hold needs one.
   if (gesture.under_way > 1) return;
   gesture.under_way++;
   const said = await order('jog', { gesture: gesture.id, number: ++gesture.number, at_ms: now, axes: gesture.axes }, true);
   gesture.under_way--;
-  if (!said.accepted && JOG.gesture === gesture) { endJog(); S.refusal = buttonWords(said.reason); S.refused_at = performance.now(); paintBar(); }
+  if (!said.accepted && JOG.gesture === gesture) { endJog(); refuse(buttonWords(said.reason)); }
 }
 function endJog() {
   const gesture = JOG.gesture;
@@ -49,6 +50,7 @@ function endJog() {
 }
 for (const end of ['pointerup', 'pointercancel', 'blur', 'pagehide']) addEventListener(end, endJog);
 document.addEventListener('visibilitychange', endJog);
+addEventListener('lostpointercapture', e => { if (JOG.gesture && e.target === JOG.gesture.button) endJog(); });
 addEventListener('pointerdown', e => {
   const button = e.target.closest('.jog');
   if (!button || e.button || button.getAttribute('aria-disabled') === 'true') return;
@@ -61,7 +63,7 @@ const LATHE_ARROWS = { ArrowLeft: { Z: -1 }, ArrowRight: { Z: 1 }, ArrowDown: { 
 const ARROWS = { ArrowLeft: { X: -1 }, ArrowRight: { X: 1 }, ArrowDown: { Y: -1 }, ArrowUp: { Y: 1 }, PageDown: { Z: -1 }, PageUp: { Z: 1 } };
 addEventListener('keydown', e => {
   const ways = (isLathe() ? LATHE_ARROWS : ARROWS)[e.key];
-  if (!ways || S.view !== 'setup' || e.target.closest('input,select,[role=tab]') || !AXES().some(a => a.name in ways)) return;
+  if (!ways || S.view !== 'setup' || e.ctrlKey || e.altKey || e.metaKey || e.target.closest('input,select,[role=tab],[role=radio]') || !AXES().some(a => a.name in ways)) return;
   e.preventDefault();
   if (!e.repeat) { beginJog(ways, null); if (JOG.gesture) JOG.gesture.key = e.key; }
 });

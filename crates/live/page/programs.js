@@ -2,8 +2,8 @@
 // Programs: the folder of the service, programs that are dropped there, a look at one before it runs, Run and From
 // line, and the jobs that the machine has had.
 
-const FOLDER = { list: [], folder: '', trouble: '', chosen: null, search: '', sending: '' };
-const LOOK = { info: null, timer: 0, plan: null, motion: null, program: null, lines: [], key: '', at: {} };
+const FOLDER = { list: [], folder: '', trouble: '', chosen: null, search: '', sending: '', wanted: [] };
+const LOOK = { info: null, isLost: false, timer: 0, plan: null, motion: null, program: null, lines: [], key: '', at: {} };
 S.agree = null;
 async function fetchPrograms() {
   try {
@@ -27,7 +27,7 @@ function paintPrograms() {
 /* Nothing of the program before is shown with the name of this one. */
 function choose(name) {
   FOLDER.chosen = name; S.agree = null;
-  Object.assign(LOOK, { info: null, plan: null, motion: null, program: null, lines: [], key: '', at: {} });
+  Object.assign(LOOK, { info: null, isLost: false, plan: null, motion: null, program: null, lines: [], key: '', at: {} });
   usePlan(); lookAtChosen(); paintPrograms();
 }
 DEEDS.choose = b => choose(b.dataset.name);
@@ -37,25 +37,31 @@ async function lookAtChosen() {
   if (!name || S.view !== 'programs') return;
   const info = await api(`/api/preview?name=${encodeURIComponent(name)}`, 'json');
   if (name !== FOLDER.chosen) return;
-  LOOK.info = info;
+  LOOK.info = info; LOOK.isLost = !info;
+  if (!info) LOOK.timer = setTimeout(lookAtChosen, 1000);
   if (info) {
     const wants = `${info.generation} ${!!info.program_path} ${!!info.report} ${!!info.failed}`;
     if (wants !== LOOK.key) {
       LOOK.key = wants;
       const of = `?of=${info.generation}`, get = async (is, path) => is ? api(path + of) : null;
-      const [program, columns, path, lines] = await Promise.all([get(info.program_path, '/api/preview/program.bin'), get(info.report, '/api/preview/columns.bin'), get(info.report, '/api/preview/path.bin'), api(`/api/preview/lines${of}&from=1&count=40`, 'json')]);
-      const whole = columns && path;
+      // One behind the other: hold needs a connection.
+      const lines = await api(`/api/preview/lines${of}&from=1&count=40`, 'json'), program = await get(info.program_path, '/api/preview/program.bin');
+      const columns = await get(info.report, '/api/preview/columns.bin'), path = await get(info.report, '/api/preview/path.bin'), whole = columns && path;
+      // Another program may have been chosen meanwhile, or this one be another text.
+      if (name !== FOLDER.chosen || LOOK.key !== wants) return;
+      // Another page may look at another program.
+      if (!lines || !whole !== !info.report) LOOK.key = '';
       LOOK.plan = whole ? new Plan(columns) : null; LOOK.motion = whole ? new Track(path) : null; LOOK.program = program ? new Track(program) : null;
       LOOK.lines = lines || [];
       usePlan();
       LOOK.at = {};
       if (info.failed) fetchFindings(info);
     }
-    if (!info.report && !info.failed) LOOK.timer = setTimeout(lookAtChosen, 400);
+    if (!LOOK.key || (!info.report && !info.failed)) LOOK.timer = setTimeout(lookAtChosen, 400);
   }
   paintChosen();
 }
-const whyNoRun = () => notOperating() || (S.state === 'idle' ? '' : S.state === 'off' ? 'power first' : S.state === 'not-homed' ? 'home first' : S.state === 'faulted' ? 'reset first' : 'not now');
+const whyNoRun = () => notOperating() || (LOOK.info ? '' : 'it is read') || (S.state === 'idle' ? '' : S.state === 'off' ? 'power first' : S.state === 'not-homed' ? 'home first' : S.state === 'faulted' ? 'reset first' : 'not now');
 function paintChosen() {
   const name = FOLDER.chosen, info = LOOK.info, why = whyNoRun();
   $('#programs').dataset.chosen = name ? 1 : 0;
@@ -63,9 +69,9 @@ function paintChosen() {
   if (!name) { fill($('#title'), '<span class="lab-text">Choose a program.</span>'); fill($('#runkeys'), ''); fill($('#found'), ''); return; }
   // What changes while it is planned stands by itself, so that a finger on a key is not lost.
   fill($('#title'), `<b>${safe(name)}</b><span class="lab">${info && info.program ? `${grouped(info.program.lines)} lines` : ''}${info && info.seconds ? `, ${span(info.seconds)} of motion at 100 %` : info && !info.failed ? `, is planned: ${span(info.planned_so_far_s || 0)} so far` : ''}</span>`);
-  fill($('#runkeys'), `${key('from-line', 'From line…', { why: notOperating() })}${key('run', 'Run', { press: SHORT, why, sub: 'press ½ s', kind: why || (info && info.failed) ? '' : 'main' })}`);
+  fill($('#runkeys'), `${key('from-line', 'From line…', { why: notOperating() })}${key('run', 'Run', { press: SHORT, why, sub: 'press ½ s', data: `data-of="${safe(name)}"`, kind: why || (info && info.failed) ? '' : 'main' })}`);
   const failed = info && info.failed;
-  fill($('#found'), S.agree ? agreement() : failed ? `<div class="h"><b>${icon('warn', 'warn')} What was found</b></div>${findings(failed)}` : `<div class="h"><b>${info && info.report ? `${icon('ok', 'ok')} Nothing was found` : 'It is read'}</b></div><pre class="lines">${safe((LOOK.lines || []).slice(0, 6).join('\n'))}</pre>`);
+  fill($('#found'), S.agree ? agreement() : failed ? `<div class="h"><b>${icon('warn', 'warn')} What was found</b></div>${findings(failed)}` : `<div class="h"><b>${info && info.report ? `${icon('ok', 'ok')} Nothing was found` : LOOK.isLost ? 'It cannot be looked at now' : 'It is read'}</b></div><pre class="lines">${safe((LOOK.lines || []).slice(0, 6).join('\n'))}</pre>`);
 }
 /* What is wrong with a program, each with its line of the text. */
 const MOST_FINDINGS = 100;
@@ -86,11 +92,19 @@ async function fetchFindings(info) {
   }
   paintChosen();
 }
-DEEDS.run = () => runChosen({});
-async function runChosen(more) {
-  const said = await order('run', { name: FOLDER.chosen, ...more });
-  if (said.to_confirm) { S.agree = { ...more, text: said.to_confirm }; paintChosen(); fetchAround(); return; }
-  if (said.accepted) { S.agree = null; setView('operate'); }
+DEEDS.run = b => runLooked(b.dataset.of, {}, LOOK.info);
+/* Runs what was looked at, and agreed to, and no other text: `info` is of that. */
+async function runLooked(name, more, info) {
+  const heard_ms = S.clock_ms, now = await api(`/api/preview?name=${encodeURIComponent(name)}`, 'json');
+  if (!now || !info || now.generation !== info.generation) {
+    refuse(`${name} is looked at anew: it, or what it is planned with, may have changed; look at it, and press again`);
+    if (name === FOLDER.chosen) { S.agree = null; lookAtChosen(); }
+    return;
+  }
+  const said = await order('run', { name, heard_ms, ...more });
+  if (name !== FOLDER.chosen) return;
+  if (said.to_confirm) { S.agree = { ...more, name, info, text: said.to_confirm }; paintChosen(); fetchAround(); return; }
+  if (said.accepted) { S.agree = null; if (S.view === 'programs') setView('operate'); }
 }
 /* ---- from a line: what is different there, and what happens, before anything does */
 DEEDS['from-line'] = () => { S.agree = S.agree ? null : { asks: true }; paintChosen(); const input = $('#fromline'); if (input) input.focus(); };
@@ -120,8 +134,9 @@ async function fetchAround() {
   const lines = info && await api(`/api/preview/lines?of=${info.generation}&from=${from}&count=5`, 'json');
   if (lines && S.agree === a) { a.around = lines.map((text, k) => [from + k, text]); paintChosen(); }
 }
-DEEDS.compare = () => { const from_line = Math.round(+$('#fromline').value), pass = Math.max(1, Math.round(+$('#pass').value || 1)); if (from_line > 0) runChosen({ from_line, pass }); else $('#fromline').focus(); };
-DEEDS['begin-there'] = () => { const { from_line, pass } = S.agree; runChosen({ from_line, pass, agreed: true }); };
+const count = id => { const n = numberOf($(id).value); if (Number.isInteger(n) && n > 0) return n; $(id).focus(); return null; };
+DEEDS.compare = () => { const pass = count('#pass'), from_line = count('#fromline'); if (pass && from_line) runLooked(FOLDER.chosen, { from_line, pass }, LOOK.info); };
+DEEDS['begin-there'] = () => { const { name, info, from_line, pass } = S.agree; runLooked(name, { from_line, pass, agreed: true }, info); };
 
 /* ---- programs that are dropped */
 const PIECE = 1 << 19;
@@ -136,7 +151,7 @@ async function send(file, replaces = false) {
     } catch { said = { accepted: false, reason: 'it was not sent: the page’s server does not answer' }; }
     if (!said.accepted) {
       FOLDER.sending = '';
-      if (answer && answer.status === 412 && !replaces) { FOLDER.wanted = file; fill($('#replace'), `<span>${safe(said.reason)}.</span>${key('replace', 'Replace it', { press: LONG, sub: 'press 1 s' })}${key('keep-old', 'Keep it')}`); } else { S.refusal = `${file.name}: ${plain(said.reason)}`; S.refused_at = performance.now(); paintBar(); }
+      if (answer && answer.status === 412 && !replaces) { FOLDER.wanted.push({ file, reason: said.reason }); paintReplace(); } else refuse(`${file.name}: ${plain(said.reason)}`);
       paintPrograms();
       return;
     }
@@ -147,8 +162,13 @@ async function send(file, replaces = false) {
   await fetchPrograms();
   choose(file.name);
 }
-DEEDS.replace = async () => { const file = FOLDER.wanted; DEEDS['keep-old'](); if (file) await send(file, true); };
-DEEDS['keep-old'] = () => { FOLDER.wanted = null; fill($('#replace'), ''); };
+/* Programs whose names others have already: each is asked for. */
+function paintReplace() {
+  const [next] = FOLDER.wanted;
+  fill($('#replace'), next ? `<span>${safe(next.reason)}.</span>${key('replace', 'Replace it', { press: LONG, sub: 'press 1 s' })}${key('keep-old', 'Keep it')}` : '');
+}
+DEEDS.replace = async () => { const next = FOLDER.wanted[0]; DEEDS['keep-old'](); if (next) await send(next.file, true); };
+DEEDS['keep-old'] = () => { FOLDER.wanted.shift(); paintReplace(); };
 async function sendAll(files) { for (const file of files) await send(file); }
 function layPrograms() {
   $('#search').oninput = e => { FOLDER.search = e.target.value; paintPrograms(); };

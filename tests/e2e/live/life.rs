@@ -90,6 +90,9 @@ fn run(browser: &mut Browser, operated: &Operated<'_>) {
     browser.wait("document.querySelector('#blocks .cur').textContent.includes('X')");
     browser.press("[data-ov=feed-override] button:last-child");
     let _faster = operated.wait(|status| (status.feed_override - 1.05).abs() < 1e-9);
+    // Of two presses, the second before the first was told, both count.
+    browser.evaluate("[0, 1].forEach(DEEDS['feed-override-more'])");
+    let _faster = operated.wait(|status| (status.feed_override - 1.15).abs() < 1e-9);
 }
 
 /// Hold, jog away, return, and on.

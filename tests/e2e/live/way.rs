@@ -1,5 +1,7 @@
 //! Tests of the ways of a program on the page: back along the path and on, from a line, and the call for a person.
 
+use std::time::Duration;
+
 use glidepath_link::MachineState;
 use glidepath_tests::{Browser, Instance, Process, Services, Watchdog};
 use serde_json::json;
@@ -60,13 +62,9 @@ fn from_a_line(browser: &mut Browser) {
     let size = json!({ "width": 800, "height": 480, "deviceScaleFactor": 1, "mobile": false });
     let _resized = browser.call("Emulation.setDeviceMetricsOverride", &size);
     browser.evaluate("setView('programs')");
-    press(
-        browser,
-        "#runkeys [data-do=from-line]",
-        core::time::Duration::ZERO,
-    );
+    press(browser, "#runkeys [data-do=from-line]", Duration::ZERO);
     browser.evaluate("document.querySelector('#fromline').value = '100'");
-    press(browser, "[data-do=compare]", core::time::Duration::ZERO);
+    press(browser, "[data-do=compare]", Duration::ZERO);
     browser.wait("document.querySelectorAll('.agree .around div').length === 5");
     let rows = "$$('.agree tr.differs th').map(th => th.textContent).join()";
     assert!(browser.evaluate(rows).as_str().unwrap().contains('X'));
@@ -89,6 +87,14 @@ fn from_a_line(browser: &mut Browser) {
         "idle",
         "it loses work: pressed for a second"
     );
+    // What was agreed to is of one text: with another one nothing begins.
+    browser.evaluate("S.agree.info = { ...S.agree.info, generation: -1 }");
+    press(browser, "[data-do=begin-there]", WHOLE);
+    browser.wait("S.refusal.includes('is looked at anew') && S.agree === null");
+    assert_eq!(browser.evaluate("S.state"), "idle");
+    press(browser, "#runkeys [data-do=from-line]", Duration::ZERO);
+    browser.evaluate("document.querySelector('#fromline').value = '100'");
+    press(browser, "[data-do=compare]", Duration::ZERO);
     press(browser, "[data-do=begin-there]", WHOLE);
     browser.wait("S.state === 'running' && S.status.line >= 100");
     press(browser, "[data-c=abort]", WHOLE);
