@@ -65,9 +65,15 @@ function letGo() {
 }
 addEventListener('pointerdown', e => {
   const button = e.target.closest('[data-do]');
+  isPut = false;
   if (!button || e.button) return;
+  const had = document.activeElement;
   if (press(button)) PRESSED.pointer = e.pointerId;
+  isPut = ![had, document.body].includes(document.activeElement);
 });
+// A field that a press has put the focus in keeps it: a mouse would take it to where it was pressed, and an edit would end there.
+let isPut = false;
+addEventListener('mousedown', e => { if (isPut) e.preventDefault(); isPut = false; });
 // Who reads the screen by ear may press without a finger: a stop is taken from them, too.
 addEventListener('click', e => { if (!e.detail && BAR.hold && BAR.hold.contains(e.target)) press(BAR.hold); });
 for (const end of ['pointerup', 'pointercancel', 'blur']) addEventListener(end, letGo);

@@ -108,6 +108,12 @@ fn part_zero_and_the_length_of_a_tool_are_touched_off() {
     );
     browser.wait("active().origin.Z === 3 && !document.querySelector('#undo').textContent");
 
+    // A cell that is pressed is edited for as long as nobody leaves it.
+    browser.evaluate("showTable('offsets')");
+    browser.press("#table [data-do=edit]");
+    assert_eq!(browser.evaluate("S.editing === document.activeElement"), true);
+    browser.evaluate("(S.editing.blur(), showTable('touch'))");
+
     // What somebody else has set since is not set back, and what is no plain number is none.
     browser.evaluate("offerUndo(zeroToUndo('Z'))");
     bench.operate(&["mdi", "G21 G10 L2 P1 X1.5"]);
