@@ -78,9 +78,9 @@ async function listen() {
 S.ahead = -Infinity; S.came = 0; S.boot = '';
 function heard(kind, payload) {
   if (kind === 1) {
-    const status = JSON.parse(new TextDecoder().decode(payload)), now = performance.now(), ahead = status.clock_ms - now;
-    // What was kept back on its way, or is told again, is as old as it is: by the server's clock, which goes ahead of that of
-    // the page by what it did for the quickest status. The clocks drift apart by less than 1 ms a second.
+    const status = JSON.parse(new TextDecoder().decode(payload)), now = performance.now(), ahead = (status.updated_ns ? status.updated_ns / 1e6 : status.clock_ms) - now;
+    // What was kept back on its way, or is told again, is as old as it is: by the clock of the host, which goes ahead of that
+    // of the page by what it did for the quickest status. The clocks drift apart by less than 1 ms a second.
     S.ahead = Math.max(ahead, S.ahead - (now - S.came) * 1e-3); S.came = now;
     S.status = status; S.heard = now - (S.ahead - ahead); S.clock_ms = status.clock_ms;
     S.state = isOld() ? 'stale' : status.state; S.rate = status.effective_override || 1;

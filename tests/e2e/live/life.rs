@@ -191,7 +191,7 @@ fn a_page_says_whole_words_and_no_more_than_it_knows() {
     assert_eq!(fits[0], "Another page operates.");
     assert_eq!(fits[1], true);
     // What was kept back on its way is not taken for what is so now.
-    let late = "(() => { const old = { ...S.status, clock_ms: S.clock_ms - 5000 }; \
+    let late = "(() => { const old = { ...S.status, updated_ns: S.status.updated_ns - 5e9 }; \
                 heard(1, new TextEncoder().encode(JSON.stringify(old)).buffer); return S.state; })()";
     assert_eq!(browser.evaluate(late), "stale");
     // What was not heard is not known, and a stop is given all the same.

@@ -111,7 +111,10 @@ fn part_zero_and_the_length_of_a_tool_are_touched_off() {
     // A cell that is pressed is edited for as long as nobody leaves it.
     browser.evaluate("showTable('offsets')");
     browser.press("#table [data-do=edit]");
-    assert_eq!(browser.evaluate("S.editing === document.activeElement"), true);
+    assert_eq!(
+        browser.evaluate("S.editing === document.activeElement"),
+        true
+    );
     browser.evaluate("(S.editing.blur(), showTable('touch'))");
 
     // What somebody else has set since is not set back, and what is no plain number is none.
