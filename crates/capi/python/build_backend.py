@@ -20,7 +20,13 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[2]
-LIBRARY = "libglidepath.so.0"
+# Its name carries the version of the ABI, as the package's structures do.
+ABI = next(
+    line.split()[-1]
+    for line in (HERE / "glidepath/_layout.py").read_text().splitlines()
+    if line.startswith("ABI = ")
+)
+LIBRARY = f"libglidepath.so.{ABI}"
 NAME, SUMMARY = "glidepath", "Glidepath's setpoints, status, commands and servo, with its library"
 
 

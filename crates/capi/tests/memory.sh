@@ -13,12 +13,13 @@ export XDG_RUNTIME_DIR="$work"
 "$built/glidepath" interpolator --best-effort >"$work/interpolator.log" 2>&1 &
 interpolator=$!
 trap 'kill "$interpolator"; wait "$interpolator" || true; rm -rf "$work"' EXIT
-ln -s "$PWD/$built/libglidepath.so" "$work/libglidepath.so.0"
+soname="libglidepath.so.$(sed -n 's/^#define GP_ABI \([0-9]*\)u$/\1/p' crates/capi/include/glidepath.h)"
+ln -s "$PWD/$built/libglidepath.so" "$work/$soname"
 sleep 2
 
 compile() { # NAME OPTION…
     cc -std=c11 -g -O1 -Wall -Wextra -Werror -pedantic -pthread -I crates/capi/include "${@:2}" \
-        "crates/capi/examples/$1.c" "$work/libglidepath.so.0" -Wl,-rpath,"$work" -o "$work/$1"
+        "crates/capi/examples/$1.c" "$work/$soname" -Wl,-rpath,"$work" -o "$work/$1"
 }
 
 for name in follow servo; do

@@ -25,8 +25,9 @@ def _path():
     named = os.environ.get("GLIDEPATH_LIBRARY")
     if named:
         return named
-    beside = os.path.join(os.path.dirname(__file__), "libglidepath.so.0")
-    return beside if os.path.exists(beside) else "libglidepath.so.0"
+    name = f"libglidepath.so.{_layout.ABI}"
+    beside = os.path.join(os.path.dirname(__file__), name)
+    return beside if os.path.exists(beside) else name
 
 
 def _load():

@@ -97,13 +97,20 @@ pub(crate) fn library(linked: Linked) -> PathBuf {
     path
 }
 
+/// The name that programs look for: with the version of the ABI, as the header has it.
+pub(crate) fn soname() -> String {
+    let header = std::fs::read_to_string(source("include/glidepath.h")).unwrap();
+    let abi = header.split_once("#define GP_ABI ").unwrap().1;
+    format!("libglidepath.so.{}", abi.split_once('u').unwrap().0)
+}
+
 /// A folder with the library under the name that programs look for.
 pub(crate) fn library_folder(place: Place<'_>) -> PathBuf {
     let folder = place.directory.join("lib");
     if !folder.exists() {
         std::fs::create_dir(&folder).unwrap();
         let shared = library(Linked::Shared);
-        for name in ["libglidepath.so", "libglidepath.so.0"] {
+        for name in ["libglidepath.so".to_owned(), soname()] {
             std::os::unix::fs::symlink(&shared, folder.join(name)).unwrap();
         }
     }

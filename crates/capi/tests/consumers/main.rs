@@ -169,7 +169,12 @@ fn a_header_that_is_off_by_a_byte_does_not_compile() {
 fn the_library_gives_out_its_functions_and_its_name() {
     let library = std::fs::read(library(Linked::Shared)).unwrap();
     let has = |text: &[u8]| library.windows(text.len()).any(|part| part == text);
-    assert!(has(b"libglidepath.so.0\0"), "no soname");
+    assert!(
+        has(format!("{}\0", build::soname()).as_bytes()),
+        "no soname"
+    );
+    let manual = std::fs::read_to_string(build::source("../glidepath/docs/consumers.md")).unwrap();
+    assert!(manual.contains(&format!("/usr/local/lib/{}", build::soname())));
     let header = std::fs::read_to_string(build::source("include/glidepath.h")).unwrap();
     let declared = header.lines().filter_map(|line| {
         let (head, _) = line.split_once('(')?;

@@ -115,7 +115,7 @@ impl Consumer {
     }
 
     fn run(place: Place<'_>, name: &str, program: &str, arguments: &[&str]) -> Self {
-        let library = build::library_folder(place).join("libglidepath.so.0");
+        let library = build::library_folder(place).join(build::soname());
         let mut command = Command::new(program);
         command
             .args(arguments)
