@@ -169,7 +169,7 @@ impl Attention {
         };
         let answer = self.gates.of(code).map(|gate| gate.answer);
         let done = how_done(answer)?;
-        let asked = match self.names.asked(status, self.told.as_ref()) {
+        let asked = match self.names.asked_tool(status, self.told.as_ref()) {
             Some(tool) => format!("change to {tool}"),
             None if code == 6 => "change the tool".to_owned(),
             None => format!("the program asks {}", awaited_code(status)),

@@ -7,7 +7,7 @@ use crate::config::{HomingBy, MachineConfig};
 use crate::exit::Exit;
 use crate::interrupt::{Interrupt, end_with};
 use crate::output;
-use crate::report::{Beside, status_object, status_text};
+use crate::report::{AwaitedEvent, Beside, status_object, status_text};
 use crate::service_manager::ServiceManager;
 use core::sync::atomic::{AtomicBool, Ordering};
 use core::time::Duration;
@@ -56,7 +56,7 @@ pub(super) fn interpolator(
         glidepath_interpolator::run(&settings, transport, interrupt.flag(), &mut log)
     })?;
     if args.basic.json {
-        output::object(&status_object(&instance, &status, None));
+        output::object(&status_object(&instance, &status, &AwaitedEvent::default()));
     } else {
         let beside = Beside {
             not_homed: config.axes_not_homed(&status),

@@ -14,10 +14,10 @@ use crate::config::MachineConfig;
 use crate::exit::Exit;
 use crate::output;
 use crate::report::{
-    AskedTool, Beside, active_object, active_text, names, status_object, status_text,
+    AwaitedEvent, Beside, active_object, active_text, names, status_object, status_text,
 };
 use glidepath_link::{
-    Command, CommandReply, CommandRequest, Ipc, LinkConfig, LinkError, Operator, Power,
+    Auxiliary, Command, CommandReply, CommandRequest, Ipc, LinkConfig, LinkError, Operator, Power,
     Record as _, Status, Transport as _,
 };
 use glidepath_realtime::{Clock as _, Monotonic};
@@ -237,12 +237,12 @@ pub(super) fn status(args: &OperatorArgs, config: &MachineConfig) -> Result<Exit
     let status = read_status(&operator, &link)?;
     let active = active_program(&link, &status);
     let beside = Beside {
-        asked_tool: asked_tool(&link, config, &status),
+        asked: asked(&link, config, &status),
         offset: KeptOffsets::new(config, &link).look(),
         not_homed: config.axes_not_homed(&status),
     };
     if args.basic.json {
-        let mut object = status_object(&instance, &status, beside.asked_tool.as_ref());
+        let mut object = status_object(&instance, &status, &beside.asked);
         object["axes_not_homed"] = names(&beside.not_homed);
         let offset = beside.offset.as_ref();
         let [system, part] = offset.map_or([Value::Null, Value::Null], |offset| {
@@ -259,19 +259,26 @@ pub(super) fn status(args: &OperatorArgs, config: &MachineConfig) -> Result<Exit
     Ok(Exit::Done)
 }
 
-/// The tool that the machine waits for. Which it is goes through the shared memory, which an operator can
-/// do without: where that cannot be used, nothing is told.
-fn asked_tool(link: &LinkConfig, config: &MachineConfig, status: &Status) -> Option<AskedTool> {
+/// What the machine waits for. Which tool that is goes through the shared memory, which an operator can
+/// do without: where that cannot be used, it is not told.
+fn asked(link: &LinkConfig, config: &MachineConfig, status: &Status) -> AwaitedEvent {
     if status.awaited_since_ns == 0 {
-        return None;
+        return AwaitedEvent::default();
     }
+    let names = ToolNames::new(config);
+    let told = auxiliary(link);
+    names.asked(config, status, told.as_ref())
+}
+
+/// What spindle, coolant and tool are to do; `None` where nothing says so.
+fn auxiliary(link: &LinkConfig) -> Option<Auxiliary> {
     let transport = Ipc::connect(link).ok()?;
     let mut records = transport.auxiliary_source().ok()?;
     let started = Instant::now();
     while started.elapsed() < LATCHED {
         if let Some(record) = records.take().ok()? {
             record.check().ok()?;
-            return ToolNames::new(config).asked(status, Some(&record));
+            return Some(record);
         }
         std::thread::sleep(POLL);
     }

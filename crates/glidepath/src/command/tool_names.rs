@@ -2,7 +2,7 @@
 
 use crate::config::MachineConfig;
 use crate::kept::read::MOST_TABLE_BYTES;
-use crate::report::AskedTool;
+use crate::report::{AskedTool, AwaitedEvent};
 use crate::text_file;
 use glidepath_link::{Auxiliary, MachineState, Status};
 use glidepath_program::Event;
@@ -28,7 +28,11 @@ impl ToolNames {
     }
 
     /// The tool that a machine waits for, if it does: the one that was selected last.
-    pub(super) fn asked(&self, status: &Status, told: Option<&Auxiliary>) -> Option<AskedTool> {
+    pub(super) fn asked_tool(
+        &self,
+        status: &Status,
+        told: Option<&Auxiliary>,
+    ) -> Option<AskedTool> {
         let changes = matches!(
             status.awaited_event(),
             Ok(Some(Event::MCode(6) | Event::Await(6)))
@@ -39,6 +43,23 @@ impl ToolNames {
             number,
             name: self.of(number),
         })
+    }
+
+    /// What a machine waits for, if it does: the tool, and who says that it is done.
+    pub(super) fn asked(
+        &self,
+        config: &MachineConfig,
+        status: &Status,
+        told: Option<&Auxiliary>,
+    ) -> AwaitedEvent {
+        let answer = match status.awaited_event() {
+            Ok(Some(Event::MCode(code) | Event::Await(code))) => config.gates().of(code),
+            _ => None,
+        };
+        AwaitedEvent {
+            tool: self.asked_tool(status, told),
+            answer: answer.map(|gate| gate.answer),
+        }
     }
 
     /// What the table calls its tools.

@@ -4,6 +4,7 @@ use super::quantity::microseconds;
 use crate::machine_options::complete;
 use core::fmt::{self, Write as _};
 use glidepath_geometry::{AXES, Axis};
+use glidepath_interpolator::Answer;
 use glidepath_link::{MotionMode, Power, Status};
 use glidepath_program::{CodeWord, Event};
 use serde_json::{Map, Value, json};
@@ -53,6 +54,37 @@ pub struct AskedTool {
     pub name: Option<String>,
 }
 
+/// What is known, beside the status, of an event that is awaited.
+#[derive(Debug, Clone, Default)]
+pub struct AwaitedEvent {
+    /// The tool that is asked for.
+    pub tool: Option<AskedTool>,
+    /// Who answers; `None` for a person.
+    pub answer: Option<Answer>,
+}
+
+impl AwaitedEvent {
+    /// Whether a person says that it is done.
+    const fn by_hand(&self) -> bool {
+        matches!(
+            self.answer,
+            None | Some(Answer::Nobody | Answer::Acknowledgement)
+        )
+    }
+
+    /// How it is known that it is done.
+    fn done_by(&self) -> String {
+        match self.answer {
+            None | Some(Answer::Nobody | Answer::Acknowledgement) => {
+                complete("`glidepath acknowledge`")
+            }
+            Some(Answer::Input { number, .. }) => format!("input {number} says when it is done"),
+            Some(Answer::Planner) => "the input says when it is done".to_owned(),
+            Some(_) => "the spindle says when it is done".to_owned(),
+        }
+    }
+}
+
 impl fmt::Display for AskedTool {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "tool T{}", self.number)?;
@@ -64,20 +96,20 @@ impl fmt::Display for AskedTool {
 }
 
 /// The event that is awaited, and for how long.
-fn awaited(status: &Status, tool: Option<&AskedTool>) -> Option<Value> {
+fn awaited(status: &Status, asked: &AwaitedEvent) -> Option<Value> {
     (status.awaited_since_ns != 0).then(|| {
         let waited_ns = status.updated_ns.saturating_sub(status.awaited_since_ns);
         json!({
             "event": awaited_name(status),
             "p": status.awaited_words.get(CodeWord::P),
             "q": status.awaited_words.get(CodeWord::Q),
-            "tool": tool.map(|tool| json!({ "number": tool.number, "name": tool.name })),
+            "tool": asked.tool.as_ref().map(|tool| json!({ "number": tool.number, "name": tool.name })),
             "line": status.awaited_line,
             "epoch": status.epoch,
             "sequence": status.awaited_sequence,
             "waited_s": microseconds(waited_ns) / 1e6,
-            "done_by": complete("`glidepath acknowledge`"),
-            "failed_by": complete("`glidepath acknowledge --fail \"the reason\"`"),
+            "done_by": asked.done_by(),
+            "failed_by": asked.by_hand().then(|| complete("`glidepath acknowledge --fail \"the reason\"`")),
         })
     })
 }
@@ -108,7 +140,7 @@ pub fn awaited_code(status: &Status) -> String {
 }
 
 /// What is awaited, and for how long, in words; nothing if nothing is.
-pub(super) fn awaited_text(status: &Status, tool: Option<&AskedTool>) -> Option<String> {
+pub(super) fn awaited_text(status: &Status, asked: &AwaitedEvent) -> Option<String> {
     (status.awaited_since_ns != 0).then(|| {
         let waited_ns = status.updated_ns.saturating_sub(status.awaited_since_ns);
         let (line, waited_s) = (status.awaited_line, microseconds(waited_ns) / 1e6);
@@ -121,17 +153,18 @@ pub(super) fn awaited_text(status: &Status, tool: Option<&AskedTool>) -> Option<
                  {waited_s:.1} s"
             );
         }
+        let tool = asked.tool.as_ref();
         let tool = tool.map_or_else(String::new, |tool| format!(", {tool}"));
         format!(
             "the answer to {}{tool}, of line {line}, for {waited_s:.1} s ({})",
             awaited_code(status),
-            complete("`glidepath acknowledge`"),
+            asked.done_by(),
         )
     })
 }
 
 /// What a status says about drives and joints.
-pub(super) fn machine_object(status: &Status, tool: Option<&AskedTool>) -> Map<String, Value> {
+pub(super) fn machine_object(status: &Status, asked: &AwaitedEvent) -> Map<String, Value> {
     let object = json!({
         "away": by_axis(&status.away),
         "power": status.power().map_or("unknown", Power::name),
@@ -145,7 +178,7 @@ pub(super) fn machine_object(status: &Status, tool: Option<&AskedTool>) -> Map<S
         "joint_actual": by_joint(status, &status.joint_actual),
         "following_error": by_joint(status, &status.following_error),
         "following_peak": by_joint(status, &status.following_peak),
-        "awaited": awaited(status, tool),
+        "awaited": awaited(status, asked),
     });
     match object {
         Value::Object(object) => object,

@@ -23,7 +23,7 @@ pub use beside::Beside;
 pub use diagnosis::{DiagnosisReport, PlaceReport};
 pub use diagnostic::{ProgramDiagnostic, diagnostic_object};
 pub use fit::{FitReport, FittedRun};
-pub use machine::{AskedTool, awaited_code, names};
+pub use machine::{AskedTool, AwaitedEvent, awaited_code, names};
 pub use memory::peak_rss_bytes;
 pub use motion::{MotionReport, Planning};
 pub use quantity::{counted, decimals, grouped, rough_time, seconds};

@@ -1,7 +1,7 @@
 //! The state of an interpolator, as text and as JSON.
 
 use super::beside::Beside;
-use super::machine::{AskedTool, awaited_text, by_axis, machine_object, power_text};
+use super::machine::{AwaitedEvent, awaited_text, by_axis, machine_object, power_text};
 use super::quantity::{decimals, grouped, microseconds};
 use crate::machine_options::complete;
 use core::fmt::Write as _;
@@ -89,7 +89,7 @@ pub(super) fn remedy(status: &Status) -> Option<&'static str> {
 
 /// A status as an object, with the tool that the machine waits for.
 #[must_use]
-pub fn status_object(instance: &str, status: &Status, tool: Option<&AskedTool>) -> Value {
+pub fn status_object(instance: &str, status: &Status, asked: &AwaitedEvent) -> Value {
     let position = by_axis(&status.position);
     let mut object = json!({
         "instance": instance,
@@ -135,7 +135,7 @@ pub fn status_object(instance: &str, status: &Status, tool: Option<&AskedTool>) 
         "message": status.message.as_str(),
     });
     if let Value::Object(object) = &mut object {
-        object.extend(machine_object(status, tool));
+        object.extend(machine_object(status, asked));
         object.insert("job".to_owned(), job_object(status));
     }
     object
@@ -242,7 +242,7 @@ pub fn status_text(instance: &str, status: &Status, beside: &Beside) -> String {
         let remedy = complete(remedy(status).unwrap_or(HOW_TO_CLEAR));
         let _ = writeln!(text, "  to clear it   {remedy}");
     }
-    if let Some(awaited) = awaited_text(status, beside.asked_tool.as_ref()) {
+    if let Some(awaited) = awaited_text(status, &beside.asked) {
         let _ = writeln!(text, "  awaits        {awaited}");
     }
     if let Some(job) = job_text(status) {

@@ -36,7 +36,7 @@ use crate::file_error::FileError;
 use crate::interrupt::Interrupt;
 use crate::output;
 use crate::page::machine_object;
-use crate::report::{View, active_object, status_object, view_object};
+use crate::report::{AwaitedEvent, View, active_object, status_object, view_object};
 use asked::Asked;
 use batch::Batch;
 use day::{Day, now_ms};
@@ -301,7 +301,7 @@ impl Machine<'_> {
             instance: &self.instance,
             status: &status,
             auxiliary: self.auxiliary.as_ref(),
-            asked_tool: None,
+            asked: AwaitedEvent::default(),
             axes: &self.config.axis_names(),
             not_homed: &self.config.axes_not_homed(&status),
             place,
@@ -311,7 +311,7 @@ impl Machine<'_> {
         let period_t = self.config.period_t();
         #[allow(clippy::cast_precision_loss, reason = "counts of frames are exact")]
         let planned_t = planned as f64 * period_t;
-        let mut object = status_object(&self.instance, &status, None);
+        let mut object = status_object(&self.instance, &status, &view.asked);
         if let Value::Object(object) = &mut object {
             object.extend(view_object(&view));
             object.remove("events");

@@ -73,12 +73,12 @@ pub(super) fn watch(args: &StatusArgs, config: &MachineConfig) -> Result<Exit, F
         let place = forecast
             .as_ref()
             .and_then(|forecast| forecast.place(&status));
-        let asked_tool = names.asked(&status, auxiliary.as_ref());
+        let asked = names.asked(config, &status, auxiliary.as_ref());
         let view = View {
             instance: &instance,
             status: &status,
             auxiliary: auxiliary.as_ref(),
-            asked_tool: asked_tool.clone(),
+            asked: asked.clone(),
             axes: &config.axis_names(),
             not_homed: &config.axes_not_homed(&status),
             place,
@@ -86,7 +86,7 @@ pub(super) fn watch(args: &StatusArgs, config: &MachineConfig) -> Result<Exit, F
             events: history.events(),
         };
         if as_json {
-            let mut object = status_object(&instance, &status, asked_tool.as_ref());
+            let mut object = status_object(&instance, &status, &asked);
             if let Value::Object(object) = &mut object {
                 object.extend(view_object(&view));
                 let active = active_program(&link, &status);

@@ -56,7 +56,7 @@ pub fn view_text(view: &View<'_>) -> String {
     if !message.is_empty() {
         lines.push(format!("  says      {message}"));
     }
-    if let Some(awaited) = awaited_text(status, view.asked_tool.as_ref()) {
+    if let Some(awaited) = awaited_text(status, &view.asked) {
         lines.push(format!("  waits for {awaited}"));
     }
     lines.push(format!("  drives    {}", power_text(status)));
@@ -210,6 +210,7 @@ mod tests {
     #![allow(clippy::float_cmp, reason = "values are exact")]
 
     use super::*;
+    use crate::report::machine::AwaitedEvent;
     use crate::report::view::object::view_object;
     use crate::report::view::seen::Place;
     use crate::report::work_offset::WorkOffset;
@@ -263,7 +264,7 @@ mod tests {
                 tool: ToolLength::default(),
                 five_axis: None,
             }),
-            asked_tool: None,
+            asked: AwaitedEvent::default(),
             events: vec![(
                 Duration::from_secs(75),
                 "the program runs, line 1".to_owned(),

@@ -1,6 +1,6 @@
 //! The content of the view: what is known of a machine that works.
 
-use crate::report::machine::AskedTool;
+use crate::report::machine::AwaitedEvent;
 use crate::report::work_offset::WorkOffset;
 use core::time::Duration;
 use glidepath_geometry::Axis;
@@ -30,8 +30,8 @@ pub struct View<'a> {
     pub status: &'a Status,
     /// What spindle, coolant and tool are to do; `None` if nobody said yet.
     pub auxiliary: Option<&'a Auxiliary>,
-    /// The tool that the machine waits for.
-    pub asked_tool: Option<AskedTool>,
+    /// What the machine waits for.
+    pub asked: AwaitedEvent,
     /// The machine's axes.
     pub axes: &'a [Axis],
     /// Those that do not know where they are: their positions mean nothing yet.
