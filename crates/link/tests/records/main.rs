@@ -191,7 +191,7 @@ fn numbers_that_are_not_finite_are_refused() {
         &Feedback::zeroed(),
         &[(72, 216), (296, 376), (408, 480), (512, 584)],
     );
-    refuses_not_finite(&JogDemand::zeroed(), &[(40, 128)]);
+    refuses_not_finite(&JogDemand::zeroed(), &[(48, 136)]);
 }
 
 #[test]
