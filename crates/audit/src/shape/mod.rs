@@ -16,9 +16,10 @@
 //! * *Reversals* of each axis, in the motion and in the program: each is a passage through the
 //!   backlash of its drive.
 //!
-//! They are told; all of it may be inside the tolerance. Two of them are judged, with [`BEYOND_MM`],
-//! where the motion is to be on the inner side ([`Corners::Inner`]): a motion outside of a corner, and an
-//! axis beyond the place where it comes to a rest, sets out from one or turns round ([`ShapeFinding`]).
+//! They are told; all of it may be inside the tolerance. Three of them are judged, with [`BEYOND_MM`]
+//! ([`ShapeFinding`]): straightness; and where the motion is to be on the inner side ([`Corners::Inner`]), a
+//! motion outside of a corner, and an axis beyond the place where it comes to a rest, sets out from one or
+//! turns round.
 //! Work is linear in frames and items, memory that of the moves at hand.
 
 mod corner;
@@ -32,8 +33,8 @@ use crate::AuditSettings;
 use crate::follow::Follow;
 use corner::Corner;
 use finding::Findings;
-pub use finding::{BEYOND_MM, KEPT, ShapeFinding};
-use glidepath_geometry::{AXES, Axis, AxisVector, Segment};
+pub use finding::{BEYOND_MM, Border, KEPT, ShapeFinding};
+use glidepath_geometry::{AXES, Axis, AxisVector, LINEAR_XYZ, Line, Segment};
 use glidepath_program::{Corners, Item, ItemKind};
 pub use met::Met;
 use overshoot::Overshoots;
@@ -56,6 +57,13 @@ fn is_middle(follow: &Follow) -> bool {
     })
 }
 
+/// True if no other axis moves along a line than X, Y and Z: of those it is a line that one can see.
+fn is_in_space(line: &Line) -> bool {
+    let displacement = line.end - line.start;
+    let others = displacement.iter().skip(LINEAR_XYZ.end);
+    others.fold(0.0, |sum: f64, value| sum + value.abs()) <= 0.0
+}
+
 /// The shape figures of a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ShapeReport {
@@ -73,7 +81,7 @@ pub struct ShapeReport {
     pub reversals: [u64; AXES],
     /// Reversals of each axis that the program asks for.
     pub programmed_reversals: [u64; AXES],
-    /// Vertices of the program at which the motion is on the outer side.
+    /// Vertices of the program at which the motion is on the outer side, and straight moves that it is beside.
     pub finding_count: u64,
     /// The first of them.
     pub findings: [Option<ShapeFinding>; KEPT],
@@ -179,7 +187,7 @@ impl Shape {
             self.outside.see(outside_mm, line);
             if self.corners == Corners::Inner {
                 let finding = ShapeFinding {
-                    axis: None,
+                    border: Border::Corner,
                     distance_mm: outside_mm,
                     line,
                 };
@@ -188,7 +196,16 @@ impl Shape {
         }
         let is_middle_half = (0.25 * length..=0.75 * length).contains(&follow.here_s());
         if length >= STRAIGHT_MM && is_middle_half {
-            self.beside.see(corner::beside_mm(&chord, position), line);
+            let distance_mm = corner::beside_mm(&chord, position);
+            self.beside.see(distance_mm, line);
+            if is_in_space(&chord) {
+                let finding = ShapeFinding {
+                    border: Border::Straight,
+                    distance_mm,
+                    line,
+                };
+                self.findings.see_beside(here.number, finding);
+            }
             if self.straight.replace(here.number) != Some(here.number) {
                 self.straight_moves += 1;
             }
@@ -217,7 +234,7 @@ impl Shape {
                 distance_mm = distance_mm.min(of_other);
             }
             let finding = ShapeFinding {
-                axis: Some(axis),
+                border: Border::Stop(axis),
                 distance_mm,
                 line,
             };

@@ -11,8 +11,8 @@ use crate::{TOLERANCE, point, polygon, settings, walk};
 use core::f64::consts::PI;
 use glidepath_audit::AuditSettings;
 use glidepath_audit::diagnosis::{Diagnosis, Summary};
-use glidepath_audit::shape::{ShapeAudit, ShapeReport};
-use glidepath_geometry::AxisVector;
+use glidepath_audit::shape::{Border, ShapeAudit, ShapeReport};
+use glidepath_geometry::{Axis, AxisVector};
 use glidepath_program::{Corners, Frame, FrameFlags, ItemKind, Limits, Rate};
 
 /// X, Y, Z.
@@ -217,9 +217,33 @@ fn what_is_beyond_a_stop_or_outside_of_a_corner_is_a_finding() {
             let findings: Vec<_> = told.findings.iter().flatten().collect();
             let of_axis = findings
                 .iter()
-                .filter(|found| found.axis.is_some_and(|found| found.index() == axis));
+                .filter(|found| found.border == Border::Stop(Axis::ALL[axis]));
             assert_eq!(of_axis.count(), count, "{axis} {height}: {findings:?}");
         }
+    }
+}
+
+#[test]
+fn what_is_beside_a_straight_move_is_a_finding_in_its_middle_half() {
+    let program = [[0.0, 0.0, 0.0], [6.0, 8.0, 0.0], [20.0, 8.0, 0.0]].map(|[x, y, z]| at(x, y, z));
+    let clean = walk(&program, 0.1);
+    assert_eq!(shape(&program, &clean).finding_count, 0);
+    // 10 mm from the start, a tenth of a millimetre each: the middle half is from 25 to 75.
+    for (from, height, count) in [
+        (40, 0.01, 1),
+        (40, -0.01, 1),
+        (40, 0.001, 0),
+        (5, 0.01, 0),
+        (80, 0.01, 0),
+    ] {
+        let mut motion = clean.clone();
+        bump(&mut motion, 0, from, from + 12, height);
+        let told = shape(&program, &motion);
+        let findings: Vec<_> = told.findings.iter().flatten().collect();
+        let beside = findings
+            .iter()
+            .filter(|found| found.border == Border::Straight);
+        assert_eq!(beside.count(), count, "{from} {height}: {findings:?}");
     }
 }
 
@@ -267,7 +291,10 @@ fn about_the_middle_either_corner_of_a_move_is_the_one_that_counts() {
             let place = motion.iter().position(|p| p[1] >= y).unwrap();
             bump(&mut motion, 0, place - 2, place + 3, off);
             let told = shape(&program(last_x), &motion);
-            assert_eq!(told.finding_count, count, "{y} {off} {last_x}: {told:?}");
+            // That the motion is not straight there is another matter.
+            let found = told.findings.iter().flatten();
+            let of_sides = found.filter(|found| found.border != Border::Straight);
+            assert_eq!(of_sides.count(), count, "{y} {off} {last_x}: {told:?}");
         }
     }
 }

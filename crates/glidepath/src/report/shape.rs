@@ -24,8 +24,9 @@ pub struct ShapeFigures {
     pub beside_straight: Distance,
     /// Straight feed moves that long.
     pub straight_moves: u64,
-    /// Places at which the motion is on the outer side of the program by more than 1 µm, where it is to
-    /// be on the inner one: an axis beyond its stop, or the motion outside of a corner.
+    /// Places at which the motion is beside a straight feed move in its middle half by more than 1 µm, or on the
+    /// outer side of the program where it is to be on the inner one: an axis beyond its stop, or the motion outside of
+    /// a corner.
     pub finding_count: u64,
     /// The first of them.
     pub findings: Vec<String>,
@@ -163,7 +164,7 @@ impl ShapeFigures {
         if let Some(first) = self.findings.first() {
             let count = grouped(self.finding_count);
             lines.push((
-                "not inside",
+                "not as drawn",
                 format!("{count} findings, the first: {first}"),
             ));
         }

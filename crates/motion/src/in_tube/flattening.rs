@@ -17,12 +17,16 @@ use super::works::{Move, Work, Works};
 use crate::intake::SHORTEST_MOVE_MM;
 use crate::programmed_rate::{ProgrammedRate, axes_speed};
 use crate::rest::Rest;
-use glidepath_geometry::{Arc, AxisVector, Segment, feed_length};
+use glidepath_geometry::{Arc, AxisVector, LINEAR_XYZ, Segment, feed_length};
 use glidepath_program::{Event, Item, ProgramLine, Rate, Settings, tolerance_norm};
 use std::collections::VecDeque;
 
 /// Share of the tolerance that chords of an arc may be away from it.
 const FLATTENING_R: f64 = 0.05;
+/// From which length on a straight feed move has a middle half that one can lay a ruler to, mm.
+const RULED_MM: f64 = 5.0;
+/// How far the motion may be beside it there, mm: a tolerance is for corners and curves.
+const BESIDE_MM: f64 = 1e-3;
 /// Share of the tolerance that a merged piece may be away from the chords it replaces.
 const MERGING_R: f64 = 0.1;
 /// Distance up to which a vertex counts as being on a line.
@@ -166,6 +170,7 @@ impl Flattener {
             tolerance_mm: left_mm,
             tolerance_deg: left_mm,
             bow: chord.bow,
+            straight_mm: straight_mm(&chord),
             is_rapid: chord.rate.is_rapid(),
             tag: 0,
         };
@@ -178,6 +183,15 @@ impl Flattener {
         };
         self.ready.push_back(Product::Piece(entry, reference));
     }
+}
+
+/// How far a motion may be beside a chord in its middle half, if the chord is a straight feed move.
+fn straight_mm(chord: &FlatChord) -> Option<f64> {
+    let displacement = chord.end - chord.start;
+    let others = displacement.iter().skip(LINEAR_XYZ.end);
+    let is_in_space = others.fold(0.0, |sum: f64, part| sum + part.abs()) <= 0.0;
+    let is_cut = !chord.rate.is_rapid() && chord.bow.amax() <= 0.0;
+    (is_cut && is_in_space && displacement.norm() >= RULED_MM).then_some(BESIDE_MM)
 }
 
 impl OpenChord {

@@ -153,6 +153,7 @@ mod tests {
             tolerance_mm: 0.02,
             tolerance_deg: 0.02,
             bow: AxisVector::zeros(),
+            straight_mm: None,
             is_rapid: false,
             tag: 0,
         });

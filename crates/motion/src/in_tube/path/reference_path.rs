@@ -39,6 +39,8 @@ pub(crate) struct TubePiece {
     pub(crate) tolerance_deg: f64,
     /// From its middle to the program.
     pub(crate) bow: AxisVector,
+    /// How far the motion may be beside it in its middle half, mm, if that is less than the tolerance.
+    pub(crate) straight_mm: Option<f64>,
     /// It has no feed.
     pub(crate) is_rapid: bool,
     /// What every axis does along it.
@@ -186,6 +188,7 @@ impl ReferencePath {
             tolerance_mm: piece.tolerance_mm * keep_r,
             tolerance_deg: piece.tolerance_deg * keep_r,
             bow: piece.bow,
+            straight_mm: piece.straight_mm,
             is_rapid: piece.is_rapid,
             senses: core::array::from_fn(|axis| Sense::at_rest(self.corner[axis])),
             cut_before: None,

@@ -30,6 +30,7 @@ struct Case {
     tolerance_mm: f64,
     feed_v: f64,
     corners: Corners,
+    straight_mm: Option<f64>,
     points: Vec<AxisVector>,
 }
 
@@ -41,6 +42,7 @@ impl Case {
             tolerance_mm: 0.02,
             feed_v: 100.0,
             corners: Corners::default(),
+            straight_mm: None,
             points,
         }
     }
@@ -56,6 +58,7 @@ impl Case {
                     tolerance_mm: self.tolerance_mm,
                     tolerance_deg: self.tolerance_mm,
                     bow: AxisVector::zeros(),
+                    straight_mm: self.straight_mm,
                     is_rapid: false,
                     tag: k as u64,
                 }
@@ -234,6 +237,7 @@ fn random_case(seed: u64, is_light: bool) -> Case {
         period_t: 0.004,
         tolerance_mm: if is_light { 0.03 } else { 0.02 },
         corners: Corners::default(),
+        straight_mm: None,
         feed_v: if is_light { 83.333 } else { 100.0 },
         points,
     }

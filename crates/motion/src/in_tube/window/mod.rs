@@ -76,6 +76,7 @@ mod smoothing;
 mod solver;
 mod speed;
 mod spline;
+mod straight;
 mod travel_rows;
 mod tube;
 mod way;

@@ -5,7 +5,7 @@
 //! groups allow: a point within the radius in this space is within tolerance in every group. It
 //! also makes millimetres and degrees, and millimetres and micrometres, the same problem.
 
-use super::sides::Sides;
+use super::sides::{Sides, Straight};
 use super::solver::dot;
 use crate::feed_axes::counted_axes;
 use crate::in_tube::path::{ReferencePath, TubePiece, directional};
@@ -52,6 +52,8 @@ pub(crate) struct ScaledSegment<const D: usize> {
     pub(crate) normals: [[f64; D]; D],
     /// On which the motion is to stay.
     pub(crate) sides: Sides<D>,
+    /// Where it is to be straight.
+    pub(super) straight: Option<Straight>,
     /// It has no feed.
     pub(crate) is_rapid: bool,
 }
@@ -242,6 +244,7 @@ impl<const D: usize> ScaledPath<D> {
             level,
             normals: [[0.0; D]; D],
             sides: Sides::none(),
+            straight: Straight::of(piece, (s, length), unit_mm),
             is_rapid: piece.is_rapid,
         });
     }

@@ -7,6 +7,7 @@
 //! ```
 
 use super::solver::dot;
+use crate::in_tube::path::TubePiece;
 
 /// Cosine beyond which the path comes back on itself, and neither side of it is the outer one.
 const REVERSAL_COS: f64 = -0.999;
@@ -16,6 +17,28 @@ pub(super) const TURNING_R: f64 = 4.0;
 /// Share of a piece, or of a rest, on both sides of its middle in which neither end is the nearer one:
 /// where the sides of both ends are opposite ones, the motion goes over there.
 const MIDDLE: f64 = 0.08;
+
+/// The part of the move that is the middle half.
+const MIDDLE_HALF: [f64; 2] = [0.25, 0.75];
+
+/// Where a motion is to be straight.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Straight {
+    /// From which progress to which.
+    pub(super) between: [f64; 2],
+    /// How far it may be beside the line there, in units of the window.
+    pub(super) within: f64,
+}
+
+impl Straight {
+    /// That of a piece of so much `length` from `s` on, in a window with a unit of so many mm.
+    pub(super) fn of(piece: &TubePiece, (s, length): (f64, f64), unit_mm: f64) -> Option<Self> {
+        piece.straight_mm.map(|straight_mm| Self {
+            between: MIDDLE_HALF.map(|share| s + share * length),
+            within: straight_mm / unit_mm,
+        })
+    }
+}
 
 /// Where an axis stops, next to a piece.
 #[derive(Debug, Clone, Copy, Default)]

@@ -270,8 +270,12 @@ fn add_tube<const D: usize>(
         site.center = layout.path.center(piece, layout.samples.progress[k]);
         site.tangent = segment.tangent;
     }
+    let progress = layout.samples.progress[k];
+    let period_s = segment.top * layout.style.period_t;
+    let beside = segment.beside(progress, period_s, radius) / radius;
     for normal in &segment.normals[..D - 1] {
-        problem.add_row(normal.map(|n| n / radius), &segment.start, [-1.0, 1.0]);
+        let normal = normal.map(|n| n / radius);
+        problem.add_row(normal, &segment.start, [-beside, beside]);
     }
     // To be beyond an end costs a quarter of being out of the tube by as much; why is not on record.
     let scale = 4.0 * radius;
@@ -281,7 +285,6 @@ fn add_tube<const D: usize>(
         let normal = plane.normal.map(|n| n / radius);
         problem.add_row(normal, &plane.center, [-FAR, 1.0]);
     }
-    let progress = layout.samples.progress[k];
     one_sided::keep(problem, layout.path, (piece, progress), radius);
     rate_changes::keep(problem, layout.path, (piece, progress), radius);
     if layout.samples.has_middle(k) {
@@ -301,15 +304,18 @@ fn add_middle<const D: usize>(
     let segment = &layout.path.segments[piece];
     let (first, weights) = layout.style.grid.inner_site(k - 1, 0.5, 0.0);
     problem.add_site(first, weights);
+    let progress = 0.5 * (layout.samples.progress[k - 1] + layout.samples.progress[k]);
+    let period_s = segment.top * layout.style.period_t;
+    let beside = segment.beside(progress, period_s, radius) / radius;
     for normal in &segment.normals[..D - 1] {
-        problem.add_row(normal.map(|n| n / radius), &segment.start, [-1.0, 1.0]);
+        let normal = normal.map(|n| n / radius);
+        problem.add_row(normal, &segment.start, [-beside, beside]);
     }
     let planes = [k - 1, k].map(|k| layout.cuts.of_sample(k, piece));
     for plane in planes.into_iter().flatten() {
         let normal = plane.normal.map(|n| n / radius);
         problem.add_row(normal, &plane.center, [-FAR, 1.0]);
     }
-    let progress = 0.5 * (layout.samples.progress[k - 1] + layout.samples.progress[k]);
     one_sided::keep(problem, layout.path, (piece, progress), radius);
 }
 

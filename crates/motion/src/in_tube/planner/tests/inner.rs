@@ -68,6 +68,7 @@ fn inner(points: Vec<AxisVector>) -> ShapeReport {
 fn inside(points: Vec<AxisVector>) -> Case {
     Case {
         corners: Corners::Inner,
+        straight_mm: Some(1e-3),
         ..Case::mill(points)
     }
 }
@@ -99,6 +100,25 @@ fn a_plunge_a_pocket_and_a_retract_are_inside() {
             counted <= programmed,
             "{degrees}: {counted} for {programmed}"
         );
+    }
+}
+
+/// Whatever corners are before and behind, on a line that no axis is along.
+#[test]
+fn sides_are_straight_however_short() {
+    for (corners, turn) in [(3, 120.0), (4, 90.0), (6, 60.0)] {
+        for side_mm in [5.5, 8.0, 10.0, 14.0] {
+            let mut points = vec![[0.0; 3]];
+            for k in 0..2 * corners {
+                let (sin, cos) = (17.0 + turn * f64::from(k)).to_radians().sin_cos();
+                let [x, y, _] = points[points.len() - 1];
+                points.push([x + side_mm * cos, y + side_mm * sin, 0.0]);
+            }
+            let shape = inner(space(&points));
+            assert!(shape.straight_moves >= 1, "{shape:?}");
+            let beside_mm = shape.beside.distance_mm;
+            assert!(beside_mm <= 1e-3, "{corners} {side_mm}: {beside_mm}");
+        }
     }
 }
 
