@@ -82,6 +82,9 @@ _glidepath() {
             glidepath,mdi)
                 cmd="glidepath__subcmd__mdi"
                 ;;
+            glidepath,mirror)
+                cmd="glidepath__subcmd__mirror"
+                ;;
             glidepath,offsets)
                 cmd="glidepath__subcmd__offsets"
                 ;;
@@ -247,6 +250,9 @@ _glidepath() {
             glidepath__subcmd__help,mdi)
                 cmd="glidepath__subcmd__help__subcmd__mdi"
                 ;;
+            glidepath__subcmd__help,mirror)
+                cmd="glidepath__subcmd__help__subcmd__mirror"
+                ;;
             glidepath__subcmd__help,offsets)
                 cmd="glidepath__subcmd__help__subcmd__offsets"
                 ;;
@@ -398,7 +404,7 @@ _glidepath() {
 
     case "${cmd}" in
         glidepath)
-            opts="-h -V --help --version run plan check interpolator planner run-file mdi servo ethercat feed status live grbl record replay audit telemetry hold resume step stop-at-block-end reverse forward single-block override jog return acknowledge abort reset enable disable home unhome set-position preview bench fit offsets config doctor jitter help"
+            opts="-h -V --help --version run plan check interpolator planner run-file mdi servo ethercat feed status live grbl record replay audit telemetry mirror hold resume step stop-at-block-end reverse forward single-block override jog return acknowledge abort reset enable disable home unhome set-position preview bench fit offsets config doctor jitter help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 1 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -1048,7 +1054,7 @@ _glidepath() {
             return 0
             ;;
         glidepath__subcmd__help)
-            opts="run plan check interpolator planner run-file mdi servo ethercat feed status live grbl record replay audit telemetry hold resume step stop-at-block-end reverse forward single-block override jog return acknowledge abort reset enable disable home unhome set-position preview bench fit offsets config doctor jitter help"
+            opts="run plan check interpolator planner run-file mdi servo ethercat feed status live grbl record replay audit telemetry mirror hold resume step stop-at-block-end reverse forward single-block override jog return acknowledge abort reset enable disable home unhome set-position preview bench fit offsets config doctor jitter help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -1412,6 +1418,20 @@ _glidepath() {
             return 0
             ;;
         glidepath__subcmd__help__subcmd__mdi)
+            opts=""
+            if [[ ${cur} == -* || ${COMP_CWORD} -eq 3 ]] ; then
+                COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+                return 0
+            fi
+            case "${prev}" in
+                *)
+                    COMPREPLY=()
+                    ;;
+            esac
+            COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+            return 0
+            ;;
+        glidepath__subcmd__help__subcmd__mirror)
             opts=""
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 3 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
@@ -2039,6 +2059,39 @@ _glidepath() {
                 return 0
             fi
             case "${prev}" in
+                --config)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                -c)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --instance)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                *)
+                    COMPREPLY=()
+                    ;;
+            esac
+            COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+            return 0
+            ;;
+        glidepath__subcmd__mirror)
+            opts="-c -h --root --config --json --instance --help"
+            if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
+                COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+                return 0
+            fi
+            case "${prev}" in
+                --root)
+                    COMPREPLY=()
+                    if [[ "${BASH_VERSINFO[0]}" -ge 4 ]]; then
+                        compopt -o plusdirs
+                    fi
+                    return 0
+                    ;;
                 --config)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0

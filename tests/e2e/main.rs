@@ -19,6 +19,7 @@ mod life;
 mod live;
 mod load;
 mod manual;
+mod mirror;
 mod onlookers;
 mod operating;
 mod operator;

@@ -36,7 +36,7 @@ mod tape;
 mod wall_clock;
 mod watchdog;
 
-pub use binary::glidepath;
+pub use binary::{glidepath, onlooker};
 pub use browser::Browser;
 pub use instance::Instance;
 pub use machine::{Machine, Recording, Watch, audit, plan, program, program_from, settings};

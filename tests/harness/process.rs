@@ -1,6 +1,7 @@
 //! The processes of the program under test.
 
 use std::io::{BufRead as _, BufReader, Read, Write};
+use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::{Arc, Mutex};
 use std::thread::JoinHandle;
@@ -56,11 +57,17 @@ impl Process {
     /// is collected, so that it never waits for a reader.
     #[must_use]
     pub fn start(instance: &Instance, arguments: &[&str]) -> Self {
-        Self::start_with(instance, arguments, Stdio::piped())
+        Self::start_with(glidepath(), instance, arguments, Stdio::piped())
     }
 
-    fn start_with(instance: &Instance, arguments: &[&str], input: Stdio) -> Self {
-        let mut child = Command::new(glidepath())
+    /// The same with another program.
+    #[must_use]
+    pub fn start_other(program: &Path, instance: &Instance, arguments: &[&str]) -> Self {
+        Self::start_with(program, instance, arguments, Stdio::piped())
+    }
+
+    fn start_with(program: &Path, instance: &Instance, arguments: &[&str], input: Stdio) -> Self {
+        let mut child = Command::new(program)
             .args(arguments)
             .env("XDG_RUNTIME_DIR", instance.directory())
             .env("TMPDIR", instance.directory())
@@ -95,7 +102,7 @@ impl Process {
     pub fn join_with(instance: &Instance, arguments: &[&str], input: Stdio) -> Self {
         let name = &instance.config().instance;
         let arguments = [arguments, &["--instance", name]].concat();
-        Self::start_with(instance, &arguments, input)
+        Self::start_with(glidepath(), instance, &arguments, input)
     }
 
     /// Writes to its standard input, and closes that.

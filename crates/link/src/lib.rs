@@ -21,6 +21,7 @@
 //! * the records: [`SetpointFrame`], [`Setpoint`], [`Status`], [`CommandRequest`],
 //!   [`SegmentRequest`] and their replies;
 //! * [`servo`] is what a drive does with setpoints;
+//! * [`mirror`] publishes setpoints and status as ordinary services of iceoryx2, for looking on;
 //! * what people are told of states, faults and refusals: [`Status::state_text`], [`FaultReport`],
 //!   [`Objection`], [`refused`]; [`printable`] makes text of others safe to show.
 //!
@@ -50,6 +51,7 @@
 //! # Ok::<(), glidepath_link::LinkError>(())
 //! ```
 
+pub mod mirror;
 pub mod servo;
 
 mod error;

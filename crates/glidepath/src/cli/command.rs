@@ -8,6 +8,7 @@ use super::grbl::GrblArgs;
 use super::host::{BenchArgs, DoctorArgs, JitterArgs};
 use super::jog::JogArgs;
 use super::live::LiveArgs;
+use super::mirror::MirrorArgs;
 use super::motion::{
     CheckArgs, FeedArgs, InterpolatorArgs, PlanArgs, PlannerArgs, RunArgs, ServoArgs,
 };
@@ -100,6 +101,9 @@ pub enum Command {
         after_help = "Example: glidepath telemetry --broker broker.shop:1883 --instance mill-1"
     )]
     Telemetry(TelemetryArgs),
+    /// Publish setpoints and status as ordinary services of iceoryx2, for programs that look on
+    #[command(after_help = "Example: glidepath mirror --instance mill-1")]
+    Mirror(MirrorArgs),
     /// Feed hold: stop on the path; `resume` continues
     #[command(after_help = "Example: glidepath hold")]
     Hold(OperatorArgs),
@@ -238,6 +242,7 @@ impl Command {
             Self::Record(args) => &args.operator.basic,
             Self::Replay(args) => &args.operator.basic,
             Self::Telemetry(args) => &args.basic,
+            Self::Mirror(args) => &args.basic,
             Self::Audit(args) => &args.basic,
             Self::Hold(args)
             | Self::Resume(args)
@@ -285,6 +290,7 @@ impl Command {
             Self::Ethercat(args) => &args.instance,
             Self::Feed(args) => &args.instance,
             Self::Telemetry(args) => &args.instance,
+            Self::Mirror(args) => &args.instance,
             Self::Status(args) => &args.operator.instance,
             Self::Live(args) => &args.operator.instance,
             Self::Grbl(args) => &args.operator.instance,

@@ -48,7 +48,10 @@ const GROUPS: [(&str, &[&str]); 6] = [
         "Processes of a machine",
         &["interpolator", "planner", "servo", "ethercat", "feed"],
     ),
-    ("Recordings and reports", &["record", "replay", "telemetry"]),
+    (
+        "Recordings and reports",
+        &["record", "replay", "telemetry", "mirror"],
+    ),
     (
         "Configuration and host",
         &["config", "doctor", "jitter", "bench"],

@@ -10,6 +10,7 @@ mod groups;
 mod host;
 mod jog;
 mod live;
+mod mirror;
 mod motion;
 mod offsets;
 mod operator;
@@ -29,6 +30,7 @@ pub use groups::grouped;
 pub use host::{BenchArgs, DoctorArgs, JitterArgs};
 pub use jog::{JogArgs, Step};
 pub use live::{LiveArgs, May};
+pub use mirror::MirrorArgs;
 pub use motion::{
     CheckArgs, FeedArgs, HalArgs, InterpolatorArgs, PlanArgs, PlannerArgs, RunArgs, RunDrives,
     ServoArgs,

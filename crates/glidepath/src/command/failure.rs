@@ -16,6 +16,7 @@ use glidepath_gcode::Diagnostic;
 use glidepath_hal::HalError;
 use glidepath_interpolator as interpolator;
 use glidepath_kept::var::VarError;
+use glidepath_link::mirror::MirrorError;
 use glidepath_link::{LinkError, refused};
 use glidepath_live::ServerError;
 use glidepath_migration::ReadError;
@@ -305,6 +306,9 @@ pub(super) enum Failure {
     /// The shared memory cannot be used.
     #[error(transparent)]
     Link(#[from] LinkError),
+    /// There is no mirror, or none any more.
+    #[error("mirror: {0}")]
+    Mirror(#[from] MirrorError),
     /// LinuxCNC's HAL is no servo stack, or no longer.
     #[error("servo: {0}")]
     Hal(#[from] HalError),

@@ -8,6 +8,7 @@ use crate::kept::error::StateError;
 use glidepath_ethercat as ethercat;
 use glidepath_hal::HalError;
 use glidepath_interpolator as interpolator;
+use glidepath_link::mirror::MirrorError;
 use glidepath_planner::{self as planner, FeedError, Refusal};
 
 impl Failure {
@@ -37,6 +38,7 @@ impl Failure {
             | Self::UnknownKey { .. }
             | Self::Wire(_)
             | Self::NotEmulated(_)
+            | Self::Mirror(MirrorError::Root { .. })
             | Self::Word(..)
             | Self::Var { .. }
             | Self::Foreign { .. }
@@ -79,6 +81,7 @@ impl Failure {
             | Self::Planner(_)
             | Self::Feed(_)
             | Self::Link(_)
+            | Self::Mirror(_)
             | Self::Hal(_)
             | Self::Recording { .. }
             | Self::Server(_)

@@ -30,6 +30,7 @@ mod jog;
 mod kept_offsets;
 mod left_in_force;
 mod live;
+mod mirror;
 mod offsets;
 mod operator;
 mod other_users;
@@ -126,6 +127,7 @@ fn dispatch(command: &Command) -> Result<Exit, Failure> {
         Command::Record(args) => record::record(args, &config()?),
         Command::Replay(args) => replay::replay(args, &config()?),
         Command::Telemetry(args) => telemetry::telemetry(args, &config()?),
+        Command::Mirror(args) => mirror::mirror(args, &config()?),
         Command::Audit(args) => audit::audit(args, &config()?),
         Command::Hold(args) => rest::hold(args, &config()?),
         Command::Resume(args) => {

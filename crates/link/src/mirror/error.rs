@@ -1,0 +1,76 @@
+//! The error type of the mirror: why its services cannot be made or used.
+
+use crate::{BoxedError, LinkError};
+use std::path::PathBuf;
+
+/// The reason why there is no mirror, or none any more.
+#[derive(Debug, thiserror::Error)]
+pub enum MirrorError {
+    /// The directory cannot be the root of a domain.
+    #[error("{}: cannot be iceoryx2's root: {reason}", .path.display())]
+    Root {
+        /// The directory.
+        path: PathBuf,
+        /// Why not.
+        reason: String,
+    },
+    /// iceoryx2 has no place for another process.
+    #[error("iceoryx2 cannot be used ({detail}); {obstacle}")]
+    Domain {
+        /// What iceoryx2 says.
+        detail: BoxedError,
+        /// What is in its way.
+        obstacle: String,
+    },
+    /// iceoryx2 does not come back.
+    #[error("iceoryx2 has not answered in {waited_s} s; {obstacle}")]
+    Hangs {
+        /// How long it was waited for, s.
+        waited_s: u64,
+        /// What is in its way.
+        obstacle: String,
+    },
+    /// The service is there already, and is another.
+    #[error(
+        "{service}: another program made this service, and not as the mirror does ({detail}); end that \
+         program, and let readers open the service instead of creating it"
+    )]
+    Other {
+        /// The service.
+        service: String,
+        /// What iceoryx2 says.
+        detail: BoxedError,
+    },
+    /// Somebody publishes there.
+    #[error(
+        "{service}: a program publishes there already, another mirror of this instance or one that \
+         forges it; end it"
+    )]
+    Taken {
+        /// The service.
+        service: String,
+    },
+    /// The service cannot be made or opened.
+    #[error("{service}: {action} failed: {detail}; {obstacle}")]
+    Service {
+        /// The service.
+        service: String,
+        /// What was tried.
+        action: &'static str,
+        /// What iceoryx2 says.
+        detail: BoxedError,
+        /// What is in its way.
+        obstacle: String,
+    },
+    /// A record cannot be published.
+    #[error("{service}: publishing failed: {detail}")]
+    Publish {
+        /// The service.
+        service: String,
+        /// What iceoryx2 says.
+        detail: BoxedError,
+    },
+    /// The instance cannot be heard.
+    #[error(transparent)]
+    Link(LinkError),
+}
