@@ -50,6 +50,27 @@ fn numbers_are_looked_at(browser: &mut Browser) {
     }
 }
 
+/// Cells of tables, and an undo beside somebody else's changes.
+fn tables_are_shared(browser: &mut Browser, bench: &Operated<'_>) {
+    // A cell that is pressed is edited for as long as nobody leaves it.
+    browser.evaluate("showTable('offsets')");
+    browser.press("#table [data-do=edit]");
+    assert_eq!(
+        browser.evaluate("S.editing === document.activeElement"),
+        true
+    );
+    browser.evaluate("(S.editing.blur(), showTable('touch'))");
+
+    // What somebody else has set since is not set back, and what is no plain number is none.
+    browser.evaluate("offerUndo(zeroToUndo('Z'))");
+    bench.operate(&["mdi", "G21 G10 L2 P1 X1.5"]);
+    browser.wait("active().origin.X === 1.5 && S.undo.after");
+    bench.operate(&["mdi", "G21 G10 L2 P1 X1"]);
+    browser.wait("active().origin.X === 1 && S.undo === null");
+    let read = browser.evaluate("['+1,5', '−.5', '1e3', '0x10', '', '1,000.5'].map(numberOf)");
+    assert_eq!(read, serde_json::json!([1.5, -0.5, null, null, null, null]));
+}
+
 #[test]
 fn part_zero_and_the_length_of_a_tool_are_touched_off() {
     let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
@@ -108,23 +129,7 @@ fn part_zero_and_the_length_of_a_tool_are_touched_off() {
     );
     browser.wait("active().origin.Z === 3 && !document.querySelector('#undo').textContent");
 
-    // A cell that is pressed is edited for as long as nobody leaves it.
-    browser.evaluate("showTable('offsets')");
-    browser.press("#table [data-do=edit]");
-    assert_eq!(
-        browser.evaluate("S.editing === document.activeElement"),
-        true
-    );
-    browser.evaluate("(S.editing.blur(), showTable('touch'))");
-
-    // What somebody else has set since is not set back, and what is no plain number is none.
-    browser.evaluate("offerUndo(zeroToUndo('Z'))");
-    bench.operate(&["mdi", "G21 G10 L2 P1 X1.5"]);
-    browser.wait("active().origin.X === 1.5 && S.undo.after");
-    bench.operate(&["mdi", "G21 G10 L2 P1 X1"]);
-    browser.wait("active().origin.X === 1 && S.undo === null");
-    let read = browser.evaluate("['+1,5', '−.5', '1e3', '0x10', '', '1,000.5'].map(numberOf)");
-    assert_eq!(read, serde_json::json!([1.5, -0.5, null, null, null, null]));
+    tables_are_shared(&mut browser, &bench);
 
     // The length of the tool in the spindle, over the same plate: the part is at -15 of the program.
     let change = bench.process(&["mdi", "T1 M6"]);
