@@ -17,6 +17,19 @@ const TRIM: f64 = 0.002;
 /// How fast a clock is moved, and trimmed, at most: 1.
 const RATE_MOST: f64 = 1e-3;
 
+/// What a device has of a distributed clock.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ClockKind {
+    /// Nothing, and it says so.
+    None,
+    /// It notes when frames come by its ports and has no system time, although its features say that
+    /// it has: an EL1004 or an EK1914.
+    ReceiveTimes,
+    /// A clock of 64 bits.
+    #[default]
+    Bits64,
+}
+
 /// The clock of one device.
 #[derive(Debug, Clone)]
 pub(crate) struct DeviceClock {

@@ -1,6 +1,6 @@
 //! An emulated device: what its registers do when they are read and written, and when time passes.
 
-use crate::clock::DeviceClock;
+use crate::clock::{ClockKind, DeviceClock};
 use crate::coe::Mailbox;
 use crate::dictionary::{Dictionary, INPUTS_ASSIGNED, Mapped, OUTPUTS_ASSIGNED};
 use crate::drive::{Drive, DriveSettings, Outputs};
@@ -60,9 +60,13 @@ impl Device {
     pub(crate) fn new(settings: &DriveSettings, is_last: bool, host_ns: u64) -> Self {
         let mut memory = Memory::new();
         memory.put(0, &[0x11, 0, 0, 0, 8, 8, 8, 0x0f]);
-        if settings.has_clock {
-            memory.put(8, &0x010c_u16.to_le_bytes());
-        }
+        let features: u16 = match settings.clock {
+            ClockKind::None => 0,
+            // As an EK1914 has it: the flags tell nothing.
+            ClockKind::ReceiveTimes => 0x00fc,
+            ClockKind::Bits64 => 0x010c,
+        };
+        memory.put(8, &features.to_le_bytes());
         // Links at ports 0 and 1, the others closed.
         let links: u16 = if is_last { 0x5611 } else { 0x5a31 };
         memory.put(DL_STATUS, &links.to_le_bytes());
@@ -71,7 +75,7 @@ impl Device {
         memory.put(AL_STATUS, &[INIT]);
         let ramp = 1_000_000_000;
         Self {
-            eeprom: eeprom::image(settings.identity, &settings.name),
+            eeprom: eeprom::image(settings.identity, &settings.name, settings.has_mailbox),
             objects: Dictionary::new(settings.identity, settings.following_counts, ramp),
             mailbox: Mailbox::default(),
             clock: DeviceClock::new(host_ns, 0.0, settings.drift_ppm),
@@ -203,8 +207,12 @@ impl Device {
     }
 
     fn has(&self, address: u16, length: usize) -> bool {
-        let is_clock = CLOCK.contains(&address) && !self.settings.has_clock;
-        !is_clock && self.memory.get(address, length).is_some()
+        let is_there = match self.settings.clock {
+            ClockKind::None => !CLOCK.contains(&address),
+            ClockKind::ReceiveTimes => !CLOCK.contains(&address) || address < SYSTEM_TIME,
+            ClockKind::Bits64 => true,
+        };
+        is_there && self.memory.get(address, length).is_some()
     }
 
     /// Reads for the master; `None` if the device does not answer.

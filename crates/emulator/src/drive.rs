@@ -3,6 +3,7 @@
 //! The motor follows its target with a lag of first order, so that at a speed v it is v·τ behind:
 //! `x += (target − x) (1 − e^(−T/τ))`. A motor without current stands: it has a brake.
 
+use crate::clock::ClockKind;
 use crate::dictionary::{
     Dictionary, FOLLOWING_TIMEOUT, FOLLOWING_WINDOW, HOME_OFFSET, HOMING_METHOD, HOMING_SPEED,
     QUICK_STOP,
@@ -47,8 +48,24 @@ pub struct DriveSettings {
     pub home: Option<HomeSwitch>,
     /// The window of following errors that it is delivered with, counts.
     pub following_counts: u32,
-    /// Whether it has a distributed clock.
-    pub has_clock: bool,
+    /// Its distributed clock.
+    pub clock: ClockKind,
+    /// Whether it has a mailbox, objects and process data; a coupler or a simple terminal does not.
+    pub has_mailbox: bool,
+}
+
+impl DriveSettings {
+    /// A terminal or a coupler, which has nothing of a drive: no mailbox, no objects, no process data.
+    #[must_use]
+    pub fn terminal(name: &str, clock: ClockKind) -> Self {
+        Self {
+            identity: [2, 0x03ec_3052, 1, 0],
+            name: name.to_owned(),
+            clock,
+            has_mailbox: false,
+            ..Self::default()
+        }
+    }
 }
 
 impl Default for DriveSettings {
@@ -63,7 +80,8 @@ impl Default for DriveSettings {
             drift_ppm: 0.0,
             home: None,
             following_counts: u32::MAX,
-            has_clock: true,
+            clock: ClockKind::Bits64,
+            has_mailbox: true,
         }
     }
 }

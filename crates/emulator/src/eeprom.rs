@@ -27,8 +27,8 @@ fn checksum(bytes: &[u8]) -> u8 {
     })
 }
 
-/// The image of a drive with a mailbox, CoE and four sync managers.
-pub(crate) fn image(identity: Identity, name: &str) -> Vec<u8> {
+/// The image of a drive with a mailbox, CoE and four sync managers, or of a device without all that.
+pub(crate) fn image(identity: Identity, name: &str, has_mailbox: bool) -> Vec<u8> {
     let mut image = vec![0; 128];
     image[0] = 0x05;
     image[14] = checksum(&image[..14]);
@@ -36,10 +36,9 @@ pub(crate) fn image(identity: Identity, name: &str) -> Vec<u8> {
         image[at..at + 4].copy_from_slice(&value.to_le_bytes());
     }
     // Words 0x18 to 0x1C: mailboxes for the standard protocol, and that it is CoE.
-    for (at, value) in (0x30..)
-        .step_by(2)
-        .zip([MAILBOX_OUT, MAILBOX, MAILBOX_IN, MAILBOX, 4])
-    {
+    let mailboxes = [MAILBOX_OUT, MAILBOX, MAILBOX_IN, MAILBOX, 4];
+    for (at, value) in (0x30..).step_by(2).zip(mailboxes) {
+        let value = if has_mailbox { value } else { 0 };
         image[at..at + 2].copy_from_slice(&value.to_le_bytes());
     }
     // Word 0x3E: size in KiBit less one; word 0x3F: version.
@@ -50,9 +49,21 @@ pub(crate) fn image(identity: Identity, name: &str) -> Vec<u8> {
     category(&mut image, 10, &strings);
     let mut general = [0; 32];
     // The name is string 1, CoE has SDO, SDO information, PDO assignment and PDO configuration.
-    (general[2], general[3], general[5], general[14]) = (1, 1, 0x0f, 0x11);
+    (general[2], general[3], general[14]) = (1, 1, 0x11);
+    if has_mailbox {
+        general[5] = 0x0f;
+    }
     category(&mut image, 30, &general);
-    category(&mut image, 40, &[1, 2, 3, 0]);
+    if has_mailbox {
+        process_categories(&mut image);
+    }
+    image.extend_from_slice(&[0xff; 64]);
+    image
+}
+
+/// What each window onto its memory is for, and where it is.
+fn process_categories(image: &mut Vec<u8>) {
+    category(image, 40, &[1, 2, 3, 0]);
     let managers = [
         (MAILBOX_OUT, MAILBOX, 0x26, 1),
         (MAILBOX_IN, MAILBOX, 0x22, 2),
@@ -63,9 +74,7 @@ pub(crate) fn image(identity: Identity, name: &str) -> Vec<u8> {
         let ([s0, s1], [l0, l1]) = (start.to_le_bytes(), length.to_le_bytes());
         [s0, s1, l0, l1, control, 0, 1, kind]
     });
-    category(&mut image, 41, &managers.concat());
-    image.extend_from_slice(&[0xff; 64]);
-    image
+    category(image, 41, &managers.concat());
 }
 
 fn category(image: &mut Vec<u8>, kind: u16, data: &[u8]) {

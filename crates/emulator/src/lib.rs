@@ -47,6 +47,7 @@ mod segment;
 mod states;
 mod upset;
 
+pub use clock::ClockKind;
 pub use drive::{DriveSettings, HomeSwitch};
 pub use segment::{Segment, SyncRecord};
 pub use upset::Upset;

@@ -24,6 +24,33 @@ pub struct SyncManager {
     pub control: u8,
 }
 
+/// What a device has of a distributed clock, as its registers answer: what its features say is not
+/// always so.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ClockKind {
+    /// Nothing.
+    #[default]
+    None,
+    /// It notes when frames come by its ports, for the delays of the cable, and has no system time.
+    ReceiveTimes,
+    /// A clock of 64 bits.
+    Bits64,
+}
+
+impl ClockKind {
+    /// Whether it has a system time, by which SYNC0 comes.
+    #[must_use]
+    pub const fn is_clock(self) -> bool {
+        matches!(self, Self::Bits64)
+    }
+
+    /// Whether it notes when frames come by its ports.
+    #[must_use]
+    pub const fn notes_times(self) -> bool {
+        !matches!(self, Self::None)
+    }
+}
+
 /// A device.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Device {
@@ -41,8 +68,8 @@ pub struct Device {
     pub has_coe: bool,
     /// Process data to and from it; `None` without.
     pub process: Option<(SyncManager, SyncManager)>,
-    /// Whether it has a distributed clock of 64 bits.
-    pub has_clock: bool,
+    /// Its distributed clock.
+    pub clock: ClockKind,
     /// How many of its ports have a link.
     pub links: u32,
 }

@@ -1,9 +1,9 @@
 //! The reader of a device's EEPROM (SII, ETG.1000.6 and ETG.2010).
 
-use crate::device::{Device, Identity, SyncManager};
+use crate::device::{ClockKind, Device, Identity, SyncManager};
 use crate::error::BusError;
 use crate::exchange::Exchange;
-use crate::registers::{ALIAS, EEPROM_CONTROL, EEPROM_DATA, EEPROM_OWNER, FEATURES, LINKS};
+use crate::registers::{ALIAS, EEPROM_CONTROL, EEPROM_DATA, EEPROM_OWNER, LINKS};
 use crate::wire::Wire;
 
 /// Word addresses.
@@ -98,7 +98,7 @@ fn managers(bytes: &[u8]) -> Vec<(SyncManager, u8)> {
 pub(crate) fn read<W: Wire>(
     bus: &mut Exchange<'_, W>,
     nth: usize,
-    has_clock: bool,
+    clock: ClockKind,
 ) -> Result<Device, BusError> {
     // The EEPROM is taken from the device's own processor, then given to the master.
     bus.write(nth, EEPROM_OWNER, &[2], READING)?;
@@ -112,7 +112,7 @@ pub(crate) fn read<W: Wire>(
             serial: words(bus, nth, IDENTITY + 6)?,
         },
         alias: u16::from_le_bytes(bus.read(nth, ALIAS, READING)?),
-        has_clock,
+        clock,
         has_coe: words(bus, nth, PROTOCOLS)? & COE != 0,
         ..Device::default()
     };
@@ -169,10 +169,4 @@ fn read_categories<W: Wire>(
     let named = text(&strings, name.0).or_else(|| text(&strings, name.1));
     device.name = named.unwrap_or_else(|| "without a name".to_owned());
     Ok(())
-}
-
-/// Whether a device has a clock of 64 bits.
-pub(crate) fn has_clock<W: Wire>(bus: &mut Exchange<'_, W>, nth: usize) -> Result<bool, BusError> {
-    let features = u16::from_le_bytes(bus.read(nth, FEATURES, READING)?);
-    Ok(features & 0x000c == 0x000c)
 }

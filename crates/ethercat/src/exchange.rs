@@ -106,6 +106,34 @@ impl<'w, W: Wire> Exchange<'w, W> {
         Ok(bytes)
     }
 
+    /// Whether a device has a register: a frame that comes back without its answer says that it has
+    /// not. Asked again and again, because a device can miss a datagram.
+    pub(crate) fn has(
+        &mut self,
+        nth: usize,
+        register: u16,
+        length: usize,
+        action: &'static str,
+    ) -> Result<bool, BusError> {
+        let address = Address::station(station(nth), register);
+        let mut is_heard = false;
+        for _ in 0..TRIES {
+            match self.ask(Command::Fprd, address, &mut vec![0; length], 1)? {
+                Some((1.., _)) => return Ok(true),
+                Some(_) => is_heard = true,
+                None => {}
+            }
+        }
+        if is_heard {
+            return Ok(false);
+        }
+        Err(BusError::NoAnswer {
+            device: nth,
+            action,
+            tries: TRIES,
+        })
+    }
+
     /// A question that one device has to answer.
     pub(crate) fn one(
         &mut self,

@@ -25,8 +25,8 @@
 //! allocates. The price: other people's masters have seen hundreds of devices, and this one has seen
 //! the drives of `glidepath-emulator`, which three other masters have accepted.
 //!
-//! What it does not do: branches and rings of cable, devices without clocks of 64 bits, hot connect,
-//! segmented parameters, redundancy, safety over EtherCAT.
+//! What it does not do: branches and rings of cable, drives without clocks of 64 bits, inputs and outputs
+//! of terminals, hot connect, segmented parameters, redundancy, safety over EtherCAT.
 //!
 //! Invariants:
 //!
@@ -68,7 +68,7 @@ pub use coe::{Object, object};
 pub use counts::Counts;
 pub use cycle::{Ends, drive_bus};
 pub use demand::Demand;
-pub use device::{Device, Identity, SyncManager};
+pub use device::{ClockKind, Device, Identity, SyncManager};
 pub use error::BusError;
 pub use event::Event;
 pub use fault_text::text as fault_text;

@@ -12,13 +12,13 @@
 //! The time of all is that of the host when the broadcast was under way: CLOCK_MONOTONIC, from which
 //! the reference then drifts away. Devices have to hang in a line: a branch is refused.
 
-use crate::device::Device;
+use crate::device::{ClockKind, Device};
 use crate::error::BusError;
 use crate::exchange::{Exchange, station};
 use crate::frame::{Address, Command};
 use crate::registers::{
-    LATCHED_TIME, PORT_TIMES, SYNC_ACTIVATION, SYNC_START, SYNC0_CYCLE, SYSTEM_TIME, TIME_DELAY,
-    TIME_DIFFERENCE, TIME_OFFSET,
+    FEATURES, LATCHED_TIME, PORT_TIMES, SYNC_ACTIVATION, SYNC_START, SYNC0_CYCLE, SYSTEM_TIME,
+    TIME_DELAY, TIME_DIFFERENCE, TIME_OFFSET,
 };
 use crate::wire::Wire;
 
@@ -34,6 +34,25 @@ const ROUND: u32 = 50;
 /// From the activation of SYNC0 to the first one, ns.
 const START_NS: u64 = 100_000_000;
 
+/// Bits of the features: it says that it has a clock, and that this has 64 bits.
+const SAYS_CLOCK: u16 = 1 << 2;
+const SAYS_64_BITS: u16 = 1 << 3;
+
+/// What a device has of a clock. Features that say "a clock of 64 bits" are those of terminals and
+/// couplers, too, which only note when frames come by: what counts is what answers.
+pub(super) fn kind<W: Wire>(bus: &mut Exchange<'_, W>, nth: usize) -> Result<ClockKind, BusError> {
+    let features = u16::from_le_bytes(bus.read(nth, FEATURES, ACTION)?);
+    if features & SAYS_CLOCK == 0 || !bus.has(nth, PORT_TIMES, 4, ACTION)? {
+        return Ok(ClockKind::None);
+    }
+    let is_clock = features & SAYS_64_BITS != 0 && bus.has(nth, SYSTEM_TIME, 8, ACTION)?;
+    Ok(if is_clock {
+        ClockKind::Bits64
+    } else {
+        ClockKind::ReceiveTimes
+    })
+}
+
 /// Writes offsets and delays of all clocks.
 pub(super) fn set<W: Wire>(bus: &mut Exchange<'_, W>, devices: &[Device]) -> Result<(), BusError> {
     if let Some(branch) = devices.iter().find(|device| device.links > 2) {
@@ -43,7 +62,7 @@ pub(super) fn set<W: Wire>(bus: &mut Exchange<'_, W>, devices: &[Device]) -> Res
             what: "it has cables at more than two ports; devices have to hang in a line".to_owned(),
         });
     }
-    if !devices.iter().any(|device| device.has_clock) {
+    if !devices.iter().any(|device| device.clock.is_clock()) {
         return Ok(());
     }
     // A lost frame would have some clocks latch and others not: the last one counts for all.
@@ -51,7 +70,7 @@ pub(super) fn set<W: Wire>(bus: &mut Exchange<'_, W>, devices: &[Device]) -> Res
     let asked = bus.ask(Command::Bwr, Address::all(PORT_TIMES), &mut zero, 5)?;
     let (_, at_ns) = asked.ok_or(BusError::Nobody)?;
     let mut reference_way = None;
-    for device in devices.iter().filter(|device| device.has_clock) {
+    for device in devices.iter().filter(|device| device.clock.is_clock()) {
         let nth = device.position;
         let times: [u8; 8] = bus.read(nth, PORT_TIMES, ACTION)?;
         let [a, b, c, d, e, f, g, h] = times;
@@ -75,7 +94,7 @@ pub(super) fn set<W: Wire>(bus: &mut Exchange<'_, W>, devices: &[Device]) -> Res
 
 /// The device whose clock is everybody's.
 pub(super) fn reference(devices: &[Device]) -> Option<usize> {
-    devices.iter().position(|device| device.has_clock)
+    devices.iter().position(|device| device.clock.is_clock())
 }
 
 /// Distributes the time of the reference until all clocks agree. Returns that time.
@@ -96,7 +115,7 @@ pub(super) fn settle<W: Wire>(
             bus.wire.sleep_until(next_ns);
         }
         let mut worst_ns = 0;
-        let followers = devices.iter().filter(|device| device.has_clock);
+        let followers = devices.iter().filter(|device| device.clock.is_clock());
         for device in followers.filter(|device| device.position != reference) {
             let bytes = bus.read(device.position, TIME_DIFFERENCE, ACTION)?;
             // Sign and magnitude.

@@ -49,8 +49,8 @@ impl<'w, W: Wire> Init<'w, W> {
         }
         let mut devices = Vec::new();
         for nth in 0..count {
-            let has_clock = eeprom::has_clock(&mut bus, nth)?;
-            devices.push(eeprom::read(&mut bus, nth, has_clock)?);
+            let clock = clocks::kind(&mut bus, nth)?;
+            devices.push(eeprom::read(&mut bus, nth, clock)?);
         }
         Ok(Self { bus, devices })
     }

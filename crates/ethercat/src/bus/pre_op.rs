@@ -66,7 +66,7 @@ impl<'w, W: Wire> PreOp<'w, W> {
         }
         let lacks = if !device.may_be_drive() {
             "it has no mailbox with CoE or no process data: it is no drive that this master knows"
-        } else if !device.has_clock {
+        } else if !device.clock.is_clock() {
             "it has no distributed clock of 64 bits, and setpoints could not be given it in time"
         } else {
             return Ok(device.clone());

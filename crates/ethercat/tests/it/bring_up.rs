@@ -1,8 +1,10 @@
 //! Tests of the way from a wire to drives in OP, and of what is said where that does not work.
 
 use crate::wire::{MemoryWire, Quiet};
-use glidepath_emulator::{DriveSettings as Emulated, Segment};
-use glidepath_ethercat::{BusError, BusSettings, DriveSettings, Init, Settings, Wire as _, object};
+use glidepath_emulator::{ClockKind as EmulatedClock, DriveSettings as Emulated, Segment};
+use glidepath_ethercat::{
+    BusError, BusSettings, ClockKind, DriveSettings, Init, Settings, Wire as _, object,
+};
 use glidepath_link::servo::ServoSettings;
 
 const START_NS: u64 = 9_000_000_000_000;
@@ -38,7 +40,11 @@ fn drives_are_found_and_named() {
     let drives = [0, 1, 2].map(|nth| Emulated {
         name: format!("DRIVE {nth}"),
         identity: [0x83, 7 + nth, 2, 99],
-        has_clock: nth != 1,
+        clock: if nth == 1 {
+            EmulatedClock::ReceiveTimes
+        } else {
+            EmulatedClock::Bits64
+        },
         ..Emulated::default()
     });
     let mut wire = wire(&drives);
@@ -52,8 +58,8 @@ fn drives_are_found_and_named() {
     let second = &found.devices()[1];
     assert_eq!((second.identity.vendor, second.identity.product), (0x83, 8));
     assert_eq!(
-        (second.identity.serial, second.has_clock, second.links),
-        (99, false, 2)
+        (second.identity.serial, second.clock, second.links),
+        (99, ClockKind::ReceiveTimes, 2)
     );
     assert!(second.may_be_drive());
     let mut bus = found.into_pre_op().unwrap();
@@ -111,6 +117,34 @@ fn drives_come_to_op_with_clocks_that_agree() {
     }
 }
 
+#[test]
+fn terminals_without_a_system_time_stop_nobody() {
+    let terminal = |name, clock| Emulated::terminal(name, clock);
+    let line = [
+        terminal("COUPLER", EmulatedClock::Bits64),
+        terminal("INPUTS", EmulatedClock::ReceiveTimes),
+        Emulated::default(),
+        terminal("OLD", EmulatedClock::None),
+        Emulated::default(),
+    ];
+    let mut wire = wire(&line);
+    wire.segment.keep_records();
+    let found = Init::find(&mut wire).unwrap();
+    let kinds: Vec<_> = found.devices().iter().map(|device| device.clock).collect();
+    let (none, times, clock) = (ClockKind::None, ClockKind::ReceiveTimes, ClockKind::Bits64);
+    assert_eq!(kinds, [clock, times, clock, none, clock]);
+    let mut settings = settings(2);
+    (settings.drives[0].position, settings.drives[1].position) = (2, 4);
+    let bus = found.into_pre_op().unwrap();
+    let op = bus.into_safe_op(&settings).unwrap();
+    op.into_op(&settings.bus).unwrap();
+    let [first, second] = [2, 4].map(|drive| wire.segment.take_records(drive));
+    assert!(first.len() > 50);
+    for (one, other) in first.iter().zip(&second) {
+        assert!(one.at_ns.abs_diff(other.at_ns) < 1_000, "{one:?} {other:?}");
+    }
+}
+
 /// How far each demand's time is from the SYNC0 at which it took effect, ns.
 fn phase_errors<'a>(
     demanded: &'a [(u8, u64)],
@@ -154,7 +188,7 @@ fn what_is_wrong_is_said_with_its_remedy() {
     );
     assert!(is_told, "{other}");
     let mut clockless = good.clone();
-    clockless[1].has_clock = false;
+    clockless[1].clock = EmulatedClock::ReceiveTimes;
     let unfit = failure(&clockless, &settings(2));
     assert!(
         unfit.to_string().contains("no distributed clock"),

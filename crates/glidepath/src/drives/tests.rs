@@ -3,7 +3,7 @@
 
 use super::{Found, parse, written};
 use crate::config::{self, MachineConfig};
-use glidepath_ethercat::{Device, Identity, SyncManager};
+use glidepath_ethercat::{ClockKind, Device, Identity, SyncManager};
 
 fn machine(homing: &str) -> MachineConfig {
     let text = config::EMBEDDED.replace("homing = \"none\"", &format!("homing = \"{homing}\""));
@@ -25,7 +25,7 @@ fn found(position: usize) -> Found {
             mailbox: window,
             has_coe: true,
             process: window,
-            has_clock: true,
+            clock: ClockKind::Bits64,
             links: 2,
             alias: 0,
         },

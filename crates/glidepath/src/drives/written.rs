@@ -20,7 +20,7 @@ impl Found {
     #[must_use]
     pub fn is_drive(&self) -> bool {
         let follows = self.modes.is_some_and(|(follows, _)| follows);
-        follows && self.device.may_be_drive() && self.device.has_clock
+        follows && self.device.may_be_drive() && self.device.clock.is_clock()
     }
 
     /// What it is, in words.
@@ -28,7 +28,7 @@ impl Found {
         match self.modes {
             None => "no drive",
             Some((false, _)) => "a drive without cyclic position (mode 8): cannot be led",
-            Some(_) if !self.device.has_clock => {
+            Some(_) if !self.device.clock.is_clock() => {
                 "a drive without a clock of 64 bits: cannot be led"
             }
             Some((true, false)) => "a drive; it does not find its home by itself",

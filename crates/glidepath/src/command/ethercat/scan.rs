@@ -26,7 +26,7 @@ pub(super) fn scan(args: &ScanArgs) -> Result<Exit, Failure> {
                 "revision": id.revision,
                 "serial": id.serial,
                 "alias": device.alias,
-                "has_clock": device.has_clock,
+                "has_clock": device.clock.is_clock(),
                 "counts_per_revolution": found.counts_per_revolution,
                 "drive": found.is_drive(),
             })
