@@ -1,5 +1,6 @@
 //! An emulated device: what its registers do when they are read and written, and when time passes.
 
+use crate::cable::Passage;
 use crate::clock::{ClockKind, DeviceClock};
 use crate::coe::Mailbox;
 use crate::dictionary::{Dictionary, INPUTS_ASSIGNED, Mapped, OUTPUTS_ASSIGNED};
@@ -14,9 +15,6 @@ use crate::memory::{
 use crate::process;
 use crate::states::{self, ERROR, INIT, OP, PRE_OP, SAFE_OP};
 use crate::upset::Upset;
-
-/// Time from a device to the next one, ns.
-pub(crate) const HOP_NS: u64 = 500;
 
 /// The record of what a drive did at one SYNC0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -38,6 +36,7 @@ pub struct SyncRecord {
 #[derive(Debug, Clone)]
 pub(crate) struct Device {
     settings: DriveSettings,
+    passage: Passage,
     memory: Memory,
     eeprom: Vec<u8>,
     objects: Dictionary,
@@ -57,7 +56,7 @@ pub(crate) struct Device {
 }
 
 impl Device {
-    pub(crate) fn new(settings: &DriveSettings, is_last: bool, host_ns: u64) -> Self {
+    pub(crate) fn new(settings: &DriveSettings, passage: Passage, host_ns: u64) -> Self {
         let mut memory = Memory::new();
         memory.put(0, &[0x11, 0, 0, 0, 8, 8, 8, 0x0f]);
         let features: u16 = match settings.clock {
@@ -67,9 +66,7 @@ impl Device {
             ClockKind::Bits64 => 0x010c,
         };
         memory.put(8, &features.to_le_bytes());
-        // Links at ports 0 and 1, the others closed.
-        let links: u16 = if is_last { 0x5611 } else { 0x5a31 };
-        memory.put(DL_STATUS, &links.to_le_bytes());
+        put_ports(&mut memory, &passage);
         memory.put(WATCHDOG_DIVIDER, &2498_u16.to_le_bytes());
         memory.put(WATCHDOG_OUTPUTS, &1000_u16.to_le_bytes());
         memory.put(AL_STATUS, &[INIT]);
@@ -89,8 +86,14 @@ impl Device {
             index: 0,
             records: None,
             settings: settings.clone(),
+            passage,
             memory,
         }
+    }
+
+    /// When it reads a frame, ns since the first device did.
+    pub(crate) const fn read_ns(&self) -> u64 {
+        self.passage.read_ns
     }
 
     pub(crate) fn station_address(&self) -> u16 {
@@ -107,7 +110,7 @@ impl Device {
     }
 
     /// Something goes wrong, or right again.
-    pub(crate) fn upset(&mut self, upset: Upset, is_last: bool, now_ns: u64) {
+    pub(crate) fn upset(&mut self, upset: Upset, now_ns: u64) {
         match upset {
             Upset::Emergency(code) => self.mailbox.emergency(&mut self.memory, code),
             Upset::Drop(code) if self.state() == OP => {
@@ -117,7 +120,7 @@ impl Device {
             Upset::Reboot => {
                 let records = self.records.take();
                 let drive = self.drive.rebooted(&self.settings);
-                *self = Self::new(&self.settings, is_last, now_ns);
+                *self = Self::new(&self.settings, self.passage, now_ns);
                 (self.drive, self.records) = (drive, records);
             }
             upset => self.drive.upset(upset),
@@ -286,28 +289,22 @@ impl Device {
         }
     }
 
+    /// A frame comes by that has every port note when it came in, and the device when it read it.
     #[allow(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
         reason = "registers wrap"
     )]
     fn latch_times(&mut self, now_ns: u64) {
+        let first_ns = now_ns.saturating_sub(self.passage.read_ns);
+        for (at, port_ns) in (PORT_TIMES..).step_by(4).zip(self.passage.ports_ns) {
+            if let Some(port_ns) = port_ns {
+                let local_ns = self.clock.local_ns(first_ns + port_ns) as u64 as u32;
+                self.memory.put(at, &local_ns.to_le_bytes());
+            }
+        }
         let local_ns = self.clock.local_ns(now_ns) as u64;
-        self.memory
-            .put(PORT_TIMES, &(local_ns as u32).to_le_bytes());
         self.memory.put(LATCHED_TIME, &local_ns.to_le_bytes());
-    }
-
-    /// The frame that latched the times came back from the devices behind this one.
-    #[allow(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "registers wrap"
-    )]
-    pub(crate) fn latch_return(&mut self, now_ns: u64) {
-        let local_ns = self.clock.local_ns(now_ns) as u64;
-        self.memory
-            .put(PORT_TIMES + 4, &(local_ns as u32).to_le_bytes());
     }
 
     /// The time of the reference clock comes by.
@@ -410,5 +407,23 @@ impl Device {
         }
         let both = if ways.0 { 2 } else { 1 };
         u16::from(was_read) + if was_written { both } else { 0 }
+    }
+}
+
+/// Which ports have a cable. The times of the others are what happens to be there.
+fn put_ports(memory: &mut Memory, passage: &Passage) {
+    let mut status = 0x0001_u16;
+    for (port, port_ns) in passage.ports_ns.iter().enumerate() {
+        if port_ns.is_some() {
+            // A link, and frames go out by it.
+            status |= 1 << (4 + port) | 0b10 << (8 + 2 * port);
+        } else {
+            status |= 0b01 << (8 + 2 * port);
+        }
+    }
+    memory.put(DL_STATUS, &status.to_le_bytes());
+    for at in (PORT_TIMES..).step_by(4).take(4) {
+        // As a LAN9252 had it.
+        memory.put(at, b"hoff");
     }
 }

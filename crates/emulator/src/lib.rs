@@ -15,8 +15,10 @@
 //! the registers behave follows ETG.1000 and the data sheets of Beckhoff's controllers; masters by other
 //! people bring its drives into operation, too.
 //!
-//! What it does not have: redundancy, segmented SDO and complete access, hot connect, the
-//! propagation of electric signals but for a constant time from device to device.
+//! Devices hang in a row, or in a tree of cables of any length, and answer as real ones were seen to:
+//! garbage in the times of closed ports, terminals that note times and have no clock.
+//!
+//! What it does not have: redundancy, segmented SDO and complete access, hot connect.
 //!
 //! ```
 //! use glidepath_emulator::{DriveSettings, Segment};
@@ -33,6 +35,7 @@
 //! assert_eq!(u16::from_le_bytes([frame[27], frame[28]]), 3);
 //! ```
 
+mod cable;
 mod clock;
 mod coe;
 mod device;
@@ -47,6 +50,7 @@ mod segment;
 mod states;
 mod upset;
 
+pub use cable::Cable;
 pub use clock::ClockKind;
 pub use drive::{DriveSettings, HomeSwitch};
 pub use segment::{Segment, SyncRecord};

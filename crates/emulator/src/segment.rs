@@ -1,14 +1,17 @@
 //! A segment of the bus: devices in a row, and the frames that pass them.
 
-use crate::device::{Device, HOP_NS};
+use crate::cable::{Cable, passages};
+use crate::device::Device;
 use crate::drive::DriveSettings;
 use crate::frame::{Datagram, datagrams};
-use crate::memory::PORT_TIMES;
 use crate::upset::Upset;
 
 pub use crate::device::SyncRecord;
 
-/// Devices in a row, from the master on.
+/// Time from a device to the next one in a row, ns.
+const HOP_NS: u64 = 500;
+
+/// Devices in a row, or a tree of them, from the master on.
 #[derive(Debug, Clone)]
 pub struct Segment {
     devices: Vec<Device>,
@@ -24,13 +27,30 @@ impl Segment {
     /// The same, at a time of the host, ns.
     #[must_use]
     pub fn new_at(drives: &[DriveSettings], now_ns: u64) -> Self {
-        let last = drives.len().saturating_sub(1);
-        let devices = drives.iter().enumerate();
-        Self {
+        let from_port_1 = |from| Cable {
+            from,
+            port: 1,
+            into: 0,
+            way_ns: HOP_NS,
+        };
+        let cables: Vec<_> = (1..drives.len()).map(|nth| from_port_1(nth - 1)).collect();
+        // A row is always in order.
+        Self::branched(drives, &cables, now_ns).unwrap_or(Self {
+            devices: Vec::new(),
+        })
+    }
+
+    /// Devices that hang by cables: the second one by the first cable, and so on. `None` if a device
+    /// hangs nowhere, or they are not in the order in which they read a frame.
+    #[must_use]
+    pub fn branched(drives: &[DriveSettings], cables: &[Cable], now_ns: u64) -> Option<Self> {
+        let passages = passages(drives.len(), cables)?;
+        let devices = drives.iter().zip(passages);
+        Some(Self {
             devices: devices
-                .map(|(nth, drive)| Device::new(drive, nth == last, now_ns))
+                .map(|(drive, passage)| Device::new(drive, passage, now_ns))
                 .collect(),
-        }
+        })
     }
 
     /// Keeps a record of every SYNC0 from here on.
@@ -50,9 +70,8 @@ impl Segment {
     /// Something goes wrong with a drive, or right again.
     pub fn upset(&mut self, drive: usize, upset: Upset, now_ns: u64) {
         self.advance(now_ns);
-        let is_last = drive + 1 == self.devices.len();
         if let Some(device) = self.devices.get_mut(drive) {
-            device.upset(upset, is_last, now_ns);
+            device.upset(upset, now_ns);
         }
     }
 
@@ -84,14 +103,9 @@ impl Segment {
             return 0;
         };
         let mut counted = 0_u16;
-        let devices = self.devices.len() as u64;
-        for (device, nth) in self.devices.iter_mut().zip(0..) {
-            let at_ns = now_ns + nth * HOP_NS;
+        for device in &mut self.devices {
+            let at_ns = now_ns + device.read_ns();
             counted += pass_device(device, datagram, data, at_ns);
-            if datagram.command == 8 && datagram.address == PORT_TIMES && nth + 1 < devices {
-                // There and back again.
-                device.latch_return(now_ns + (2 * devices - 2 - nth) * HOP_NS);
-            }
         }
         counted
     }

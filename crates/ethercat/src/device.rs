@@ -70,8 +70,8 @@ pub struct Device {
     pub process: Option<(SyncManager, SyncManager)>,
     /// Its distributed clock.
     pub clock: ClockKind,
-    /// How many of its ports have a link.
-    pub links: u32,
+    /// By which of its ports frames go: by port 0 to it, by the others on.
+    pub open_ports: [bool; 4],
 }
 
 impl Device {

@@ -3,7 +3,7 @@
 use crate::device::{ClockKind, Device, Identity, SyncManager};
 use crate::error::BusError;
 use crate::exchange::Exchange;
-use crate::registers::{ALIAS, EEPROM_CONTROL, EEPROM_DATA, EEPROM_OWNER, LINKS};
+use crate::registers::{ALIAS, EEPROM_CONTROL, EEPROM_DATA, EEPROM_OWNER, PORTS};
 use crate::wire::Wire;
 
 /// Word addresses.
@@ -18,6 +18,8 @@ const MANAGERS: u16 = 41;
 const END: u16 = 0xffff;
 /// Bit of the protocols: CoE.
 const COE: u32 = 4;
+/// Of the two bits of a port: frames go out by it, and there is somebody.
+const OPEN: u8 = 0b10;
 /// Words that are read of one category, and categories of one device, at most.
 const MOST_WORDS: u16 = 512;
 const MOST_CATEGORIES: usize = 64;
@@ -116,8 +118,8 @@ pub(crate) fn read<W: Wire>(
         has_coe: words(bus, nth, PROTOCOLS)? & COE != 0,
         ..Device::default()
     };
-    let links = u16::from_le_bytes(bus.read(nth, LINKS, READING)?);
-    device.links = (links >> 4 & 15).count_ones();
+    let [_, ports] = bus.read(nth, PORTS, READING)?;
+    device.open_ports = core::array::from_fn(|port| ports >> (2 * port) & 3 == OPEN);
     let ((out, out_length), (back, back_length)) = (
         halves(words(bus, nth, MAILBOXES)?),
         halves(words(bus, nth, MAILBOXES + 2)?),

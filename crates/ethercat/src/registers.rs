@@ -4,8 +4,8 @@
 pub(crate) const FEATURES: u16 = 0x0008;
 pub(crate) const STATION_ADDRESS: u16 = 0x0010;
 pub(crate) const ALIAS: u16 = 0x0012;
-/// Which ports have a link.
-pub(crate) const LINKS: u16 = 0x0110;
+/// Which ports have a link, and in the second byte by which of them frames go, two bits each.
+pub(crate) const PORTS: u16 = 0x0110;
 pub(crate) const AL_CONTROL: u16 = 0x0120;
 /// The state, and six bytes from here on with its code.
 pub(crate) const AL_STATUS: u16 = 0x0130;

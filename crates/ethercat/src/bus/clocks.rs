@@ -2,16 +2,12 @@
 //!
 //! The first device with a clock is the reference. A broadcast write has every device note when it
 //! came by, on the way out and on the way back. From that follow what each clock is off, and how much
-//! later than the reference a device sees a frame:
-//!
-//! ```text
-//! master ──► reference ──────► device ────────►          delay = (reference's way there and back
-//!        ◄── t₁ − t₀ ◄──────── t₁ − t₀ ◄──────                   − the device's) / 2
-//! ```
+//! later than the reference a device sees a frame: see [`tree`].
 //!
 //! The time of all is that of the host when the broadcast was under way: CLOCK_MONOTONIC, from which
-//! the reference then drifts away. Devices have to hang in a line: a branch is refused.
+//! the reference then drifts away.
 
+use super::tree::{self, Crooked, Seen};
 use crate::device::{ClockKind, Device};
 use crate::error::BusError;
 use crate::exchange::{Exchange, station};
@@ -55,41 +51,71 @@ pub(super) fn kind<W: Wire>(bus: &mut Exchange<'_, W>, nth: usize) -> Result<Clo
 
 /// Writes offsets and delays of all clocks.
 pub(super) fn set<W: Wire>(bus: &mut Exchange<'_, W>, devices: &[Device]) -> Result<(), BusError> {
-    if let Some(branch) = devices.iter().find(|device| device.links > 2) {
-        return Err(BusError::Unfit {
-            device: branch.position,
-            name: branch.name.clone(),
-            what: "it has cables at more than two ports; devices have to hang in a line".to_owned(),
-        });
-    }
-    if !devices.iter().any(|device| device.clock.is_clock()) {
+    let Some(reference) = reference(devices) else {
         return Ok(());
-    }
+    };
     // A lost frame would have some clocks latch and others not: the last one counts for all.
     let mut zero = [0; 4];
     let asked = bus.ask(Command::Bwr, Address::all(PORT_TIMES), &mut zero, 5)?;
     let (_, at_ns) = asked.ok_or(BusError::Nobody)?;
-    let mut reference_way = None;
+    let mut seen = Vec::with_capacity(devices.len());
+    for device in devices {
+        seen.push(see(bus, device)?);
+    }
+    let delays = tree::delays(&seen).map_err(|crooked| told(crooked, devices))?;
+    let delay = |nth: usize| delays.get(nth).copied().flatten().unwrap_or(0);
     for device in devices.iter().filter(|device| device.clock.is_clock()) {
         let nth = device.position;
-        let times: [u8; 8] = bus.read(nth, PORT_TIMES, ACTION)?;
-        let [a, b, c, d, e, f, g, h] = times;
-        let out = u32::from_le_bytes([a, b, c, d]);
-        let back = u32::from_le_bytes([e, f, g, h]);
-        // The last device turns the frame round by itself.
-        let way = if device.links > 1 {
-            back.wrapping_sub(out)
-        } else {
-            0
-        };
-        let reference_way = *reference_way.get_or_insert(way);
-        let delay = reference_way.saturating_sub(way) / 2;
+        let delay = delay(nth).saturating_sub(delay(reference));
         let latched = u64::from_le_bytes(bus.read(nth, LATCHED_TIME, ACTION)?);
         let offset = (at_ns + u64::from(delay)).wrapping_sub(latched);
         bus.write(nth, TIME_OFFSET, &offset.to_le_bytes(), ACTION)?;
         bus.write(nth, TIME_DELAY, &delay.to_le_bytes(), ACTION)?;
     }
     Ok(())
+}
+
+/// What a device shows of its ports. Those that are closed are not even asked.
+fn see<W: Wire>(bus: &mut Exchange<'_, W>, device: &Device) -> Result<Seen, BusError> {
+    let mut times = [0; 4];
+    if device.clock.notes_times() {
+        let places = (PORT_TIMES..).step_by(4).zip(&mut times);
+        for ((register, time), _) in places.zip(device.open_ports).filter(|(_, open)| *open) {
+            *time = u32::from_le_bytes(bus.read(device.position, register, ACTION)?);
+        }
+    }
+    Ok(Seen {
+        open: device.open_ports,
+        times: device.clock.notes_times().then_some(times),
+        has_clock: device.clock.is_clock(),
+    })
+}
+
+fn told(crooked: Crooked, devices: &[Device]) -> BusError {
+    let (nth, what) = match crooked {
+        Crooked::Loose(nth) => (
+            nth,
+            "no device before it has a cable left that could lead here: a cable is loose, or IN and \
+             OUT of a device are swapped",
+        ),
+        Crooked::Swapped(nth) => (
+            nth,
+            "frames do not come in by its IN port: swap the cables of its IN and OUT",
+        ),
+        Crooked::Blind(nth) => (
+            nth,
+            "it joins several cables and does not note when frames come by, so that the clocks of the \
+             drives behind it cannot be set: put the drives before it",
+        ),
+    };
+    BusError::Unfit {
+        device: nth,
+        name: devices
+            .get(nth)
+            .map(|device| device.name.clone())
+            .unwrap_or_default(),
+        what: what.to_owned(),
+    }
 }
 
 /// The device whose clock is everybody's.

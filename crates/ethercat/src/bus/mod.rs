@@ -12,6 +12,7 @@ mod parameters;
 mod pre_op;
 mod safe_op;
 mod state;
+mod tree;
 mod windows;
 
 pub use init::Init;

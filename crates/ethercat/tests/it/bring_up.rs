@@ -1,7 +1,7 @@
 //! Tests of the way from a wire to drives in OP, and of what is said where that does not work.
 
 use crate::wire::{MemoryWire, Quiet};
-use glidepath_emulator::{ClockKind as EmulatedClock, DriveSettings as Emulated, Segment};
+use glidepath_emulator::{Cable, ClockKind as EmulatedClock, DriveSettings as Emulated, Segment};
 use glidepath_ethercat::{
     BusError, BusSettings, ClockKind, DriveSettings, Init, Settings, Wire as _, object,
 };
@@ -58,8 +58,8 @@ fn drives_are_found_and_named() {
     let second = &found.devices()[1];
     assert_eq!((second.identity.vendor, second.identity.product), (0x83, 8));
     assert_eq!(
-        (second.identity.serial, second.clock, second.links),
-        (99, ClockKind::ReceiveTimes, 2)
+        (second.identity.serial, second.clock, second.open_ports),
+        (99, ClockKind::ReceiveTimes, [true, true, false, false])
     );
     assert!(second.may_be_drive());
     let mut bus = found.into_pre_op().unwrap();
@@ -143,6 +143,103 @@ fn terminals_without_a_system_time_stop_nobody() {
     for (one, other) in first.iter().zip(&second) {
         assert!(one.at_ns.abs_diff(other.at_ns) < 1_000, "{one:?} {other:?}");
     }
+}
+
+fn cable(from: usize, port: u8, way_ns: u64) -> Cable {
+    Cable {
+        from,
+        port,
+        into: 0,
+        way_ns,
+    }
+}
+
+fn branched(line: &[Emulated], cables: &[Cable]) -> MemoryWire<Quiet> {
+    let segment = Segment::branched(line, cables, START_NS - 5_000_000_000).unwrap();
+    MemoryWire::new(segment, Quiet, START_NS)
+}
+
+#[test]
+fn drives_behind_junctions_take_their_targets_at_the_same_moment() {
+    let terminal = |clock| Emulated::terminal("TERMINAL", clock);
+    let (clock, times) = (EmulatedClock::Bits64, EmulatedClock::ReceiveTimes);
+    // A coupler with two terminals at port 3 and a cable onwards at port 2; there a drive that passes on
+    // by port 2, and a junction with drives at three ports.
+    let line = [
+        terminal(clock),
+        terminal(times),
+        terminal(EmulatedClock::None),
+        Emulated::default(),
+        terminal(times),
+        Emulated::default(),
+        Emulated::default(),
+        Emulated::default(),
+    ];
+    let cables = [
+        cable(0, 3, 150),
+        cable(1, 1, 150),
+        cable(0, 2, 9_000),
+        cable(3, 2, 700),
+        cable(4, 3, 12_000),
+        cable(4, 1, 300),
+        cable(4, 2, 25_000),
+    ];
+    let mut wire = branched(&line, &cables);
+    wire.segment.keep_records();
+    let mut settings = settings(4);
+    let places = [3, 5, 6, 7];
+    for (drive, position) in settings.drives.iter_mut().zip(places) {
+        drive.position = position;
+    }
+    let bus = Init::find(&mut wire).unwrap().into_pre_op().unwrap();
+    let op = bus.into_safe_op(&settings).unwrap();
+    op.into_op(&settings.bus).unwrap();
+    let records = places.map(|drive| wire.segment.take_records(drive));
+    assert!(records[0].len() > 50);
+    for others in &records[1..] {
+        for (one, other) in records[0].iter().zip(others) {
+            assert!(one.at_ns.abs_diff(other.at_ns) < 50, "{one:?} {other:?}");
+        }
+    }
+}
+
+#[test]
+fn cables_in_the_wrong_port_are_told_by_the_device() {
+    let drives = [0, 1, 2].map(|nth| Emulated {
+        name: format!("DRIVE {nth}"),
+        ..Emulated::default()
+    });
+    let failed = |cables: &[Cable]| {
+        let mut wire = branched(&drives, cables);
+        let failed = Init::find(&mut wire).and_then(Init::into_pre_op);
+        failed.map(|_| ()).unwrap_err().to_string()
+    };
+    let swapped = |from, port, way_ns| Cable {
+        into: 1,
+        ..cable(from, port, way_ns)
+    };
+    let last = failed(&[cable(0, 1, 500), swapped(1, 1, 500)]);
+    let remedy = "frames do not come in by its IN port: swap the cables of its IN and OUT";
+    assert_eq!(last, format!("device 2 (DRIVE 2): {remedy}"));
+    // The one that hangs between the others reads after the one behind it.
+    let between = failed(&[cable(2, 0, 500), swapped(0, 1, 500)]);
+    assert_eq!(between, format!("device 2 (DRIVE 2): {remedy}"));
+}
+
+#[test]
+fn a_junction_that_notes_no_times_is_told_by_its_name() {
+    let line = [
+        Emulated::terminal("JUNCTION", EmulatedClock::None),
+        Emulated::default(),
+        Emulated::default(),
+    ];
+    let mut wire = branched(&line, &[cable(0, 3, 500), cable(0, 1, 500)]);
+    let failed = Init::find(&mut wire).and_then(Init::into_pre_op);
+    let failed = failed.map(|_| ()).unwrap_err().to_string();
+    assert!(
+        failed.starts_with("device 0 (JUNCTION): it joins several cables"),
+        "{failed}"
+    );
 }
 
 /// How far each demand's time is from the SYNC0 at which it took effect, ns.

@@ -26,7 +26,7 @@ fn found(position: usize) -> Found {
             has_coe: true,
             process: window,
             clock: ClockKind::Bits64,
-            links: 2,
+            open_ports: [true, true, false, false],
             alias: 0,
         },
         counts_per_revolution: Some(8_388_608.0),
