@@ -25,6 +25,8 @@ pub enum ClockKind {
     /// It notes when frames come by its ports and has no system time, although its features say that
     /// it has: an EL1004 or an EK1914.
     ReceiveTimes,
+    /// A clock of 32 bits, whose registers have zeros above; an AKD has one.
+    Bits32,
     /// A clock of 64 bits.
     #[default]
     Bits64,

@@ -63,6 +63,7 @@ impl Device {
             ClockKind::None => 0,
             // As an EK1914 has it: the flags tell nothing.
             ClockKind::ReceiveTimes => 0x00fc,
+            ClockKind::Bits32 => 0x0184,
             ClockKind::Bits64 => 0x010c,
         };
         memory.put(8, &features.to_le_bytes());
@@ -133,7 +134,15 @@ impl Device {
         reason = "times of a session; the offset is a signed number"
     )]
     fn offset_ns(&self) -> f64 {
-        self.memory.number(TIME_OFFSET, 8) as i64 as f64
+        self.memory.number(TIME_OFFSET, self.clock_bytes()) as i64 as f64
+    }
+
+    /// Bytes of its registers of time that it has: the others are zero.
+    const fn clock_bytes(&self) -> usize {
+        match self.settings.clock {
+            ClockKind::Bits32 => 4,
+            _ => 8,
+        }
     }
 
     fn system_ns(&self, now_ns: u64) -> f64 {
@@ -146,7 +155,15 @@ impl Device {
         reason = "a register wraps"
     )]
     fn system_register(&self, now_ns: u64) -> u64 {
-        self.system_ns(now_ns) as i64 as u64
+        self.as_told(self.system_ns(now_ns) as i64 as u64)
+    }
+
+    /// A time as a register of this device shows it.
+    const fn as_told(&self, time_ns: u64) -> u64 {
+        match self.settings.clock {
+            ClockKind::Bits32 => time_ns & 0xffff_ffff,
+            _ => time_ns,
+        }
     }
 
     /// Lets time pass: what is due until then happens, in order.
@@ -213,7 +230,7 @@ impl Device {
         let is_there = match self.settings.clock {
             ClockKind::None => !CLOCK.contains(&address),
             ClockKind::ReceiveTimes => !CLOCK.contains(&address) || address < SYSTEM_TIME,
-            ClockKind::Bits64 => true,
+            ClockKind::Bits32 | ClockKind::Bits64 => true,
         };
         is_there && self.memory.get(address, length).is_some()
     }
@@ -303,7 +320,7 @@ impl Device {
                 self.memory.put(at, &local_ns.to_le_bytes());
             }
         }
-        let local_ns = self.clock.local_ns(now_ns) as u64;
+        let local_ns = self.as_told(self.clock.local_ns(now_ns) as u64);
         self.memory.put(LATCHED_TIME, &local_ns.to_le_bytes());
     }
 
@@ -316,40 +333,38 @@ impl Device {
         reason = "differences of nanoseconds"
     )]
     fn follow(&mut self, reference: &[u8], now_ns: u64) {
-        let mut bytes = [0; 8];
-        for (place, byte) in bytes.iter_mut().zip(reference) {
-            *place = *byte;
-        }
-        let own = self.system_register(now_ns);
-        let told = u64::from_le_bytes(bytes).wrapping_add(self.memory.number(TIME_DELAY, 4));
-        let mask = if reference.len() < 8 {
-            u64::from(u32::MAX)
-        } else {
-            u64::MAX
+        // Only the low half of what comes by is compared.
+        let Some(low) = reference.first_chunk::<4>() else {
+            return;
         };
-        let ahead = (told & mask).wrapping_sub(own & mask);
-        let ahead = if mask == u64::MAX {
-            ahead as i64
-        } else {
-            i64::from(ahead as u32 as i32)
-        };
+        let own = self.system_register(now_ns) as u32;
+        let told = u32::from_le_bytes(*low).wrapping_add(self.memory.number(TIME_DELAY, 4) as u32);
+        let ahead = told.wrapping_sub(own) as i32;
         // Sign and magnitude: bit 31 says that this clock is ahead.
         let sign = u32::from(ahead < 0) << 31;
-        let difference = sign | ahead.unsigned_abs().min(0x7fff_ffff) as u32;
+        let difference = sign | ahead.unsigned_abs().min(0x7fff_ffff);
         self.memory.put(TIME_DIFFERENCE, &difference.to_le_bytes());
         let since_t = now_ns.saturating_sub(self.followed_ns) as f64 * 1e-9;
         self.followed_ns = now_ns;
-        self.clock.follow(now_ns, ahead as f64, since_t);
+        self.clock.follow(now_ns, ahead.into(), since_t);
     }
 
-    /// SYNC0 begins at its start time: never, for hundreds of years, if that is past.
+    /// SYNC0 begins at its start time: never, for hundreds of years, if that is past; with a clock of 32
+    /// bits when that has gone round.
     #[allow(clippy::cast_precision_loss, reason = "times of a session")]
     fn activate_sync(&mut self, now_ns: u64) {
         let is_active = self.memory.byte(SYNC_ACTIVATION) & 3 == 3;
-        let start = self.memory.number(SYNC_START, 8);
+        let start = self.memory.number(SYNC_START, self.clock_bytes());
         let has_cycle = self.memory.number(SYNC0_CYCLE, 4) > 0;
-        let is_ahead = start > self.system_register(now_ns);
-        self.next_sync = (is_active && has_cycle && is_ahead).then_some(start as f64);
+        let ahead_ns = start
+            .wrapping_sub(self.system_register(now_ns))
+            .cast_signed();
+        let ahead_ns = match self.settings.clock {
+            ClockKind::Bits32 => ahead_ns & 0xffff_ffff,
+            _ => ahead_ns,
+        };
+        self.next_sync = (is_active && has_cycle && ahead_ns > 0)
+            .then(|| self.system_ns(now_ns).floor() + ahead_ns as f64);
         self.stepped_ns = now_ns;
     }
 

@@ -33,6 +33,8 @@ pub enum ClockKind {
     None,
     /// It notes when frames come by its ports, for the delays of the cable, and has no system time.
     ReceiveTimes,
+    /// A clock of 32 bits, which begins anew every 4.3 s.
+    Bits32,
     /// A clock of 64 bits.
     Bits64,
 }
@@ -41,7 +43,15 @@ impl ClockKind {
     /// Whether it has a system time, by which SYNC0 comes.
     #[must_use]
     pub const fn is_clock(self) -> bool {
-        matches!(self, Self::Bits64)
+        matches!(self, Self::Bits32 | Self::Bits64)
+    }
+
+    /// Bytes of its registers of time. The others of the eight are not there, or zero.
+    pub(crate) const fn bytes(self) -> usize {
+        match self {
+            Self::Bits32 => 4,
+            _ => 8,
+        }
     }
 
     /// Whether it notes when frames come by its ports.

@@ -25,8 +25,8 @@
 //! allocates. The price: other people's masters have seen hundreds of devices, and this one has seen
 //! the drives of `glidepath-emulator`, which three other masters have accepted.
 //!
-//! What it does not do: rings of cable, drives without clocks of 64 bits, inputs and outputs of terminals,
-//! hot connect, segmented parameters, redundancy, safety over EtherCAT.
+//! What it does not do: rings of cable, drives without clocks, inputs and outputs of terminals, hot connect,
+//! segmented parameters, redundancy, safety over EtherCAT.
 //!
 //! Invariants:
 //!

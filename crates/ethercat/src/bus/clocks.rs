@@ -7,6 +7,7 @@
 //! The time of all is that of the host when the broadcast was under way: CLOCK_MONOTONIC, from which
 //! the reference then drifts away.
 
+use super::bus_time::BusTime;
 use super::tree::{self, Crooked, Seen};
 use crate::device::{ClockKind, Device};
 use crate::error::BusError;
@@ -41,11 +42,11 @@ pub(super) fn kind<W: Wire>(bus: &mut Exchange<'_, W>, nth: usize) -> Result<Clo
     if features & SAYS_CLOCK == 0 || !bus.has(nth, PORT_TIMES, 4, ACTION)? {
         return Ok(ClockKind::None);
     }
-    let is_clock = features & SAYS_64_BITS != 0 && bus.has(nth, SYSTEM_TIME, 8, ACTION)?;
-    Ok(if is_clock {
-        ClockKind::Bits64
-    } else {
-        ClockKind::ReceiveTimes
+    let is_clock = bus.has(nth, SYSTEM_TIME, 4, ACTION)?;
+    Ok(match (is_clock, features & SAYS_64_BITS != 0) {
+        (false, _) => ClockKind::ReceiveTimes,
+        (true, false) => ClockKind::Bits32,
+        (true, true) => ClockKind::Bits64,
     })
 }
 
@@ -69,10 +70,22 @@ pub(super) fn set<W: Wire>(bus: &mut Exchange<'_, W>, devices: &[Device]) -> Res
         let delay = delay(nth).saturating_sub(delay(reference));
         let latched = u64::from_le_bytes(bus.read(nth, LATCHED_TIME, ACTION)?);
         let offset = (at_ns + u64::from(delay)).wrapping_sub(latched);
-        bus.write(nth, TIME_OFFSET, &offset.to_le_bytes(), ACTION)?;
+        write_time(bus, device, TIME_OFFSET, offset)?;
         bus.write(nth, TIME_DELAY, &delay.to_le_bytes(), ACTION)?;
     }
     Ok(())
+}
+
+/// Writes a time or an offset, as far as the clock of a device goes.
+fn write_time<W: Wire>(
+    bus: &mut Exchange<'_, W>,
+    device: &Device,
+    register: u16,
+    time_ns: u64,
+) -> Result<(), BusError> {
+    let bytes = time_ns.to_le_bytes();
+    let (told, _) = bytes.split_at(device.clock.bytes());
+    bus.write(device.position, register, told, ACTION)
 }
 
 /// What a device shows of its ports. Those that are closed are not even asked.
@@ -123,20 +136,23 @@ pub(super) fn reference(devices: &[Device]) -> Option<usize> {
     devices.iter().position(|device| device.clock.is_clock())
 }
 
-/// Distributes the time of the reference until all clocks agree. Returns that time.
+/// Distributes the time of the reference until all clocks agree. Returns that time, as it is then.
 pub(super) fn settle<W: Wire>(
     bus: &mut Exchange<'_, W>,
     devices: &[Device],
     reference: usize,
-) -> Result<u64, BusError> {
-    let until_ns = bus.wire.now_ns() + PATIENCE_S * 1_000_000_000;
+) -> Result<BusTime, BusError> {
+    let now_ns = bus.wire.now_ns();
+    let until_ns = now_ns + PATIENCE_S * 1_000_000_000;
+    // The clocks were set by that of the host, a moment ago.
+    let kind = devices.get(reference).map(|device| device.clock);
+    let mut time = BusTime::new(kind.unwrap_or_default(), now_ns);
     loop {
-        let mut time = 0;
         for _ in 0..ROUND {
             let mut bytes = [0; 8];
             let address = Address::station(station(reference), SYSTEM_TIME);
             bus.one(Command::Frmw, address, &mut bytes, reference, ACTION)?;
-            time = u64::from_le_bytes(bytes);
+            time.hear(bytes);
             let next_ns = bus.wire.now_ns() + POLL_NS;
             bus.wire.sleep_until(next_ns);
         }
@@ -162,7 +178,7 @@ pub(super) fn settle<W: Wire>(
 /// Starts SYNC0 of every drive; returns when the first one is, by the time of the bus.
 pub(super) fn start_sync<W: Wire>(
     bus: &mut Exchange<'_, W>,
-    drives: &[usize],
+    drives: &[Device],
     bus_time_ns: u64,
     period_ns: u64,
 ) -> Result<u64, BusError> {
@@ -170,11 +186,12 @@ pub(super) fn start_sync<W: Wire>(
     let ahead_ns = START_NS + 20_000_000 * drives.len() as u64;
     let start_ns = (bus_time_ns + ahead_ns).next_multiple_of(period_ns.max(1));
     let cycle = u32::try_from(period_ns).unwrap_or(u32::MAX);
-    for nth in drives {
-        bus.write(*nth, SYNC_ACTIVATION, &[0], ACTION)?;
-        bus.write(*nth, SYNC_START, &start_ns.to_le_bytes(), ACTION)?;
-        bus.write(*nth, SYNC0_CYCLE, &cycle.to_le_bytes(), ACTION)?;
-        bus.write(*nth, SYNC_ACTIVATION, &[3], ACTION)?;
+    for drive in drives {
+        let nth = drive.position;
+        bus.write(nth, SYNC_ACTIVATION, &[0], ACTION)?;
+        write_time(bus, drive, SYNC_START, start_ns)?;
+        bus.write(nth, SYNC0_CYCLE, &cycle.to_le_bytes(), ACTION)?;
+        bus.write(nth, SYNC_ACTIVATION, &[3], ACTION)?;
     }
     Ok(start_ns)
 }

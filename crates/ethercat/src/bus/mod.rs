@@ -5,6 +5,7 @@
 //!  who is there          parameters, mapping     inputs, clocks     cycles
 //! ```
 
+mod bus_time;
 mod clocks;
 mod init;
 mod op;

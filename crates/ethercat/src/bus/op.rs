@@ -8,6 +8,7 @@
 //! what state it is and why. The last datagram looks whether a mailbox is full, of one drive after the
 //! other, and if one is, takes the message out: emergencies come that way.
 
+use super::bus_time::BusTime;
 use super::parameters::{INPUT_BYTES, OUTPUT_BYTES};
 use super::state::{ERROR, INIT};
 use crate::bus_clock::{BusClock, FrameTimes};
@@ -77,6 +78,7 @@ pub struct Op<'w, W> {
     aside: Option<(Slot, Aside)>,
     next_aside: Aside,
     reference: u16,
+    bus_time: BusTime,
     stations: Vec<u16>,
     /// Mailboxes from the drives: where, and how long.
     mailboxes: Vec<(u16, u16)>,
@@ -89,7 +91,11 @@ pub struct Op<'w, W> {
 }
 
 impl<'w, W: Wire> Op<'w, W> {
-    pub(super) fn new(wire: &'w mut W, drives: &[Device], reference: usize) -> Self {
+    pub(super) fn new(
+        wire: &'w mut W,
+        drives: &[Device],
+        (reference, bus_time): (usize, BusTime),
+    ) -> Self {
         let mailbox = |device: &Device| device.mailbox.map_or((0, 0), |(_, m)| (m.start, m.length));
         Self {
             wire,
@@ -102,6 +108,7 @@ impl<'w, W: Wire> Op<'w, W> {
             aside: None,
             next_aside: Aside::Look(0),
             reference: station(reference),
+            bus_time,
             stations: drives.iter().map(|drive| station(drive.position)).collect(),
             mailboxes: drives.iter().map(mailbox).collect(),
             states: vec![DeviceState::default(); drives.len()],
@@ -233,6 +240,7 @@ impl<'w, W: Wire> Op<'w, W> {
         let received = self.received.get(..length)?;
         let time = self.frame.answer(self.time.as_ref()?, received)?;
         let image = self.frame.answer(self.image.as_ref()?, received)?;
+        self.bus_time.hear(*time.data.first_chunk()?);
         for (slot, state) in self.status.iter().zip(&mut self.states) {
             let answer = self.frame.answer(slot, received);
             *state = match answer.map(|answer| (answer.counter, answer.data)) {
@@ -271,7 +279,7 @@ impl<'w, W: Wire> Op<'w, W> {
         Some(Reception::Good(FrameTimes {
             sent_ns: self.sent_ns,
             received_ns,
-            bus_ns: u64::from_le_bytes(*time.data.first_chunk()?),
+            bus_ns: self.bus_time.now_ns(),
         }))
     }
 }

@@ -67,7 +67,7 @@ impl<'w, W: Wire> PreOp<'w, W> {
         let lacks = if !device.may_be_drive() {
             "it has no mailbox with CoE or no process data: it is no drive that this master knows"
         } else if !device.clock.is_clock() {
-            "it has no distributed clock of 64 bits, and setpoints could not be given it in time"
+            "it has no distributed clock, and setpoints could not be given it in time"
         } else {
             return Ok(device.clone());
         };
@@ -101,13 +101,12 @@ impl<'w, W: Wire> PreOp<'w, W> {
             self.bus.write(at, FMMU, &windows, action)?;
         }
         let reference = clocks::reference(&self.devices).unwrap_or(0);
-        let time_ns = clocks::settle(&mut self.bus, &self.devices, reference)?;
-        let places: Vec<usize> = drives.iter().map(|device| device.position).collect();
+        let time = clocks::settle(&mut self.bus, &self.devices, reference)?;
         let period_ns = settings.bus.period_ns;
-        let start_ns = clocks::start_sync(&mut self.bus, &places, time_ns, period_ns)?;
+        let start_ns = clocks::start_sync(&mut self.bus, &drives, time.now_ns(), period_ns)?;
         for device in &drives {
             state::request(&mut self.bus, device, SAFE_OP)?;
         }
-        Ok(SafeOp::new(self.bus, drives, reference, start_ns))
+        Ok(SafeOp::new(self.bus, drives, (reference, time), start_ns))
     }
 }

@@ -1,5 +1,6 @@
 //! The bus in SAFE-OP: inputs come, outputs do not yet count.
 
+use super::bus_time::BusTime;
 use super::op::{DeviceState, Op, Reception};
 use super::state::{self, OP};
 use crate::bus_clock::BusClock;
@@ -19,7 +20,8 @@ const PATIENCE_NS: u64 = 10_000_000_000;
 pub struct SafeOp<'w, W> {
     bus: Exchange<'w, W>,
     drives: Vec<Device>,
-    reference: usize,
+    /// Whose clock it is, and what time.
+    reference: (usize, BusTime),
     start_ns: u64,
 }
 
@@ -27,7 +29,7 @@ impl<'w, W: Wire> SafeOp<'w, W> {
     pub(super) const fn new(
         bus: Exchange<'w, W>,
         drives: Vec<Device>,
-        reference: usize,
+        reference: (usize, BusTime),
         start_ns: u64,
     ) -> Self {
         Self {

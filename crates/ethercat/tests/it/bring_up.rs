@@ -76,44 +76,60 @@ fn drives_are_found_and_named() {
 #[test]
 fn drives_come_to_op_with_clocks_that_agree() {
     for (drift, period_ns) in [(0.0, 1_000_000), (100.0, 2_000_000), (-100.0, 4_000_000)] {
-        let drives = [drift, -drift, 20.0].map(|drift_ppm| Emulated {
-            drift_ppm,
-            ..Emulated::default()
-        });
-        let mut wire = wire(&drives);
-        wire.segment.keep_records();
-        let mut settings = settings(3);
-        (settings.bus.period_ns, settings.bus.shift_ns) = (period_ns, period_ns / 2);
-        let bus = Init::find(&mut wire).unwrap().into_pre_op().unwrap();
-        let mut op = bus
-            .into_safe_op(&settings)
-            .unwrap()
-            .into_op(&settings.bus)
+        come_to_op([EmulatedClock::Bits64; 3], drift, period_ns);
+    }
+}
+
+#[test]
+fn a_clock_of_32_bits_goes_round_and_on() {
+    let (short, long) = (EmulatedClock::Bits32, EmulatedClock::Bits64);
+    for kinds in [[short; 3], [short, long, long], [long, short, long]] {
+        come_to_op(kinds, 60.0, 2_000_000);
+    }
+}
+
+/// Three drives come to OP, and what was demanded for a time takes effect at that time.
+fn come_to_op(kinds: [EmulatedClock; 3], drift: f64, period_ns: u64) {
+    let mut drives = [drift, -drift, 20.0].map(|drift_ppm| Emulated {
+        drift_ppm,
+        ..Emulated::default()
+    });
+    for (drive, clock) in drives.iter_mut().zip(kinds) {
+        drive.clock = clock;
+    }
+    let mut wire = wire(&drives);
+    wire.segment.keep_records();
+    let mut settings = settings(3);
+    (settings.bus.period_ns, settings.bus.shift_ns) = (period_ns, period_ns / 2);
+    let bus = Init::find(&mut wire).unwrap().into_pre_op().unwrap();
+    let mut op = bus
+        .into_safe_op(&settings)
+        .unwrap()
+        .into_op(&settings.bus)
+        .unwrap();
+    let mut clock = op.take_clock().unwrap();
+    let mut inputs = [glidepath_ethercat::Inputs::default(); 3];
+    let mut demanded = Vec::new();
+    for _ in 0..4000 {
+        let beat = clock.next(op.wire().now_ns());
+        op.wire().sleep_until(beat.send_ns);
+        op.send(&[glidepath_ethercat::Outputs::default(); 3])
             .unwrap();
-        let mut clock = op.take_clock().unwrap();
-        let mut inputs = [glidepath_ethercat::Inputs::default(); 3];
-        let mut demanded = Vec::new();
-        for _ in 0..4000 {
-            let beat = clock.next(op.wire().now_ns());
-            op.wire().sleep_until(beat.send_ns);
-            op.send(&[glidepath_ethercat::Outputs::default(); 3])
-                .unwrap();
-            demanded.push((op.index(), beat.sync_ns));
-            let reception = op.receive(beat.give_up_ns, &mut inputs).unwrap();
-            let glidepath_ethercat::Reception::Good(times) = reception else {
-                panic!("{reception:?}");
-            };
-            clock.hear(times);
-        }
-        // What was demanded for a time took effect at that time, in every drive.
-        let quartz = clock.rate() * 1e6;
-        assert!((quartz - drift).abs() < 2.0, "{quartz} ppm");
-        let tail = &demanded[2000..];
-        for drive in 0..3 {
-            let records = wire.segment.take_records(drive);
-            let worst = phase_errors(tail, &records).fold(0, u64::max);
-            assert!(worst < 1_000, "drive {drive}: {worst} ns");
-        }
+        demanded.push((op.index(), beat.sync_ns));
+        let reception = op.receive(beat.give_up_ns, &mut inputs).unwrap();
+        let glidepath_ethercat::Reception::Good(times) = reception else {
+            panic!("{reception:?}");
+        };
+        clock.hear(times);
+    }
+    // What was demanded for a time took effect at that time, in every drive.
+    let quartz = clock.rate() * 1e6;
+    assert!((quartz - drift).abs() < 2.0, "{quartz} ppm");
+    let tail = &demanded[2000..];
+    for drive in 0..3 {
+        let records = wire.segment.take_records(drive);
+        let worst = phase_errors(tail, &records).fold(0, u64::max);
+        assert!(worst < 1_000, "drive {drive}: {worst} ns");
     }
 }
 

@@ -29,7 +29,7 @@ impl Found {
             None => "no drive",
             Some((false, _)) => "a drive without cyclic position (mode 8): cannot be led",
             Some(_) if !self.device.clock.is_clock() => {
-                "a drive without a clock of 64 bits: cannot be led"
+                "a drive without a distributed clock: cannot be led"
             }
             Some((true, false)) => "a drive; it does not find its home by itself",
             Some((true, true)) => "a drive",
