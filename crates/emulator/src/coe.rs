@@ -1,6 +1,6 @@
 //! The mailbox: SDO requests of up to four bytes, and emergencies.
 
-use crate::dictionary::Dictionary;
+use crate::dictionary::{Dictionary, Object};
 use crate::eeprom::MAILBOX;
 use crate::memory::{Memory, SYNC_MANAGER};
 use std::collections::VecDeque;
@@ -12,7 +12,8 @@ const FULL: u8 = 8;
 
 const NO_OBJECT: u32 = 0x0602_0000;
 const NO_SUBINDEX: u32 = 0x0609_0011;
-const NO_ACCESS: u32 = 0x0601_0000;
+pub(crate) const READ_ONLY: u32 = 0x0601_0002;
+pub(crate) const NO_ACCESS: u32 = 0x0601_0000;
 const NO_COMMAND: u32 = 0x0504_0001;
 
 /// Messages on their way to the master.
@@ -70,13 +71,14 @@ impl Mailbox {
         self.waiting.clear();
     }
 
-    /// Takes a message of the master. `is_refused` says which objects cannot be written now.
+    /// Takes a message of the master. `refusal` says which objects cannot be written now, by the code
+    /// of an abort.
     pub(crate) fn receive(
         &mut self,
         memory: &mut Memory,
         objects: &mut Dictionary,
         sent: &[u8],
-        is_refused: impl Fn(u16) -> bool,
+        refusal: impl Fn(Object) -> Option<u32>,
     ) {
         let &[
             _,
@@ -104,15 +106,16 @@ impl Mailbox {
         let head = |command: u8| [command, low, high, sub];
         let found = objects.get(object);
         let abort = |code: u32| (2, [head(0x80), code.to_le_bytes()].concat());
+        let refused = refusal(object).unwrap_or(0);
         let (service, answer) = match (found, command >> 5) {
             (None, _) if objects.has_index(index) => abort(NO_SUBINDEX),
             (None, _) => abort(NO_OBJECT),
             (Some(_), _) if command & 0x10 != 0 => abort(NO_ACCESS),
+            (Some(_), 1) if refused != 0 => abort(refused),
             (Some((size, value)), 2) => {
                 let command = 0x43 | (4 - size) << 2;
                 (3, [head(command), value.to_le_bytes()].concat())
             }
-            (Some(_), 1) if is_refused(index) => abort(NO_ACCESS),
             (Some((size, _)), 1) if command & 2 != 0 => {
                 let bytes = value.iter().take(size.into()).rev();
                 let value = bytes.fold(0, |n, byte| n << 8 | u32::from(*byte));

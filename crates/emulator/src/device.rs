@@ -2,9 +2,11 @@
 
 use crate::cable::Passage;
 use crate::clock::{ClockKind, DeviceClock};
-use crate::coe::Mailbox;
-use crate::dictionary::{Dictionary, INPUTS_ASSIGNED, Mapped, OUTPUTS_ASSIGNED};
-use crate::drive::{Drive, DriveSettings, Outputs};
+use crate::coe::{Mailbox, NO_ACCESS, READ_ONLY};
+use crate::dictionary::{
+    Dictionary, INPUTS_ASSIGNED, Mapped, OUTPUTS_ASSIGNED, Object, SYNC_INPUTS, SYNC_OUTPUTS,
+};
+use crate::drive::{Drive, DriveSettings, Outputs, SyncType};
 use crate::eeprom::{self, MAILBOX, MAILBOX_OUT};
 use crate::memory::{
     AL_CODE, AL_CONTROL, AL_STATUS, CLOCK, DL_STATUS, EEPROM_CONTROL, LATCHED_TIME, Memory,
@@ -288,10 +290,14 @@ impl Device {
             let message = self.memory.get(MAILBOX_OUT, MAILBOX.into());
             let message = message.unwrap_or_default().to_vec();
             let is_fixed = self.state() > PRE_OP;
-            let refused =
-                |index: u16| is_fixed && matches!(index, 0x1600..=0x1bff | 0x1c12 | 0x1c13);
+            let is_told = self.settings.sync_type == SyncType::Written;
+            let refusal = |object: Object| match object {
+                (0x1600..=0x1bff | 0x1c12 | 0x1c13, _) if is_fixed => Some(NO_ACCESS),
+                (0x1c32 | 0x1c33, 1) if !is_told => Some(READ_ONLY),
+                _ => None,
+            };
             self.mailbox
-                .receive(&mut self.memory, &mut self.objects, &message, refused);
+                .receive(&mut self.memory, &mut self.objects, &message, refusal);
         }
         true
     }
@@ -389,6 +395,15 @@ impl Device {
             self.next_sync = None;
         }
         if wanted == SAFE_OP {
+            let sync_type = match self.settings.sync_type {
+                SyncType::Written => None,
+                SyncType::Follows => Some(if has_sync { 2 } else { 1 }),
+                SyncType::Fixed(fixed) => Some(fixed),
+            };
+            if let Some(sync_type) = sync_type {
+                self.objects.set(SYNC_OUTPUTS, sync_type.into());
+                self.objects.set(SYNC_INPUTS, sync_type.into());
+            }
             (self.outputs, _) = self.objects.mapped(OUTPUTS_ASSIGNED);
             (self.inputs, _) = self.objects.mapped(INPUTS_ASSIGNED);
             process::put_inputs(&mut self.memory, &self.inputs, self.drive.inputs());

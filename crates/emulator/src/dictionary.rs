@@ -15,6 +15,7 @@ pub(crate) const QUICK_STOP: Object = (0x6085, 0);
 pub(crate) const HOMING_METHOD: Object = (0x6098, 0);
 pub(crate) const HOMING_SPEED: Object = (0x6099, 1);
 pub(crate) const SYNC_OUTPUTS: Object = (0x1c32, 1);
+pub(crate) const SYNC_INPUTS: Object = (0x1c33, 1);
 
 /// An object in the process data: which, where it begins, how many bytes.
 #[derive(Debug, Clone, Copy)]

@@ -28,6 +28,18 @@ pub struct HomeSwitch {
     pub at_counts: i64,
 }
 
+/// What a drive makes of its synchronization type, 0x1C32:1 and 0x1C33:1.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum SyncType {
+    /// It is what the master writes, and 0 before.
+    #[default]
+    Written,
+    /// It cannot be written: by SYNC0 if that runs when the drive goes to SAFE-OP, else by frames.
+    Follows,
+    /// It cannot be written, and is this.
+    Fixed(u8),
+}
+
 /// A drive as it is delivered.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DriveSettings {
@@ -48,6 +60,8 @@ pub struct DriveSettings {
     pub home: Option<HomeSwitch>,
     /// The window of following errors that it is delivered with, counts.
     pub following_counts: u32,
+    /// Its synchronization type.
+    pub sync_type: SyncType,
     /// Its distributed clock.
     pub clock: ClockKind,
     /// Whether it has a mailbox, objects and process data; a coupler or a simple terminal does not.
@@ -80,6 +94,7 @@ impl Default for DriveSettings {
             drift_ppm: 0.0,
             home: None,
             following_counts: u32::MAX,
+            sync_type: SyncType::Written,
             clock: ClockKind::Bits64,
             has_mailbox: true,
         }

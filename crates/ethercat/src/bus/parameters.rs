@@ -17,6 +17,13 @@ pub(super) const INPUT_BYTES: usize = 9;
 const OUTPUT_MAP: u16 = 0x1600;
 const INPUT_MAP: u16 = 0x1a00;
 
+/// The synchronization types of outputs and of inputs, and what they can be.
+const SYNC_OUTPUTS: Object = object(0x1c32, 1, 2);
+const SYNC_INPUTS: Object = object(0x1c33, 1, 2);
+const FREE: u32 = 0;
+const BY_FRAME: u32 = 1;
+const BY_SYNC0: u32 = 2;
+
 /// By ramp, then without power.
 const BY_RAMP: u32 = 2;
 
@@ -33,9 +40,6 @@ pub(super) fn write_all<W: Wire>(
     map(bus, device, 0x1c12, OUTPUT_MAP, &OUTPUTS)?;
     map(bus, device, 0x1c13, INPUT_MAP, &INPUTS)?;
     let mut set = |object, value| write(bus, device, object, value);
-    // SYNC0, for outputs and inputs.
-    set(object(0x1c32, 1, 2), 2)?;
-    set(object(0x1c33, 1, 2), 2)?;
     // Interpolation between targets: the period of the bus, as a number of milliseconds, or else of
     // tens of microseconds.
     let (count, exponent) = interpolation_time(settings.period_ns);
@@ -52,11 +56,36 @@ pub(super) fn write_all<W: Wire>(
         set(object(0x609a, 0, 4), drive.unsigned(homing.acceleration_a))?;
         set(object(0x607c, 0, 4), 0)?;
     }
-    // What to do at a quick stop and at a fault. Not all drives let themselves be told.
-    for option in [object(0x605a, 0, 2), object(0x605e, 0, 2)] {
-        where_possible(write(bus, device, option, BY_RAMP))?;
+    // What not all drives let themselves be told: what to do at a quick stop and at a fault, and that
+    // outputs and inputs are those of SYNC0, which many see by SYNC0 itself.
+    for (option, value) in [
+        (object(0x605a, 0, 2), BY_RAMP),
+        (object(0x605e, 0, 2), BY_RAMP),
+        (SYNC_OUTPUTS, BY_SYNC0),
+        (SYNC_INPUTS, BY_SYNC0),
+    ] {
+        where_possible(write(bus, device, option, value))?;
     }
     Ok(())
+}
+
+/// Looks whether a drive works with SYNC0, as far as it tells. It is known in SAFE-OP.
+pub(super) fn check_sync<W: Wire>(
+    bus: &mut Exchange<'_, W>,
+    device: &Device,
+) -> Result<(), BusError> {
+    match read(bus, device, SYNC_OUTPUTS) {
+        Ok(kind @ (FREE | BY_FRAME)) => Err(BusError::Unfit {
+            device: device.position,
+            name: device.name.clone(),
+            what: format!(
+                "it does not take its targets over at SYNC0 (0x1C32:1 is {kind}, and it was to be \
+                 2): switch it to distributed clocks with its manufacturer's tool"
+            ),
+        }),
+        Ok(_) | Err(BusError::Object { .. }) => Ok(()),
+        Err(error) => Err(error),
+    }
 }
 
 /// The bus period as 0x60C2 has it: a number and a power of ten of a second.

@@ -106,6 +106,7 @@ impl<'w, W: Wire> PreOp<'w, W> {
         let start_ns = clocks::start_sync(&mut self.bus, &drives, time.now_ns(), period_ns)?;
         for device in &drives {
             state::request(&mut self.bus, device, SAFE_OP)?;
+            parameters::check_sync(&mut self.bus, device)?;
         }
         Ok(SafeOp::new(self.bus, drives, (reference, time), start_ns))
     }

@@ -1,7 +1,9 @@
 //! Tests of the way from a wire to drives in OP, and of what is said where that does not work.
 
 use crate::wire::{MemoryWire, Quiet};
-use glidepath_emulator::{Cable, ClockKind as EmulatedClock, DriveSettings as Emulated, Segment};
+use glidepath_emulator::{
+    Cable, ClockKind as EmulatedClock, DriveSettings as Emulated, Segment, SyncType,
+};
 use glidepath_ethercat::{
     BusError, BusSettings, ClockKind, DriveSettings, Init, Settings, Wire as _, object,
 };
@@ -85,6 +87,36 @@ fn a_clock_of_32_bits_goes_round_and_on() {
     let (short, long) = (EmulatedClock::Bits32, EmulatedClock::Bits64);
     for kinds in [[short; 3], [short, long, long], [long, short, long]] {
         come_to_op(kinds, 60.0, 2_000_000);
+    }
+}
+
+/// Brings drives to OP, the last state there is; by then the wire has this time.
+fn come_up(line: &[Emulated], settings: &Settings) -> Result<MemoryWire<Quiet>, BusError> {
+    let mut wire = wire(line);
+    let bus = Init::find(&mut wire)?.into_pre_op()?;
+    bus.into_safe_op(settings)?.into_op(&settings.bus)?;
+    Ok(wire)
+}
+
+#[test]
+fn a_drive_whose_sync_type_is_fixed_is_asked_whether_it_is_right() {
+    let drive = |sync_type| {
+        [Emulated {
+            name: "FIXED".to_owned(),
+            sync_type,
+            ..Emulated::default()
+        }]
+    };
+    for right in [SyncType::Follows, SyncType::Fixed(2), SyncType::Fixed(3)] {
+        come_up(&drive(right), &settings(1)).unwrap();
+    }
+    for wrong in [0, 1] {
+        let refused = failure(&drive(SyncType::Fixed(wrong)), &settings(1)).to_string();
+        let why = format!(
+            "device 0 (FIXED): it does not take its targets over at SYNC0 (0x1C32:1 is {wrong}, and it \
+             was to be 2): switch it to distributed clocks with its manufacturer's tool"
+        );
+        assert_eq!(refused, why);
     }
 }
 
