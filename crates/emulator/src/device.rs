@@ -6,7 +6,7 @@ use crate::coe::{Mailbox, NO_ACCESS, READ_ONLY};
 use crate::dictionary::{
     Dictionary, INPUTS_ASSIGNED, Mapped, OUTPUTS_ASSIGNED, Object, SYNC_INPUTS, SYNC_OUTPUTS,
 };
-use crate::drive::{Drive, DriveSettings, Outputs, SyncType};
+use crate::drive::{Drive, DriveSettings, ImageAccess, Outputs, SyncType};
 use crate::eeprom::{self, MAILBOX, MAILBOX_OUT};
 use crate::memory::{
     AL_CODE, AL_CONTROL, AL_STATUS, CLOCK, DL_STATUS, EEPROM_CONTROL, LATCHED_TIME, Memory,
@@ -68,6 +68,8 @@ impl Device {
             ClockKind::Bits32 => 0x0184,
             ClockKind::Bits64 => 0x010c,
         };
+        let lacks_lrw = settings.image == ImageAccess::NoLrwByFeatures;
+        let features = features | u16::from(lacks_lrw) << 9;
         memory.put(8, &features.to_le_bytes());
         put_ports(&mut memory, &passage);
         memory.put(WATCHDOG_DIVIDER, &2498_u16.to_le_bytes());
@@ -75,7 +77,7 @@ impl Device {
         memory.put(AL_STATUS, &[INIT]);
         let ramp = 1_000_000_000;
         Self {
-            eeprom: eeprom::image(settings.identity, &settings.name, settings.has_mailbox),
+            eeprom: eeprom::image(settings),
             objects: Dictionary::new(settings.identity, settings.following_counts, ramp),
             mailbox: Mailbox::default(),
             clock: DeviceClock::new(host_ns, 0.0, settings.drift_ppm),
@@ -421,7 +423,8 @@ impl Device {
         index: u8,
         now_ns: u64,
     ) -> u16 {
-        if self.state() < SAFE_OP {
+        let is_unknown = ways == (true, true) && self.settings.image != ImageAccess::Both;
+        if self.state() < SAFE_OP || is_unknown {
             return 0;
         }
         // A device that fell out of OP does not take outputs any more.

@@ -28,6 +28,18 @@ pub struct HomeSwitch {
     pub at_counts: i64,
 }
 
+/// The datagrams by which a device takes process data, and how it says so.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ImageAccess {
+    /// LRW, LRD and LWR.
+    #[default]
+    Both,
+    /// Not LRW: its features say so (0x0008, bit 9).
+    NoLrwByFeatures,
+    /// Not LRW: its EEPROM says so (general flags, bit 1).
+    NoLrwByEeprom,
+}
+
 /// What a drive makes of its synchronization type, 0x1C32:1 and 0x1C33:1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum SyncType {
@@ -60,6 +72,8 @@ pub struct DriveSettings {
     pub home: Option<HomeSwitch>,
     /// The window of following errors that it is delivered with, counts.
     pub following_counts: u32,
+    /// How it takes process data.
+    pub image: ImageAccess,
     /// Its synchronization type.
     pub sync_type: SyncType,
     /// Its distributed clock.
@@ -94,6 +108,7 @@ impl Default for DriveSettings {
             drift_ppm: 0.0,
             home: None,
             following_counts: u32::MAX,
+            image: ImageAccess::Both,
             sync_type: SyncType::Written,
             clock: ClockKind::Bits64,
             has_mailbox: true,

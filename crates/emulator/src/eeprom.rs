@@ -1,5 +1,6 @@
 //! The EEPROM of a device (SII): its identity, and its sync managers.
 
+use crate::drive::{DriveSettings, ImageAccess};
 use crate::memory::{EEPROM_ADDRESS, EEPROM_CONTROL, EEPROM_DATA, Memory};
 
 /// Mailboxes, both of this length.
@@ -28,11 +29,12 @@ fn checksum(bytes: &[u8]) -> u8 {
 }
 
 /// The image of a drive with a mailbox, CoE and four sync managers, or of a device without all that.
-pub(crate) fn image(identity: Identity, name: &str, has_mailbox: bool) -> Vec<u8> {
+pub(crate) fn image(settings: &DriveSettings) -> Vec<u8> {
+    let (name, has_mailbox) = (&settings.name, settings.has_mailbox);
     let mut image = vec![0; 128];
     image[0] = 0x05;
     image[14] = checksum(&image[..14]);
-    for (at, value) in (16..).step_by(4).zip(identity) {
+    for (at, value) in (16..).step_by(4).zip(settings.identity) {
         image[at..at + 4].copy_from_slice(&value.to_le_bytes());
     }
     // Words 0x18 to 0x1C: mailboxes for the standard protocol, and that it is CoE.
@@ -52,6 +54,9 @@ pub(crate) fn image(identity: Identity, name: &str, has_mailbox: bool) -> Vec<u8
     (general[2], general[3], general[14]) = (1, 1, 0x11);
     if has_mailbox {
         general[5] = 0x0f;
+    }
+    if settings.image == ImageAccess::NoLrwByEeprom {
+        general[11] = 2;
     }
     category(&mut image, 30, &general);
     if has_mailbox {

@@ -78,6 +78,8 @@ pub struct Device {
     pub has_coe: bool,
     /// Process data to and from it; `None` without.
     pub process: Option<(SyncManager, SyncManager)>,
+    /// Whether it does not know the datagram that reads and writes process data in one (LRW).
+    pub lacks_lrw: bool,
     /// Its distributed clock.
     pub clock: ClockKind,
     /// By which of its ports frames go: by port 0 to it, by the others on.

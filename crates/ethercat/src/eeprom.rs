@@ -3,7 +3,7 @@
 use crate::device::{ClockKind, Device, Identity, SyncManager};
 use crate::error::BusError;
 use crate::exchange::Exchange;
-use crate::registers::{ALIAS, EEPROM_CONTROL, EEPROM_DATA, EEPROM_OWNER, PORTS};
+use crate::registers::{ALIAS, EEPROM_CONTROL, EEPROM_DATA, EEPROM_OWNER, FEATURES, PORTS};
 use crate::wire::Wire;
 
 /// Word addresses.
@@ -18,6 +18,9 @@ const MANAGERS: u16 = 41;
 const END: u16 = 0xffff;
 /// Bit of the protocols: CoE.
 const COE: u32 = 4;
+/// Bit of the features, and of the flags of the general category: it does not know LRW.
+const LACKS_LRW: u16 = 1 << 9;
+const NOT_LRW: u8 = 1 << 1;
 /// Of the two bits of a port: frames go out by it, and there is somebody.
 const OPEN: u8 = 0b10;
 /// Words that are read of one category, and categories of one device, at most.
@@ -118,6 +121,8 @@ pub(crate) fn read<W: Wire>(
         has_coe: words(bus, nth, PROTOCOLS)? & COE != 0,
         ..Device::default()
     };
+    let features = u16::from_le_bytes(bus.read(nth, FEATURES, READING)?);
+    device.lacks_lrw = features & LACKS_LRW != 0;
     let [_, ports] = bus.read(nth, PORTS, READING)?;
     device.open_ports = core::array::from_fn(|port| ports >> (2 * port) & 3 == OPEN);
     let ((out, out_length), (back, back_length)) = (
@@ -158,6 +163,7 @@ fn read_categories<W: Wire>(
                 let general = bytes(bus, nth, from, length.min(16))?;
                 let byte = |at: usize| general.get(at).copied().unwrap_or(0);
                 name = (byte(3), byte(2));
+                device.lacks_lrw |= byte(11) & NOT_LRW != 0;
             }
             MANAGERS => {
                 let found = managers(&bytes(bus, nth, from, length.min(64))?);

@@ -25,6 +25,10 @@ pub enum Command {
     Brd = 7,
     /// Write to all.
     Bwr = 8,
+    /// Read by logical address.
+    Lrd = 10,
+    /// Write by logical address.
+    Lwr = 11,
     /// Read and write by logical address.
     Lrw = 12,
     /// Read by station address, all others are written what was read.

@@ -4,6 +4,8 @@
 //! FRMW 0x0910 │ LRW: outputs and inputs of all │ FPRD 0x0130 of each │ FPRD of one mailbox
 //! ```
 //!
+//! A drive that does not know LRW gets LWR and LRD in its place, and then all do.
+//!
 //! The time of the reference goes to all clocks, process data is exchanged, and every drive says in
 //! what state it is and why. The last datagram looks whether a mailbox is full, of one drive after the
 //! other, and if one is, takes the message out: emergencies come that way.
@@ -73,7 +75,11 @@ pub struct Op<'w, W> {
     received: Vec<u8>,
     index: u8,
     time: Option<Slot>,
+    /// Outputs and inputs, or outputs alone.
     image: Option<Slot>,
+    /// Inputs, where they have a datagram of their own.
+    inputs: Option<Slot>,
+    lacks_lrw: bool,
     status: Vec<Slot>,
     aside: Option<(Slot, Aside)>,
     next_aside: Aside,
@@ -104,6 +110,8 @@ impl<'w, W: Wire> Op<'w, W> {
             index: 0,
             time: None,
             image: None,
+            inputs: None,
+            lacks_lrw: drives.iter().any(|drive| drive.lacks_lrw),
             status: Vec::with_capacity(drives.len()),
             aside: None,
             next_aside: Aside::Look(0),
@@ -181,8 +189,15 @@ impl<'w, W: Wire> Op<'w, W> {
         let reference = Address::station(self.reference, SYSTEM_TIME);
         self.time = frame.push(Command::Frmw, index, reference, 8);
         let count = self.stations.len();
-        let bytes = count * (OUTPUT_BYTES + INPUT_BYTES);
-        self.image = frame.push(Command::Lrw, index, Address::logical(0), bytes);
+        let (out, back) = (count * OUTPUT_BYTES, count * INPUT_BYTES);
+        if self.lacks_lrw {
+            // What is read lies behind what is written.
+            let from = Address::logical(u32::try_from(out).unwrap_or(u32::MAX));
+            self.image = frame.push(Command::Lwr, index, Address::logical(0), out);
+            self.inputs = frame.push(Command::Lrd, index, from, back);
+        } else {
+            self.image = frame.push(Command::Lrw, index, Address::logical(0), out + back);
+        }
         if let Some(image) = &self.image {
             let places = frame.data(image).chunks_exact_mut(OUTPUT_BYTES);
             for (place, output) in places.zip(outputs) {
@@ -240,6 +255,15 @@ impl<'w, W: Wire> Op<'w, W> {
         let received = self.received.get(..length)?;
         let time = self.frame.answer(self.time.as_ref()?, received)?;
         let image = self.frame.answer(self.image.as_ref()?, received)?;
+        let count = self.stations.len();
+        // Reading counts 1, writing 1, and 2 where both are one datagram.
+        let (counted, each, back) = if let Some(slot) = &self.inputs {
+            let inputs = self.frame.answer(slot, received)?;
+            (image.counter + inputs.counter, 2, inputs.data)
+        } else {
+            let (_, back) = image.data.split_at(count * OUTPUT_BYTES);
+            (image.counter, 3, back)
+        };
         self.bus_time.hear(*time.data.first_chunk()?);
         for (slot, state) in self.status.iter().zip(&mut self.states) {
             let answer = self.frame.answer(slot, received);
@@ -263,16 +287,11 @@ impl<'w, W: Wire> Op<'w, W> {
             }
             Some(full)
         });
-        let count = self.stations.len();
         #[allow(clippy::cast_possible_truncation, reason = "nine drives")]
-        let expected = 3 * count as u16;
-        if image.counter != expected {
-            return Some(Reception::Short {
-                counted: image.counter,
-                expected,
-            });
+        let expected = each * count as u16;
+        if counted != expected {
+            return Some(Reception::Short { counted, expected });
         }
-        let (_, back) = image.data.split_at(count * OUTPUT_BYTES);
         for (bytes, input) in back.chunks_exact(INPUT_BYTES).zip(inputs) {
             *input = Inputs::decode(*bytes.first_chunk()?);
         }

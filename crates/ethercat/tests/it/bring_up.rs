@@ -1,8 +1,10 @@
 //! Tests of the way from a wire to drives in OP, and of what is said where that does not work.
 
+use crate::life::{Day, assert_clean};
+use crate::machine::{Setup, run};
 use crate::wire::{MemoryWire, Quiet};
 use glidepath_emulator::{
-    Cable, ClockKind as EmulatedClock, DriveSettings as Emulated, Segment, SyncType,
+    Cable, ClockKind as EmulatedClock, DriveSettings as Emulated, ImageAccess, Segment, SyncType,
 };
 use glidepath_ethercat::{
     BusError, BusSettings, ClockKind, DriveSettings, Init, Settings, Wire as _, object,
@@ -117,6 +119,18 @@ fn a_drive_whose_sync_type_is_fixed_is_asked_whether_it_is_right() {
              was to be 2): switch it to distributed clocks with its manufacturer's tool"
         );
         assert_eq!(refused, why);
+    }
+}
+
+#[test]
+fn a_drive_that_does_not_know_lrw_gets_what_it_knows() {
+    for image in [ImageAccess::NoLrwByFeatures, ImageAccess::NoLrwByEeprom] {
+        let mut setup = Setup::absolute(2_000_000);
+        setup.emulated[1].image = image;
+        let outcome = run(&setup, &mut Day::default());
+        assert_clean(&setup, &outcome);
+        let end = outcome.setpoints.last().unwrap();
+        assert!((end.position[0] - 5.0).abs() < 1e-3, "{}", end.position[0]);
     }
 }
 

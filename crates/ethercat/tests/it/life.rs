@@ -12,7 +12,7 @@ const PROGRAM: &str =
 
 /// Switches on, comes home, runs a program, switches off.
 #[derive(Debug, Default)]
-struct Day {
+pub(crate) struct Day {
     asked: u64,
     has_run: bool,
     runs: bool,
@@ -65,7 +65,7 @@ impl Case for Day {
     }
 }
 
-fn assert_clean(setup: &Setup, outcome: &Outcome) {
+pub(crate) fn assert_clean(setup: &Setup, outcome: &Outcome) {
     let counts = &outcome.counts;
     let bad = (counts.lost, counts.short, counts.stale, counts.missed);
     assert_eq!(bad, (0, 0, 0, 0));

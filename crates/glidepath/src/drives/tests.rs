@@ -25,6 +25,7 @@ fn found(position: usize) -> Found {
             mailbox: window,
             has_coe: true,
             process: window,
+            lacks_lrw: false,
             clock: ClockKind::Bits64,
             open_ports: [true, true, false, false],
             alias: 0,
