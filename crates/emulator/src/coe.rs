@@ -20,6 +20,10 @@ const NO_COMMAND: u32 = 0x0504_0001;
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Mailbox {
     waiting: VecDeque<Vec<u8>>,
+    /// Messages with the number of the one before are dropped.
+    drops_repeats: bool,
+    /// That number; 0 is none.
+    number: u8,
 }
 
 fn message(kind: u8, service: u16, data: &[u8]) -> Vec<u8> {
@@ -32,6 +36,13 @@ fn message(kind: u8, service: u16, data: &[u8]) -> Vec<u8> {
 }
 
 impl Mailbox {
+    pub(crate) fn new(drops_repeats: bool) -> Self {
+        Self {
+            drops_repeats,
+            ..Self::default()
+        }
+    }
+
     /// Puts the next message where the master reads, if the last one was read.
     pub(crate) fn offer(&mut self, memory: &mut Memory) {
         let status = memory.byte(INPUT_STATUS);
@@ -69,6 +80,7 @@ impl Mailbox {
     /// Forgets everything.
     pub(crate) fn clear(&mut self) {
         self.waiting.clear();
+        self.number = 0;
     }
 
     /// Takes a message of the master. `refusal` says which objects cannot be written now, by the code
@@ -99,6 +111,11 @@ impl Mailbox {
             return;
         };
         if kind & 15 != 3 || service >> 4 != 2 {
+            return;
+        }
+        let (number, before) = (kind >> 4 & 7, self.number);
+        self.number = number;
+        if self.drops_repeats && number != 0 && number == before {
             return;
         }
         let index = u16::from_le_bytes([low, high]);

@@ -79,7 +79,7 @@ impl Device {
         Self {
             eeprom: eeprom::image(settings),
             objects: Dictionary::new(settings.identity, settings.following_counts, ramp),
-            mailbox: Mailbox::default(),
+            mailbox: Mailbox::new(settings.drops_repeats),
             clock: DeviceClock::new(host_ns, 0.0, settings.drift_ppm),
             drive: Drive::new(settings),
             outputs: Vec::new(),

@@ -74,6 +74,8 @@ pub struct DriveSettings {
     pub following_counts: u32,
     /// How it takes process data.
     pub image: ImageAccess,
+    /// Whether it takes a message with the number of the one before for the same one, and drops it.
+    pub drops_repeats: bool,
     /// Its synchronization type.
     pub sync_type: SyncType,
     /// Its distributed clock.
@@ -109,6 +111,7 @@ impl Default for DriveSettings {
             home: None,
             following_counts: u32::MAX,
             image: ImageAccess::Both,
+            drops_repeats: false,
             sync_type: SyncType::Written,
             clock: ClockKind::Bits64,
             has_mailbox: true,

@@ -41,9 +41,9 @@ enum Reply {
     Other,
 }
 
-fn head(object: Object, command: u8, counter: u8) -> [u8; 12] {
+fn head(object: Object, command: u8, number: u8) -> [u8; 12] {
     let [low, high] = object.index.to_le_bytes();
-    let kind = 3 | (counter & 7) << 4;
+    let kind = 3 | (number & 7) << 4;
     [
         10, 0, 0, 0, 0, kind, 0, 0x20, command, low, high, object.sub,
     ]
@@ -123,12 +123,12 @@ fn transfer<W: Wire>(
         tries: TRIES,
     };
     let (out, back) = device.mailbox.ok_or_else(silent)?;
-    for counter in 1..=TRIES {
+    for _ in 0..TRIES {
         // What is left of a question before.
         while take(bus, nth, back.start, back.length)?.is_some() {}
         let command = value.map_or(0x40, |_| 0x23 | (4 - object.size.clamp(1, 4)) << 2);
         let mut message = vec![0; out.length.into()];
-        message[..12].copy_from_slice(&head(object, command, counter.try_into().unwrap_or(1)));
+        message[..12].copy_from_slice(&head(object, command, bus.next_number(nth)));
         message[12..16].copy_from_slice(&value.unwrap_or(0).to_le_bytes());
         wait_until_free(bus, nth)?;
         bus.write(nth, out.start, &message, "to a message")?;

@@ -16,6 +16,8 @@ pub(crate) struct Exchange<'w, W> {
     frame: Frame,
     received: Vec<u8>,
     index: u8,
+    /// The numbers of the last messages to the mailboxes of the devices.
+    numbers: Vec<u8>,
 }
 
 /// The station address of the nth device.
@@ -34,7 +36,19 @@ impl<'w, W: Wire> Exchange<'w, W> {
             frame: Frame::default(),
             received: vec![0; MAX_FRAME],
             index: 0,
+            numbers: Vec::new(),
         }
+    }
+
+    /// The number of the next message to a device's mailbox: 1 to 7, and never that of the one before,
+    /// because a device may take that for the same message (ETG.1000.4).
+    pub(crate) fn next_number(&mut self, nth: usize) -> u8 {
+        if self.numbers.len() <= nth {
+            self.numbers.resize(nth + 1, 0);
+        }
+        let number = &mut self.numbers[nth];
+        *number = *number % 7 + 1;
+        *number
     }
 
     /// Asks once more and once more; returns the working counter, and when the question was sent

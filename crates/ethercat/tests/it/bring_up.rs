@@ -134,6 +134,20 @@ fn a_drive_that_does_not_know_lrw_gets_what_it_knows() {
     }
 }
 
+#[test]
+fn no_two_messages_in_a_row_have_the_same_number() {
+    let drive = |drops_repeats| {
+        let drive = Emulated {
+            drops_repeats,
+            ..Emulated::default()
+        };
+        let wire = come_up(&[drive.clone(), drive], &settings(2)).unwrap();
+        wire.now_ns() - START_NS
+    };
+    // A message that is dropped is waited for, and sent again.
+    assert_eq!(drive(true), drive(false));
+}
+
 /// Three drives come to OP, and what was demanded for a time takes effect at that time.
 fn come_to_op(kinds: [EmulatedClock; 3], drift: f64, period_ns: u64) {
     let mut drives = [drift, -drift, 20.0].map(|drift_ppm| Emulated {
