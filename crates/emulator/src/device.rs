@@ -6,7 +6,7 @@ use crate::coe::{Mailbox, NO_ACCESS, READ_ONLY};
 use crate::dictionary::{
     Dictionary, INPUTS_ASSIGNED, Mapped, OUTPUTS_ASSIGNED, Object, SYNC_INPUTS, SYNC_OUTPUTS,
 };
-use crate::drive::{Drive, DriveSettings, ImageAccess, Outputs, SyncType};
+use crate::drive::{Drive, DriveSettings, ImageAccess, OutputWatchdog, Outputs, SyncType};
 use crate::eeprom::{self, MAILBOX, MAILBOX_OUT};
 use crate::memory::{
     AL_CODE, AL_CONTROL, AL_STATUS, CLOCK, DL_STATUS, EEPROM_CONTROL, LATCHED_TIME, Memory,
@@ -17,6 +17,10 @@ use crate::memory::{
 use crate::process;
 use crate::states::{self, ERROR, INIT, OP, PRE_OP, SAFE_OP};
 use crate::upset::Upset;
+
+/// How the sync manager of outputs works, and the bit in it that has the watchdog watch them.
+const OUTPUT_CONTROL: u16 = SYNC_MANAGER + 2 * 8 + 4;
+const WATCHED: u8 = 1 << 6;
 
 /// The record of what a drive did at one SYNC0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -193,6 +197,9 @@ impl Device {
 
     /// How long outputs may stay away, ns; 0 for ever.
     fn watchdog_ns(&self) -> u64 {
+        if self.memory.byte(OUTPUT_CONTROL) & WATCHED == 0 {
+            return 0;
+        }
         let tick_ns = (u64::from(self.memory.word(WATCHDOG_DIVIDER)) + 2) * 40;
         u64::from(self.memory.word(WATCHDOG_OUTPUTS)) * tick_ns
     }
@@ -273,6 +280,10 @@ impl Device {
             SPEED_START => self.clock.forget(now_ns),
             AL_STATUS..0x0136 => return false,
             _ => self.memory.put(address, bytes),
+        }
+        if self.settings.watchdog == OutputWatchdog::Never && touches(OUTPUT_CONTROL) {
+            let control = self.memory.byte(OUTPUT_CONTROL) & !WATCHED;
+            self.memory.put(OUTPUT_CONTROL, &[control]);
         }
         self.clear_managers(address, end);
         if touches(AL_CONTROL) {

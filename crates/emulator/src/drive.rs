@@ -40,6 +40,18 @@ pub enum ImageAccess {
     NoLrwByEeprom,
 }
 
+/// The watchdog of a device's outputs: bit 6 in the control of their sync manager.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum OutputWatchdog {
+    /// Its EEPROM has the bit.
+    #[default]
+    Told,
+    /// Its EEPROM does not have it, as an AKD's; the master can set it.
+    Untold,
+    /// The bit cannot be set.
+    Never,
+}
+
 /// What a drive makes of its synchronization type, 0x1C32:1 and 0x1C33:1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum SyncType {
@@ -74,6 +86,8 @@ pub struct DriveSettings {
     pub following_counts: u32,
     /// How it takes process data.
     pub image: ImageAccess,
+    /// The watchdog of its outputs.
+    pub watchdog: OutputWatchdog,
     /// Whether it takes a message with the number of the one before for the same one, and drops it.
     pub drops_repeats: bool,
     /// Its synchronization type.
@@ -111,6 +125,7 @@ impl Default for DriveSettings {
             home: None,
             following_counts: u32::MAX,
             image: ImageAccess::Both,
+            watchdog: OutputWatchdog::Told,
             drops_repeats: false,
             sync_type: SyncType::Written,
             clock: ClockKind::Bits64,

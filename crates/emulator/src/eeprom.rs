@@ -1,6 +1,6 @@
 //! The EEPROM of a device (SII): its identity, and its sync managers.
 
-use crate::drive::{DriveSettings, ImageAccess};
+use crate::drive::{DriveSettings, ImageAccess, OutputWatchdog};
 use crate::memory::{EEPROM_ADDRESS, EEPROM_CONTROL, EEPROM_DATA, Memory};
 
 /// Mailboxes, both of this length.
@@ -60,19 +60,23 @@ pub(crate) fn image(settings: &DriveSettings) -> Vec<u8> {
     }
     category(&mut image, 30, &general);
     if has_mailbox {
-        process_categories(&mut image);
+        process_categories(&mut image, settings.watchdog);
     }
     image.extend_from_slice(&[0xff; 64]);
     image
 }
 
 /// What each window onto its memory is for, and where it is.
-fn process_categories(image: &mut Vec<u8>) {
+fn process_categories(image: &mut Vec<u8>, watchdog: OutputWatchdog) {
+    let output_control = match watchdog {
+        OutputWatchdog::Told => 0x64,
+        OutputWatchdog::Untold | OutputWatchdog::Never => 0x24,
+    };
     category(image, 40, &[1, 2, 3, 0]);
     let managers = [
         (MAILBOX_OUT, MAILBOX, 0x26, 1),
         (MAILBOX_IN, MAILBOX, 0x22, 2),
-        (OUTPUTS, 0, 0x64, 3),
+        (OUTPUTS, 0, output_control, 3),
         (INPUTS, 0, 0x20, 4),
     ];
     let managers = managers.map(|(start, length, control, kind)| {

@@ -4,7 +4,7 @@ use super::clocks;
 use super::parameters;
 use super::safe_op::SafeOp;
 use super::state::{self, SAFE_OP};
-use super::windows::process;
+use super::windows::{WATCHED, process};
 use crate::coe::{self, Object};
 use crate::device::Device;
 use crate::error::BusError;
@@ -78,6 +78,23 @@ impl<'w, W: Wire> PreOp<'w, W> {
         })
     }
 
+    /// Looks whether a drive will notice that frames stay away.
+    fn check_watchdog(&mut self, device: &Device, action: &'static str) -> Result<(), BusError> {
+        let [control] = self
+            .bus
+            .read(device.position, SYNC_MANAGER + 16 + 4, action)?;
+        if control & WATCHED != 0 {
+            return Ok(());
+        }
+        Err(BusError::Unfit {
+            device: device.position,
+            name: device.name.clone(),
+            what: "it does not let the watchdog of its outputs be switched on (bit 6 of 0x0814), so \
+                   that it would go on when the bus is lost: its manufacturer has to say how it stops"
+                .to_owned(),
+        })
+    }
+
     /// Writes parameters, maps process data, starts SYNC0, and brings the drives to SAFE-OP.
     ///
     /// # Errors
@@ -98,6 +115,7 @@ impl<'w, W: Wire> PreOp<'w, W> {
                 .write(at, OUTPUT_WATCHDOG, &watchdog.to_le_bytes(), action)?;
             let (managers, windows) = process(device, nth, drives.len());
             self.bus.write(at, SYNC_MANAGER + 16, &managers, action)?;
+            self.check_watchdog(device, action)?;
             self.bus.write(at, FMMU, &windows, action)?;
         }
         let reference = clocks::reference(&self.devices).unwrap_or(0);

@@ -3,6 +3,9 @@
 use super::parameters::{INPUT_BYTES, OUTPUT_BYTES};
 use crate::device::{Device, SyncManager};
 
+/// Bit in the control of a sync manager: the watchdog waits for what is written.
+pub(super) const WATCHED: u8 = 1 << 6;
+
 /// A sync manager as it is written.
 pub(super) fn manager(manager: SyncManager) -> [u8; 8] {
     let ([s0, s1], [l0, l1]) = (manager.start.to_le_bytes(), manager.length.to_le_bytes());
@@ -27,7 +30,9 @@ pub(super) fn process(device: &Device, nth: usize, drives: usize) -> (Vec<u8>, V
         length: length as u16,
         ..from
     };
-    let (out, back) = (sized(out, OUTPUT_BYTES), sized(back, INPUT_BYTES));
+    let (mut out, back) = (sized(out, OUTPUT_BYTES), sized(back, INPUT_BYTES));
+    // Not every EEPROM has it, and without it the drive waits for frames for ever.
+    out.control |= WATCHED;
     let at_out = (nth * OUTPUT_BYTES) as u32;
     let at_back = (drives * OUTPUT_BYTES + nth * INPUT_BYTES) as u32;
     let managers = [manager(out), manager(back)].concat();

@@ -4,7 +4,8 @@ use crate::life::{Day, assert_clean};
 use crate::machine::{Setup, run};
 use crate::wire::{MemoryWire, Quiet};
 use glidepath_emulator::{
-    Cable, ClockKind as EmulatedClock, DriveSettings as Emulated, ImageAccess, Segment, SyncType,
+    Cable, ClockKind as EmulatedClock, DriveSettings as Emulated, ImageAccess, OutputWatchdog,
+    Segment, SyncType,
 };
 use glidepath_ethercat::{
     BusError, BusSettings, ClockKind, DriveSettings, Init, Settings, Wire as _, object,
@@ -146,6 +147,31 @@ fn no_two_messages_in_a_row_have_the_same_number() {
     };
     // A message that is dropped is waited for, and sent again.
     assert_eq!(drive(true), drive(false));
+}
+
+#[test]
+fn every_drive_notices_that_frames_stay_away() {
+    let drive = |watchdog| {
+        [Emulated {
+            name: "AKD".to_owned(),
+            watchdog,
+            ..Emulated::default()
+        }]
+    };
+    // A watchdog that is shorter than the period does not let anybody stay in OP.
+    let mut hasty = settings(1);
+    hasty.bus.watchdog_ns = 100_000;
+    for watchdog in [OutputWatchdog::Told, OutputWatchdog::Untold] {
+        come_up(&drive(watchdog), &settings(1)).unwrap();
+        let refused = failure(&drive(watchdog), &hasty).to_string();
+        assert!(
+            refused.contains("AL status 0x001b, watchdog"),
+            "{watchdog:?}: {refused}"
+        );
+    }
+    let refused = failure(&drive(OutputWatchdog::Never), &settings(1)).to_string();
+    let why = "device 0 (AKD): it does not let the watchdog of its outputs be switched on";
+    assert!(refused.starts_with(why), "{refused}");
 }
 
 /// Three drives come to OP, and what was demanded for a time takes effect at that time.
