@@ -211,6 +211,11 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
             .drives
             .iter()
             .all(|drive| drive.axis.is_ready(&drive.inputs));
+        // Who wants them to look for their home is to be there as long as they do.
+        let home = match self.servo.stopped() {
+            Some(OwnStop::Silence) => 0,
+            _ => home,
+        };
         let looks = self.next_to_home(home);
         let resets = core::mem::take(&mut self.resets);
         let mut latches = false;

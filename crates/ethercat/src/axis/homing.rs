@@ -1,7 +1,8 @@
 //! The state of a drive that looks for its home by itself (CiA 402, mode 6).
 //!
 //! Afterwards it counts anew, so its position jumps: it is told to be where it says it is, and goes on
-//! in cyclic position from there. It stays until it is not to look for its home any more.
+//! in cyclic position from there. It stays until it is not to look for its home any more. How
+//! long it may look is the interpolator's to say.
 
 use super::step::{ENABLE_OPERATION, Next, START_HOMING, Step};
 use crate::image::{CYCLIC_POSITION, HOMING};
@@ -11,8 +12,6 @@ use glidepath_link::DriveState;
 
 /// How long the drive may take to change its mode.
 const MODE_NS: u64 = 1_000_000_000;
-/// How long it may look.
-const SEARCH_NS: u64 = 60_000_000_000;
 /// Cycles in which it may still show bits of before.
 const GRACE: u32 = 5;
 
@@ -74,7 +73,7 @@ impl Homing {
                 (step.outputs.control, step.outputs.mode) = (START_HOMING, HOMING);
                 self.part = Part::Under(cycles.saturating_add(1));
                 let says = |bits| cycles > GRACE && sight.has(bits);
-                if says(HOMING_ERROR) || waited_ns > SEARCH_NS {
+                if says(HOMING_ERROR) {
                     return give_up;
                 }
                 let is_found = says(REACHED | FOLLOWS);

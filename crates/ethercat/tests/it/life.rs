@@ -48,7 +48,7 @@ impl Case for Day {
             hands.feedback,
             hands.events,
         );
-        assert!(hands.tick < 20_000, "{seen:#?}");
+        assert!(hands.tick < 40_000, "{seen:#?}");
     }
 
     fn fate(&mut self, now_ns: u64) -> Fate {
@@ -132,6 +132,60 @@ fn a_day_with_drives_that_look_for_their_home() {
     // Home is zero, whatever was counted before.
     let end = outcome.setpoints.last().unwrap();
     assert!((end.position[0] - 5.0).abs() < 1e-3, "{}", end.position[0]);
+}
+
+#[test]
+fn a_drive_may_look_for_its_home_for_minutes() {
+    let mut setup = Setup::homing(4_000_000);
+    let slow = setup.drives[2].homing.as_mut().unwrap();
+    slow.fast_v = 0.06;
+    let outcome = run(&setup, &mut Day::default());
+    let took_t = outcome.records[2].len() as f64 * 0.004;
+    assert!(took_t > 83.0, "{took_t} s");
+    assert!(outcome.events.contains(&Event::Home(2)));
+    let end = outcome.setpoints.last().unwrap();
+    assert!((end.position[2] - 3.0).abs() < 1e-3, "{}", end.position[2]);
+}
+
+/// Switches on and sends the joints home, and the interpolator is killed on the way of joint 2.
+#[derive(Debug, Default)]
+struct Orphan {
+    killed: Option<u64>,
+}
+
+impl Case for Orphan {
+    fn tick(&mut self, hands: &mut Hands<'_>, _: &mut Segment) {
+        let is_on_its_way = hands.events.contains(&Event::Homing(2));
+        match (self.killed, hands.state()) {
+            (Some(killed), _) => hands.wants.end = hands.tick > killed + 100,
+            (None, _) if is_on_its_way && hands.tick.is_multiple_of(100) => {
+                self.killed = Some(hands.tick);
+                hands.wants.interpolator = Some(false);
+            }
+            (None, Some(MachineState::Off)) if hands.tick.is_multiple_of(25) => {
+                hands.wants.command = Some(Command::Enable);
+            }
+            (None, Some(MachineState::NotHomed)) if hands.tick.is_multiple_of(25) => {
+                hands.wants.command = Some(Command::Home(7));
+            }
+            _ => {}
+        }
+        assert!(hands.tick < 5_000, "{:?}", hands.events);
+    }
+}
+
+#[test]
+fn nobody_looks_for_home_when_the_interpolator_is_gone() {
+    let mut setup = Setup::homing(4_000_000);
+    let slow = setup.drives[2].homing.as_mut().unwrap();
+    slow.fast_v = 0.06;
+    let outcome = run(&setup, &mut Orphan::default());
+    assert!(!outcome.events.contains(&Event::Home(2)));
+    // 100 periods were between the end of the interpolator and that of the bridge.
+    let records = &outcome.records[2];
+    let [looked, left, ended] = [160, 80, 1].map(|before| records[records.len() - before].actual);
+    assert!(looked != left, "{looked} {left} {ended}");
+    assert_eq!(left, ended);
 }
 
 #[test]
