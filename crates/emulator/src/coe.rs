@@ -12,6 +12,7 @@ const FULL: u8 = 8;
 
 const NO_OBJECT: u32 = 0x0602_0000;
 const NO_SUBINDEX: u32 = 0x0609_0011;
+pub(crate) const TOO_LONG: u32 = 0x0604_0042;
 pub(crate) const READ_ONLY: u32 = 0x0601_0002;
 pub(crate) const NO_ACCESS: u32 = 0x0601_0000;
 const NO_COMMAND: u32 = 0x0504_0001;
@@ -90,7 +91,7 @@ impl Mailbox {
         memory: &mut Memory,
         objects: &mut Dictionary,
         sent: &[u8],
-        refusal: impl Fn(Object) -> Option<u32>,
+        refusal: impl Fn(&Dictionary, Object, u32) -> Option<u32>,
     ) {
         let &[
             _,
@@ -123,7 +124,8 @@ impl Mailbox {
         let head = |command: u8| [command, low, high, sub];
         let found = objects.get(object);
         let abort = |code: u32| (2, [head(0x80), code.to_le_bytes()].concat());
-        let refused = refusal(object).unwrap_or(0);
+        let told = value.first_chunk().copied().map_or(0, u32::from_le_bytes);
+        let refused = refusal(objects, object, told).unwrap_or(0);
         let (service, answer) = match (found, command >> 5) {
             (None, _) if objects.has_index(index) => abort(NO_SUBINDEX),
             (None, _) => abort(NO_OBJECT),

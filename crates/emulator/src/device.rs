@@ -2,11 +2,11 @@
 
 use crate::cable::Passage;
 use crate::clock::{ClockKind, DeviceClock};
-use crate::coe::{Mailbox, NO_ACCESS, READ_ONLY};
+use crate::coe::{Mailbox, NO_ACCESS, READ_ONLY, TOO_LONG};
 use crate::dictionary::{
     Dictionary, INPUTS_ASSIGNED, Mapped, OUTPUTS_ASSIGNED, Object, SYNC_INPUTS, SYNC_OUTPUTS,
 };
-use crate::drive::{Drive, DriveSettings, ImageAccess, OutputWatchdog, Outputs, SyncType};
+use crate::drive::{Drive, DriveSettings, ImageAccess, Maps, OutputWatchdog, Outputs, SyncType};
 use crate::eeprom::{self, MAILBOX, MAILBOX_OUT};
 use crate::memory::{
     AL_CODE, AL_CONTROL, AL_STATUS, CLOCK, DL_STATUS, EEPROM_CONTROL, LATCHED_TIME, Memory,
@@ -80,9 +80,13 @@ impl Device {
         memory.put(WATCHDOG_OUTPUTS, &1000_u16.to_le_bytes());
         memory.put(AL_STATUS, &[INIT]);
         let ramp = 1_000_000_000;
+        let mut objects = Dictionary::new(settings.identity, settings.following_counts, ramp);
+        if let Maps::Fixed { outputs, inputs } = &settings.maps {
+            objects.fix_maps(outputs, inputs);
+        }
         Self {
             eeprom: eeprom::image(settings),
-            objects: Dictionary::new(settings.identity, settings.following_counts, ramp),
+            objects,
             mailbox: Mailbox::new(settings.drops_repeats),
             clock: DeviceClock::new(host_ns, 0.0, settings.drift_ppm),
             drive: Drive::new(settings),
@@ -215,7 +219,7 @@ impl Device {
     #[allow(clippy::cast_precision_loss, reason = "a period")]
     fn step(&mut self, at_ns: u64) {
         let outputs = if self.state() == OP {
-            process::outputs(&self.memory, &self.outputs)
+            process::outputs(&self.memory, &self.outputs, &mut self.objects)
         } else {
             Outputs::default()
         };
@@ -304,8 +308,15 @@ impl Device {
             let message = message.unwrap_or_default().to_vec();
             let is_fixed = self.state() > PRE_OP;
             let is_told = self.settings.sync_type == SyncType::Written;
-            let refusal = |object: Object| match object {
+            let maps = &self.settings.maps;
+            let refusal = |objects: &Dictionary, object: Object, value: u32| match object {
                 (0x1600..=0x1bff | 0x1c12 | 0x1c13, _) if is_fixed => Some(NO_ACCESS),
+                (0x1c12 | 0x1c13, _) if matches!(maps, Maps::Fixed { .. }) => Some(READ_ONLY),
+                (0x1600..=0x1bff, 1..)
+                    if *maps == Maps::Short && !objects.is_short(object, value) =>
+                {
+                    Some(TOO_LONG)
+                }
                 (0x1c32 | 0x1c33, 1) if !is_told => Some(READ_ONLY),
                 _ => None,
             };
@@ -387,6 +398,13 @@ impl Device {
         self.stepped_ns = now_ns;
     }
 
+    fn has_odd_length(&self) -> bool {
+        let length = |assigned| self.objects.mapped(assigned).1;
+        [OUTPUTS_ASSIGNED, INPUTS_ASSIGNED]
+            .into_iter()
+            .any(|assigned| length(assigned) % 2 == 1)
+    }
+
     /// The master asks for a state.
     fn request(&mut self, control: u8, now_ns: u64) {
         let (wanted, present) = (control & 15, self.state());
@@ -395,7 +413,11 @@ impl Device {
             return;
         }
         let has_sync = self.next_sync.is_some();
-        let code = states::objection(&self.memory, &self.objects, has_sync, wanted, present);
+        let is_odd = self.settings.maps == Maps::Short && self.has_odd_length();
+        let code = match states::objection(&self.memory, &self.objects, has_sync, wanted, present) {
+            0 if wanted == SAFE_OP && is_odd => 0x1e,
+            code => code,
+        };
         if code != 0 {
             self.set_state(present | ERROR, code);
             return;

@@ -14,6 +14,9 @@ pub(crate) const HOME_OFFSET: Object = (0x607c, 0);
 pub(crate) const QUICK_STOP: Object = (0x6085, 0);
 pub(crate) const HOMING_METHOD: Object = (0x6098, 0);
 pub(crate) const HOMING_SPEED: Object = (0x6099, 1);
+pub(crate) const MODE: Object = (0x6060, 0);
+/// The limit of torque, thousandths of the rated one.
+pub(crate) const MOST_TORQUE: Object = (0x6072, 0);
 pub(crate) const SYNC_OUTPUTS: Object = (0x1c32, 1);
 pub(crate) const SYNC_INPUTS: Object = (0x1c33, 1);
 
@@ -21,6 +24,7 @@ pub(crate) const SYNC_INPUTS: Object = (0x1c33, 1);
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Mapped {
     pub(crate) index: u16,
+    pub(crate) sub: u8,
     pub(crate) offset: u16,
     pub(crate) length: u16,
 }
@@ -60,7 +64,13 @@ impl Dictionary {
             for sub in 3..=8 {
                 set(map, sub, 4, 0);
             }
+            for sub in 0..=8 {
+                let size = if sub == 0 { 1 } else { 4 };
+                set(map + 1, sub, size, 0);
+            }
         }
+        set(0x1c12, 2, 2, 0);
+        set(0x1c13, 2, 2, 0);
         for sync in [0x1c32, 0x1c33] {
             set(sync, 0, 1, 32);
             set(sync, 1, 2, 0);
@@ -69,6 +79,8 @@ impl Dictionary {
             set(sync, 5, 4, 125_000);
             set(sync, 6, 4, 30_000);
         }
+        set(0x6060, 0, 1, 0);
+        set(0x6072, 0, 2, 1000);
         set(0x605a, 0, 2, 2);
         set(0x605e, 0, 2, 2);
         set(0x6065, 0, 4, following_counts);
@@ -90,6 +102,27 @@ impl Dictionary {
         set(0x60c2, 2, 1, 0xfd);
         set(0x6502, 0, 4, 1 << 7 | 1 << 5);
         Self(objects)
+    }
+
+    /// Maps that stay: where the master looks for others, there are none.
+    pub(crate) fn fix_maps(&mut self, outputs: &[u32], inputs: &[u32]) {
+        self.0
+            .retain(|(index, _), _| !matches!(index, 0x1600..=0x1bff));
+        for (assigned, map, entries) in [(0x1c12, 0x1701, outputs), (0x1c13, 0x1b01, inputs)] {
+            self.set((assigned, 1), map.into());
+            let count = u32::try_from(entries.len()).unwrap_or(0);
+            self.0.insert((map, 0), (1, count));
+            for (sub, entry) in (1..).zip(entries) {
+                self.0.insert((map, sub), (4, *entry));
+            }
+        }
+    }
+
+    /// Whether a map is still 8 bytes at most if this entry of it becomes another.
+    pub(crate) fn is_short(&self, (map, nth): Object, entry: u32) -> bool {
+        let before = (1..nth).map(|sub| self.value((map, sub)));
+        let bits: u32 = before.chain([entry]).map(|entry| entry & 0xff).sum();
+        bits <= 64
     }
 
     pub(crate) fn get(&self, object: Object) -> Option<(u8, u32)> {
@@ -121,6 +154,7 @@ impl Dictionary {
                 let entry = self.value((map, sub));
                 mapped.push(Mapped {
                     index: (entry >> 16) as u16,
+                    sub: (entry >> 8) as u8,
                     offset: bits / 8,
                     length: (entry & 0xff) as u16 / 8,
                 });

@@ -6,7 +6,7 @@
 use crate::clock::ClockKind;
 use crate::dictionary::{
     Dictionary, FOLLOWING_TIMEOUT, FOLLOWING_WINDOW, HOME_OFFSET, HOMING_METHOD, HOMING_SPEED,
-    QUICK_STOP,
+    MOST_TORQUE, QUICK_STOP,
 };
 use crate::power::Power;
 use crate::upset::Upset;
@@ -52,6 +52,23 @@ pub enum OutputWatchdog {
     Never,
 }
 
+/// What a drive lets the master do with its maps of process data.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub enum Maps {
+    /// The master maps what it likes, in one map.
+    #[default]
+    Free,
+    /// A map has 8 bytes at most, and each way an even length, as at an AKD.
+    Short,
+    /// They are as they are: 0x1701 and 0x1B01 with these entries, index, subindex and bits of each.
+    Fixed {
+        /// Outputs of the master.
+        outputs: Vec<u32>,
+        /// Inputs of the master.
+        inputs: Vec<u32>,
+    },
+}
+
 /// What a drive makes of its synchronization type, 0x1C32:1 and 0x1C33:1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum SyncType {
@@ -84,6 +101,8 @@ pub struct DriveSettings {
     pub home: Option<HomeSwitch>,
     /// The window of following errors that it is delivered with, counts.
     pub following_counts: u32,
+    /// Its maps.
+    pub maps: Maps,
     /// How it takes process data.
     pub image: ImageAccess,
     /// The watchdog of its outputs.
@@ -124,6 +143,7 @@ impl Default for DriveSettings {
             drift_ppm: 0.0,
             home: None,
             following_counts: u32::MAX,
+            maps: Maps::Free,
             image: ImageAccess::Both,
             watchdog: OutputWatchdog::Told,
             drops_repeats: false,
@@ -288,7 +308,7 @@ impl Drive {
         let ramp = f64::from(objects.value(QUICK_STOP)).max(1.0);
         match self.power {
             Power::QuickStop | Power::FaultReaction => self.ramp_down(step_t, ramp),
-            Power::Enabled if self.is_stuck => {}
+            Power::Enabled if self.is_stuck || objects.value(MOST_TORQUE) == 0 => {}
             Power::Enabled if outputs.mode == HOMING => {
                 self.go_home(step_t, starts_homing, objects);
             }

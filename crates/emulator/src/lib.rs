@@ -52,6 +52,6 @@ mod upset;
 
 pub use cable::Cable;
 pub use clock::ClockKind;
-pub use drive::{DriveSettings, HomeSwitch, ImageAccess, OutputWatchdog, SyncType};
+pub use drive::{DriveSettings, HomeSwitch, ImageAccess, Maps, OutputWatchdog, SyncType};
 pub use segment::{Segment, SyncRecord};
 pub use upset::Upset;

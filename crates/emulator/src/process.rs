@@ -1,25 +1,29 @@
 //! The process data of a drive in the memory of its device.
 
-use crate::dictionary::Mapped;
+use crate::dictionary::{Dictionary, MODE, Mapped};
 use crate::drive::{Inputs, Outputs};
 use crate::memory::Memory;
 
-/// What the master has written.
+/// What the master has written; what is no demand goes to the objects.
 #[allow(
     clippy::cast_possible_truncation,
     clippy::cast_possible_wrap,
     reason = "objects have the size of their type"
 )]
-pub(crate) fn outputs(memory: &Memory, mapped: &[Mapped]) -> Outputs {
+pub(crate) fn outputs(memory: &Memory, mapped: &[Mapped], objects: &mut Dictionary) -> Outputs {
     let start = memory.sync_manager(2).start;
-    let mut outputs = Outputs::default();
+    // The mode that was written as a parameter, unless it is mapped.
+    let mut outputs = Outputs {
+        mode: objects.value(MODE) as u8 as i8,
+        ..Outputs::default()
+    };
     for object in mapped {
         let value = memory.number(start + object.offset, object.length.into());
         match object.index {
             0x6040 => outputs.control = value as u16,
             0x607a => outputs.target = value as u32 as i32,
             0x6060 => outputs.mode = value as u8 as i8,
-            _ => {}
+            index => objects.set((index, object.sub), value as u32),
         }
     }
     outputs

@@ -1,4 +1,8 @@
-//! Process data of one drive, as it is mapped.
+//! Process data of one drive: what it means.
+
+use crate::layout::Layout;
+use crate::state;
+use glidepath_link::DriveState;
 
 /// The outputs of the master to a drive.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -24,6 +28,8 @@ pub struct Inputs {
     pub fault: u16,
 }
 
+/// "Generic error" by CiA 301.
+const ANY_FAULT: u16 = 0x1000;
 /// Cyclic synchronous position.
 pub(crate) const CYCLIC_POSITION: i8 = 8;
 /// Homing by the drive.
@@ -51,25 +57,51 @@ impl Outputs {
         }
     }
 
-    /// Its bytes.
-    #[must_use]
-    pub const fn encode(self) -> [u8; 7] {
-        let ([c0, c1], [a, b, c, d]) = (self.control.to_le_bytes(), self.target.to_le_bytes());
-        let [mode] = self.mode.to_le_bytes();
-        [c0, c1, a, b, c, d, mode]
+    /// Writes it where a drive has it.
+    pub(crate) fn put(self, layout: &Layout, bytes: &mut [u8]) {
+        let mut write = |at: usize, value: &[u8]| {
+            if let Some(place) = bytes.get_mut(at..at + value.len()) {
+                place.copy_from_slice(value);
+            }
+        };
+        write(0, &layout.rest);
+        write(layout.control, &self.control.to_le_bytes());
+        write(layout.target, &self.target.to_le_bytes());
+        if let Some(at) = layout.mode {
+            write(at, &self.mode.to_le_bytes());
+        }
     }
 }
 
 impl Inputs {
-    /// From its bytes.
-    #[must_use]
-    pub const fn decode(bytes: [u8; 9]) -> Self {
-        let [s0, s1, a, b, c, d, mode, f0, f1] = bytes;
-        Self {
-            status: u16::from_le_bytes([s0, s1]),
-            actual: i32::from_le_bytes([a, b, c, d]),
-            mode: i8::from_le_bytes([mode]),
-            fault: u16::from_le_bytes([f0, f1]),
-        }
+    /// From where a drive has it. A mode that is not mapped is the one that the drive was set to, and a
+    /// number of its fault that is not mapped is that of any.
+    pub(crate) fn take(layout: &Layout, bytes: &[u8]) -> Option<Self> {
+        let word = |at: usize| {
+            bytes
+                .get(at..)?
+                .first_chunk()
+                .copied()
+                .map(u16::from_le_bytes)
+        };
+        let status = word(layout.status)?;
+        let is_faulted = matches!(
+            state::of(status),
+            DriveState::Fault | DriveState::FaultReaction
+        );
+        let actual = *bytes.get(layout.actual..)?.first_chunk()?;
+        Some(Self {
+            status,
+            actual: i32::from_le_bytes(actual),
+            mode: match layout.shown_mode {
+                Some(at) => i8::from_le_bytes([*bytes.get(at)?]),
+                None => CYCLIC_POSITION,
+            },
+            fault: match layout.fault {
+                Some(at) => word(at)?,
+                None if is_faulted => ANY_FAULT,
+                None => 0,
+            },
+        })
     }
 }

@@ -48,6 +48,16 @@ pub struct HomingSettings {
     pub sequence: u32,
 }
 
+/// Who says what is in the process data of a drive.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Mapping {
+    /// The master maps what it needs.
+    #[default]
+    Written,
+    /// The drive's own maps stay as they are.
+    Kept,
+}
+
 /// A drive, and the joint that it moves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DriveSettings {
@@ -61,6 +71,8 @@ pub struct DriveSettings {
     pub product: u32,
     /// The number given by hand.
     pub alias: u16,
+    /// Who says what is in its process data.
+    pub mapping: Mapping,
     /// Counts a mm or a degree, > 0.
     pub counts_per_unit: f64,
     /// It counts the other way.

@@ -8,6 +8,7 @@
 mod bus_time;
 mod clocks;
 mod init;
+mod mapping;
 mod op;
 mod parameters;
 mod pre_op;

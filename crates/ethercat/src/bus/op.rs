@@ -11,15 +11,14 @@
 //! other, and if one is, takes the message out: emergencies come that way.
 
 use super::bus_time::BusTime;
-use super::parameters::{INPUT_BYTES, OUTPUT_BYTES};
 use super::state::{ERROR, INIT};
 use crate::bus_clock::{BusClock, FrameTimes};
 use crate::coe::emergency;
-use crate::device::Device;
 use crate::error::BusError;
 use crate::exchange::{Exchange, station};
 use crate::frame::{Address, Command, Frame, Slot};
 use crate::image::{Inputs, Outputs};
+use crate::layout::Led;
 use crate::registers::{AL_CONTROL, AL_STATUS, MAILBOX_IN_STATUS, SYSTEM_TIME};
 use crate::wire::{MAX_FRAME, Wire};
 use std::io;
@@ -89,6 +88,9 @@ pub struct Op<'w, W> {
     /// Mailboxes from the drives: where, and how long.
     mailboxes: Vec<(u16, u16)>,
     states: Vec<DeviceState>,
+    drives: Vec<Led>,
+    /// Bytes of the outputs and of the inputs of all.
+    sizes: (usize, usize),
     sent_ns: u64,
     /// Frames that came back when they were not waited for any more.
     stale: u64,
@@ -99,10 +101,14 @@ pub struct Op<'w, W> {
 impl<'w, W: Wire> Op<'w, W> {
     pub(super) fn new(
         wire: &'w mut W,
-        drives: &[Device],
+        drives: Vec<Led>,
         (reference, bus_time): (usize, BusTime),
     ) -> Self {
-        let mailbox = |device: &Device| device.mailbox.map_or((0, 0), |(_, m)| (m.start, m.length));
+        let mailbox = |led: &Led| {
+            led.device
+                .mailbox
+                .map_or((0, 0), |(_, m)| (m.start, m.length))
+        };
         Self {
             wire,
             frame: Frame::default(),
@@ -111,15 +117,20 @@ impl<'w, W: Wire> Op<'w, W> {
             time: None,
             image: None,
             inputs: None,
-            lacks_lrw: drives.iter().any(|drive| drive.lacks_lrw),
+            lacks_lrw: drives.iter().any(|led| led.device.lacks_lrw),
             status: Vec::with_capacity(drives.len()),
             aside: None,
             next_aside: Aside::Look(0),
             reference: station(reference),
             bus_time,
-            stations: drives.iter().map(|drive| station(drive.position)).collect(),
+            stations: drives
+                .iter()
+                .map(|led| station(led.device.position))
+                .collect(),
             mailboxes: drives.iter().map(mailbox).collect(),
             states: vec![DeviceState::default(); drives.len()],
+            sizes: Led::sizes(&drives),
+            drives,
             sent_ns: 0,
             stale: 0,
             emergency: None,
@@ -188,8 +199,7 @@ impl<'w, W: Wire> Op<'w, W> {
         frame.clear();
         let reference = Address::station(self.reference, SYSTEM_TIME);
         self.time = frame.push(Command::Frmw, index, reference, 8);
-        let count = self.stations.len();
-        let (out, back) = (count * OUTPUT_BYTES, count * INPUT_BYTES);
+        let (out, back) = self.sizes;
         if self.lacks_lrw {
             // What is read lies behind what is written.
             let from = Address::logical(u32::try_from(out).unwrap_or(u32::MAX));
@@ -199,9 +209,12 @@ impl<'w, W: Wire> Op<'w, W> {
             self.image = frame.push(Command::Lrw, index, Address::logical(0), out + back);
         }
         if let Some(image) = &self.image {
-            let places = frame.data(image).chunks_exact_mut(OUTPUT_BYTES);
-            for (place, output) in places.zip(outputs) {
-                place.copy_from_slice(&output.encode());
+            let data = frame.data(image);
+            for (led, output) in self.drives.iter().zip(outputs) {
+                let length = led.layout.rest.len();
+                if let Some(place) = data.get_mut(led.outputs_at..led.outputs_at + length) {
+                    output.put(&led.layout, place);
+                }
             }
         }
         self.status.clear();
@@ -261,7 +274,7 @@ impl<'w, W: Wire> Op<'w, W> {
             let inputs = self.frame.answer(slot, received)?;
             (image.counter + inputs.counter, 2, inputs.data)
         } else {
-            let (_, back) = image.data.split_at(count * OUTPUT_BYTES);
+            let (_, back) = image.data.split_at(self.sizes.0);
             (image.counter, 3, back)
         };
         self.bus_time.hear(*time.data.first_chunk()?);
@@ -292,8 +305,8 @@ impl<'w, W: Wire> Op<'w, W> {
         if counted != expected {
             return Some(Reception::Short { counted, expected });
         }
-        for (bytes, input) in back.chunks_exact(INPUT_BYTES).zip(inputs) {
-            *input = Inputs::decode(*bytes.first_chunk()?);
+        for (led, input) in self.drives.iter().zip(inputs) {
+            *input = Inputs::take(&led.layout, back.get(led.inputs_at..)?)?;
         }
         Some(Reception::Good(FrameTimes {
             sent_ns: self.sent_ns,

@@ -7,16 +7,6 @@ use crate::exchange::Exchange;
 use crate::settings::{BusSettings, DriveSettings};
 use crate::wire::Wire;
 
-/// What is mapped: index, subindex and bits of each object.
-const OUTPUTS: [u32; 3] = [0x6040_0010, 0x607a_0020, 0x6060_0008];
-const INPUTS: [u32; 4] = [0x6041_0010, 0x6064_0020, 0x6061_0008, 0x603f_0010];
-/// Bytes of all that.
-pub(super) const OUTPUT_BYTES: usize = 7;
-pub(super) const INPUT_BYTES: usize = 9;
-
-const OUTPUT_MAP: u16 = 0x1600;
-const INPUT_MAP: u16 = 0x1a00;
-
 /// The synchronization types of outputs and of inputs, and what they can be.
 const SYNC_OUTPUTS: Object = object(0x1c32, 1, 2);
 const SYNC_INPUTS: Object = object(0x1c33, 1, 2);
@@ -37,8 +27,6 @@ pub(super) fn write_all<W: Wire>(
     settings: &BusSettings,
     drive: &DriveSettings,
 ) -> Result<(), BusError> {
-    map(bus, device, 0x1c12, OUTPUT_MAP, &OUTPUTS)?;
-    map(bus, device, 0x1c13, INPUT_MAP, &INPUTS)?;
     let mut set = |object, value| write(bus, device, object, value);
     // Interpolation between targets: the period of the bus, as a number of milliseconds, or else of
     // tens of microseconds.
@@ -105,55 +93,9 @@ fn where_possible(written: Result<(), BusError>) -> Result<(), BusError> {
     }
 }
 
-/// Maps objects into the process data. The count is 0 while the rest changes, and is written back to
-/// what it was if the drive refuses.
-fn map<W: Wire>(
-    bus: &mut Exchange<'_, W>,
-    device: &Device,
-    assignment: u16,
-    map: u16,
-    entries: &[u32],
-) -> Result<(), BusError> {
-    let (assigned, mapped) = (object(assignment, 0, 1), object(map, 0, 1));
-    let before = (read(bus, device, assigned)?, read(bus, device, mapped)?);
-    let written = write_map(bus, device, (assignment, map), entries);
-    if written.is_err() {
-        // The drive may refuse that, too; the first refusal is the one to know.
-        let _ = write(bus, device, mapped, before.1);
-        let _ = write(bus, device, assigned, before.0);
-    }
-    written
-}
-
-#[allow(clippy::cast_possible_truncation, reason = "a handful of objects")]
-fn write_map<W: Wire>(
-    bus: &mut Exchange<'_, W>,
-    device: &Device,
-    (assignment, map): (u16, u16),
-    entries: &[u32],
-) -> Result<(), BusError> {
-    let mut set = |object: Object, value: u32| write(bus, device, object, value);
-    set(object(assignment, 0, 1), 0)?;
-    set(object(map, 0, 1), 0)?;
-    for (sub, entry) in (1..).zip(entries) {
-        set(object(map, sub, 4), *entry)?;
-    }
-    set(object(map, 0, 1), entries.len() as u32)?;
-    set(object(assignment, 1, 2), map.into())?;
-    set(object(assignment, 0, 1), 1)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_bytes_are_those_of_what_is_mapped() {
-        let bytes =
-            |entries: &[u32]| entries.iter().map(|e| (e & 0xff) as usize).sum::<usize>() / 8;
-        assert_eq!(bytes(&OUTPUTS), OUTPUT_BYTES);
-        assert_eq!(bytes(&INPUTS), INPUT_BYTES);
-    }
 
     #[test]
     fn a_period_is_told_in_the_form_that_drives_know() {

@@ -1,6 +1,7 @@
 //! The bus in PRE-OP: parameters, and where process data goes.
 
 use super::clocks;
+use super::mapping;
 use super::parameters;
 use super::safe_op::SafeOp;
 use super::state::{self, SAFE_OP};
@@ -9,6 +10,7 @@ use crate::coe::{self, Object};
 use crate::device::Device;
 use crate::error::BusError;
 use crate::exchange::Exchange;
+use crate::layout::Led;
 use crate::registers::{FMMU, OUTPUT_WATCHDOG, SYNC_MANAGER};
 use crate::settings::{DriveSettings, Settings};
 use crate::wire::Wire;
@@ -104,27 +106,30 @@ impl<'w, W: Wire> PreOp<'w, W> {
         let mut drives = Vec::new();
         for drive in &settings.drives {
             let device = self.drive(drive)?;
+            let layout = mapping::set(&mut self.bus, &device, drive)?;
             parameters::write_all(&mut self.bus, &device, &settings.bus, drive)?;
-            drives.push(device);
+            drives.push((device, layout));
         }
+        let drives = Led::in_a_row(drives);
+        let (outputs, _) = Led::sizes(&drives);
         let watchdog = u16::try_from(settings.bus.watchdog_ns / 100_000).unwrap_or(u16::MAX);
-        for (nth, device) in drives.iter().enumerate() {
+        for led in &drives {
             let action = "to the place of its process data";
-            let at = device.position;
+            let at = led.device.position;
             self.bus
                 .write(at, OUTPUT_WATCHDOG, &watchdog.to_le_bytes(), action)?;
-            let (managers, windows) = process(device, nth, drives.len());
+            let (managers, windows) = process(led, outputs);
             self.bus.write(at, SYNC_MANAGER + 16, &managers, action)?;
-            self.check_watchdog(device, action)?;
+            self.check_watchdog(&led.device, action)?;
             self.bus.write(at, FMMU, &windows, action)?;
         }
         let reference = clocks::reference(&self.devices).unwrap_or(0);
         let time = clocks::settle(&mut self.bus, &self.devices, reference)?;
         let period_ns = settings.bus.period_ns;
         let start_ns = clocks::start_sync(&mut self.bus, &drives, time.now_ns(), period_ns)?;
-        for device in &drives {
-            state::request(&mut self.bus, device, SAFE_OP)?;
-            parameters::check_sync(&mut self.bus, device)?;
+        for led in &drives {
+            state::request(&mut self.bus, &led.device, SAFE_OP)?;
+            parameters::check_sync(&mut self.bus, &led.device)?;
         }
         Ok(SafeOp::new(self.bus, drives, (reference, time), start_ns))
     }

@@ -8,6 +8,7 @@ use crate::device::Device;
 use crate::error::BusError;
 use crate::exchange::Exchange;
 use crate::image::{Inputs, Outputs};
+use crate::layout::Led;
 use crate::registers::AL_CONTROL;
 use crate::settings::BusSettings;
 use crate::wire::Wire;
@@ -19,7 +20,7 @@ const PATIENCE_NS: u64 = 10_000_000_000;
 #[derive(Debug)]
 pub struct SafeOp<'w, W> {
     bus: Exchange<'w, W>,
-    drives: Vec<Device>,
+    drives: Vec<Led>,
     /// Whose clock it is, and what time.
     reference: (usize, BusTime),
     start_ns: u64,
@@ -28,7 +29,7 @@ pub struct SafeOp<'w, W> {
 impl<'w, W: Wire> SafeOp<'w, W> {
     pub(super) const fn new(
         bus: Exchange<'w, W>,
-        drives: Vec<Device>,
+        drives: Vec<Led>,
         reference: (usize, BusTime),
         start_ns: u64,
     ) -> Self {
@@ -48,7 +49,7 @@ impl<'w, W: Wire> SafeOp<'w, W> {
     pub fn into_op(self, settings: &BusSettings) -> Result<Op<'w, W>, BusError> {
         let now_ns = self.bus.wire.now_ns();
         let clock = BusClock::new(settings, self.start_ns, now_ns);
-        let op = Op::new(self.bus.wire, &self.drives, self.reference);
+        let op = Op::new(self.bus.wire, self.drives.clone(), self.reference);
         let mut start = Start {
             inputs: vec![Inputs::default(); self.drives.len()],
             outputs: vec![Outputs::default(); self.drives.len()],
@@ -60,8 +61,8 @@ impl<'w, W: Wire> SafeOp<'w, W> {
         while !start.clock.is_settled() {
             start.cycle()?;
             if start.op.wire().now_ns() > until_ns {
-                return Err(self.drives.first().map_or(BusError::Nobody, |device| {
-                    refusal(device, start.op.states().first())
+                return Err(self.drives.first().map_or(BusError::Nobody, |led| {
+                    refusal(&led.device, start.op.states().first())
                 }));
             }
         }
@@ -81,7 +82,10 @@ impl<'w, W: Wire> SafeOp<'w, W> {
             let late = states.iter().position(|state| state.state != OP);
             let is_late = start.op.wire().now_ns() > until_ns;
             if let Some(nth) = failed.or(late.filter(|_| is_late)) {
-                return Err(refusal(&self.drives[nth], start.op.states().get(nth)));
+                return Err(refusal(
+                    &self.drives[nth].device,
+                    start.op.states().get(nth),
+                ));
             }
         }
     }
@@ -120,11 +124,11 @@ impl<W: Wire> Start<'_, W> {
         Ok(())
     }
 
-    fn request(&mut self, drives: &[Device]) -> Result<(), BusError> {
+    fn request(&mut self, drives: &[Led]) -> Result<(), BusError> {
         let mut bus = Exchange::new(self.op.wire());
-        for device in drives {
+        for led in drives {
             let action = "to a change of its state";
-            bus.write(device.position, AL_CONTROL, &[OP, 0], action)?;
+            bus.write(led.device.position, AL_CONTROL, &[OP, 0], action)?;
         }
         Ok(())
     }

@@ -1,7 +1,7 @@
 //! Windows into the memory of a device, as they are written: sync managers and FMMUs.
 
-use super::parameters::{INPUT_BYTES, OUTPUT_BYTES};
-use crate::device::{Device, SyncManager};
+use crate::device::SyncManager;
+use crate::layout::Led;
 
 /// Bit in the control of a sync manager: the watchdog waits for what is written.
 pub(super) const WATCHED: u8 = 1 << 6;
@@ -22,19 +22,21 @@ pub(super) fn manager(manager: SyncManager) -> [u8; 8] {
 }
 
 /// The sync managers of a drive's process data, and the windows onto them in the logical image: the
-/// outputs of all drives, then their inputs.
+/// outputs of all drives, which are so many bytes, then their inputs.
 #[allow(clippy::cast_possible_truncation, reason = "nine drives")]
-pub(super) fn process(device: &Device, nth: usize, drives: usize) -> (Vec<u8>, Vec<u8>) {
-    let (out, back) = device.process.unwrap_or_default();
+pub(super) fn process(led: &Led, outputs: usize) -> (Vec<u8>, Vec<u8>) {
+    let (out, back) = led.device.process.unwrap_or_default();
     let sized = |from: SyncManager, length: usize| SyncManager {
         length: length as u16,
         ..from
     };
-    let (mut out, back) = (sized(out, OUTPUT_BYTES), sized(back, INPUT_BYTES));
+    let (mut out, back) = (
+        sized(out, led.layout.rest.len()),
+        sized(back, led.layout.input_bytes),
+    );
     // Not every EEPROM has it, and without it the drive waits for frames for ever.
     out.control |= WATCHED;
-    let at_out = (nth * OUTPUT_BYTES) as u32;
-    let at_back = (drives * OUTPUT_BYTES + nth * INPUT_BYTES) as u32;
+    let (at_out, at_back) = (led.outputs_at as u32, (outputs + led.inputs_at) as u32);
     let managers = [manager(out), manager(back)].concat();
     let windows = [window(at_out, out, 2), window(at_back, back, 1)].concat();
     (managers, windows)

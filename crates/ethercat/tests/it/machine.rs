@@ -6,7 +6,7 @@ use core::sync::atomic::{AtomicBool, Ordering};
 use core::time::Duration;
 use glidepath_emulator::{DriveSettings as Emulated, HomeSwitch, Segment, SyncRecord};
 use glidepath_ethercat::{
-    BusSettings, Counts, DriveSettings, Ends, Event, HomingSettings, Settings, drive_bus,
+    BusSettings, Counts, DriveSettings, Ends, Event, HomingSettings, Mapping, Settings, drive_bus,
 };
 use glidepath_gcode::Options;
 use glidepath_geometry::{AXES, Axis, AxisVector};
@@ -42,6 +42,7 @@ pub(crate) fn drive(joint: usize) -> DriveSettings {
         vendor: 0xe1e,
         product: 0x402,
         alias: 0,
+        mapping: Mapping::Written,
         counts_per_unit: COUNTS,
         is_inverted: joint == 1,
         home_offset: 0.0,

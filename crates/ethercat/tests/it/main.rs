@@ -15,6 +15,7 @@ mod ending;
 mod judge;
 mod life;
 mod machine;
+mod maps;
 mod matrix;
 mod wire;
 

@@ -2,10 +2,10 @@
 //! the whole against the machine.
 
 use super::config::DrivesConfig;
-use super::raw::{RawBus, RawDrive, RawDrives, RawHoming};
+use super::raw::{RawBus, RawDrive, RawDrives, RawHoming, RawMap};
 use crate::config::{ConfigDiagnostic, HomingBy, Judge, MachineConfig, Range};
 use core::ops::Range as Span;
-use glidepath_ethercat::{BusSettings, DriveSettings, HomingSettings};
+use glidepath_ethercat::{BusSettings, DriveSettings, HomingSettings, Mapping};
 use glidepath_geometry::AXES;
 use toml::Spanned;
 
@@ -255,6 +255,10 @@ fn drive(judge: &mut Judge, raw: RawDrive, velocities: &[f64]) -> DriveSettings 
         vendor,
         product,
         alias: u16::try_from(alias).unwrap_or(0),
+        mapping: match raw.map {
+            RawMap::Write => Mapping::Written,
+            RawMap::Keep => Mapping::Kept,
+        },
         counts_per_unit: counts,
         is_inverted: raw.invert,
         home_offset: judge.number_or("drive.home_offset", &raw.home_offset, &PLACE, 0.0),

@@ -32,6 +32,8 @@ pub(super) struct RawDrive {
     pub(super) vendor: Optional<i64>,
     pub(super) product: Optional<i64>,
     pub(super) alias: Optional<i64>,
+    #[serde(default)]
+    pub(super) map: RawMap,
     pub(super) counts_per_mm: Optional<f64>,
     pub(super) counts_per_deg: Optional<f64>,
     #[serde(default)]
@@ -42,6 +44,15 @@ pub(super) struct RawDrive {
     pub(super) enable_window: Optional<f64>,
     pub(super) quick_stop: Spanned<f64>,
     pub(super) homing: Optional<RawHoming>,
+}
+
+/// Who says what is in the process data of a drive.
+#[derive(Debug, Clone, Copy, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum RawMap {
+    #[default]
+    Write,
+    Keep,
 }
 
 #[derive(Debug, Deserialize)]

@@ -3,7 +3,7 @@
 
 use super::{Found, parse, written};
 use crate::config::{self, MachineConfig};
-use glidepath_ethercat::{ClockKind, Device, Identity, SyncManager};
+use glidepath_ethercat::{ClockKind, Device, Identity, Mapping, SyncManager};
 
 fn machine(homing: &str) -> MachineConfig {
     let text = config::EMBEDDED.replace("homing = \"none\"", &format!("homing = \"{homing}\""));
@@ -117,4 +117,24 @@ fn what_is_no_drive_gets_no_table() {
     let text = written("eth1", &[found(0), other]);
     assert_eq!(text.matches("[[drive]]").count(), 1);
     assert!(text.contains("alias 0: no drive"), "{text}");
+}
+
+#[test]
+fn a_drive_may_keep_its_maps() {
+    let text = written("enp3s0", &[found(0), found(1), found(2)]);
+    let mended = text.replace("counts_per_mm = 0.0", "counts_per_mm = 1677721.6");
+    let kept = mended.replacen("invert = false\n", "invert = false\nmap = \"keep\"\n", 1);
+    let drives = parse("drives.toml", &kept, &machine("none")).unwrap();
+    let mappings: Vec<_> = drives.drives.iter().map(|drive| drive.mapping).collect();
+    let (kept, written) = (Mapping::Kept, Mapping::Written);
+    assert_eq!(mappings, [kept, written, written]);
+    let other = mended.replacen("invert = false\n", "invert = false\nmap = \"kept\"\n", 1);
+    let told = wrong(&other);
+    let line = other
+        .lines()
+        .position(|line| line.starts_with("map"))
+        .unwrap()
+        + 1;
+    let is_told = |(at, what): &(usize, String)| *at == line && what.contains("`keep`");
+    assert!(told.iter().any(is_told), "{told:?}");
 }

@@ -12,7 +12,8 @@ use crate::file_error::FileError;
 use core::sync::atomic::{AtomicBool, Ordering};
 use glidepath_emulator::{DriveSettings as Emulated, HomeSwitch, Segment};
 use glidepath_ethercat::{
-    BusSettings, Demand, DriveSettings, HomingSettings, MAX_FRAME, PacketWire, Settings, Wire as _,
+    BusSettings, Demand, DriveSettings, HomingSettings, MAX_FRAME, Mapping, PacketWire, Settings,
+    Wire as _,
 };
 use glidepath_realtime::{Mode, Request, enter};
 use std::fs::File;
@@ -139,6 +140,7 @@ fn machine(
         vendor: 0,
         product: 0,
         alias: 0,
+        mapping: Mapping::Written,
         counts_per_unit: COUNTS.min(REACH / reach),
         is_inverted: false,
         home_offset: if homes { begins[joint] - TO_HOME } else { 0.0 },

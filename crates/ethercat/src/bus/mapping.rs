@@ -1,0 +1,238 @@
+//! What is in the process data of a drive: mapped by the master, or taken as the drive has it.
+
+use crate::abort_text;
+use crate::coe::{Object, object, read, write};
+use crate::device::Device;
+use crate::error::BusError;
+use crate::exchange::Exchange;
+use crate::layout::{Entry, Layout, bytes};
+use crate::settings::{DriveSettings, Mapping};
+use crate::wire::Wire;
+
+/// What is mapped: index, subindex and bits of each object.
+const OUTPUTS: [u32; 3] = [0x6040_0010, 0x607a_0020, 0x6060_0008];
+const INPUTS: [u32; 4] = [0x6041_0010, 0x6064_0020, 0x6061_0008, 0x603f_0010];
+/// A gap of a byte.
+const GAP: u32 = 0x0000_0008;
+
+const OUTPUT_ASSIGNMENT: u16 = 0x1c12;
+const INPUT_ASSIGNMENT: u16 = 0x1c13;
+const OUTPUT_MAP: u16 = 0x1600;
+const INPUT_MAP: u16 = 0x1a00;
+/// Bytes of a map that every drive takes. Some take no more (Kollmorgen AKD).
+const SHORT_BYTES: usize = 8;
+/// Maps of a drive, and entries of a map, that are read at most.
+const MOST: u32 = 64;
+
+/// Cyclic synchronous position.
+const CYCLIC_POSITION: u32 = 8;
+
+/// Sees to what is in the process data of a drive; returns where.
+pub(super) fn set<W: Wire>(
+    bus: &mut Exchange<'_, W>,
+    device: &Device,
+    drive: &DriveSettings,
+) -> Result<Layout, BusError> {
+    let unfit = |what: String| BusError::Unfit {
+        device: device.position,
+        name: device.name.clone(),
+        what,
+    };
+    let (outputs, inputs) = match drive.mapping {
+        Mapping::Written => map(bus, device)?,
+        Mapping::Kept => (
+            mapped(bus, device, OUTPUT_ASSIGNMENT)?,
+            mapped(bus, device, INPUT_ASSIGNMENT)?,
+        ),
+    };
+    let layout = Layout::of(&outputs, &inputs, drive.homing.is_some());
+    let mut layout = layout.map_err(|lacks| {
+        unfit(format!(
+            "its process data lacks {lacks}: map it with the manufacturer's tool, or leave map = \
+             \"keep\" out of its table in drives.toml"
+        ))
+    })?;
+    if layout.mode.is_none() {
+        write(bus, device, object(0x6060, 0, 1), CYCLIC_POSITION)?;
+    }
+    keep(bus, device, &outputs, &mut layout.rest)?;
+    Ok(layout)
+}
+
+/// Fills in what is not led with what the drive has: a limit of torque that is mapped is not to become
+/// none.
+fn keep<W: Wire>(
+    bus: &mut Exchange<'_, W>,
+    device: &Device,
+    outputs: &[Entry],
+    rest: &mut [u8],
+) -> Result<(), BusError> {
+    for (nth, entry) in outputs.iter().enumerate() {
+        let at = bytes(&outputs[..nth]);
+        let size = entry.bits / 8;
+        let is_whole = matches!(entry.bits, 8 | 16 | 32);
+        if entry.index == 0 || entry.is_led() || !is_whole {
+            continue;
+        }
+        #[allow(clippy::cast_possible_truncation, reason = "1, 2 or 4")]
+        match read(bus, device, object(entry.index, entry.sub, size as u8)) {
+            Ok(value) => {
+                let value = value.to_le_bytes();
+                for (place, byte) in rest.iter_mut().skip(at).zip(&value[..size as usize]) {
+                    *place = *byte;
+                }
+            }
+            // It cannot be read: it is one that has no value of its own.
+            Err(BusError::Object { .. }) => {}
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(())
+}
+
+/// What is mapped, as the drive tells.
+fn mapped<W: Wire>(
+    bus: &mut Exchange<'_, W>,
+    device: &Device,
+    assignment: u16,
+) -> Result<Vec<Entry>, BusError> {
+    let mut entries = Vec::new();
+    for nth in 1..=count(bus, device, assignment)? {
+        let map = read(bus, device, object(assignment, nth, 2))?;
+        let map = u16::try_from(map).unwrap_or(0);
+        for sub in 1..=count(bus, device, map)? {
+            let entry = read(bus, device, object(map, sub, 4))?;
+            entries.push(Entry::new(entry));
+        }
+    }
+    Ok(entries)
+}
+
+#[allow(clippy::cast_possible_truncation, reason = "64 at most")]
+fn count<W: Wire>(bus: &mut Exchange<'_, W>, device: &Device, index: u16) -> Result<u8, BusError> {
+    Ok(read(bus, device, object(index, 0, 1))?.min(MOST) as u8)
+}
+
+/// Maps what is needed: outputs and inputs into one map each, or, where a drive does not take that,
+/// into maps of 8 bytes and an even length each. Returns both.
+fn map<W: Wire>(
+    bus: &mut Exchange<'_, W>,
+    device: &Device,
+) -> Result<(Vec<Entry>, Vec<Entry>), BusError> {
+    let mut try_both = |outputs: &[Vec<u32>], inputs: &[Vec<u32>]| {
+        try_maps(bus, device, (OUTPUT_ASSIGNMENT, OUTPUT_MAP), outputs)?;
+        try_maps(bus, device, (INPUT_ASSIGNMENT, INPUT_MAP), inputs)?;
+        Ok((told(outputs), told(inputs)))
+    };
+    let (index, sub, code) = match try_both(&[OUTPUTS.to_vec()], &[INPUTS.to_vec()]) {
+        Err(BusError::Object {
+            index, sub, code, ..
+        }) => (index, sub, code),
+        done => return done,
+    };
+    match try_both(&short(&OUTPUTS), &short(&INPUTS)) {
+        // The first refusal is the one to know.
+        Err(BusError::Object { .. }) => Err(BusError::Unfit {
+            device: device.position,
+            name: device.name.clone(),
+            what: format!(
+                "it does not let its process data be mapped ({index:#06x}:{sub} was refused: {}): map = \"keep\" \
+                 in its table in drives.toml takes it as it is",
+                abort_text::text(code)
+            ),
+        }),
+        done => done,
+    }
+}
+
+fn told(maps: &[Vec<u32>]) -> Vec<Entry> {
+    maps.iter().flatten().copied().map(Entry::new).collect()
+}
+
+/// The same entries in maps of 8 bytes at most, each of an even length.
+fn short(entries: &[u32]) -> Vec<Vec<u32>> {
+    let length = |map: &[u32]| {
+        map.iter()
+            .map(|entry| (entry & 0xff) as usize)
+            .sum::<usize>()
+            / 8
+    };
+    let mut maps: Vec<Vec<u32>> = Vec::new();
+    for entry in entries {
+        match maps.last_mut() {
+            Some(map) if length(map) + length(&[*entry]) <= SHORT_BYTES => map.push(*entry),
+            _ => maps.push(vec![*entry]),
+        }
+    }
+    for map in &mut maps {
+        if length(map) % 2 == 1 {
+            map.push(GAP);
+        }
+    }
+    maps
+}
+
+/// Writes maps. The counts are 0 while the rest changes, and are written back to what they were if the
+/// drive refuses.
+fn try_maps<W: Wire>(
+    bus: &mut Exchange<'_, W>,
+    device: &Device,
+    (assignment, first): (u16, u16),
+    maps: &[Vec<u32>],
+) -> Result<(), BusError> {
+    let assigned = object(assignment, 0, 1);
+    let mut counts = vec![assigned];
+    counts.extend((first..).zip(maps).map(|(map, _)| object(map, 0, 1)));
+    let mut before = Vec::new();
+    for count in counts {
+        before.push((count, read(bus, device, count)?));
+    }
+    let written = write_maps(bus, device, (assignment, first), maps);
+    if written.is_err() {
+        // The drive may refuse that, too; the first refusal is the one to know.
+        for (count, value) in before.iter().rev() {
+            let _ = write(bus, device, *count, *value);
+        }
+    }
+    written
+}
+
+#[allow(clippy::cast_possible_truncation, reason = "a handful of objects")]
+fn write_maps<W: Wire>(
+    bus: &mut Exchange<'_, W>,
+    device: &Device,
+    (assignment, first): (u16, u16),
+    maps: &[Vec<u32>],
+) -> Result<(), BusError> {
+    let mut set = |object: Object, value: u32| write(bus, device, object, value);
+    set(object(assignment, 0, 1), 0)?;
+    for (map, entries) in (first..).zip(maps) {
+        set(object(map, 0, 1), 0)?;
+        for (sub, entry) in (1..).zip(entries) {
+            set(object(map, sub, 4), *entry)?;
+        }
+        set(object(map, 0, 1), entries.len() as u32)?;
+    }
+    for (sub, (map, _)) in (1..).zip((first..).zip(maps)) {
+        set(object(assignment, sub, 2), map.into())?;
+    }
+    set(object(assignment, 0, 1), maps.len() as u32)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn short_maps_have_eight_bytes_at_most_and_an_even_length() {
+        assert_eq!(
+            short(&OUTPUTS),
+            [vec![OUTPUTS[0], OUTPUTS[1], OUTPUTS[2], GAP]]
+        );
+        let inputs = short(&INPUTS);
+        assert_eq!(
+            inputs,
+            [vec![INPUTS[0], INPUTS[1], INPUTS[2], GAP], vec![INPUTS[3]]]
+        );
+    }
+}
