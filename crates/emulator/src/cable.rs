@@ -4,6 +4,8 @@
 //! with a cable and past those without. Between ports 0 and 3 is what reads and writes it. A device
 //! whose IN and OUT are swapped is entered by port 1, and sees the frame when those behind it have.
 
+use crate::memory::{DL_STATUS, Memory, PORT_TIMES};
+
 /// Ports in the order in which a frame goes through them.
 const ROUND: [u8; 4] = [0, 3, 1, 2];
 
@@ -27,6 +29,26 @@ pub(crate) struct Passage {
     pub(crate) read_ns: u64,
     /// It comes in by each port; `None` for a port without a cable.
     pub(crate) ports_ns: [Option<u64>; 4],
+}
+
+impl Passage {
+    /// Writes which ports have a cable. The times of the others are what happens to be there.
+    pub(crate) fn put(&self, memory: &mut Memory) {
+        let mut status = 0x0001_u16;
+        for (port, port_ns) in self.ports_ns.iter().enumerate() {
+            if port_ns.is_some() {
+                // A link, and frames go out by it.
+                status |= 1 << (4 + port) | 0b10 << (8 + 2 * port);
+            } else {
+                status |= 0b01 << (8 + 2 * port);
+            }
+        }
+        memory.put(DL_STATUS, &status.to_le_bytes());
+        for at in (PORT_TIMES..).step_by(4).take(4) {
+            // As a LAN9252 had it.
+            memory.put(at, b"hoff");
+        }
+    }
 }
 
 /// How frames pass `count` devices, of which all but the first hang by the cables. `None` if not every

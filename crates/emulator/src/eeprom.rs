@@ -1,7 +1,7 @@
 //! The EEPROM of a device (SII): its identity, and its sync managers.
 
-use crate::drive::{DriveSettings, ImageAccess, OutputWatchdog};
 use crate::memory::{EEPROM_ADDRESS, EEPROM_CONTROL, EEPROM_DATA, Memory};
+use crate::settings::{DriveSettings, ImageAccess, OutputWatchdog};
 
 /// Mailboxes, both of this length.
 pub(crate) const MAILBOX: u16 = 128;

@@ -47,11 +47,12 @@ mod memory;
 mod power;
 mod process;
 mod segment;
+mod settings;
 mod states;
 mod upset;
 
 pub use cable::Cable;
 pub use clock::ClockKind;
-pub use drive::{DriveSettings, HomeSwitch, ImageAccess, Maps, OutputWatchdog, SyncType};
 pub use segment::{Segment, SyncRecord};
+pub use settings::{DriveSettings, HomeSwitch, ImageAccess, Maps, OutputWatchdog, SyncType};
 pub use upset::Upset;

@@ -2,8 +2,8 @@
 
 use crate::cable::{Cable, passages};
 use crate::device::Device;
-use crate::drive::DriveSettings;
 use crate::frame::{Datagram, datagrams};
+use crate::settings::DriveSettings;
 use crate::upset::Upset;
 
 pub use crate::device::SyncRecord;

@@ -1,20 +1,22 @@
 //! An emulated device: what its registers do when they are read and written, and when time passes.
 
+mod time;
+
 use crate::cable::Passage;
 use crate::clock::{ClockKind, DeviceClock};
 use crate::coe::{Mailbox, NO_ACCESS, READ_ONLY, TOO_LONG};
 use crate::dictionary::{
     Dictionary, INPUTS_ASSIGNED, Mapped, OUTPUTS_ASSIGNED, Object, SYNC_INPUTS, SYNC_OUTPUTS,
 };
-use crate::drive::{Drive, DriveSettings, ImageAccess, Maps, OutputWatchdog, Outputs, SyncType};
+use crate::drive::{Drive, Outputs};
 use crate::eeprom::{self, MAILBOX, MAILBOX_OUT};
 use crate::memory::{
-    AL_CODE, AL_CONTROL, AL_STATUS, CLOCK, DL_STATUS, EEPROM_CONTROL, LATCHED_TIME, Memory,
-    PORT_TIMES, SPEED_START, STATION_ADDRESS, SYNC_ACTIVATION, SYNC_MANAGER, SYNC_START,
-    SYNC0_CYCLE, SYSTEM_TIME, TIME_DELAY, TIME_DIFFERENCE, TIME_OFFSET, WATCHDOG_DIVIDER,
+    AL_CODE, AL_CONTROL, AL_STATUS, CLOCK, EEPROM_CONTROL, Memory, PORT_TIMES, SPEED_START,
+    STATION_ADDRESS, SYNC_ACTIVATION, SYNC_MANAGER, SYNC0_CYCLE, SYSTEM_TIME, WATCHDOG_DIVIDER,
     WATCHDOG_OUTPUTS,
 };
 use crate::process;
+use crate::settings::{DriveSettings, ImageAccess, Maps, OutputWatchdog, SyncType};
 use crate::states::{self, ERROR, INIT, OP, PRE_OP, SAFE_OP};
 use crate::upset::Upset;
 
@@ -75,7 +77,7 @@ impl Device {
         let lacks_lrw = settings.image == ImageAccess::NoLrwByFeatures;
         let features = features | u16::from(lacks_lrw) << 9;
         memory.put(8, &features.to_le_bytes());
-        put_ports(&mut memory, &passage);
+        passage.put(&mut memory);
         memory.put(WATCHDOG_DIVIDER, &2498_u16.to_le_bytes());
         memory.put(WATCHDOG_OUTPUTS, &1000_u16.to_le_bytes());
         memory.put(AL_STATUS, &[INIT]);
@@ -137,44 +139,6 @@ impl Device {
                 (self.drive, self.records) = (drive, records);
             }
             upset => self.drive.upset(upset),
-        }
-    }
-
-    #[allow(
-        clippy::cast_precision_loss,
-        clippy::cast_possible_wrap,
-        reason = "times of a session; the offset is a signed number"
-    )]
-    fn offset_ns(&self) -> f64 {
-        self.memory.number(TIME_OFFSET, self.clock_bytes()) as i64 as f64
-    }
-
-    /// Bytes of its registers of time that it has: the others are zero.
-    const fn clock_bytes(&self) -> usize {
-        match self.settings.clock {
-            ClockKind::Bits32 => 4,
-            _ => 8,
-        }
-    }
-
-    fn system_ns(&self, now_ns: u64) -> f64 {
-        self.clock.local_ns(now_ns) + self.offset_ns()
-    }
-
-    #[allow(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a register wraps"
-    )]
-    fn system_register(&self, now_ns: u64) -> u64 {
-        self.as_told(self.system_ns(now_ns) as i64 as u64)
-    }
-
-    /// A time as a register of this device shows it.
-    const fn as_told(&self, time_ns: u64) -> u64 {
-        match self.settings.clock {
-            ClockKind::Bits32 => time_ns & 0xffff_ffff,
-            _ => time_ns,
         }
     }
 
@@ -336,68 +300,6 @@ impl Device {
         }
     }
 
-    /// A frame comes by that has every port note when it came in, and the device when it read it.
-    #[allow(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "registers wrap"
-    )]
-    fn latch_times(&mut self, now_ns: u64) {
-        let first_ns = now_ns.saturating_sub(self.passage.read_ns);
-        for (at, port_ns) in (PORT_TIMES..).step_by(4).zip(self.passage.ports_ns) {
-            if let Some(port_ns) = port_ns {
-                let local_ns = self.clock.local_ns(first_ns + port_ns) as u64 as u32;
-                self.memory.put(at, &local_ns.to_le_bytes());
-            }
-        }
-        let local_ns = self.as_told(self.clock.local_ns(now_ns) as u64);
-        self.memory.put(LATCHED_TIME, &local_ns.to_le_bytes());
-    }
-
-    /// The time of the reference clock comes by.
-    #[allow(
-        clippy::cast_precision_loss,
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        clippy::cast_possible_wrap,
-        reason = "differences of nanoseconds"
-    )]
-    fn follow(&mut self, reference: &[u8], now_ns: u64) {
-        // Only the low half of what comes by is compared.
-        let Some(low) = reference.first_chunk::<4>() else {
-            return;
-        };
-        let own = self.system_register(now_ns) as u32;
-        let told = u32::from_le_bytes(*low).wrapping_add(self.memory.number(TIME_DELAY, 4) as u32);
-        let ahead = told.wrapping_sub(own) as i32;
-        // Sign and magnitude: bit 31 says that this clock is ahead.
-        let sign = u32::from(ahead < 0) << 31;
-        let difference = sign | ahead.unsigned_abs().min(0x7fff_ffff);
-        self.memory.put(TIME_DIFFERENCE, &difference.to_le_bytes());
-        let since_t = now_ns.saturating_sub(self.followed_ns) as f64 * 1e-9;
-        self.followed_ns = now_ns;
-        self.clock.follow(now_ns, ahead.into(), since_t);
-    }
-
-    /// SYNC0 begins at its start time: never, for hundreds of years, if that is past; with a clock of 32
-    /// bits when that has gone round.
-    #[allow(clippy::cast_precision_loss, reason = "times of a session")]
-    fn activate_sync(&mut self, now_ns: u64) {
-        let is_active = self.memory.byte(SYNC_ACTIVATION) & 3 == 3;
-        let start = self.memory.number(SYNC_START, self.clock_bytes());
-        let has_cycle = self.memory.number(SYNC0_CYCLE, 4) > 0;
-        let ahead_ns = start
-            .wrapping_sub(self.system_register(now_ns))
-            .cast_signed();
-        let ahead_ns = match self.settings.clock {
-            ClockKind::Bits32 => ahead_ns & 0xffff_ffff,
-            _ => ahead_ns,
-        };
-        self.next_sync = (is_active && has_cycle && ahead_ns > 0)
-            .then(|| self.system_ns(now_ns).floor() + ahead_ns as f64);
-        self.stepped_ns = now_ns;
-    }
-
     fn has_odd_length(&self) -> bool {
         let length = |assigned| self.objects.mapped(assigned).1;
         [OUTPUTS_ASSIGNED, INPUTS_ASSIGNED]
@@ -473,23 +375,5 @@ impl Device {
         }
         let both = if ways.0 { 2 } else { 1 };
         u16::from(was_read) + if was_written { both } else { 0 }
-    }
-}
-
-/// Which ports have a cable. The times of the others are what happens to be there.
-fn put_ports(memory: &mut Memory, passage: &Passage) {
-    let mut status = 0x0001_u16;
-    for (port, port_ns) in passage.ports_ns.iter().enumerate() {
-        if port_ns.is_some() {
-            // A link, and frames go out by it.
-            status |= 1 << (4 + port) | 0b10 << (8 + 2 * port);
-        } else {
-            status |= 0b01 << (8 + 2 * port);
-        }
-    }
-    memory.put(DL_STATUS, &status.to_le_bytes());
-    for at in (PORT_TIMES..).step_by(4).take(4) {
-        // As a LAN9252 had it.
-        memory.put(at, b"hoff");
     }
 }

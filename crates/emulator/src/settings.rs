@@ -1,0 +1,136 @@
+//! The settings of an emulated drive: what it is, and in what it is like real ones.
+
+use crate::clock::ClockKind;
+
+/// A switch at which a drive finds its home.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct HomeSwitch {
+    /// Where it is, as the encoder counts.
+    pub at_counts: i64,
+}
+
+/// The datagrams by which a device takes process data, and how it says so.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ImageAccess {
+    /// LRW, LRD and LWR.
+    #[default]
+    Both,
+    /// Not LRW: its features say so (0x0008, bit 9).
+    NoLrwByFeatures,
+    /// Not LRW: its EEPROM says so (general flags, bit 1).
+    NoLrwByEeprom,
+}
+
+/// The watchdog of a device's outputs: bit 6 in the control of their sync manager.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum OutputWatchdog {
+    /// Its EEPROM has the bit.
+    #[default]
+    Told,
+    /// Its EEPROM does not have it, as an AKD's; the master can set it.
+    Untold,
+    /// The bit cannot be set.
+    Never,
+}
+
+/// What a drive lets the master do with its maps of process data.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub enum Maps {
+    /// The master maps what it likes, in one map.
+    #[default]
+    Free,
+    /// A map has 8 bytes at most, and each way an even length, as at an AKD.
+    Short,
+    /// They are as they are: 0x1701 and 0x1B01 with these entries, index, subindex and bits of each.
+    Fixed {
+        /// Outputs of the master.
+        outputs: Vec<u32>,
+        /// Inputs of the master.
+        inputs: Vec<u32>,
+    },
+}
+
+/// What a drive makes of its synchronization type, 0x1C32:1 and 0x1C33:1.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum SyncType {
+    /// It is what the master writes, and 0 before.
+    #[default]
+    Written,
+    /// It cannot be written: by SYNC0 if that runs when the drive goes to SAFE-OP, else by frames.
+    Follows,
+    /// It cannot be written, and is this.
+    Fixed(u8),
+}
+
+/// A drive as it is delivered.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DriveSettings {
+    /// Vendor, product, revision and serial number.
+    pub identity: [u32; 4],
+    /// Its name in the EEPROM.
+    pub name: String,
+    /// What it counts at the start.
+    pub start_counts: i32,
+    /// Time constant of its lag, s; 0 for none.
+    pub lag_t: f64,
+    /// How long it takes from "switched on" to "operation enabled", s: a brake opens.
+    pub brake_t: f64,
+    /// Deviation of its quartz, ppm.
+    pub drift_ppm: f64,
+    /// The switch by which it finds its home; `None` fails every homing but those at the present
+    /// position.
+    pub home: Option<HomeSwitch>,
+    /// The window of following errors that it is delivered with, counts.
+    pub following_counts: u32,
+    /// Its maps.
+    pub maps: Maps,
+    /// How it takes process data.
+    pub image: ImageAccess,
+    /// The watchdog of its outputs.
+    pub watchdog: OutputWatchdog,
+    /// Whether it takes a message with the number of the one before for the same one, and drops it.
+    pub drops_repeats: bool,
+    /// Its synchronization type.
+    pub sync_type: SyncType,
+    /// Its distributed clock.
+    pub clock: ClockKind,
+    /// Whether it has a mailbox, objects and process data; a coupler or a simple terminal does not.
+    pub has_mailbox: bool,
+}
+
+impl DriveSettings {
+    /// A terminal or a coupler, which has nothing of a drive: no mailbox, no objects, no process data.
+    #[must_use]
+    pub fn terminal(name: &str, clock: ClockKind) -> Self {
+        Self {
+            identity: [2, 0x03ec_3052, 1, 0],
+            name: name.to_owned(),
+            clock,
+            has_mailbox: false,
+            ..Self::default()
+        }
+    }
+}
+
+impl Default for DriveSettings {
+    /// A drive that begins at zero, 2 ms behind, with an exact quartz.
+    fn default() -> Self {
+        Self {
+            identity: [0x0000_0e1e, 0x0402, 1, 0],
+            name: "GPDRIVE".to_owned(),
+            start_counts: 0,
+            lag_t: 0.002,
+            brake_t: 0.02,
+            drift_ppm: 0.0,
+            home: None,
+            following_counts: u32::MAX,
+            maps: Maps::Free,
+            image: ImageAccess::Both,
+            watchdog: OutputWatchdog::Told,
+            drops_repeats: false,
+            sync_type: SyncType::Written,
+            clock: ClockKind::Bits64,
+            has_mailbox: true,
+        }
+    }
+}
