@@ -59,7 +59,7 @@ pub(crate) fn image(settings: &DriveSettings) -> Vec<u8> {
         general[11] = 2;
     }
     category(&mut image, 30, &general);
-    if has_mailbox {
+    if has_mailbox && settings.tells_managers {
         process_categories(&mut image, settings.watchdog);
     }
     image.extend_from_slice(&[0xff; 64]);

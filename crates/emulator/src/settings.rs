@@ -84,6 +84,8 @@ pub struct DriveSettings {
     pub following_counts: u32,
     /// Its maps.
     pub maps: Maps,
+    /// Whether its EEPROM says where its process data is.
+    pub tells_managers: bool,
     /// How it takes process data.
     pub image: ImageAccess,
     /// The watchdog of its outputs.
@@ -125,6 +127,7 @@ impl Default for DriveSettings {
             home: None,
             following_counts: u32::MAX,
             maps: Maps::Free,
+            tells_managers: true,
             image: ImageAccess::Both,
             watchdog: OutputWatchdog::Told,
             drops_repeats: false,

@@ -61,6 +61,10 @@ impl ClockKind {
     }
 }
 
+/// How sync managers of process data work: three buffers, written by the master and watched, or read.
+const OUTPUTS: u8 = 0x64;
+const INPUTS: u8 = 0x20;
+
 /// A device.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Device {
@@ -87,9 +91,25 @@ pub struct Device {
 }
 
 impl Device {
-    /// Whether it can be a drive of this master, as far as its EEPROM tells.
+    /// Whether it can be a drive of this master, as far as its EEPROM tells. It has to say where its
+    /// process data is, or the settings of the drive have to.
     #[must_use]
     pub const fn may_be_drive(&self) -> bool {
-        self.mailbox.is_some() && self.has_coe && self.process.is_some()
+        self.mailbox.is_some() && self.has_coe
+    }
+
+    /// Takes its process data to be where its EEPROM says, or else at these addresses.
+    #[must_use]
+    pub(crate) fn or_process_at(self, addresses: Option<(u16, u16)>) -> Self {
+        let at = |start, control| SyncManager {
+            start,
+            length: 0,
+            control,
+        };
+        let told = addresses.map(|(outputs, inputs)| (at(outputs, OUTPUTS), at(inputs, INPUTS)));
+        Self {
+            process: self.process.or(told),
+            ..self
+        }
     }
 }

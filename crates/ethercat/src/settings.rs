@@ -71,6 +71,8 @@ pub struct DriveSettings {
     pub product: u32,
     /// The number given by hand.
     pub alias: u16,
+    /// Where its outputs and its inputs are in its memory, if its EEPROM does not say.
+    pub process_at: Option<(u16, u16)>,
     /// Who says what is in its process data.
     pub mapping: Mapping,
     /// Counts a mm or a degree, > 0.

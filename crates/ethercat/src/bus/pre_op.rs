@@ -66,16 +66,20 @@ impl<'w, W: Wire> PreOp<'w, W> {
                 });
             }
         }
+        let device = device.clone().or_process_at(wanted.process_at);
         let lacks = if !device.may_be_drive() {
-            "it has no mailbox with CoE or no process data: it is no drive that this master knows"
+            "it has no mailbox with CoE: it is no drive that this master knows"
+        } else if device.process.is_none() {
+            "its EEPROM does not say where its process data is: give outputs_at and inputs_at in its table \
+             in drives.toml, the start addresses of its sync managers 2 and 3 by the manufacturer's ESI file"
         } else if !device.clock.is_clock() {
             "it has no distributed clock, and setpoints could not be given it in time"
         } else {
-            return Ok(device.clone());
+            return Ok(device);
         };
         Err(BusError::Unfit {
             device: position,
-            name: device.name.clone(),
+            name: device.name,
             what: lacks.to_owned(),
         })
     }

@@ -174,6 +174,22 @@ fn every_drive_notices_that_frames_stay_away() {
     assert!(refused.starts_with(why), "{refused}");
 }
 
+#[test]
+fn a_drive_whose_eeprom_does_not_say_where_its_data_is_is_told_by_the_file() {
+    let drive = [Emulated {
+        name: "ROVIX".to_owned(),
+        tells_managers: false,
+        ..Emulated::default()
+    }];
+    let refused = failure(&drive, &settings(1)).to_string();
+    let why =
+        "device 0 (ROVIX): its EEPROM does not say where its process data is: give outputs_at";
+    assert!(refused.starts_with(why), "{refused}");
+    let mut told = settings(1);
+    told.drives[0].process_at = Some((0x1100, 0x1180));
+    come_up(&drive, &told).unwrap();
+}
+
 /// Three drives come to OP, and what was demanded for a time takes effect at that time.
 fn come_to_op(kinds: [EmulatedClock; 3], drift: f64, period_ns: u64) {
     let mut drives = [drift, -drift, 20.0].map(|drift_ppm| Emulated {

@@ -42,6 +42,7 @@ pub(crate) fn drive(joint: usize) -> DriveSettings {
         vendor: 0xe1e,
         product: 0x402,
         alias: 0,
+        process_at: None,
         mapping: Mapping::Written,
         counts_per_unit: COUNTS,
         is_inverted: joint == 1,

@@ -249,12 +249,14 @@ fn drive(judge: &mut Judge, raw: RawDrive, velocities: &[f64]) -> DriveSettings 
             "how long it may be further away",
         )
     });
+    let process_at = process_at(judge, &raw);
     DriveSettings {
         joint,
         position,
         vendor,
         product,
         alias: u16::try_from(alias).unwrap_or(0),
+        process_at,
         mapping: match raw.map {
             RawMap::Write => Mapping::Written,
             RawMap::Keep => Mapping::Kept,
@@ -271,6 +273,30 @@ fn drive(judge: &mut Judge, raw: RawDrive, velocities: &[f64]) -> DriveSettings 
         quick_stop_a: judge.number("drive.quick_stop", &raw.quick_stop, &RATE),
         max_v: velocities.get(joint).copied().unwrap_or(1.0),
     }
+}
+
+/// Where outputs and inputs are in the memory of a drive whose EEPROM does not say.
+fn process_at(judge: &mut Judge, raw: &RawDrive) -> Option<(u16, u16)> {
+    let help = "the start addresses of its sync managers 2 and 3, by the manufacturer's ESI file";
+    let mut address = |key, value: &Option<Spanned<i64>>| {
+        let value = value.as_ref()?;
+        judge.whole(key, value, (0x1000, 0xffff), help)
+    };
+    let outputs = address("drive.outputs_at", &raw.outputs_at);
+    let inputs = address("drive.inputs_at", &raw.inputs_at);
+    let alone = match (&raw.outputs_at, &raw.inputs_at) {
+        (Some(at), None) | (None, Some(at)) => Some(at.span()),
+        _ => None,
+    };
+    if let Some(span) = alone {
+        judge.diagnostics.push(ConfigDiagnostic {
+            key: "drive.outputs_at".to_owned(),
+            message: "a drive has both outputs_at and inputs_at, or neither".to_owned(),
+            help: Some(help.to_owned()),
+            span: Some(span),
+        });
+    }
+    outputs.zip(inputs)
 }
 
 fn homing(judge: &mut Judge, raw: RawHoming) -> HomingSettings {

@@ -32,6 +32,8 @@ pub(super) struct RawDrive {
     pub(super) vendor: Optional<i64>,
     pub(super) product: Optional<i64>,
     pub(super) alias: Optional<i64>,
+    pub(super) outputs_at: Optional<i64>,
+    pub(super) inputs_at: Optional<i64>,
     #[serde(default)]
     pub(super) map: RawMap,
     pub(super) counts_per_mm: Optional<f64>,

@@ -138,3 +138,22 @@ fn a_drive_may_keep_its_maps() {
     let is_told = |(at, what): &(usize, String)| *at == line && what.contains("`keep`");
     assert!(told.iter().any(is_told), "{told:?}");
 }
+
+#[test]
+fn a_drive_whose_eeprom_does_not_say_where_its_data_is_asks_for_it() {
+    let mut silent = found(1);
+    silent.device.process = None;
+    let text = written("enp3s0", &[found(0), silent, found(2)]);
+    let text = text.replace("counts_per_mm = 0.0", "counts_per_mm = 1677721.6");
+    let told = wrong(&text);
+    let line = |key: &str| text.lines().position(|line| line.starts_with(key)).unwrap() + 1;
+    let lines: Vec<_> = told.iter().map(|(line, _)| *line).collect();
+    assert_eq!(lines, [line("outputs_at"), line("inputs_at")], "{told:?}");
+    let mended = text.replace("outputs_at = 0x0", "outputs_at = 0x1100");
+    let one = mended.replace("inputs_at = 0x0\n", "");
+    assert!(wrong(&one)[0].1.contains("both outputs_at and inputs_at"));
+    let mended = mended.replace("inputs_at = 0x0", "inputs_at = 0x1400");
+    let drives = parse("drives.toml", &mended, &machine("none")).unwrap();
+    let places: Vec<_> = drives.drives.iter().map(|drive| drive.process_at).collect();
+    assert_eq!(places, [None, Some((0x1100, 0x1400)), None]);
+}

@@ -77,6 +77,14 @@ pub fn written(interface: &str, found: &[Found]) -> String {
         if device.alias != 0 {
             let _ = writeln!(text, "alias = {}", device.alias);
         }
+        if device.process.is_none() {
+            text.push_str(
+                "# Its EEPROM does not say where its process data is: the start addresses of its sync managers\n\
+                 # 2 and 3 by the manufacturer's ESI file.\n\
+                 outputs_at = 0x0\n\
+                 inputs_at = 0x0\n",
+            );
+        }
         let counts = item.counts_per_revolution.map_or_else(
             || "the counts of a revolution".to_owned(),
             |counts| format!("{counts} counts of a revolution, as it says"),

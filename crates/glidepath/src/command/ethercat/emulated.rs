@@ -140,6 +140,7 @@ fn machine(
         vendor: 0,
         product: 0,
         alias: 0,
+        process_at: None,
         mapping: Mapping::Written,
         counts_per_unit: COUNTS.min(REACH / reach),
         is_inverted: false,
