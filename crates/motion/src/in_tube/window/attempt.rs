@@ -297,12 +297,12 @@ fn passes<const D: usize>(
         if !history.follow(context.limits, context.period_t, way, &next) {
             return false;
         }
-        let reachable = &follower.reachable;
-        place = reachable.nearest(context.reference_path, &next.position, place);
-        let way = [&before, &next.position];
-        let is_inside = context.corners != Corners::Inner || path.is_on_its_sides(place, way);
-        if !is_inside || !path.is_straight(place, &next.position) {
-            return false;
+        if context.corners == Corners::Inner {
+            let reachable = &follower.reachable;
+            place = reachable.nearest(context.reference_path, &next.position, place);
+            if !path.is_on_its_sides(place, [&before, &next.position]) {
+                return false;
+            }
         }
     }
     // A chord that has missed a vertex could not be led on from the rest.
