@@ -13,12 +13,12 @@ use crate::kept::convert::{left_variables, left_with, merge, merge_tools};
 use crate::kept::error::StateError;
 use crate::kept::machine::fingerprint;
 use crate::kept::read::{of_machine, set_up, set_up_as_begun, table, table_fingerprint};
-use crate::kept::seen::Look;
+use crate::kept::seen;
 use glidepath_gcode::ToolTable;
 use glidepath_geometry::AxisVector;
 use glidepath_kept::{Directory, DirectoryLock, Kept, Offsets, Rest, Store, UnderWay};
 use glidepath_planner::{ChangeLog, SetUp};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::{Sender, channel};
 use std::thread::JoinHandle;
@@ -68,10 +68,7 @@ impl Keeper {
         let lock = directory.lock()?;
         let store = Store::new(directory);
         let mut notes = Vec::new();
-        let look = Look::begin(&folder);
-        let newest = store.read()?;
-        look.end(newest.as_ref().map_or(0, |it| it.0))?;
-        let kept = match newest {
+        let kept = match seen::read(&store, &folder)? {
             Some((_, kept)) => {
                 of_machine(config, &folder, &kept)?;
                 notes = set_up(config, &kept);
@@ -143,7 +140,7 @@ impl Keeper {
         });
         self.rest_at(start, false);
         if let Writing::Here(mut store) = self.store {
-            write(&mut store, &self.folder, &self.kept)?;
+            seen::write(&mut store, &self.folder, &self.kept)?;
             self.store = Writing::Thread(Writer::start(store, self.folder.clone()));
         }
         Ok(self)
@@ -197,7 +194,7 @@ impl Keeper {
             self.rest_at(&position, true);
         }
         match self.store {
-            Writing::Here(mut store) => write(&mut store, &self.folder, &self.kept),
+            Writing::Here(mut store) => seen::write(&mut store, &self.folder, &self.kept),
             Writing::Thread(Writer { sender, thread }) => {
                 sender.send(self.kept.clone()).ok();
                 drop(sender);
@@ -245,16 +242,10 @@ impl Writer {
                 while let Ok(newer) = receiver.try_recv() {
                     kept = newer;
                 }
-                write(&mut store, &folder, &kept)?;
+                seen::write(&mut store, &folder, &kept)?;
             }
             Ok(())
         });
         Self { sender, thread }
     }
-}
-
-/// Writes the next generation of a folder.
-fn write(store: &mut Store<Directory>, folder: &Path, kept: &Kept) -> Result<(), StateError> {
-    let look = Look::begin(folder);
-    look.end(store.write(kept)?)
 }

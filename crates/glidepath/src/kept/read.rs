@@ -4,7 +4,7 @@ use crate::config::MachineConfig;
 use crate::kept::convert::{axis_words, begun_variables, begun_with, system_name, with_tools};
 use crate::kept::error::StateError;
 use crate::kept::machine::{fingerprint, fingerprint_of};
-use crate::kept::seen::Look;
+use crate::kept::seen;
 use crate::text_file;
 use glidepath_kept::{Directory, Kept, Store, UnderWay};
 use std::path::Path;
@@ -22,10 +22,7 @@ pub(crate) fn read(config: &MachineConfig) -> Result<Option<Kept>, StateError> {
         return Ok(None);
     };
     let store = Store::new(Directory::at(folder));
-    let look = Look::begin(folder);
-    let newest = store.read()?;
-    look.end(newest.as_ref().map_or(0, |it| it.0))?;
-    let Some((_, kept)) = newest else {
+    let Some((_, kept)) = seen::read(&store, folder)? else {
         return Ok(None);
     };
     of_machine(config, folder, &kept)?;

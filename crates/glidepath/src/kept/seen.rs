@@ -2,6 +2,7 @@
 //! service are not taken for a machine that keeps nothing yet.
 
 use crate::kept::error::StateError;
+use glidepath_kept::{Directory, Kept, Store};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
@@ -11,7 +12,7 @@ static SEEN: Mutex<BTreeMap<PathBuf, u64>> = Mutex::new(BTreeMap::new());
 
 /// A look into a folder, or a change of what is there, that has begun.
 #[derive(Debug)]
-pub(super) struct Look<'f> {
+struct Look<'f> {
     folder: &'f Path,
     /// The newest generation that was seen there before.
     newest: u64,
@@ -19,7 +20,7 @@ pub(super) struct Look<'f> {
 
 impl<'f> Look<'f> {
     /// Before the files are looked at: what another thread writes meanwhile is no reason to refuse what is read.
-    pub(super) fn begin(folder: &'f Path) -> Self {
+    fn begin(folder: &'f Path) -> Self {
         let seen = SEEN.lock().unwrap_or_else(PoisonError::into_inner);
         let newest = seen.get(folder).copied().unwrap_or(0);
         Self { folder, newest }
@@ -29,7 +30,7 @@ impl<'f> Look<'f> {
     ///
     /// # Errors
     /// This process had seen a newer generation there.
-    pub(super) fn end(self, generation: u64) -> Result<(), StateError> {
+    fn end(self, generation: u64) -> Result<(), StateError> {
         let Self { folder, newest } = self;
         if generation < newest {
             let folder = folder.display().to_string();
@@ -40,6 +41,33 @@ impl<'f> Look<'f> {
         *newest = generation.max(*newest);
         Ok(())
     }
+}
+
+/// The newest generation of a folder; `None` if nothing was ever kept there.
+///
+/// # Errors
+/// It cannot be read, or this process had seen a newer one.
+pub(super) fn read(
+    store: &Store<Directory>,
+    folder: &Path,
+) -> Result<Option<(u64, Kept)>, StateError> {
+    let look = Look::begin(folder);
+    let newest = store.read()?;
+    look.end(newest.as_ref().map_or(0, |it| it.0))?;
+    Ok(newest)
+}
+
+/// Writes the next generation of a folder.
+///
+/// # Errors
+/// It cannot be written, or this process had seen as new a one.
+pub(super) fn write(
+    store: &mut Store<Directory>,
+    folder: &Path,
+    kept: &Kept,
+) -> Result<(), StateError> {
+    let look = Look::begin(folder);
+    look.end(store.write(kept)?)
 }
 
 #[cfg(test)]
