@@ -101,14 +101,14 @@ impl<'a> Life<'a> {
         self.stack.measured().position
     }
 
-    /// Nothing moves, neither what is commanded nor the machine.
+    /// Nothing moves, neither what is commanded nor the machine, once the drives are where they were told to be. How long
+    /// they take for that is a matter of the host.
     fn still(&self, millis: u64) {
-        // What is measured is of a setpoint some time ago: of one from now on.
-        let told = self.tape.since(self.tape.length().saturating_sub(1));
-        let from = told.first().map_or(0, |setpoint| setpoint.number + 2);
-        let _measured = self
-            .operated
-            .wait(|_| self.stack.measured().setpoint_number >= from);
+        let _arrived = self.operated.wait(|_| {
+            let told = self.tape.since(self.tape.length().saturating_sub(1));
+            told.last()
+                .is_some_and(|told| is_there(&told.joint_position, &self.stands()))
+        });
         let (begun, stands) = (self.tape.length(), self.stands());
         std::thread::sleep(Duration::from_millis(millis));
         assert!(is_there(&self.stands(), &stands));

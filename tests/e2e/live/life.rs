@@ -57,12 +57,15 @@ fn jog(browser: &mut Browser, operated: &Operated<'_>) {
     assert_eq!(operated.position()[0].to_bits(), after.to_bits());
 }
 
-/// Zero by touching the number.
-fn zero(browser: &mut Browser) {
+/// Zero by touching the number: the origin is where the machine stands, however far the finger moved it.
+fn zero(browser: &mut Browser, operated: &Operated<'_>) {
+    let stands = operated.position()[0];
     browser.press("#sX");
     press(browser, "#sheet [data-do=zero]", Duration::ZERO);
     browser.wait("S.status.offset && document.querySelector('#sX').textContent === '0.000'");
-    browser.wait("SETUP.systems && Math.abs(SETUP.systems[0].origin.X) > 2");
+    browser.wait(&format!(
+        "SETUP.systems && Math.abs(SETUP.systems[0].origin.X - ({stands})) < 1e-3"
+    ));
 }
 
 /// A program is dropped, looked at, and run. The tool is asked for, and answered.
@@ -143,7 +146,7 @@ fn a_machine_is_run_with_the_mouse_alone() {
 
     power_and_home(&mut browser, &operated);
     jog(&mut browser, &operated);
-    zero(&mut browser);
+    zero(&mut browser, &operated);
     run(&mut browser, &operated);
     hold_and_return(&mut browser, &operated);
 
