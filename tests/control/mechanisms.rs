@@ -4,7 +4,7 @@
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_kinematics::{
     AxisList, AxisRates, AxisShare, CoreXy, Elbow, FiveAxis, Hexapod, JointLimit, JointLimits,
-    JointVector, LinearDelta, Mechanism, PathCaps, Rotaries, RotaryDelta, Scara, Tilt,
+    JointVector, LimitedMechanism, LinearDelta, Mechanism, Rotaries, RotaryDelta, Scara, Tilt,
     TranslationalHexapod,
 };
 use glidepath_link::{Command, MachineState, Setpoint};
@@ -16,6 +16,7 @@ use crate::supervisor::{Job, assert_limits};
 use crate::times;
 
 const PERIOD_T: f64 = 0.004;
+const EFFORTS: [Effort; 2] = [Effort::Fast, Effort::Optimal];
 
 /// A mechanism with a program for it, from its first place on, and what its joints can do.
 struct Machine {
@@ -187,9 +188,8 @@ impl Machine {
         JointLimits([self.joint; 9])
     }
 
-    /// The program with effort "fast", which keeps the limits of joints place by place. Axes could do far
-    /// more than joints let them.
-    fn job(&self) -> Job {
+    /// The program. Axes could do far more than joints let them.
+    fn job(&self, effort: Effort) -> Job {
         let mut limits = Limits::uniform(1500.0, 40_000.0, 2e6);
         for axis in 3..9 {
             limits.velocity[axis] = 400.0;
@@ -206,12 +206,16 @@ impl Machine {
             jerk: limits.jerk,
         };
         let share = AxisShare::over(&self.mechanism, &self.limits(), &travel, &rates);
-        let joints = PathCaps {
+        let joints = LimitedMechanism {
             mechanism: self.mechanism,
             limits: self.limits(),
-            rates: share.of(&rates),
         };
-        Job::of_joints(self.text, limits, joints, (start, Effort::Fast))
+        Job::of_joints(
+            self.text,
+            limits,
+            (joints, share.of(&rates)),
+            (start, effort),
+        )
     }
 
     /// The largest share of a joint's velocity, acceleration and jerk in what the drives were told, by
@@ -239,22 +243,25 @@ impl Machine {
 
 #[test]
 fn a_plan_uses_what_joints_can_do_and_no_more() {
-    for machine in machines() {
-        let job = machine.job();
+    for (machine, effort) in machines()
+        .iter()
+        .flat_map(|machine| EFFORTS.map(|e| (machine, e)))
+    {
+        let job = machine.job(effort);
         let used = job.supervised(|supervisor| {
             supervisor.play(20_000);
             assert!(supervisor.is_over(), "{}", machine.name);
             assert_limits(&supervisor.audit(&job.settings, 1.0));
             machine.used(&supervisor.setpoints)
         });
-        eprintln!("{:22} {used:.4?}", machine.name);
+        eprintln!("{:22} {effort:?} {used:.4?}", machine.name);
         assert!(
             used.iter().all(|r| *r <= 1.0 + 1e-6),
-            "{}: {used:?}",
+            "{} {effort:?}: {used:?}",
             machine.name
         );
         // With a share of the axes' jerk it was a tenth to three quarters.
-        assert!(used[2] > 0.95, "{}: {used:?}", machine.name);
+        assert!(used[2] > 0.95, "{} {effort:?}: {used:?}", machine.name);
     }
 }
 
@@ -280,7 +287,7 @@ fn the_feed_of_each_block_is_kept_where_joints_are_not_axes() {
             text: SLOW_THEN_FAST,
             ..machine
         };
-        let job = machine.job();
+        let job = machine.job(Effort::Fast);
         job.supervised(|supervisor| {
             supervisor.play(40_000);
             assert!(supervisor.is_over(), "{}", machine.name);
@@ -294,9 +301,10 @@ fn the_feed_of_each_block_is_kept_where_joints_are_not_axes() {
 fn a_hold_keeps_the_limits_of_joints_whenever_it_comes() {
     let step = 23 / times().min(23);
     for machine in machines() {
-        let job = machine.job();
+        let jobs = EFFORTS.map(|effort| machine.job(effort));
         let mut latest = 0;
-        for at in (5..260).step_by(step.max(1)) {
+        for (number, at) in (5..260).step_by(step.max(1)).enumerate() {
+            let job = &jobs[number % jobs.len()];
             job.supervised(|supervisor| {
                 supervisor.play(at);
                 supervisor.command(Command::Hold);
@@ -334,10 +342,11 @@ proptest! {
     #[test]
     fn whatever_is_commanded_joints_keep_their_limits(
         which in 0_usize..8,
+        effort in prop::sample::select(&EFFORTS[..]),
         commands in prop::collection::vec((command(), 1_usize..150), 1..25),
     ) {
         let machine = &machines()[which];
-        let job = machine.job();
+        let job = machine.job(effort);
         carry_out_and(&job, &commands, |supervisor| {
             let used = machine.used(&supervisor.setpoints);
             prop_assert!(used.iter().all(|r| *r <= 1.0 + 1e-6), "{}: {:?}", machine.name, used);

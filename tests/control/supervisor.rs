@@ -7,7 +7,7 @@ use glidepath_audit::{Audit, AuditSettings, Passed, Report, Sample};
 use glidepath_gcode::Options;
 use glidepath_geometry::AxisVector;
 use glidepath_interpolator::{Config, Stepped, stepped};
-use glidepath_kinematics::PathCaps;
+use glidepath_kinematics::{AxisRates, LimitedMechanism};
 use glidepath_link::{Command, MachineState, Setpoint, SetpointFrame};
 use glidepath_planner::{Output, Pipeline, ProgramSource};
 use glidepath_program::{Effort, Item, Limits, Override, Settings, Smoothing};
@@ -67,8 +67,8 @@ fn on_the_mill(effort: Effort) -> Settings {
 pub(crate) struct Job {
     text: String,
     pub(crate) settings: Settings,
-    /// Where joints are not the axes, these.
-    joints: Option<PathCaps>,
+    /// Where joints are not the axes, these, and what axes may do by hand.
+    joints: Option<(LimitedMechanism, AxisRates)>,
     start: AxisVector,
 }
 
@@ -103,7 +103,7 @@ impl Job {
     pub(crate) fn of_joints(
         text: &str,
         limits: Limits,
-        joints: PathCaps,
+        joints: (LimitedMechanism, AxisRates),
         (start, effort): (AxisVector, Effort),
     ) -> Self {
         let settings = Settings {
@@ -125,7 +125,8 @@ impl Job {
             ..Options::default()
         };
         let source = ProgramSource::new(self.text.as_bytes(), options);
-        Pipeline::new(source, self.settings, start).with_joints(self.joints)
+        Pipeline::new(source, self.settings, start)
+            .with_joints(self.joints.map(|(joints, _)| joints))
     }
 
     /// Periods of a plan at an override.
@@ -145,11 +146,11 @@ impl Job {
             start_position: self.start,
             ..Config::new(self.settings.limits, PERIOD_NS)
         };
-        if let Some(joints) = &self.joints {
+        if let Some((joints, by_hand)) = &self.joints {
             config.mechanism = joints.mechanism;
             config.joint_limits = joints.limits;
-            config.hand_limits.acceleration = joints.rates.acceleration;
-            config.hand_limits.jerk = joints.rates.jerk;
+            config.hand_limits.acceleration = by_hand.acceleration;
+            config.hand_limits.jerk = by_hand.jerk;
         }
         stepped(&config, |stepped| {
             work(&mut Supervisor {

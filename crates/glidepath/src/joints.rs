@@ -3,7 +3,7 @@
 //! Along the path: reach, singularities and ranges of the joints, at places at most [`STEP`]
 //! apart, so that `check` needs no plan. Over the plan: velocity, acceleration and jerk of every
 //! joint, too, by finite differences at the period. Speeds, accelerations and jerks of the axes
-//! were kept where joints can follow when the plan was made (`AxisShare`, `PathCaps`); should a
+//! were kept where joints can follow when the plan was made; should a
 //! program ask more of a joint all the same, it is refused before anything moves.
 
 use crate::config::MachineConfig;

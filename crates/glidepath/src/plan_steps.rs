@@ -26,7 +26,7 @@ impl PlanSteps {
     ) -> Result<Self, Refusal> {
         let cores = available_parallelism().unwrap_or(NonZeroUsize::MIN);
         if cores > NonZeroUsize::MIN {
-            let (settings, joints) = (config.settings(), config.path_caps());
+            let (settings, joints) = (config.settings(), config.limited_mechanism());
             let planned = ParallelPipeline::start(source()?, settings, start, joints, cores);
             if let Ok(pipeline) = planned {
                 return Ok(Self::AllCores(Box::new(pipeline)));
@@ -43,7 +43,7 @@ impl PlanSteps {
         start: AxisVector,
     ) -> Self {
         let pipeline = Pipeline::new(source, config.settings(), start);
-        Self::OneCore(Box::new(pipeline.with_joints(config.path_caps())))
+        Self::OneCore(Box::new(pipeline.with_joints(config.limited_mechanism())))
     }
 
     /// As [`Pipeline::step`].

@@ -11,10 +11,8 @@
 //!
 //! The share is what every axis' limit is multiplied by so that the first term leaves a part of
 //! every joint's limit ([`BENDS_A`], [`BENDS_J`]) for the bends of the mechanism, the other terms,
-//! anywhere in the travel of the axes. These grow with speed and are kept by
-//! [`PathCaps`](crate::PathCaps), place by place. Since the share belongs to the machine, not to a
-//! program, what the interpolator does by itself (holds, overrides, stops) keeps the joints'
-//! limits too.
+//! anywhere in the travel of the axes. It belongs to the machine, not to a program: what moves by hand,
+//! without a plan, goes by it.
 //!
 //! The travel is searched at a fixed set of places: the lattice of ends and middles, and points
 //! spread evenly between them. What they miss is found by whoever judges the motion itself.

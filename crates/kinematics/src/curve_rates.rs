@@ -67,6 +67,12 @@ impl<const D: usize> CurveRates<D> {
         })
     }
 
+    /// J₀ … J₃: the Jacobian along the curve, as Taylor coefficients by its parameter.
+    #[must_use]
+    pub const fn jacobian(&self) -> &[SMatrix<f64, JOINTS, D>; ORDERS] {
+        &self.jacobian
+    }
+
     /// How q, q′, q″ and q‴ of every joint change with a control point of every axis, from its basis
     /// function B and the first three derivatives of that, at the place.
     #[must_use]

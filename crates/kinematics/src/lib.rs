@@ -18,9 +18,8 @@
 //! curve ([`CurveRates`]). One formula, nothing to keep in step with it.
 //!
 //! In the pipeline it is met in three places: the configuration builds a [`Mechanism`] with its
-//! [`JointLimits`]; the planner keeps these along a path by the exact rates of joints ([`PathRates`]), slows
-//! the axes where nobody looks at joints ([`AxisShare`] anywhere in the travel, [`PathCaps`] place by
-//! place) and judges each plan ([`JointWatch`]); the interpolator maps every setpoint to joints. The mechanisms are [`Trivial`], [`CoreXy`], [`LinearDelta`],
+//! [`JointLimits`] (both together a [`LimitedMechanism`]); the planner keeps these along a path by the exact rates
+//! of joints ([`PathRates`]), beside it by how they change with a curve ([`CurveRates`]), and judges each plan ([`JointWatch`]); the interpolator maps every setpoint to joints. The mechanisms are [`Trivial`], [`CoreXy`], [`LinearDelta`],
 //! [`RotaryDelta`], [`Scara`], [`FiveAxis`], [`Hexapod`] and [`TranslationalHexapod`].
 //!
 //! What always holds:
@@ -56,10 +55,10 @@ mod error;
 mod five_axis;
 mod hexapod;
 mod joint_limits;
+mod limited_mechanism;
 mod linear_delta;
 mod machine;
 mod mechanism;
-mod path_caps;
 mod rotary_delta;
 mod scara;
 mod space;
@@ -76,13 +75,13 @@ pub use error::KinematicsError;
 pub use five_axis::{FiveAxis, Rotaries, Tilt};
 pub use hexapod::{Guards, Hexapod};
 pub use joint_limits::{JointLimit, JointLimits, JointViolation, Quantity};
+pub use limited_mechanism::LimitedMechanism;
 pub use linear_delta::LinearDelta;
 pub use machine::{
     AxisSeries, Conditioning, JOINTS, JointMotion, JointSeries, JointVector, Kinematics,
     axis_series,
 };
 pub use mechanism::Mechanism;
-pub use path_caps::{Heading, PathCaps, PlaceCaps};
 pub use rotary_delta::RotaryDelta;
 pub use scara::{Elbow, Scara};
 pub use speed_caps::{PathRates, SpeedCaps};

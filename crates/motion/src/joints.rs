@@ -1,23 +1,22 @@
 //! The joints of a mechanism as planning sees them, where they are not the axes.
 //!
-//! How fast joints are where the axes go, only the mechanism knows. So whoever knows it implements
+//! What joints do where the axes go, only the mechanism knows. So whoever knows it implements
 //! [`Joints`]. Along a path that is given their limits are kept like those of the axes, at every place
-//! ([`JointRows`]). In the tube, axes do no more than leaves every joint what it can do, wherever it is
-//! ([`Joints::anywhere`]), and items keep to rates that joints can follow with that ([`ItemPacer`]). Where a
-//! corner is rounded, the motion goes in directions that no side of it has: there a window keeps the joints'
-//! speeds like the feed, as rows of its problem, and no motion is taken that they cannot follow. Where no such
-//! window is found, the motion goes straight to the next vertex.
+//! ([`JointRows`]). In the tube a window keeps velocity, acceleration and jerk of joints as rows of its problem,
+//! which are exact to first order about the last motion ([`JointsOnCurve`]), and no motion is taken that they
+//! cannot follow, by differences. Where no such window is found, the motion goes straight to the next vertex, at
+//! what joints leave along that.
 
 use core::fmt;
-use glidepath_geometry::{AxisVector, DerivativeBounds, Jet};
-use glidepath_program::{Item, Limits, PathBounds, Settings, Travel};
+use glidepath_geometry::{AXES, AxisVector, DerivativeBounds, Jet};
+use glidepath_program::{Limits, PathBounds, Travel};
 use std::sync::Arc;
 
 /// The joints of a mechanism, seen from its axes.
 pub trait Joints: fmt::Debug + Send + Sync {
-    /// The rows r of a position: a velocity ẋ of the axes (mm/s, °/s) is one that every joint can
-    /// have there if |r · ẋ| ≤ 1 for all of them. None where the mechanism cannot be.
-    fn velocity_rows(&self, position: &AxisVector) -> Vec<AxisVector>;
+    /// The joints at a place of a curve of the axes in time, from its position (mm, degrees) and first three
+    /// derivatives there. `None` where the mechanism cannot be.
+    fn at(&self, curve: &[AxisVector; 4]) -> Option<JointsOnCurve>;
 
     /// True if every joint keeps its limits on the way to the first of four positions that are a
     /// period (s) apart, the newest first.
@@ -30,23 +29,31 @@ pub trait Joints: fmt::Debug + Send + Sync {
     /// Velocity (mm/s, °/s), acceleration and jerk of the joints that a plan may use, J0 first;
     /// [`Limits::UNLIMITED`] where there is no limit.
     fn limits(&self) -> [AxisVector; 3];
-
-    /// The limits of axes with which no joint has more to do than it can, wherever these are and in
-    /// whatever direction they go; `limits` are those of the axes alone.
-    fn anywhere(&self, limits: &Limits) -> Limits;
-
-    /// Keeps items, one after the other, at rates that joints can follow where axes are limited by
-    /// [`Joints::anywhere`].
-    fn pacer(&self, settings: &Settings) -> Box<dyn ItemPacer>;
 }
 
-/// Keeps the items of a program at rates that joints can follow.
-pub trait ItemPacer: fmt::Debug + Send + Sync {
-    /// The next item, at a rate that joints can follow.
-    fn pace(&mut self, item: &Item) -> Item;
+/// The joints at a place of a curve of the axes, and how they change if the curve does.
+#[derive(Debug, Clone, PartialEq)]
+pub struct JointsOnCurve {
+    /// Positions of the joints (mm, degrees) and their first three derivatives by time, J0 first.
+    pub derivatives: [AxisVector; 4],
+    /// The Jacobian along the curve, as Taylor coefficients by time: of each order, the derivatives of every
+    /// joint by all axes.
+    pub jacobian: [[AxisVector; AXES]; 4],
+}
 
-    /// The same pacer once more, after the same items.
-    fn again(&self) -> Box<dyn ItemPacer>;
+/// Acceleration and jerk that every joint leaves each axis at a place if the others stand: about what the axes can
+/// do there. `None` where the mechanism cannot be.
+pub(crate) fn alone(joints: &dyn Joints, position: &AxisVector) -> Option<[AxisVector; 2]> {
+    let rest = AxisVector::zeros();
+    let here = joints.at(&[*position, rest, rest, rest])?;
+    let [_, acceleration, jerk] = joints.limits();
+    let [rows, ..] = &here.jacobian;
+    Some([acceleration, jerk].map(|limits| {
+        AxisVector::from_fn(|axis, _| {
+            let most = (0..AXES).map(|joint| limits[joint] / rows[joint][axis].abs());
+            most.fold(Limits::UNLIMITED, f64::min)
+        })
+    }))
 }
 
 /// The joints that limit a motion, if they do so beside the axes.

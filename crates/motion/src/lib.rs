@@ -101,6 +101,6 @@ mod stretches;
 mod wing;
 
 pub use error::PlanError;
-pub use joints::{ItemPacer, Joints};
+pub use joints::{Joints, JointsOnCurve};
 pub use planner::Planner;
 pub use stretches::MOST_MOVES_AT_ONCE;

@@ -1,12 +1,9 @@
 //! The joints of a mechanism, as the planner of motion asks for them.
 
-use crate::joint_speed::JointSpeed;
 use glidepath_geometry::{AxisVector, Jet};
-use glidepath_kinematics::{
-    AxisRates, JOINTS, JointLimit, JointWatch, Kinematics as _, PathCaps, PathRates,
-};
-use glidepath_motion::{ItemPacer, Joints};
-use glidepath_program::{Limits, Settings};
+use glidepath_kinematics::{CurveRates, JointLimit, JointWatch, LimitedMechanism, PathRates};
+use glidepath_motion::{Joints, JointsOnCurve};
+use glidepath_program::Limits;
 use std::sync::Arc;
 
 /// Share of the joints' jerk that a plan along a path leaves to the interpolator: without any, its rate could
@@ -15,36 +12,47 @@ const SPARE_JERK_R: f64 = 5e-4;
 /// The same of acceleration.
 const SPARE_ACCELERATION_R: f64 = 5e-4;
 
+/// Axes that mechanisms move: X Y Z A B C.
+const DERIVED_AXES: usize = 6;
+
 /// Joints with limits of their own.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct JointBounds(PathCaps);
+pub(crate) struct JointBounds(LimitedMechanism);
 
 impl JointBounds {
     /// The joints of a machine, to be shared.
-    pub(crate) fn shared(caps: PathCaps) -> Arc<dyn Joints> {
+    pub(crate) fn shared(caps: LimitedMechanism) -> Arc<dyn Joints> {
         Arc::new(Self(caps))
     }
 }
 
 impl Joints for JointBounds {
-    fn velocity_rows(&self, position: &AxisVector) -> Vec<AxisVector> {
-        let PathCaps {
-            mechanism, limits, ..
-        } = &self.0;
-        let Ok(jacobian) = mechanism.jacobian(position) else {
-            return Vec::new();
-        };
-        let is_limited = |joint: &usize| limits.0[*joint].velocity.is_finite();
-        (0..JOINTS.min(mechanism.joints()))
-            .filter(is_limited)
-            .map(|joint| jacobian.row(joint).transpose() / limits.0[joint].velocity)
-            .collect()
+    fn at(&self, curve: &[AxisVector; 4]) -> Option<JointsOnCurve> {
+        let rates = CurveRates::<DERIVED_AXES>::at(&self.0.mechanism, curve).ok()?;
+        let jacobian = rates.jacobian();
+        Some(JointsOnCurve {
+            derivatives: rates.derivatives,
+            jacobian: core::array::from_fn(|order| {
+                core::array::from_fn(|joint| {
+                    let of_axis = |axis: usize, _| match axis {
+                        0..DERIVED_AXES => jacobian[order][(joint, axis)],
+                        _ => 0.0,
+                    };
+                    AxisVector::from_fn(of_axis)
+                })
+            }),
+        })
     }
 
     fn allow(&self, positions: &[AxisVector; 4], period_t: f64) -> bool {
-        let PathCaps {
-            mechanism, limits, ..
+        let LimitedMechanism {
+            mechanism,
+            mut limits,
         } = self.0;
+        for limit in &mut limits.0 {
+            limit.acceleration *= 1.0 - SPARE_ACCELERATION_R;
+            limit.jerk *= 1.0 - SPARE_JERK_R;
+        }
         let watch = JointWatch::new(mechanism, limits, period_t);
         watch.judge(positions).is_ok()
     }
@@ -62,19 +70,6 @@ impl Joints for JointBounds {
             d2,
             d3,
         })
-    }
-
-    fn anywhere(&self, limits: &Limits) -> Limits {
-        let AxisRates { acceleration, jerk } = &self.0.rates;
-        Limits {
-            acceleration: limits.acceleration.inf(acceleration),
-            jerk: limits.jerk.inf(jerk),
-            ..*limits
-        }
-    }
-
-    fn pacer(&self, settings: &Settings) -> Box<dyn ItemPacer> {
-        Box::new(JointSpeed::new(self.0, *settings))
     }
 
     fn limits(&self) -> [AxisVector; 3] {

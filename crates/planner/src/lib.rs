@@ -14,7 +14,7 @@
 //!
 //! * [`ItemSource`] is whatever gives items: [`FileSource`] a file that was checked before,
 //!   [`PipeSource`] a pipe, [`ProgramSource`] any text, [`CurveSource`] and [`NurbsSource`] curve files.
-//! * [`Pipeline`] turns a source into frames, one after the other; [`PathCaps`] keep the joints of
+//! * [`Pipeline`] turns a source into frames, one after the other; [`LimitedMechanism`] keep the joints of
 //!   a mechanism inside their limits on the way.
 //! * [`ParallelPipeline`] does the same ahead of time, on all cores.
 //! * [`Publisher`] hands frames on, no further ahead of the machine than its [`Pace`] says. They are
@@ -31,7 +31,7 @@
 //! * Memory is bounded, however long a program is.
 //! * Whatever a [`Refusal`] or a [`RunError`] is about, the machine comes to rest on the path.
 //!
-//! [`PathCaps`]: glidepath_kinematics::PathCaps
+//! [`LimitedMechanism`]: glidepath_kinematics::LimitedMechanism
 //!
 //! ```
 //! use glidepath_gcode::Options;
@@ -86,7 +86,6 @@ mod inputs;
 mod interval;
 mod jobs;
 mod joint_bounds;
-mod joint_speed;
 mod listen;
 mod machine;
 mod nurbs;

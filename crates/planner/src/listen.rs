@@ -14,7 +14,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use glidepath_geometry::AxisVector;
-use glidepath_kinematics::PathCaps;
+use glidepath_kinematics::LimitedMechanism;
 use glidepath_link::{LinkError, SegmentRefusal, SegmentReply, SegmentRequest, Server, Transport};
 use glidepath_motion::PlanError;
 use glidepath_program::Settings;
@@ -42,7 +42,7 @@ pub struct Listening {
     /// What to plan with.
     pub settings: Settings,
     /// What keeps joints inside their limits, where they are not axes.
-    pub joints: Option<PathCaps>,
+    pub joints: Option<LimitedMechanism>,
     /// How to publish.
     pub pace: Pace,
     /// Where the axes may go; `None`: not checked.

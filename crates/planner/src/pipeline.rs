@@ -17,7 +17,7 @@ use std::collections::VecDeque;
 use std::time::Duration;
 
 use glidepath_geometry::AxisVector;
-use glidepath_kinematics::PathCaps;
+use glidepath_kinematics::LimitedMechanism;
 use glidepath_program::{Event, Frame, Item, ItemKind, Override, Settings};
 
 use crate::blocks::Blocks;
@@ -105,7 +105,7 @@ impl<S: ItemSource> Pipeline<S> {
     /// The same pipeline for a machine whose joints are not its axes: speeds are kept where joints
     /// can follow.
     #[must_use]
-    pub fn with_joints(self, caps: Option<PathCaps>) -> Self {
+    pub fn with_joints(self, caps: Option<LimitedMechanism>) -> Self {
         Self {
             planning: self.planning.with_joints(caps.map(JointBounds::shared)),
             ..self

@@ -236,7 +236,7 @@ impl Job<'_> {
         control: &mut Control<'_>,
     ) -> Result<Statistics, Failure> {
         let mut pipeline = pipeline
-            .with_joints(self.config.path_caps())
+            .with_joints(self.config.limited_mechanism())
             .with_clock(clock::elapsed);
         let fingerprint = pipeline.source().fingerprint();
         self.attendant.begin(fingerprint, &start)?;
@@ -299,7 +299,7 @@ fn serve(
     let (low, high) = config.travel();
     let listening = Listening {
         settings: config.settings(),
-        joints: config.path_caps(),
+        joints: config.limited_mechanism(),
         pace: session::pace(config),
         limits: Some(SoftLimits { low, high }),
     };

@@ -10,8 +10,8 @@ use glidepath_gcode::{
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_interpolator::{AdaptiveFeed, Answer, Gate, Gates, JointHoming, StopSettings};
 use glidepath_kinematics::{
-    AxisRates, AxisShare, FiveAxis, JOINTS, JointLimit, JointLimits, JointWatch, Kinematics as _,
-    Mechanism, PathCaps,
+    AxisShare, FiveAxis, JOINTS, JointLimit, JointLimits, JointWatch, Kinematics as _,
+    LimitedMechanism, Mechanism,
 };
 use glidepath_link::Status;
 use glidepath_motion::preview::AdvanceRetreat;
@@ -251,17 +251,13 @@ impl MachineConfig {
         (!is_trivial).then(|| JointWatch::new(self.mechanism, self.joint_limits, self.period_t()))
     }
 
-    /// What keeps joints inside their limits along a path, where joints are not axes.
+    /// The joints that motion is planned for, where they are not axes.
     #[must_use]
-    pub fn path_caps(&self) -> Option<PathCaps> {
-        let Limits {
-            acceleration, jerk, ..
-        } = self.limits();
+    pub fn limited_mechanism(&self) -> Option<LimitedMechanism> {
         let is_trivial = matches!(self.mechanism, Mechanism::Trivial(_));
-        (!is_trivial).then_some(PathCaps {
+        (!is_trivial).then_some(LimitedMechanism {
             mechanism: self.mechanism,
             limits: self.joint_limits,
-            rates: AxisRates { acceleration, jerk },
         })
     }
 

@@ -35,8 +35,8 @@ impl Motion {
         let home = machine.home();
         let program = program(machine);
         let source = ProgramSource::new(program.as_bytes(), machine.program_options(home));
-        let mut pipeline =
-            Pipeline::new(source, machine.settings(), home).with_joints(machine.path_caps());
+        let mut pipeline = Pipeline::new(source, machine.settings(), home)
+            .with_joints(machine.limited_mechanism());
         let mut frames = Vec::new();
         loop {
             match pipeline.advance()? {

@@ -35,7 +35,7 @@ fn frames(machine: &MachineConfig) -> Vec<SetpointFrame> {
     let home = machine.home();
     let source = ProgramSource::new(PROGRAM.as_bytes(), machine.program_options(home));
     let mut pipeline =
-        Pipeline::new(source, machine.settings(), home).with_joints(machine.path_caps());
+        Pipeline::new(source, machine.settings(), home).with_joints(machine.limited_mechanism());
     let mut frames = Vec::new();
     loop {
         match pipeline.advance().unwrap() {

@@ -9,6 +9,7 @@ mod fit;
 mod hostile_curves;
 mod hostile_numbers;
 mod hostile_text;
+mod joint_bench;
 mod joints;
 mod kept_state;
 mod keys;

@@ -4,7 +4,6 @@
 use crate::support::*;
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_kinematics::*;
-use proptest::prelude::*;
 
 const TRAVEL: [(Axis, f64, f64); 6] = [
     (Axis::X, -60.0, 60.0),
@@ -48,43 +47,6 @@ fn place(unit: &[f64; 6]) -> AxisVector {
         place[axis.index()] = low + (high - low) * unit;
     }
     place
-}
-
-fn signs() -> impl Strategy<Value = [f64; 6]> {
-    prop::array::uniform6(-1.0..1.0_f64)
-}
-
-proptest! {
-    /// At the speed allowed, with anything the axes may do: the exact derivatives of the joints.
-    #[test]
-    fn joints_keep_their_limits_at_the_speed_allowed(
-        unit in prop::array::uniform6(0.0..1.0_f64),
-        direction in signs(),
-        acceleration in signs(),
-        jerk in signs(),
-    ) {
-        let (machine, limits) = (hexapod(), limits());
-        let rates = share().of(&rates());
-        let caps = PathCaps { mechanism: machine, limits, rates };
-        let place = place(&unit);
-        let mut d1 = axes(&direction);
-        d1 /= d1.fixed_rows::<3>(0).norm().max(1e-3);
-        let heading = Heading { d1, linear_spread: 0.0, rotary_spread: 0.0 };
-        let speed = caps.at(&place).unwrap().speed(&place, &heading).unwrap();
-        prop_assert!(speed > 0.0);
-        let derivatives = [
-            place,
-            d1 * speed,
-            rates.acceleration.component_mul(&axes(&acceleration)),
-            rates.jerk.component_mul(&axes(&jerk)),
-        ];
-        let joints = machine.inverse_series(&axis_series::<4>(&derivatives)).unwrap();
-        for (joint, limit) in joints.iter().zip(&limits.0).take(6) {
-            prop_assert!(joint.derivative(1).abs() <= limit.velocity);
-            prop_assert!(joint.derivative(2).abs() <= limit.acceleration);
-            prop_assert!(joint.derivative(3).abs() <= limit.jerk);
-        }
-    }
 }
 
 #[test]

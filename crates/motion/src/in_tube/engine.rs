@@ -170,7 +170,8 @@ impl InTubeEngine {
             Product::Piece(entry, reference) => self.extend(entry, reference),
             Product::Exact(item) => {
                 if !matches!(self.drive, Drive::Exact(_)) {
-                    let engine = OnPathEngine::new(self.settings, self.position, self.wanted);
+                    let engine = OnPathEngine::new(self.settings, self.position, self.wanted)
+                        .with_joints(self.joints.clone());
                     self.drive = Drive::Exact(ExactPath { engine, end: None });
                 }
                 if let Drive::Exact(exact) = &mut self.drive {

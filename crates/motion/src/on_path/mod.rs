@@ -39,3 +39,4 @@ mod topp;
 pub(crate) use engine::OnPathEngine;
 pub(crate) use junction::is_exact_corner;
 pub(crate) use look_ahead::Settled;
+pub(crate) use pieces::{JointRule, SpeedLimit};

@@ -8,8 +8,7 @@
 //! is slower than along the path. The plan from rest to rest with the fewest frames is taken; where
 //! they are equal, the one of the usual search, which is smoother.
 //! With that no such stretch takes longer than with effort "fast", which in turn knows the way with
-//! a stop at every block. Where joints are not the axes, they are used along the path as far as they can,
-//! and in the tube only as far as they can anywhere: there the usual search is all.
+//! a stop at every block.
 
 use super::entry::{Entry, SuppliedWay};
 use super::way::{Manner, Outset, Way};
@@ -34,9 +33,6 @@ const PLACE_T: f64 = 0.5;
 const MOST_TWICE_T: f64 = 1.25;
 /// The longest stretch that is searched a third time, s at its rates.
 const MOST_THRICE_T: f64 = 0.4;
-/// The longest motion that is searched in the tube where joints are not the axes, s: at the rates of their
-/// items such stretches may take far less than in truth.
-const MOST_OF_JOINTS_T: f64 = 2.0;
 /// Most work of the first two searches, multiplications for a second of motion, with which a third
 /// one is begun: with more of it, small stretches in a row would be driven faster than planned.
 const EASY_WORK_PER_S: f64 = 3e8;
@@ -61,17 +57,12 @@ impl Planned {
         if is_settled(&entry.items) || matches!(on_path, Ok(None)) {
             return on_path;
         }
-        let on_path = on_path.map(|way| way.filter(|way| way.is_allowed(&entry.outset)));
-        let in_tube = |bias| Self::by(Manner::InTube(bias), entry.clone());
-        if let (Some(_), Ok(Some(on_path))) = (&entry.outset.joints, &on_path)
-            && on_path.frames.len() as f64 * entry.outset.settings.period_t > MOST_OF_JOINTS_T
-        {
-            return Ok(Some(on_path.clone()));
-        }
+        let allowed = |way: Result<Option<Self>, PlanError>| {
+            way.map(|way| way.filter(|way| way.is_allowed(&entry.outset)))
+        };
+        let on_path = allowed(on_path);
+        let in_tube = |bias| allowed(Self::by(Manner::InTube(bias), entry.clone()));
         let usual = in_tube(SearchBias::USUAL);
-        if entry.outset.joints.is_some() {
-            return Self::faster(usual, on_path);
-        }
         if entry.at_rates_t > MOST_TWICE_T && is_as_fast(&usual, &on_path) {
             return usual;
         }

@@ -123,8 +123,8 @@ impl StretchEngine {
         }
     }
 
-    /// How a stretch is driven that is planned as it comes. Where joints are not the axes, in the tube they
-    /// are not used as much as along the path.
+    /// How a stretch is driven that is planned as it comes. Where joints are not the axes, windows in a row are
+    /// slower here and there than the way along the path, and there is nothing to hold them against.
     const fn alone(&self) -> Manner {
         if self.joints.is_some() {
             Manner::OnPath

@@ -2,7 +2,7 @@
 
 use crate::PlanError;
 use crate::in_tube::{InTubeEngine, SearchBias};
-use crate::joints::{ItemPacer, SharedJoints};
+use crate::joints::SharedJoints;
 use crate::on_path::OnPathEngine;
 use glidepath_geometry::AxisVector;
 use glidepath_program::{Frame, FrameFlags, Item, Override, Settings};
@@ -11,7 +11,6 @@ use glidepath_program::{Frame, FrameFlags, Item, Override, Settings};
 #[derive(Debug, Clone)]
 pub(crate) struct Way {
     engine: Engine,
-    pacer: Option<OwnPacer>,
     is_finished: bool,
     /// How long it is, mm, once its last frame is taken.
     length_s: Option<f64>,
@@ -39,16 +38,6 @@ enum Engine {
     InTube(Box<InTubeEngine>),
 }
 
-/// A pacer that belongs to one way, and is another one in a copy of that.
-#[derive(Debug)]
-struct OwnPacer(Box<dyn ItemPacer>);
-
-impl Clone for OwnPacer {
-    fn clone(&self) -> Self {
-        Self(self.0.again())
-    }
-}
-
 impl Way {
     /// A way on which nothing is known yet.
     pub(crate) fn new(manner: Manner, outset: Outset) -> Self {
@@ -58,25 +47,18 @@ impl Way {
             start,
             wanted,
         } = outset;
-        let mut pacer = None;
         let engine = match manner {
             Manner::OnPath => {
                 let engine = OnPathEngine::new(settings, start, wanted);
                 Engine::OnPath(Box::new(engine.with_joints(joints)))
             }
             Manner::InTube(bias) => {
-                let mut settings = settings;
-                if let Some(joints) = &joints {
-                    settings.limits = joints.anywhere(&settings.limits);
-                    pacer = Some(OwnPacer(joints.pacer(&settings)));
-                }
                 let engine = InTubeEngine::new(settings, start, wanted, bias);
                 Engine::InTube(Box::new(engine.with_joints(joints)))
             }
         };
         Self {
             engine,
-            pacer,
             is_finished: false,
             length_s: None,
         }
@@ -84,10 +66,9 @@ impl Way {
 
     /// Takes the next item of the stretch.
     pub(crate) fn push(&mut self, item: &Item) -> Result<(), PlanError> {
-        match (&mut self.engine, &mut self.pacer) {
-            (Engine::OnPath(engine), _) => engine.push(item),
-            (Engine::InTube(engine), None) => engine.push(item),
-            (Engine::InTube(engine), Some(OwnPacer(pacer))) => engine.push(&pacer.pace(item)),
+        match &mut self.engine {
+            Engine::OnPath(engine) => engine.push(item),
+            Engine::InTube(engine) => engine.push(item),
         }
     }
 

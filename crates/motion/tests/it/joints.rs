@@ -3,8 +3,8 @@
 #![allow(clippy::expect_used, reason = "tests")]
 
 use super::support::{FREE, at, optimal};
-use glidepath_geometry::{AxisVector, Jet, Segment};
-use glidepath_motion::{ItemPacer, Joints, Planner};
+use glidepath_geometry::{AXES, AxisVector, Jet, Segment};
+use glidepath_motion::{Joints, JointsOnCurve, Planner};
 use glidepath_program::{Item, ItemKind, Limits, Rate, Settings};
 use std::sync::Arc;
 
@@ -15,10 +15,13 @@ struct SlowX {
 }
 
 impl Joints for SlowX {
-    fn velocity_rows(&self, _: &AxisVector) -> Vec<AxisVector> {
-        let mut row = AxisVector::zeros();
-        row[0] = 1.0 / self.velocity_v;
-        vec![row]
+    fn at(&self, curve: &[AxisVector; 4]) -> Option<JointsOnCurve> {
+        let mut jacobian = [[AxisVector::zeros(); AXES]; 4];
+        jacobian[0][0][0] = 1.0;
+        Some(JointsOnCurve {
+            derivatives: curve.map(|of_axes| at(of_axes[0], 0.0)),
+            jacobian,
+        })
     }
 
     fn allow(&self, positions: &[AxisVector; 4], period_t: f64) -> bool {
@@ -42,28 +45,6 @@ impl Joints for SlowX {
         let free = AxisVector::repeat(Limits::UNLIMITED);
         [velocity, free, free]
     }
-
-    fn anywhere(&self, limits: &Limits) -> Limits {
-        *limits
-    }
-
-    fn pacer(&self, _: &Settings) -> Box<dyn ItemPacer> {
-        Box::new(AsItIs)
-    }
-}
-
-/// Items at their own rates.
-#[derive(Debug)]
-struct AsItIs;
-
-impl ItemPacer for AsItIs {
-    fn pace(&mut self, item: &Item) -> Item {
-        *item
-    }
-
-    fn again(&self) -> Box<dyn ItemPacer> {
-        Box::new(Self)
-    }
 }
 
 /// A joint that can never follow.
@@ -71,8 +52,8 @@ impl ItemPacer for AsItIs {
 struct Stuck;
 
 impl Joints for Stuck {
-    fn velocity_rows(&self, _: &AxisVector) -> Vec<AxisVector> {
-        Vec::new()
+    fn at(&self, _: &[AxisVector; 4]) -> Option<JointsOnCurve> {
+        None
     }
 
     fn allow(&self, _: &[AxisVector; 4], _: f64) -> bool {
@@ -85,14 +66,6 @@ impl Joints for Stuck {
 
     fn limits(&self) -> [AxisVector; 3] {
         [AxisVector::repeat(Limits::UNLIMITED); 3]
-    }
-
-    fn anywhere(&self, limits: &Limits) -> Limits {
-        *limits
-    }
-
-    fn pacer(&self, _: &Settings) -> Box<dyn ItemPacer> {
-        Box::new(AsItIs)
     }
 }
 

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::sync::mpsc::Receiver;
 
 use glidepath_geometry::AxisVector;
-use glidepath_kinematics::PathCaps;
+use glidepath_kinematics::LimitedMechanism;
 use glidepath_motion::parts::Joiner;
 use glidepath_program::{Frame, Item, ItemKind, Settings};
 
@@ -49,7 +49,7 @@ impl ParallelPipeline {
         source: S,
         settings: Settings,
         start: AxisVector,
-        joints: Option<PathCaps>,
+        joints: Option<LimitedMechanism>,
         workers: NonZeroUsize,
     ) -> io::Result<Self> {
         let bounds = Arc::new(Bounds::new());

@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex};
 use std::thread::{Builder, JoinHandle};
 
 use glidepath_geometry::AxisVector;
-use glidepath_kinematics::PathCaps;
+use glidepath_kinematics::LimitedMechanism;
 use glidepath_program::Settings;
 
 use super::bounds::Bounds;
@@ -34,7 +34,7 @@ impl Threads {
     pub(super) fn start<S: ItemSource + Send + 'static>(
         source: S,
         (settings, start): (Settings, AxisVector),
-        joints: Option<PathCaps>,
+        joints: Option<LimitedMechanism>,
         workers: NonZeroUsize,
         bounds: &Arc<Bounds>,
     ) -> io::Result<(Self, Receiver<Receiver<Planned>>)> {

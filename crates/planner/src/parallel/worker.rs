@@ -3,7 +3,7 @@
 use std::sync::mpsc::{Receiver, Sender};
 use std::sync::{Mutex, PoisonError};
 
-use glidepath_kinematics::PathCaps;
+use glidepath_kinematics::LimitedMechanism;
 use glidepath_motion::parts::PartPlanner;
 use glidepath_program::Settings;
 
@@ -12,7 +12,7 @@ use super::message::{Batch, Gone, Part, PlanStep, Planned};
 use crate::joint_bounds::JointBounds;
 
 /// What parts are planned for: settings, and joints that are not the axes.
-type Machine = (Settings, Option<PathCaps>);
+type Machine = (Settings, Option<LimitedMechanism>);
 
 /// Bytes of a plan that are handed over together.
 const CHUNK: usize = 64 << 10;

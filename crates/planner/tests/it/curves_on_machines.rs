@@ -9,9 +9,9 @@ use core::f64::consts::TAU;
 use glidepath_audit::{Audit, AuditSettings};
 use glidepath_curve::ParametricCurve;
 use glidepath_gcode::Options;
-use glidepath_geometry::{Axis, AxisVector, Segment};
+use glidepath_geometry::{AxisVector, Segment};
 use glidepath_kinematics::{
-    AxisRates, AxisShare, Hexapod, JointLimit, JointLimits, JointWatch, Mechanism, PathCaps,
+    Hexapod, JointLimit, JointLimits, JointWatch, LimitedMechanism, Mechanism,
 };
 use glidepath_planner::{CurveSource, Output, Pipeline};
 use glidepath_program::{ItemKind, Settings};
@@ -116,7 +116,7 @@ impl Case {
 
 /// Joints of a hexapod that are no stronger than they have to be.
 struct Joints {
-    caps: PathCaps,
+    caps: LimitedMechanism,
     watch: JointWatch,
 }
 
@@ -132,29 +132,8 @@ fn hexapod() -> (Settings, Joints) {
     let mut limits = JointLimits::NONE;
     limits.0[..6].fill(joint);
     let settings = settings();
-    let travel = [
-        (Axis::X, -60.0, 60.0),
-        (Axis::Y, -60.0, 60.0),
-        (Axis::Z, 440.0, 560.0),
-    ];
-    // The axes that do not turn here have no share in what the joints can do.
-    let linear = |limits: AxisVector| {
-        let mut linear = AxisVector::zeros();
-        let mut xyz = linear.fixed_rows_mut::<3>(0);
-        xyz.copy_from(&limits.fixed_rows::<3>(0));
-        linear
-    };
-    let rates = AxisRates {
-        acceleration: linear(settings.limits.acceleration),
-        jerk: linear(settings.limits.jerk),
-    };
-    let rates = AxisShare::over(&mechanism, &limits, &travel, &rates).of(&rates);
     let joints = Joints {
-        caps: PathCaps {
-            mechanism,
-            limits,
-            rates,
-        },
+        caps: LimitedMechanism { mechanism, limits },
         watch: JointWatch::new(mechanism, limits, settings.period_t),
     };
     (settings, joints)

@@ -11,8 +11,8 @@
 use glidepath_gcode::Options;
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_kinematics::{
-    AxisRates, AxisShare, Elbow, FiveAxis, Hexapod, JointLimit, JointLimits, JointVector,
-    Kinematics as _, LinearDelta, Mechanism, PathCaps, Rotaries, RotaryDelta, Scara, Tilt,
+    Elbow, FiveAxis, Hexapod, JointLimit, JointLimits, JointVector, Kinematics as _,
+    LimitedMechanism, LinearDelta, Mechanism, Rotaries, RotaryDelta, Scara, Tilt,
 };
 use glidepath_planner::{Output, Pipeline, ProgramSource};
 use glidepath_program::{Effort, Limits, Override, PathBounds, Settings, Smoothing, Travel};
@@ -191,13 +191,6 @@ impl<'a> Used<'a> {
 /// Plans a program, with another override from some frame on; what is used of the joints' limits.
 fn used(machine: &Machine, effort: Effort, text: &str, feed_r: f64) -> [f64; 3] {
     let joints = JointLimits([machine.joint; 9]);
-    let rates = AxisRates {
-        acceleration: machine.limits.acceleration,
-        jerk: machine.limits.jerk,
-    };
-    let share = AxisShare::over(&machine.mechanism, &joints, &machine.travel, &rates);
-    assert!(share.acceleration < 1.0 && share.jerk < 1.0, "{share:?}");
-    let AxisRates { acceleration, jerk } = share.of(&rates);
     let settings = Settings {
         limits: machine.limits,
         tolerance_mm: 0.02,
@@ -206,10 +199,9 @@ fn used(machine: &Machine, effort: Effort, text: &str, feed_r: f64) -> [f64; 3] 
         period_t: PERIOD_T,
         effort,
     };
-    let caps = PathCaps {
+    let caps = LimitedMechanism {
         mechanism: machine.mechanism,
         limits: joints,
-        rates: AxisRates { acceleration, jerk },
     };
     let mut start = AxisVector::zeros();
     for (axis, low, high) in &machine.travel {

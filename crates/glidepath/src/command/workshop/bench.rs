@@ -48,7 +48,7 @@ impl Bench<'_, '_, '_> {
         in_force: impl FnOnce(&S) -> Option<InForce>,
     ) -> (Result<Statistics, Stop>, Option<InForce>) {
         let mut pipeline = pipeline
-            .with_joints(config.path_caps())
+            .with_joints(config.limited_mechanism())
             .with_clock(clock::elapsed);
         let fingerprint = pipeline.source().fingerprint();
         let begun = attendant

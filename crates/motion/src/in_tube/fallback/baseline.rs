@@ -15,6 +15,7 @@
 use super::stop_leg::StopLeg;
 use crate::in_tube::path::{Bounds, ReferencePath, TubePiece, directional, top_v};
 use crate::in_tube::period::State;
+use crate::joints::JointRows;
 use crate::scurve::{PathLimits, Profile};
 use glidepath_geometry::feed_length;
 use glidepath_program::Limits;
@@ -46,14 +47,14 @@ impl Baseline {
     /// When it is at the end of piece `index`; `None` if that is not known, or no more.
     pub(crate) fn end_t(
         &mut self,
-        limits: &Limits,
+        machine: (&Limits, Option<&JointRows>),
         reference_path: &ReferencePath,
         index: usize,
     ) -> Option<f64> {
         while self.first + self.ends_t.len() <= index {
             let next = self.first + self.ends_t.len();
             let piece = reference_path.get(next)?;
-            let leg = StopLeg::new(limits, piece.start, next, piece);
+            let leg = StopLeg::new(machine, piece.start, next, piece);
             let leg_t = leg.map_or(0.0, |leg| leg.duration_t());
             self.ends_t.push_back(self.ends_t.back()? + leg_t);
         }
@@ -92,7 +93,7 @@ pub(crate) fn arrival_t(limits: &Limits, piece: &TubePiece, state: &State) -> Op
     let Bounds {
         speed_v: axes_v,
         path,
-    } = directional(limits, &along);
+    } = piece.within_joints(directional(limits, &along), 1.0);
     let accel_a = (acceleration.dot(&along) / unit_2).clamp(-path.accel_a, path.accel_a);
     let top_v = top_v(piece, &displacement, rest_s).min(axes_v);
     rising_on(&path, top_v, (rest_s, speed_v, accel_a))
@@ -159,7 +160,7 @@ mod tests {
         });
         path.finish();
         let piece = path.get(0).expect("a piece");
-        let leg = StopLeg::new(&limits, piece.start, 0, piece).expect("a leg");
+        let leg = StopLeg::new((&limits, None), piece.start, 0, piece).expect("a leg");
         // Rising, constant and, by then, falling acceleration.
         for t in [0.01, 0.045, 0.06, 0.08, 0.12] {
             let state = leg.at(t);

@@ -3,10 +3,11 @@
 //! From a place within tolerance of a point of a piece, the straight line to the end of the piece
 //! stays within tolerance of the piece, because distances between two straight motions are convex.
 //! So whatever else fails, a leg brings the motion to the next vertex. Its seven-phase profile
-//! keeps the limits of every axis at every instant, hence all differences over a period.
+//! keeps the limits of every axis, and of every joint, at every instant, hence all differences over a period.
 
-use crate::in_tube::path::{TubePiece, directional, top_v};
+use crate::in_tube::path::{Bounds, TubePiece, directional, top_v};
 use crate::in_tube::period::Period;
+use crate::joints::JointRows;
 use crate::scurve::Profile;
 use glidepath_geometry::{AxisVector, feed_length};
 use glidepath_program::Limits;
@@ -26,7 +27,7 @@ pub(crate) struct StopLeg {
 impl StopLeg {
     /// From a position near a piece to the end of that piece; `None` if the motion is there.
     pub(crate) fn new(
-        limits: &Limits,
+        (limits, joints): (&Limits, Option<&JointRows>),
         from: AxisVector,
         index: usize,
         piece: &TubePiece,
@@ -37,14 +38,15 @@ impl StopLeg {
             return None;
         }
         let along = displacement / length_s;
-        let bounds = directional(limits, &along);
-        let profile = Profile::new(
-            0.0,
-            0.0,
-            length_s,
-            top_v(piece, &displacement, length_s).min(bounds.speed_v),
-            bounds.path,
-        )?;
+        let of_axes = directional(limits, &along);
+        let own = Bounds {
+            speed_v: of_axes.speed_v.min(top_v(piece, &displacement, length_s)),
+            ..of_axes
+        };
+        let bounds = joints.map_or(own, |joints| {
+            own.within_joints(joints, (&from, &along), length_s)
+        });
+        let profile = Profile::new(0.0, 0.0, length_s, bounds.speed_v, bounds.path)?;
         Some(Self {
             from,
             to: piece.end,

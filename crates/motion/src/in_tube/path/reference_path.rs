@@ -11,10 +11,13 @@
 //!   ────────────────●···────────●   and ends at the first one outside the ball
 //! ```
 
+use super::direction::{Bounds, directional};
 use super::reference::Reference;
 use super::sense::{Course, Sense};
 use crate::feed_axes::counted_axes;
+use crate::joints::JointRows;
 use glidepath_geometry::{AXES, AxisVector, LINEAR_XYZ, ROTARY_ABC, UVW, feed_length};
+use glidepath_program::Limits;
 use std::collections::VecDeque;
 
 /// Radius of the ball, in tolerances, inside which vertices are drawn together.
@@ -41,6 +44,8 @@ pub(crate) struct TubePiece {
     pub(crate) bow: AxisVector,
     /// How far the motion may be beside it in its middle half, mm, if that is less than the tolerance.
     pub(crate) straight_mm: Option<f64>,
+    /// What joints that are not the axes leave along it, by feed length.
+    by_joints: Option<Bounds>,
     /// It has no feed.
     pub(crate) is_rapid: bool,
     /// What every axis does along it.
@@ -118,6 +123,23 @@ impl TubePiece {
         }
     }
 
+    /// What joints leave along it of bounds, which are by a length that is `per_s` of its feed length.
+    pub(crate) fn within_joints(&self, bounds: Bounds, per_s: f64) -> Bounds {
+        self.by_joints
+            .map_or(bounds, |joints| bounds.weaker(joints.times(per_s)))
+    }
+
+    /// Looks at joints, at speeds up to its feed.
+    fn ask_joints(&mut self, limits: &Limits, joints: &JointRows) {
+        let along = (self.end - self.start) / self.length_s;
+        let own = directional(limits, &along);
+        let own = Bounds {
+            speed_v: own.speed_v.min(self.top_v),
+            ..own
+        };
+        self.by_joints = Some(own.within_joints_each(joints, (&self.start, &along), self.length_s));
+    }
+
     /// True if it is a straight feed move of the program.
     pub(crate) fn is_cut(&self) -> bool {
         !self.is_rapid && self.bow.amax() <= 0.0
@@ -147,6 +169,8 @@ pub(crate) struct ReferencePath {
     /// A piece that has not left the ball round the last vertex.
     held: Option<Reference>,
     is_finished: bool,
+    /// Limits of axes and joints, where these are not the axes.
+    machine: Option<Box<(Limits, JointRows)>>,
 }
 
 impl ReferencePath {
@@ -159,7 +183,14 @@ impl ReferencePath {
             last: None,
             held: None,
             is_finished: false,
+            machine: None,
         }
+    }
+
+    /// The same path, before its first piece, for joints that are not the axes.
+    pub(crate) fn with_joints(self, limits: &Limits, joints: Option<&JointRows>) -> Self {
+        let machine = joints.map(|joints| Box::new((*limits, joints.clone())));
+        Self { machine, ..self }
     }
 
     /// The path goes on with a piece.
@@ -189,6 +220,7 @@ impl ReferencePath {
             tolerance_deg: piece.tolerance_deg * keep_r,
             bow: piece.bow,
             straight_mm: piece.straight_mm,
+            by_joints: None,
             is_rapid: piece.is_rapid,
             senses: core::array::from_fn(|axis| Sense::at_rest(self.corner[axis])),
             cut_before: None,
@@ -207,6 +239,9 @@ impl ReferencePath {
             piece.senses = piece.course().senses(&senses, before.as_ref());
             let is_cut = |last: &TubePiece| last.is_cut() && piece.is_cut();
             piece.cut_before = before.filter(|_| self.last.as_ref().is_some_and(is_cut));
+            if let Some(machine) = &self.machine {
+                piece.ask_joints(&machine.0, &machine.1);
+            }
             self.last = Some(piece);
             self.corner = piece.end;
             self.corner_s += piece.length_s;
@@ -263,13 +298,23 @@ impl ReferencePath {
     /// Gives every piece of the ring the speed it is to have; true if one had another before.
     pub(crate) fn set_rates(&mut self, mut rate_of: impl FnMut(u64) -> f64) -> bool {
         let held = self.held.iter_mut().map(|held| (held.tag, &mut held.top_v));
-        let pieces = self.pieces.iter_mut();
-        let all = pieces
-            .map(|piece| (piece.tag, &mut piece.top_v))
-            .chain(held);
-        all.fold(false, |is_other, (tag, top_v)| {
-            let before_v = core::mem::replace(top_v, rate_of(tag));
-            is_other | (before_v.to_bits() != top_v.to_bits())
-        })
+        let mut is_other = false;
+        for (tag, top_v) in held {
+            is_other |= exchange(top_v, rate_of(tag));
+        }
+        for piece in &mut self.pieces {
+            let is_changed = exchange(&mut piece.top_v, rate_of(piece.tag));
+            is_other |= is_changed;
+            if let Some(machine) = self.machine.as_ref().filter(|_| is_changed) {
+                piece.ask_joints(&machine.0, &machine.1);
+            }
+        }
+        is_other
     }
+}
+
+/// True if a rate is another one than before.
+fn exchange(top_v: &mut f64, rate_v: f64) -> bool {
+    let before_v = core::mem::replace(top_v, rate_v);
+    before_v.to_bits() != rate_v.to_bits()
 }

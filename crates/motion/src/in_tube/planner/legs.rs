@@ -100,7 +100,8 @@ impl PlannerState {
             let leg_t = next.leg_t - next.leg.duration_t();
             let leg = self.leg_from(next.leg.to, next.leg.piece + 1)?;
             if let Some(baseline) = &mut self.baseline {
-                baseline.end_t(&self.limits, &self.reference_path, leg.piece);
+                let machine = (&self.limits, self.joint_rows.as_ref());
+                baseline.end_t(machine, &self.reference_path, leg.piece);
             }
             next = LegProgress {
                 is_resting: leg_t >= leg.duration_t(),

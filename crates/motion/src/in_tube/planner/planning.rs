@@ -18,6 +18,7 @@ use crate::in_tube::verify::NearPieces;
 use crate::in_tube::window::{
     FEED_INTERVALS, FIRST_WORK, Grid, LEAST_INTERVALS, PLAN_WORK, Search, View, WindowContext,
 };
+use crate::joints::alone;
 use glidepath_geometry::{AXES, AxisVector, ROTARY_ABC, feed_length};
 
 /// Intervals before a leg brakes at which a window is tried: it begins nearly as fast as the leg
@@ -255,7 +256,8 @@ impl PlannerState {
         if speed_v <= 0.0 {
             return true;
         }
-        let Bounds { path, .. } = directional(&self.limits, &(velocity / speed_v));
+        let along = directional(&self.limits, &(velocity / speed_v));
+        let Bounds { path, .. } = piece.within_joints(along, 1.0);
         let stop_s = 0.5 * speed_v * speed_v / path.accel_a;
         let room = piece.tolerance_mm.max(piece.tolerance_deg);
         let rest_s = feed_length(&(piece.end - self.history.last()));
@@ -327,7 +329,15 @@ fn leg_tail(leg: &StopLeg, leg_t: f64, grid: &Grid, intervals: usize) -> Vec<Axi
 /// (tolerance .02 mm, jerk 4e4) that is 4 ms, and 8 ms were too coarse for small figures; on a stiff machine
 /// (.03 mm, 1e6) it is 1.6 ms, where 2 ms did and 1 ms gained nothing.
 fn wanted_grid(planner: &PlannerState, piece: &TubePiece) -> Grid {
-    let limits = &planner.limits;
+    let mut limits = planner.limits;
+    if let Some([acceleration, jerk]) = planner
+        .joints
+        .as_deref()
+        .and_then(|joints| alone(joints, &piece.start))
+    {
+        limits.acceleration = limits.acceleration.inf(&acceleration);
+        limits.jerk = limits.jerk.inf(&jerk);
+    }
     let moved = piece.end - piece.start;
     let least_of = |of_axis: &dyn Fn(usize) -> f64| {
         let moving = (0..AXES).filter(|&i| moved[i] != 0.0);

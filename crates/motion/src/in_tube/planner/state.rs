@@ -4,7 +4,7 @@ use crate::in_tube::fallback::{Baseline, StopLeg};
 use crate::in_tube::path::ReferencePath;
 use crate::in_tube::verify::{Follower, History, Reachable};
 use crate::in_tube::window::{Grid, Optimisers, SearchBias};
-use crate::joints::SharedJoints;
+use crate::joints::{JointRows, SharedJoints};
 use glidepath_geometry::AxisVector;
 use glidepath_program::{Corners, Limits};
 
@@ -40,6 +40,8 @@ pub(crate) struct PlannerState {
     pub(crate) limits: Limits,
     pub(crate) period_t: f64,
     pub(crate) joints: SharedJoints,
+    /// The same as limits along a straight way.
+    pub(crate) joint_rows: Option<JointRows>,
     pub(crate) corners: Corners,
     pub(crate) reference_path: ReferencePath,
     /// Positions handed out last, and where on the path the last one is.
@@ -66,6 +68,7 @@ impl PlannerState {
             limits: *limits,
             period_t,
             joints: None,
+            joint_rows: None,
             corners: Corners::default(),
             reference_path: ReferencePath::new(start),
             history: History::new(start),
@@ -82,12 +85,25 @@ impl PlannerState {
         }
     }
 
+    /// The same, before its first piece, for joints that are not the axes.
+    pub(crate) fn with_joints(mut self, joints: SharedJoints) -> Self {
+        self.joint_rows = joints
+            .clone()
+            .map(|joints| JointRows::new(joints, self.limits.path));
+        self.joints = joints;
+        self.reference_path = self
+            .reference_path
+            .with_joints(&self.limits, self.joint_rows.as_ref());
+        self
+    }
+
     /// The leg to the end of the first piece from `index` on that does not end here.
     pub(crate) fn leg_from(&self, from: AxisVector, index: usize) -> Option<StopLeg> {
         (index..self.reference_path.end())
             .take_while(|&index| self.reference_path.is_settled(index))
             .find_map(|index| {
-                StopLeg::new(&self.limits, from, index, self.reference_path.get(index)?)
+                let machine = (&self.limits, self.joint_rows.as_ref());
+                StopLeg::new(machine, from, index, self.reference_path.get(index)?)
             })
     }
 

@@ -29,7 +29,7 @@ impl TubePlanner {
 
     /// The same planner, before its first piece, for joints that are not the axes.
     pub(crate) fn with_joints(mut self, joints: SharedJoints) -> Self {
-        self.state.joints = joints;
+        self.state = self.state.with_joints(joints);
         self
     }
 

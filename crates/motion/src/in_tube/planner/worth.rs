@@ -116,8 +116,9 @@ impl PlannerState {
     fn state_gain_t(&mut self, index: usize, state: &State, period: usize) -> Option<f64> {
         let piece = self.reference_path.get(index)?;
         let arrival_t = arrival_t(&self.limits, piece, state)?;
+        let machine = (&self.limits, self.joint_rows.as_ref());
         let baseline = self.baseline.as_mut()?;
-        let baseline_t = baseline.end_t(&self.limits, &self.reference_path, index)?;
+        let baseline_t = baseline.end_t(machine, &self.reference_path, index)?;
         Some(baseline_t - self.periods_t(self.clock + period) - arrival_t)
     }
 
@@ -130,8 +131,9 @@ impl PlannerState {
         } = &self.active
         {
             let end_t = self.clock_t() - leg_t + leg.duration_t();
+            let machine = (&self.limits, self.joint_rows.as_ref());
             let baseline = self.baseline.as_mut()?;
-            let baseline_t = baseline.end_t(&self.limits, &self.reference_path, leg.piece)?;
+            let baseline_t = baseline.end_t(machine, &self.reference_path, leg.piece)?;
             return Some(baseline_t - end_t);
         }
         let points = self.tail(grid, 0);

@@ -11,7 +11,7 @@
 //! more does not ask for the feed. What a shorter way inside a curve gains is not counted at all
 //! ([`super::shortcuts`]).
 
-use super::budget;
+use super::budget::Budget;
 use super::optimiser::{Optimiser, Question, Solution};
 use super::rounds::RoundState;
 use super::scaled_path::ScaledPath;
@@ -57,7 +57,8 @@ impl<const D: usize> Optimiser<D> {
         self.samples.forget();
         self.samples.give_out(path, window_start.piece);
         self.cuts.clear(self.samples.count(), path.segments.len());
-        self.interior.allow(budget::at_feed(D));
+        let budget = Budget::new(D, path.joints().is_some());
+        self.interior.allow(budget.at_feed());
         let style = Style {
             aims_beyond: braking_from.saturating_sub(1),
             aims_until: braking_from,

@@ -58,7 +58,7 @@ impl View {
         while reference_path.is_settled(end) {
             let piece = reference_path.get(end)?;
             let along = (piece.end - piece.start) / piece.length_s;
-            let bounds = directional(limits, &along);
+            let bounds = piece.within_joints(directional(limits, &along), 1.0);
             let top_v = piece.top_v.min(bounds.speed_v);
             // Of an S-curve down to rest with a phase of constant acceleration.
             let stop_t = top_v / bounds.path.accel_a + bounds.path.accel_a / bounds.path.jerk_j;

@@ -69,7 +69,7 @@ impl Guess {
             let jumps = path.corner(i - 1);
             for k in 0..D {
                 let jump = jumps[k].abs();
-                let (a, j) = (path.acceleration[k], path.jerk[k]);
+                let [a, j] = path.usual.map(|of_axis| of_axis[k]);
                 // As long as the tube allows: by jerk J·τ², where J·τ³/4 is the radius, and by a constant
                 // acceleration over T, which strays by A·T²/8, A·T. Both are the same where τ = 2·A/J.
                 let radius = before.radius.min(after.radius);
@@ -201,7 +201,7 @@ fn curve_speed<const D: usize>(path: &ScaledPath<D>, i: usize) -> f64 {
             let curvature = angle / bend;
             for k in 0..D {
                 let share = turn[k].abs() / angle;
-                let (a, j) = (path.acceleration[k], path.jerk[k]);
+                let [a, j] = path.usual.map(|of_axis| of_axis[k]);
                 // Across a curve of constant speed acceleration is v²·κ, jerk v³·κ².
                 speed_v = speed_v
                     .min((a / (curvature * share)).sqrt())

@@ -13,18 +13,19 @@
 //! linear in the control points. It is alternating minimisation. With every sample on a piece the problem
 //! is a convex quadratic program ([`super::solver`]); with the motion given, samples go to pieces by a
 //! projection ([`super::samples`]). There is no trust region: nothing is linearised but balls
-//! ([`super::cuts`]) and the speeds of joints ([`super::joint_rows`]), and where a corner is passed and
-//! what chords cut off is taken from the last motion. What comes out is a local optimum
+//! ([`super::cuts`]) and joints ([`super::joint_rows`]), and where a corner is passed and
+//! what chords cut off is taken from the last motion. Where there are joints, rounds of polishing go no further than
+//! the motion before, so that what is linear about it settles. What comes out is a local optimum
 //! ([`super::search_bias`]), and nothing is believed of it that the judge has not seen.
 
-use super::budget;
+use super::budget::Budget;
 use super::cuts::Cuts;
 use super::damping;
 use super::feed_rows;
 use super::guess::Guess;
 use super::joint_rows;
 use super::pins::Pins;
-use super::rounds::{BestMotion, ENOUGH_VIOLATION, RoundState};
+use super::rounds::{BestMotion, ENOUGH_VIOLATION, RoundState, gains};
 use super::samples::Samples;
 use super::scaled_path::{ScaledPath, ScaledSegment};
 use super::shortcuts;
@@ -114,6 +115,9 @@ const TOO_FAR_R: f64 = 1.02;
 /// Rounds of a search that may go there and back ([`TOO_FAR_R`]).
 const FREE_ROUNDS: usize = 2;
 
+/// Rounds of polishing more where joints are not the axes.
+const MORE_POLISH: usize = 3;
+
 /// How much faster than the guess the first window is thought to be. Of this and the paces below no
 /// measurement is kept.
 const START_PACE: f64 = 1.2;
@@ -182,13 +186,14 @@ impl<const D: usize> Optimiser<D> {
         most_work: usize,
         judge: &mut impl FnMut(&[[f64; D]], Question) -> bool,
     ) -> Option<Solution<D>> {
+        let budget = Budget::new(D, path.joints().is_some());
+        let most_work = budget.most(most_work);
         self.begin(path, window_start);
         let tail_progress = self.samples.progress.clone();
         let tail_mean = self.samples.mean_t(path);
         let (rest_at, stop_at) = window_start.tail_ends(path);
         let work = self.interior.work;
-        let allowance = budget::search(D, path.is_final, most_work);
-        self.interior.allow(allowance);
+        self.interior.allow(budget.search(path.is_final, most_work));
         let mut found = BestMotion { best: None };
         for (attempt, seed) in ATTEMPTS.into_iter().enumerate() {
             self.samples.progress.clone_from(&tail_progress);
@@ -207,8 +212,8 @@ impl<const D: usize> Optimiser<D> {
                 break;
             }
         }
-        let left_work = most_work - (self.interior.work - work);
-        self.interior.allow(budget::finish(D, left_work));
+        let left_work = most_work.saturating_sub(self.interior.work - work);
+        self.interior.allow(budget.finish(left_work));
         // A tail that is not to be driven on, because rates have changed, is no measure.
         let passed = found
             .best
@@ -226,7 +231,7 @@ impl<const D: usize> Optimiser<D> {
             return finished;
         }
         let left_work = most_work.saturating_sub(self.interior.work - work);
-        self.interior.allow(budget::smoothing(D, left_work));
+        self.interior.allow(budget.smoothing(left_work));
         Some(Solution {
             points: self.smooth(path, window_start, best, judge),
             is_end: false,
@@ -265,8 +270,11 @@ impl<const D: usize> Optimiser<D> {
         found: &mut BestMotion<D>,
     ) {
         let mut round_state = RoundState::starting(window_start.tail);
+        let has_joints = path.joints().is_some();
+        let more = if has_joints { MORE_POLISH } else { 0 };
         for (number, phase) in PHASES.iter().enumerate() {
-            for round in 0..phase.search + phase.polish {
+            let best_before = found.best.as_ref().map(|best| best.0);
+            for round in 0..phase.search + phase.polish + more {
                 if self.interior.is_spent() {
                     return;
                 }
@@ -292,6 +300,7 @@ impl<const D: usize> Optimiser<D> {
                     } else {
                         usual.ridge
                     },
+                    keeps_progress: is_polish && has_joints,
                     ..usual
                 };
                 let given = self.samples.progress.clone();
@@ -306,7 +315,13 @@ impl<const D: usize> Optimiser<D> {
                 if passes {
                     found.add(mean_t, &round_state.points, &self.samples);
                 }
-                if passes && round_state.has_settled(mean_t) {
+                let has_settled = if style.keeps_progress {
+                    // Against the phase before: within this one it does not go on.
+                    best_before.is_some_and(|best_t| !gains(best_t, mean_t))
+                } else {
+                    round_state.has_settled(mean_t)
+                };
+                if passes && has_settled {
                     return;
                 }
                 round_state.mean_t = mean_t;
@@ -388,7 +403,7 @@ impl<const D: usize> Optimiser<D> {
         tube::build(&mut self.problem, &layout, extents);
         feed_rows::add(&mut self.problem, &layout);
         travel_rows::add(&mut self.problem, &layout);
-        if path.has_joints() {
+        if path.joints().is_some() {
             joint_rows::add(&mut self.problem, &layout);
         }
         if style.is_damped {

@@ -21,6 +21,11 @@ const FIRM: f64 = 10.0;
 /// far beyond that is no reason to drive the window slower.
 const LEAST_FEED_R: f64 = 0.995;
 
+/// True if a mean progress is a gain over another one that is worth a round.
+pub(super) fn gains(before_t: f64, mean_t: f64) -> bool {
+    mean_t - before_t >= LITTLE_GAIN * before_t
+}
+
 /// The best motion so far.
 #[derive(Debug)]
 pub(crate) struct BestMotion<const D: usize> {

@@ -10,7 +10,7 @@ use super::solver::dot;
 use crate::feed_axes::counted_axes;
 use crate::in_tube::path::{ReferencePath, TubePiece, directional};
 use crate::in_tube::verify::FEED_CHANGE_MM;
-use crate::joints::SharedJoints;
+use crate::joints::{Joints, SharedJoints, alone};
 use crate::scurve::PathLimits;
 use glidepath_geometry::{AXES, Axis, AxisVector};
 use glidepath_program::Limits;
@@ -86,6 +86,9 @@ pub(crate) struct ScaledPath<const D: usize> {
     pub(crate) velocity: [f64; D],
     pub(crate) acceleration: [f64; D],
     pub(crate) jerk: [f64; D],
+    /// What acceleration and jerk of each axis alone may be about here, where joints are not the axes; else its
+    /// limits.
+    pub(super) usual: [[f64; D]; 2],
     /// Ends of travel, lowest and highest, in the space of the window; infinite where there is none.
     pub(crate) walls: [[f64; 2]; D],
     /// How far a rate may go on beyond where another one begins.
@@ -134,6 +137,7 @@ impl<const D: usize> ScaledPath<D> {
             velocity: [1.0; D],
             acceleration: [1.0; D],
             jerk: [1.0; D],
+            usual: [[1.0; D]; 2],
             walls: [[f64::NEG_INFINITY, f64::INFINITY]; D],
             rate_change: FEED_CHANGE_MM / tolerances[0],
             joints: None,
@@ -150,6 +154,7 @@ impl<const D: usize> ScaledPath<D> {
             path.velocity[k] = limits.velocity[i] / unit;
             path.acceleration[k] = limits.acceleration[i] / unit;
             path.jerk[k] = limits.jerk[i] / unit;
+            path.usual = [path.acceleration, path.jerk];
             let ends = [limits.travel.lowest[i], limits.travel.highest[i]];
             path.walls[k] = ends.map(|end| (end - origin[i]) / unit);
             path.moving += 1;
@@ -166,30 +171,40 @@ impl<const D: usize> ScaledPath<D> {
     }
 
     /// The same path for joints that are not the axes.
-    pub(crate) fn with_joints(self, joints: &SharedJoints) -> Self {
-        let joints = joints.clone();
-        Self { joints, ..self }
-    }
-
-    /// True if joints limit the speed beside the axes.
-    pub(crate) const fn has_joints(&self) -> bool {
-        self.joints.is_some()
-    }
-
-    /// The rows of the joints at a point: each can have a velocity v if |row · v| ≤ 1.
-    pub(crate) fn joint_rows(&self, point: &[f64; D]) -> Vec<[f64; D]> {
-        let Some(joints) = &self.joints else {
-            return Vec::new();
-        };
-        let rows = joints.velocity_rows(&self.outside(point));
-        let inside = |row: AxisVector| {
-            let mut part = [0.0; D];
+    pub(crate) fn with_joints(mut self, joints: &SharedJoints) -> Self {
+        self.joints.clone_from(joints);
+        if let Some([accelerations, jerks]) = self.joints().and_then(|j| alone(j, &self.origin)) {
             for k in 0..self.moving {
-                part[k] = row[self.axes[k]] * self.unit[k];
+                let (i, unit) = (self.axes[k], self.unit[k]);
+                let [acceleration, jerk] = &mut self.usual;
+                acceleration[k] = acceleration[k].min(accelerations[i] / unit);
+                jerk[k] = jerk[k].min(jerks[i] / unit);
             }
-            part
-        };
-        rows.into_iter().map(inside).collect()
+        }
+        self
+    }
+
+    /// The joints, where these are not the axes.
+    pub(super) fn joints(&self) -> Option<&dyn Joints> {
+        self.joints.as_deref()
+    }
+
+    /// A row on positions or rates of the axes as one on those in the window.
+    pub(super) fn inside_row(&self, row: &AxisVector) -> [f64; D] {
+        let mut part = [0.0; D];
+        for k in 0..self.moving {
+            part[k] = row[self.axes[k]] * self.unit[k];
+        }
+        part
+    }
+
+    /// A rate in the window as one of the axes.
+    pub(super) fn outside_rate(&self, rate: &[f64; D]) -> AxisVector {
+        let mut outside = AxisVector::zeros();
+        for k in 0..self.moving {
+            outside[self.axes[k]] = rate[k] * self.unit[k];
+        }
+        outside
     }
 
     fn add(&mut self, limits: &Limits, piece: &TubePiece, [unit_mm, unit_deg]: [f64; 2]) {
@@ -212,6 +227,7 @@ impl<const D: usize> ScaledPath<D> {
         let length = dot(&along, &along).sqrt();
         let tangent = along.map(|value| value / length);
         let bounds = directional(limits, &(displacement / length));
+        let bounds = piece.within_joints(bounds, length / piece.length_s);
         let mut feed = [0.0; D];
         let mut feed_axes = [0.0; D];
         let counted = counted_axes(&displacement);

@@ -16,7 +16,7 @@ pub(crate) fn basis(u: f64) -> [f64; 4] {
 }
 
 /// Weights of velocity, per interval.
-fn basis_1(u: f64) -> [f64; 4] {
+pub(super) fn basis_1(u: f64) -> [f64; 4] {
     let v = 1.0 - u;
     [
         -0.5 * v * v,
@@ -27,7 +27,7 @@ fn basis_1(u: f64) -> [f64; 4] {
 }
 
 /// Weights of acceleration, per interval squared.
-fn basis_2(u: f64) -> [f64; 4] {
+pub(super) fn basis_2(u: f64) -> [f64; 4] {
     [1.0 - u, 3.0 * u - 2.0, 1.0 - 3.0 * u, u]
 }
 

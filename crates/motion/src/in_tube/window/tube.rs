@@ -82,6 +82,8 @@ pub(crate) struct Style {
     pub(crate) aims_until: usize,
     /// The points of the last motion are one, and not only a place to start from.
     pub(crate) has_motion: bool,
+    /// No sample is to be further on than in the last motion: what is linear about that only has to settle.
+    pub(crate) keeps_progress: bool,
 }
 
 /// What the motion takes to settle, in times in which jerk strays by a tolerance: 15 periods of 4 ms where
@@ -95,7 +97,7 @@ impl Style {
     /// a tolerance per period³, about what can be seen in one. With a limit far above that the price
     /// would be none. That it is just a period is a choice, of which no measurement is kept.
     pub(crate) fn priced_jerk<const D: usize>(&self, path: &ScaledPath<D>) -> [f64; D] {
-        path.jerk.map(|jerk| jerk.min(self.period_t.powi(-3)))
+        path.usual[1].map(|jerk| jerk.min(self.period_t.powi(-3)))
     }
 
     /// The time in which jerk strays by a tolerance, or a period if that is longer, s.
@@ -107,7 +109,7 @@ impl Style {
 
     /// Periods in which the motion settles on the path after a corner.
     pub(crate) fn settling_periods<const D: usize>(&self, path: &ScaledPath<D>) -> usize {
-        let slowest_j = path.jerk.iter().copied().fold(f64::INFINITY, f64::min);
+        let slowest_j = path.usual[1].iter().copied().fold(f64::INFINITY, f64::min);
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
@@ -279,7 +281,12 @@ fn add_tube<const D: usize>(
     }
     // To be beyond an end costs a quarter of being out of the tube by as much; why is not on record.
     let scale = 4.0 * radius;
-    let ends = [-back / scale, (segment.length + over) / scale];
+    let end = if layout.style.keeps_progress {
+        (progress - segment.s).min(segment.length + over)
+    } else {
+        segment.length + over
+    };
+    let ends = [-back / scale, end / scale];
     problem.add_row(segment.tangent.map(|t| t / scale), &segment.start, ends);
     for plane in layout.cuts.of_sample(k, piece) {
         let normal = plane.normal.map(|n| n / radius);

@@ -64,6 +64,7 @@ impl<const D: usize> WindowStart<'_, D> {
             jerk: self.bias.jerk,
             steering: STEERING,
             has_motion,
+            keeps_progress: false,
         }
     }
 

@@ -204,7 +204,7 @@ pub(crate) fn exact_stop_t(case: &Case) -> f64 {
     (0..reference_path.end())
         .filter_map(|index| {
             let piece = reference_path.get(index)?;
-            StopLeg::new(&case.limits, piece.start, index, piece)
+            StopLeg::new((&case.limits, None), piece.start, index, piece)
         })
         .map(|leg| leg.duration_t())
         .sum()

@@ -1,6 +1,6 @@
 //! Weighted sums of control points. The first three are given, and the last three are one unknown.
 
-use super::problem::Problem;
+use super::problem::{Problem, SPAN, WideRow};
 
 /// Takes a pull on a weighted sum of consecutive points from their steps.
 #[inline]
@@ -32,6 +32,24 @@ pub(super) fn fold<const D: usize, const N: usize>(
         }
     }
     weights
+}
+
+/// The same for a row in which every control point has a direction of its own.
+pub(super) fn fold_parts<const D: usize>(
+    row: &WideRow<D>,
+    problem: &Problem<D>,
+) -> [[f64; D]; SPAN] {
+    let (last, mut parts) = (problem.intervals, row.parts);
+    if row.first <= last && row.first + SPAN > last + 1 {
+        let at = last - row.first;
+        for i in at + 1..SPAN {
+            let part = core::mem::replace(&mut parts[i], [0.0; D]);
+            for a in 0..D {
+                parts[at][a] += part[a];
+            }
+        }
+    }
+    parts
 }
 
 pub(super) fn tie_end<const D: usize>(problem: &Problem<D>, x: &mut [[f64; D]]) {

@@ -179,7 +179,8 @@ impl<const D: usize> Interior<D> {
 
     /// How much the elastic rows of the last solution are violated at most.
     pub(in crate::in_tube::window) fn violation(&self) -> f64 {
-        let violations = self.sides.elastic.iter().map(ElasticSides::violation);
+        let sides = self.sides.elastic.iter().chain(&self.sides.wide);
+        let violations = sides.map(ElasticSides::violation);
         violations.fold(0.0, f64::max)
     }
 }
@@ -188,9 +189,10 @@ impl<const D: usize> Interior<D> {
 /// into the matrix, which is factored once.
 fn work_of_iteration<const D: usize>(problem: &Problem<D>) -> usize {
     let axis_rows: usize = (0..3).map(|order| D * problem.differences(order)).sum();
-    let rows = problem.rows.len();
-    let of_sides = ROW_WORK * (axis_rows + rows);
-    let of_matrix = (rows + SITE_PRODUCTS * problem.sites.len()) * D * D;
+    let (rows, wide_rows) = (problem.rows.len(), problem.wide_rows.len());
+    let of_sides = ROW_WORK * (axis_rows + rows + wide_rows);
+    let blocks = rows + SITE_PRODUCTS * (problem.sites.len() + wide_rows);
+    let of_matrix = blocks * D * D;
     let of_factor = problem.intervals * FACTOR_PRODUCTS * D * D * D;
     (of_sides + of_matrix + of_factor) / if D < LARGE_BLOCK { 1 } else { 2 }
 }

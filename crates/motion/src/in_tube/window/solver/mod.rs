@@ -15,4 +15,4 @@ mod sides;
 mod tests;
 
 pub(super) use interior::{Allowance, Goal, Interior};
-pub(super) use problem::{FAR, Problem, SPAN, combine, dot};
+pub(super) use problem::{Ends, FAR, FIRM_PRICE, PRICE, Problem, SPAN, WideRow, combine, dot};

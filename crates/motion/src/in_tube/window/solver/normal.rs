@@ -8,7 +8,7 @@
 use super::ahead::Aim;
 use super::band::{Band, Block};
 use super::elastic_sides::ElasticSides;
-use super::ends::{fold, take_away};
+use super::ends::{fold, fold_parts, take_away};
 use super::hard_sides::HardSides;
 use super::problem::{DIFFERENCES, Problem, Row, SPAN, Site, combine, dot, first_difference};
 use super::sides::Sides;
@@ -26,6 +26,8 @@ pub(super) struct NormalEquations<const D: usize> {
     stencils: [Vec<[f64; SPAN]>; 3],
     /// Those of the sites.
     of_sites: Vec<[f64; SPAN]>,
+    /// Those of the wide rows.
+    of_wide: Vec<[[f64; D]; SPAN]>,
 }
 
 impl<const D: usize> NormalEquations<D> {
@@ -36,6 +38,7 @@ impl<const D: usize> NormalEquations<D> {
             step: Vec::new(),
             stencils: [Vec::new(), Vec::new(), Vec::new()],
             of_sites: Vec::new(),
+            of_wide: Vec::new(),
         }
     }
 
@@ -51,6 +54,10 @@ impl<const D: usize> NormalEquations<D> {
         let sites = problem.sites.iter();
         let folded = sites.map(|site| fold(site.first, site.weights, problem));
         self.of_sites.extend(folded);
+        self.of_wide.clear();
+        let wide_rows = problem.wide_rows.iter();
+        self.of_wide
+            .extend(wide_rows.map(|row| fold_parts(row, problem)));
     }
 
     /// Makes the Hessian from the weights of the sides, and factors it.
@@ -76,6 +83,16 @@ impl<const D: usize> NormalEquations<D> {
                     if factor != 0.0 {
                         self.band.add_block(site.first + i, i - j, &block, factor);
                     }
+                }
+            }
+        }
+        let wide_rows = problem.wide_rows.iter().zip(&self.of_wide);
+        for ((row, parts), side) in wide_rows.zip(&sides.wide) {
+            let weight = side.weight();
+            for i in 0..SPAN {
+                for j in 0..=i {
+                    let block = product(&parts[i], &parts[j]);
+                    self.band.add_block(row.first + i, i - j, &block, weight);
                 }
             }
         }
@@ -149,6 +166,18 @@ impl<const D: usize> NormalEquations<D> {
             }
             take_away(&mut self.step, site.first, weights, &pull);
         }
+        let wide_rows = problem.wide_rows.iter().zip(&self.of_wide);
+        for ((row, parts), side) in wide_rows.zip(&mut sides.wide) {
+            if let Some(aim) = aim {
+                side.aim_at(aim);
+            }
+            let force = side.force();
+            for (point, part) in self.step[row.first..].iter_mut().zip(parts) {
+                for a in 0..D {
+                    point[a] -= force * part[a];
+                }
+            }
+        }
         for (step, pins) in self.step.iter_mut().zip(&problem.pins) {
             for a in (0..D).filter(|&a| pins[a]) {
                 step[a] = 0.0;
@@ -192,6 +221,12 @@ impl<const D: usize> NormalEquations<D> {
             take_away(&mut self.step, start + k, stencil, &pull);
         }
     }
+}
+
+/// a·bᵀ
+#[inline]
+fn product<const D: usize>(a: &[f64; D], b: &[f64; D]) -> Block<D> {
+    a.map(|value| b.map(|other| value * other))
 }
 
 /// What the rows of a site and its ridge add to the Hessian, where its weights are one:

@@ -10,6 +10,7 @@
 //!     maximise   Σ aim_k · x_k  −  ½ Σ ridge · |offset across the path|²  −  ½ Σ jerk · |Δ³x|²
 //!     subject to |Δⁿ x|  ≤ bound        every axis, n = 1, 2, 3         hard
 //!                low ≤ normal · Σ wᵢ x_{m+i} ≤ high                      elastic: at a price
+//!                low ≤ Σ partᵢ · x_{m+i} ≤ high                          elastic, for joints
 //! ```
 //!
 //! That is a convex quadratic program: of the negative objective the gradient is −aim plus the pulls
@@ -61,17 +62,41 @@ pub(in crate::in_tube::window) struct Site<const D: usize> {
 #[derive(Debug, Clone, Copy)]
 pub(in crate::in_tube::window) struct Row<const D: usize> {
     pub(in crate::in_tube::window) normal: [f64; D],
+    pub(in crate::in_tube::window) ends: Ends,
+}
+
+/// What a row is to lie between, and at which price it may not.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::in_tube::window) struct Ends {
     pub(in crate::in_tube::window) low: f64,
     pub(in crate::in_tube::window) high: f64,
     /// Price of violating it by one.
     pub(in crate::in_tube::window) price: f64,
 }
 
-impl<const D: usize> Row<D> {
-    /// Values of its sides, none of them above zero where it is kept.
+impl Ends {
+    /// Values of the sides of a row, none of them above zero where it is kept.
     #[inline]
-    pub(super) fn sides(&self, value: f64) -> [f64; 2] {
+    pub(super) const fn sides(&self, value: f64) -> [f64; 2] {
         [value - self.high, self.low - value]
+    }
+}
+
+/// `low ≤ Σ parts_i · x_{first+i} ≤ high`, scaled so that one is a large violation: a row in which every control
+/// point has a direction of its own.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::in_tube::window) struct WideRow<const D: usize> {
+    pub(in crate::in_tube::window) first: usize,
+    pub(in crate::in_tube::window) parts: [[f64; D]; SPAN],
+    pub(in crate::in_tube::window) ends: Ends,
+}
+
+impl<const D: usize> WideRow<D> {
+    /// Its sum at some control points.
+    #[inline]
+    pub(in crate::in_tube::window) fn value(&self, x: &[[f64; D]]) -> f64 {
+        let points = x[self.first..].iter().zip(&self.parts);
+        points.map(|(point, part)| dot(point, part)).sum()
     }
 }
 
@@ -92,6 +117,7 @@ pub(in crate::in_tube::window) struct Problem<const D: usize> {
     pub(in crate::in_tube::window) aims: Vec<[f64; D]>,
     pub(in crate::in_tube::window) sites: Vec<Site<D>>,
     pub(in crate::in_tube::window) rows: Vec<Row<D>>,
+    pub(in crate::in_tube::window) wide_rows: Vec<WideRow<D>>,
 }
 
 impl<const D: usize> Problem<D> {
@@ -105,6 +131,7 @@ impl<const D: usize> Problem<D> {
             aims: Vec::new(),
             sites: Vec::new(),
             rows: Vec::new(),
+            wide_rows: Vec::new(),
         }
     }
 
@@ -118,6 +145,7 @@ impl<const D: usize> Problem<D> {
         self.aims.resize(intervals + 3, [0.0; D]);
         self.sites.clear();
         self.rows.clear();
+        self.wide_rows.clear();
     }
 
     /// Adds to the objective how far a weighted sum of control points is in a direction.
@@ -157,9 +185,11 @@ impl<const D: usize> Problem<D> {
         let shift = dot(&normal, center);
         self.rows.push(Row {
             normal,
-            low: low + shift,
-            high: high + shift,
-            price: PRICE,
+            ends: Ends {
+                low: low + shift,
+                high: high + shift,
+                price: PRICE,
+            },
         });
         if let Some(site) = self.sites.last_mut() {
             site.rows.end = self.rows.len();
@@ -189,7 +219,7 @@ impl<const D: usize> Problem<D> {
     ) {
         self.add_row(normal, center, sides);
         if let Some(row) = self.rows.last_mut() {
-            row.price = FIRM_PRICE;
+            row.ends.price = FIRM_PRICE;
         }
     }
 
@@ -208,11 +238,11 @@ impl<const D: usize> Problem<D> {
             let size = dot(&row.normal, &row.normal).sqrt();
             let cos = dot(&row.normal, normal) / size;
             if cos > SAME_COS {
-                row.low = row.low.max(size * least);
+                row.ends.low = row.ends.low.max(size * least);
                 return;
             }
             if cos < -SAME_COS {
-                row.high = row.high.min(-size * least);
+                row.ends.high = row.ends.high.min(-size * least);
                 return;
             }
         }

@@ -3,7 +3,7 @@
 use super::ahead::{Ahead, Pair, larger};
 use super::elastic_sides::ElasticSides;
 use super::hard_sides::HardSides;
-use super::problem::{DIFFERENCES, Problem, Row, combine, dot, first_difference};
+use super::problem::{DIFFERENCES, Ends, Problem, combine, dot, first_difference};
 
 /// The sides of all rows: first those that must hold, by order, control point and axis, then the
 /// elastic ones.
@@ -11,6 +11,8 @@ use super::problem::{DIFFERENCES, Problem, Row, combine, dot, first_difference};
 pub(super) struct Sides {
     pub(super) hard: Vec<HardSides>,
     pub(super) elastic: Vec<ElasticSides>,
+    /// Of the wide rows.
+    pub(super) wide: Vec<ElasticSides>,
 }
 
 /// How far from a solution the sides are.
@@ -46,7 +48,9 @@ impl Sides {
         self.hard.resize(counts.sum(), HardSides::default());
         let count = problem.rows.len();
         self.elastic.resize(count, ElasticSides::default());
-        2 * self.hard.len() + 4 * self.elastic.len()
+        let count = problem.wide_rows.len();
+        self.wide.resize(count, ElasticSides::default());
+        2 * self.hard.len() + 4 * (self.elastic.len() + self.wide.len())
     }
 
     /// Those that must hold, by order.
@@ -75,7 +79,7 @@ impl Sides {
         self.pass(
             (problem, x),
             |side, value, standing: &mut Standing| standing.add(side.start(value)),
-            |side, value, row, standing| standing.add(side.start(row.sides(value), row.price)),
+            |side, value, ends, standing| standing.add(side.start(ends.sides(value), ends.price)),
         )
     }
 
@@ -89,7 +93,7 @@ impl Sides {
         self.pass(
             (problem, x),
             |side, value, standing: &mut Standing| standing.add(side.advance(step, value)),
-            |side, value, row, standing| standing.add(side.advance(step, row.sides(value))),
+            |side, value, ends, standing| standing.add(side.advance(step, ends.sides(value))),
         )
     }
 
@@ -112,7 +116,7 @@ impl Sides {
         &mut self,
         (problem, x): (&Problem<D>, &[[f64; D]]),
         hard: impl Fn(&mut HardSides, f64, &mut T),
-        elastic: impl Fn(&mut ElasticSides, f64, &Row<D>, &mut T),
+        elastic: impl Fn(&mut ElasticSides, f64, &Ends, &mut T),
     ) -> T {
         let mut all = T::default();
         let [velocity, acceleration, jerk] = self.by_order_mut(problem);
@@ -123,8 +127,11 @@ impl Sides {
             let y = combine(x, site.first, &site.weights);
             let sides = &mut self.elastic[site.rows.clone()];
             for (row, side) in problem.rows[site.rows.clone()].iter().zip(sides) {
-                elastic(side, dot(&row.normal, &y), row, &mut all);
+                elastic(side, dot(&row.normal, &y), &row.ends, &mut all);
             }
+        }
+        for (row, side) in problem.wide_rows.iter().zip(&mut self.wide) {
+            elastic(side, row.value(x), &row.ends, &mut all);
         }
         all
     }

@@ -2,7 +2,7 @@
 //! as there are unknowns, so trying every such point is an oracle that shares nothing with it.
 
 use super::interior::{Allowance, Goal, Interior};
-use super::problem::{DIFFERENCES, FAR, Problem};
+use super::problem::{DIFFERENCES, Ends, FAR, PRICE, Problem, WideRow};
 
 /// Intervals; the unknown control points are 3, 4, 5, and 6 with its two copies.
 const INTERVALS: usize = 6;
@@ -102,12 +102,26 @@ fn the_best_vertex_is_found() {
                 // One soft row, which can be kept and is worth its price.
                 bounds.push((row(3, &[0.0, 1.0]), limit));
             }
+            if axis == 1 {
+                bounds.push((row(3, &[0.3, -0.2, 0.5, 0.4]), limit));
+            }
             for (k, aim) in aims[axis].iter_mut().enumerate() {
                 *aim = lcg(&mut state) - 0.3;
                 problem.aims[3 + k][axis] = *aim;
             }
             best += best_vertex(&bounds, &aims[axis]);
         }
+        // A wide row on the other axis: the same bound, of points with parts of their own.
+        let parts = [0.3, -0.2, 0.5, 0.4].map(|part| [0.0, part]);
+        problem.wide_rows.push(WideRow {
+            first: 3,
+            parts,
+            ends: Ends {
+                low: -FAR,
+                high: limit,
+                price: PRICE,
+            },
+        });
         problem.add_site(3, [0.0, 1.0, 0.0, 0.0]);
         problem.add_row([1.0, 0.0], &[0.0; 2], [-FAR, limit]);
         let mut points = vec![[0.0; 2]; INTERVALS + 3];
