@@ -3,7 +3,7 @@
 // line, and the jobs that the machine has had.
 
 const FOLDER = { list: [], folder: '', trouble: '', chosen: null, search: '', sending: '', wanted: [] };
-const LOOK = { info: null, isLost: false, timer: 0, plan: null, motion: null, program: null, lines: [], key: '', at: {} };
+const LOOK = { info: null, lost: '', timer: 0, plan: null, motion: null, program: null, lines: [], key: '', at: {} };
 S.agree = null;
 async function fetchPrograms() {
   try {
@@ -27,18 +27,26 @@ function paintPrograms() {
 /* Nothing of the program before is shown with the name of this one. */
 function choose(name) {
   FOLDER.chosen = name; S.agree = null;
-  Object.assign(LOOK, { info: null, isLost: false, plan: null, motion: null, program: null, lines: [], key: '', at: {} });
-  usePlan(); lookAtChosen(); paintPrograms();
+  Object.assign(LOOK, { info: null, lost: '', plan: null, motion: null, program: null, lines: [], key: '', at: {} });
+  usePlan(); lookAtChosen('first'); paintPrograms();
 }
 DEEDS.choose = b => choose(b.dataset.name);
-async function lookAtChosen() {
+/* What is known of a program by now. `look` says whether it is looked at for the first time, again, or anew because it is
+   another text: only a few are remembered, and one that was given up for others is planned again only if somebody chooses it. */
+async function preview(name, look) {
+  try {
+    const answer = await fetch(`/api/preview?name=${encodeURIComponent(name)}${look === 'first' ? '' : `&look=${look}`}`, { headers: headers('application/json') }), said = await answer.json();
+    return answer.ok ? { info: said } : { lost: said.reason, isOver: true };
+  } catch { return { lost: 'It cannot be looked at now' }; }
+}
+async function lookAtChosen(look = LOOK.info ? 'again' : 'first') {
   clearTimeout(LOOK.timer);
   const name = FOLDER.chosen;
   if (!name || S.view !== 'programs') return;
-  const info = await api(`/api/preview?name=${encodeURIComponent(name)}`, 'json');
+  const { info = null, lost = '', isOver } = await preview(name, look);
   if (name !== FOLDER.chosen) return;
-  LOOK.info = info; LOOK.isLost = !info;
-  if (!info) LOOK.timer = setTimeout(lookAtChosen, 1000);
+  LOOK.info = info; LOOK.lost = lost;
+  if (lost && !isOver) LOOK.timer = setTimeout(lookAtChosen, 1000);
   if (info) {
     const wants = `${info.generation} ${!!info.program_path} ${!!info.report} ${!!info.failed}`;
     if (wants !== LOOK.key) {
@@ -49,7 +57,7 @@ async function lookAtChosen() {
       const columns = await get(info.report, '/api/preview/columns.bin'), path = await get(info.report, '/api/preview/path.bin'), whole = columns && path;
       // Another program may have been chosen meanwhile, or this one be another text.
       if (name !== FOLDER.chosen || LOOK.key !== wants) return;
-      // Another page may look at another program.
+      // It may have been given up meanwhile.
       if (!lines || !whole !== !info.report) LOOK.key = '';
       LOOK.plan = whole ? new Plan(columns) : null; LOOK.motion = whole ? new Track(path) : null; LOOK.program = program ? new Track(program) : null;
       LOOK.lines = lines || [];
@@ -71,7 +79,7 @@ function paintChosen() {
   fill($('#title'), `<b>${safe(name)}</b><span class="lab">${info && info.program ? `${grouped(info.program.lines)} lines` : ''}${info && info.seconds ? `, ${span(info.seconds)} of motion at 100 %` : info && !info.failed ? `, is planned: ${span(info.planned_so_far_s || 0)} so far` : ''}</span>`);
   fill($('#runkeys'), `${key('from-line', 'From line…', { why: notOperating() })}${key('run', 'Run', { press: SHORT, why, sub: 'press ½ s', data: `data-of="${safe(name)}"`, kind: why || (info && info.failed) ? '' : 'main' })}`);
   const failed = info && info.failed;
-  fill($('#found'), S.agree ? agreement() : failed ? `<div class="h"><b>${icon('warn', 'warn')} What was found</b></div>${findings(failed)}` : `<div class="h"><b>${info && info.report ? `${icon('ok', 'ok')} Nothing was found` : LOOK.isLost ? 'It cannot be looked at now' : 'It is read'}</b></div><pre class="lines">${safe((LOOK.lines || []).slice(0, 6).join('\n'))}</pre>`);
+  fill($('#found'), S.agree ? agreement() : failed ? `<div class="h"><b>${icon('warn', 'warn')} What was found</b></div>${findings(failed)}` : `<div class="h"><b>${info && info.report ? `${icon('ok', 'ok')} Nothing was found` : LOOK.lost ? safe(sentence(plain(LOOK.lost))) : 'It is read'}</b>${LOOK.lost ? key('choose', 'Look at it', { data: `data-name="${safe(name)}"` }) : ''}</div><pre class="lines">${safe((LOOK.lines || []).slice(0, 6).join('\n'))}</pre>`);
 }
 /* What is wrong with a program, each with its line of the text. */
 const MOST_FINDINGS = 100;

@@ -35,6 +35,15 @@ pub enum FileSource {
     Nurbs(Box<NurbsSource>),
 }
 
+/// A file that was looked at from its beginning to its end.
+#[derive(Debug)]
+pub struct LookedAt {
+    /// Which program it is: see [`ItemSource::fingerprint`]. A curve that cannot be understood has none: 0.
+    pub fingerprint: u64,
+    /// Its items, or all that is wrong with it.
+    pub source: Result<FileSource, Refusal>,
+}
+
 impl FileSource {
     /// A file that was checked, or is not to be.
     ///
@@ -53,9 +62,30 @@ impl FileSource {
     /// # Errors
     /// All diagnostics, if there is any; or why the file cannot be read.
     pub fn open(path: &Path, options: Options, settings: &Settings) -> Result<Self, Refusal> {
+        Self::look(path, options, settings)?.source
+    }
+
+    /// The same, with the fingerprint of the file also where something is wrong with it.
+    ///
+    /// # Errors
+    /// The file cannot be read.
+    pub fn look(path: &Path, options: Options, settings: &Settings) -> io::Result<LookedAt> {
         if !is_curve(path) {
-            return Ok(Self::Program(Box::new(ProgramSource::open(path, options)?)));
+            let (fingerprint, source) = ProgramSource::look(path, options)?;
+            return Ok(LookedAt {
+                fingerprint,
+                source: source.map(|source| Self::Program(Box::new(source))),
+            });
         }
+        let source = Self::open_curve(path, options, settings);
+        let fingerprint = source.as_ref().map_or(0, Self::fingerprint);
+        Ok(LookedAt {
+            fingerprint,
+            source,
+        })
+    }
+
+    fn open_curve(path: &Path, options: Options, settings: &Settings) -> Result<Self, Refusal> {
         let report = check_file(path, options.clone(), settings, &mut |_| {})?;
         if !report.diagnostics.is_empty() {
             return Err(Refusal::Program {

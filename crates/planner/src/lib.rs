@@ -117,7 +117,7 @@ pub use desk::{Answer, AnswerJournal, Answered, InputDesk};
 pub use epoch::Pace;
 pub use error::{Fault, RunError};
 pub use feed::{Fed, FeedError, Feeding, feed};
-pub use file::{FileSource, check_file, find_in_file};
+pub use file::{FileSource, LookedAt, check_file, find_in_file};
 pub use jobs::{Job, JobEnd, JobRunner};
 pub use listen::{Listening, listen, serve};
 pub use nurbs::NurbsSource;

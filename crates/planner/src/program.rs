@@ -240,6 +240,14 @@ impl ProgramSource<BufReader<UnchangedFile>> {
     /// All diagnostics, if there is any; that the program could not be checked to its end, unless
     /// it may be run all the same; or why the file cannot be read.
     pub fn open(path: &Path, options: Options) -> Result<Self, Refusal> {
+        Self::look(path, options)?.1
+    }
+
+    /// The fingerprint of a file, and the same as [`Self::open`].
+    ///
+    /// # Errors
+    /// The file cannot be read.
+    pub(crate) fn look(path: &Path, options: Options) -> io::Result<(u64, Result<Self, Refusal>)> {
         let mut file = UnchangedFile::open(path)?;
         let mut reader = Fingerprinting::new(&mut file);
         let found = diagnostics(
@@ -254,21 +262,25 @@ impl ProgramSource<BufReader<UnchangedFile>> {
             reader.add(&file.text);
         }
         let fingerprint = reader.fingerprint();
-        if !found.diagnostics.is_empty() {
-            return Err(Refusal::Program {
+        let may_run = options.loops.may_run_unchecked;
+        let refusal = if !found.diagnostics.is_empty() {
+            Some(Refusal::Program {
                 diagnostics: found.diagnostics,
                 unlisted: found.more,
-            });
-        }
-        let may_run = options.loops.may_run_unchecked;
-        if let Some(line) = found.given_up_at.filter(|_| !may_run) {
-            return Err(Refusal::Unchecked { line });
+            })
+        } else {
+            let given_up_at = found.given_up_at.filter(|_| !may_run);
+            given_up_at.map(|line| Refusal::Unchecked { line })
+        };
+        if let Some(refusal) = refusal {
+            return Ok((fingerprint, Err(refusal)));
         }
         file.rewind()?;
-        Ok(Self {
+        let source = Self {
             fingerprint,
             ..Self::new(BufReader::with_capacity(BUFFER, file), options)
-        })
+        };
+        Ok((fingerprint, Ok(source)))
     }
 }
 

@@ -3,14 +3,18 @@
 
 use super::fitting::{is_all_that_is_wrong, without_travel};
 use super::program_diagnostics::refusal_text;
+use super::reading::for_program;
+use super::text_lines::TextLines;
 use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::file_error::FileError;
 use crate::kept::read::{read, set_up, set_up_as_begun};
 use crate::plan_steps::PlanSteps;
+use crate::program_file::ProgramFile;
 use crate::report::Place;
+use glidepath_gcode::ReadingWatch;
 use glidepath_link::Status;
-use glidepath_planner::{FileSource, ItemSource as _, Refusal, Step};
+use glidepath_planner::{FileSource, Refusal, Step};
 use glidepath_program::{Frame, Item};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -30,12 +34,23 @@ struct Begin {
     path_s: f64,
 }
 
+/// What a program is planned for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum PlannedFor {
+    /// To know where a machine is in it. With its fingerprint, where the machine executes it: then it is planned with
+    /// what it began with.
+    Following(Option<u64>),
+    /// To be looked at. Where a machine is in it is not known.
+    Preview,
+}
+
 /// What is known of the plan so far.
 #[derive(Debug, Default)]
 struct Plan {
     /// Which program it is, once that is known.
     fingerprint: Option<u64>,
-    begins: Vec<Begin>,
+    /// Where blocks begin, if a machine is followed in it.
+    begins: Option<Vec<Begin>>,
     frames: u64,
     path_s: f64,
     /// The whole program was planned.
@@ -68,39 +83,47 @@ impl Spectator for () {}
 /// A program that is planned in the background.
 pub(super) struct Forecast {
     name: String,
-    lines: Vec<String>,
+    lines: TextLines,
     period_t: f64,
     plan: Arc<Mutex<Plan>>,
     over: Arc<AtomicBool>,
+    /// Ends the reading of a program that is not wanted any more.
+    watch: ReadingWatch,
     planner: Option<JoinHandle<()>>,
 }
 
 impl Forecast {
-    /// Begins to plan a program before a spectator. `begun` is its fingerprint, if the machine executes it:
-    /// then it is planned with what it began with.
+    /// Begins to plan a program before a spectator.
     pub(super) fn start(
         path: &Path,
         config: &MachineConfig,
-        begun: Option<u64>,
+        planned_for: PlannedFor,
         mut spectator: impl Spectator + 'static,
     ) -> Result<Self, Failure> {
         let size = std::fs::metadata(path)
             .map_err(FileError::open(path))?
             .len();
-        let text = if size <= MOST_TEXT {
-            let bytes = std::fs::read(path).map_err(FileError::open(path))?;
-            String::from_utf8_lossy(&bytes).into_owned()
+        let lines = if size <= MOST_TEXT {
+            TextLines::of(std::fs::read(path).map_err(FileError::open(path))?)
         } else {
-            String::new()
+            TextLines::default()
         };
         // Read as the planner does: with the offsets that the machine keeps.
-        let mut machine = config.clone();
+        let mut machine = for_program(&ProgramFile::named(path), config);
         if let Ok(Some(kept)) = read(config) {
             set_up(&mut machine, &kept);
-            // Of one that is not under way any more, what is kept now is all that is known.
-            let _known = begun.map(|program| set_up_as_begun(&mut machine, &kept, program));
+            if let PlannedFor::Following(Some(program)) = planned_for {
+                // Of one that is not under way any more, what is kept now is all that is known.
+                let _known = set_up_as_begun(&mut machine, &kept, program);
+            }
         }
-        let (plan, over) = (Arc::<Mutex<Plan>>::default(), Arc::<AtomicBool>::default());
+        let watch = ReadingWatch::default();
+        machine.program.watch = Some(watch.clone());
+        let plan = Plan {
+            begins: (planned_for != PlannedFor::Preview).then(Vec::new),
+            ..Plan::default()
+        };
+        let (plan, over) = (Arc::new(Mutex::new(plan)), Arc::<AtomicBool>::default());
         let planner = {
             let (path, plan, over) = (path.to_owned(), Arc::clone(&plan), Arc::clone(&over));
             std::thread::spawn(move || {
@@ -110,17 +133,24 @@ impl Forecast {
         };
         Ok(Self {
             name: path.display().to_string(),
-            lines: text.lines().map(str::to_owned).collect(),
+            lines,
             period_t: config.period_t(),
             plan,
             over,
+            watch,
             planner: Some(planner),
         })
     }
 
     /// Lines of its text; none if it is too long.
-    pub(super) fn lines(&self) -> &[String] {
+    pub(super) const fn lines(&self) -> &TextLines {
         &self.lines
+    }
+
+    /// Which program it is; `None` while that is not known, and of a file that cannot be read.
+    pub(super) fn fingerprint(&self) -> Option<u64> {
+        let plan = self.plan.lock().unwrap_or_else(PoisonError::into_inner);
+        plan.fingerprint
     }
 
     /// Frames planned so far.
@@ -154,7 +184,7 @@ impl Forecast {
     /// Where a machine is in the program; `None` if it executes another one.
     pub(super) fn place(&self, status: &Status) -> Option<Place> {
         let line = usize::try_from(status.line).ok()?.checked_sub(1);
-        let text = line.and_then(|line| self.lines.get(line)).cloned();
+        let text = line.and_then(|line| self.lines.get(line));
         let plan = self.plan.lock().unwrap_or_else(PoisonError::into_inner);
         if plan.fingerprint != Some(status.program) {
             return None;
@@ -164,7 +194,7 @@ impl Forecast {
         let time = |frames: u64| self.time(frames);
         Some(Place {
             program: self.name.clone(),
-            text: text.unwrap_or_default(),
+            text: text.unwrap_or_default().to_owned(),
             planned_t: whole.map(time),
             elapsed_t: now.map(time),
             has_failed: plan.has_failed,
@@ -175,6 +205,7 @@ impl Forecast {
 impl Drop for Forecast {
     fn drop(&mut self) {
         self.over.store(true, Ordering::Relaxed);
+        self.watch.end();
         // What a planner that failed had to say is said.
         let _ended = self.planner.take().map(JoinHandle::join);
     }
@@ -187,9 +218,14 @@ fn work(
     (plan, over): (&Mutex<Plan>, &AtomicBool),
     spectator: &mut impl Spectator,
 ) -> Option<String> {
+    // What was found is of that text, too.
     let open = |config: &MachineConfig| {
         let options = config.program_options(config.home());
-        FileSource::open(path, options, &config.settings())
+        let looked = FileSource::look(path, options, &config.settings())?;
+        let mut plan = plan.lock().unwrap_or_else(PoisonError::into_inner);
+        plan.fingerprint = Some(looked.fingerprint).filter(|fingerprint| *fingerprint != 0);
+        plan.has_failed = looked.source.is_err();
+        looked.source
     };
     let wide = without_travel(config);
     let (source, config, beyond) = match open(config) {
@@ -202,10 +238,6 @@ fn work(
         // The planner said what is wrong with it.
         Err(refusal) => return Some(refusal_text(&refusal)),
     };
-    {
-        let mut plan = plan.lock().unwrap_or_else(PoisonError::into_inner);
-        plan.fingerprint = Some(source.fingerprint());
-    }
     let mut steps = PlanSteps::on_one_core(source, config, config.home());
     while !over.load(Ordering::Relaxed) {
         let step = steps.step();
@@ -242,18 +274,18 @@ impl Plan {
     fn take(&mut self, frame: &Frame) {
         self.frames = frame.sequence + 1;
         self.path_s = frame.path_s;
-        if self
-            .begins
-            .last()
-            .is_none_or(|last| last.block != frame.block)
-        {
-            self.begins.push(Begin {
+        let Some(begins) = &mut self.begins else {
+            return;
+        };
+        let last = begins.last();
+        if last.is_none_or(|last| last.block != frame.block) {
+            begins.push(Begin {
                 block: frame.block,
                 sequence: frame.sequence,
                 path_s: frame.path_s,
             });
         }
-        self.has_failed = self.begins.len() > MOST_BLOCKS;
+        self.has_failed = begins.len() > MOST_BLOCKS;
     }
 
     /// The planned frame of what is executed: by the block and the part of its path that is done, so
@@ -265,11 +297,10 @@ impl Plan {
         reason = "counts of frames are exact, and a part of them is below"
     )]
     fn sequence(&self, status: &Status) -> Option<u64> {
-        let at = self
-            .begins
-            .partition_point(|begin| begin.block <= status.block);
-        let begin = self.begins.get(at.checked_sub(1)?)?;
-        let (end, end_s) = match self.begins.get(at) {
+        let begins = self.begins.as_ref()?;
+        let at = begins.partition_point(|begin| begin.block <= status.block);
+        let begin = begins.get(at.checked_sub(1)?)?;
+        let (end, end_s) = match begins.get(at) {
             Some(next) => (next.sequence, next.path_s),
             None => (self.frames, self.path_s),
         };

@@ -48,6 +48,7 @@ mod servo;
 mod session;
 mod subroutines;
 mod telemetry;
+mod text_lines;
 mod tool_names;
 mod watch;
 mod workshop;

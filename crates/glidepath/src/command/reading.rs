@@ -60,23 +60,45 @@ pub(super) fn settle(command: &Command, config: &mut MachineConfig) -> Result<()
         if !(matches!(command, Command::Planner(_)) && file.is_standard_input()) {
             file.open()?;
         }
-        *config = for_program(file, config);
+        // A page shows one program after the other, each read as its own.
+        if !matches!(command, Command::Live(_)) {
+            *config = for_program(file, config);
+        }
     }
     Ok(())
 }
 
-/// The configuration for one program: its dialect is settled, and where its subroutines are.
+/// The configuration for one program: its dialect is settled, and where its subroutines are. A dialect that nobody
+/// asked for is said.
 pub(super) fn for_program(file: &ProgramFile, config: &MachineConfig) -> MachineConfig {
+    let (config, line) = for_program_silently(file, config);
+    if let (Some(dialect), Some(line)) = (config.program.dialect, line) {
+        output::note(&format!(
+            "{}: read as a program of the dialect {dialect}, because of line {line}; --dialect says \
+             otherwise",
+            file.name().display()
+        ));
+    }
+    config
+}
+
+/// The same, with the line that tells the dialect, if one does.
+pub(super) fn for_program_silently(
+    file: &ProgramFile,
+    config: &MachineConfig,
+) -> (MachineConfig, Option<u32>) {
     let program = &config.program;
+    let (dialect, line) = dialect(file, config);
     let found = || subroutines(file.in_folder(), &program.subroutine_path);
-    MachineConfig {
+    let config = MachineConfig {
         program: ProgramConfig {
-            dialect: Some(dialect(file, config)),
+            dialect: Some(dialect),
             subroutines: Some(program.subroutines.clone().unwrap_or_else(found)),
             ..program.clone()
         },
         ..config.clone()
-    }
+    };
+    (config, line)
 }
 
 /// Says what joints leave of the axes' limits where nobody looks at the joints, if that is not all.
@@ -102,23 +124,15 @@ fn tool_table(path: &Path) -> Result<ToolTable, Failure> {
     })
 }
 
-/// The dialect of a program: the one asked for, or the one its beginning is in, which is said.
-fn dialect(program: &ProgramFile, config: &MachineConfig) -> Dialect {
+/// The dialect of a program: the one asked for, or the one its beginning is in, with the line that tells it.
+fn dialect(program: &ProgramFile, config: &MachineConfig) -> (Dialect, Option<u32>) {
     if let Some(dialect) = config.program.dialect {
-        return dialect;
+        return (dialect, None);
     }
     let mut beginning = Vec::new();
     // A file that cannot be read is reported where it is opened to be executed.
     if let Ok(file) = File::open(program.path()) {
         file.take(BEGINNING).read_to_end(&mut beginning).ok();
     }
-    let (dialect, line) = Dialect::detect(&beginning);
-    if let Some(line) = line {
-        output::note(&format!(
-            "{}: read as a program of the dialect {dialect}, because of line {line}; --dialect says \
-             otherwise",
-            program.name().display()
-        ));
-    }
-    dialect
+    Dialect::detect(&beginning)
 }

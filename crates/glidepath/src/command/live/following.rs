@@ -12,7 +12,7 @@ use super::planned::{self, Planned, Reading};
 use super::shown::Shown;
 use crate::command::active_program::active_program;
 use crate::command::failure::Failure;
-use crate::command::forecast::Forecast;
+use crate::command::forecast::{Forecast, PlannedFor};
 use crate::config::MachineConfig;
 use crate::kept::read::read;
 use crate::report::Place;
@@ -83,7 +83,8 @@ impl Following {
         let board = self.shown.begin(Some(name));
         let planned = Planned::new(&self.config, board.clone());
         let begun = fingerprint.and_then(|program| begun(&self.config, program));
-        let forecast = Forecast::start(path, &self.config, fingerprint, planned)?;
+        let planned_for = PlannedFor::Following(fingerprint);
+        let forecast = Forecast::start(path, &self.config, planned_for, planned)?;
         board.text(forecast.lines());
         let reading = planned::read(path, &self.config, board);
         Ok(Followed {

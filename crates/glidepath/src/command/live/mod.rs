@@ -23,6 +23,7 @@ mod order;
 mod pages;
 mod planned;
 mod preview;
+mod query;
 mod set_up;
 mod shown;
 

@@ -4,7 +4,8 @@ use super::folder::{Folder, FolderError, Piece};
 use super::job_desk::{Handed, JobDesk, Wanted};
 use super::jogger::{Hand, Jogger};
 use super::order::{Given, Order, by_axis};
-use super::preview::Preview;
+use super::preview::{Look, Preview};
+use super::query::{decoded, parameter};
 use super::set_up::SetUp;
 use super::shown::Shown;
 use crate::command::operator::PATIENCE;
@@ -235,11 +236,21 @@ impl Pages {
 
     fn preview(&self, query: &str) -> Option<Answer> {
         let name = decoded(parameter(query, "name")?)?;
+        let look = match parameter(query, "look") {
+            None => Look::First,
+            Some("again") => Look::Again,
+            Some("anew") => Look::Anew,
+            Some(_) => return None,
+        };
         let found = self.folder().map(|folder| folder.file(&name));
         Some(match found {
             Ok(Ok(file)) => {
                 let version = self.set_up.version();
-                object(&self.preview.object(&file, &name, version))
+                let known = self.preview.object((&file, &name), version, look);
+                known.map_or_else(
+                    |given_up| refusal(&(Status::NotFound, given_up.to_string())),
+                    |known| object(&known),
+                )
             }
             Ok(Err(error)) => refusal(&not_now(error.to_string())),
             Err(refused) => refusal(&refused),
@@ -315,7 +326,10 @@ impl Site for Pages {
             "programs" => Some(self.programs()),
             "preview" => self.preview(query),
             what => match what.strip_prefix("preview/") {
-                Some(what) => part(self.preview.shown(), what, query),
+                Some(what) => {
+                    let of = parameter(query, "of")?.parse().ok()?;
+                    part(&*self.preview.shown(of)?, what, query)
+                }
                 None => part(&self.shown, what, query),
             },
         }
@@ -344,47 +358,6 @@ fn refusal((status, reason): &(Status, String)) -> Answer {
     object(&json!({ "accepted": false, "reason": reason })).with(*status)
 }
 
-/// A parameter of a query.
-fn parameter<'q>(query: &'q str, name: &str) -> Option<&'q str> {
-    let mut pairs = query.split('&').filter_map(|pair| pair.split_once('='));
-    pairs.find(|(key, _)| *key == name).map(|(_, value)| value)
-}
-
-/// A parameter as it was before it was put into an address.
-fn decoded(text: &str) -> Option<String> {
-    let (mut bytes, mut rest) = (Vec::new(), text.as_bytes());
-    while let Some((first, after)) = rest.split_first() {
-        rest = after;
-        if *first != b'%' {
-            bytes.push(*first);
-            continue;
-        }
-        let (digits, after) = rest.split_at_checked(2)?;
-        rest = after;
-        bytes.push(u8::from_str_radix(str::from_utf8(digits).ok()?, 16).ok()?);
-    }
-    String::from_utf8(bytes).ok()
-}
-
 fn object(value: &Value) -> Answer {
     Answer::new(ContentType::Json, value.to_string().into_bytes())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_parameter_is_read_as_it_was_written() {
-        let query = "name=a%20b%C3%A4.ngc&at=12";
-        assert_eq!(
-            decoded(parameter(query, "name").unwrap()).unwrap(),
-            "a bä.ngc"
-        );
-        assert_eq!(parameter(query, "at"), Some("12"));
-        assert_eq!(parameter(query, "size"), None);
-        for broken in ["%", "%2", "%zz", "%ff"] {
-            assert_eq!(decoded(broken), None, "{broken}");
-        }
-    }
 }

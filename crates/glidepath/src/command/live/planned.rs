@@ -2,12 +2,15 @@
 
 use super::shown::{Board, WholePlan};
 use crate::command::forecast::Spectator;
+use crate::command::reading::for_program_silently;
 use crate::config::MachineConfig;
 use crate::page;
+use crate::program_file::ProgramFile;
 use crate::report::DiagnosisReport;
 use crate::sample::Sample;
 use glidepath_audit::AuditSettings;
 use glidepath_audit::diagnosis::Diagnosis;
+use glidepath_gcode::ReadingWatch;
 use glidepath_kinematics::JointVector;
 use glidepath_live::Motion;
 use glidepath_planner::{FileSource, ItemSource as _, Supply};
@@ -81,12 +84,14 @@ impl Spectator for Planned {
 /// this is dropped.
 pub(super) struct Reading {
     over: Arc<AtomicBool>,
+    watch: ReadingWatch,
     thread: Option<JoinHandle<()>>,
 }
 
 impl Drop for Reading {
     fn drop(&mut self) {
         self.over.store(true, Ordering::Relaxed);
+        self.watch.end();
         let _ended = self.thread.take().map(JoinHandle::join);
     }
 }
@@ -94,7 +99,11 @@ impl Drop for Reading {
 /// Reads a program for its path.
 pub(super) fn read(path: &Path, config: &MachineConfig, board: Board) -> Reading {
     let over = Arc::<AtomicBool>::default();
-    let (path, config) = (path.to_owned(), config.clone());
+    let watch = ReadingWatch::default();
+    // Its subroutines are read apart from those of the plan, whose fingerprint is made of them.
+    let (mut config, _) = for_program_silently(&ProgramFile::named(path), config);
+    let path = path.to_owned();
+    config.program.watch = Some(watch.clone());
     let flag = Arc::clone(&over);
     let thread = std::thread::spawn(move || {
         let options = config.program_options(config.home());
@@ -119,5 +128,9 @@ pub(super) fn read(path: &Path, config: &MachineConfig, board: Board) -> Reading
         }
     });
     let thread = Some(thread);
-    Reading { over, thread }
+    Reading {
+        over,
+        watch,
+        thread,
+    }
 }

@@ -1,20 +1,43 @@
-//! The preview of a program of the folder before it runs: its text, its path, how long it takes,
-//! and what is wrong with it. One at a time, the one that was asked for last.
+//! Previews of programs of the folder before they run: their texts, their paths, how long they take,
+//! and what is wrong with them.
+//!
+//! A program is planned once, for all pages that look at it. A few are remembered; the one that nobody has
+//! asked for for the longest time is given up for another one. A page that looks at it is told so, and does
+//! not have it planned again: else pages that look at different programs would have each other's planned for
+//! ever.
 
 use super::planned::{self, Planned, Reading};
 use super::shown::Shown;
-use crate::command::forecast::Forecast;
+use crate::command::forecast::{Forecast, PlannedFor};
 use crate::config::MachineConfig;
 use serde_json::Value;
+use std::collections::VecDeque;
 use std::path::Path;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::SystemTime;
 
-/// The program that is looked at.
+/// Programs that are remembered.
+const MOST: usize = 4;
+/// Text of all of them, bytes. The one that was asked for last is remembered whatever its length.
+const MOST_TEXT: usize = 64 << 20;
+
+/// The program is not looked at any more.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("other programs have been looked at since, and this one was given up: choose it again")]
+pub(super) struct GivenUp;
+
+/// The programs that are looked at.
 pub(super) struct Preview {
     config: MachineConfig,
-    shown: Arc<Shown>,
-    looked_at: Mutex<Option<LookedAt>>,
+    known: Mutex<Known>,
+}
+
+#[derive(Default)]
+struct Known {
+    /// How many programs were looked at.
+    count: u64,
+    /// The one asked for last is the first.
+    looked_at: VecDeque<LookedAt>,
 }
 
 /// A file as it was when it was looked at.
@@ -29,26 +52,52 @@ struct Stamp {
 
 struct LookedAt {
     stamp: Stamp,
+    shown: Arc<Shown>,
     forecast: Option<Forecast>,
     _reading: Option<Reading>,
+}
+
+/// A page's look at a program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Look {
+    /// It was chosen.
+    First,
+    /// It is looked at already, and asked how far it is.
+    Again,
+    /// What is known of it is not true any more.
+    Anew,
 }
 
 impl Preview {
     pub(super) fn new(config: &MachineConfig) -> Self {
         Self {
             config: config.clone(),
-            shown: Arc::new(Shown::new(Value::Null)),
-            looked_at: Mutex::default(),
+            known: Mutex::default(),
         }
     }
 
-    /// Where numbers and lines of it are.
-    pub(super) const fn shown(&self) -> &Arc<Shown> {
-        &self.shown
+    fn known(&self) -> MutexGuard<'_, Known> {
+        self.known.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Where numbers and lines of a program are, by its generation; `None` if it was given up.
+    pub(super) fn shown(&self, generation: u64) -> Option<Arc<Shown>> {
+        let known = self.known();
+        let mut all = known.looked_at.iter();
+        let found = all.find(|it| it.shown.generation() == generation);
+        found.map(|it| Arc::clone(&it.shown))
     }
 
     /// What is known of a program so far. `set_up` counts the changes of what is kept.
-    pub(super) fn object(&self, file: &Path, name: &str, set_up: u64) -> Value {
+    ///
+    /// # Errors
+    /// It is asked for again, and was given up.
+    pub(super) fn object(
+        &self,
+        (file, name): (&Path, &str),
+        set_up: u64,
+        look: Look,
+    ) -> Result<Value, GivenUp> {
         let about = file.metadata().ok();
         let stamp = Stamp {
             name: name.to_owned(),
@@ -56,46 +105,194 @@ impl Preview {
             changed: about.and_then(|about| about.modified().ok()),
             set_up,
         };
-        let mut looked_at = self
-            .looked_at
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner);
-        if looked_at.as_ref().is_none_or(|it| it.stamp != stamp) {
-            let before = looked_at.replace(self.look_at(file, stamp));
-            // It ends in its own time: it may be reading a long text.
-            std::thread::spawn(move || drop(before));
+        let mut known = self.known();
+        let at = known.looked_at.iter().position(|it| it.stamp.name == name);
+        let before = at.and_then(|at| known.looked_at.remove(at));
+        if before.is_none() && look == Look::Again {
+            return Err(GivenUp);
         }
-        let forecast = looked_at.as_ref().and_then(|it| it.forecast.as_ref());
-        let (planned_t, so_far_t) = forecast.map_or((None, 0.0), |forecast| {
-            (forecast.planned_t(), forecast.so_far_t())
-        });
-        drop(looked_at);
-        let mut object = self.shown.object();
-        object["seconds"] = planned_t.into();
-        object["planned_so_far_s"] = so_far_t.into();
-        object
-    }
-
-    fn look_at(&self, file: &Path, stamp: Stamp) -> LookedAt {
-        let board = self.shown.begin(Some(&stamp.name));
-        let planned = Planned::new(&self.config, board.clone());
-        let forecast = match Forecast::start(file, &self.config, None, planned) {
-            Ok(forecast) => forecast,
-            Err(failure) => {
-                board.trouble(&failure.to_string());
-                return LookedAt {
-                    stamp,
-                    forecast: None,
-                    _reading: None,
-                };
+        let is_known = |it: &LookedAt| it.stamp == stamp && look != Look::Anew;
+        let (looked_at, given_up) = match before {
+            Some(it) if is_known(&it) => (it, None),
+            before => {
+                known.count += 1;
+                (self.look_at(file, stamp, known.count), before)
             }
         };
-        board.text(forecast.lines());
-        let reading = planned::read(file, &self.config, board);
+        let object = looked_at.object();
+        known.looked_at.push_front(looked_at);
+        let given_up: Vec<LookedAt> = given_up.into_iter().chain(known.beyond()).collect();
+        drop(known);
+        if !given_up.is_empty() {
+            // They end in their own time: at the next line that they read.
+            std::thread::spawn(move || drop(given_up));
+        }
+        Ok(object)
+    }
+
+    fn look_at(&self, file: &Path, stamp: Stamp, number: u64) -> LookedAt {
+        let shown = Arc::new(Shown::new(Value::Null));
+        let board = shown.begin_with(number, &stamp.name);
+        let planned = Planned::new(&self.config, board.clone());
+        let (forecast, reading) =
+            match Forecast::start(file, &self.config, PlannedFor::Preview, planned) {
+                Ok(forecast) => {
+                    board.text(forecast.lines());
+                    let reading = planned::read(file, &self.config, board);
+                    (Some(forecast), Some(reading))
+                }
+                Err(failure) => {
+                    board.trouble(&failure.to_string());
+                    (None, None)
+                }
+            };
         LookedAt {
             stamp,
-            forecast: Some(forecast),
-            _reading: Some(reading),
+            shown,
+            forecast,
+            _reading: reading,
+        }
+    }
+}
+
+impl Known {
+    /// Takes out what is not remembered any more.
+    fn beyond(&mut self) -> VecDeque<LookedAt> {
+        let mut bytes = 0;
+        let too_long = self.looked_at.iter().position(|it| {
+            let before = bytes;
+            bytes += it.bytes();
+            before > 0 && bytes > MOST_TEXT
+        });
+        let keep = too_long.unwrap_or(MOST).min(MOST);
+        self.looked_at.split_off(keep.min(self.looked_at.len()))
+    }
+}
+
+impl LookedAt {
+    fn bytes(&self) -> usize {
+        let forecast = self.forecast.as_ref();
+        forecast.map_or(0, |forecast| forecast.lines().bytes())
+    }
+
+    fn object(&self) -> Value {
+        let forecast = self.forecast.as_ref();
+        let mut object = self.shown.object();
+        object["seconds"] = forecast.and_then(Forecast::planned_t).into();
+        object["planned_so_far_s"] = forecast.map_or(0.0, Forecast::so_far_t).into();
+        // In a text: numbers of pages are exact up to 2⁵³ only.
+        let fingerprint = forecast.and_then(Forecast::fingerprint);
+        object["fingerprint"] = fingerprint.map(|it| format!("{it:016x}")).into();
+        object
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Generations of what is known of programs, by their names.
+    struct Desk {
+        preview: Preview,
+        place: tempfile::TempDir,
+    }
+
+    impl Desk {
+        fn new(names: &[&str]) -> Self {
+            let desk = Self {
+                preview: Preview::new(&crate::config::load(None).unwrap()),
+                place: tempfile::tempdir().unwrap(),
+            };
+            for name in names {
+                desk.write(name, "G21 G90 F600\nG1 X5\nM2\n");
+            }
+            desk
+        }
+
+        fn write(&self, name: &str, text: &str) {
+            std::fs::write(self.place.path().join(name), text).unwrap();
+        }
+
+        fn look(&self, name: &str, look: Look) -> Result<u64, GivenUp> {
+            let file = self.place.path().join(name);
+            let object = self.preview.object((&file, name), 1, look)?;
+            Ok(object["generation"].as_u64().unwrap())
+        }
+    }
+
+    #[test]
+    fn programs_that_are_looked_at_side_by_side_are_planned_once() {
+        let desk = Desk::new(&["a", "b"]);
+        let first = desk.look("a", Look::First).unwrap();
+        let second = desk.look("b", Look::First).unwrap();
+        for _ in 0..5 {
+            assert_eq!(desk.look("a", Look::Again), Ok(first));
+            assert_eq!(desk.look("b", Look::Again), Ok(second));
+        }
+        // Another page that chooses one is shown the same plan.
+        assert_eq!(desk.look("a", Look::First), Ok(first));
+        for generation in [first, second] {
+            assert!(desk.preview.shown(generation).is_some());
+        }
+        // Another text is another program, and so is one of which somebody has heard that it is.
+        desk.write("a", "G21 G90 F600\nG1 X5 Y5\nM2\n");
+        let other = desk.look("a", Look::Again).unwrap();
+        assert!(other > second);
+        assert!(desk.look("a", Look::Anew).unwrap() > other);
+        assert!(desk.preview.shown(first).is_none());
+    }
+
+    #[test]
+    fn the_program_that_was_asked_for_least_recently_is_given_up_for_good() {
+        let names = ["a", "b", "c", "d", "e"];
+        let desk = Desk::new(&names);
+        let seen: Vec<u64> = names[..4]
+            .iter()
+            .map(|name| desk.look(name, Look::First).unwrap())
+            .collect();
+        assert_eq!(desk.look("a", Look::Again), Ok(seen[0]));
+        let fifth = desk.look("e", Look::First).unwrap();
+        assert_eq!(desk.look("b", Look::Again), Err(GivenUp));
+        assert!(desk.preview.shown(seen[1]).is_none());
+        // Whoever asks for it again and again disturbs nobody.
+        for (name, generation) in [("a", seen[0]), ("c", seen[2]), ("e", fifth)] {
+            assert_eq!(desk.look("b", Look::Again), Err(GivenUp));
+            assert_eq!(desk.look(name, Look::Again), Ok(generation), "{name}");
+        }
+        assert!(desk.look("b", Look::First).unwrap() > fifth);
+    }
+
+    #[test]
+    fn long_texts_are_remembered_one_at_a_time() {
+        let desk = Desk::new(&["short"]);
+        let long = "(a remark)\n".repeat(MOST_TEXT / 2 / 11 + 1);
+        desk.write("long", &long);
+        desk.write("longer", &long);
+        let short = desk.look("short", Look::First).unwrap();
+        let first = desk.look("long", Look::First).unwrap();
+        assert_eq!(desk.look("short", Look::Again), Ok(short));
+        assert_eq!(desk.look("long", Look::Again), Ok(first));
+        let _second = desk.look("longer", Look::First).unwrap();
+        assert_eq!(desk.look("long", Look::Again), Err(GivenUp));
+    }
+
+    #[test]
+    fn a_program_has_its_fingerprint_also_where_something_is_wrong_with_it() {
+        let desk = Desk::new(&["right"]);
+        desk.write("wrong", "G21 G90\nG1 X5 Q\n");
+        for name in ["right", "wrong"] {
+            let file = desk.place.path().join(name);
+            let begun = std::time::Instant::now();
+            let fingerprint = loop {
+                let look = Look::First;
+                let object = desk.preview.object((&file, name), 1, look).unwrap();
+                if let Some(fingerprint) = object["fingerprint"].as_str() {
+                    break fingerprint.to_owned();
+                }
+                assert!(begun.elapsed().as_secs() < 60, "{object}");
+                std::thread::sleep(std::time::Duration::from_millis(5));
+            };
+            assert_eq!(fingerprint.len(), 16, "{name}");
         }
     }
 }

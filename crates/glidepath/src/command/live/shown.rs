@@ -1,5 +1,6 @@
 //! The state that pages can ask for, as far as it is known: of one program at a time.
 
+use crate::command::text_lines::TextLines;
 use serde_json::{Value, json};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -13,8 +14,7 @@ struct Known {
     /// Which program of those that were shown it is.
     generation: u64,
     name: Option<String>,
-    lines: u64,
-    text: Vec<String>,
+    text: TextLines,
     program_path: Option<Numbers>,
     columns: Option<Numbers>,
     path: Option<Numbers>,
@@ -51,14 +51,23 @@ impl Shown {
     /// Forgets the program before, and shows another one, or none. What is still found out of the one
     /// before is dropped.
     pub(super) fn begin(self: &Arc<Self>, name: Option<&str>) -> Board {
+        let generation = self.generation() + 1;
+        self.begin_at(generation, name)
+    }
+
+    /// The same with a number of its own, by which it is told from those that others show.
+    pub(super) fn begin_with(self: &Arc<Self>, generation: u64, name: &str) -> Board {
+        self.begin_at(generation, Some(name))
+    }
+
+    fn begin_at(self: &Arc<Self>, generation: u64, name: Option<&str>) -> Board {
         let mut known = self.known();
         *known = Known {
             version: known.version + 1,
-            generation: known.generation + 1,
+            generation,
             name: name.map(str::to_owned),
             ..Known::default()
         };
-        let generation = known.generation;
         drop(known);
         let shown = Arc::clone(self);
         Board { shown, generation }
@@ -79,7 +88,7 @@ impl Shown {
         let program = known.name.as_ref();
         json!({
             "machine": self.machine,
-            "program": program.map(|name| json!({ "name": name, "lines": known.lines })),
+            "program": program.map(|name| json!({ "name": name, "lines": known.text.count() })),
             "program_path": known.program_path.is_some(),
             "report": known.report,
             "failed": known.trouble,
@@ -92,7 +101,7 @@ impl Shown {
     pub(super) fn lines(&self, of: u64, from: usize, count: usize) -> Option<Value> {
         let first = from.saturating_sub(1);
         self.of(of, |known| {
-            Some(known.text.iter().skip(first).take(count).cloned().collect())
+            Some(known.text.from(first).take(count).collect())
         })
     }
 
@@ -134,11 +143,8 @@ impl Board {
     }
 
     /// The text of the program.
-    pub(super) fn text(&self, lines: &[String]) {
-        self.put(|known| {
-            known.text = lines.to_vec();
-            known.lines = lines.len() as u64;
-        });
+    pub(super) fn text(&self, lines: &TextLines) {
+        self.put(|known| known.text = lines.clone());
     }
 
     /// The programmed path.
@@ -169,17 +175,18 @@ mod tests {
     fn what_is_found_out_of_another_program_is_dropped() {
         let shown = Arc::new(Shown::new(Value::Null));
         let first = shown.begin(Some("first.ngc"));
-        first.text(&["G0 X1".to_owned()]);
+        let text = |text: &str| TextLines::of(text.as_bytes().to_vec());
+        first.text(&text("G0 X1"));
         let second = shown.begin(Some("second.ngc"));
         let before = shown.object();
-        first.text(&["G0 X2".to_owned()]);
+        first.text(&text("G0 X2"));
         first.program(vec![1]);
         first.trouble("it is no more");
         assert_eq!(shown.object(), before);
         assert_eq!(shown.lines(1, 1, 9), None);
         assert_eq!(shown.lines(2, 1, 9), Some(json!([])));
         assert!(shown.program_path(2).is_none());
-        second.text(&["G0 X3".to_owned(), "M2".to_owned()]);
+        second.text(&text("G0 X3\nM2\n"));
         assert_eq!(shown.object()["program"]["lines"], 2);
         assert_eq!(shown.lines(2, 2, 9), Some(json!(["M2"])));
         assert!(shown.version() > before["version"].as_u64().unwrap());

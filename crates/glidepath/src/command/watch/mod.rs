@@ -3,7 +3,7 @@
 mod history;
 
 use super::active_program::active_program;
-use super::forecast::Forecast;
+use super::forecast::{Forecast, PlannedFor};
 use super::kept_offsets::KeptOffsets;
 use super::operator::{of_link, reach};
 use super::session;
@@ -44,7 +44,12 @@ pub(super) fn watch(args: &StatusArgs, config: &MachineConfig) -> Result<Exit, F
     let link = session::link(&instance, config);
     let operator = reach(&link)?;
     let forecast = match &args.program {
-        Some(path) => Some(Forecast::start(path, config, None, ())?),
+        Some(path) => Some(Forecast::start(
+            path,
+            config,
+            PlannedFor::Following(None),
+            (),
+        )?),
         None => None,
     };
     let transport = session::join(&args.operator.instance, config)?;
