@@ -113,6 +113,10 @@ fn a_page_does_what_its_role_allows_and_one_page_operates() {
             .contains("another page operates"),
         "{said}"
     );
+    // Neither does it put a program there.
+    let (status, said) = second.upload("name=a.ngc&at=0&size=1", "x");
+    assert_eq!(status, 409);
+    assert!(said.contains("another page operates"), "{said}");
     // Whoever has not the seat stops the machine all the same.
     let _held = second.accepted(&json!({ "kind": "hold" }));
     assert_eq!(

@@ -271,6 +271,9 @@ impl Pages {
             let text = "a program takes a page that may operate";
             return Err((Status::Forbidden, text.to_owned()));
         }
+        if caller.page == 0 || !self.seat().here(caller.page, Instant::now()) {
+            return Err(not_now("another page operates; ask it for the seat"));
+        }
         let folder = self.folder()?;
         let number = |name| parameter(query, name)?.parse::<u64>().ok();
         let piece = || {
