@@ -75,11 +75,11 @@ layout!(jog_demand, JogDemand, "glidepath.JogDemand.v2", 136, {
     client: 0, number: 8, sent_ns: 16, asked_ns: 24, mode: 32, mask: 36, by_joint: 40, reserved: 44,
     velocity_v: 48, scale: 56, value: 64,
 });
-layout!(job_request, JobRequest, "glidepath.JobRequest.v3", 1072, {
-    client: 0, number: 8, asked_ns: 16, kind: 24, from_line: 28, pass: 32, confirmed: 36, resumes: 40, wish: 44,
-    text: 48,
+layout!(job_request, JobRequest, "glidepath.JobRequest.v4", 1080, {
+    client: 0, number: 8, asked_ns: 16, program: 24, kind: 32, from_line: 36, pass: 40, confirmed: 44, resumes: 48,
+    wish: 52, text: 56,
 });
-layout!(job_reply, JobReply, "glidepath.JobReply.v2", 1048, {
+layout!(job_reply, JobReply, "glidepath.JobReply.v3", 1048, {
     client: 0, number: 8, state: 16, reserved: 20, text: 24,
 });
 layout!(lines_request, LinesRequest, "glidepath.LinesRequest.v1", 1200, {

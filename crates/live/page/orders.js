@@ -20,7 +20,7 @@ async function order(kind, more = {}, quietly = false) {
   try {
     const answer = await fetch('/api/command', { method: 'POST', priority: 'high', signal: AbortSignal.timeout(10000), headers: headers('application/json'), body: JSON.stringify({ kind, heard_ms: S.clock_ms, ...more }), keepalive: true });
     const text = await answer.text();
-    said = text.startsWith('{') ? JSON.parse(text) : { accepted: false, reason: text };
+    said = { status: answer.status, ...(text.startsWith('{') ? JSON.parse(text) : { accepted: false, reason: text }) };
   } catch { said = { accepted: false, reason: `${kind}: the page's server did not answer; look whether it was done` }; }
   if (!quietly) { S.refusal = said.accepted ? '' : buttonWords(said.reason); S.refused_at = performance.now(); paintPart('state', paintState); }
   return said;

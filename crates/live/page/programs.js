@@ -69,7 +69,7 @@ async function lookAtChosen(look = LOOK.info ? 'again' : 'first') {
   }
   paintChosen();
 }
-const whyNoRun = () => notOperating() || (LOOK.info ? '' : 'it is read') || (S.state === 'idle' ? '' : S.state === 'off' ? 'power first' : S.state === 'not-homed' ? 'home first' : S.state === 'faulted' ? 'reset first' : 'not now');
+const whyNoRun = () => notOperating() || (LOOK.info && LOOK.info.fingerprint ? '' : LOOK.lost ? 'look at it first' : 'it is read') || (S.state === 'idle' ? '' : S.state === 'off' ? 'power first' : S.state === 'not-homed' ? 'home first' : S.state === 'faulted' ? 'reset first' : 'not now');
 function paintChosen() {
   const name = FOLDER.chosen, info = LOOK.info, why = whyNoRun();
   $('#programs').dataset.chosen = name ? 1 : 0;
@@ -101,15 +101,16 @@ async function fetchFindings(info) {
   paintChosen();
 }
 DEEDS.run = b => runLooked(b.dataset.of, {}, LOOK.info);
-/* Runs what was looked at, and agreed to, and no other text: `info` is of that. */
+/* Runs what was looked at, and agreed to, and no other text: `info` is of that. Whoever reads the file sees to it that it still
+   is. What it was planned with, its part zero and tools, is looked at here. */
 async function runLooked(name, more, info) {
-  const heard_ms = S.clock_ms, now = await api(`/api/preview?name=${encodeURIComponent(name)}`, 'json');
-  if (!now || !info || now.generation !== info.generation) {
+  const heard_ms = S.clock_ms, now = info && (await preview(name, 'again')).info, isSame = now && now.generation === info.generation;
+  const said = isSame ? await order('run', { name, program: info.fingerprint, heard_ms, ...more }) : {};
+  if (!isSame || said.status === 412) {
     refuse(`${name} is looked at anew: it, or what it is planned with, may have changed; look at it, and press again`);
-    if (name === FOLDER.chosen) { S.agree = null; lookAtChosen(); }
+    if (name === FOLDER.chosen) { S.agree = null; lookAtChosen(isSame ? 'anew' : 'first'); }
     return;
   }
-  const said = await order('run', { name, heard_ms, ...more });
   if (name !== FOLDER.chosen) return;
   if (said.to_confirm) { S.agree = { ...more, name, info, text: said.to_confirm }; paintChosen(); fetchAround(); return; }
   if (said.accepted) { S.agree = null; if (S.view === 'programs') setView('operate'); }

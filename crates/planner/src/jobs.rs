@@ -42,6 +42,8 @@ pub enum Job {
     File {
         /// Where it is.
         path: PathBuf,
+        /// The fingerprint of the program that is meant; `None`: whatever is in the file.
+        looked_at: Option<u64>,
         /// Where to begin; `None`: at its beginning.
         from: Option<StartLine>,
         /// What was told of that beginning is agreed to.
@@ -65,6 +67,7 @@ impl Job {
             JobKind::Line => Self::Line(text.to_owned()),
             JobKind::File => Self::File {
                 path: text.into(),
+                looked_at: Some(request.program).filter(|program| *program != 0),
                 from: (request.from_line > 0).then(|| StartLine {
                     line: request.from_line,
                     pass: request.pass.max(1),
@@ -100,6 +103,8 @@ pub enum JobEnd {
     Failed(String),
     /// It begins in a way that has to be agreed to.
     ToConfirm(String),
+    /// The file is not the program that was looked at.
+    Changed(String),
 }
 
 /// The executor of jobs.
@@ -320,6 +325,7 @@ impl JobDesk {
             JobEnd::Refused(text) => (JobState::Refused, text),
             JobEnd::Failed(text) => (JobState::Failed, text),
             JobEnd::ToConfirm(text) => (JobState::ToConfirm, text),
+            JobEnd::Changed(text) => (JobState::Changed, text),
         };
         self.end(state, text);
     }
@@ -338,7 +344,8 @@ impl JobDesk {
                 | JobState::Busy
                 | JobState::NotReady
                 | JobState::ToConfirm
-                | JobState::Unknown => LinesEnd::NotBegun,
+                | JobState::Unknown
+                | JobState::Changed => LinesEnd::NotBegun,
             };
             self.lines.end(client, lines, (end, text));
             return;

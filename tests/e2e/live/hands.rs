@@ -15,10 +15,10 @@ use super::{Live, PATIENCE, given_now, of_page};
 const REST: Duration = Duration::from_millis(1500);
 
 /// A page of a number, with leave to operate.
-struct Page<'l>(&'l Live, u64);
+pub(super) struct Page<'l>(pub(super) &'l Live, pub(super) u64);
 
 impl Page<'_> {
-    fn order(&self, body: &Value) -> (u16, Value) {
+    pub(super) fn order(&self, body: &Value) -> (u16, Value) {
         let fields = format!("{}{}", self.0.token(), of_page(self.1));
         let body = given_now(body);
         let (status, said) =
@@ -27,7 +27,7 @@ impl Page<'_> {
         (status, serde_json::from_str(&said).unwrap_or(Value::Null))
     }
 
-    fn accepted(&self, body: &Value) -> Value {
+    pub(super) fn accepted(&self, body: &Value) -> Value {
         let (status, said) = self.order(body);
         assert_eq!(
             (status, &said["accepted"]),
@@ -54,7 +54,7 @@ impl Page<'_> {
     }
 }
 
-fn x(status: &Status) -> f64 {
+pub(super) fn x(status: &Status) -> f64 {
     status.position[0]
 }
 
@@ -297,7 +297,8 @@ fn a_page_has_lines_and_programs_of_its_folder_executed() {
     };
     assert!(planned["seconds"].as_f64().unwrap() > 0.5, "{planned}");
 
-    let run = json!({ "kind": "run", "name": "part a.ngc" });
+    let looked_at = &planned["fingerprint"];
+    let run = json!({ "kind": "run", "name": "part a.ngc", "program": looked_at });
     let _runs = page.accepted(&run);
     let told = live.told(|status| status["active_program"]["name"] == "part a.ngc");
     assert_eq!(told["active_program"]["bytes"], program.len());
@@ -305,7 +306,8 @@ fn a_page_has_lines_and_programs_of_its_folder_executed() {
     let _done = live.told(|status| ended(status) && status["day"][0]["name"] == "part a.ngc");
     let _there = services.wait(|status| (x(status) - 5.0).abs() < 1e-9);
     // From a line: what happens is told before anything does.
-    let mut from = json!({ "kind": "run", "name": "part a.ngc", "from_line": 3 });
+    let mut from = run.clone();
+    from["from_line"] = 3.into();
     let said = page.accepted(&from);
     assert!(
         said["to_confirm"].as_str().unwrap().contains("line 3"),
@@ -320,7 +322,8 @@ fn a_page_has_lines_and_programs_of_its_folder_executed() {
             .is_some_and(|jobs| jobs.iter().filter(|job| job["end"] == "done").count() >= 3)
     });
     // Programs are those of the folder.
-    let (status, said) = page.order(&json!({ "kind": "run", "name": "../machine.toml" }));
+    let outside = json!({ "kind": "run", "name": "../machine.toml", "program": looked_at });
+    let (status, said) = page.order(&outside);
     assert_eq!(status, 409, "{said}");
     drop((live, service));
     drop(services.end());

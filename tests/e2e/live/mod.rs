@@ -4,6 +4,7 @@
 mod following;
 mod hands;
 mod life;
+mod looked_at;
 mod screens;
 mod touch;
 mod way;

@@ -139,7 +139,7 @@ fn execute(
                     exit: Exit::Rejected,
                 });
             }
-            JobState::Refused => {
+            JobState::Refused | JobState::Changed => {
                 return Err(Failure::Job {
                     text: format!("refused: {text}"),
                     exit: Exit::Rejected,

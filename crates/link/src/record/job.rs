@@ -32,7 +32,7 @@ coded! {
 /// A request about a job: to execute a line or a file, or a wish about one handed in before.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.JobRequest.v3")]
+#[type_name("glidepath.JobRequest.v4")]
 pub struct JobRequest {
     /// Who asks: any number that no other client has.
     pub client: u64,
@@ -41,6 +41,9 @@ pub struct JobRequest {
     /// When the job was asked for, ns of the host's steady clock, the same in every request for it. An abort
     /// after that ends it, also where the service has not heard of it yet.
     pub asked_ns: u64,
+    /// The fingerprint of the program that was looked at and is meant: of a file that has become another program
+    /// since nothing is executed. 0 if the file is meant whatever is in it.
+    pub program: u64,
     /// Code of a [`JobKind`].
     pub kind: u32,
     /// The line of a file to begin with, 0 for its beginning.
@@ -65,6 +68,7 @@ impl JobRequest {
             client,
             number,
             asked_ns,
+            program: 0,
             kind: kind.code(),
             from_line: 0,
             pass: 0,
@@ -104,7 +108,7 @@ impl JobRequest {
 }
 
 impl Record for JobRequest {
-    const NAME: &'static str = "glidepath.JobRequest.v3";
+    const NAME: &'static str = "glidepath.JobRequest.v4";
 
     fn check(&self) -> Result<(), RecordError> {
         let fields = Fields(Self::NAME);
@@ -135,13 +139,15 @@ coded! {
         ToConfirm = 7,
         /// The service knows nothing of the job: another one was told of it.
         Unknown = 8,
+        /// The file is not the program that was looked at. Nothing has changed, and nothing moved.
+        Changed = 9,
     }
 }
 
 /// The answer to a request about a job.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.JobReply.v2")]
+#[type_name("glidepath.JobReply.v3")]
 pub struct JobReply {
     /// The client of the request.
     pub client: u64,
@@ -179,7 +185,7 @@ impl JobReply {
 }
 
 impl Record for JobReply {
-    const NAME: &'static str = "glidepath.JobReply.v2";
+    const NAME: &'static str = "glidepath.JobReply.v3";
 
     fn check(&self) -> Result<(), RecordError> {
         self.state()?;

@@ -32,6 +32,8 @@ pub(super) enum Wanted {
     Line(String),
     File {
         path: String,
+        /// The fingerprint of the program that was looked at.
+        program: u64,
         from_line: u32,
         pass: u32,
         agreed: bool,
@@ -47,6 +49,7 @@ impl Wanted {
         };
         let mut request = JobRequest::new(client, number, kind, text, asked_ns);
         if let Self::File {
+            program,
             from_line,
             pass,
             agreed,
@@ -54,6 +57,7 @@ impl Wanted {
             ..
         } = self
         {
+            request.program = *program;
             (request.from_line, request.pass) = (*from_line, *pass);
             request.confirmed = u32::from(*agreed);
             request.resumes = u32::from(*resumes);
@@ -81,6 +85,8 @@ pub(super) enum Handed {
     ToConfirm(String),
     /// It was not executed, or not to its end.
     Not(String),
+    /// It was not executed: the file is not the program that was looked at.
+    Changed(String),
 }
 
 /// A job with its end, for people.
@@ -153,7 +159,7 @@ impl JobDesk {
                 Some(Handed::Running) => ("running", ""),
                 Some(Handed::Done(text)) => ("done", text.as_str()),
                 Some(Handed::ToConfirm(text)) => ("to-confirm", text.as_str()),
-                Some(Handed::Not(text)) => ("not", text.as_str()),
+                Some(Handed::Not(text) | Handed::Changed(text)) => ("not", text.as_str()),
             };
             json!({
                 "at_ms": past.at_ms,
@@ -240,6 +246,7 @@ impl Clerk {
                 JobState::Running => waiting.look(),
                 JobState::Done => return Ok(Handed::Done(text)),
                 JobState::ToConfirm => return Ok(Handed::ToConfirm(text)),
+                JobState::Changed => return Ok(Handed::Changed(text)),
                 JobState::Refused
                 | JobState::Failed
                 | JobState::Busy
@@ -316,6 +323,7 @@ mod tests {
         assert!(line(1024).is_some() && line(1025).is_none());
         let file = Wanted::File {
             path: "/srv/programs/part.ngc".to_owned(),
+            program: 99,
             from_line: 7,
             pass: 2,
             agreed: true,
@@ -326,6 +334,7 @@ mod tests {
             (request.from_line, request.pass, request.confirmed),
             (7, 2, 1)
         );
+        assert_eq!(request.program, 99, "what was looked at, and nothing else");
         assert_eq!((request.client, request.number, request.resumes), (3, 4, 0));
         assert_eq!(file.name(), "part.ngc");
     }

@@ -72,6 +72,8 @@ pub(super) enum Order {
     /// A program of the folder, for the planner's service.
     Run {
         name: String,
+        /// The fingerprint of the program that was looked at, sixteen digits.
+        program: String,
         from_line: Option<u32>,
         pass: Option<u32>,
         #[serde(default)]
@@ -260,6 +262,7 @@ mod tests {
             "{\"kind\":\"set-position\",\"joint\":0,\"position\":0}",
             "{\"kind\":\"jog\",\"axes\":{\"X\":1}}",
             "{\"kind\":\"run\"}",
+            "{\"kind\":\"run\",\"name\":\"a.ngc\"}",
             "{\"kind\":\"home\",\"joints\":[-1]}",
         ] {
             assert_eq!(of(body), None, "{body}");

@@ -5,7 +5,7 @@ use super::job_desk::{Handed, JobDesk, Wanted};
 use super::jogger::{Hand, Jogger};
 use super::order::{Given, Order, by_axis};
 use super::preview::{Look, Preview};
-use super::query::{decoded, parameter};
+use super::query::{decoded, fingerprint, parameter};
 use super::set_up::SetUp;
 use super::shown::Shown;
 use crate::command::operator::PATIENCE;
@@ -93,6 +93,7 @@ impl Pages {
             Order::Mdi { line } => self.hand_in(Wanted::Line(line), asked_ns),
             Order::Run {
                 name,
+                program,
                 from_line,
                 pass,
                 agreed,
@@ -100,6 +101,7 @@ impl Pages {
             } => {
                 let wanted = Wanted::File {
                     path: self.program(&name)?,
+                    program: fingerprint(&program).ok_or_else(malformed)?,
                     from_line: from_line.unwrap_or(0),
                     pass: pass.unwrap_or(0),
                     agreed,
@@ -214,6 +216,7 @@ impl Pages {
             Handed::Done(text) => Ok(json!({ "text": text })),
             Handed::ToConfirm(text) => Ok(json!({ "to_confirm": text })),
             Handed::Not(text) => Err(not_now(text)),
+            Handed::Changed(text) => Err((Status::Other(412), complete(&text))),
         }
     }
 

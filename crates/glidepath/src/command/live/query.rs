@@ -1,4 +1,4 @@
-//! What pages write into their questions: parameters of a query.
+//! What pages write into their questions: parameters of a query, and fingerprints.
 
 /// A parameter of a query.
 pub(super) fn parameter<'q>(query: &'q str, name: &str) -> Option<&'q str> {
@@ -20,6 +20,12 @@ pub(super) fn decoded(text: &str) -> Option<String> {
         bytes.push(u8::from_str_radix(str::from_utf8(digits).ok()?, 16).ok()?);
     }
     String::from_utf8(bytes).ok()
+}
+
+/// A fingerprint as pages are told it; `None` if it is none.
+pub(super) fn fingerprint(text: &str) -> Option<u64> {
+    let fingerprint = u64::from_str_radix(text, 16).ok();
+    fingerprint.filter(|fingerprint| text.len() == 16 && *fingerprint != 0)
 }
 
 #[cfg(test)]

@@ -44,6 +44,7 @@ impl Workshop<'_> {
         let source = source.map_err(|e| refusal(&e))?;
         let source = source.attended(attendant.attending());
         let fingerprint = source.fingerprint();
+        must_be_the_program(file, fingerprint)?;
         let is_whole = begins.point.is_none() && file.from.is_none();
         let part = if is_whole { Part::Whole } else { Part::Rest };
         self.board.tell(&config, (file.path, fingerprint), part);
@@ -156,6 +157,17 @@ impl Workshop<'_> {
 fn open(path: &Path, config: &MachineConfig, start: AxisVector) -> Result<FileSource, Refusal> {
     joints::check_plan(path, config, start, &mut |_| {})?;
     FileSource::open(path, config.program_options(start), &config.settings())
+}
+
+/// Whoever wanted the job has looked at a program, and agreed to that one.
+fn must_be_the_program(file: &FileJob<'_>, fingerprint: u64) -> Result<(), Stop> {
+    if file.looked_at.is_none_or(|program| program == fingerprint) {
+        return Ok(());
+    }
+    Err(Stop::Changed(format!(
+        "{}: it, or a subroutine that it calls, is not the text any more that was looked at; look at it again",
+        file.path.display()
+    )))
 }
 
 /// A device gives bytes without end, and a pipe none until somebody else writes: nobody else would be

@@ -7,6 +7,8 @@ use glidepath_planner::StartLine;
 /// A file, and how it is to begin.
 pub(super) struct FileJob<'j> {
     pub(super) path: &'j Path,
+    /// The fingerprint of the program that is meant; `None`: whatever is in the file.
+    pub(super) looked_at: Option<u64>,
     pub(super) from: Option<StartLine>,
     pub(super) confirmed: bool,
     pub(super) resumes: bool,

@@ -54,6 +54,7 @@ impl JobRunner for Workshop<'_> {
             Job::Lines { inbox, .. } => self.lines(inbox, start, &mut bench),
             Job::File {
                 path,
+                looked_at,
                 from,
                 confirmed,
                 resumes,
@@ -61,6 +62,7 @@ impl JobRunner for Workshop<'_> {
                 let (from, confirmed, resumes) = (*from, *confirmed, *resumes);
                 let file = FileJob {
                     path,
+                    looked_at: *looked_at,
                     from,
                     confirmed,
                     resumes,
@@ -72,6 +74,7 @@ impl JobRunner for Workshop<'_> {
             Ok(text) => (text.clone(), JobEnd::Done(text)),
             Err(Stop::Refused(text)) => (refused("job", &text), JobEnd::Refused(text)),
             Err(Stop::Failed(text)) => (text.clone(), JobEnd::Failed(text)),
+            Err(Stop::Changed(text)) => (refused("job", &text), JobEnd::Changed(text)),
             Err(Stop::ToConfirm(text)) => (
                 "job waits to be agreed to".to_owned(),
                 JobEnd::ToConfirm(text),

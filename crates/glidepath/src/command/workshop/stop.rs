@@ -10,6 +10,8 @@ pub(super) enum Stop {
     Refused(String),
     Failed(String),
     ToConfirm(String),
+    /// The file is not the program that was looked at.
+    Changed(String),
 }
 
 pub(super) type End = Result<String, Stop>;
