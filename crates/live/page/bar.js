@@ -9,8 +9,8 @@ function layBar() {
 }
 function layDeeds() {
   // Nothing that another finger is about to begin begins behind a stop.
-  DEEDS.hold = () => { if (PRESSED.button !== BAR.abort) letGo(); endJog(); TOUCH.stopped = true; order('hold'); };
-  DEEDS.abort = () => { endJog(); TOUCH.stopped = true; order('abort'); };
+  DEEDS.hold = () => { if (PRESSED.button !== BAR.abort) letGo(); endJog(); order('hold'); };
+  DEEDS.abort = () => { endJog(); order('abort'); };
   DEEDS.single = () => order('single-block', { on: !(S.status && S.status.single_block) });
   DEEDS.go = async () => {
     // Held on the way back, it turns round first.

@@ -25,11 +25,12 @@ async function order(kind, more = {}, quietly = false) {
   if (!quietly) { S.refusal = said.accepted ? '' : buttonWords(said.reason); S.refused_at = performance.now(); paintPart('state', paintState); }
   return said;
 }
-/* A line for the planner's service. The page speaks in mm, whatever unit was in force. */
-const mdi = line => order('mdi', { line });
+/* Lines of the page, with a name for people, executed as one job. */
+const own = (name, lines) => order('sequence', { name, lines });
+/* The same in mm and radii, as the page has lengths, whatever is in force. That is in force again behind them. */
+const inMm = (name, lines, behind = []) => own(name, ['M70', isLathe() ? 'G21 G8' : 'G21', ...lines, 'M72', ...behind]);
 const mm = x => String(+x.toFixed(6));
-/* A word of such a line. What a lathe has in force, diameters or radii, stays: the page means radii. */
-const word = (name, x) => name === 'X' && isLathe() ? `X[${mm(x)}*[1+#<_lathe_diameter_mode>]]` : name + mm(x);
+const word = (name, x) => name + mm(x);
 
 /* ---- buttons. `data-press` is how long they are pressed, ms; `data-do` what they do. */
 const DEEDS = {};

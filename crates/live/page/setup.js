@@ -14,7 +14,7 @@ async function fetchSetUp(version) {
   if (!info) { setUpVersion = null; return; }
   const first = !SETUP.jog;
   SETUP = info;
-  judgeUndo();
+  judgeUndo(); judgeTouch();
   if (first) layPad();
   paintPad(); paintTables(); paintSetUp();
 }
@@ -65,7 +65,7 @@ function paintSheet() {
 const touched = () => AXES()[S.sheet];
 const entered = () => numberOf($('#number').value);
 async function setWork(value) {
-  const { sheet } = S, undo = zeroToUndo(touched().name), said = await mdi(`G21 G10 L20 P0 ${word(touched().name, value)}`);
+  const { sheet } = S, undo = zeroToUndo(touched().name), said = await inMm(`set ${touched().name}`, [`G10 L20 P0 ${word(touched().name, value)}`]);
   if (said.accepted) { offerUndo(undo); closeSheet(sheet); }
 }
 /* Closes the sheet of an axis, unless it is that of another one by now. */
@@ -73,7 +73,7 @@ function closeSheet(sheet) { if (S.sheet === sheet) { S.sheet = null; paintSheet
 DEEDS.zero = () => setWork(0);
 DEEDS.half = () => setWork(work(machineNow())[S.sheet] / 2);
 DEEDS.value = () => { const v = entered(); if (v !== null) setWork(v); else $('#number').focus(); };
-DEEDS['go-to'] = async () => { const v = entered(); if (v === null) { $('#number').focus(); return; } const { sheet } = S, said = await mdi(`G21 G90 G0 ${word(touched().name, v)}`); if (said.accepted) closeSheet(sheet); };
+DEEDS['go-to'] = async () => { const v = entered(); if (v === null) { $('#number').focus(); return; } const { sheet } = S, said = await inMm(`go to ${touched().name} ${num(v, 3)}`, [`G90 G0 ${word(touched().name, v)}`]); if (said.accepted) closeSheet(sheet); };
 const machineNow = () => AXES().map((a, k) => RINGED && RINGED.count ? RINGED.last_position(k) : S.status.position[a.name]);
 function setUpDigits() {
   const s = S.status;
@@ -102,7 +102,7 @@ function zeroToUndo(axis) {
   const zero = active();
   if (!zero) return null;
   // Where it is turned, one axis moves the zero of others.
-  const line = `G21 G10 L2 P${zero.number} ${AXES().map(a => word(a.name, zero.origin[a.name])).join(' ')}`;
+  const line = `G10 L2 P${zero.number} ${AXES().map(a => word(a.name, zero.origin[a.name])).join(' ')}`;
   return { what: `${zero.name}, ${axis}`, was: num(zero.origin[axis], 3), line, before: concerned(line) };
 }
 function offerUndo(undo) { S.undo = undo; judgeUndo(); paintUndo(); }
@@ -116,7 +116,7 @@ function paintUndo() {
   const undo = S.undo;
   fill($('#undo'), undo ? `<span>${safe(undo.what)} was ${undo.was}.</span>${key('undo', 'Undo', { why: whyNoLine() })}` : '');
 }
-DEEDS.undo = async () => { const { undo } = S, said = undo && await mdi(undo.line); if (said && said.accepted && S.undo === undo) { S.undo = null; paintUndo(); } };
+DEEDS.undo = async () => { const { undo } = S, said = undo && await inMm(`undo ${undo.what}`, [undo.line]); if (said && said.accepted && S.undo === undo) { S.undo = null; paintUndo(); } };
 
 /* ---- tables that are edited in place */
 function showTable(name) { S.table = name; S.editing = null; paintTables(); }
@@ -145,11 +145,11 @@ function spindleKeys() {
   const why = whyNoLine(), s = S.status || {}, told = s.spindle;
   return `<div class="spindle"><label class="field"><span class="lab">Speed, rev/min</span><input id="speed" inputmode="numeric" value="${told && told.speed ? told.speed : 1000}"></label><div class="row">${key('spindle-cw', 'Clockwise', { press: SHORT, why, sub: 'M3: press ½ s' })}${key('spindle-ccw', 'Counterclockwise', { press: SHORT, why, sub: 'M4: press ½ s' })}${key('line', 'Stop', { why, sub: 'M5', data: 'data-line="M5"' })}</div><div class="row">${key('line', 'Mist', { press: SHORT, why, sub: 'M7: press ½ s', data: 'data-line="M7"' })}${key('line', 'Flood', { press: SHORT, why, sub: 'M8: press ½ s', data: 'data-line="M8"' })}${key('line', 'Coolant off', { why, sub: 'M9', data: 'data-line="M9"' })}</div></div>`;
 }
-const turn = code => { const speed = numberOf($('#speed').value); if (speed > 0) mdi(`S${speed} ${code}`); else $('#speed').focus(); };
+const turn = code => { const speed = numberOf($('#speed').value); if (speed > 0) own(`S${speed} ${code}`, [`S${speed} ${code}`]); else $('#speed').focus(); };
 DEEDS['spindle-cw'] = () => turn('M3');
 DEEDS['spindle-ccw'] = () => turn('M4');
-DEEDS.line = b => mdi(b.dataset.line);
-DEEDS.use = b => mdi(b.dataset.line);
+DEEDS.line = b => own(b.dataset.line, [b.dataset.line]);
+DEEDS.use = DEEDS.line;
 DEEDS.edit = b => {
   if (notOperating() || S.editing) return;
   const input = document.createElement('input'), { edit } = b.dataset, before = concerned(edit);
@@ -166,9 +166,9 @@ DEEDS.edit = b => {
     // R of a tool is a radius.
     const isTool = edit.includes(' L1 '), name = edit.slice(-1);
     const line = x => edit.slice(0, -1) + word(name, isTool && name === 'R' ? x / 2 : x), was = +b.dataset.value;
-    const said = await mdi(line(value));
+    const what = b.getAttribute('aria-label'), said = await inMm(what, [line(value)]);
     if (!said.accepted) return;
-    offerUndo({ what: b.getAttribute('aria-label'), was: num(was, 3), line: line(was), before });
+    offerUndo({ what, was: num(was, 3), line: line(was), before });
     leave();
   };
 };
@@ -176,7 +176,7 @@ DEEDS.edit = b => {
 /* ---- a line to type */
 const TYPED = { at: -1 };
 function paintLines() {
-  const s = S.status, lines = (s && s.page_jobs || []).filter(job => job.is_line);
+  const s = S.status, lines = (s && s.page_jobs || []).filter(job => job.kind !== 'file');
   fill($('#typed'), lines.slice(0, 6).reverse().map(job => `<div class="${job.state}"><span class="n lab">${clock(job.at_ms)}</span><code>${safe(job.name)}</code><span>${job.state === 'running' ? 'runs' : job.state === 'done' ? 'done' : safe(buttonWords(job.text))}</span></div>`).join(''));
   const why = whyNoLine(), button = $('#runline');
   setKey(button, 'Run line', { press: SHORT, why, sub: 'press ½ s', kind: why ? '' : 'main' });
@@ -184,7 +184,7 @@ function paintLines() {
 DEEDS['run-line'] = async () => {
   const input = $('#mdi'), line = input.value.trim();
   if (!line) { input.focus(); return; }
-  const said = await mdi(line);
+  const said = await order('mdi', { line });
   if (said.accepted && input.value.trim() === line) { input.value = ''; TYPED.at = -1; }
 };
 function layLine() {
@@ -193,7 +193,7 @@ function layLine() {
     if (e.key === 'Enter') { e.preventDefault(); if (!e.repeat && press(button)) PRESSED.key = 'Enter'; return; }
     if (e.key !== 'ArrowUp' && e.key !== 'ArrowDown') return;
     e.preventDefault();
-    const lines = (S.status && S.status.page_jobs || []).filter(job => job.is_line);
+    const lines = (S.status && S.status.page_jobs || []).filter(job => job.kind === 'line');
     TYPED.at = Math.max(-1, Math.min(lines.length - 1, TYPED.at + (e.key === 'ArrowUp' ? 1 : -1)));
     input.value = TYPED.at < 0 ? '' : lines[TYPED.at].name;
   });

@@ -1,8 +1,8 @@
 'use strict';
 // Touching off: a probe, or a tool over a plate, goes to the part until it touches; then the part zero, or the
-// length of the tool, is set from where it touched. Lines for the planner's service, one after the other.
+// length of the tool, is set from where it touched. Lines for the planner's service, in one job.
 
-const TOUCH = { way: 'Z−', reach: 10, feed: 100, plate: 0, tip: 0, place: 0, back: 2, of: 'zero', step: 0, says: '', stopped: false };
+const TOUCH = { way: 'Z−', reach: 10, feed: 100, plate: 0, tip: 0, place: 0, back: 2, of: 'zero', step: 0, says: '', undo: null };
 const TOUCH_FIELDS = { reach: 'Farthest way, mm', feed: 'Feed, mm/min', plate: 'Plate under the tool, mm', tip: 'Ø of the probe, mm', place: 'The place is at, mm', back: 'Then back, mm' };
 const touchWays = () => { const names = AXES().map(a => a.name), sides = names.includes('X') && names.includes('Y') ? ['X+', 'X−', 'Y+', 'Y−'] : []; return names.includes('Z') ? ['Z−', ...sides] : sides; };
 const isLength = () => TOUCH.way === 'Z−' && TOUCH.of === 'length';
@@ -39,41 +39,46 @@ function touchLines() {
   const axis = TOUCH.way[0], sign = TOUCH.way[1] === '+' ? 1 : -1, n = 'XYZ'.indexOf(axis), now = `#${5420 + n}`, contact = `#${5061 + n}`;
   const value = axis === 'Z' ? TOUCH.place + TOUCH.plate : TOUCH.place - sign * TOUCH.tip / 2;
   const set = isLength() ? `L10 P${S.status.tool}` : 'L20 P0';
-  // Numbers of a line are those before it: a length is in force only in the line behind the one that takes it.
+  // A length is in force only in the line behind the one that takes it, and behind what was in force before.
   return [
-    [1, `G21 G90 G94 G38.2 ${axis}[${now}${sign < 0 ? '-' : '+'}${mm(TOUCH.reach)}] F${mm(TOUCH.feed)}`],
-    [2, `G21 G10 ${set} ${axis}[${now}-${contact}+${mm(value)}]`.replace('+-', '-')],
-    ...(isLength() ? [[2, `G43 H${S.status.tool}`]] : []),
-    [3, `G21 G90 G1 ${axis}[${now}${sign < 0 ? '+' : '-'}${mm(TOUCH.back)}] F${mm(TOUCH.feed)}`],
+    `G90 G94 G38.2 ${axis}[${now}${sign < 0 ? '-' : '+'}${mm(TOUCH.reach)}] F${mm(TOUCH.feed)}`,
+    `G10 ${set} ${axis}[${now}-${contact}+${mm(value)}]`.replace('+-', '-'),
+    `G1 ${axis}[${now}${sign < 0 ? '+' : '-'}${mm(TOUCH.back)}] F${mm(TOUCH.feed)}`,
   ];
 }
 DEEDS['touch-go'] = async () => {
   if (whyNoTouch()) return;
-  TOUCH.says = ''; TOUCH.stopped = false;
-  const undo = isLength() ? null : zeroToUndo(TOUCH.way[0]);
-  for (const [step, line] of touchLines()) {
-    TOUCH.step = step; paintTouch();
-    // Whoever held or aborted, be it between two lines, wants nothing more to move.
-    const why = TOUCH.stopped ? 'Hold or Abort was pressed: nothing more was done' : await lineToItsEnd(line);
-    if (why) { TOUCH.says = why; paintTouch(); return; }
-    if (step === 2 && undo) offerUndo(undo);
-  }
-  TOUCH.step = 4; paintTouch();
+  const lines = touchLines(), undo = isLength() ? null : zeroToUndo(TOUCH.way[0]);
+  Object.assign(TOUCH, { says: '', step: 1, undo });
+  paintTouch();
+  // One job: nobody else gets in between, and one abort ends all of it.
+  const name = `touch ${TOUCH.way}`, behind = isLength() ? [`G43 H${S.status.tool}`] : [];
+  const why = await toItsEnd(await inMm(name, lines, behind));
+  setTimeout(() => { if (TOUCH.undo === undo) TOUCH.undo = null; }, 3000);
+  if (why) TOUCH.says = why; else TOUCH.step = 4;
+  paintTouch();
 };
-/* Hands a line in, and waits for its end. Gives back why it was not executed; nothing if it was. */
-async function lineToItsEnd(line) {
-  const begun = S.clock_ms, said = await mdi(line);
+/* Waits for the end of a job that was handed in. Gives back why it was not executed; nothing if it was. */
+async function toItsEnd(said) {
   if (!said.accepted) return buttonWords(said.reason);
   if (!said.runs) return '';
   for (;;) {
     await new Promise(done => setTimeout(done, 100));
     if (unknown()) return 'contact was lost; look at the machine, and begin anew';
-    const job = (S.status.page_jobs || [])[0];
     // What is heard may be older than the order.
-    if (!job || S.clock_ms === begun || job.name !== line) { if (job && job.name !== line && S.clock_ms - begun > 2000) return 'another line was handed in meanwhile'; continue; }
+    const job = (S.status.page_jobs || []).find(job => job.number === said.number);
+    if (!job) continue;
     if (job.state === 'done') return '';
     if (job.state !== 'running') return buttonWords(job.text);
+    // Before them stand what is saved, and the unit.
+    if (S.status.end_of_epoch === 'open') TOUCH.step = Math.max(TOUCH.step, Math.min(3, S.status.line - 2));
+    paintTouch();
   }
+}
+/* What a touch-off has set can be set back, also where it ended early behind that. */
+function judgeTouch() {
+  const { undo } = TOUCH;
+  if (undo && concerned(undo.line) !== undo.before) { TOUCH.undo = null; offerUndo(undo); }
 }
 addEventListener('input', e => {
   const name = e.target.dataset && e.target.dataset.touch;

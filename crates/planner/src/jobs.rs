@@ -38,6 +38,8 @@ const REMEMBERED: usize = 64;
 pub enum Job {
     /// A line.
     Line(String),
+    /// Lines that belong together, with line breaks between them.
+    Sequence(String),
     /// A program.
     File {
         /// Where it is.
@@ -65,6 +67,7 @@ impl Job {
         let text = request.text.as_str();
         Some(match request.kind().ok()? {
             JobKind::Line => Self::Line(text.to_owned()),
+            JobKind::Sequence => Self::Sequence(text.to_owned()),
             JobKind::File => Self::File {
                 path: text.into(),
                 looked_at: Some(request.program).filter(|program| *program != 0),
@@ -83,6 +86,7 @@ impl Job {
     pub fn name(&self) -> String {
         match self {
             Self::Line(text) => format!("mdi {text}"),
+            Self::Sequence(text) => format!("mdi {} …", text.lines().next().unwrap_or_default()),
             Self::File { path, .. } => {
                 let name = path.file_name().unwrap_or(path.as_os_str());
                 name.to_string_lossy().into_owned()

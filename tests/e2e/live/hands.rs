@@ -80,6 +80,7 @@ fn a_page_does_what_its_role_allows_and_one_page_operates() {
         json!({ "kind": "reset" }),
         json!({ "kind": "resume" }),
         json!({ "kind": "mdi", "line": "G0 X1" }),
+        json!({ "kind": "sequence", "name": "go", "lines": ["G0 X1"] }),
         json!({ "kind": "jog-step", "axes": { "X": 1.0 }, "feed": 600.0 }),
         json!({ "kind": "jog", "gesture": 1, "number": 1, "at_ms": 0.0, "axes": { "X": 600.0 } }),
         json!({ "kind": "feed-override", "value": 0.5 }),

@@ -24,7 +24,13 @@ fn number(browser: &mut Browser, expression: &str) -> f64 {
     browser.evaluate(expression).as_f64().unwrap()
 }
 
+/// A touch-off is one job: nobody else gets in between.
 fn touches(browser: &mut Browser) {
+    let jobs = |browser: &mut Browser| {
+        browser.wait("S.status.page_jobs.every(job => job.state !== 'running')");
+        number(browser, "S.status.page_jobs.length")
+    };
+    let before = jobs(browser);
     browser.evaluate("TOUCH.step = 0");
     // A key that is painted anew under the finger, as the table is when the tool becomes known, does nothing.
     while browser.evaluate("TOUCH.step") == 0 {
@@ -32,6 +38,8 @@ fn touches(browser: &mut Browser) {
     }
     browser.wait("TOUCH.step === 4 || TOUCH.says");
     assert_eq!(browser.evaluate("TOUCH.says"), "");
+    let after = jobs(browser);
+    assert!((after - before - 1.0).abs() < 1e-9, "{before} {after}");
 }
 
 /// What cannot be is said on the key.

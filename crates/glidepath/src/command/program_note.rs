@@ -23,7 +23,7 @@ impl<'a> ProgramNote<'a> {
     pub(super) fn of_job(link: &'a LinkConfig, job: &'a Job) -> Self {
         let file = match job {
             Job::File { path, .. } => Some(path.as_path()),
-            Job::Line(_) | Job::Lines { .. } => None,
+            Job::Line(_) | Job::Sequence(_) | Job::Lines { .. } => None,
         };
         Self { link, file }
     }

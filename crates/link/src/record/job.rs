@@ -1,4 +1,4 @@
-//! The job record, from an operator to the planner's service: a line, or a program in a file, to be
+//! The job record, from an operator to the planner's service: a line, some lines, or a program in a file, to be
 //! executed; the record of its answer; and the stages of a job as the interpolator knows them.
 
 use super::check::{Fields, RecordError};
@@ -13,6 +13,9 @@ coded! {
         Line = 1,
         /// The program in the file that the text names, in a way that the service can read.
         File = 2,
+        /// The lines of the text, one after the other: the first that fails is the last. Nobody else gets in between.
+        /// They are read as `LinuxCNC` does, whatever dialect programs are in.
+        Sequence = 3,
     }
 }
 
@@ -56,12 +59,12 @@ pub struct JobRequest {
     pub resumes: u32,
     /// Code of a [`JobWish`].
     pub wish: u32,
-    /// The line, or the name of the file.
+    /// The line or lines, or the name of the file.
     pub text: LongText,
 }
 
 impl JobRequest {
-    /// A line, or a file from its beginning.
+    /// A line, lines, or a file from its beginning, whatever is in it.
     #[must_use]
     pub fn new(client: u64, number: u64, kind: JobKind, text: &str, asked_ns: u64) -> Self {
         Self {

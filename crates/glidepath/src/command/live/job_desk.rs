@@ -30,6 +30,12 @@ const REMEMBERED: usize = 40;
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Wanted {
     Line(String),
+    /// Lines that belong together, with line breaks between them.
+    Sequence {
+        /// For people.
+        name: String,
+        lines: String,
+    },
     File {
         path: String,
         /// The fingerprint of the program that was looked at.
@@ -45,6 +51,7 @@ impl Wanted {
     fn request(&self, client: u64, number: u64, asked_ns: u64) -> Option<JobRequest> {
         let (kind, text) = match self {
             Self::Line(line) => (JobKind::Line, line),
+            Self::Sequence { lines, .. } => (JobKind::Sequence, lines),
             Self::File { path, .. } => (JobKind::File, path),
         };
         let mut request = JobRequest::new(client, number, kind, text, asked_ns);
@@ -69,6 +76,7 @@ impl Wanted {
     fn name(&self) -> &str {
         match self {
             Self::Line(line) => line,
+            Self::Sequence { name, .. } => name,
             Self::File { path, .. } => path.rsplit('/').next().unwrap_or(path),
         }
     }
@@ -92,8 +100,10 @@ pub(super) enum Handed {
 /// A job with its end, for people.
 #[derive(Debug, Clone)]
 struct Past {
+    /// Counts the jobs of the pages.
+    number: u64,
     at_ms: u64,
-    is_line: bool,
+    kind: &'static str,
     name: String,
     /// How it ended; `None` while it goes on.
     end: Option<Handed>,
@@ -102,7 +112,7 @@ struct Past {
 type Seen = Arc<Mutex<VecDeque<Past>>>;
 
 enum Asked {
-    HandIn(Wanted, u64, Sender<Handed>),
+    HandIn(Wanted, u64, Sender<(u64, Handed)>),
     Cancel,
 }
 
@@ -130,10 +140,14 @@ impl JobDesk {
         Ok(Self { asked, seen })
     }
 
-    /// Hands a job in that was asked for at a time of the host's steady clock, and waits a moment for its end.
-    pub(super) fn hand_in(&self, wanted: Wanted, asked_ns: u64) -> Handed {
+    /// Hands a job in that was asked for at a time of the host's steady clock, and waits a moment for its end. Returns
+    /// the number of the job, too, 0 if it has none.
+    pub(super) fn hand_in(&self, wanted: Wanted, asked_ns: u64) -> (u64, Handed) {
         let (answer, answered) = channel();
-        let gone = || Handed::Not("nobody hands jobs in any more: start the page anew".to_owned());
+        let gone = || {
+            let words = "nobody hands jobs in any more: start the page anew".to_owned();
+            (0, Handed::Not(words))
+        };
         if self
             .asked
             .send(Asked::HandIn(wanted, asked_ns, answer))
@@ -162,8 +176,9 @@ impl JobDesk {
                 Some(Handed::Not(text) | Handed::Changed(text)) => ("not", text.as_str()),
             };
             json!({
+                "number": past.number,
                 "at_ms": past.at_ms,
-                "is_line": past.is_line,
+                "kind": past.kind,
                 "name": past.name,
                 "state": state,
                 "text": text,
@@ -193,8 +208,10 @@ impl Clerk {
             let Asked::HandIn(wanted, asked_ns, answer) = asked else {
                 continue;
             };
+            self.number += 1;
             self.begin(&wanted);
             let mut waiting = Waiting {
+                number: self.number,
                 answer: Some(answer),
                 since: Instant::now(),
             };
@@ -209,8 +226,13 @@ impl Clerk {
     fn begin(&self, wanted: &Wanted) {
         let mut seen = lock(&self.seen);
         seen.push_front(Past {
+            number: self.number,
             at_ms: now_ms(),
-            is_line: matches!(wanted, Wanted::Line(_)),
+            kind: match wanted {
+                Wanted::Line(_) => "line",
+                Wanted::Sequence { .. } => "sequence",
+                Wanted::File { .. } => "file",
+            },
             name: wanted.name().to_owned(),
             end: None,
         });
@@ -218,7 +240,6 @@ impl Clerk {
     }
 
     fn execute(&mut self, wanted: &Wanted, asked_ns: u64, waiting: &mut Waiting) -> Handed {
-        self.number += 1;
         let Some(request) = wanted.request(self.client, self.number, asked_ns) else {
             let words = "lines, and names of programs, have at most 1024 bytes";
             return Handed::Not(words.to_owned());
@@ -259,7 +280,7 @@ impl Clerk {
                     Ok(Asked::HandIn(_, _, answer)) => {
                         let words = "a job of a page is under way; wait for its end, or abort it";
                         // A page that has gone is not told.
-                        let _told = answer.send(Handed::Not(words.to_owned()));
+                        let _told = answer.send((0, Handed::Not(words.to_owned())));
                     }
                     Err(TryRecvError::Empty) => break,
                     Err(TryRecvError::Disconnected) => {
@@ -293,7 +314,8 @@ fn ask(
 
 /// The page that waits for a job.
 struct Waiting {
-    answer: Option<Sender<Handed>>,
+    number: u64,
+    answer: Option<Sender<(u64, Handed)>>,
     since: Instant,
 }
 
@@ -308,7 +330,7 @@ impl Waiting {
     fn tell(&mut self, handed: &Handed) {
         if let Some(answer) = self.answer.take() {
             // A page that has gone is not told.
-            let _told = answer.send(handed.clone());
+            let _told = answer.send((self.number, handed.clone()));
         }
     }
 }

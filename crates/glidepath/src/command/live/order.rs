@@ -69,6 +69,12 @@ pub(super) enum Order {
     Mdi {
         line: String,
     },
+    /// Lines that belong together, for the planner's service.
+    Sequence {
+        /// For people.
+        name: String,
+        lines: Vec<String>,
+    },
     /// A program of the folder, for the planner's service.
     Run {
         name: String,
@@ -322,6 +328,10 @@ mod tests {
             Order::Home { joints: vec![] },
             Order::Mdi {
                 line: String::new(),
+            },
+            Order::Sequence {
+                name: String::new(),
+                lines: vec![],
             },
             Order::FeedOverride { value: 1.0 },
         ] {

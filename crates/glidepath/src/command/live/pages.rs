@@ -91,6 +91,7 @@ impl Pages {
                 self.jog(&order)
             }
             Order::Mdi { line } => self.hand_in(Wanted::Line(line), asked_ns),
+            Order::Sequence { name, lines } => self.hand_in(sequence(name, &lines)?, asked_ns),
             Order::Run {
                 name,
                 program,
@@ -211,9 +212,10 @@ impl Pages {
         let Some(jobs) = &self.jobs else {
             return Err(malformed());
         };
-        match jobs.hand_in(wanted, asked_ns) {
-            Handed::Running => Ok(json!({ "runs": true })),
-            Handed::Done(text) => Ok(json!({ "text": text })),
+        let (number, handed) = jobs.hand_in(wanted, asked_ns);
+        match handed {
+            Handed::Running => Ok(json!({ "runs": true, "number": number })),
+            Handed::Done(text) => Ok(json!({ "text": text, "number": number })),
             Handed::ToConfirm(text) => Ok(json!({ "to_confirm": text })),
             Handed::Not(text) => Err(not_now(text)),
             Handed::Changed(text) => Err((Status::Other(412), complete(&text))),
@@ -304,6 +306,15 @@ impl Pages {
             Err(error) => Err(not_now(error.to_string())),
         }
     }
+}
+
+/// Lines that are executed one after the other; each of them is one.
+fn sequence(name: String, lines: &[String]) -> Result<Wanted, (Status, String)> {
+    let is_one = |line: &String| !line.contains(['\n', '\r']);
+    let are_lines = !lines.is_empty() && lines.iter().all(is_one);
+    let lines = lines.join("\n");
+    let wanted = are_lines.then_some(Wanted::Sequence { name, lines });
+    wanted.ok_or_else(malformed)
 }
 
 /// Numbers and lines of a program.

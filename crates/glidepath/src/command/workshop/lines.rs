@@ -1,4 +1,4 @@
-//! Lines: one of an operator, and those of senders as they come.
+//! Lines: one or some of an operator, and those of senders as they come.
 
 use std::io::Cursor;
 
@@ -14,7 +14,7 @@ use crate::command::left_in_force::JobLeft;
 use crate::config::MachineConfig;
 use crate::report::counted;
 
-/// The line of an operator as a program.
+/// The line or lines of an operator as a program.
 type LineSource = ProgramSource<Cursor<Vec<u8>>>;
 
 impl Workshop<'_> {
@@ -63,7 +63,29 @@ impl Workshop<'_> {
         if text.contains(['\n', '\r']) {
             return Err(Stop::Refused("give one line at a time".to_owned()));
         }
+        self.typed(text, |config| config, start, bench)
+    }
+
+    /// Lines that belong together: judged before the first, and one job to its end. The first that fails is the last.
+    /// They are those of a page, and say the same whatever dialect programs are in.
+    pub(super) fn sequence(
+        &mut self,
+        text: &str,
+        start: AxisVector,
+        bench: &mut Bench<'_, '_, '_>,
+    ) -> End {
+        self.typed(text, of_sender, start, bench)
+    }
+
+    fn typed(
+        &mut self,
+        text: &str,
+        read_as: fn(MachineConfig) -> MachineConfig,
+        start: AxisVector,
+        bench: &mut Bench<'_, '_, '_>,
+    ) -> End {
         let (config, attendant) = self.set_up(bench.publisher)?;
+        let config = read_as(config);
         let text = format!("{text}\n").into_bytes();
         let options = || config.program_options(start);
         let judge = || Program::new(text.as_slice(), options()).find_map(Result::err);

@@ -46,11 +46,12 @@ impl JobRunner for Workshop<'_> {
             note: ProgramNote::of_job(&link, job),
             file: match job {
                 Job::File { path, .. } => Some(path),
-                Job::Line(_) | Job::Lines { .. } => None,
+                Job::Line(_) | Job::Sequence(_) | Job::Lines { .. } => None,
             },
         };
         let end = match job {
             Job::Line(text) => self.line(text, start, &mut bench),
+            Job::Sequence(text) => self.sequence(text, start, &mut bench),
             Job::Lines { inbox, .. } => self.lines(inbox, start, &mut bench),
             Job::File {
                 path,

@@ -68,7 +68,7 @@ pub(super) struct Begun {
     pub(super) in_force: Option<InForce>,
 }
 
-/// For the lines of senders, whose language is nearest to that of `LinuxCNC`.
+/// For the lines of senders and pages, whose language is that of `LinuxCNC`, or nearest to it.
 pub(super) fn of_sender(mut config: MachineConfig) -> MachineConfig {
     config.program.dialect = Some(Dialect::LinuxCnc);
     config
