@@ -78,13 +78,17 @@ function attentionKeys() {
   if (['held', 'program-stop'].includes(S.state) && isAway(s)) return key('return', 'Return to the path', { press: SHORT, why: not, kind: 'main', sub: 'press ½ s' });
   return '';
 }
-/* What a program that runs says, until somebody has read it. Where it stops, the panel says it. */
-S.read = '';
+/* What a program that runs says, until somebody has read it. Where it waits for a person, the panel says it, and whoever answers has
+   read it. */
+S.read = ''; S.told = '';
 DEEDS.read = b => { S.read = b.dataset.message; paintSays(); };
 function paintSays() {
   paintWay();
-  const s = S.status, said = s && s.message && s.end_of_epoch === 'open' && !(s.asked && s.asked.says) && S.read !== `${s.epoch} ${s.message}` ? s.message : '';
-  fill($('#says'), said ? `<p><span class="lab">The program says</span><br>${safe(said)}</p>${key('read', 'Read', { data: `data-message="${safe(`${s.epoch} ${s.message}`)}"` })}` : '');
+  const s = S.status, isOpen = s && s.message && s.end_of_epoch === 'open', message = isOpen ? messageOf(s) : '';
+  if (isOpen && s.asked && s.asked.says) S.told = message;
+  else if (S.told) { S.read = S.told; S.told = ''; }
+  const said = unread(s);
+  fill($('#says'), said ? `<p><span class="lab">The program says</span><br>${safe(said)}</p>${key('read', 'Read', { data: `data-message="${safe(message)}"` })}` : '');
 }
 /* The way back along the path, where the program is held. */
 function paintWay() {

@@ -41,12 +41,15 @@ function cause() {
   if (S.state === 'preparing' && s.job) return `${s.job.text}${s.job.begins_held ? '; it begins held' : ''}.`;
   if (S.state === 'awaiting' && s.asked) return `${program}line ${s.asked.line}: ${askedWords(s)}`;
   if (S.state === 'awaiting' && s.awaited) return `${program}${line(s)}: ${s.awaited.event} of line ${s.awaited.line} is awaited, for ${span(s.awaited.waited_s)}.`;
-  if (S.state === 'program-stop' && s.asked && s.asked.says) return `${program}${line(s)}: “${s.asked.says}”`;
+  // Beside its panel the words of the program stand there.
+  if (S.state === 'program-stop' && saysNow() && S.view !== 'operate') return `${program}${line(s)}: “${saysNow()}”`;
   if (S.state === 'held' && s.mode === 'backwards' && S.may === 'operate' && !isAway(s)) return `${program}${line(s)}: held at rest on the way back. Forward goes on to the end.`;
   // In these nothing of a program is under way.
   const alone = ['idle', 'preparing', 'off', 'not-homed', 'homing', 'jogging'].includes(S.state);
   const text = told(s.state_text || S.state);
   if (alone) return `${sentence(text)}.`;
+  // A telephone has no other place for it.
+  if (S.view === 'glance' && unread(s)) return `${program}${line(s)}: “${unread(s)}”`;
   return program ? `${program}${line(s)}: ${text}.` : `${sentence(`${line(s)}: ${text}`)}.`;
 }
 /* Texts come from the machine: commands in backticks, no capital, no full stop. */
@@ -69,6 +72,16 @@ function shapeWords(shape) {
   return said.length ? ` At most ${said.join(', ')}.` : '';
 }
 
+/* What a program that waits for a person says: where it stops, and with a tool unless somebody has read it. */
+function saysNow() {
+  const s = S.status, asked = s && s.asked;
+  return asked && asked.says && (asked.what === 'stop' || S.read !== messageOf(s)) ? asked.says : '';
+}
+/* What a program that runs has said, and nobody has read yet. */
+const unread = s => s && s.message && s.end_of_epoch === 'open' && !(s.asked && s.asked.says) && S.read !== messageOf(s) ? s.message : '';
+/* A message, and which program it is of. */
+const messageOf = s => `${s.epoch} ${s.message}`;
+
 /* A tool as people know it: its number, what the table calls it, diameter and length. */
 const toolWords = tool => `T${tool.number}${tool.name ? ` ${tool.name}` : ''}`;
 const toolSizes = tool => [tool.diameter_mm ? `Ø ${num(tool.diameter_mm, 2)}` : '', tool.length_mm ? `length ${num(tool.length_mm, 3)}` : ''].filter(Boolean).join(', ');
@@ -83,12 +96,12 @@ function attention() {
   const s = S.status, hands = S.may === 'operate', steps = list => hands ? '' : `<ol>${list.map(text => `<li><span>${marked(text)}</span></li>`).join('')}</ol>`;
   if (S.state === 'faulted') return `<h2>${safe(sentence(s.fault || 'a fault'))}.</h2><p>${hands ? safe(sentence(told(s.fault_remedy || ''))) : marked(sentence(s.state_text || ''))}.</p>${steps(['Look at the tool and the part.', `At the machine: ${s.fault_remedy || '`glidepath reset`'}.`])}`;
   if (S.state === 'awaiting' && s.awaited) {
-    const says = s.asked && s.asked.says ? `<p class="says">${safe(s.asked.says)}</p>` : '';
+    const says = saysNow() ? `<p class="says">${safe(saysNow())}</p>` : '';
     const title = s.asked ? sentence(askedWords(s)) : `${sentence(s.awaited.event)} of line ${s.awaited.line} is awaited.`;
     return `<h2>${safe(title)}</h2>${exchange(s.asked)}${says}${s.asked ? steps([`When that is done: ${s.awaited.done_by}`, `If it cannot be done: ${s.awaited.failed_by}`]) : ''}`;
   }
   if (S.state === 'program-stop' && !(s.single_block && !(s.asked && s.asked.says))) {
-    const says = s.asked && s.asked.says;
+    const says = saysNow();
     return `<h2>The program stopped at ${line(s)}.</h2>${says ? `<p class="says">${safe(says)}</p>` : ''}${steps(['Do what the program stopped for.', 'Press Resume, here or at the machine.'])}`;
   }
   if (S.state === 'held' && isAway(s)) {

@@ -5,6 +5,7 @@ mod following;
 mod hands;
 mod life;
 mod looked_at;
+mod says;
 mod screens;
 mod touch;
 mod way;
