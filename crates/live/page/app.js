@@ -114,12 +114,20 @@ function setInfo(info) {
   overView.hidden = isLathe();
   layDigits(); paintTools();
   if (!S.file) laySetUp();
+  paintUnits();
+}
+/* The key that changes the unit; a page that is a file has mm. */
+const unitKey = () => S.file ? '' : '<button class="unit-key" data-do="unit"></button>';
+const axisName = axis => isDiameter(axis.name) ? `${axis.name}<i class="dia">Ø</i>` : axis.name;
+function paintUnits() {
+  $$('[data-unit=feed]').forEach(e => put(e, feedUnit()));
+  $$('[data-do=unit]').forEach(b => { put(b, lengthUnit()); b.title = UNIT.inch ? 'show lengths in mm' : 'show lengths in inches'; b.setAttribute('aria-label', `lengths are in ${UNIT.inch ? 'inches' : 'mm'}: ${b.title}`); });
 }
 function layDigits() {
   const axes = AXES();
   $('#app').dataset.axes = axes.length > 6 ? 'many' : axes.length > 4 ? 'some' : axes.length > 3 ? 'four' : 'few';
-  fill($('#dro'), '<div class="top"><b id="system"></b><span id="dro-of"></span><span id="dro-machine"></span></div>' + axes.map(a => `<div class="ax"><b>${a.name}</b><div class="w n" id="w${a.name}"></div><div class="m"><div class="n" id="m${a.name}"></div><div class="travel" title="between the ends of its travel"><i id="t${a.name}"></i></div></div></div>`).join(''));
-  fill($('#g-axes'), axes.slice(0, 3).map(a => `<div><span class="lab">${a.name}</span><span class="n" id="g${a.name}"></span></div>`).join(''));
+  fill($('#dro'), `<div class="top"><b id="system"></b><span><span id="dro-of"></span>${unitKey()}</span><span id="dro-machine"></span></div>` + axes.map(a => `<div class="ax"><b>${axisName(a)}</b><div class="w n" id="w${a.name}"></div><div class="m"><div class="n" id="m${a.name}"></div><div class="travel" title="between the ends of its travel"><i id="t${a.name}"></i></div></div></div>`).join(''));
+  fill($('#g-axes'), axes.slice(0, 3).map(a => `<div><span class="lab">${nameOf(a.name)}</span><span class="n" id="g${a.name}"></span></div>`).join(''));
 }
 function setView(view) {
   // Who operates sees all of the path, whatever somebody looked at before.
@@ -147,7 +155,7 @@ function paintLegend() {
     const seen = new Set(MOTION.code.map(code => code & 128 ? 255 : code & 7));
     fill(legend, LIMITS.filter((kind, k) => kind !== 'rest' && seen.has(k)).map(kind => item(kind.replace(' ', '-'), LIMIT_WORDS[kind])).join('') + (seen.has(255) ? item('dashed', 'rapid') : ''));
   } else {
-    fill(legend, `<span>0 <canvas class="scale" width="90" height="8"></canvas> ${grouped(MOTION.most * 60)} mm/min</span>${item('dashed', 'rapid')}`);
+    fill(legend, `<span>0 <canvas class="scale" width="90" height="8"></canvas> ${feedText(MOTION.most * 60)} ${feedUnit()}</span>${item('dashed', 'rapid')}`);
     const c = $('canvas', legend).getContext('2d');
     for (let x = 0; x < 90; x++) { c.fillStyle = shade(x / 90); c.fillRect(x, 0, 1, 8); }
   }
@@ -223,17 +231,17 @@ function digits() {
   const ring = RINGED, fresh = ring && ring.count, axes = AXES(), speed = Math.abs(fresh ? ring.feed[(ring.count - 1) & (RING - 1)] : s.feed_mm_s);
   const machine = axes.map((a, k) => fresh ? ring.last_position(k) : s.position[a.name]), shown = work(machine), moving = speed > 1e-6 && S.state !== 'stale';
   $('#app').classList.toggle('moving', moving);
-  put($('#system'), s.offset ? s.offset.system : ''); put($('#dro-of'), s.offset ? 'from part zero, mm' : 'from machine zero, mm'); put($('#dro-machine'), s.offset ? 'machine, mm' : 'travel');
+  put($('#system'), s.offset ? s.offset.system : ''); put($('#dro-of'), s.offset ? 'from part zero' : 'from machine zero'); put($('#dro-machine'), s.offset ? 'machine' : 'travel');
   axes.forEach((axis, k) => {
-    const text = num(shown[k], 3);
+    const text = place(axis, shown[k]);
     fill($(`#w${axis.name}`), `${text.slice(0, -2)}<i>${text.slice(-2)}</i>`);
     const lost = (s.axes_not_homed || []).includes(axis.name);
     $(`#w${axis.name}`).parentElement.classList.toggle('lost', lost);
-    put($(`#m${axis.name}`), lost ? 'not homed' : s.offset ? num(machine[k], 3) : axis.travel ? `${num(axis.travel[0], 0)} … ${num(axis.travel[1], 0)}` : 'turns');
+    put($(`#m${axis.name}`), lost ? 'not homed' : s.offset ? place(axis, machine[k]) : axis.travel ? axis.travel.map(end => place(axis, end, 3)).join(' … ') : 'turns');
     const rail = $(`#t${axis.name}`);
     rail.parentElement.hidden = !axis.travel;
     if (axis.travel) rail.style.left = `${Math.max(0, Math.min(100, (machine[k] - axis.travel[0]) / (axis.travel[1] - axis.travel[0]) * 100)).toFixed(2)}%`;
-    if (k < 3) put($(`#g${axis.name}`), num(shown[k], 2));
+    if (k < 3) put($(`#g${axis.name}`), place(axis, shown[k], 1));
   });
   feedDigits(speed * 60, moving);
   if (s.mode === 'backwards') put($('#feedof'), moving ? 'back along the path' : 'backwards');
@@ -250,7 +258,7 @@ function digits() {
   const known = s.left_s !== null && s.left_s !== undefined && s.end_of_epoch === 'open', ends = known && S.state === 'running' ? clock(Date.now() + s.left_s * 1000) : null;
   put($('#left'), S.state === 'stale' || !known ? '–:––.–' : span(s.left_s)); put($('#g-left'), $('#left').textContent);
   put($('#ends'), S.state === 'stale' ? 'not known' : ends ? `ends ${ends}` : known ? 'after resume' : ''); put($('#g-end'), ends || '––:––:––');
-  put($('#g-line'), String(s.line)); put($('#g-ov'), `${Math.round(s.feed_override * 100)} %`); put($('#g-feed'), grouped(speed * 60));
+  put($('#g-line'), String(s.line)); put($('#g-ov'), `${Math.round(s.feed_override * 100)} %`); put($('#g-feed'), feedText(speed * 60));
   paintWhy();
   blocks(s.line);
 }
@@ -259,9 +267,9 @@ function feedDigits(v, moving) {
   const plan = S.status.end_of_epoch === 'open' && S.status.place !== null && !['jogging', 'homing'].includes(S.state) ? PLAN : null;
   const bin = plan ? plan.bin(S.p) : 0, code = plan ? plan.code[bin] : 0, rapid = !!(code & 128), programmed = plan ? plan.programmed[bin] * 60 : 0;
   const full = PLAN ? Math.max(PLAN.mostFeed * 60, 1) : Math.max(v, 6000), part = x => `${Math.min(100, x / full * 100)}%`;
-  put($('#feed'), grouped(v));
+  put($('#feed'), feedText(v));
   $('#feedbar').style.width = part(v); $('#feedmark').style.left = part(rapid || programmed > 1e9 ? full : programmed); $('#feedmark').hidden = !plan;
-  put($('#feedof'), !plan ? '' : rapid ? (moving ? 'rapid' : 'a rapid comes') : !moving ? (programmed > 1e9 ? '' : `programmed ${grouped(programmed)}`) : `of ${grouped(programmed)}${['feed', 'none', 'rest'].includes(limitOf(code)) ? '' : `, ${limitText(code)}`}`);
+  put($('#feedof'), !plan ? '' : rapid ? (moving ? 'rapid' : 'a rapid comes') : !moving ? (programmed > 1e9 ? '' : `programmed ${feedText(programmed)}`) : `of ${feedText(programmed)}${['feed', 'none', 'rest'].includes(limitOf(code)) ? '' : `, ${limitText(code)}`}`);
 }
 function blocks(line) {
   if (!INFO.program || !line || !S.status.program_is_shown || !S.shows) { fill($('#blocks'), '<div></div><div></div><div class="cur"></div><div></div><div></div>'); return; }

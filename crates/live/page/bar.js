@@ -11,6 +11,7 @@ function layDeeds() {
   // Nothing that another finger is about to begin begins behind a stop.
   DEEDS.hold = () => { if (PRESSED.button !== BAR.abort) letGo(); endJog(); order('hold'); };
   DEEDS.abort = () => { endJog(); order('abort'); };
+  DEEDS.unit = () => { const before = touchDefaults(); changeUnit(); paintUnits(); for (const [name, x] of Object.entries(before)) if (TOUCH[name] === x) TOUCH[name] = touchDefaults()[name]; SPACE.stale = true; if (JOG.step) JOG.step = steps()[steps().length - 1]; S.editing = null; redraw(); paintLegend(); paintTables(); paintPad(); paintSetUp(); paintPrograms(); };
   DEEDS.single = () => order('single-block', { on: !(S.status && S.status.single_block) });
   DEEDS.go = async () => {
     // Held on the way back, it turns round first.
@@ -122,6 +123,7 @@ function paintHands() {
   const app = $('#app');
   app.dataset.may = S.may; app.dataset.operates = S.operates ? 1 : 0;
   $$('.ov [data-do]').forEach(b => { if (notOperating()) b.setAttribute('aria-disabled', 'true'); else b.removeAttribute('aria-disabled'); });
-  fill($('#g-foot'), S.may === 'look' ? `${icon('lock')}<span>This page only looks; it sends no commands.</span>` : '<span>Not for emergencies.</span>');
+  fill($('#g-foot'), S.may === 'look' ? `${icon('lock')}<span>This page only looks; it sends no commands.</span>${unitKey()}` : `<span>Not for emergencies.</span>${unitKey()}`);
+  paintUnits();
   paintBar(); paintSetUp(); paintPrograms();
 }

@@ -92,6 +92,4 @@ function fit(canvas) {
 }
 const dirty = { path: true, strips: true, ribbon: true, health: true, tune: true };
 const redraw = () => { for (const part in dirty) dirty[part] = true; };
-/* A round length, mm: in the unit in which it is a number of people. */
-const lengthWords = mm => mm >= 1 ? `${grouped(mm)} mm` : mm >= 1e-3 ? `${+(mm * 1e3).toPrecision(2)} µm` : `${+(mm * 1e6).toPrecision(2)} nm`;
 const nice = (least, steps = [1, 2, 5]) => { const p = 10 ** Math.floor(Math.log10(least)); return (steps.find(s => s * p >= least) || 10) * p; };

@@ -14,7 +14,8 @@ function beginJog(ways, button) {
   const names = Object.keys(ways), slower = Math.sqrt(names.length);
   if (JOG.step) {
     const axes = {};
-    for (const name of names) axes[name] = ways[name] * JOG.step;
+    // A step is what it is of the numbers that are shown: of the diameter, where that is.
+    for (const name of names) axes[name] = ways[name] * JOG.step * scaleOf(axisOf(name));
     order('jog-step', { axes, feed: Math.max(1, Math.min(...names.map(jogVelocity))) });
     return;
   }
@@ -91,14 +92,14 @@ function layPad() {
   slider.oninput = () => { endJog(); JOG.part = slider.value / 100; paintPad(); };
   paintPad();
 }
+const steps = () => stepsOf(SETUP.jog ? SETUP.jog.increments : []);
 function paintPad() {
   if (!$('#steps')) return;
-  const steps = [0, ...(SETUP.jog ? [...SETUP.jog.increments].sort((a, b) => b - a) : [])];
-  fill($('#steps'), steps.map(step => `<button role="radio" aria-checked="${JOG.step === step}" data-step="${step}">${step || 'while pressed'}</button>`).join(''));
+  fill($('#steps'), [0, ...steps()].map(step => `<button role="radio" aria-checked="${JOG.step === step}" data-step="${step}">${step || 'while pressed'}</button>`).join(''));
   $$('#steps button').forEach(b => { b.onclick = () => { JOG.step = +b.dataset.step; paintPad(); }; });
   const v = AXES().length ? jogVelocity(AXES()[0].name) : 0, dead = SETUP.jog ? SETUP.jog.dead_man_ms : 150;
-  put($('#jogpart'), `${Math.round(JOG.part * 100)} %`); put($('#jogmm'), `${grouped(v)} mm/min`);
-  put($('#jogslip'), `Contact lost: the axes begin to stop within ${num(v / 60 * dead / 1000, 1)} mm.`);
+  put($('#jogpart'), `${Math.round(JOG.part * 100)} %`); put($('#jogmm'), `${feedText(v)} ${feedUnit()}`);
+  put($('#jogslip'), `Contact lost: the axes begin to stop within ${lengthText(v / 60 * dead / 1000, 1)} ${lengthUnit()}.`);
   const why = whyNoJog();
   $$('.jog').forEach(b => { if (why) b.setAttribute('aria-disabled', 'true'); else b.removeAttribute('aria-disabled'); });
 }

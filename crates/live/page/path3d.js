@@ -147,7 +147,7 @@ class Path3D {
     const track = this.track();
     if (!track) return;
     if (isLathe()) { this.centre(c, track); return; }
-    const [lx, ly, lz] = track.low, [hx, hy] = track.high, step = nice(Math.max(hx - lx, hy - ly, 1) / 9);
+    const [lx, ly, lz] = track.low, [hx, hy] = track.high, step = niceLength(Math.max(hx - lx, hy - ly, 1) / 9);
     const x0 = Math.floor(lx / step) * step, x1 = Math.ceil(hx / step) * step, y0 = Math.floor(ly / step) * step, y1 = Math.ceil(hy / step) * step;
     c.strokeStyle = T.css.faint; c.lineWidth = 1; c.beginPath();
     for (let x = x0; x <= x1 + step / 2; x += step) { c.moveTo(...this.at(x, y0, lz)); c.lineTo(...this.at(x, y1, lz)); }
@@ -179,7 +179,7 @@ class Path3D {
       c.strokeStyle = T.css.quiet; c.beginPath(); c.moveTo(ox, oy); c.lineTo(ox + x, oy + y); c.stroke();
       c.fillStyle = T.css.quiet; c.fillText(name, ox + x * 1.42, oy + y * 1.42);
     });
-    const length = nice(60 / this.scale), px = length * this.scale, y = h - foot - 10;
+    const length = niceLength(60 / this.scale), px = length * this.scale, y = h - foot - 10;
     c.fillStyle = T.css.quiet; c.fillRect(14, y, px, 1.5); c.fillRect(14, y - 3, 1.5, 7.5); c.fillRect(14 + px - 1.5, y - 3, 1.5, 7.5);
     c.textAlign = 'left'; c.fillText(lengthWords(length), 14, y - 11);
   }

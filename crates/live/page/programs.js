@@ -132,7 +132,7 @@ function differences(text) {
     const of = /^([^:]+): (.*) -> (.*)$/.exec(said);
     if (!of) { notes.push(said); continue; }
     const [, what, now, then] = of, there = then.split(' ');
-    if (what === 'position') now.split(' ').forEach((at, k) => rows.push([at.charAt(0), at.slice(1), (there[k] || '').slice(1)]));
+    if (what === 'position') now.split(' ').forEach((at, k) => { const axis = axisOf(at.charAt(0)), shown = text => text ? place(axis, +text.slice(1)) : ''; rows.push([`${nameOf(axis.name)}, ${unitOf(axis)}`, shown(at), shown(there[k])]); });
     else rows.push([sentence(what), now, then]);
   }
   return { rows, notes };

@@ -52,11 +52,11 @@ function ribbon() {
     for (const place of INFO.report ? INFO.report.slowest : []) { const x = X((place.start_s + place.duration_s / 2) / PLAN.dt); c.beginPath(); c.moveTo(x, bottom + 4); c.lineTo(x - 4, bottom + 10); c.lineTo(x + 4, bottom + 10); c.fill(); }
   }
   if (S.hover !== null) { c.setLineDash([3, 3]); c.strokeStyle = T.css.ink; c.lineWidth = 1; c.beginPath(); c.moveTo(X(S.hover), top - 8); c.lineTo(X(S.hover), bottom + 4); c.stroke(); c.setLineDash([]); }
-  const y = h - em * 0.5 - 3, name = INFO.program ? stem(INFO.program.name) : '', way = PLAN.way[PLAN.bins - 1] / 1000;
+  const y = h - em * 0.5 - 3, name = INFO.program ? stem(INFO.program.name) : '', way = PLAN.way[PLAN.bins - 1];
   c.textAlign = 'left'; c.fillStyle = T.css.ink; c.font = `bold ${em}px B612`; c.fillText(name, left, y);
   const wide = c.measureText(name).width;
   c.font = `${em}px B612`; c.fillStyle = T.css.quiet;
-  if (S.view !== 'glance') c.fillText(S.file ? `   ${way.toFixed(2)} m` : `   ${Math.floor(p / Math.max(1, PLAN.samples - 1) * 100)} % of the time, ${(PLAN.way[PLAN.bin(p)] / 1000).toFixed(2)} of ${way.toFixed(2)} m`, left + wide, y);
+  if (S.view !== 'glance') c.fillText(S.file ? `   ${wayText(way)}` : `   ${Math.floor(p / Math.max(1, PLAN.samples - 1) * 100)} % of the time, ${wayText(PLAN.way[PLAN.bin(p)], way)}`, left + wide, y);
   c.textAlign = 'right'; c.fillText(`${span(PLAN.seconds)} at 100 %`, w - left, y);
 }
 /* Why there is no plan to be seen. */

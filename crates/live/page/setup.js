@@ -48,7 +48,7 @@ DEEDS['show-tools'] = () => showTable('tools');
 /* ---- a number that was touched */
 function laySetUp() {
   const axes = AXES();
-  fill($('#setdro'), `<div class="top"><b id="s-system"></b><span>press a number to set it</span><span>machine</span></div>${axes.map((a, k) => `<div class="ax"><b>${a.name}<svg class="i" viewBox="0 0 24 24" id="h${a.name}" aria-hidden="true"></svg></b><button class="w n" id="s${a.name}" data-do="touch" data-axis="${k}" aria-label="set ${a.name}"></button><div class="m"><div class="n" id="sm${a.name}"></div><div class="travel"><i id="st${a.name}"></i></div></div></div>`).join('')}`);
+  fill($('#setdro'), `<div class="top"><b id="s-system"></b><span>press to set it${unitKey()}</span><span>machine</span></div>${axes.map((a, k) => `<div class="ax"><b>${axisName(a)}<svg class="i" viewBox="0 0 24 24" id="h${a.name}" aria-hidden="true"></svg></b><button class="w n" id="s${a.name}" data-do="touch" data-axis="${k}" aria-label="set ${a.name}"></button><div class="m"><div class="n" id="sm${a.name}"></div><div class="travel"><i id="st${a.name}"></i></div></div></div>`).join('')}`);
   layPad();
 }
 DEEDS.touch = b => { $('#number').value = ''; S.sheet = S.sheet === +b.dataset.axis ? null : +b.dataset.axis; paintSheet(); if (S.sheet !== null) $('#number').focus(); };
@@ -60,10 +60,10 @@ function paintSheet() {
   const why = whyNoLine(), s = S.status, joint = (SETUP.joints || []).indexOf(axis.name), notHomed = (s.not_homed || []).includes(`J${joint}`);
   const system = SETUP.active || 'the work offset';
   fill($('#sheetkeys'), `<div class="row">${key('zero', `Zero ${axis.name}`, { why, kind: 'main' })}${key('half', 'Half', { why })}${key('value', 'Set to value', { why })}</div><div class="row">${key('go-to', `Go to value`, { press: SHORT, why, sub: 'rapid: press ½ s' })}${joint >= 0 && SETUP.homing !== 'none' ? key('home', `Home ${axis.name}`, { press: SHORT, why: notOperating() || unknown(), sub: notHomed ? 'not homed' : 'again: press ½ s', data: `data-joint="${joint}"` }) : ''}${key('close-sheet', 'Close')}</div>`);
-  put($('#sheethead'), `${axis.name} in ${system}, ${axis.unit}`);
+  put($('#sheethead'), `${nameOf(axis.name)} in ${system}, ${unitOf(axis)}`);
 }
 const touched = () => AXES()[S.sheet];
-const entered = () => numberOf($('#number').value);
+const entered = () => typedOn(touched(), $('#number').value);
 async function setWork(value) {
   const { sheet } = S, undo = zeroToUndo(touched().name), said = await inMm(`set ${touched().name}`, [`G10 L20 P0 ${word(touched().name, value)}`]);
   if (said.accepted) { offerUndo(undo); closeSheet(sheet); }
@@ -73,7 +73,7 @@ function closeSheet(sheet) { if (S.sheet === sheet) { S.sheet = null; paintSheet
 DEEDS.zero = () => setWork(0);
 DEEDS.half = () => setWork(work(machineNow())[S.sheet] / 2);
 DEEDS.value = () => { const v = entered(); if (v !== null) setWork(v); else $('#number').focus(); };
-DEEDS['go-to'] = async () => { const v = entered(); if (v === null) { $('#number').focus(); return; } const { sheet } = S, said = await inMm(`go to ${touched().name} ${num(v, 3)}`, [`G90 G0 ${word(touched().name, v)}`]); if (said.accepted) closeSheet(sheet); };
+DEEDS['go-to'] = async () => { const v = entered(); if (v === null) { $('#number').focus(); return; } const { sheet } = S, said = await inMm(`go to ${nameOf(touched().name)} ${place(touched(), v)}`, [`G90 G0 ${word(touched().name, v)}`]); if (said.accepted) closeSheet(sheet); };
 const machineNow = () => AXES().map((a, k) => RINGED && RINGED.count ? RINGED.last_position(k) : S.status.position[a.name]);
 function setUpDigits() {
   const s = S.status;
@@ -81,7 +81,7 @@ function setUpDigits() {
   const machine = machineNow(), shown = work(machine);
   put($('#s-system'), s.offset ? s.offset.system : '');
   AXES().forEach((axis, k) => {
-    put($(`#s${axis.name}`), num(shown[k], 3)); put($(`#sm${axis.name}`), num(machine[k], 3));
+    put($(`#s${axis.name}`), place(axis, shown[k])); put($(`#sm${axis.name}`), place(axis, machine[k]));
     const homed = !(s.axes_not_homed || []).includes(axis.name);
     $(`#s${axis.name}`).parentElement.classList.toggle('lost', !homed);
     fill($(`#h${axis.name}`), `<path d="${ICONS.home}"/>`); $(`#h${axis.name}`).classList.toggle('ok', homed); $(`#h${axis.name}`).classList.toggle('warn', !homed);
@@ -103,7 +103,7 @@ function zeroToUndo(axis) {
   if (!zero) return null;
   // Where it is turned, one axis moves the zero of others.
   const line = `G10 L2 P${zero.number} ${AXES().map(a => word(a.name, zero.origin[a.name])).join(' ')}`;
-  return { what: `${zero.name}, ${axis}`, was: num(zero.origin[axis], 3), line, before: concerned(line) };
+  return { what: `${zero.name}, ${nameOf(axis)}`, was: () => place(axisOf(axis), zero.origin[axis]), line, before: concerned(line) };
 }
 function offerUndo(undo) { S.undo = undo; judgeUndo(); paintUndo(); }
 /* What somebody has changed since is not set back. */
@@ -114,7 +114,7 @@ function judgeUndo() {
 }
 function paintUndo() {
   const undo = S.undo;
-  fill($('#undo'), undo ? `<span>${safe(undo.what)} was ${undo.was}.</span>${key('undo', 'Undo', { why: whyNoLine() })}` : '');
+  fill($('#undo'), undo ? `<span>${safe(undo.what)} was ${undo.was()}.</span>${key('undo', 'Undo', { why: whyNoLine() })}` : '');
 }
 DEEDS.undo = async () => { const { undo } = S, said = undo && await inMm(`undo ${undo.what}`, [undo.line]); if (said && said.accepted && S.undo === undo) { S.undo = null; paintUndo(); } };
 
@@ -128,18 +128,22 @@ function paintTables() {
   if (S.editing) return;
   fill($('#table'), S.table === 'tools' ? toolTable() : S.table === 'touch' ? touchTable() : S.table === 'spindle' ? spindleKeys() : offsetTable());
 }
-const cell = (what, edit, value, digits) => `<td><button class="cell n" data-do="edit" data-edit="${safe(edit)}" data-value="${value}" aria-label="${safe(what)}">${num(value, digits)}</button></td>`;
+/* `of` is the axis that a cell is of, or what else has a scale and places. */
+const cell = (what, edit, value, of) => `<td><button class="cell n" data-do="edit" data-edit="${safe(edit)}" data-value="${value}" data-of="${of}" aria-label="${safe(what)}">${cellText(of, value)}</button></td>`;
+const cellText = (of, value) => of === 'turned' ? num(value, 2) : of === 'diameter' ? lengthText(value, 3) : place(axisOf(of), value);
+const cellScale = of => of === 'turned' ? 1 : of === 'diameter' ? perUnit() : scaleOf(axisOf(of));
+const cellTyped = (of, text) => of === 'turned' ? numberOf(text) : of === 'diameter' ? typed(text, perUnit()) : typedOn(axisOf(of), text);
 function offsetTable() {
   if (!SETUP.keeps) return '<p class="lab-text">Nothing is kept over a restart, so there is no table. Name a folder: directory of [state] of the configuration.</p>';
   if (SETUP.trouble) return `<p class="lab-text">${safe(plain(SETUP.trouble))}</p>`;
   if (!SETUP.systems) return '<p class="lab-text">Nothing is kept yet. Press a position and set it: that is the first entry.</p>';
   const axes = AXES().map(a => a.name);
-  return `<table class="edit"><tr><th>system</th>${axes.map(a => `<th>${a}</th>`).join('')}<th>turned</th><th></th></tr>${SETUP.systems.map(system => `<tr class="${system.name === SETUP.active ? 'on' : ''}"><td><b>${system.name}</b></td>${axes.map(a => cell(`${system.name}, ${a}`, `G21 G10 L2 P${system.number} ${a}`, system.origin[a], 3)).join('')}${cell(`${system.name}, turned`, `G21 G10 L2 P${system.number} R`, system.rotation_deg, 2)}<td>${system.name === SETUP.active ? '<span class="chip">in use</span>' : key('use', 'Use', { press: SHORT, why: whyNoLine(), data: `data-line="${system.name}"` })}</td></tr>`).join('')}</table>`;
+  return `<table class="edit"><tr><th>system</th>${axes.map(a => `<th>${nameOf(a)}</th>`).join('')}<th>turned</th><th></th></tr>${SETUP.systems.map(system => `<tr class="${system.name === SETUP.active ? 'on' : ''}"><td><b>${system.name}</b></td>${axes.map(a => cell(`${system.name}, ${a}`, `G10 L2 P${system.number} ${a}`, system.origin[a], a)).join('')}${cell(`${system.name}, turned`, `G10 L2 P${system.number} R`, system.rotation_deg, 'turned')}<td>${system.name === SETUP.active ? '<span class="chip">in use</span>' : key('use', 'Use', { press: SHORT, why: whyNoLine(), data: `data-line="${system.name}"` })}</td></tr>`).join('')}</table>`;
 }
 function toolTable() {
   if (!(SETUP.tools || []).length) return '<p class="lab-text">There are no tools. Name a table: tool_table of [program] of the configuration.</p>';
   const axes = AXES().map(a => a.name).filter(a => a === 'Z' || SETUP.tools.some(tool => tool.offset[a]));
-  return `<table class="edit"><tr><th>tool</th><th class="l">name</th>${axes.map(a => `<th>${a === 'Z' ? 'length Z' : a}</th>`).join('')}<th>Ø</th></tr>${SETUP.tools.map(tool => `<tr class="${S.status && tool.number === S.status.tool ? 'on' : ''}"><td><b>T${tool.number}</b></td><td class="l">${safe(tool.name || '')}</td>${axes.map(a => cell(`T${tool.number}, ${a === 'Z' ? 'length' : a}`, `G21 G10 L1 P${tool.number} ${a}`, tool.offset[a], 3)).join('')}${cell(`T${tool.number}, Ø`, `G21 G10 L1 P${tool.number} R`, tool.diameter_mm, 3)}</tr>`).join('')}</table>${SETUP.keeps ? '' : '<p class="lab-text">Changes last as long as the planner’s service: name a folder, directory of [state].</p>'}`;
+  return `<table class="edit"><tr><th>tool</th><th class="l">name</th>${axes.map(a => `<th>${a === 'Z' ? 'length Z' : nameOf(a)}</th>`).join('')}<th>Ø</th></tr>${SETUP.tools.map(tool => `<tr class="${S.status && tool.number === S.status.tool ? 'on' : ''}"><td><b>T${tool.number}</b></td><td class="l">${safe(tool.name || '')}</td>${axes.map(a => cell(`T${tool.number}, ${a === 'Z' ? 'length' : a}`, `G10 L1 P${tool.number} ${a}`, tool.offset[a], a)).join('')}${cell(`T${tool.number}, Ø`, `G10 L1 P${tool.number} R`, tool.diameter_mm, 'diameter')}</tr>`).join('')}</table>${SETUP.keeps ? '' : '<p class="lab-text">Changes last as long as the planner’s service: name a folder, directory of [state].</p>'}`;
 }
 function spindleKeys() {
   const why = whyNoLine(), s = S.status || {}, told = s.spindle;
@@ -152,15 +156,15 @@ DEEDS.line = b => own(b.dataset.line, [b.dataset.line]);
 DEEDS.use = DEEDS.line;
 DEEDS.edit = b => {
   if (notOperating() || S.editing) return;
-  const input = document.createElement('input'), { edit } = b.dataset, before = concerned(edit);
-  input.className = 'cell n'; input.inputMode = 'decimal'; input.value = mm(+b.dataset.value); input.setAttribute('aria-label', 'new value; Enter sets it, Esc leaves it');
+  const input = document.createElement('input'), { edit, of } = b.dataset, before = concerned(edit);
+  input.className = 'cell n'; input.inputMode = 'decimal'; input.value = typedText(+b.dataset.value, cellScale(of)); input.setAttribute('aria-label', 'new value; Enter sets it, Esc leaves it');
   S.editing = input; b.replaceWith(input); input.focus(); input.select();
   const leave = () => { if (S.editing === input) { S.editing = null; $('#table').kept = ''; paintTables(); } };
   input.onblur = leave;
   input.onkeydown = async e => {
     if (e.key === 'Escape') leave();
     if (e.key !== 'Enter' || e.repeat) return;
-    const value = numberOf(input.value);
+    const value = cellTyped(of, input.value);
     if (value === null) return;
     if (concerned(edit) !== before) { refuse('it was changed meanwhile; look at it, and change it anew'); leave(); return; }
     // R of a tool is a radius.
@@ -168,7 +172,7 @@ DEEDS.edit = b => {
     const line = x => edit.slice(0, -1) + word(name, isTool && name === 'R' ? x / 2 : x), was = +b.dataset.value;
     const what = b.getAttribute('aria-label'), said = await inMm(what, [line(value)]);
     if (!said.accepted) return;
-    offerUndo({ what, was: num(was, 3), line: line(was), before });
+    offerUndo({ what, was: () => cellText(of, was), line: line(was), before });
     leave();
   };
 };

@@ -2,8 +2,10 @@
 // Touching off: a probe, or a tool over a plate, goes to the part until it touches; then the part zero, or the
 // length of the tool, is set from where it touched. Lines for the planner's service, in one job.
 
-const TOUCH = { way: 'Z−', reach: 10, feed: 100, plate: 0, tip: 0, place: 0, back: 2, of: 'zero', step: 0, says: '', undo: null };
-const TOUCH_FIELDS = { reach: 'Farthest way, mm', feed: 'Feed, mm/min', plate: 'Plate under the tool, mm', tip: 'Ø of the probe, mm', place: 'The place is at, mm', back: 'Then back, mm' };
+const TOUCH_FIELDS = { reach: 'Farthest way', feed: 'Feed', plate: 'Plate under the tool', tip: 'Ø of the probe', place: 'The place is at', back: 'Then back' };
+/* What the fields have at first, mm and mm/min: round numbers in either unit. */
+const touchDefaults = () => UNIT.inch ? { reach: 0.4 * MM_PER_INCH, feed: 4 * MM_PER_INCH, back: 0.1 * MM_PER_INCH } : { reach: 10, feed: 100, back: 2 };
+const TOUCH = { way: 'Z−', ...touchDefaults(), plate: 0, tip: 0, place: 0, of: 'zero', step: 0, says: '', undo: null };
 const touchWays = () => { const names = AXES().map(a => a.name), sides = names.includes('X') && names.includes('Y') ? ['X+', 'X−', 'Y+', 'Y−'] : []; return names.includes('Z') ? ['Z−', ...sides] : sides; };
 const isLength = () => TOUCH.way === 'Z−' && TOUCH.of === 'length';
 function touchTable() {
@@ -12,8 +14,8 @@ function touchTable() {
   const fields = ['reach', 'feed', TOUCH.way === 'Z−' ? 'plate' : 'tip', 'place', 'back'], tool = S.status ? S.status.tool : 0;
   return `<div class="touch"><div class="choices" role="radiogroup" aria-label="which way">${touchWays().map(way => radio('way', way, TOUCH.way === way, way)).join('')}</div>`
     + (TOUCH.way === 'Z−' ? `<div class="choices" role="radiogroup" aria-label="what is set">${radio('of', 'zero', !isLength(), 'Part zero')}${radio('of', 'length', isLength(), tool ? `Length of T${tool}` : 'Length of the tool')}</div>` : '')
-    + `<div class="fields">${fields.map(name => `<label class="field"><span class="lab">${TOUCH_FIELDS[name]}</span><input data-touch="${name}" inputmode="decimal" autocomplete="off" value="${mm(TOUCH[name])}"></label>`).join('')}</div>`
-    + `<p class="lab-text">Jog until the ${TOUCH.way === 'Z−' ? 'tool is over the plate or the part' : 'probe is beside the part'}. ${TOUCH.way} goes on for at most the farthest way, and stops where it touches.</p><div id="touchsteps"></div><div class="row">${key('touch-go', `Touch ${TOUCH.way}`, { press: SHORT, sub: 'press ½ s', kind: 'main' })}</div></div>`;
+    + `<div class="fields">${fields.map(name => `<label class="field"><span class="lab">${TOUCH_FIELDS[name]}, ${name === 'feed' ? feedUnit() : lengthUnit()}</span><input data-touch="${name}" inputmode="decimal" autocomplete="off" value="${isFinite(TOUCH[name]) ? typedText(TOUCH[name], perUnit()) : ''}"></label>`).join('')}</div>`
+    + `<p class="lab-text">Jog until the ${TOUCH.way === 'Z−' ? 'tool is over the plate or the part' : 'probe is beside the part'}.</p><div id="touchsteps"></div><div class="row">${key('touch-go', `Touch ${TOUCH.way}`, { press: SHORT, sub: 'press ½ s', kind: 'main' })}</div></div>`;
 }
 DEEDS['touch-set'] = b => { TOUCH[b.dataset.kind] = b.dataset.value; paintTables(); };
 function paintTouch() {
@@ -29,7 +31,7 @@ function whyNoTouch() {
   if (TOUCH.step && TOUCH.step < 4 && !TOUCH.says) return 'under way';
   if (Object.values(TOUCH).some(x => typeof x === 'number' && !isFinite(x))) return 'a number is missing';
   if (!(reach > 0)) return 'the way is more than 0';
-  if (!(feed > 0) || feed > most) return `the feed is at most ${grouped(most)}`;
+  if (!(feed > 0) || feed > most) return `the feed is at most ${feedText(most)}`;
   if (!(plate >= 0) || !(tip >= 0) || !(back >= 0)) return 'not less than 0';
   if (isLength() && !(S.status && S.status.tool)) return 'no tool is told: T1 M6 first';
   return whyNoLine();
@@ -83,6 +85,6 @@ function judgeTouch() {
 addEventListener('input', e => {
   const name = e.target.dataset && e.target.dataset.touch;
   if (!name) return;
-  const number = numberOf(e.target.value);
-  TOUCH[name] = number === null ? NaN : number;
+  const value = name === 'feed' ? numberOf(e.target.value) : typed(e.target.value, perUnit());
+  TOUCH[name] = value === null ? NaN : name === 'feed' ? value * perUnit() : value;
 });

@@ -84,7 +84,7 @@ const messageOf = s => `${s.epoch} ${s.message}`;
 
 /* A tool as people know it: its number, what the table calls it, diameter and length. */
 const toolWords = tool => `T${tool.number}${tool.name ? ` ${tool.name}` : ''}`;
-const toolSizes = tool => [tool.diameter_mm ? `Ø ${num(tool.diameter_mm, 2)}` : '', tool.length_mm ? `length ${num(tool.length_mm, 3)}` : ''].filter(Boolean).join(', ');
+const toolSizes = tool => [tool.diameter_mm ? `Ø ${lengthText(tool.diameter_mm, 2)}` : '', tool.length_mm ? `length ${lengthText(tool.length_mm, 3)}` : ''].filter(Boolean).map((text, k, all) => k === all.length - 1 ? `${text} ${lengthUnit()}` : text).join(', ');
 function askedWords(s) {
   const asked = s.asked, tool = asked.tools && asked.tools.wanted;
   if (!tool) return `${asked.code} waits for you.`;
@@ -105,7 +105,7 @@ function attention() {
     return `<h2>The program stopped at ${line(s)}.</h2>${says ? `<p class="says">${safe(says)}</p>` : ''}${steps(['Do what the program stopped for.', 'Press Resume, here or at the machine.'])}`;
   }
   if (S.state === 'held' && isAway(s)) {
-    const way = Object.entries(s.away).filter(([, x]) => Math.abs(x) > 1e-9).map(([name, x]) => `${name} ${num(x, 3)}`).join(', ');
+    const way = Object.entries(s.away).filter(([, x]) => Math.abs(x) > 1e-9).map(([name, x]) => `${nameOf(name)} ${place(axisOf(name), x)} ${unitOf(axisOf(name))}`).join(', ');
     return `<h2>The axes are off the path: ${way}.</h2><p>They go back to where the program was held before it goes on.</p>`;
   }
   return '';

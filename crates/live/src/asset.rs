@@ -10,8 +10,9 @@ pub(crate) const STYLE: &str = include_str!("../page/style.css");
 const HANDS_STYLE: &str = include_str!("../page/hands.css");
 
 /// What shows a motion, in the order in which the page names it.
-const SHOWING: [(&str, &str); 9] = [
+const SHOWING: [(&str, &str); 10] = [
     ("/base.js", include_str!("../page/base.js")),
+    ("/units.js", include_str!("../page/units.js")),
     ("/plan.js", include_str!("../page/plan.js")),
     ("/ring.js", include_str!("../page/ring.js")),
     ("/path3d.js", include_str!("../page/path3d.js")),

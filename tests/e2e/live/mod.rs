@@ -8,6 +8,7 @@ mod looked_at;
 mod says;
 mod screens;
 mod touch;
+mod units;
 mod way;
 
 use std::io::{BufRead as _, BufReader, Read as _, Write as _};
