@@ -253,7 +253,7 @@ function digits() {
   put($('#spin'), s.spindle && s.spindle.turns !== 'off' ? grouped(s.spindle.speed) : s.spindle ? '0' : '–'); put($('#spinof'), s.spindle ? s.spindle.turns + (s.spindle.coolant ? `, ${s.spindle.coolant}` : '') : 'not known here');
   // While a tool is asked for, the one that is told is not in the spindle yet.
   const asked = s.asked && s.asked.tools, now = asked ? asked.before && asked.before.number : s.tool;
-  put($('#tool'), now ? `T${now}` : '–'); put($('#toolof'), asked ? `T${asked.wanted ? asked.wanted.number : 0} is wanted` : now ? 'told to be in' : 'none, or not told');
+  put($('#tool'), now ? `T${now}` : '–'); put($('#toolof'), asked ? `T${asked.wanted ? asked.wanted.number : 0} is wanted` : now ? 'told to be in' : 'none told');
   // Of a program that is over nothing is left.
   const known = s.left_s !== null && s.left_s !== undefined && s.end_of_epoch === 'open', ends = known && S.state === 'running' ? clock(Date.now() + s.left_s * 1000) : null;
   put($('#left'), S.state === 'stale' || !known ? '–:––.–' : span(s.left_s)); put($('#g-left'), $('#left').textContent);
@@ -272,7 +272,7 @@ function feedDigits(v, moving) {
   put($('#feedof'), !plan ? '' : rapid ? (moving ? 'rapid' : 'a rapid comes') : !moving ? (programmed > 1e9 ? '' : `programmed ${feedText(programmed)}`) : `of ${feedText(programmed)}${['feed', 'none', 'rest'].includes(limitOf(code)) ? '' : `, ${limitText(code)}`}`);
 }
 function blocks(line) {
-  if (!INFO.program || !line || !S.status.program_is_shown || !S.shows) { fill($('#blocks'), '<div></div><div></div><div class="cur"></div><div></div><div></div>'); return; }
+  if (!INFO.program || !line || !S.status.program_is_shown || !S.shows) { fill($('#blocks'), ''); return; }
   $('#blocks').style.setProperty('--digits', Math.max(3, String(line + 2).length));
   fill($('#blocks'), [-2, -1, 0, 1, 2].map(k => { const text = LINES.get(line + k); return `<div class="${k ? '' : 'cur'}"><span class="k">${text === undefined ? '' : line + k}</span><span>${text ? safe(text.trim()) : ' '}</span></div>`; }).join(''));
 }

@@ -6,7 +6,7 @@ function histogram() {
   if (!w || !s) return;
   c.clearRect(0, 0, w, h);
   const { from_us: low, per_decade: per, counts } = s.lateness_histogram, period = s.period_us, q = s.lateness_us;
-  const left = 52, bottom = 40, top = 40, x0 = Math.log10(low), x1 = Math.log10(Math.max(period * 2.2, 10 * low));
+  const left = 68, bottom = 40, top = 40, x0 = Math.log10(low), x1 = Math.log10(Math.max(period * 2.2, 10 * low));
   const most = Math.max(1, ...counts), X = us => left + Math.max(0, Math.min(1, (Math.log10(Math.max(us, low)) - x0) / (x1 - x0))) * (w - left - 14);
   const decades = Math.ceil(Math.log10(most) + 0.05), Y = n => h - bottom - (n <= 0 ? 0 : (Math.log10(n) + 0.35) / (decades + 0.35)) * (h - bottom - top);
   c.font = '12px B612'; c.textBaseline = 'middle'; c.lineWidth = 1;

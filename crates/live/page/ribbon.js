@@ -29,10 +29,10 @@ function ribbon() {
   c.clearRect(0, 0, w, h);
   const em = S.view === 'operate' ? Math.max(13, h / 88 * 15) : 13;
   c.textBaseline = 'middle'; c.font = `${em}px B612`;
-  if (!PLAN) { c.fillStyle = T.css.quiet; c.textAlign = 'left'; c.fillText(emptyRibbon(), 18, h / 2); return; }
+  if (!PLAN) { c.fillStyle = T.css.quiet; c.textAlign = 'left'; wrapped(c, emptyRibbon(), 18, h / 2, w - 36, em * 1.35); return; }
   const left = 18, width = w - 36, top = 14, bottom = h - em - 13, tall = bottom - top, X = p => left + p / Math.max(1, PLAN.samples - 1) * width;
   RIBBON.left = left; RIBBON.width = width;
-  const p = S.file ? -1 : S.p, list = ribbonColumns(Math.floor(width));
+  const isDone = S.status && S.status.end_of_epoch === 'completed', p = S.file ? -1 : isDone ? PLAN.samples - 1 : S.p, list = ribbonColumns(Math.floor(width));
   list.forEach(([most, kind], x) => {
     const high = Math.max(1, Math.sqrt(most / PLAN.mostFeed) * tall);
     c.globalAlpha = S.file || x / width * PLAN.samples <= p ? 1 : 0.36;
@@ -58,6 +58,15 @@ function ribbon() {
   c.font = `${em}px B612`; c.fillStyle = T.css.quiet;
   if (S.view !== 'glance') c.fillText(S.file ? `   ${wayText(way)}` : `   ${Math.floor(p / Math.max(1, PLAN.samples - 1) * 100)} % of the time, ${wayText(PLAN.way[PLAN.bin(p)], way)}`, left + wide, y);
   c.textAlign = 'right'; c.fillText(`${span(PLAN.seconds)} at 100 %`, w - left, y);
+}
+/* Writes a text about a height, in as many lines as it takes. */
+function wrapped(c, text, x, y, width, line) {
+  const lines = [''];
+  for (const part of text.split(' ')) {
+    const last = lines[lines.length - 1], longer = last ? `${last} ${part}` : part;
+    if (last && c.measureText(longer).width > width) lines.push(part); else lines[lines.length - 1] = longer;
+  }
+  lines.forEach((text, k) => c.fillText(text, x, y + (k - (lines.length - 1) / 2) * line));
 }
 /* Why there is no plan to be seen. */
 function emptyRibbon() {
