@@ -26,10 +26,12 @@ function paintPrograms() {
 }
 /* Nothing of the program before is shown with the name of this one. */
 function choose(name) {
-  FOLDER.chosen = name; S.agree = null;
+  FOLDER.chosen = name; S.agree = null; $('#programs').dataset.jobs = 0;
   Object.assign(LOOK, { info: null, lost: '', plan: null, motion: null, program: null, lines: [], key: '', at: {} });
   usePlan(); lookAtChosen('first'); paintPrograms();
 }
+/* On small screens the jobs have no place beside a program. */
+DEEDS.jobs = () => { const d = $('#programs').dataset; d.jobs = d.jobs === '1' ? 0 : 1; };
 DEEDS.choose = b => choose(b.dataset.name);
 /* What is known of a program by now. `look` says whether it is looked at for the first time, again, or anew because it is
    another text: only a few are remembered, and one that was given up for others is planned again only if somebody chooses it. */
@@ -194,5 +196,5 @@ function layPrograms() {
 const ENDS = { done: ['ok', 'ok'], aborted: ['abort', ''], fault: ['fault', 'bad'], over: ['dot', ''] };
 function paintDay() {
   const jobs = S.status && S.status.day || [];
-  fill($('#day'), `<div class="h"><b>Jobs</b><span>since this page is served</span></div>${jobs.slice(0, 30).map(job => { const [sign, kind] = ENDS[job.end] || ['running', '']; return `<div class="job"><span class="n lab">${clock(job.begun_ms)}</span>${icon(sign, kind)}<span>${safe(job.name)}</span><span class="lab">${job.end === 'done' ? `done in ${span((job.ended_ms - job.begun_ms) / 1000)}` : job.end ? `${job.end}${job.line ? ` at line ${job.line}` : ''}` : 'runs'}</span></div>`; }).join('') || '<p class="lab-text">None yet.</p>'}`);
+  fill($('#day'), `<div class="h"><b>Jobs</b><span>since this page is served</span></div>${jobs.slice(0, 30).map(job => { const [sign, kind] = ENDS[job.end] || ['running', '']; return `<div class="job"><span class="n lab">${clock(job.begun_ms)}</span>${icon(sign, kind)}<span>${safe(job.name)}</span><span class="lab">${job.end === 'done' ? `done in ${span((job.ended_ms - job.begun_ms) / 1000)}` : job.end ? `${job.end}${job.line ? ` at line ${job.line}` : ''}` : 'runs'}</span>${job.end ? key('certificate', 'Certificate', { data: `data-job="${job.number}"` }) : ''}</div>`; }).join('') || '<p class="lab-text">None yet.</p>'}`);
 }

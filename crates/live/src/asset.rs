@@ -24,7 +24,7 @@ const SHOWING: [(&str, &str); 10] = [
 ];
 
 /// What operates a machine, behind that.
-const HANDS: [(&str, &str); 7] = [
+const HANDS: [(&str, &str); 8] = [
     ("/orders.js", include_str!("../page/orders.js")),
     ("/bar.js", include_str!("../page/bar.js")),
     ("/bell.js", include_str!("../page/bell.js")),
@@ -32,6 +32,7 @@ const HANDS: [(&str, &str); 7] = [
     ("/setup.js", include_str!("../page/setup.js")),
     ("/touch.js", include_str!("../page/touch.js")),
     ("/programs.js", include_str!("../page/programs.js")),
+    ("/certificate.js", include_str!("../page/certificate.js")),
 ];
 
 /// The page as a whole.

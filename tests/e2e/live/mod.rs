@@ -1,6 +1,7 @@
 //! Tests of the page of a machine, in a browser: it loads, it moves, and it holds the machine if it
 //! may.
 
+mod certificate;
 mod following;
 mod hands;
 mod life;

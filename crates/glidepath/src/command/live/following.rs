@@ -18,6 +18,7 @@ use crate::kept::read::read;
 use crate::report::Place;
 use glidepath_kept::{Offsets, Tool};
 use glidepath_link::{ActiveProgram, EndOfEpoch, LinkConfig, Status};
+use serde_json::{Value, json};
 use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -165,6 +166,22 @@ impl Following {
     /// Where the machine is in it.
     pub(super) fn place(&self, status: &Status) -> Option<Place> {
         self.program.as_ref()?.forecast.place(status)
+    }
+
+    /// What is known of the plan of the program that the machine executes, or has executed last: how long it takes, and
+    /// how far it is from the program. Null if the one that is shown is another one, or is not planned to its end.
+    pub(super) fn plan(&self, status: &Status) -> Value {
+        let object = self.shown.object();
+        let report = &object["report"];
+        if !self.is_of(status) || !report.is_object() {
+            return Value::Null;
+        }
+        let forecast = self.program.as_ref().map(|shown| &shown.forecast);
+        json!({
+            "planned_s": forecast.and_then(Forecast::planned_t),
+            "max_deviation_mm": report["max_deviation_mm"],
+            "tolerance_mm": report["tolerance_mm"],
+        })
     }
 
     /// Frames planned of it so far.

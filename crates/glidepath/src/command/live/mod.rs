@@ -11,6 +11,7 @@
 
 mod asked;
 mod batch;
+mod certificates;
 mod day;
 mod folder;
 mod following;
@@ -24,8 +25,10 @@ mod pages;
 mod planned;
 mod preview;
 mod query;
+mod receivers;
 mod set_up;
 mod shown;
+mod witness;
 
 use super::kept_offsets::KeptOffsets;
 use super::session;
@@ -40,6 +43,7 @@ use crate::page::machine_object;
 use crate::report::{AwaitedEvent, View, active_object, status_object, view_object};
 use asked::Asked;
 use batch::Batch;
+use certificates::Certificates;
 use day::{Day, now_ms};
 use folder::Folder;
 use following::Following;
@@ -55,12 +59,14 @@ use lateness::Histogram;
 use log::Log;
 use pages::{Pages, clock_ms};
 use preview::Preview;
+use receivers::receivers;
 use serde_json::{Map, Value, json};
 use set_up::SetUp;
 use shown::Shown;
 use std::sync::atomic::AtomicU64;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
+use witness::Witness;
 
 /// Between two looks for setpoints.
 const POLL: Duration = Duration::from_millis(10);
@@ -110,9 +116,11 @@ pub(super) fn live(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Fail
         preview: Preview::new(config),
         jogger: jogger.map_err(ServerError::Thread)?,
         jobs: jobs.clone(),
+        certificates: Arc::default(),
         number: AtomicU64::new(0),
     };
     let (set_up, seat) = (Arc::clone(&pages.set_up), Arc::clone(&pages.seat));
+    let certificates = Arc::clone(&pages.certificates);
     let running = server.start(Arc::new(pages), &feed)?;
     tell(args, &instance, &urls, port);
     let offsets = KeptOffsets::new(config, &link);
@@ -133,6 +141,8 @@ pub(super) fn live(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Fail
         seat,
         jobs,
         day: Day::default(),
+        certificates,
+        witness: Witness::new(config),
         batch: Batch::new(config),
         histogram: Histogram::default(),
         log: Log::default(),
@@ -199,6 +209,8 @@ struct Machine<'a> {
     seat: Arc<Mutex<Seat>>,
     jobs: Option<Arc<JobDesk>>,
     day: Day,
+    certificates: Arc<Certificates>,
+    witness: Witness,
     batch: Batch,
     histogram: Histogram,
     log: Log,
@@ -268,6 +280,7 @@ impl Machine<'_> {
 
     fn take(&mut self, setpoint: &Setpoint) {
         self.batch.push(setpoint);
+        self.witness.take(setpoint);
         self.histogram.push(setpoint.lateness_ns);
     }
 
@@ -324,7 +337,11 @@ impl Machine<'_> {
             let jobs = self.jobs.as_ref().map(|jobs| jobs.object());
             object.insert("page_jobs".to_owned(), jobs.unwrap_or_default());
             let name = self.following.active().map(ActiveProgram::name);
-            self.day.take(&status, name.as_deref(), now_ms());
+            if let Some(ended) = self.day.take(&status, name.as_deref(), now_ms()) {
+                let seen = self.witness.object(&ended.epochs);
+                self.certificates
+                    .certify(ended, seen, self.following.plan(&status));
+            }
             object.insert("day".to_owned(), self.day.object());
             object.insert("version".to_owned(), self.shown.version().into());
             object.insert("generation".to_owned(), self.shown.generation().into());
@@ -374,26 +391,4 @@ fn spindle(told: &Auxiliary) -> Value {
         (true, true) => "mist and flood",
     };
     json!({ "speed": told.spindle_speed, "turns": turns, "coolant": coolant })
-}
-
-/// Who receives setpoints: name and process of each.
-fn receivers(processes: &[i32]) -> Value {
-    let own = std::process::id();
-    let object = |process: &i32| {
-        let name = std::fs::read_to_string(format!("/proc/{process}/comm"));
-        let command = std::fs::read(format!("/proc/{process}/cmdline")).unwrap_or_default();
-        let command = String::from_utf8_lossy(&command);
-        let word = command.split('\0').nth(1).unwrap_or_default();
-        let is_own = u32::try_from(*process) == Ok(own);
-        let role = match word {
-            _ if is_own => "this page",
-            "servo" => "servo stack that imitates drives",
-            "live" => "another page",
-            "record" => "recorder",
-            _ => "receives every setpoint",
-        };
-        let name = name.unwrap_or_default().trim().to_owned();
-        json!({ "pid": process, "name": name, "role": role })
-    };
-    processes.iter().map(object).collect()
 }

@@ -1,5 +1,6 @@
 //! The server's answers to what pages ask for and order.
 
+use super::certificates::Certificates;
 use super::folder::{Folder, FolderError, Piece};
 use super::job_desk::{Handed, JobDesk, Wanted};
 use super::jogger::{Hand, Jogger};
@@ -35,6 +36,7 @@ pub(super) struct Pages {
     /// Whoever jogs and hands jobs in, where pages may operate.
     pub(super) jogger: Option<Jogger>,
     pub(super) jobs: Option<Arc<JobDesk>>,
+    pub(super) certificates: Arc<Certificates>,
     pub(super) number: AtomicU64,
 }
 
@@ -342,6 +344,12 @@ impl Site for Pages {
             "set-up" => Some(object(&self.set_up.object())),
             "programs" => Some(self.programs()),
             "preview" => self.preview(query),
+            "certificate" => {
+                let job = u64::from_str_radix(parameter(query, "job")?, 16).ok()?;
+                self.certificates
+                    .of(job)
+                    .map(|certificate| object(&certificate))
+            }
             what => match what.strip_prefix("preview/") {
                 Some(what) => {
                     let of = parameter(query, "of")?.parse().ok()?;
