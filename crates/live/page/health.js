@@ -38,9 +38,11 @@ function series(id, of, most, limit, text, words) {
   c.clearRect(0, 0, w, h);
   const left = 60, right = 14, bottom = 20, top = 10, n = w - left - right, Y = v => h - bottom - Math.min(1, v / most) * (h - bottom - top), ring = RINGED, m = RING - 1;
   c.font = '12px B612'; c.textBaseline = 'middle'; c.textAlign = 'right'; c.fillStyle = T.css.quiet;
-  for (const v of [0, limit]) c.fillText(text(v), left - 8, Y(v));
+  // A limit that is far above all that was measured is told in words.
+  const isNear = limit <= most;
+  for (const v of [0, isNear ? limit : most]) c.fillText(text(v), left - 8, Y(v));
   c.fillStyle = T.css.line; c.fillRect(left, Y(0), n, 1);
-  c.strokeStyle = T.css.quiet; c.setLineDash([5, 4]); c.beginPath(); c.moveTo(left, Math.round(Y(limit)) + 0.5); c.lineTo(w - right, Math.round(Y(limit)) + 0.5); c.stroke(); c.setLineDash([]);
+  if (isNear) { c.strokeStyle = T.css.quiet; c.setLineDash([5, 4]); c.beginPath(); c.moveTo(left, Math.round(Y(limit)) + 0.5); c.lineTo(w - right, Math.round(Y(limit)) + 0.5); c.stroke(); c.setLineDash([]); }
   if (ring && ring.count) {
     const now = ring.now, first = ring.at(now - 20);
     c.strokeStyle = T.css.ink; c.lineWidth = 1.3; c.beginPath();
@@ -50,12 +52,20 @@ function series(id, of, most, limit, text, words) {
   c.fillStyle = T.css.quiet; c.textAlign = 'left'; c.fillText('20 s ago', left, h - 8); c.textAlign = 'right'; c.fillText('now', w - right, h - 8); c.textAlign = 'center'; c.fillText(words, left + n / 2, h - 8);
 }
 
+/* The largest value of the last 20 s. */
+function peakOf(of) {
+  const ring = RINGED, m = RING - 1;
+  let peak = 0;
+  if (ring && ring.count) for (let k = ring.at(ring.now - 20); k < ring.count; k++) peak = Math.max(peak, of(ring, k & m));
+  return peak;
+}
 function health() {
   if (!S.status || !S.status.lateness_histogram) return;
   histogram();
   const horizon = INFO.machine.horizon_s || 0.6, trip = INFO.machine.following_error_mm * 1000 || 50;
   series('#c-buf', (r, i) => r.ahead[i], horizon * 1.2, horizon, v => v ? `${v} s` : '0', 'motion ahead of the machine; dashed: horizon');
-  if (S.status.power !== 'simulated') series('#c-fol', (r, i) => r.error[i], trip * 1.12, trip, v => v >= 1000 ? `${v / 1000} mm` : v ? `${grouped(v)} µm` : '0', 'distance of drives from setpoint; dashed: the machine stops');
+  const following = v => v >= 1000 ? `${v / 1000} mm` : v ? `${+v.toPrecision(3)} µm` : '0', scale = nice(Math.max(1, peakOf((r, i) => r.error[i]) * 1.1));
+  if (S.status.power !== 'simulated') series('#c-fol', (r, i) => r.error[i], scale > 0.5 * trip ? trip * 1.12 : scale, trip, following, `distance of drives from setpoint; the machine stops at ${following(trip)}`);
   else { const [c, w, h] = fit($('#c-fol')); c.clearRect(0, 0, w, h); }
   healthWords();
 }
@@ -82,6 +92,6 @@ function healthWords() {
 
 function eventLog() {
   const list = S.status ? S.status.log || [] : [], kinds = { state: 'running', warn: 'warn', bad: 'fault', info: 'dot' };
-  fill($('#log'), list.map(e => `<div class="${e.kind === 'bad' ? 'hot' : ''}"><span class="n">${clock(e.at_ms, true)}</span><span>${icon(kinds[e.kind] || 'dot', e.kind === 'bad' ? 'bad' : e.kind === 'warn' ? 'warn' : '')}</span><span>${safe(e.text)}</span></div>`).join(''));
+  fill($('#log'), list.map(e => `<div class="${e.kind === 'bad' ? 'hot' : ''}"><span class="n">${clock(e.at_ms, true)}</span><span>${icon(kinds[e.kind] || 'dot', e.kind === 'bad' ? 'bad' : e.kind === 'warn' ? 'warn' : '')}</span><span>${safe(e.text)}${e.since_ms ? `, since ${clock(e.since_ms)}` : ''}</span></div>`).join(''));
   fill($('#g-log'), list.slice(0, 5).map(e => `<div><span class="n lab">${clock(e.at_ms).slice(0, 5)}</span><span>${safe(e.text)}</span></div>`).join(''));
 }

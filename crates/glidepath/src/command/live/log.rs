@@ -1,10 +1,10 @@
 //! The log of events since the page is served, in plain words.
 
+use super::day::now_ms;
 use crate::report::counted;
 use glidepath_link::{MachineState, StateChange, Status};
 use serde_json::{Value, json};
 use std::collections::VecDeque;
-use std::time::{SystemTime, UNIX_EPOCH};
 
 /// Events that are remembered.
 const KEPT: usize = 100;
@@ -14,6 +14,8 @@ struct Entry {
     at_ms: u64,
     kind: &'static str,
     text: String,
+    /// What is counted, how often, and since when: events of the same kind one after the other are one entry.
+    counted: Option<(&'static str, u64, u64)>,
 }
 
 /// The events, the newest first.
@@ -110,7 +112,7 @@ impl Log {
         for ((now, before), (one, fate)) in now.into_iter().zip(before).zip(words) {
             let more = now.saturating_sub(before);
             if more > 0 && !is_first {
-                self.add("warn", format!("{} {fate}", counted(more, one)));
+                self.add_counted((one, fate), more);
             }
         }
     }
@@ -123,17 +125,80 @@ impl Log {
     }
 
     fn add(&mut self, kind: &'static str, text: String) {
-        #[expect(clippy::disallowed_methods, reason = "a stamp for people")]
-        let now = SystemTime::now().duration_since(UNIX_EPOCH);
-        let at_ms = now.map_or(0, |now| u64::try_from(now.as_millis()).unwrap_or(u64::MAX));
-        self.entries.push_front(Entry { at_ms, kind, text });
+        self.entries.push_front(Entry {
+            at_ms: now_ms(),
+            kind,
+            text,
+            counted: None,
+        });
         self.entries.truncate(KEPT);
+    }
+
+    /// Adds what is counted to the entry before, if that is of the same.
+    fn add_counted(&mut self, (one, fate): (&'static str, &'static str), more: u64) {
+        let before = self.entries.front().and_then(|last| last.counted);
+        let before = before.filter(|(of, ..)| *of == one);
+        let at_ms = now_ms();
+        let (count, since_ms) = before.map_or((more, at_ms), |(_, count, since_ms)| {
+            (count + more, since_ms)
+        });
+        if before.is_some() {
+            self.entries.pop_front();
+        }
+        self.add("warn", format!("{} {fate}", counted(count, one)));
+        if let Some(added) = self.entries.front_mut() {
+            added.counted = Some((one, count, since_ms));
+        }
     }
 
     pub(super) fn object(&self) -> Value {
         self.entries
             .iter()
-            .map(|entry| json!({ "at_ms": entry.at_ms, "kind": entry.kind, "text": entry.text }))
+            .map(|entry| {
+                let since = entry.counted.map(|(.., since_ms)| since_ms);
+                let since_ms = since.filter(|since_ms| *since_ms != entry.at_ms);
+                json!({
+                    "at_ms": entry.at_ms,
+                    "since_ms": since_ms,
+                    "kind": entry.kind,
+                    "text": entry.text,
+                })
+            })
             .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_counted_is_one_entry_until_something_else_happens() {
+        let mut log = Log::default();
+        let mut status: Status = bytemuck::Zeroable::zeroed();
+        status.state = MachineState::Running.code();
+        log.take(&status);
+        for missed in [1, 3, 6] {
+            status.missed_ticks = missed;
+            log.take(&status);
+        }
+        let texts = |log: &Log| {
+            let entries = log.object();
+            let entries = entries.as_array().unwrap().iter();
+            entries
+                .map(|entry| entry["text"].as_str().unwrap().to_owned())
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(texts(&log)[0], "6 ticks missed");
+        assert_eq!(texts(&log).len(), 2);
+        status.state = MachineState::Held.code();
+        log.take(&status);
+        status.missed_ticks = 7;
+        log.take(&status);
+        assert_eq!(texts(&log)[0], "1 tick missed");
+        assert_eq!(
+            (texts(&log).len(), texts(&log)[2].as_str()),
+            (4, "6 ticks missed")
+        );
     }
 }
