@@ -160,6 +160,7 @@ impl Interpreter {
         if let Some(motion) = motion {
             self.move_with_own_words(block, motion, out)?;
         }
+        self.end_length_on_way(block, motion);
         let stop = block.codes.stop.map(|stop| stop.code);
         Ok(match stop {
             Some(Stop::End) => {

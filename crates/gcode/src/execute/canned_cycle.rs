@@ -112,7 +112,13 @@ impl Interpreter {
         let incremental = self.state.modal.distance == Distance::Incremental;
         let program = self.offsets.to_program(self.state.position);
         let start = program[normal.index()];
-        let initial = self.state.cycles.initial.unwrap_or(start);
+        // Increments count from where the length of the tool puts it.
+        let way = if incremental {
+            self.length_on_way()[normal.index()]
+        } else {
+            0.0
+        };
+        let initial = self.state.cycles.initial.unwrap_or(start + way);
         let (r, bottom) = if incremental {
             (initial + sticky.r, initial + sticky.r + sticky.depth)
         } else if block.is_lathe {

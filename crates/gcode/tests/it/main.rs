@@ -20,6 +20,7 @@ mod dialects;
 mod fanuc;
 mod fanuc_lathe_words;
 mod fanuc_lathes;
+mod fanuc_lengths;
 mod fanuc_mill_words;
 mod fanuc_threads;
 mod five_axes;

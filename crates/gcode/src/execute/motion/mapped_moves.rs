@@ -53,16 +53,21 @@ impl Interpreter {
         self.axes_end = map.map_or(self.state.path_end, |map| map.axes(&self.state.path_end));
     }
 
+    /// The length of the tool in force, mm: along Z, or along the tool where its tip is followed.
+    pub(crate) fn length_in_force_mm(&self) -> f64 {
+        match self.state.tip {
+            Tip::Follows { longer_mm } if self.options.five_axis.is_some() => longer_mm,
+            _ => self.offsets.tool[2],
+        }
+    }
+
     /// From here on the tip is followed, or not: the length of the tool in force counts along the
     /// tool, or along Z.
     pub(crate) fn let_tip_follow(&mut self, follows: bool) {
         if self.options.five_axis.is_none() {
             return;
         }
-        let length_mm = match self.state.tip {
-            Tip::Follows { longer_mm } => longer_mm,
-            Tip::Stands => self.offsets.tool[2],
-        };
+        let length_mm = self.length_in_force_mm();
         self.offsets.tool[2] = if follows { 0.0 } else { length_mm };
         self.set_tip(if follows {
             Tip::Follows {

@@ -10,6 +10,7 @@ mod corner_geometry;
 mod curve;
 mod feedrate;
 mod kinematics_switch;
+mod length_on_way;
 mod limits;
 mod line_angle;
 mod mapped_moves;

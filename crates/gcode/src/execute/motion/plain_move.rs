@@ -149,6 +149,7 @@ impl Interpreter {
             && state.tilted.is_none()
             && state.fanuc.polar.is_none()
             && state.fanuc.open_plane.is_none()
+            && state.fanuc.length_on_way_mm == 0.0
             && self.options.dialect != Dialect::Marlin
             && !self.offsets.is_turned()
             && self.compensation.is_none()

@@ -29,6 +29,7 @@ impl Interpreter {
         if self.state.modal.distance == Distance::Absolute {
             return Ok(self.absolute_target(&values));
         }
+        self.add_length_on_way(block, &mut values);
         let axes = self.offsets.turned_with(&values);
         if !axes.is_empty() {
             let mut by = AxisVector::zeros();

@@ -13,6 +13,8 @@ pub(crate) struct FanucModal {
     pub(crate) radius_offset: u32,
     /// G43 or G44 is in force, and which of them.
     pub(crate) length_sign: Option<f64>,
+    /// By how much the length in force is greater than when Z moved last, mm.
+    pub(crate) length_on_way_mm: f64,
     /// G43.5: I, J and K of straight moves are the direction of the tool.
     pub(crate) tip_by_vector: bool,
     /// G16.
@@ -41,6 +43,7 @@ impl Default for FanucModal {
             length_offset: None,
             radius_offset: 0,
             length_sign: None,
+            length_on_way_mm: 0.0,
             tip_by_vector: false,
             polar: None,
             is_feed_unsaid: false,

@@ -31,7 +31,6 @@ impl Interpreter {
         self.state.fanuc.length_sign = sign;
         self.state.fanuc.tip_by_vector = block.codes.tip_by_vector;
         let Some(sign) = sign else {
-            self.offsets.tool = AxisVector::zeros();
             self.set_length_in_force(0.0, false);
             return Ok(());
         };
@@ -61,7 +60,6 @@ impl Interpreter {
             );
         }
         self.state.fanuc.length_offset = Some(number);
-        self.offsets.tool = AxisVector::zeros();
         self.set_length_in_force(sign * length_mm, follows);
         Ok(())
     }
@@ -97,6 +95,8 @@ impl Interpreter {
 
     /// Puts a length in force: along Z, or along the tool where the tip is followed.
     fn set_length_in_force(&mut self, length_mm: f64, follows: bool) {
+        self.state.fanuc.length_on_way_mm += length_mm - self.length_in_force_mm();
+        self.offsets.tool = AxisVector::zeros();
         if self.options.five_axis.is_none() {
             self.offsets.tool[2] = length_mm;
             return;
