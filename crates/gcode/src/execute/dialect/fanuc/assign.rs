@@ -2,14 +2,14 @@
 
 use std::io::BufRead;
 
+use glidepath_geometry::Axis;
 use glidepath_program::{Event, ItemKind};
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
-use crate::execute::dialect::fanuc::variables::{
-    EXTENDED, NO_VARIABLE, OF_THE_MEMORY, ToolPart, Variable,
-};
+use crate::execute::dialect::fanuc::tool_variables::{ToolPart, direction, is_of_tools};
+use crate::execute::dialect::fanuc::variables::{EXTENDED, NO_VARIABLE, OF_THE_MEMORY, Variable};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::program::Program;
 use crate::summary::remark::{Remark, RemarkKind};
@@ -31,6 +31,9 @@ impl<R: BufRead> Program<R> {
             Variable::Tool(..) | Variable::Offset(..) if is_vacant(value) => {
                 "an offset is a number"
             }
+            Variable::Tool(ToolPart::Direction, _) if direction(value).is_none() => {
+                "the direction of a tip is a whole number from 0 to 9"
+            }
             Variable::Tool(..) => return Ok(()),
             Variable::Offset(system, axis) => {
                 let is_system = system <= 6 || system > EXTENDED;
@@ -43,7 +46,7 @@ impl<R: BufRead> Program<R> {
             Variable::Mode(_) | Variable::Address(_) | Variable::Place(..) => {
                 "it shows what is in force, and where the machine is"
             }
-            Variable::Unknown if matches!(number, 2001..=2800 | 10_001..=13_999) => OF_THE_MEMORY,
+            Variable::Unknown if is_of_tools(number) => OF_THE_MEMORY,
             Variable::Unknown => NO_VARIABLE,
         };
         let message = format!("#{number} cannot be assigned");
@@ -72,11 +75,13 @@ impl<R: BufRead> Program<R> {
                 let parameter = Parameter::Numbered(number);
                 self.parameters.assign(&parameter, value);
             }
-            Variable::Tool(part, tool) => self.interpreter.set_tool_part(part, tool, value * mm),
+            Variable::Tool(part, tool) => self.interpreter.set_tool_part(part, tool, value, mm),
             Variable::Stop => self.stop_with_text(line),
             Variable::Offset(system, axis) => {
                 if let Some(axis) = self.interpreter.numbered_axis(axis) {
                     let value = if axis.is_rotary() { value } else { value * mm };
+                    let is_diameter = axis == Axis::X && self.interpreter.state.modal.diameter;
+                    let value = if is_diameter { 0.5 * value } else { value };
                     self.interpreter.set_offset(system, axis.index(), value);
                 }
             }
@@ -110,24 +115,6 @@ impl Interpreter {
                 let extended = &mut self.offsets.fanuc.extended;
                 let system = extended.entry(system - EXTENDED).or_default();
                 system.origin[axis] = value;
-            }
-        }
-        self.changes = self.changes.saturating_add(1);
-    }
-
-    fn set_tool_part(&mut self, part: ToolPart, number: u32, value_mm: f64) {
-        match part {
-            ToolPart::Length | ToolPart::LengthAll => self.set_tool_value(number, |tool| {
-                tool.offset[2] = value_mm;
-            }),
-            ToolPart::Radius => self.set_tool_value(number, |tool| {
-                tool.diameter_mm = 2.0 * value_mm;
-            }),
-            ToolPart::LengthWear => {
-                self.offsets.fanuc.wear.entry(number).or_default().length_mm = value_mm;
-            }
-            ToolPart::RadiusWear => {
-                self.offsets.fanuc.wear.entry(number).or_default().radius_mm = value_mm;
             }
         }
         self.changes = self.changes.saturating_add(1);

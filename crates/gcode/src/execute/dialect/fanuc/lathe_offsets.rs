@@ -22,7 +22,7 @@ const MOST: u32 = 99;
 
 /// The direction of a tip in the numbers of the tool table, which are LinuxCNC's: those of FANUC have
 /// X the other way round.
-const fn in_table(direction: u8) -> u8 {
+pub(super) const fn in_table(direction: u8) -> u8 {
     match direction {
         1 => 4,
         2 => 3,
