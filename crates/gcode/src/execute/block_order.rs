@@ -72,6 +72,8 @@ impl Interpreter {
             })
         );
         let changes_offsets = changes_offsets || ends || self.is_mapped || codes.tilt.is_some();
+        let changes_offsets =
+            changes_offsets || self.state.tilted.is_some() && codes.cutter_radius.is_some();
         let offsets = changes_offsets.then(|| (self.offsets.clone(), self.tools.clone()));
         let compensation = self.compensation.clone();
         let corner = self.corner.clone();
@@ -194,7 +196,11 @@ impl Interpreter {
             self.state.modal.path_mode = PathMode::ExactStop;
         }
         let feed = self.take_block_feed(block)?;
+        let followed = self.leave_tip(block, out)?;
         self.motion(block, motion, out)?;
+        if followed {
+            self.follow_tip_again(block, out)?;
+        }
         if let Some(feed) = feed {
             self.state.modal.feed = feed;
         }

@@ -73,6 +73,7 @@ impl<R: BufRead> Program<R> {
         interpreter.state.edge = None;
         interpreter.state.tip = interpreter.options.first_tip();
         interpreter.state.tilted = None;
+        interpreter.state.contour_plane = None;
         interpreter.state.rounds_mm = 0.0;
         interpreter.state.corner_feed = None;
         interpreter.state.diameter_by_distance = false;

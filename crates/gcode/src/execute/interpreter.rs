@@ -137,6 +137,7 @@ impl Interpreter {
                 fanuc: FanucModal::default(),
                 tip,
                 tilted: None,
+                contour_plane: None,
                 thread_setup: None,
             },
             open_spline: None,

@@ -276,8 +276,8 @@ fn what_is_wrong_with_a_plane_is_told() {
     fanuc("G43.4 H0\nG68.2 J30", &["2:1 not-supported"]);
     fanuc("G68.2 J30\nG53.1\nG43.4 H0", &["3:1 not-supported"]);
     fanuc("G68.2 A5 J30", &["1:7 unused-word"]);
-    fanuc("G68.2 J30\nG53.1\nG53 G0 Z0", &["3:1 machine-coordinates"]);
-    fanuc("G68.2 J30\nG53.1\nG28 Z0", &["3:1 machine-coordinates"]);
+    fanuc("G68.2 J30\nG53.1\nG53 G0 Z0", &[]);
+    fanuc("G68.2 J30\nG53.1\nG28 Z0", &[]);
     // With the tool along the normal already it goes on at once.
     fanuc("G68.2 X5 J0\nG0 X1", &[]);
     let siemens = |text: &str, expected: &[&str]| finds(Dialect::Siemens, text, expected);

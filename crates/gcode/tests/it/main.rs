@@ -42,6 +42,7 @@ mod splines;
 mod subroutine_files;
 mod support;
 mod tapping;
+mod tilted_contours;
 mod tilted_planes;
 mod typed;
 mod words_of_dialects;

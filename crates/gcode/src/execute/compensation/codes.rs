@@ -40,7 +40,8 @@ impl Interpreter {
                 };
                 if block.dialect == Dialect::Fanuc {
                     let (diameter, orientation) = self.fanuc_radius(block, letter, span)?;
-                    return self.begin_compensation(block, span, side, 0.5 * diameter, orientation);
+                    let cutter = (side, 0.5 * diameter, orientation);
+                    return self.begin_compensation(block, span, cutter, out);
                 }
                 let tool = match block.dialect {
                     Dialect::Siemens => self.tool_of_edge(block, span)?,
@@ -57,7 +58,7 @@ impl Interpreter {
                 (side, diameter * self.state.modal.units.mm(), orientation)
             }
         };
-        self.begin_compensation(block, span, side, 0.5 * diameter, orientation)
+        self.begin_compensation(block, span, (side, 0.5 * diameter, orientation), out)
     }
 
     /// Diameter with its wear, and orientation, of the tool that D or H names; without a word that
@@ -77,15 +78,21 @@ impl Interpreter {
         &mut self,
         block: &Block,
         span: SourceSpan,
-        side: Side,
-        radius: f64,
-        orientation: u8,
+        (side, radius, orientation): (Side, f64, u8),
+        out: &mut Vec<Item>,
     ) -> Outcome<()> {
         if self.state.on_contour {
             let message = "cutter radius compensation is on already";
             return Err(Fault::new(DiagnosticCode::CutterRadius, span, message)
                 .because("where the tool is would not be clear if its side or radius changed")
                 .help("write G40 and a move in between"));
+        }
+        let follows = self.options.five_axis.is_some() && self.state.tip.follows();
+        if block.dialect == Dialect::Fanuc && follows && self.state.tilted.is_none() {
+            let message = "cutter radius compensation while the tip of the tool is followed";
+            return Err(Fault::new(DiagnosticCode::CutterRadius, span, message)
+                .because("the side of the cutter would turn with the rotary axes")
+                .help("write G49 before it, or a tilted plane: G68.2 and G53.1"));
         }
         let plane = self.state.modal.plane;
         if !matches!(plane, Plane::Xy | Plane::Zx) {
@@ -109,6 +116,9 @@ impl Interpreter {
                 .help("set the rotation to zero (G10 L2 R0)"));
         }
         self.state.contour_side = side;
+        if self.is_in_tilted_plane(plane) {
+            self.enter_contour_plane(block, out)?;
+        }
         let image = self.offsets.plane(plane);
         let Some(image) = image.filter(|image| image.plane == plane) else {
             let message = "cutter radius compensation in a frame that tilts its plane";
@@ -132,14 +142,14 @@ impl Interpreter {
     /// Gives out the moves held back; the tool stays where it is.
     pub(crate) fn end_compensation(&mut self, out: &mut Vec<Item>) -> Outcome<()> {
         let Some(mut compensation) = self.compensation.take() else {
-            return Ok(());
+            return self.leave_contour_plane(out);
         };
         let from = out.len();
         compensation.flush(out);
         self.state.leaving_contour = compensation.is_entered();
         self.check_given(None, out.get(from..).unwrap_or_default())?;
         self.state.path_end = compensation.tool();
-        Ok(())
+        self.leave_contour_plane(out)
     }
 
     /// What is in force, if any.

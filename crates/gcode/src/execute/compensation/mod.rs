@@ -38,3 +38,4 @@ pub(crate) mod element;
 mod entry;
 mod moves;
 pub(crate) mod path;
+mod tilted;

@@ -24,7 +24,13 @@ type Chord = (AxisVector, f64);
 impl Interpreter {
     /// The map in force; `None` where places of the program are the axes.
     pub(crate) fn tip_map(&self) -> Option<TipMap> {
-        TipMap::new(self.options.five_axis, self.state.tip)
+        let machine = self.options.five_axis;
+        match (machine, self.state.contour_plane) {
+            (Some(machine), Some(plane)) => {
+                Some(TipMap::of_plane(machine, self.state.tip, plane.map))
+            }
+            _ => TipMap::new(machine, self.state.tip),
+        }
     }
 
     /// Where the axes stand.

@@ -13,6 +13,7 @@ mod kinematics_switch;
 mod length_on_way;
 mod limits;
 mod line_angle;
+mod machine_place;
 mod mapped_moves;
 mod nurbs;
 mod plain_move;

@@ -67,6 +67,7 @@ impl Interpreter {
             let target = self.target(block)?;
             self.straight(block, target, Pace::Rapid, out)?;
         }
+        let followed = self.leave_tip(block, out)?;
         let reference = self
             .offsets
             .reference
@@ -83,6 +84,10 @@ impl Interpreter {
                 target[i] = reference[i];
             }
         }
-        self.straight(block, target, Pace::Rapid, out)
+        self.straight(block, target, Pace::Rapid, out)?;
+        if followed {
+            self.follow_tip_again(block, out)?;
+        }
+        Ok(())
     }
 }

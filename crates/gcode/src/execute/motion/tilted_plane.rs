@@ -133,6 +133,12 @@ impl Interpreter {
                 .because("it turns the tool along the normal of the plane that G68.2 gave")
                 .help("write G68.2 before it"));
         }
+        if self.state.on_contour || self.state.leaving_contour {
+            let message = "the tool turns with cutter radius compensation on";
+            return Err(Fault::new(DiagnosticCode::CutterRadius, span, message)
+                .because("it stands beside the programmed point")
+                .help("write G40 and a move before it"));
+        }
         let normal = self.normal_of_plane();
         let place = *self.axes_place();
         let near = [place[machine.tilt_axis().index()], place[Axis::C.index()]];
@@ -175,7 +181,7 @@ impl Interpreter {
     }
 
     /// The normal of the plane, on the work.
-    fn normal_of_plane(&self) -> Vector3<f64> {
+    pub(super) fn normal_of_plane(&self) -> Vector3<f64> {
         let mut up = AxisVector::zeros();
         up[2] = 1.0;
         let turned = self.offsets.turn(up);
@@ -183,7 +189,7 @@ impl Interpreter {
     }
 
     /// True where the tool stands along a direction.
-    fn stands_along(&self, direction: &Vector3<f64>) -> bool {
+    pub(super) fn stands_along(&self, direction: &Vector3<f64>) -> bool {
         let Some(machine) = self.options.five_axis else {
             return false;
         };

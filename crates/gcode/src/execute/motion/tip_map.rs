@@ -16,6 +16,7 @@ use glidepath_geometry::{Axis, AxisVector};
 use glidepath_kinematics::{FiveAxis, JointVector, Kinematics as _};
 use nalgebra::Vector3;
 
+use crate::execute::state::frame::Frame;
 use crate::execute::state::tip::Tip;
 
 /// Angles below this are zero, degrees.
@@ -26,14 +27,27 @@ const ZERO_DEG: f64 = 1e-9;
 pub(crate) struct TipMap {
     machine: FiveAxis,
     tip: Tip,
+    /// From places of a tilted plane to those of the work.
+    plane: Option<Frame>,
 }
 
 impl TipMap {
     /// The map; `None` where places are the axes themselves.
     pub(crate) fn new(machine: Option<FiveAxis>, tip: Tip) -> Option<Self> {
-        machine
-            .filter(|_| !tip.is_plain())
-            .map(|machine| Self { machine, tip })
+        machine.filter(|_| !tip.is_plain()).map(|machine| Self {
+            machine,
+            tip,
+            plane: None,
+        })
+    }
+
+    /// The map of places in a tilted plane.
+    pub(crate) const fn of_plane(machine: FiveAxis, tip: Tip, plane: Frame) -> Self {
+        Self {
+            machine,
+            tip,
+            plane: Some(plane),
+        }
     }
 
     /// The angles of the tilt and of C at a place.
@@ -46,6 +60,10 @@ impl TipMap {
 
     /// True where a place is the same for the axes.
     pub(crate) fn is_plain_at(&self, place: &AxisVector) -> bool {
+        self.plane.is_none() && self.tip_is_plain_at(place)
+    }
+
+    fn tip_is_plain_at(&self, place: &AxisVector) -> bool {
         let at_zero = || {
             self.angles(place)
                 .iter()
@@ -56,7 +74,8 @@ impl TipMap {
 
     /// The axes at a place of the program.
     pub(crate) fn axes(&self, place: &AxisVector) -> AxisVector {
-        if self.is_plain_at(place) {
+        let place = &self.plane.map_or(*place, |plane| plane.apply(*place));
+        if self.tip_is_plain_at(place) {
             return *place;
         }
         let mut axes = *place;
@@ -79,7 +98,12 @@ impl TipMap {
 
     /// The place of the program where the axes stand.
     pub(crate) fn place(&self, axes: &AxisVector) -> AxisVector {
-        if self.is_plain_at(axes) {
+        let place = self.place_on_work(axes);
+        self.plane.map_or(place, |plane| plane.undo(place))
+    }
+
+    fn place_on_work(&self, axes: &AxisVector) -> AxisVector {
+        if self.tip_is_plain_at(axes) {
             return *axes;
         }
         let mut place = *axes;

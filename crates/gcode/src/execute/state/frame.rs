@@ -146,6 +146,21 @@ impl Frame {
         lengths.into_iter().fold(0.0, f64::max)
     }
 
+    /// True where it turns and shifts, and does not mirror or scale.
+    pub(crate) fn only_turns(&self) -> bool {
+        let [u, v, w] = [0, 1, 2].map(|axis| column(&self.matrix, axis));
+        let is_unit = |a: [f64; 3]| (dot(a, a) - 1.0).abs() <= ROUNDING;
+        let across = [
+            u[1] * v[2] - u[2] * v[1],
+            u[2] * v[0] - u[0] * v[2],
+            u[0] * v[1] - u[1] * v[0],
+        ];
+        is_unit(u)
+            && is_unit(v)
+            && dot(u, v).abs() <= ROUNDING
+            && (0..3).all(|axis| (across[axis] - w[axis]).abs() <= ROUNDING)
+    }
+
     /// A way in the program's coordinates, in those in front of the frame.
     pub(crate) fn turn(&self, way: AxisVector) -> AxisVector {
         self.by(&self.matrix, way)

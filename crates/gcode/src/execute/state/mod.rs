@@ -1,5 +1,6 @@
 //! The state of the interpreter from block to block, part by part.
 
+pub(crate) mod contour_plane;
 pub(crate) mod coolant;
 pub(crate) mod course;
 pub(crate) mod extruder;

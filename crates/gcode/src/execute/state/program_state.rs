@@ -3,6 +3,7 @@
 use glidepath_geometry::AxisVector;
 use serde::{Deserialize, Serialize};
 
+use crate::execute::state::contour_plane::ContourPlane;
 use crate::execute::state::coolant::Coolant;
 use crate::execute::state::extruder::ExtruderMode;
 use crate::execute::state::fanuc_modal::FanucModal;
@@ -87,6 +88,9 @@ pub(crate) struct State {
     /// The program has tilted the plane.
     #[serde(skip)]
     pub(crate) tilted: Option<Tilt>,
+    /// Coordinates are those of this plane of the work for as long as the contour is one of it.
+    #[serde(skip)]
+    pub(crate) contour_plane: Option<ContourPlane>,
     /// What the first block of FANUC's G76 said.
     pub(crate) thread_setup: Option<ThreadSetup>,
 }

@@ -37,6 +37,9 @@ impl Interpreter {
             }
             FrameCode::Turn(true) => frames.turn = Some(self.turn_words(block, coded)?),
             FrameCode::Turn(false) => {
+                if self.state.tilted.is_some() {
+                    self.check_frame_may_change(coded)?;
+                }
                 frames.turn = None;
                 self.end_tilt();
             }
@@ -44,15 +47,21 @@ impl Interpreter {
         if frames == before && ends {
             return Ok(());
         }
-        if self.state.on_contour || self.state.leaving_contour {
-            let message = "coordinates that change with cutter radius compensation on";
-            return Err(Fault::new(DiagnosticCode::CutterRadius, coded.span, message)
-                .because("the tool stands beside the programmed point, at a place that depends on the next move")
-                .help("write G40 and a move before it"));
-        }
+        self.check_frame_may_change(coded)?;
         self.offsets.fanuc.frames = frames;
         self.offsets.frame = self.offsets.tilted.with(&frames.frame());
         Ok(())
+    }
+
+    /// Refuses other coordinates while the tool is beside a contour.
+    fn check_frame_may_change(&self, coded: Coded<FrameCode>) -> Outcome<()> {
+        if !self.state.on_contour && !self.state.leaving_contour {
+            return Ok(());
+        }
+        let message = "coordinates that change with cutter radius compensation on";
+        Err(Fault::new(DiagnosticCode::CutterRadius, coded.span, message)
+            .because("the tool stands beside the programmed point, at a place that depends on the next move")
+            .help("write G40 and a move before it"))
     }
 
     /// X, Y and Z of the block in mm, or where the tool is.

@@ -1,15 +1,9 @@
-//! TRAORI and TRAFOOF of SINUMERIK, and what is not possible while the tip of the tool is followed.
+//! TRAORI and TRAFOOF of SINUMERIK.
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::execute::interpreter::Interpreter;
-use crate::syntax::block::Block;
 use crate::syntax::codes::Coded;
-use crate::syntax::dialect::Dialect;
-use crate::syntax::modes::NonModal;
-
-/// Angles below this are zero, degrees.
-const ZERO_DEG: f64 = 1e-9;
 
 impl Interpreter {
     /// TRAORI and TRAFOOF.
@@ -51,34 +45,6 @@ impl Interpreter {
             Fault::new(DiagnosticCode::NotSupported, coded.span, message)
                 .because("the tip is followed along the axis of the spindle")
                 .help("write the length alone into the tool table"),
-        )
-    }
-
-    /// Refuses to go to places of the machine while the tip of the tool is followed: with the rotary
-    /// axes away from zero X, Y and Z are not the machine's.
-    pub(crate) fn check_machine_place(&self, block: &Block) -> Outcome<()> {
-        let Some(non_modal) = block.codes.non_modal else {
-            return Ok(());
-        };
-        let goes = matches!(
-            non_modal.code,
-            NonModal::MachineCoordinates | NonModal::GoToReference(_)
-        );
-        let is_other = matches!(block.dialect, Dialect::Fanuc | Dialect::Siemens)
-            && self.options.five_axis.is_some()
-            && self.state.tip.follows();
-        let axes = self.axes_place();
-        let turned = (3..6).any(|axis| axes[axis].abs() > ZERO_DEG);
-        if !goes || !is_other || !turned {
-            return Ok(());
-        }
-        let message = "a place of the machine while the tip of the tool is followed";
-        Err(
-            Fault::new(DiagnosticCode::MachineCoordinates, non_modal.span, message)
-                .because(
-                    "with the rotary axes away from zero the coordinates are those of the work",
-                )
-                .help("write G49, G69, TRAFOOF or CYCLE800() before it"),
         )
     }
 }
