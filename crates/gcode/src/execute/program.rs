@@ -72,6 +72,8 @@ pub struct Program<R> {
     pub(crate) percent: bool,
     /// A line with words was read.
     pub(crate) begun: bool,
+    /// The block number of the line that is executed (FANUC).
+    pub(crate) sequence: Option<u32>,
     pub(crate) ended: bool,
     /// The input ended, and not the program: it has no M2, M30 or percent line at its end.
     pub(crate) ran_out: bool,
@@ -118,6 +120,7 @@ impl<R: BufRead> Program<R> {
             kept_lines: 0,
             percent: false,
             begun: false,
+            sequence: None,
             ended: false,
             ran_out: false,
             is_typed: false,

@@ -84,15 +84,8 @@ impl Block {
         scope: &dyn Scope,
     ) -> Outcome<f64> {
         let is_length = LENGTHS.has(letter);
-        let mut written = *cursor;
+        let has_no_point = is_without_point(cursor);
         let value = word_value(cursor, start, is_length, scope)?;
-        let has_no_point = loop {
-            match written.next_visible() {
-                _ if written.at() >= cursor.at() => break true,
-                Some(b'0'..=b'9' | b'+' | b'-') => written.advance(),
-                _ => break false,
-            }
-        };
         if has_no_point {
             self.pointless = self.pointless.and(Letters::one(letter));
         }
@@ -105,15 +98,8 @@ impl Block {
         if !is_length || letter == b'Q' || is_factor || !has_no_point {
             return Ok(value);
         }
-        match self.point {
-            PointInput::Calculator => Ok(value),
-            PointInput::Increment => Ok(value * scope.least_increment()),
-            PointInput::Unsaid if value.abs() <= MOST_WITHOUT_POINT => Ok(value),
-            PointInput::Unsaid => {
-                let span = SourceSpan::new(start, cursor.end_of_word());
-                Err(without_point(char::from(letter), value, span))
-            }
-        }
+        let span = SourceSpan::new(start, cursor.end_of_word());
+        without_point_value(self.point, letter, value, scope, span)
     }
 
     /// `[#DEPTH]=5`: FANUC's variable of a name.
@@ -187,10 +173,15 @@ impl Block {
             }
         };
         cursor.advance();
-        let value = word_value(cursor, start, true, scope)?;
+        let has_no_point = self.dialect == Dialect::Fanuc && is_without_point(cursor);
+        let mut value = word_value(cursor, start, true, scope)?;
         let span = SourceSpan::new(start, cursor.end_of_word());
         if is_vacant(value) {
             return Ok(());
+        }
+        if has_no_point {
+            let letter = letter.unwrap_or(b',');
+            value = without_point_value(self.point, letter, value, scope, span)?;
         }
         if self.corner.is_some() {
             return Err(duplicate(',', span));
@@ -198,6 +189,37 @@ impl Block {
         self.any = true;
         self.corner = Some(CornerWord { kind, value, span });
         Ok(())
+    }
+}
+
+/// True where the number that comes next has no decimal point, and is no expression.
+pub(crate) fn is_without_point(cursor: &Cursor<'_>) -> bool {
+    let mut written = *cursor;
+    let mut any = false;
+    loop {
+        match written.next_visible() {
+            Some(b'0'..=b'9') => any = true,
+            Some(b'+' | b'-') if !any => {}
+            Some(b'.' | b'#' | b'[') => return false,
+            _ => return any,
+        }
+        written.advance();
+    }
+}
+
+/// What a length without a decimal point is.
+pub(crate) fn without_point_value(
+    point: PointInput,
+    letter: u8,
+    value: f64,
+    scope: &dyn Scope,
+    span: SourceSpan,
+) -> Outcome<f64> {
+    match point {
+        PointInput::Calculator => Ok(value),
+        PointInput::Increment => Ok(value * scope.least_increment()),
+        PointInput::Unsaid if value.abs() <= MOST_WITHOUT_POINT => Ok(value),
+        PointInput::Unsaid => Err(without_point(char::from(letter), value, span)),
     }
 }
 

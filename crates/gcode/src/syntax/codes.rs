@@ -91,6 +91,8 @@ pub(crate) struct Codes {
     pub(crate) function: Option<Coded<u32>>,
     /// M29 of FANUC.
     pub(crate) rigid_tapping: Option<Coded<u32>>,
+    /// The number of FANUC's last M code.
+    pub(crate) last_m: Option<u32>,
     /// The motion is that of this block alone: what was the mode stays it (G31, G60, G76 of FANUC).
     pub(crate) is_once: bool,
     /// The motion of this block ends at rest (G9 of FANUC and SINUMERIK).

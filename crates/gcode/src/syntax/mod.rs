@@ -15,7 +15,7 @@
 pub(crate) mod bad_byte;
 pub(crate) mod block;
 mod block_reader;
-mod block_reader_of_dialects;
+pub(crate) mod block_reader_of_dialects;
 pub(crate) mod codes;
 pub(crate) mod cursor;
 pub(crate) mod dialect;

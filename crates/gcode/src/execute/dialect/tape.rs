@@ -42,6 +42,8 @@ pub(crate) struct SubprogramCall {
     pub(crate) called_from: u32,
     /// How many more times it runs.
     pub(crate) again: u32,
+    /// The number of the program that calls it, of FANUC.
+    pub(crate) caller: u32,
     /// True for G65: the subprogram has parameters of its own.
     pub(crate) own_parameters: bool,
 }
@@ -79,6 +81,16 @@ struct TapeText {
     lines: Vec<TapeLine>,
 }
 
+/// A loop of FANUC that was begun.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct OpenLoop {
+    /// How deep in calls it is.
+    depth: usize,
+    number: u32,
+    /// The line with its DO.
+    start: TapePlace,
+}
+
 /// Lines read so far, and which comes next.
 #[derive(Debug)]
 pub(crate) struct Tape {
@@ -91,6 +103,7 @@ pub(crate) struct Tape {
     pub(crate) next: usize,
     pub(crate) calls: Vec<SubprogramCall>,
     pub(crate) repetitions: Vec<Repetition>,
+    loops: Vec<OpenLoop>,
     /// The first line of the program that was never executed.
     unseen: usize,
     /// The line executed last had been executed before, or is of a file.
@@ -113,6 +126,7 @@ impl Default for Tape {
             next: 0,
             calls: Vec::new(),
             repetitions: Vec::new(),
+            loops: Vec::new(),
             unseen: 0,
             is_again: false,
             jumps: BTreeMap::new(),
@@ -236,6 +250,41 @@ impl Tape {
             self.unseen = self.unseen.max(self.next);
         }
         Ok(any)
+    }
+
+    /// A loop of that number is over, and so are those of calls that are.
+    pub(crate) fn leave_loop(&mut self, number: u32) {
+        let depth = self.calls.len();
+        self.loops
+            .retain(|it| it.depth < depth || it.depth == depth && it.number != number);
+    }
+
+    /// A loop begins, in that line.
+    pub(crate) fn open_loop(&mut self, number: u32, line: usize) {
+        let start = TapePlace {
+            text: self.text,
+            line,
+        };
+        let depth = self.calls.len();
+        self.loops.push(OpenLoop {
+            depth,
+            number,
+            start,
+        });
+    }
+
+    /// True inside of the loop that begins in that line.
+    pub(crate) fn is_in_loop(&self, number: u32, line: usize) -> bool {
+        let start = TapePlace {
+            text: self.text,
+            line,
+        };
+        let depth = self.calls.len();
+        self.loops.contains(&OpenLoop {
+            depth,
+            number,
+            start,
+        })
     }
 
     /// Where the jump in a line led before; `number` tells the jumps of a line apart.

@@ -11,6 +11,10 @@ pub(crate) struct FanucModal {
     /// The last H and D.
     pub(crate) length_offset: Option<u32>,
     pub(crate) radius_offset: u32,
+    /// The last M code, N of the block before, and the number of the program (#4113 to #4115).
+    pub(crate) m_code: u32,
+    pub(crate) sequence: u32,
+    pub(crate) program: u32,
     /// G43 or G44 is in force, and which of them.
     pub(crate) length_sign: Option<f64>,
     /// By how much the length in force is greater than when Z moved last, mm.
@@ -42,6 +46,9 @@ impl Default for FanucModal {
             before_cycles: Motion::Rapid,
             length_offset: None,
             radius_offset: 0,
+            m_code: 0,
+            sequence: 0,
+            program: 0,
             length_sign: None,
             length_on_way_mm: 0.0,
             tip_by_vector: false,

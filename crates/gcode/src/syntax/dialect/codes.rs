@@ -133,6 +133,7 @@ impl Codes {
         declared: &MCodes,
     ) -> Outcome<()> {
         let number = code_number(value);
+        self.last_m = number;
         if let Some(number) = number.filter(|number| declared.is_own(*number)) {
             return set(&mut self.user, number, span);
         }

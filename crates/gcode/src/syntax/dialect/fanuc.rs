@@ -227,6 +227,15 @@ pub(crate) fn is_numbered(text: &[u8], wanted: u32) -> bool {
     }
 }
 
+/// The block number of a line.
+pub(crate) fn block_number(text: &[u8]) -> Option<u32> {
+    let text = text.trim_ascii_start();
+    let [b'N' | b'n', tail @ ..] = text else {
+        return None;
+    };
+    Some(digits(tail.trim_ascii_start())?.0)
+}
+
 pub(crate) fn is_label(text: &[u8]) -> bool {
     matches!(statement(text).0, Statement::Label(_) | Statement::Name)
 }

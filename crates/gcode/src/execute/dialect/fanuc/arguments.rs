@@ -3,6 +3,9 @@
 //! A letter is the variable of its own (A is #1, X is #24). I, J and K written more than once are
 //! #4 to #6, then #7 to #9 and so on: a set of them ends where a letter comes that is not behind the
 //! last one. Of two words for the same variable the later one counts.
+//!
+//! Where coordinates without a point count least increments, A, B, C, I to K, Q, R and U to Z of a macro do,
+//! too; the other letters are numbers.
 
 use std::io::BufRead;
 
@@ -13,16 +16,22 @@ use crate::execute::dialect::macro_call::Arguments;
 use crate::execute::parameters::FANUC_LOCALS;
 use crate::execute::program::Program;
 use crate::syntax::bad_byte::bad_byte;
+use crate::syntax::block_reader_of_dialects::{is_without_point, without_point_value};
 use crate::syntax::cursor::Cursor;
+use crate::syntax::dialect::fanuc::{Call, CallCode};
 use crate::syntax::expression::name::name;
-use crate::syntax::expression::vacant::VACANT;
+use crate::syntax::expression::vacant::{VACANT, is_vacant};
 use crate::syntax::expression::value::value;
+use crate::syntax::letters::Letters;
 use crate::syntax::word_check::unused;
 
 /// Variables of the letters, from A; zero: not an argument.
 const VARIABLES: [usize; 26] = [
     1, 2, 3, 7, 8, 9, 0, 11, 4, 5, 6, 0, 13, 0, 0, 0, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26,
 ];
+
+/// Letters that count least increments without a point, where coordinates do.
+const COUNTED: Letters = Letters::of(b"ABCIJKQRUVWXYZ");
 
 /// Most sets of I, J and K.
 const MOST_SETS: usize = 10;
@@ -59,7 +68,43 @@ impl Sets {
     }
 }
 
+/// Letters of a block that M98 or M97 stands in, which is executed before the call. H and Q are words of
+/// other controls' calls.
+const BESIDE: Letters = Letters::of(b"GMXYZABCUVWIJRFST");
+
 impl<R: BufRead> Program<R> {
+    /// The block that a call stands in without the call and its words, which has the columns of the text.
+    pub(super) fn beside_call(&self, text: &[u8], call: Call) -> Outcome<Vec<u8>> {
+        let mut beside = text.get(..call.start).unwrap_or_default().to_vec();
+        if !matches!(call.code, CallCode::Subprogram | CallCode::Local) {
+            return Ok(beside);
+        }
+        let mut cursor = Cursor::new(text);
+        cursor.seek(call.end);
+        while let Some(byte) = cursor.next_visible() {
+            let start = cursor.at();
+            match byte {
+                b';' => break,
+                b'(' => {
+                    cursor.skip_comment()?;
+                    continue;
+                }
+                b'<' => {
+                    name(&mut cursor)?;
+                    continue;
+                }
+                b'A'..=b'Z' | b'a'..=b'z' => cursor.advance(),
+                _ => return Err(bad_byte(text, start)),
+            }
+            value(&mut cursor, start, &self.scope())?;
+            if BESIDE.has(byte.to_ascii_uppercase()) {
+                beside.resize(start, b' ');
+                beside.extend_from_slice(text.get(start..cursor.at()).unwrap_or_default());
+            }
+        }
+        Ok(beside)
+    }
+
     /// Reads the words of a call from a place on.
     pub(super) fn call_words(&self, text: &[u8], at: usize, is_macro: bool) -> Outcome<CallWords> {
         let mut words = CallWords {
@@ -89,14 +134,24 @@ impl<R: BufRead> Program<R> {
                 b'A'..=b'Z' => cursor.advance(),
                 _ => return Err(bad_byte(text, start)),
             }
+            let is_whole = is_without_point(&cursor);
             let argument = value(&mut cursor, start, &self.scope())?;
             let span = SourceSpan::new(start, cursor.end_of_word());
+            let argument = if is_whole && is_macro && COUNTED.has(letter) {
+                without_point_value(self.block.point, letter, argument, &self.scope(), span)?
+            } else {
+                argument
+            };
             match letter {
+                // What nothing was assigned to is no word.
+                b'L' | b'K' if !is_macro && is_vacant(argument) => {}
+                b'L' if is_vacant(argument) => {}
                 b'P' => words.program = Some(self.fanuc_number(text, start + 1, false)?),
                 b'L' | b'K' if !is_macro || letter == b'L' => {
                     words.turns = self.fanuc_number(text, start + 1, false)?;
                     words.says_turns = true;
                 }
+                letter if !is_macro && BESIDE.has(letter) => {}
                 b'I'..=b'K' if is_macro => {
                     let variable = sets.next(letter).ok_or_else(|| too_many(span))?;
                     words.arguments[variable - 1] = argument;

@@ -148,9 +148,17 @@ impl<R: BufRead> Program<R> {
             back: self.tape.place(),
             called_from: self.line_of_program(),
             again: turns - 1,
+            caller: self.interpreter.state.fanuc.program,
             own_parameters: arguments.is_some(),
         });
         self.tape.go_to(first);
+        let head = first
+            .line
+            .checked_sub(1)
+            .and_then(|line| self.tape.get(line));
+        if let Some(Statement::Label(program)) = head.map(|(_, text)| statement(text).0) {
+            self.interpreter.state.fanuc.program = program;
+        }
         if let Some(arguments) = arguments {
             self.parameters.enter(arguments);
         }
@@ -325,6 +333,7 @@ impl<R: BufRead> Program<R> {
         let call = *call;
         self.tape.calls.pop();
         self.tape.go_to(call.back);
+        self.interpreter.state.fanuc.program = call.caller;
         if call.own_parameters {
             self.parameters.leave(None);
         }

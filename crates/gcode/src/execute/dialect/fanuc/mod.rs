@@ -15,6 +15,7 @@ mod groove;
 mod increments;
 mod lathe_offsets;
 mod lathe_profile;
+mod loops;
 mod modal_macro;
 mod modes;
 mod named_program;
@@ -48,6 +49,9 @@ impl Interpreter {
             && let Some(number) = whole(block, b'D', MAX_TOOL)?
         {
             self.state.fanuc.radius_offset = number;
+        }
+        if let Some(number) = block.codes.last_m {
+            self.state.fanuc.m_code = number;
         }
         self.length_without_code(block)?;
         self.check_look_ahead(block)?;

@@ -13,7 +13,7 @@ use crate::execute::program::{Program, is_percent};
 use crate::execute::scope::ProgramScope;
 use crate::syntax::codes::Coded;
 use crate::syntax::cursor::Cursor;
-use crate::syntax::dialect::fanuc::{Statement, is_label, is_loop, is_numbered, statement};
+use crate::syntax::dialect::fanuc::{Statement, block_number, is_label, is_numbered, statement};
 use crate::syntax::dialect::line_body::{body, starts_with_word};
 use crate::syntax::expression::vacant::or_zero;
 use crate::syntax::expression::value::value;
@@ -66,7 +66,7 @@ fn without_deleted(text: &[u8]) -> &[u8] {
     }
 }
 
-fn fault(span: SourceSpan, message: impl Into<String>) -> Box<Fault> {
+pub(super) fn fault(span: SourceSpan, message: impl Into<String>) -> Box<Fault> {
     Fault::new(DiagnosticCode::FlowStructure, span, message)
         .because("IF, WHILE, GOTO and the calls have a line of their own each, in a fixed form")
 }
@@ -95,6 +95,9 @@ impl<R: BufRead> Program<R> {
         if self.tape.is_again() {
             self.count_idle().inspect_err(|_| self.end())?;
         }
+        let fanuc = &mut self.interpreter.state.fanuc;
+        fanuc.sequence = self.sequence.take().unwrap_or(fanuc.sequence);
+        self.sequence = block_number(&text);
         // Nearly all lines of a long program are plain.
         if self.block.parse_plain_fanuc(&text) {
             return self.fanuc_block(number, Ok(()));
@@ -108,13 +111,23 @@ impl<R: BufRead> Program<R> {
             text
         };
         let (statement, at) = statement(&text);
+        let is_own = matches!(
+            statement,
+            Statement::Block | Statement::Label(_) | Statement::Name
+        );
+        self.begun |= !is_own;
         match statement {
             Statement::Block => return self.fanuc_text(number, &text),
             Statement::Label(_) | Statement::Name if !self.tape.calls.is_empty() => {
                 self.end();
                 return Err(not_returned(&text));
             }
+            // The next program of the file: the one before has ended without M30.
+            Statement::Label(_) | Statement::Name if self.begun => return self.end_of_input(),
             Statement::Label(_) | Statement::Name => {
+                if let Statement::Label(program) = statement {
+                    self.interpreter.state.fanuc.program = program;
+                }
                 return self.fanuc_text(number, &without_head(&text, at));
             }
             Statement::If => {
@@ -124,9 +137,9 @@ impl<R: BufRead> Program<R> {
             }
             // Other words of the block come first.
             Statement::Call(call) => {
-                let head = text.get(..call.start).unwrap_or_default();
-                if body(head) < head.trim_ascii_end().len() {
-                    self.execute_text(number, head)?;
+                let beside = self.beside_call(&text, call).inspect_err(|_| self.end())?;
+                if body(&beside) < beside.trim_ascii_end().len() {
+                    self.execute_text(number, &beside)?;
                 }
                 return self.fanuc_call(&text, call).inspect_err(|_| self.end());
             }
@@ -225,21 +238,7 @@ impl<R: BufRead> Program<R> {
                 self.fanuc_go_to(index, target, at)?;
             }
             Statement::While => self.fanuc_while(index, text, at)?,
-            Statement::End => {
-                let number = self.fanuc_number(text, at, true)?;
-                if let Some(start) = self.tape.known_jump(index, number) {
-                    self.tape.next = start;
-                    return Ok(true);
-                }
-                let start =
-                    self.tape
-                        .search_back(index, |line| is_loop(line, b"DO", number), is_label);
-                let start = start.ok_or_else(|| {
-                    fault(SourceSpan::new(at, text.len()), "an END without its DO")
-                        .help("give both the same number")
-                })?;
-                self.tape.jump(index, number, start);
-            }
+            Statement::End => self.fanuc_end_of_loop(index, text, at)?,
             _ => {}
         }
         Ok(true)
@@ -269,7 +268,7 @@ impl<R: BufRead> Program<R> {
     }
 
     /// The condition in brackets at `at`, and where what follows it starts.
-    fn fanuc_condition(&self, text: &[u8], at: usize) -> Outcome<(bool, usize)> {
+    pub(super) fn fanuc_condition(&self, text: &[u8], at: usize) -> Outcome<(bool, usize)> {
         let mut cursor = Cursor::new(text);
         cursor.seek(at);
         if cursor.next_visible() != Some(b'[') {
@@ -280,7 +279,9 @@ impl<R: BufRead> Program<R> {
             .help("write it in brackets: [#1 EQ 2]"));
         }
         let holds = or_zero(value(&mut cursor, at, &self.scope())?) != 0.0;
-        cursor.next_visible();
+        while cursor.next_visible() == Some(b'(') {
+            cursor.skip_comment()?;
+        }
         Ok((holds, cursor.at()))
     }
 
@@ -303,43 +304,6 @@ impl<R: BufRead> Program<R> {
             "IF without GOTO or THEN",
         )
         .help("write `IF [condition] GOTO n` or `IF [condition] THEN #i = value`"))
-    }
-
-    fn fanuc_while(&mut self, index: usize, text: &[u8], at: usize) -> Outcome<()> {
-        let bare = text.get(body(text)..).unwrap_or_default();
-        let (holds, number_at) = if starts_with_word(bare, b"DO") {
-            (true, at)
-        } else {
-            let (holds, then) = self.fanuc_condition(text, at)?;
-            if !starts_with_word(text.get(then..).unwrap_or_default(), b"DO") {
-                return Err(fault(
-                    SourceSpan::new(then, text.len().max(then + 1)),
-                    "WHILE without DO",
-                )
-                .help("write `WHILE [condition] DO 1` and `END 1`"));
-            }
-            (holds, then + 2)
-        };
-        let number = self.fanuc_number(text, number_at, true)?;
-        if holds {
-            return Ok(());
-        }
-        if let Some(behind) = self.tape.known_jump(index, number) {
-            self.tape.next = behind;
-            return Ok(());
-        }
-        let end = self.tape.search(
-            index + 1,
-            &mut self.source,
-            |line| is_loop(line, b"END", number),
-            is_label,
-        )?;
-        let end = end.ok_or_else(|| {
-            fault(SourceSpan::new(at, text.len()), "a loop without its END")
-                .help(format!("add `END {number}`"))
-        })?;
-        self.tape.jump(index, number, end + 1);
-        Ok(())
     }
 
     pub(super) fn fanuc_go_to(&mut self, index: usize, number: u32, at: usize) -> Outcome<()> {

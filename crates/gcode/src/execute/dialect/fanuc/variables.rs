@@ -7,7 +7,7 @@
 //! | `#100` … `#199`, `#500` … `#999` | common |
 //! | `#2001` … `#2999` | tool offsets, where the configuration says how their memory is divided ([`super::tool_variables`]) |
 //! | `#3000=n(TEXT)`, `#3006=n(TEXT)` | an alarm, a stop |
-//! | `#4001` … `#4022`, `#4107` `#4109` `#4111` `#4119` `#4120` `#4130` | modes; D F H S T, P of G54.1 |
+//! | `#4001` … `#4022`, `#4107` `#4109` `#4111` `#4113` to `#4115` `#4119` `#4120` `#4130` | modes; D F H M N O S T, P of G54.1 |
 //! | `#5001` `#5021` `#5041` `#5061` `#5081` … | place in the program, of the machine, with the length of the tool; the same of a contact; length of the tool |
 //! | `#5201` …, `#5221` … `#5328`, `#7001` …, `#14001` … | external offset, G54 to G59, G54.1 P1 and on |
 //!
@@ -97,6 +97,9 @@ fn variable(number: u32) -> Variable {
         4107 => Variable::Address(b'D'),
         4109 => Variable::Address(b'F'),
         4111 => Variable::Address(b'H'),
+        4113 => Variable::Address(b'M'),
+        4114 => Variable::Address(b'N'),
+        4115 => Variable::Address(b'O'),
         4119 => Variable::Address(b'S'),
         4120 => Variable::Address(b'T'),
         4130 => Variable::Address(b'P'),
@@ -235,6 +238,9 @@ impl Interpreter {
                 round(feed.linear_v * per / modal.units.mm())
             }),
             b'H' => f64::from(state.fanuc.length_offset.unwrap_or(0)),
+            b'M' => f64::from(state.fanuc.m_code),
+            b'N' => f64::from(state.fanuc.sequence),
+            b'O' => f64::from(state.fanuc.program),
             b'S' => state.spindle.speed,
             // With its offset on a lathe, as it is written.
             b'T' if self.options.is_fanuc_lathe() => {

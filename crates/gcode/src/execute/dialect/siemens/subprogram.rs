@@ -131,6 +131,7 @@ impl<R: BufRead> Program<R> {
             back: self.tape.place(),
             called_from: self.line_of_program(),
             again,
+            caller: 0,
             own_parameters: false,
         });
         let own = Variables::at_level(self.tape.calls.len());
