@@ -219,6 +219,13 @@ const fn taken_by_move(motion: Option<Motion>, dialect: Dialect) -> Option<Lette
     }
 }
 
+/// True for a move, or a block without one.
+fn may_choose_radius(block: &Block, motion: Option<Motion>) -> bool {
+    let is_move = motion
+        .is_none_or(|motion| matches!(motion, Motion::Rapid | Motion::Linear) || motion.is_arc());
+    is_move && block.codes.spindle_mode.is_none()
+}
+
 /// Refuses words that nothing in the block uses, and words that two codes want.
 pub(crate) fn check_words(block: &Block, motion: Option<Motion>) -> Outcome<()> {
     if !block.says_modes
@@ -231,7 +238,11 @@ pub(crate) fn check_words(block: &Block, motion: Option<Motion>) -> Outcome<()> 
     let always = match block.dialect {
         // The edge of the tool may be chosen in any block.
         Dialect::Siemens => Letters::of(b"FSTD"),
-        // So may the length of the tool.
+        // So may the length and the radius of the tool; in a cycle, and beside G96, D is a word of other
+        // controls.
+        Dialect::Fanuc if !block.is_lathe && may_choose_radius(block, motion) => {
+            Letters::of(b"FSTHD")
+        }
         Dialect::Fanuc if !block.is_lathe => Letters::of(b"FSTH"),
         _ => Letters::of(b"FST"),
     };

@@ -29,7 +29,7 @@
 //! | G83 | Q at a time, out to R after each | – | rapid |
 //! | G85 | feed | – | feed to R, rapid from there |
 //! | G86 | feed | dwell P, spindle stop | rapid, spindle on |
-//! | G89 | feed | dwell P | feed |
+//! | G89 | feed | dwell P | feed; of FANUC: feed to R, rapid from there |
 
 use glidepath_geometry::{AXES, Axis, AxisVector, Plane};
 use glidepath_program::{Event, Item, ItemKind, PathMode};
@@ -327,6 +327,11 @@ impl Interpreter {
         }
         let pace = match cycle {
             CannedCycle::Bore => {
+                self.along(block, normal, hole.r, Pace::Feed, out)?;
+                Pace::Rapid
+            }
+            // FANUC's goes on at rapid above R.
+            CannedCycle::BoreDwell if block.dialect == Dialect::Fanuc => {
                 self.along(block, normal, hole.r, Pace::Feed, out)?;
                 Pace::Rapid
             }

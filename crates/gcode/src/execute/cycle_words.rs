@@ -21,7 +21,10 @@ impl Interpreter {
         let span = block.motion_span();
         let name = name(cycle);
         let scale = self.state.modal.units.mm();
-        let last = self.state.cycles.last.filter(|last| last.cycle == cycle);
+        // R, Z and P of FANUC stay until G80, whichever cycle is next.
+        let before = self.state.cycles.last;
+        let last = before.filter(|last| last.cycle == cycle);
+        let stays = before.filter(|_| block.dialect == Dialect::Fanuc).or(last);
         let normal = self.state.modal.plane.normal();
         let letter = u8::try_from(normal.letter()).unwrap_or(b'Z');
         let get = |letter: u8, scale: f64, sticky: Option<f64>, meaning: &str| {
@@ -30,13 +33,13 @@ impl Interpreter {
             word.or(sticky)
                 .ok_or_else(|| missing(span, name, &text, meaning))
         };
-        let last_r = last.map(|l| l.r).or(block.is_lathe.then_some(0.0));
+        let last_r = stays.map(|l| l.r).or(block.is_lathe.then_some(0.0));
         let r = get(b'R', scale, last_r, "the plane above the hole")?;
         let peck_scale = scale * self.peck_unit(block)?;
         let depth = get(
             letter,
             scale,
-            last.map(|l| l.depth),
+            stays.map(|l| l.depth),
             "the bottom of the hole",
         )?;
         let mut sticky = StickyWords {
@@ -51,7 +54,7 @@ impl Interpreter {
             is_rigid: false,
             starts_spindle: false,
         };
-        let last_dwell = last.map(|l| l.dwell_s);
+        let last_dwell = stays.map(|l| l.dwell_s);
         match cycle {
             CannedCycle::DrillDwell | CannedCycle::BoreStop | CannedCycle::BoreDwell => {
                 sticky.dwell_s = if block.dialect == Dialect::Fanuc {
@@ -66,7 +69,9 @@ impl Interpreter {
                 sticky.peck = word.or(last.map(|l| l.peck)).unwrap_or(0.0);
             }
             CannedCycle::ChipBreak | CannedCycle::Peck => {
-                self.peck_words(block, peck_scale, last, &mut sticky)?;
+                let pecks =
+                    |l: &StickyWords| matches!(l.cycle, CannedCycle::ChipBreak | CannedCycle::Peck);
+                self.peck_words(block, peck_scale, stays.filter(pecks), &mut sticky)?;
             }
             CannedCycle::FineBore => sticky.shift_mm = self.bore_shift(block, last)?,
             CannedCycle::Drill | CannedCycle::Bore => {}
@@ -95,7 +100,10 @@ impl Interpreter {
         if block.get(b'I').is_some() {
             return self.haas_pecks(block, sticky);
         }
+        let is_fanuc = block.dialect == Dialect::Fanuc;
         let written = block.get(b'Q').map(|peck| peck * scale);
+        // It is a depth there, whatever its sign.
+        let written = written.map(|peck| if is_fanuc { peck.abs() } else { peck });
         if let Some(last) = last.filter(|last| written.is_none() && last.least > 0.0) {
             (sticky.peck, sticky.less, sticky.least) = (last.peck, last.less, last.least);
             return Ok(());

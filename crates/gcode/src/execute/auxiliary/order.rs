@@ -9,6 +9,7 @@ use crate::execute::state::spindle::SpindleDirection;
 use crate::syntax::block::Block;
 use crate::syntax::codes::Coded;
 use crate::syntax::dialect::Dialect;
+use crate::syntax::letters::Letters;
 use crate::syntax::modes::NonModal;
 use crate::syntax::word_check::{missing, negative};
 
@@ -71,7 +72,10 @@ impl Interpreter {
             Dialect::Marlin => block.get(b'S').or_else(milliseconds),
             Dialect::Fanuc => {
                 let seconds = block.get(b'X').or_else(|| block.get(b'U'));
-                seconds.or_else(|| fanuc_dwell(block))
+                // Alone it is a stop at the end of the block before; F and S are the time of others.
+                let is_alone = !block.has_any(Letters::of(b"FS"));
+                let written = seconds.or_else(|| fanuc_dwell(block));
+                written.or(is_alone.then_some(0.0))
             }
         }
     }

@@ -109,6 +109,11 @@ impl Interpreter {
                 .help("write the motion code in front of them")
             });
         }
+        let is_fanuc = block.dialect == Dialect::Fanuc;
+        if is_fanuc && matches!(modal, Some(Motion::Cycle(_))) && block.get(b'R').is_some() {
+            // Another R drills again where the tool is.
+            return Ok(modal);
+        }
         let center = block.has_any(Letters::of(b"IJK"));
         Ok(modal.filter(|motion| center && motion.may_lack_axes()))
     }
@@ -123,8 +128,15 @@ impl Interpreter {
                 .codes
                 .motion
                 .is_some_and(|coded| coded.code == Some(Motion::ThreadCycle));
+        // X and U of a dwell are seconds.
+        let is_dwell = block.dialect == Dialect::Fanuc
+            && block
+                .codes
+                .non_modal
+                .is_some_and(|coded| coded.code == NonModal::Dwell);
         let has = |axis: Axis| {
             self.options.machine.has(axis)
+                || is_dwell && matches!(axis, Axis::X | Axis::U)
                 || is_thread && axis == Axis::A
                 || axis == Axis::W && homes_without_mesh(block)
         };

@@ -1,5 +1,6 @@
 //! The codes of the other dialects: G and M numbers, sorted into the groups of [`Codes`].
 
+use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::Outcome;
 use crate::diagnostic::span::SourceSpan;
 use crate::setup::m_codes::MCodes;
@@ -37,13 +38,50 @@ impl Codes {
         let Some((tenths, meaning)) = found else {
             return Err(no_g(Dialect::Fanuc, value, span));
         };
-        match meaning {
+        let added = match meaning {
             Meaning::Shared => self.add_g(value, span),
             Meaning::Own if is_lathe => self.add_own_lathe_g(tenths, span),
             Meaning::Own => self.add_own_fanuc_g(tenths, span),
             Meaning::ReadOver => set(&mut self.read_over, tenths, span),
             Meaning::Refused(what, help) => Err(refused(&format!("G{value}"), what, help, span)),
+        };
+        added.or_else(|fault| {
+            let mut alone = Self::default();
+            let is_second = fault.code == DiagnosticCode::ModalGroupConflict;
+            let replaces = is_second
+                && match meaning {
+                    Meaning::Shared => alone.add_g(value, span).is_ok(),
+                    Meaning::Own if is_lathe => alone.add_own_lathe_g(tenths, span).is_ok(),
+                    Meaning::Own => alone.add_own_fanuc_g(tenths, span).is_ok(),
+                    _ => false,
+                }
+                && self.replace_mode(&alone);
+            if replaces { Ok(()) } else { Err(fault) }
+        })
+    }
+
+    /// Puts the one mode of `last` into the place of the one of its group: of two modal codes of a group
+    /// FANUC takes the last. False where it is no mode.
+    fn replace_mode(&mut self, last: &Self) -> bool {
+        fn put<T: Copy>(slot: &mut Option<T>, last: Option<T>) -> bool {
+            *slot = last.or(*slot);
+            last.is_some()
         }
+        if last.is_once || self.is_once || last.tip.is_some() || self.tip.is_some() {
+            return false;
+        }
+        put(&mut self.motion, last.motion)
+            || put(&mut self.plane, last.plane)
+            || put(&mut self.distance, last.distance)
+            || put(&mut self.feed_mode, last.feed_mode)
+            || put(&mut self.units, last.units)
+            || put(&mut self.cutter_radius, last.cutter_radius)
+            || put(&mut self.tool_length, last.tool_length)
+            || put(&mut self.system, last.system)
+            || put(&mut self.retract, last.retract)
+            || put(&mut self.spindle_mode, last.spindle_mode)
+            || put(&mut self.path_mode, last.path_mode)
+            || put(&mut self.polar_mode, last.polar_mode)
     }
 
     /// The codes of system A.

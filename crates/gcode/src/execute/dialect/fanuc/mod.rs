@@ -34,6 +34,7 @@ pub(crate) mod variables;
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
+use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::setup::tool_table::MAX_TOOL;
 use crate::syntax::block::Block;
@@ -45,9 +46,12 @@ impl Interpreter {
         if let Some(coded) = block.codes.dynamic {
             self.dynamic_offset(coded)?;
         }
-        if block.codes.cutter_radius.is_some()
+        if !block.is_lathe
             && let Some(number) = whole(block, b'D', MAX_TOOL)?
         {
+            if self.state.on_contour && block.codes.cutter_radius.is_none() {
+                return Err(another_radius(block.span(b'D')));
+            }
             self.state.fanuc.radius_offset = number;
         }
         if let Some(number) = block.codes.last_m {
@@ -67,7 +71,7 @@ impl Interpreter {
             return Ok(());
         };
         let word = match coded.code {
-            50 | 80 | 1030 => b'P',
+            50 | 80 => b'P',
             51 => b'Q',
             _ => return Ok(()),
         };
@@ -85,4 +89,14 @@ impl Interpreter {
                 )),
         )
     }
+}
+
+#[cold]
+fn another_radius(span: SourceSpan) -> Box<Fault> {
+    let message = "another radius with cutter radius compensation on";
+    Fault::new(DiagnosticCode::CutterRadius, span, message)
+        .because(
+            "the tool stands beside the programmed point, at a place that depends on the next move",
+        )
+        .help("write G40 and a move before it")
 }

@@ -1,0 +1,137 @@
+//! Tests of words that FANUC's mills take where others do not: modes, D, cycles, dwells.
+
+use glidepath_gcode::{Program, check};
+use glidepath_program::{ItemKind, Rate};
+
+use crate::fanuc_calls::{ends, finds, options};
+
+fn last(text: &str) -> [f64; 3] {
+    *ends(text).last().expect("a move")
+}
+
+fn dwells(text: &str) -> Vec<f64> {
+    Program::new(text.as_bytes(), options())
+        .map(|item| item.unwrap_or_else(|d| panic!("{text}\n{d}")))
+        .filter_map(|item| match item.kind {
+            ItemKind::Dwell(seconds) => Some(seconds),
+            _ => None,
+        })
+        .collect()
+}
+
+#[test]
+fn the_last_code_of_a_group_counts() {
+    assert_eq!(last("G1 X1 F600\nG91 G90 G0 G1 X5"), [5.0, 0.0, 0.0]);
+    assert_eq!(last("G90 G91 G0 X5\nX1"), [6.0, 0.0, 0.0]);
+    assert_eq!(last("G20 G21 G0 X5"), [5.0, 0.0, 0.0]);
+    assert_eq!(last("G0 G43 G49 H1 Z5"), [0.0, 0.0, 5.0]);
+    // A cycle and a move: the one that is written last.
+    assert_eq!(last("G0 Z5\nG81 G0 X3 Z2"), [3.0, 0.0, 2.0]);
+    // Codes that act once, and moves of one block, are not modes.
+    finds("G28 G53 X0", &["1:5 modal-group-conflict"]);
+    finds("G0 G31 X5", &["1:4 modal-group-conflict"]);
+}
+
+#[test]
+fn d_stays_until_the_next_one() {
+    // Tool 2 has a radius of 5: beside X0 at X-5.
+    let beside = |text: &str| ends(&format!("G0 Y-20\n{text}"))[1];
+    for text in [
+        "D2\nG41 G1 X0 Y-10\nY20\nG40 X-20",
+        "G43 H1 D2 Z0\nG41 G1 X0 Y-10\nY20\nG40 X-20",
+        "G0 X-20 D2\nG41 G1 X0 Y-10\nY20\nG40 X-20",
+    ] {
+        let at = ends(&format!("G0 Y-20\n{text}"));
+        assert!(
+            at.iter().any(|end| end[0] == -5.0 && end[1] == 20.0),
+            "{at:?}"
+        );
+    }
+    assert_eq!(
+        beside("G41 D1 G1 X0 Y-10\nY20\nG40 X-20"),
+        [-3.0, -10.0, 0.0]
+    );
+    finds(
+        "G41 D1 G1 X0 Y-10\nY-30 D2\nG40 X-20",
+        &["2:6 cutter-radius"],
+    );
+    finds("G96 S100 D2000", &["1:10 unused-word"]);
+    finds("G81 X1 Z-1 R1 D2", &["1:15 unused-word"]);
+}
+
+#[test]
+fn words_of_cycles_stay_when_the_cycle_changes() {
+    let levels =
+        |text: &str| -> Vec<[f64; 2]> { ends(text).iter().map(|end| [end[0], end[2]]).collect() };
+    // R2 and Z-5 of G81: pecks at 1, then to the bottom.
+    let found = levels("G0 Z5\nG81 X10 Z-5 R2 F500\nG83 X20 Q4");
+    let second: Vec<_> = found.into_iter().filter(|[x, _]| *x == 20.0).collect();
+    assert_eq!(
+        second,
+        [
+            [20.0, 5.0],
+            [20.0, 2.0],
+            [20.0, -2.0],
+            [20.0, 2.0],
+            [20.0, -1.746],
+            [20.0, -5.0],
+            [20.0, 5.0]
+        ]
+    );
+    // Until G80, or another move.
+    finds(
+        "G0 Z5\nG81 X1 Z-5 R2\nG80\nG83 X2 Q1",
+        &["4:1 missing-word"],
+    );
+    // A depth has no sign.
+    assert_eq!(
+        levels("G0 Z5\nG73 X0 Z-5 R2 Q-4 F500"),
+        levels("G0 Z5\nG73 X0 Z-5 R2 Q4 F500")
+    );
+    // R alone drills again.
+    assert_eq!(
+        levels("G0 Z5\nG81 X0 Z-5 R2 F500\nR1."),
+        [
+            [0.0, 5.0],
+            [0.0, 2.0],
+            [0.0, -5.0],
+            [0.0, 5.0],
+            [0.0, 1.0],
+            [0.0, -5.0],
+            [0.0, 5.0]
+        ]
+    );
+}
+
+#[test]
+fn g89_is_at_rapid_above_r() {
+    let text = "G0 Z5\nG89 X0 Y0 Z-8 R2 F120";
+    let up: Vec<(f64, bool)> = Program::new(text.as_bytes(), options())
+        .map(|item| item.unwrap_or_else(|d| panic!("{d}")))
+        .filter_map(|item| match item.kind {
+            ItemKind::Move { segment, rate, .. } => Some((segment.end()[2], rate == Rate::Rapid)),
+            _ => None,
+        })
+        .collect();
+    assert_eq!(
+        up,
+        [
+            (5.0, true),
+            (2.0, true),
+            (-8.0, false),
+            (2.0, false),
+            (5.0, true)
+        ]
+    );
+}
+
+#[test]
+fn a_dwell_may_be_alone_or_in_u() {
+    assert_eq!(dwells("G4"), [0.0]);
+    assert_eq!(dwells("G4 U2."), [2.0]);
+    assert_eq!(dwells("G4 X2.5"), [2.5]);
+    finds("G4 F2.", &["1:1 missing-word"]);
+    finds("G0 U2.", &["1:4 axis-not-configured"]);
+    let report = check(&b"G103 P1\nG103\nG187 P3 E0.01\nG187"[..], options());
+    assert!(report.diagnostics.is_empty());
+}
