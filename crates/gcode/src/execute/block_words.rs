@@ -11,6 +11,7 @@ use crate::syntax::dialect::Dialect;
 use crate::syntax::letters::{AXIS_WORDS, Letters};
 use crate::syntax::modes::{
     CannedCycle, CutterRadius, LatheCycle, Motion, NonModal, SpindleMode, Spline, ToolLength,
+    Turning,
 };
 use crate::syntax::named_word::{Named, no_use};
 use crate::syntax::word_check::{missing, negative, unused};
@@ -163,7 +164,8 @@ fn taken_by_motion(block: &Block, motion: Option<Motion>) -> Letters {
             _ => Letters::of(b"IJKRP"),
         },
         Some(Motion::Cycle(_)) if block.dialect == Dialect::Fanuc => Letters::of(b"RLPQKIJ"),
-        Some(Motion::Turning(_)) => Letters::of(b"R"),
+        Some(Motion::Turning(Turning::Face)) => Letters::of(b"RK"),
+        Some(Motion::Turning(_)) => Letters::of(b"RI"),
         Some(Motion::TapIn | Motion::TapOut) => Letters::of(b"IJK"),
         Some(Motion::CirclePocket(_)) => Letters::of(b"IKQLD"),
         Some(Motion::Groove(_)) => Letters::of(b"RPQIK"),

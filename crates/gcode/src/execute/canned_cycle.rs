@@ -41,6 +41,7 @@ use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::speed::Pace;
 use crate::execute::state::sticky_words::{CycleSeries, StickyWords};
 use crate::execute::tapping_cycle::tap_turns;
+use crate::setup::fanuc::OffsetMemory;
 use crate::syntax::block::Block;
 use crate::syntax::dialect::Dialect;
 use crate::syntax::modes::{CannedCycle, Distance, FeedMode, Retract};
@@ -121,9 +122,8 @@ impl Interpreter {
         let initial = self.state.cycles.initial.unwrap_or(start + way);
         let (r, bottom) = if incremental {
             (initial + sticky.r, initial + sticky.r + sticky.depth)
-        } else if block.is_lathe {
-            // R is the way from the initial level.
-            (initial + sticky.r, sticky.depth)
+        } else if block.has_increments() {
+            (self.r_of_lathe(initial, &sticky), sticky.depth)
         } else {
             (sticky.r, sticky.depth)
         };
@@ -162,6 +162,17 @@ impl Interpreter {
         let made = self.holes(block, hole, holes, out);
         self.state.modal.path_mode = mode;
         made
+    }
+
+    /// The R plane of a lathe of system A: R is the way from the initial level, to FANUC. To Haas it is the
+    /// place; a way that would lead away from the hole is one, too.
+    fn r_of_lathe(&self, initial: f64, sticky: &StickyWords) -> f64 {
+        let is_haas = self.options.fanuc.offset_memory == OffsetMemory::Haas;
+        if sticky.says_r && (is_haas || sticky.r > 0.0) {
+            sticky.r
+        } else {
+            initial + sticky.r
+        }
     }
 
     /// Refuses cycles that cannot be made.

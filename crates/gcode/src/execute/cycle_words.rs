@@ -45,6 +45,7 @@ impl Interpreter {
         let mut sticky = StickyWords {
             cycle,
             r,
+            says_r: block.get(b'R').is_some() || stays.is_some_and(|l| l.says_r),
             depth,
             dwell_s: 0.0,
             peck: 0.0,
@@ -109,10 +110,13 @@ impl Interpreter {
             return Ok(());
         }
         let name = name(sticky.cycle);
+        // Without Q that of a lathe drills at once.
+        let at_once = block.is_lathe.then_some(0.0);
         sticky.peck = written
             .or(last.map(|last| last.peck))
+            .or(at_once)
             .ok_or_else(|| missing(block.motion_span(), name, "Q", "how deep to go at a time"))?;
-        if sticky.peck > 0.0 {
+        if sticky.peck > 0.0 || block.is_lathe && written.is_none() {
             return Ok(());
         }
         let message = format!("{name} goes no deeper");

@@ -11,8 +11,8 @@
 //! X and Z are the bottom of the thread at its end; the tool stands at the side from which it cuts,
 //! and it ends there. Pass n is √n times as deep as the first one (P3: n times), so that all take
 //! as much material, and is shifted along Z so that one flank of the tool cuts. The taper is the
-//! radius at the beginning less that at the end. P and Q of the two blocks, and D, count
-//! thousandths of a millimetre, or ten-thousandths of an inch.
+//! radius at the beginning less that at the end. P and Q of the two blocks, R of the first one, and D count
+//! thousandths of a millimetre, or ten-thousandths of an inch, where they have no point.
 //!
 //! ```text
 //!   ●━━━━━━━━━━━━━━━━━━━━━━━━━━━━━┓   where the tool stands
@@ -31,6 +31,7 @@ use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::thread::Groove;
 use crate::execute::state::thread_setup::ThreadSetup;
 use crate::execute::thread_cycle::MAX_PASSES;
+use crate::setup::fanuc::PointInput;
 use crate::syntax::block::Block;
 use crate::syntax::modes::{Distance, Units};
 use crate::syntax::word_check::{missing, none_wrong, whole};
@@ -86,8 +87,21 @@ impl Interpreter {
             exit_leads: 0.1 * f64::from(digits / 100 % 100),
             tangent: tangent(block, b'P', angle)?,
             least_mm: self.increments(block, b'Q')?.unwrap_or(0.0),
-            finish_mm: block.get(b'R').unwrap_or(0.0).abs() * self.state.modal.units.mm(),
+            finish_mm: self.finish_allowance(block).abs(),
         })
+    }
+
+    /// R of the first block, mm: as P and Q it counts increments where it has no point.
+    fn finish_allowance(&self, block: &Block) -> f64 {
+        let mm = self.state.modal.units.mm();
+        let value = block.get(b'R').unwrap_or(0.0);
+        let is_count = block.has_no_point(b'R') && block.point == PointInput::Unsaid;
+        let unit = match self.state.modal.units {
+            _ if !is_count => 1.0,
+            Units::Inch => 1e-4,
+            Units::Millimetre => 1e-3,
+        };
+        value * unit * mm
     }
 
     fn read_fanuc_thread(&self, block: &Block) -> Outcome<FanucThread> {
@@ -131,12 +145,15 @@ impl Interpreter {
             scale
         };
         let is_incremental = self.state.modal.distance == Distance::Incremental;
-        let end = |letter: u8, index: usize, scale: f64| {
+        let end = |[letter, increment]: [u8; 2], index: usize, scale: f64| {
             let from = if is_incremental { start[index] } else { 0.0 };
-            block.get(letter).map(|value| from + value * scale)
+            let by = block.get(increment).filter(|_| block.has_increments());
+            let by = by.map(|by| start[index] + by * scale);
+            let to = block.get(letter).map(|value| from + value * scale);
+            to.or(by)
         };
-        let end_x = need(end(b'X', 0, across), "X", "the bottom of the thread")?;
-        let end_z = need(end(b'Z', 2, scale), "Z", "where the thread ends")?;
+        let end_x = need(end(*b"XU", 0, across), "X", "the bottom of the thread")?;
+        let end_z = need(end(*b"ZW", 2, scale), "Z", "where the thread ends")?;
         let thread = FanucThread {
             start,
             end: [end_x, end_z],
@@ -300,17 +317,23 @@ fn tangent(block: &Block, letter: u8, angle: f64) -> Outcome<f64> {
 /// Refuses words of the other form, and ways of cutting that are not made.
 fn check_others(block: &Block, is_one_block: bool) -> Outcome<()> {
     let others = if is_one_block {
-        &b"RYBCUVW"[..]
+        &b"RYBCV"[..]
     } else {
-        b"IAYBCUVW"
+        b"IAYBCV"
     };
     let is_written = |letter: &u8| block.get(*letter).is_some();
-    if let Some(letter) = others.iter().copied().find(is_written) {
+    let twice = [*b"XU", *b"ZW"]
+        .into_iter()
+        .find_map(|[letter, increment]| {
+            let is_other = !block.has_increments() || is_written(&letter);
+            (is_written(&increment) && is_other).then_some(increment)
+        });
+    if let Some(letter) = others.iter().copied().find(is_written).or(twice) {
         let message = format!("G76 with {}", char::from(letter));
         return Err(
             Fault::new(DiagnosticCode::UnusedWord, block.span(letter), message)
                 .because("a thread is given by X, Z, F and the words of one of its two forms")
-                .help("remove the word; write X and Z for U and W"),
+                .help("remove the word; U and W stand for X and Z"),
         );
     }
     match block.get(b'P').filter(|_| is_one_block) {

@@ -251,7 +251,8 @@ impl Block {
                 self.codes.add_printer_m(value, span, &self.declared)
             }
             b'M' if self.dialect == Dialect::Fanuc => {
-                self.codes.add_fanuc_m(value, span, &self.declared)
+                self.codes
+                    .add_fanuc_m(value, self.is_lathe, span, &self.declared)
             }
             b'M' if self.dialect == Dialect::Siemens => {
                 self.codes.add_rewritten_m(value, span, &self.declared)

@@ -93,6 +93,8 @@ pub(crate) struct Codes {
     pub(crate) rigid_tapping: Option<Coded<u32>>,
     /// The number of FANUC's last M code.
     pub(crate) last_m: Option<u32>,
+    /// M23 and M24 of FANUC's lathes: true where threads of G92 have no way out at their end.
+    pub(crate) thread_end: Option<Coded<bool>>,
     /// The motion is that of this block alone: what was the mode stays it (G31, G60, G76 of FANUC).
     pub(crate) is_once: bool,
     /// The motion of this block ends at rest (G9 of FANUC and SINUMERIK).

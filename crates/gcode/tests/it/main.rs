@@ -20,6 +20,7 @@ mod dialects;
 mod fanuc;
 mod fanuc_calls;
 mod fanuc_cycles;
+mod fanuc_lathe_passes;
 mod fanuc_lathe_variables;
 mod fanuc_lathe_words;
 mod fanuc_lathes;

@@ -12,6 +12,7 @@ use crate::execute::state::offsets::overlay;
 use crate::syntax::block::Block;
 use crate::syntax::codes::Coded;
 use crate::syntax::dialect::Dialect;
+use crate::syntax::letters::Letters;
 use crate::syntax::modes::{Distance, Motion, NonModal};
 use crate::syntax::word_check::{missing, unused, whole};
 
@@ -32,7 +33,7 @@ impl Interpreter {
             // The dwell comes earlier, the machine coordinates with the motion.
             NonModal::Dwell => {}
             NonModal::MachineCoordinates => {
-                self.check_machine_coordinates(non_modal.span, motion)?;
+                self.check_machine_coordinates(block, non_modal.span, motion)?;
             }
             NonModal::SetData if block.dialect == Dialect::Fanuc => {
                 self.set_fanuc_data(block, non_modal.span)?;
@@ -100,7 +101,12 @@ impl Interpreter {
         )
     }
 
-    fn check_machine_coordinates(&self, span: SourceSpan, motion: Option<Motion>) -> Outcome<()> {
+    fn check_machine_coordinates(
+        &self,
+        block: &Block,
+        span: SourceSpan,
+        motion: Option<Motion>,
+    ) -> Outcome<()> {
         let fault = |message: &str| Fault::new(DiagnosticCode::MachineCoordinates, span, message);
         match motion {
             Some(Motion::Rapid | Motion::Linear) => {}
@@ -109,6 +115,12 @@ impl Interpreter {
                     .because("machine coordinates hold for one G0 or G1 block")
                     .help("write G0 or G1 and the axis words into this block"));
             }
+        }
+        let increments = Letters::of(b"UVWH");
+        if block.has_increments() && block.has_any(increments) {
+            return Err(fault("G53 with an increment")
+                .because("machine coordinates are absolute, and U, V, W and H are increments")
+                .help("write X, Y, Z or C"));
         }
         if self.state.modal.distance == Distance::Incremental {
             return Err(fault("G53 with incremental distances (G91)")

@@ -46,6 +46,11 @@ impl OpenLatheCycle {
 }
 
 impl LatheCycleWords {
+    /// One pass along the profile.
+    pub(crate) const fn along_profile() -> Self {
+        Self::of_fanuc(LatheCycle::Finish, 1.0, 0.0, None)
+    }
+
     /// Roughing of FANUC: the profile itself has the allowances.
     pub(crate) const fn of_fanuc(
         cycle: LatheCycle,

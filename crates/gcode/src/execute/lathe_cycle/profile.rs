@@ -30,7 +30,7 @@ const MAX_ELEMENTS: usize = 1000;
 const SHORT_MM: f64 = 1e-6;
 
 /// The profile read so far, Z and X, program coordinates in mm.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct LatheProfile {
     pub(super) elements: Vec<Element>,
     /// Where the last block ended, first the start of the cycle.

@@ -29,6 +29,8 @@ pub(crate) struct FanucModal {
     pub(crate) turning: Option<TurningWords>,
     /// The lead of G92, mm.
     pub(crate) lead_mm: Option<f64>,
+    /// M24: threads of G92 have no way out at their end.
+    pub(crate) ends_thread_straight: bool,
     /// What the first blocks of G71 and G72, G74 and G75 said, mm.
     pub(crate) depth_mm: Option<f64>,
     pub(crate) retract_mm: f64,
@@ -56,6 +58,7 @@ impl Default for FanucModal {
             is_feed_unsaid: false,
             turning: None,
             lead_mm: None,
+            ends_thread_straight: false,
             depth_mm: None,
             retract_mm: 0.5,
             repeating: None,

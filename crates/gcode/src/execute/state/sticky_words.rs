@@ -17,6 +17,9 @@ pub(crate) struct CycleSeries {
 pub(crate) struct StickyWords {
     pub(crate) cycle: CannedCycle,
     pub(crate) r: f64,
+    /// R was written.
+    #[serde(default)]
+    pub(crate) says_r: bool,
     pub(crate) depth: f64,
     pub(crate) dwell_s: f64,
     /// How deep to go at a time, by how much less each time (J of Haas), and the least (K).

@@ -163,10 +163,12 @@ impl Codes {
         }
     }
 
-    /// Adds an M word of a FANUC program: M29 taps rigidly, unless it is the machine's own.
+    /// Adds an M word of a FANUC program: M29 taps rigidly, unless it is the machine's own; so are M23 and
+    /// M24 of lathes.
     pub(crate) fn add_fanuc_m(
         &mut self,
         value: f64,
+        is_lathe: bool,
         span: SourceSpan,
         declared: &MCodes,
     ) -> Outcome<()> {
@@ -174,6 +176,10 @@ impl Codes {
         self.last_m = number;
         if let Some(number) = number.filter(|number| declared.is_own(*number)) {
             return set(&mut self.user, number, span);
+        }
+        if let Some(number) = number.filter(|number| is_lathe && fanuc_lathe::m(*number).is_some())
+        {
+            return set(&mut self.thread_end, number == 24, span);
         }
         match number.and_then(fanuc::m) {
             Some(Meaning::Own) => set(&mut self.rigid_tapping, 29, span),

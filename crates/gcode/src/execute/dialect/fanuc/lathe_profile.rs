@@ -3,7 +3,8 @@
 //! ```text
 //! G71 U depth R back        G72 W depth R back        each of its own, and once
 //! G71 P Q U W F S           the allowances: U a diameter, both with their sign
-//! G71 P Q U W D F S         in one block: D is the depth
+//! G71 P Q U W D F S         in one block: D is the depth; I and K are what the passes leave for one more
+//!                           along the profile, I a radius
 //! G73 U W R                 from where to the profile, U a radius, and the number of passes
 //! G73 P Q U W F S           as G71; Haas: G73 P Q U W I K D F, with D passes from I and K
 //! G70 P Q F S               the blocks of the profile as they stand, and back
@@ -132,7 +133,7 @@ impl<R: BufRead> Program<R> {
     ) -> Outcome<()> {
         let used = match cycle {
             LatheCycle::Repeat => Letters::of(b"PQUWFSDIK"),
-            _ => Letters::of(b"PQUWFSD"),
+            _ => Letters::of(b"PQUWFSDIK"),
         };
         if let Some((letter, span)) = block.unused(used) {
             return Err(unused(letter, span));
@@ -156,18 +157,25 @@ impl<R: BufRead> Program<R> {
             0.5 * block.get(b'U').unwrap_or(0.0) * mm,
         ];
         profile.shift_by(allowance);
-        let open = OpenLatheCycle::of_fanuc(
-            source,
-            line,
-            block.clone(),
-            words,
-            profile,
-            self.interpreter.state,
-        );
+        let last_cut = match cycle {
+            LatheCycle::Repeat => None,
+            _ => last_cut(block, mm)?,
+        };
+        let along = last_cut.map(|cut| {
+            let along = profile.clone();
+            profile.shift_by(cut);
+            (LatheCycleWords::along_profile(), along)
+        });
+        let state = self.interpreter.state;
         let mut items = core::mem::take(&mut self.items);
-        self.interpreter.make_lathe_cycle(&open, &mut items)?;
-        self.interpreter
-            .straight(block, start, Pace::Rapid, &mut items)?;
+        for (words, profile) in core::iter::once((words, profile)).chain(along) {
+            let source = source.clone();
+            let own = block.clone();
+            let open = OpenLatheCycle::of_fanuc(source, line, own, words, profile, state);
+            self.interpreter.make_lathe_cycle(&open, &mut items)?;
+            self.interpreter
+                .straight(block, start, Pace::Rapid, &mut items)?;
+        }
         self.items = items;
         self.tape.next = last + 1;
         Ok(())
@@ -253,6 +261,22 @@ impl<R: BufRead> Program<R> {
         self.tape.go_to(finishing.back);
         Ok(())
     }
+}
+
+/// I and K of G71 and G72 in one block, Z and X: what the passes leave for one more along the profile.
+fn last_cut(block: &Block, mm: f64) -> Outcome<Option<[f64; 2]>> {
+    let words = [b'K', b'I'];
+    let Some(first) = words
+        .into_iter()
+        .find(|letter| block.get(*letter).is_some())
+    else {
+        return Ok(None);
+    };
+    if block.get(b'D').is_none() {
+        return Err(unused(char::from(first), block.span(first)));
+    }
+    let cut = words.map(|letter| block.get(letter).unwrap_or(0.0) * mm);
+    Ok(cut.iter().any(|cut| *cut != 0.0).then_some(cut))
 }
 
 /// Refuses what the block of a cycle would leave undone: it has the words of the cycle, F, S, and the codes

@@ -57,6 +57,9 @@ impl Interpreter {
         if let Some(number) = block.codes.last_m {
             self.state.fanuc.m_code = number;
         }
+        if let Some(coded) = block.codes.thread_end {
+            self.state.fanuc.ends_thread_straight = coded.code;
+        }
         self.length_without_code(block)?;
         self.check_look_ahead(block)?;
         self.extended_system(block)?;

@@ -8,13 +8,15 @@
 //!        to X Z, at feed                          to X Z, at feed
 //! ```
 //!
-//! R is where the pass begins less where it ends: a radius in G90 and G92, along Z in G94. Blocks
+//! R is where the pass begins less where it ends: a radius in G90 and G92, along Z in G94. I of G90 and G92
+//! and K of G94 are the same. Blocks
 //! with X, Z, U, W or R repeat the cycle from the same place, until another code of motion.
 
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_program::Item;
 
-use crate::diagnostic::fault::Outcome;
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::{Fault, Outcome};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::speed::Pace;
 use crate::execute::motion::thread::Groove;
@@ -79,7 +81,16 @@ impl Interpreter {
                 )
             })
         };
-        let taper = block.get(b'R').map(|r| r * self.state.modal.units.mm());
+        let own = if cycle == Turning::Face { b'K' } else { b'I' };
+        if block.get(own).is_some() && block.get(b'R').is_some() {
+            let message = format!("{} beside R", char::from(own));
+            let code = DiagnosticCode::AmbiguousWord;
+            return Err(Fault::new(code, block.span(own), message)
+                .because("both are the taper of the pass")
+                .help("write one of them"));
+        }
+        let taper = block.get(b'R').or_else(|| block.get(own));
+        let taper = taper.map(|taper| taper * self.state.modal.units.mm());
         Ok(TurningWords {
             cycle,
             x: need(values[0].or(last.map(|last| last.x)), "X")?,
@@ -88,7 +99,7 @@ impl Interpreter {
         })
     }
 
-    /// G92: the groove, with a way out at 45 degrees at its end.
+    /// G92: the groove, with a way out at 45 degrees at its end, unless M24 is in force.
     fn turned_thread(
         &mut self,
         block: &Block,
@@ -106,7 +117,12 @@ impl Interpreter {
         let [from_x, from_z] = [start[0], start[2]];
         let (way_z, side) = (z - from_z, 1.0_f64.copysign(from_x - x));
         let rises_mm = side * (from_x - x);
-        let out_mm = (RUNOUT_LEADS * lead_mm).min(rises_mm);
+        let leads = if self.state.fanuc.ends_thread_straight {
+            0.0
+        } else {
+            RUNOUT_LEADS
+        };
+        let out_mm = (leads * lead_mm).min(rises_mm);
         none_wrong(
             block,
             "G92",
@@ -136,15 +152,25 @@ impl Interpreter {
         let begin = at(x + taper, from_z);
         self.rapid_to(block, begin, out)?;
         let mut from = begin;
-        let grooves = [at(exit_x, exit_z), at(exit_x + side * out_mm, z)].map(|point| {
-            let way = point - from;
-            from = point;
-            Groove {
-                end: self.offsets.to_machine(point),
-                pitch_mm: lead_mm * way[0].hypot(way[2]) / way[0].abs().max(way[2].abs()),
-                corner_mm: 0.25 * out_mm,
-            }
-        });
+        let points = [at(exit_x, exit_z), at(exit_x + side * out_mm, z)];
+        // M24: to the end along the thread, and out at rapid.
+        let points = if out_mm > 0.0 {
+            &points[..]
+        } else {
+            &points[..1]
+        };
+        let grooves: Vec<Groove> = points
+            .iter()
+            .map(|point| {
+                let way = point - from;
+                from = *point;
+                Groove {
+                    end: self.offsets.to_machine(*point),
+                    pitch_mm: lead_mm * way[0].hypot(way[2]) / way[0].abs().max(way[2].abs()),
+                    corner_mm: 0.25 * out_mm,
+                }
+            })
+            .collect();
         let phase = self.phase(block)?;
         self.pass(block, &grooves, phase, out)?;
         self.rapid_to(block, at(from_x, z), out)?;

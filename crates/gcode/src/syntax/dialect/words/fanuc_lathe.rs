@@ -23,3 +23,11 @@ pub(crate) const fn g(tenths: u32) -> Option<Meaning> {
         _ => return fanuc::g(tenths),
     })
 }
+
+/// What is made of an M code that mills do not have: the way out of threads of G92, and none.
+pub(crate) const fn m(number: u32) -> Option<Meaning> {
+    match number {
+        23 | 24 => Some(Own),
+        _ => None,
+    }
+}

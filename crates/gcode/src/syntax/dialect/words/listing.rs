@@ -91,10 +91,13 @@ pub fn words(dialect: Dialect) -> Vec<Word> {
 #[must_use]
 pub fn lathe_words() -> Vec<Word> {
     let all = 0..=10 * MOST + 9;
-    all.filter_map(|tenths| {
+    let g_codes = all.filter_map(|tenths| {
         let meaning = fanuc_lathe::g(tenths)?;
         let is_other = fanuc::g(tenths) != Some(meaning);
         is_other.then(|| word(g_name(tenths), meaning))
-    })
-    .collect()
+    });
+    let m_codes = (0..=MOST).filter_map(|number| Some((number, fanuc_lathe::m(number)?)));
+    g_codes
+        .chain(m_codes.map(|(number, meaning)| word(format!("M{number}"), meaning)))
+        .collect()
 }

@@ -1,0 +1,227 @@
+//! Tests of passes of FANUC's and Haas' lathes: tapers, ways out of threads, holes, the last cut. Values
+//! are computed by hand; X is a radius here.
+
+use std::sync::Arc;
+
+use glidepath_gcode::{
+    Connections, Dialect, FanucControl, FanucParameters, Machine, OffsetMemory, Options, Program,
+    Threading, Tool, ToolTable, check,
+};
+use glidepath_geometry::Axis;
+use glidepath_program::{Event, ItemKind, Limits};
+
+use crate::support::listed;
+
+fn options() -> Options {
+    let mut tools = ToolTable::new();
+    tools.set(1, Tool::default());
+    Options {
+        dialect: Dialect::Fanuc,
+        connections: Connections::Simulated,
+        tools: Some(Arc::new(tools)),
+        machine: Machine::new(&[Axis::X, Axis::Z]),
+        threading: Some(Threading::new(
+            Limits::uniform(200.0, 2_000.0, 40_000.0),
+            0.004,
+        )),
+        ..Options::default()
+    }
+}
+
+fn with(fanuc: FanucParameters) -> Options {
+    Options { fanuc, ..options() }
+}
+
+fn ends_with(text: &str, options: Options) -> Vec<[f64; 2]> {
+    Program::new(text.as_bytes(), options)
+        .map(|item| item.unwrap_or_else(|d| panic!("{text}\n{d}")))
+        .filter_map(|item| match item.kind {
+            ItemKind::Move { segment, .. } => {
+                let end = segment.end();
+                Some([0, 2].map(|axis| (end[axis] * 1e6).round() / 1e6 + 0.0))
+            }
+            _ => None,
+        })
+        .collect()
+}
+
+fn ends(text: &str) -> Vec<[f64; 2]> {
+    ends_with(text, options())
+}
+
+#[track_caller]
+fn finds(text: &str, expected: &[&str]) {
+    let report = check(text.as_bytes(), options());
+    assert_eq!(listed(&report), expected, "{text}");
+}
+
+const HEAD: &str = "G98 G97 S600 M3\n";
+
+#[test]
+fn a_taper_may_be_i_or_k() {
+    let pass = |words: &str| ends(&format!("{HEAD}G0 X62 Z2\n{words}"));
+    let turned = [
+        [31.0, 2.0],
+        [23.0, 2.0],
+        [25.0, -30.0],
+        [31.0, -30.0],
+        [31.0, 2.0],
+    ];
+    assert_eq!(pass("G90 X50 Z-30 R-2 F300"), turned);
+    assert_eq!(pass("G90 X50 Z-30 I-2 F300"), turned);
+    let faced = [
+        [31.0, 2.0],
+        [31.0, -8.0],
+        [10.0, -5.0],
+        [10.0, 2.0],
+        [31.0, 2.0],
+    ];
+    assert_eq!(pass("G94 X20 Z-5 K-3 F300"), faced);
+    let thread = |word: &str| ends(&format!("{HEAD}G0 X34 Z6\nG92 X30 Z-20 {word} F1.5"));
+    assert_eq!(thread("I-2"), thread("R-2"));
+    assert_eq!(thread("I-2")[1], [13.0, 6.0]);
+    finds(
+        &format!("{HEAD}G0 X62 Z2\nG90 X50 Z-30 I-2 R-2 F300"),
+        &["3:14 ambiguous-word"],
+    );
+    finds(
+        &format!("{HEAD}G0 X62 Z2\nG90 X50 Z-30 K-2 F300"),
+        &["3:14 unused-word"],
+    );
+}
+
+#[test]
+fn m24_takes_the_way_out_of_threads_away() {
+    let thread = |before: &str| ends(&format!("{HEAD}{before}\nG0 X34 Z6\nG92 X30 Z-20 F1.5"));
+    let with_exit = [
+        [17.0, 6.0],
+        [15.0, 6.0],
+        [15.0, -18.5],
+        [16.5, -20.0],
+        [17.0, -20.0],
+        [17.0, 6.0],
+    ];
+    let straight = [
+        [17.0, 6.0],
+        [15.0, 6.0],
+        [15.0, -20.0],
+        [17.0, -20.0],
+        [17.0, 6.0],
+    ];
+    assert_eq!(thread(""), with_exit);
+    assert_eq!(thread("M24"), straight);
+    assert_eq!(thread("M24\nM23"), with_exit);
+    // They are no codes of mills.
+    let mill = FanucParameters {
+        control: Some(FanucControl::Mill),
+        ..FanucParameters::default()
+    };
+    let report = check(&b"M24"[..], with(mill));
+    assert_eq!(listed(&report), ["1:1 unknown-m-code"]);
+}
+
+#[test]
+fn r_of_a_hole_is_a_way_or_a_place() {
+    let a = FanucParameters::default();
+    let haas = FanucParameters {
+        offset_memory: OffsetMemory::Haas,
+        ..a
+    };
+    let b = FanucParameters {
+        control: Some(FanucControl::LatheB),
+        ..a
+    };
+    let z = |text: &str, fanuc: FanucParameters| -> Vec<f64> {
+        let text = format!("G97 S600 M3\n{text}");
+        ends_with(&text, with(fanuc))
+            .iter()
+            .map(|end| end[1])
+            .collect()
+    };
+    // Without Q at once. R is 8 below the initial level.
+    let plain = [10.0, 2.0, -30.0, 10.0];
+    assert_eq!(z("G98 G0 X0 Z10\nG83 Z-30 R-8 F200", a), plain);
+    // Away from the hole: it is the place, as Haas writes it.
+    assert_eq!(z("G98 G0 X0 Z10\nG83 Z-30 R2 F200", a), plain);
+    assert_eq!(z("G98 G0 X0 Z10\nG83 Z-30 R2 F200", haas), plain);
+    assert_eq!(
+        z("G98 G0 X0 Z10\nG83 Z-30 R-2 F200", haas),
+        [10.0, -2.0, -30.0, 10.0]
+    );
+    assert_eq!(z("G98 G0 X0 Z10\nG83 Z-30 F200", haas), [10.0, -30.0, 10.0]);
+    // System B: as G90 and G91 say.
+    assert_eq!(
+        z("G94 G90 G0 X0 Z10\nG99 G83 Z-30 R2 F300", b),
+        [10.0, 2.0, -30.0, 2.0]
+    );
+    assert_eq!(
+        z("G94 G90 G0 X0 Z10\nG91 G99 G83 Z-32 R-8 F300", b),
+        [10.0, 2.0, -30.0, 2.0]
+    );
+}
+
+#[test]
+fn a_place_of_the_machine_is_no_increment() {
+    finds("G98\nG53 U5", &["2:1 machine-coordinates"]);
+    finds("G98\nG53 X5 W1", &["2:1 machine-coordinates"]);
+    assert_eq!(ends("G98\nG53 X10 Z1"), [[5.0, 1.0]]);
+}
+
+#[test]
+fn a_last_cut_may_be_left_along_the_profile() {
+    let cycle = |words: &str| {
+        ends(&format!(
+            "G98\nG0 X62 Z2\nG71 P10 Q50 U0.6 W0.3 {words} D10. F300\nN10 G0 X20\nN20 G1 Z-20 F100\nN30 X40\nN40 Z-40\nN50 X60"
+        ))
+    };
+    let has = |all: &[[f64; 2]], right: [f64; 2]| all.contains(&right);
+    let plain = cycle("");
+    let cut = cycle("I0.5 K0.2");
+    // X20 and 0.3 left to finish: radius 10.3; before the last cut 0.5 more, and 0.2 along Z.
+    assert!(
+        has(&plain, [10.3, -19.7]) && !has(&plain, [10.8, -19.5]),
+        "{plain:?}"
+    );
+    assert!(
+        has(&cut, [10.3, -19.7]) && has(&cut, [10.8, -19.5]),
+        "{cut:?}"
+    );
+    let place = |right: [f64; 2]| cut.iter().position(|end| *end == right);
+    assert!(place([10.8, -19.5]) < place([10.3, -19.7]));
+    assert_eq!(cut.last(), Some(&[31.0, 2.0]));
+    finds(
+        "G98\nG0 X62 Z2\nG71 U2. R1.\nG71 P10 Q20 U0.6 I1. F300\nN10 G0 X20\nN20 G1 Z-20",
+        &["4:18 unused-word"],
+    );
+}
+
+#[test]
+fn words_of_threads_without_a_point_count_increments() {
+    let depths = |first: &str, second: &str| {
+        let text =
+            format!("{HEAD}G0 X22 Z6\nG76 P020060 Q100 {first}\nG76 {second} P920 Q300 F1.5");
+        ends(&text)
+    };
+    let right = depths("R0.05", "X18.16 Z-20");
+    assert_eq!(depths("R50", "X18.16 Z-20"), right);
+    assert_eq!(depths("R50", "U-3.84 W-26"), right);
+    assert_eq!(depths("R50", "X18.16 W-26"), right);
+    assert_eq!(right.last(), Some(&[11.0, 6.0]));
+    let grooves = |text: &str| {
+        Program::new(text.as_bytes(), options())
+            .filter(|item| {
+                matches!(
+                    item.as_ref().map(|item| &item.kind),
+                    Ok(ItemKind::Event(Event::Synchronise { .. }))
+                )
+            })
+            .count()
+    };
+    // 0.3·√n up to 0.87, 0.05 and two more: 0.3 0.424 0.52 0.6 0.671 0.735 0.794 0.849, 0.87.
+    let text = format!("{HEAD}G0 X22 Z6\nG76 P020060 Q0 R50\nG76 X18.16 Z-20 P920 Q300 F1.5");
+    assert_eq!(grooves(&text), 9 + 2);
+    finds(
+        &format!("{HEAD}G0 X22 Z6\nG76 P020060 Q100 R50\nG76 X18 U1 Z-20 P920 Q300 F1.5"),
+        &["4:9 ambiguous-word"],
+    );
+}
