@@ -225,3 +225,80 @@ fn words_of_threads_without_a_point_count_increments() {
         &["4:9 ambiguous-word"],
     );
 }
+
+/// Tool 1 has a radius of 1 mm, and its tip points to lower X and Z.
+fn round_tip() -> Options {
+    let mut tools = ToolTable::new();
+    tools.set(
+        1,
+        Tool {
+            diameter_mm: 2.0,
+            orientation: 2,
+            ..Tool::default()
+        },
+    );
+    Options {
+        tools: Some(Arc::new(tools)),
+        ..options()
+    }
+}
+
+#[test]
+fn the_radius_of_the_tip_counts_in_g70() {
+    let along = |first: &str, last: &str, before: &str| {
+        let text = format!(
+            "G98\nT0101\nG0 X62 Z2\nG71 U2. R1.\nG71 P10 Q40 U0.4 W0.1 F300\nN10 {first}G0 X20\nN20 G1 Z-10 F100\nN30 X40 Z-20\nN40 {last}X62\n{before}G70 P10 Q40\nG40\nG0 X70"
+        );
+        ends_with(&text, round_tip())
+    };
+    let rough = along("", "", "").len();
+    // Beside the cylinder the centre is at X11, beside the chamfer at X + Z = √2: there Z is √2 − 11, and
+    // the corner of the tip one lower.
+    let back = 2.0 - 2.0_f64.sqrt();
+    let places = |all: &[[f64; 2]], right: &[[f64; 2]]| {
+        let mut left = all.iter();
+        for place in right {
+            let near = |end: &&[f64; 2]| {
+                (end[0] - place[0]).abs() < 1e-5 && (end[1] - place[1]).abs() < 1e-5
+            };
+            assert!(left.any(|end| near(&end)), "never at {place:?}: {all:?}");
+        }
+    };
+    let on = along("", "", "G42\n");
+    places(
+        &on,
+        &[
+            [10.0, -10.0 - back],
+            [20.0 - back, -20.0],
+            // Its centre is at X31.
+            [30.0, -20.0],
+            [31.0, 2.0],
+            [35.0, 2.0],
+        ],
+    );
+    assert!(on.len() >= rough);
+    // In the blocks: roughing leaves it out, and G40 ends it on the way to X62.
+    let within = along("G42 ", "G40 ", "");
+    let side = 1.0 - 0.5_f64.sqrt();
+    places(
+        &within,
+        &[
+            [10.0, -10.0 - back],
+            [20.0 - side, -20.0 - side],
+            [31.0, -20.0],
+            [31.0, 2.0],
+        ],
+    );
+    let roughing = |all: &[[f64; 2]]| {
+        let end = all.iter().rposition(|end| *end == [31.0, 2.0]);
+        let start = all.iter().position(|end| *end == [31.0, 2.0]);
+        assert!(start < end);
+        let second = all.iter().skip(1).position(|end| *end == [31.0, 2.0]);
+        all[..=second.expect("the end of G71")].to_vec()
+    };
+    assert_eq!(roughing(&within), roughing(&along("", "", "")));
+    finds(
+        "G98\nT0101\nG0 X62 Z2\nG42\nG71 U2. R1.\nG71 P10 Q20 U0.4 F300\nN10 G0 X20\nN20 G1 Z-10",
+        &["6:1 canned-cycle"],
+    );
+}

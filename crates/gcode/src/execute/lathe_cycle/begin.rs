@@ -38,7 +38,7 @@ impl Interpreter {
     }
 
     /// A rapid move that starts cutter radius compensation again at its end, if it is on.
-    pub(super) fn rapid_without_compensation(
+    pub(crate) fn rapid_without_compensation(
         &mut self,
         block: &Block,
         target: glidepath_geometry::AxisVector,

@@ -21,7 +21,6 @@ use glidepath_geometry::Plane;
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
-use crate::execute::dialect::tape::{Finishing, TapePlace};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::lathe_cycle::open::{LatheCycleWords, OpenLatheCycle};
 use crate::execute::lathe_cycle::profile::LatheProfile;
@@ -55,7 +54,7 @@ impl<R: BufRead> Program<R> {
         match (first?, last?) {
             (Some(first), Some(last)) => {
                 let lines = self.profile_lines(&block, first, last)?;
-                self.interpreter.check_profile(&block)?;
+                self.interpreter.check_profile(&block, cycle)?;
                 let motion = Some(Motion::Lathe(cycle));
                 self.interpreter.feed(&block, motion)?;
                 let mut items = Vec::new();
@@ -195,6 +194,8 @@ impl<R: BufRead> Program<R> {
         if let Some(assignment) = self.block.assignments.first() {
             return Err(statement_in_profile(assignment.span));
         }
+        // Roughing goes along the profile with the tip; the radius counts in G70.
+        self.block.codes.cutter_radius = None;
         let motion = self.block.codes.motion.and_then(|coded| coded.code);
         let motion = motion.or(profile.motion);
         self.block
@@ -213,53 +214,6 @@ impl<R: BufRead> Program<R> {
                 .help("write the coordinates of the end"));
         }
         profile.add(&self.block, &self.interpreter)
-    }
-
-    /// G70: goes to the profile; [`Program::end_finishing`] comes back.
-    fn finish_profile(&mut self, block: &Block, [first, last]: [usize; 2]) -> Outcome<()> {
-        if let Some((letter, span)) = block.unused(Letters::of(b"PQFS")) {
-            return Err(unused(letter, span));
-        }
-        if self.finishing.is_some() {
-            let message = "a cycle in the profile of another one";
-            return Err(
-                Fault::new(DiagnosticCode::CannedCycle, block.motion_span(), message)
-                    .because("a profile is drawn by G0, G1, G2 and G3 alone")
-                    .help("write it behind block Q"),
-            );
-        }
-        let back = self.tape.place();
-        self.finishing = Some(Finishing {
-            end: TapePlace {
-                line: last + 1,
-                ..back
-            },
-            back,
-            start: self.interpreter.state.position,
-        });
-        self.tape.go_to(TapePlace {
-            line: first,
-            ..back
-        });
-        Ok(())
-    }
-
-    /// Behind the last block of the profile of G70: back to where the tool was.
-    pub(super) fn end_finishing(&mut self) -> Outcome<()> {
-        let Some(finishing) = self.finishing.take_if(|it| it.end == self.tape.place()) else {
-            return Ok(());
-        };
-        let mut items = Vec::new();
-        let block = self.block.clone();
-        let span = block.first_span();
-        self.interpreter
-            .settle_corner_before(&block, span, &mut items)?;
-        self.interpreter
-            .straight(&block, finishing.start, Pace::Rapid, &mut items)?;
-        self.items = items;
-        self.end_of_line();
-        self.tape.go_to(finishing.back);
-        Ok(())
     }
 }
 
@@ -421,14 +375,15 @@ impl Interpreter {
         ))
     }
 
-    fn check_profile(&self, block: &Block) -> Outcome<()> {
+    fn check_profile(&self, block: &Block, cycle: LatheCycle) -> Outcome<()> {
         let is_here = self.state.modal.plane == Plane::Zx
             && !self.offsets.is_turned()
-            && !self.state.on_contour;
+            && (!self.state.on_contour || cycle == LatheCycle::Finish);
         if is_here {
             return Ok(());
         }
-        let message = "a cycle along a profile outside the ZX plane, or with G41 or G42 on";
+        let message =
+            "a cycle along a profile outside the ZX plane, or roughing with G41 or G42 on";
         Err(
             Fault::new(DiagnosticCode::CannedCycle, block.motion_span(), message)
                 .because("its profile is drawn in Z and X, for the tip of the tool")

@@ -13,6 +13,7 @@ mod circular_pocket;
 mod frames;
 mod groove;
 mod increments;
+mod lathe_finish;
 mod lathe_offsets;
 mod lathe_profile;
 mod loops;
