@@ -112,6 +112,20 @@ fn the_block_of_a_call_is_executed_before_it() {
 }
 
 #[test]
+fn g66_calls_its_macro_behind_the_blocks_of_subprograms() {
+    let subs = "\nM30\nO8\nG0 X5\nM99\nO7\nX7\nM99\nO9\nG91 G0 Y#25\nG90\nM99";
+    let text = format!("G66 P9 Y1.\nM98 P8\nG67\nM98 P8{subs}");
+    assert_eq!(ends(&text), [[5.0, 0.0, 0.0], [5.0, 1.0, 0.0]]);
+    // The blocks of a macro are its own.
+    let text = format!("G66 P9 Y1.\nG65 P7\nG67{subs}");
+    assert_eq!(ends(&text), [[7.0, 0.0, 0.0]]);
+    finds(
+        &format!("G66 P9 Y1.\nM98 P8 X1{subs}"),
+        &["2:1 not-supported"],
+    );
+}
+
+#[test]
 fn arguments_count_as_coordinates_do() {
     let call = |words: &str, variable: u32| {
         counting(&format!("G65 P9 {words}\nM30\nO9\nG0 X#{variable}\nM99"))[0]

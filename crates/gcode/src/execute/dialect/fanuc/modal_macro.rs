@@ -1,4 +1,5 @@
-//! G66: a macro that is called behind every block that moves, until G67.
+//! G66: a macro that is called behind every block that moves, until G67. Blocks of subprograms (M98, M97)
+//! are such blocks, too; those of macros are not.
 
 use std::io::BufRead;
 
@@ -39,6 +40,17 @@ impl<R: BufRead> Program<R> {
         self.interpreter.state.fanuc.calls_macro = false;
     }
 
+    /// Refuses a move in the block of another call: the macro would come between the two.
+    pub(super) fn check_move_beside_call(&self, span: SourceSpan) -> Outcome<()> {
+        if self.modal_macro.is_none() || !self.block.has_axes() {
+            return Ok(());
+        }
+        let message = "a move in the block of a call while G66 is in force";
+        Err(Fault::new(DiagnosticCode::NotSupported, span, message)
+            .because("the macro of G66 is called behind it, before the call of its block")
+            .help("write the move into a block before the call"))
+    }
+
     /// Calls the macro behind a block that moved.
     pub(super) fn call_modal_macro(&mut self) -> Outcome<()> {
         let codes = &self.block.codes;
@@ -47,11 +59,12 @@ impl<R: BufRead> Program<R> {
                 .non_modal
                 .is_none_or(|code| code.code == NonModal::MachineCoordinates)
             && codes.frame.is_none();
-        let Some(called) = self
-            .modal_macro
-            .as_ref()
-            .filter(|called| moves && called.level == self.tape.calls.len())
-        else {
+        let is_within = |called: &&ModalMacro| {
+            let calls = self.tape.calls.get(called.level..);
+            calls.is_some_and(|calls| calls.iter().all(|call| !call.own_parameters))
+        };
+        let called = self.modal_macro.as_ref().filter(|_| moves);
+        let Some(called) = called.filter(is_within) else {
             return Ok(());
         };
         let ModalMacro {

@@ -140,6 +140,9 @@ impl<R: BufRead> Program<R> {
                 let beside = self.beside_call(&text, call).inspect_err(|_| self.end())?;
                 if body(&beside) < beside.trim_ascii_end().len() {
                     self.execute_text(number, &beside)?;
+                    let span = SourceSpan::new(call.start, call.end);
+                    self.check_move_beside_call(span)
+                        .inspect_err(|_| self.end())?;
                 }
                 return self.fanuc_call(&text, call).inspect_err(|_| self.end());
             }
