@@ -4,7 +4,7 @@
 
 /* Its rows: what, and how much. */
 function certificateRows(c) {
-  const seen = c.seen, axes = Object.entries(seen.limits).map(([kind, of]) => [`Largest ${kind}`, of.axis ? `${num(of.part * 100, 1)} % of the limit of ${of.axis}` : 'nothing moved']);
+  const seen = c.seen, axes = ['velocity', 'acceleration', 'jerk'].map(kind => [kind, seen.limits[kind]]).map(([kind, of]) => [`Largest ${kind}`, of.axis ? `${num(of.part * 100, 1)} % of the limit of ${of.axis}` : 'nothing moved']);
   const range = ([least, most]) => least === most ? `${Math.round(most * 100)} %` : `${Math.round(least * 100)} to ${Math.round(most * 100)} %`;
   const micrometres = x => `${num(x * 1000, 1)} µm`;
   return [
@@ -31,7 +31,7 @@ async function certificatePage(c) {
 <table>
 ${rows}
 </table>
-<p>Limits are those of the axes. Setpoints are what the drives were told; the following error is how far they were from it.</p>
+<p>Limits are those of the axes. Setpoints are what the drives were told; the following error is how far they were from them.</p>
 <pre id="figures">${safe(figures)}</pre>
 <p>SHA-256 of the figures: <code>${hash}</code></p>
 </html>

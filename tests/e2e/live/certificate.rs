@@ -2,9 +2,37 @@
 //! their hash.
 
 use glidepath_tests::{Browser, Instance, Process, Services, Watchdog};
+use serde_json::{Value, json};
 
 use super::life::{HALF, press};
 use super::{Live, PATIENCE};
+
+/// The page to keep has the figures, and their hash.
+fn is_kept_with_its_hash(browser: &mut Browser, told: &Value) {
+    browser.evaluate("setView('programs')");
+    browser.wait("document.querySelector('#day [data-do=certificate]')");
+    let page = browser.evaluate(
+        "(async () => { window.kept = []; URL.createObjectURL = blob => { window.kept.push(blob); return '#'; }; \
+         document.querySelector('#day [data-do=certificate]').dispatchEvent(new PointerEvent('pointerdown', { bubbles: true })); \
+         while (!window.kept.length) await new Promise(done => setTimeout(done, 20)); return window.kept[0].text(); })()",
+    );
+    let page = page.as_str().unwrap();
+    let figures = page.split("<pre id=\"figures\">").nth(1).unwrap();
+    let figures = figures
+        .split("</pre>")
+        .next()
+        .unwrap()
+        .replace("&quot;", "\"");
+    let figures: Value = serde_json::from_str(&figures).unwrap();
+    assert_eq!(figures["seen"], told["seen"]);
+    assert!(page.contains(told["program"].as_str().unwrap()) && page.contains("50 to 100 %"));
+    let hashed = browser.evaluate(
+        "(async () => { const page = new DOMParser().parseFromString(await window.kept[0].text(), 'text/html'); \
+         const figures = new TextEncoder().encode(page.querySelector('#figures').textContent); \
+         return hexadecimal(await crypto.subtle.digest('SHA-256', figures)) === page.querySelector('code').textContent; })()",
+    );
+    assert_eq!(hashed, true);
+}
 
 #[test]
 fn a_job_that_is_over_has_a_certificate() {
@@ -39,11 +67,7 @@ fn a_job_that_is_over_has_a_certificate() {
     assert_eq!(told["name"], "part.ngc", "{told}");
     let looked_at = live.get("/api/preview?name=part.ngc")["fingerprint"].clone();
     assert_eq!(told["program"], looked_at, "{told}");
-    let figure = |at: &str| {
-        told.pointer(at)
-            .and_then(serde_json::Value::as_f64)
-            .unwrap()
-    };
+    let figure = |at: &str| told.pointer(at).and_then(Value::as_f64).unwrap();
     // It came near to what binds it, and beyond nothing.
     for kind in ["velocity", "acceleration", "jerk"] {
         let part = figure(&format!("/seen/limits/{kind}/part"));
@@ -60,7 +84,7 @@ fn a_job_that_is_over_has_a_certificate() {
     let told_t = figure("/seen/told_s");
     assert!((took_t - told_t).abs() < 2.0, "{took_t} {told_t}");
     assert!(told_t > 1.2 * figure("/plan/planned_s"), "{told}");
-    assert_eq!(told["feed_override"], serde_json::json!([0.5, 1.0]));
+    assert_eq!(told["feed_override"], json!([0.5, 1.0]));
     assert_eq!(
         (&told["seen"]["lost"], &told["seen"]["is_whole"]),
         (&0.into(), &true.into())
@@ -70,30 +94,7 @@ fn a_job_that_is_over_has_a_certificate() {
         "nobody says where drives are"
     );
 
-    // The page to keep has the figures, and their hash.
-    browser.evaluate("setView('programs')");
-    browser.wait("document.querySelector('#day [data-do=certificate]')");
-    let page = browser.evaluate(
-        "(async () => { window.kept = []; URL.createObjectURL = blob => { window.kept.push(blob); return '#'; }; \
-         document.querySelector('#day [data-do=certificate]').dispatchEvent(new PointerEvent('pointerdown', { bubbles: true })); \
-         while (!window.kept.length) await new Promise(done => setTimeout(done, 20)); return window.kept[0].text(); })()",
-    );
-    let page = page.as_str().unwrap();
-    let figures = page.split("<pre id=\"figures\">").nth(1).unwrap();
-    let figures = figures
-        .split("</pre>")
-        .next()
-        .unwrap()
-        .replace("&quot;", "\"");
-    let figures: serde_json::Value = serde_json::from_str(&figures).unwrap();
-    assert_eq!(figures["seen"], told["seen"]);
-    assert!(page.contains(looked_at.as_str().unwrap()) && page.contains("50 to 100 %"));
-    let hashed = browser.evaluate(
-        "(async () => { const page = new DOMParser().parseFromString(await window.kept[0].text(), 'text/html'); \
-         const figures = new TextEncoder().encode(page.querySelector('#figures').textContent); \
-         return hexadecimal(await crypto.subtle.digest('SHA-256', figures)) === page.querySelector('code').textContent; })()",
-    );
-    assert_eq!(hashed, true);
+    is_kept_with_its_hash(&mut browser, &told);
     drop((live, service));
     drop(services.end());
 }

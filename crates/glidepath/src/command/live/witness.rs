@@ -1,5 +1,6 @@
 //! The witness of what the machine was told to do: how near the setpoints of an epoch came to the limits of the axes,
-//! how many of them there were, and how late.
+//! how many of them there were, and how late. Velocity, acceleration and jerk are finite differences of the positions at
+//! the period: what a drive makes of them.
 
 use crate::config::MachineConfig;
 use glidepath_geometry::{AXES, Axis};
@@ -20,8 +21,18 @@ pub(super) struct Witness {
     /// mm/s, mm/s², mm/s³, or the same of degrees.
     limits: [[f64; AXES]; 3],
     period_t: f64,
-    before: Option<Setpoint>,
+    before: Option<Before>,
     epochs: VecDeque<Seen>,
+}
+
+/// The setpoint before, and the finite differences of the positions up to it.
+#[derive(Debug, Clone, Copy)]
+struct Before {
+    setpoint: Setpoint,
+    velocity: [f64; AXES],
+    acceleration: [f64; AXES],
+    /// Setpoints without a gap up to it.
+    count: u64,
 }
 
 /// What was seen of an epoch.
@@ -53,10 +64,17 @@ impl Witness {
 
     /// Takes the next setpoint.
     pub(super) fn take(&mut self, setpoint: &Setpoint) {
-        let is_next = |before: &Setpoint| {
+        let before = self.before.filter(|before| {
+            let before = &before.setpoint;
             (before.boot_id, before.reference) == (setpoint.boot_id, setpoint.reference)
-        };
-        let before = self.before.replace(*setpoint).filter(is_next);
+        });
+        let gap = before.map_or(0, |it| {
+            setpoint.number.saturating_sub(it.setpoint.number + 1)
+        });
+        // Behind a missed tick the way is that of two.
+        let is_next = |before: &Before| before.setpoint.tick + 1 == setpoint.tick;
+        let (now, jerk) = self.differences(before.filter(is_next), setpoint);
+        self.before = Some(now);
         if setpoint.epoch == 0 || !is_of_a_program(setpoint) {
             return;
         }
@@ -71,31 +89,54 @@ impl Witness {
         };
         seen.setpoints += 1;
         seen.late_ns = seen.late_ns.max(setpoint.lateness_ns);
-        let gap = before.map_or(0, |it| setpoint.number.saturating_sub(it.number + 1));
         seen.lost += gap;
-        let missed = |it: &Setpoint| setpoint.missed_ticks.saturating_sub(it.missed_ticks);
-        seen.missed_ticks += before.as_ref().map_or(0, missed);
-        // Behind a gap nobody knows how the acceleration went.
-        let jerk = |it: &Setpoint| {
-            core::array::from_fn(|i| {
-                (setpoint.acceleration[i] - it.acceleration[i]) / self.period_t
-            })
-        };
-        let jerk = before.as_ref().filter(|_| gap == 0).map(jerk);
-        let values = [
-            setpoint.velocity,
-            setpoint.acceleration,
-            jerk.unwrap_or([0.0; AXES]),
-        ];
+        let missed = before.map_or(0, |it| {
+            setpoint
+                .missed_ticks
+                .saturating_sub(it.setpoint.missed_ticks)
+        });
+        seen.missed_ticks += missed;
+        let values = [now.velocity, now.acceleration, jerk];
         for ((most, values), limits) in seen.most.iter_mut().zip(values).zip(self.limits) {
-            for axis in &self.axes {
-                let i = axis.index();
-                let part = values[i].abs() / limits[i];
+            for (i, (value, limit)) in values.iter().zip(limits).enumerate() {
+                let part = value.abs() / limit;
                 if part > most.0 {
                     *most = (part, i);
                 }
             }
         }
+    }
+
+    /// The finite differences of the positions at a setpoint. What a gap leaves unknown is 0.
+    fn differences(&self, before: Option<Before>, setpoint: &Setpoint) -> (Before, [f64; AXES]) {
+        let none = [0.0; AXES];
+        let mut now = Before {
+            setpoint: *setpoint,
+            velocity: none,
+            acceleration: none,
+            count: 1,
+        };
+        let Some(before) = before else {
+            return (now, none);
+        };
+        let rate = |to: &[f64; AXES], from: &[f64; AXES]| {
+            let mut rate = none;
+            for (rate, (to, from)) in rate.iter_mut().zip(to.iter().zip(from)) {
+                *rate = (to - from) / self.period_t;
+            }
+            rate
+        };
+        now.count = before.count + 1;
+        now.velocity = rate(&setpoint.position, &before.setpoint.position);
+        if before.count > 1 {
+            now.acceleration = rate(&now.velocity, &before.velocity);
+        }
+        let jerk = if before.count > 2 {
+            rate(&now.acceleration, &before.acceleration)
+        } else {
+            none
+        };
+        (now, jerk)
     }
 
     /// What was seen of a job's epochs, as pages are told; `None` if nothing was.
@@ -190,7 +231,7 @@ mod tests {
     fn setpoint(number: u64, epoch: u64) -> Setpoint {
         let mut setpoint: Setpoint = bytemuck::Zeroable::zeroed();
         (setpoint.number, setpoint.epoch) = (number, epoch);
-        setpoint.sequence = number;
+        (setpoint.sequence, setpoint.tick) = (number, number);
         setpoint.state = MachineState::Running.code();
         setpoint
     }
@@ -200,21 +241,27 @@ mod tests {
         let config = crate::config::load(None).unwrap();
         let mut witness = Witness::new(&config);
         let [_, limit_a, limit_j] = witness.limits;
+        let dt = witness.period_t;
+        // X goes at a tenth of its jerk, Y with half of its acceleration.
+        let places = |number: u32| {
+            let t = f64::from(number) * dt;
+            let y = 0.25 * limit_a[1] * t * t;
+            [0.1 / 6.0 * limit_j[0] * t.powi(3), y]
+        };
         for number in 0..10_u32 {
             let mut now = setpoint(number.into(), 4);
-            now.acceleration[1] = f64::from(number % 2) * 0.25 * limit_a[1];
-            now.acceleration[2] = -0.5 * limit_a[2];
+            (now.position[0], now.position[1]) = (places(number)[0], places(number)[1]);
             now.lateness_ns = 1000 * u64::from(number);
             witness.take(&now);
         }
-        // One that did not come, and a missed tick: the step of the acceleration in between is nobody's jerk.
+        // One that did not come, and a missed tick: the way across the gap is nobody's velocity.
         let mut behind = setpoint(11, 4);
-        behind.acceleration[0] = 0.4 * limit_a[0];
+        behind.position[0] = 1e6;
         behind.missed_ticks = 1;
         witness.take(&behind);
         // Nothing of another job, or of a jog behind it.
         let mut jog = setpoint(12, 4);
-        (jog.state, jog.velocity[0]) = (MachineState::Jogging.code(), 1e9);
+        (jog.state, jog.position[0]) = (MachineState::Jogging.code(), 2e6);
         witness.take(&jog);
         witness.take(&setpoint(13, 5));
         let told = witness.object(&(4..=4)).unwrap();
@@ -227,14 +274,14 @@ mod tests {
             ),
             (&11.into(), &1.into(), &1.into(), &true.into())
         );
-        let close = |told: &Value, wanted: f64| (told.as_f64().unwrap() - wanted).abs() < 1e-9;
+        let close = |told: &Value, wanted: f64| (told.as_f64().unwrap() - wanted).abs() < 1e-6;
         assert!(
             close(&told["limits"]["acceleration"]["part"], 0.5),
             "{told}"
         );
-        assert_eq!(told["limits"]["acceleration"]["axis"], "Z");
-        let jerk = 0.25 * limit_a[1] / config.period_t() / limit_j[1];
-        assert!(close(&told["limits"]["jerk"]["part"], jerk), "{told}");
+        assert_eq!(told["limits"]["acceleration"]["axis"], "Y");
+        assert!(close(&told["limits"]["jerk"]["part"], 0.1), "{told}");
+        assert_eq!(told["limits"]["jerk"]["axis"], "X");
         assert!(close(&told["late_us"], 9.0), "{told}");
         assert_eq!(witness.object(&(4..=5)).unwrap()["setpoints"], 12);
         assert_eq!(witness.object(&(6..=9)), None);
