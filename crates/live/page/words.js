@@ -41,8 +41,8 @@ function cause() {
   if (S.state === 'preparing' && s.job) return `${s.job.text}${s.job.begins_held ? '; it begins held' : ''}.`;
   if (S.state === 'awaiting' && s.asked) return `${program}line ${s.asked.line}: ${askedWords(s)}`;
   if (S.state === 'awaiting' && s.awaited) return `${program}${line(s)}: ${s.awaited.event} of line ${s.awaited.line} is awaited, for ${span(s.awaited.waited_s)}.`;
-  // Beside its panel the words of the program stand there.
-  if (S.state === 'program-stop' && saysNow() && S.view !== 'operate') return `${program}${line(s)}: “${saysNow()}”`;
+  // Where its panel is, the words of the program stand there.
+  if (S.state === 'program-stop' && saysNow()) return `${program}${line(s)}: ${S.view === 'operate' ? S.may === 'operate' ? 'Resume goes on' : 'it waits to be resumed' : `“${saysNow()}”`}.`;
   if (S.state === 'held' && s.mode === 'backwards' && S.may === 'operate' && !isAway(s)) return `${program}${line(s)}: held at rest on the way back. Forward goes on to the end.`;
   // In these nothing of a program is under way.
   const alone = ['idle', 'preparing', 'off', 'not-homed', 'homing', 'jogging'].includes(S.state);
