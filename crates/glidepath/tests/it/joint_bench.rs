@@ -13,10 +13,7 @@
 use super::support::{glidepath, object};
 use std::collections::BTreeMap;
 
-const FOLDER: &str = concat!(
-    env!("CARGO_MANIFEST_DIR"),
-    "/../../tests/data/bench/joints"
-);
+const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/data/bench/joints");
 /// Most that a plan takes, of the least time: on either side of corners, on their inner side, along the path.
 const EITHER_R: f64 = 1.08;
 const INNER_R: f64 = 1.12;
