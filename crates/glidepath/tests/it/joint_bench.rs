@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/data/bench/joints");
 /// Most that a plan takes, of the least time: on either side of corners, on their inner side, along the path.
 const EITHER_R: f64 = 1.08;
-const INNER_R: f64 = 1.12;
+const INNER_R: f64 = 1.11;
 const FAST_R: f64 = 1.4;
 /// A plan takes whole periods.
 const PERIOD_S: f64 = 0.004;

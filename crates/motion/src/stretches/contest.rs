@@ -34,7 +34,8 @@ const MOST_TWICE_T: f64 = 1.25;
 /// The longest stretch that is searched a third time, s at its rates.
 const MOST_THRICE_T: f64 = 0.4;
 /// Most work of the first two searches, multiplications for a second of motion, with which a third
-/// one is begun: with more of it, small stretches in a row would be driven faster than planned.
+/// one is begun: with more of it, small stretches in a row would be driven faster than planned. Where joints are
+/// not the axes, it is begun all the same: what is found there is further from the best.
 const EASY_WORK_PER_S: f64 = 3e8;
 
 /// A stretch whose motion is planned to its end.
@@ -68,7 +69,8 @@ impl Planned {
         }
         let light = in_tube(SearchBias::LIGHT);
         let may_go_on = entry.at_rates_t <= MOST_THRICE_T
-            && is_easy(&[&usual, &light], entry.outset.settings.period_t);
+            && (entry.outset.joints.is_some()
+                || is_easy(&[&usual, &light], entry.outset.settings.period_t));
         let mut fastest = Self::faster(usual, light);
         if may_go_on {
             fastest = Self::faster(fastest, in_tube(SearchBias::HURRIED));
