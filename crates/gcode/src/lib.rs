@@ -96,6 +96,8 @@ pub use summary::survey::{Corner, Survey};
 pub use summary::totals::Totals;
 pub use syntax::cursor::MAX_NUMBER;
 pub use syntax::dialect::Dialect;
+pub use syntax::dialect::detect::Detection;
+pub use syntax::dialect::question::DialectQuestion;
 pub use syntax::line_source::MAX_LINE_BYTES;
 pub use syntax::modes::{
     CannedCycle, Distance, FeedMode, LatheCycle, Motion, Pockets, Probe, Retract, Spline, Turning,

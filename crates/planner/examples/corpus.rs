@@ -20,7 +20,7 @@ use std::time::Duration;
 use glidepath_audit::diagnosis::Diagnosis;
 use glidepath_audit::smoothness::Figures;
 use glidepath_audit::{Audit, AuditSettings, Report};
-use glidepath_gcode::{Dialect, Options, Program, ToolTable};
+use glidepath_gcode::{Dialect, Machine, Options, Program, ToolTable};
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_motion::{PlanError, Planner};
 use glidepath_program::{Effort, Item, ItemKind, Limits, Settings, Smoothing};
@@ -111,7 +111,7 @@ fn options(path: &Path) -> Result<Options, Box<dyn Error>> {
     Ok(Options {
         default_feed_mm_min: Some(1000.0),
         tools: Some(Arc::new(tools.map_err(|_| "the tool table is wrong")?)),
-        dialect: Dialect::detect(&beginning).0,
+        dialect: Dialect::detect(&beginning, &Machine::unlimited()).dialect,
         extruder: Some(Axis::U),
         ..Options::default()
     })

@@ -42,7 +42,7 @@ fn options() -> Options {
 }
 
 fuzz_target!(|bytes: &[u8]| {
-    let dialect = Dialect::detect(bytes).0;
+    let dialect = Dialect::detect(bytes, &Machine::unlimited()).dialect;
     let options = Options {
         dialect,
         ..options()

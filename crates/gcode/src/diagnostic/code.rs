@@ -138,6 +138,8 @@ pub enum DiagnosticCode {
     Alarm,
     /// A text in the language of a control that is not read, or no program at all.
     ForeignLanguage,
+    /// A program that two controls read differently, and nothing says for which it is.
+    UndecidedDialect,
 }
 
 impl DiagnosticCode {
@@ -211,6 +213,7 @@ impl DiagnosticCode {
             Self::Spline => "spline",
             Self::Alarm => "alarm",
             Self::ForeignLanguage => "foreign-language",
+            Self::UndecidedDialect => "undecided-dialect",
         }
     }
 
@@ -245,7 +248,11 @@ impl DiagnosticCode {
     pub const fn is_fatal(self) -> bool {
         matches!(
             self,
-            Self::ReadFailed | Self::WrongEncoding | Self::EndlessLine | Self::ForeignLanguage
+            Self::ReadFailed
+                | Self::WrongEncoding
+                | Self::EndlessLine
+                | Self::ForeignLanguage
+                | Self::UndecidedDialect
         )
     }
 }

@@ -31,6 +31,10 @@ impl<R: BufRead> Program<R> {
         if self.ended {
             return None;
         }
+        if let Some(question) = self.interpreter.options.question.take() {
+            self.ended = true;
+            return Some(Err(question.diagnostic()));
+        }
         if self.is_typed && self.flow.activations.is_empty() {
             match self.source.has_line() {
                 Ok(true) => {}

@@ -52,6 +52,12 @@ impl Machine {
         self.configured[axis.index()]
     }
 
+    /// True for a machine with X and Z, and without Y.
+    #[must_use]
+    pub const fn is_lathe(&self) -> bool {
+        self.has(Axis::X) && self.has(Axis::Z) && !self.has(Axis::Y)
+    }
+
     /// Soft limits of an axis; `None`: not checked.
     #[must_use]
     pub const fn travel(&self, axis: Axis) -> Option<Travel> {

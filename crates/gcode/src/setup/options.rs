@@ -20,6 +20,7 @@ use crate::setup::threading::Threading;
 use crate::setup::tool_table::ToolTable;
 use crate::setup::work_offsets::WorkOffsets;
 use crate::syntax::dialect::Dialect;
+use crate::syntax::dialect::question::DialectQuestion;
 
 /// The options of reading a program: dialect, machine, tools, what is connected, bounds.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,6 +44,9 @@ pub struct Options {
     pub subroutines: Option<Subroutines>,
     /// The language of the program.
     pub dialect: Dialect,
+    /// What has to be asked about the language first; `None`: it is known. A program with a question is
+    /// refused with it.
+    pub question: Option<DialectQuestion>,
     /// What the parameters of a FANUC control say, for [`Dialect::Fanuc`].
     pub fanuc: FanucParameters,
     /// What the machine data of a SINUMERIK say, for [`Dialect::Siemens`].
@@ -143,8 +147,7 @@ impl Options {
 
     /// True for a machine with X and Z, and without Y.
     pub(crate) const fn is_lathe(&self) -> bool {
-        let machine = &self.machine;
-        machine.has(Axis::X) && machine.has(Axis::Z) && !machine.has(Axis::Y)
+        self.machine.is_lathe()
     }
 
     /// What a FANUC program's control is made for.
@@ -177,6 +180,7 @@ impl Default for Options {
             variables: Arc::default(),
             subroutines: None,
             dialect: Dialect::LinuxCnc,
+            question: None,
             fanuc: FanucParameters::default(),
             siemens: SiemensParameters::default(),
             five_axis: None,

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use glidepath_gcode::{Connections, Dialect, Options, Threading, Tool, ToolTable, check};
+use glidepath_gcode::{Connections, Dialect, Machine, Options, Threading, Tool, ToolTable, check};
 use glidepath_geometry::Axis;
 use glidepath_program::Limits;
 use glidepath_testing::corpus;
@@ -22,7 +22,7 @@ fn options(text: &[u8]) -> Options {
         tools.set(number, Tool::default());
     }
     Options {
-        dialect: Dialect::detect(text).0,
+        dialect: Dialect::detect(text, &Machine::unlimited()).dialect,
         tools: Some(Arc::new(tools)),
         connections: Connections::Simulated,
         extruder: Some(Axis::U),

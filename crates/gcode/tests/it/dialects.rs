@@ -12,7 +12,9 @@ use std::fs;
 use std::sync::Arc;
 
 use crate::support::listed;
-use glidepath_gcode::{Connections, Dialect, Firmware, MCodes, Options, Program, Report, check};
+use glidepath_gcode::{
+    Connections, Dialect, Firmware, MCodes, Machine, Options, Program, Report, check,
+};
 use glidepath_geometry::Axis;
 use glidepath_program::{Event, ItemKind, PathMode, Rate};
 use glidepath_testing::corpus;
@@ -241,7 +243,7 @@ fn r_parameters_and_tolerances() {
 
 fn judge(directory: &std::path::Path, name: &str) -> (Dialect, Report) {
     let bytes = fs::read(directory.join(name)).expect("a program");
-    let (dialect, _) = Dialect::detect(&bytes);
+    let dialect = Dialect::detect(&bytes, &Machine::unlimited()).dialect;
     (dialect, check(bytes.as_slice(), options(dialect)))
 }
 

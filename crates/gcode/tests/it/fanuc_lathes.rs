@@ -274,6 +274,32 @@ fn what_is_in_doubt_or_of_another_system_is_refused() {
 }
 
 #[test]
+fn a_program_that_may_be_of_two_lathes_is_refused_before_it_moves() {
+    let text = "G21\nG0 X52 Z2\n  G90 X48 Z-30 F200\nM2\n";
+    let machine = Machine::new(&[Axis::X, Axis::Z]);
+    let found = Dialect::detect(text.as_bytes(), &machine);
+    let options = |question| Options {
+        dialect: found.dialect,
+        question,
+        machine,
+        ..Options::default()
+    };
+    let report = check(text.as_bytes(), options(found.question.clone()));
+    let told: Vec<_> = report
+        .diagnostics
+        .iter()
+        .map(|d| (d.line, d.column, d.length, d.code.as_str()))
+        .collect();
+    assert_eq!(told, [(3, 3, 17, "undecided-dialect")]);
+    assert!(report.diagnostics[0].help.contains("--dialect fanuc"));
+    let mut program = Program::new(text.as_bytes(), options(found.question));
+    assert!(program.next().is_some_and(|item| item.is_err()));
+    assert!(program.next().is_none());
+    // Somebody has said whose it is.
+    assert!(check(text.as_bytes(), options(None)).is_accepted());
+}
+
+#[test]
 fn a_lathe_tells_itself() {
     for text in [
         "G50 S3000\n",
@@ -281,7 +307,11 @@ fn a_lathe_tells_itself() {
         "G71 U2. R1.\n",
         "%\nO1002\nG0 Z5.\nG83 Z-6. R2. Q3. P500\n",
     ] {
-        assert_eq!(Dialect::detect(text.as_bytes()).0, Dialect::Fanuc, "{text}");
+        assert_eq!(
+            Dialect::detect(text.as_bytes(), &Machine::unlimited()).dialect,
+            Dialect::Fanuc,
+            "{text}"
+        );
     }
     for text in [
         "G71 Q100 D1\n",
@@ -290,7 +320,7 @@ fn a_lathe_tells_itself() {
         "%\nO1\nG4 P2\n",
     ] {
         assert_eq!(
-            Dialect::detect(text.as_bytes()).0,
+            Dialect::detect(text.as_bytes(), &Machine::unlimited()).dialect,
             Dialect::LinuxCnc,
             "{text}"
         );

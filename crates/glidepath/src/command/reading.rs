@@ -10,7 +10,7 @@ use crate::kept::read::{MOST_TABLE_BYTES, read, set_up};
 use crate::output;
 use crate::program_file::ProgramFile;
 use crate::text_file;
-use glidepath_gcode::{Dialect, ToolTable};
+use glidepath_gcode::{Detection, Dialect, Machine, ToolTable};
 use glidepath_kinematics::AxisShare;
 use std::fs::File;
 use std::io::Read;
@@ -88,11 +88,23 @@ pub(super) fn for_program_silently(
     config: &MachineConfig,
 ) -> (MachineConfig, Option<u32>) {
     let program = &config.program;
-    let (dialect, line) = dialect(file, config);
+    let Detection {
+        dialect,
+        line,
+        question,
+    } = match program.dialect {
+        Some(dialect) => Detection {
+            dialect,
+            line: None,
+            question: program.question.clone(),
+        },
+        None => detected(file, config),
+    };
     let found = || subroutines(file.in_folder(), &program.subroutine_path);
     let config = MachineConfig {
         program: ProgramConfig {
             dialect: Some(dialect),
+            question,
             subroutines: Some(program.subroutines.clone().unwrap_or_else(found)),
             ..program.clone()
         },
@@ -124,15 +136,13 @@ fn tool_table(path: &Path) -> Result<ToolTable, Failure> {
     })
 }
 
-/// The dialect of a program: the one asked for, or the one its beginning is in, with the line that tells it.
-fn dialect(program: &ProgramFile, config: &MachineConfig) -> (Dialect, Option<u32>) {
-    if let Some(dialect) = config.program.dialect {
-        return (dialect, None);
-    }
+/// The dialect that the beginning of a program is in, with the line that tells it, and what has to be asked about it.
+fn detected(program: &ProgramFile, config: &MachineConfig) -> Detection {
     let mut beginning = Vec::new();
     // A file that cannot be read is reported where it is opened to be executed.
     if let Ok(file) = File::open(program.path()) {
         file.take(BEGINNING).read_to_end(&mut beginning).ok();
     }
-    Dialect::detect(&beginning)
+    let machine = Machine::new(&config.axis_names());
+    Dialect::detect(&beginning, &machine)
 }

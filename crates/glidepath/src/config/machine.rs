@@ -410,6 +410,7 @@ impl MachineConfig {
             variables: Arc::clone(&self.program.variables),
             subroutines: self.program.subroutines.clone(),
             dialect: self.program.dialect.unwrap_or_default(),
+            question: self.program.question.clone(),
             fanuc: self.program.fanuc,
             siemens: self.program.siemens,
             five_axis: self.five_axis(),

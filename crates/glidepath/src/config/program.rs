@@ -1,8 +1,8 @@
 //! The table `[program]`: how programs are read.
 
 use glidepath_gcode::{
-    Connections, Dialect, FanucParameters, Firmware, InForce, KeptVariables, ReadingWatch,
-    SiemensParameters, Subroutines, ToolTable, WorkOffsets,
+    Connections, Dialect, DialectQuestion, FanucParameters, Firmware, InForce, KeptVariables,
+    ReadingWatch, SiemensParameters, Subroutines, ToolTable, WorkOffsets,
 };
 use glidepath_geometry::Axis;
 use std::path::PathBuf;
@@ -13,6 +13,8 @@ use std::sync::Arc;
 pub struct ProgramConfig {
     /// The language of programs; `None`: told by their beginning.
     pub dialect: Option<Dialect>,
+    /// What has to be asked about the language of the program to be read.
+    pub question: Option<DialectQuestion>,
     /// What the parameters of a FANUC control say.
     pub fanuc: FanucParameters,
     /// What the machine data of a SINUMERIK say.

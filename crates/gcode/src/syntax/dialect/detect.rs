@@ -1,44 +1,90 @@
 //! The detection of a program's dialect, by what only one of them has.
 
-use crate::syntax::dialect::{Dialect, fanuc, marlin, siemens};
+use crate::setup::machine::Machine;
+use crate::syntax::dialect::lathe_marks::{LatheMark, lathe_mark};
+use crate::syntax::dialect::question::{DialectQuestion, Doubt};
+use crate::syntax::dialect::{Dialect, fanuc_marks, marlin, siemens};
+
+/// The detected dialect of a program.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Detection {
+    /// The dialect: LinuxCNC, unless a line has what only one of the others has.
+    pub dialect: Dialect,
+    /// The line that tells, from 1; `None`: nothing does, or it is LinuxCNC's.
+    pub line: Option<u32>,
+    /// What has to be asked before the program is read: nothing tells, and another control would
+    /// make other moves of it.
+    pub question: Option<DialectQuestion>,
+}
+
+impl Detection {
+    const fn of(dialect: Dialect, line: Option<u32>) -> Self {
+        Self {
+            dialect,
+            line,
+            question: None,
+        }
+    }
+}
 
 impl Dialect {
-    /// The dialect the beginning of a program is in: LinuxCNC, unless a line has what only one of
-    /// the others has. The number is that of the line, from 1.
+    /// The dialect that the beginning of a program for a machine is in.
     #[must_use]
-    pub fn detect(beginning: &[u8]) -> (Self, Option<u32>) {
+    pub fn detect(beginning: &[u8], machine: &Machine) -> Detection {
+        let is_lathe = machine.is_lathe();
         let (mut number, mut has_program_number) = (0_u32, false);
+        let mut question: Option<DialectQuestion> = None;
+        let ends = beginning.windows(2).filter(|pair| pair == b"\r\n").count();
         for line in beginning.split(|byte| matches!(byte, b'\n' | b'\r')) {
             // Two line ends in a row count once too often with CR LF; the number is for a message.
             number = number.saturating_add(1);
+            let shown = if ends > 0 { number.div_ceil(2) } else { number };
             let bare: Vec<u8> = line
                 .iter()
                 .filter(|byte| !byte.is_ascii_whitespace())
                 .map(u8::to_ascii_uppercase)
                 .collect();
+            let of_lathe = is_lathe.then(|| lathe_mark(&bare, machine)).flatten();
+            let is_fanuc = fanuc_marks::marks(&bare)
+                || has_program_number && fanuc_marks::marks_behind_number(&bare)
+                || of_lathe == Some(LatheMark::Fanuc)
+                || has_program_number && matches!(of_lathe, Some(LatheMark::Doubt(_)));
             let marks = [
                 (Self::Siemens, siemens::marks(&bare)),
                 (Self::Marlin, marlin::marks(&bare)),
-                (Self::Fanuc, fanuc::marks(&bare)),
-                (
-                    Self::Fanuc,
-                    has_program_number && fanuc::marks_behind_number(&bare),
-                ),
+                (Self::Fanuc, is_fanuc),
             ];
-            has_program_number |= fanuc::is_program_number(&bare);
             if let Some((dialect, _)) = marks.into_iter().find(|(_, marked)| *marked) {
-                let ends = beginning.windows(2).filter(|pair| pair == b"\r\n").count();
-                let number = if ends > 0 { number.div_ceil(2) } else { number };
-                return (dialect, Some(number));
+                return Detection::of(dialect, Some(shown));
+            }
+            if of_lathe == Some(LatheMark::LinuxCnc) {
+                return Detection::of(Self::LinuxCnc, None);
+            }
+            let is_number = fanuc_marks::is_program_number(&bare);
+            has_program_number |= is_number;
+            let doubt = match of_lathe {
+                Some(LatheMark::Doubt(doubt)) => Some(doubt),
+                _ => (is_lathe && is_number).then_some(Doubt::Number),
+            };
+            if let Some(doubt) = doubt.filter(|_| question.is_none()) {
+                question = Some(DialectQuestion {
+                    doubt,
+                    line: shown,
+                    text: line.into(),
+                });
             }
         }
-        (Self::LinuxCnc, None)
+        Detection {
+            question,
+            ..Detection::of(Self::LinuxCnc, None)
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use glidepath_geometry::Axis;
 
     #[test]
     fn dialects_are_told_by_what_only_they_have() {
@@ -72,7 +118,59 @@ mod tests {
                 None,
             ),
         ] {
-            assert_eq!(Dialect::detect(text.as_bytes()), (dialect, line), "{text}");
+            let found = Dialect::detect(text.as_bytes(), &Machine::unlimited());
+            assert_eq!((found.dialect, found.line), (dialect, line), "{text}");
         }
+    }
+
+    /// The dialect of a lathe's program, and what is asked.
+    fn on_lathe(text: &str) -> (Dialect, Option<(Doubt, u32)>) {
+        let lathe = Machine::new(&[Axis::X, Axis::Z]);
+        let found = Dialect::detect(text.as_bytes(), &lathe);
+        let asked = found.question.map(|asked| (asked.doubt, asked.line));
+        (found.dialect, asked)
+    }
+
+    #[test]
+    fn programs_of_lathes_are_told_or_asked_for() {
+        // What only FANUC's lathes have.
+        for text in [
+            "%\nO0001\nG99 G97 S500 M3\nG0 X60. Z50.\n",
+            "O1\nG0 X52. Z2.\nG90 X48. Z-30. F200\n",
+            "%\nO7\nG92 X20. Z-30. F1.5\n",
+            "O7\nG94 X0 Z-1. F.1\n",
+            "G28 U0\nG28 W0\nG0 X60. Z50.\n",
+            "G0 X10.\nG1 U-2. W-1. F.1\n",
+            "N1 G0 T0303\n",
+        ] {
+            assert_eq!(on_lathe(text), (Dialect::Fanuc, None), "{text}");
+        }
+        // What FANUC's and LinuxCNC's have, with other moves.
+        for (text, asked) in [
+            ("G21\nG0 X52 Z2\nG90 X48 Z-30 F200\n", (Doubt::Cycle, 3)),
+            ("G92 X20 Z-30 F1.5\nX19.5\n", (Doubt::Cycle, 1)),
+            ("G99\nG0 X10\n", (Doubt::FeedMode, 1)),
+            ("%\nO0001\nG21\nG0 X10. Z5.\n", (Doubt::Number, 2)),
+        ] {
+            assert_eq!(on_lathe(text), (Dialect::LinuxCnc, Some(asked)), "{text}");
+        }
+        // What LinuxCNC's have alone, or with the same moves.
+        for text in [
+            "%\nO0001\nG8\nG0 X10. Z5.\n",
+            "O1\nG7 G90 X48 Z-30 F200\n",
+            "G90 G1 X48 Z-30 F200\n",
+            "G90 G94 G18\nG0 X10\nG92 X0 Z0\n",
+            "O100 sub\nG99\nO100 endsub\n",
+            "G21\nT1 M6 G43\nG99\n",
+            "T1010 M6\nG0 X1\n",
+            "(USE W1 AND U2)\nG64 P0.01\nG98\n",
+            "G83 G99 Z-5 R1 Q1 F50\n",
+        ] {
+            assert_eq!(on_lathe(text), (Dialect::LinuxCnc, None), "{text}");
+        }
+        // A mill's programs are what they were.
+        let mill = Machine::new(&[Axis::X, Axis::Y, Axis::Z]);
+        let found = Dialect::detect(b"%\nO1\nG99\nG90 X4 Z5 F200\n", &mill);
+        assert_eq!((found.dialect, found.question), (Dialect::LinuxCnc, None));
     }
 }

@@ -1,12 +1,16 @@
 //! The dialects: what the languages of other controls have in the place of RS274/NGC's words.
 
+mod bare_words;
 mod codes;
 pub(crate) mod detect;
 pub(crate) mod fanuc;
+mod fanuc_marks;
 mod fanuc_words;
 pub(crate) mod klipper;
+mod lathe_marks;
 pub(crate) mod line_body;
 pub(crate) mod marlin;
+pub(crate) mod question;
 pub(crate) mod siemens;
 pub(crate) mod words;
 

@@ -155,6 +155,7 @@ fn configuration(
     let read = &config.program;
     recorded.program = ProgramConfig {
         dialect: read.dialect.or(recorded.program.dialect),
+        question: read.question.clone(),
         tools: read.tools.clone(),
         offsets: read.offsets.clone(),
         variables: read.variables.clone(),

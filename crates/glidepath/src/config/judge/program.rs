@@ -70,6 +70,7 @@ impl Judge {
             fanuc,
             siemens,
             dialect: self.choice("program.dialect", raw.dialect, &dialects),
+            question: None,
             tool_table: raw.tool_table.map(|path| path.into_inner().into()),
             tools: None,
             offsets: WorkOffsets::default(),

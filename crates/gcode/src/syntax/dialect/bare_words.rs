@@ -1,0 +1,71 @@
+//! The words of a line, for the detection of its dialect: letters with what is written behind them.
+
+/// A line without its comments.
+pub(super) fn without_comments(bare: &[u8]) -> Vec<u8> {
+    let mut depth = 0_u32;
+    let code = bare.iter().take_while(|byte| **byte != b';');
+    code.filter(|byte| match byte {
+        b'(' => {
+            depth += 1;
+            false
+        }
+        b')' => {
+            depth = depth.saturating_sub(1);
+            false
+        }
+        _ => depth == 0,
+    })
+    .copied()
+    .collect()
+}
+
+/// The words of a line without blanks and comments, in upper case: each letter with the number
+/// behind it, which is empty where something else stands there.
+pub(super) fn bare_words(code: &[u8]) -> Vec<(u8, &[u8])> {
+    let (mut words, mut at) = (Vec::new(), 0);
+    while let Some(byte) = code.get(at) {
+        at += 1;
+        if byte.is_ascii_uppercase() {
+            let rest = code.get(at..).unwrap_or_default();
+            let is_number = |byte: &&u8| byte.is_ascii_digit() || b".+-".contains(byte);
+            let length = rest.iter().take_while(is_number).count();
+            words.push((*byte, rest.get(..length).unwrap_or_default()));
+            at += length;
+        }
+    }
+    words
+}
+
+/// The value of a word.
+fn value(number: &[u8]) -> Option<f64> {
+    core::str::from_utf8(number).ok()?.parse().ok()
+}
+
+/// True if one of the words is that code.
+pub(super) fn has_code(words: &[(u8, &[u8])], letter: u8, number: f64) -> bool {
+    let is_it = |value: f64| (value - number).abs() < 1e-6;
+    words
+        .iter()
+        .any(|(of, digits)| *of == letter && value(digits).is_some_and(is_it))
+}
+
+/// True if one of the words has that letter.
+pub(super) fn has_letter(words: &[(u8, &[u8])], letter: u8) -> bool {
+    words.iter().any(|(of, _)| *of == letter)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_are_letters_and_their_numbers() {
+        let code = without_comments(b"G01X-1.5(Y2(A))Z#5F.2;S1");
+        let found = bare_words(&code);
+        let right: [(u8, &[u8]); 4] = [(b'G', b"01"), (b'X', b"-1.5"), (b'Z', b""), (b'F', b".2")];
+        assert_eq!(found, right);
+        assert!(has_code(&found, b'G', 1.0) && !has_code(&found, b'G', 2.0));
+        assert!(has_letter(&found, b'Z') && !has_letter(&found, b'Y'));
+        assert!(without_comments(b"(open").is_empty());
+    }
+}

@@ -1,0 +1,59 @@
+//! The question which dialect a program is in, where its lines mean one thing to one control and
+//! another thing to the next.
+
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::Fault;
+use crate::diagnostic::span::SourceSpan;
+
+/// What is in doubt.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Doubt {
+    /// A program number alone.
+    Number,
+    /// G90, G92 or G94 with a place and F.
+    Cycle,
+    /// G98 or G99.
+    FeedMode,
+}
+
+/// The question which dialect a program is in: a line that the controls it may be for read
+/// differently, where nothing in the program says which it is.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct DialectQuestion {
+    pub(super) doubt: Doubt,
+    /// The line, from 1.
+    pub(super) line: u32,
+    pub(super) text: Box<[u8]>,
+}
+
+impl DialectQuestion {
+    /// The diagnostic that asks it.
+    pub(crate) fn diagnostic(&self) -> Diagnostic {
+        let (message, reason) = match self.doubt {
+            Doubt::Number => (
+                "a lathe's program with a number, and nothing says whose it is",
+                "X counts diameters on FANUC's lathes, and radii in LinuxCNC's language",
+            ),
+            Doubt::Cycle => (
+                "this line is a cycle to one control and a mode with a move to another",
+                "on FANUC's lathes G90, G92 and G94 with X, Z and F cut along the part and come back, and X counts diameters; in LinuxCNC's language they do not, and X counts radii",
+            ),
+            Doubt::FeedMode => (
+                "this line says what F counts on one control, and where drilling ends on another",
+                "on FANUC's lathes G98 and G99 are the feed per minute and per revolution, and X counts diameters; in LinuxCNC's language they are no feed, and X counts radii",
+            ),
+        };
+        let start = self
+            .text
+            .iter()
+            .take_while(|byte| byte.is_ascii_whitespace());
+        let start = start.count();
+        let end = self.text.trim_ascii_end().len();
+        let span = SourceSpan::new(start, end.max(start));
+        let fault = Fault::new(DiagnosticCode::UndecidedDialect, span, message)
+            .because(reason)
+            .help("say which it is: --dialect fanuc or --dialect linuxcnc (or another), or `dialect` of [program] in the configuration");
+        fault.at(self.line, &self.text)
+    }
+}
