@@ -9,6 +9,7 @@
 
 use std::sync::Arc;
 
+use glidepath_geometry::AXES;
 use glidepath_program::{Event, Item, ItemKind, PathMode};
 
 use crate::diagnostic::fault::Outcome;
@@ -196,11 +197,13 @@ impl Interpreter {
             self.state.modal.path_mode = PathMode::ExactStop;
         }
         let feed = self.take_block_feed(block)?;
+        let from = self.state.position;
         let followed = self.leave_tip(block, out)?;
         self.motion(block, motion, out)?;
         if followed {
             self.follow_tip_again(block, out)?;
         }
+        self.forget_untraversed(block, &from);
         if let Some(feed) = feed {
             self.state.modal.feed = feed;
         }
@@ -281,7 +284,9 @@ impl Interpreter {
             self.tool_length(block, coded)?;
         }
         if let Some(coded) = codes.system {
+            let before = self.place_names();
             self.choose_system(coded)?;
+            self.rename_by_frame(&before, AXES);
         }
         let modal = &mut self.state.modal;
         if let Some(Coded { code, .. }) = codes.path_mode {
@@ -317,7 +322,9 @@ impl Interpreter {
             self.state.arc_feed = code;
         }
         if block.dialect == Dialect::Siemens {
+            let before = self.place_names();
             self.choose_edge(block)?;
+            self.rename_by_length(&before);
         }
         if block.dialect == Dialect::Fanuc {
             self.fanuc_modes(block)?;

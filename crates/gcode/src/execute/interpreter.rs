@@ -27,6 +27,7 @@ use crate::execute::state::saved_states::SavedStates;
 use crate::execute::state::soft_limits::SoftLimits;
 use crate::execute::state::spindle::Spindle;
 use crate::execute::state::sticky_words::CycleSeries;
+use crate::execute::state::untraversed::Untraversed;
 use crate::setup::options::Options;
 use crate::setup::tool_table::ToolTable;
 use crate::syntax::letters::Letters;
@@ -138,6 +139,7 @@ impl Interpreter {
                 tip,
                 tilted: None,
                 contour_plane: None,
+                untraversed: Untraversed::default(),
                 thread_setup: None,
             },
             open_spline: None,

@@ -17,6 +17,12 @@ pub struct SiemensParameters {
     /// Edge D1 is in force behind a tool change that names no edge (MD 20270); else the tool has no
     /// length until D is written.
     pub edge_after_change: bool,
+    /// The first increment of an axis behind a new frame or work offset goes the shift of its zero, too
+    /// (SD 42440); else its own way alone.
+    pub frame_goes_with_increments: bool,
+    /// The first increment of an axis behind a new tool length goes the difference, too (SD 42442); else
+    /// its own way alone.
+    pub length_goes_with_increments: bool,
     /// Where the machine's Z goes up to before CYCLE800 turns the rotary axes, mm; `None`: that it shall
     /// go there (FR 1) is refused.
     pub swivel_z_mm: Option<f64>,
@@ -28,6 +34,8 @@ impl Default for SiemensParameters {
         Self {
             tool_change: None,
             edge_after_change: true,
+            frame_goes_with_increments: true,
+            length_goes_with_increments: true,
             swivel_z_mm: None,
         }
     }

@@ -147,6 +147,7 @@ impl Interpreter {
             // F counts in the unit of lengths.
             && !(state.feeds_in_mm && modal.units == Units::Inch)
             && state.tilted.is_none()
+            && !state.untraversed.is_any()
             && state.fanuc.polar.is_none()
             && state.fanuc.open_plane.is_none()
             && state.fanuc.length_on_way_mm == 0.0

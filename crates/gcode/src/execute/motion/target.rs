@@ -30,6 +30,9 @@ impl Interpreter {
             return Ok(self.absolute_target(&values));
         }
         self.add_length_on_way(block, &mut values);
+        if self.state.untraversed.is_any() {
+            self.add_untraversed(block, &mut values)?;
+        }
         let axes = self.offsets.turned_with(&values);
         if !axes.is_empty() {
             let mut by = AxisVector::zeros();

@@ -25,4 +25,5 @@ pub(crate) mod spindle;
 pub(crate) mod sticky_words;
 pub(crate) mod thread_setup;
 pub(crate) mod tip;
+pub(crate) mod untraversed;
 pub(crate) mod words_in_force;

@@ -14,6 +14,7 @@ use crate::execute::state::spindle::Spindle;
 use crate::execute::state::sticky_words::CycleSeries;
 use crate::execute::state::thread_setup::ThreadSetup;
 use crate::execute::state::tip::{Tilt, Tip};
+use crate::execute::state::untraversed::Untraversed;
 use crate::syntax::modes::{ArcFeed, Side};
 
 /// The part of the state a block may change, offsets apart.
@@ -91,6 +92,9 @@ pub(crate) struct State {
     /// Coordinates are those of this plane of the work for as long as the contour is one of it.
     #[serde(skip)]
     pub(crate) contour_plane: Option<ContourPlane>,
+    /// What new frames and tool lengths of SINUMERIK have shifted, and no move has gone yet.
+    #[serde(skip)]
+    pub(crate) untraversed: Untraversed,
     /// What the first block of FANUC's G76 said.
     pub(crate) thread_setup: Option<ThreadSetup>,
 }

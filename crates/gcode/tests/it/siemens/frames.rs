@@ -46,7 +46,8 @@ fn frames_turn_in_space() {
 fn the_place_stays_where_it_is() {
     assert_eq!(
         xs("G0 X10\nTRANS X4\nG91 X1\nG90 X=IC(1)\nX0"),
-        [10.0, 11.0, 12.0, 4.0]
+        // The increment counts from X10, now 4 further on.
+        [10.0, 15.0, 16.0, 4.0]
     );
     assert_eq!(ends("G0 X10\nROT Z90\nG0 Y1")[1], [-1.0, 0.0, 0.0]);
     // The end of the program ends its frame.

@@ -6,6 +6,7 @@ mod cycles;
 mod face_milling;
 mod flow;
 mod frames;
+mod increments;
 mod kept_data;
 mod lathes;
 mod motion;

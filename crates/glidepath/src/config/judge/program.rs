@@ -164,6 +164,16 @@ impl Judge {
                 raw.edge_after_change.take(),
                 &[("D1", true), ("none", false)],
             ),
+            frame_goes_with_increments: self.choice(
+                "program.increment_after_frame",
+                raw.increment_after_frame.take(),
+                &[("shifted", true), ("alone", false)],
+            ),
+            length_goes_with_increments: self.choice(
+                "program.increment_after_length",
+                raw.increment_after_length.take(),
+                &[("shifted", true), ("alone", false)],
+            ),
             swivel_z_mm: raw
                 .swivel_z
                 .take()

@@ -95,6 +95,24 @@ pub(super) const PROGRAM: &[Key] = &[
          \"none\": the tool has no length until D is written",
     ),
     key(
+        "program.increment_after_frame",
+        Takes::Choice {
+            of: &["shifted", "alone"],
+        },
+        LeftOut::Value("\"shifted\""),
+        "what an axis goes in its first increment (G91, IC) behind a new frame or work offset on a \
+         SINUMERIK (SD 42440): \"shifted\": the increment and the shift of the zero; \"alone\": the \
+         increment",
+    ),
+    key(
+        "program.increment_after_length",
+        Takes::Choice {
+            of: &["shifted", "alone"],
+        },
+        LeftOut::Value("\"shifted\""),
+        "the same behind a new length of the tool (SD 42442)",
+    ),
+    key(
         "program.swivel_z",
         number(-1e6, 1e6, "mm"),
         LeftOut::Means("CYCLE800 with FR 1 is refused"),

@@ -38,3 +38,4 @@ mod swivel;
 mod system_data;
 mod system_values;
 mod tapping;
+pub(crate) mod untraversed;

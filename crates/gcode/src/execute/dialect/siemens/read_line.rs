@@ -86,10 +86,12 @@ impl<R: BufRead> Program<R> {
                 let done = self.siemens_procedure(&text, at);
                 done.inspect_err(|_| self.end()).map(|()| true)
             }
-            Statement::Frame(word) => self.siemens_frame(word, &text, at).map(|()| true),
-            Statement::AxisOffset(is_fine) => {
-                self.siemens_axis_offset(is_fine, &text, at).map(|()| true)
-            }
+            Statement::Frame(word) => self
+                .renaming(|program| program.siemens_frame(word, &text, at))
+                .map(|()| true),
+            Statement::AxisOffset(is_fine) => self
+                .renaming(|program| program.siemens_axis_offset(is_fine, &text, at))
+                .map(|()| true),
             Statement::SystemData => self.siemens_system_data(&text, at).map(|()| true),
             Statement::Cycle => self.siemens_cycle(&text, at).map(|()| true),
             Statement::Swivel => self.siemens_swivel(&text, at).map(|()| true),

@@ -8,6 +8,8 @@
 use std::io::BufRead;
 use std::sync::Arc;
 
+use glidepath_geometry::AXES;
+
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
@@ -188,7 +190,9 @@ impl<R: BufRead> Program<R> {
                 feed: feed.or(modal.feed),
                 ..modal
             };
+            let before = self.interpreter.place_names();
             self.interpreter.offsets.frame = frame;
+            self.interpreter.rename_by_frame(&before, AXES);
         }
         if again > 0 {
             self.siemens.variables = Variables::at_level(depth);

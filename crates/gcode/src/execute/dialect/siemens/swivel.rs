@@ -26,6 +26,8 @@ use crate::syntax::block::Block;
 const COUNT: usize = 16;
 /// The argument that is a name.
 const TC: usize = 1;
+/// X, Y and Z: the rotary axes are where the plane has turned them.
+const LINEAR: usize = 3;
 /// Angles below this are none, degrees.
 const NO_ANGLE: f64 = 1e-12;
 
@@ -47,7 +49,9 @@ impl<R: BufRead> Program<R> {
         check_frame(&self.interpreter, is_off, span)?;
         self.settle_corner_before_plane(span)?;
         if is_off {
+            let before = self.interpreter.place_names();
             self.interpreter.end_tilt();
+            self.interpreter.rename_by_frame(&before, LINEAR);
             self.end_of_line();
             return Ok(());
         }
@@ -74,6 +78,8 @@ impl<R: BufRead> Program<R> {
         let settled = self.items.len();
         interpreter.begin(number);
         interpreter.mapped_items = settled;
+        let names = interpreter.place_names();
+        let from = interpreter.state.position;
         // A plane comes in the place of the one before.
         interpreter.end_tilt();
         let block = Block::of(self.block.dialect, &interpreter.options.m_codes);
@@ -98,6 +104,9 @@ impl<R: BufRead> Program<R> {
             fault.span = span;
             return Err(fault);
         }
+        // What went up has a coordinate of its own.
+        interpreter.forget_untraversed(&block, &from);
+        interpreter.rename_by_frame(&names, LINEAR);
         self.end_of_line();
         Ok(())
     }

@@ -34,6 +34,7 @@ impl Interpreter {
             (b"$AA_IM", _) => in_units(self, self.state.position, axis?.index()),
             // Asked for where a line is rewritten; no program can name these.
             (b"DIAM90", _) => f64::from(u8::from(self.state.diameter_by_distance)),
+            (b"COUNTED", [Index::Axis(axis)]) => self.counted_from(axis.index())?,
             (b"AP", _) => self.state.pole.degrees.unwrap_or(0.0),
             (b"RP", _) => self.state.pole.radius_mm.unwrap_or(0.0) / modal.units.mm(),
             (b"$P_TOOLNO", []) => f64::from(self.state.tool),
@@ -77,6 +78,13 @@ impl Interpreter {
     }
 
     /// The tool in the spindle with its edge; none where D0 is in force.
+    /// The coordinate that increments of an axis count from; `None`: it is not known.
+    fn counted_from(&self, axis: usize) -> Option<f64> {
+        let untraversed = &self.state.untraversed;
+        let is_clear = untraversed.is_unclear.get(axis) == Some(&false);
+        is_clear.then(|| coordinate(self, axis) + in_units(self, untraversed.way, axis))
+    }
+
     fn tool_in_force(&self) -> Tool {
         let tools = self.tools.as_ref().filter(|_| self.state.edge != Some(0));
         let tool = tools.and_then(|tools| tools.get(self.state.tool));

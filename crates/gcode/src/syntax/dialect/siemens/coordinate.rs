@@ -1,9 +1,12 @@
 //! Coordinates with their own way of counting: `X=AC(5)`, `X=IC(5)`, `C=DC(5)`, `C=ACP(5)`, `C=ACN(5)`;
 //! of X as a diameter or as a radius: `X=DAC(5)`, `X=DIC(5)`, `X=RAC(5)`, `X=RIC(5)`.
 
+use glidepath_geometry::Axis;
+
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
+use crate::syntax::dialect::siemens::system_index::Index;
 use crate::syntax::dialect::siemens::writer::Writer;
 use crate::syntax::letters::AXIS_LETTERS;
 use crate::syntax::word_check::missing;
@@ -80,6 +83,14 @@ fn no_diameter(letter: char, span: SourceSpan) -> Box<Fault> {
         .help("write AC or IC")
 }
 
+#[cold]
+pub(crate) fn unclear_increment(span: SourceSpan) -> Box<Fault> {
+    let message = "an increment behind a frame that turned, mirrored or scaled the coordinate";
+    Fault::new(DiagnosticCode::NotSupported, span, message)
+        .because("whether it counts from the old coordinate or from where the axis stands is not known: they are two places")
+        .help("write the first coordinate behind the frame in G90, or set increment_after_frame = \"alone\" in [program]")
+}
+
 impl Writer<'_> {
     /// What the line says of diameters, or what is in force.
     fn diameters(&self) -> Diameters {
@@ -117,6 +128,23 @@ impl Writer<'_> {
             of_value: of(is_diameter) / of(counts_diameters),
             of_place: 2.0 / of(counts_diameters),
         }
+    }
+
+    /// Whether words of the line are increments, unless they say otherwise.
+    fn is_incremental(&self) -> bool {
+        match (self.has_code(90), self.has_code(91)) {
+            (true, _) => false,
+            (_, true) => true,
+            _ => self.names.scope.named("_incremental") == Some(1.0),
+        }
+    }
+
+    /// The coordinate that increments of an axis count from, in the units in force.
+    fn increments_from(&self, axis: usize, span: SourceSpan) -> Outcome<f64> {
+        let named = Axis::ALL.get(axis).map(|axis| Index::Axis(*axis));
+        let index: Vec<Index> = named.into_iter().collect();
+        let from = self.names.scope.system_value(b"COUNTED", &index);
+        from.ok_or_else(|| unclear_increment(span))
     }
 
     /// `X=expression`, `X=AC(expression)`, `X=IC(expression)`; `C=DC(…)`, `C=ACP(…)`, `C=ACN(…)`.
@@ -162,25 +190,29 @@ impl Writer<'_> {
         let here = u32::try_from(axis)
             .ok()
             .and_then(|axis| scope.numbered(COORDINATES + axis));
-        let incremental = match (self.has_code(90), self.has_code(91)) {
-            (true, _) => false,
-            (_, true) => true,
-            _ => scope.named("_incremental") == Some(1.0),
-        };
+        let incremental = self.is_incremental();
         let mut value = *value;
         let mut here = here.unwrap_or(0.0);
+        let mut unit_of_place = 1.0;
         if axis == 0 && !centre {
             let unit = self.unit_of_x(&name, way, incremental);
             value *= unit.of_value;
             here *= unit.of_place;
+            unit_of_place = unit.of_place;
         } else if matches!(name.as_slice(), [b'D' | b'R', _, b'C']) {
             return Err(no_diameter(char::from(letter), word));
         }
         let counts_from_here = centre || incremental;
+        let needs_origin = !centre && (incremental != (way == Way::Increment));
+        let from = if needs_origin {
+            self.increments_from(axis, word)? * unit_of_place
+        } else {
+            here
+        };
         let value = match way {
             Way::Increment if counts_from_here => value,
-            Way::Increment => value + here,
-            _ if counts_from_here => way.place(value, here) - here,
+            Way::Increment => value + from,
+            _ if counts_from_here => way.place(value, here) - from,
             _ => way.place(value, here),
         };
         self.put(start, &[letter, b'['], value);

@@ -24,7 +24,7 @@ mod arguments;
 pub(crate) mod callee;
 mod codes_of_line;
 mod computed_words;
-mod coordinate;
+pub(crate) mod coordinate;
 pub(crate) mod expression;
 pub(crate) mod frame_word;
 mod function;

@@ -1,11 +1,14 @@
 //! Tests of SINUMERIK's lines: what each is rewritten into, and what is refused.
 
+use glidepath_geometry::Axis;
+
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::Outcome;
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::dialect::siemens::expression::{Evaluator, Names};
 use crate::syntax::dialect::siemens::rewritten::Rewritten;
 use crate::syntax::dialect::siemens::statement::{Statement, is_target, label, statement};
+use crate::syntax::dialect::siemens::system_index::Index;
 use crate::syntax::dialect::siemens::variables::{Kind, Variables};
 use crate::syntax::dialect::siemens::writer::rewrite;
 use crate::syntax::expression::scope::Scope;
@@ -18,6 +21,14 @@ impl Scope for Fixed {
             1000..2000 => Some(10.0 * f64::from(number - 1000)),
             5420 => Some(100.0),
             _ => Some(0.0),
+        }
+    }
+    fn system_value(&self, name: &[u8], index: &[Index]) -> Option<f64> {
+        // Increments count from where the axes stand.
+        match (name, index) {
+            (b"COUNTED", [Index::Axis(Axis::X)]) => Some(100.0),
+            (b"COUNTED", _) => Some(0.0),
+            _ => None,
         }
     }
     fn named(&self, name: &str) -> Option<f64> {
