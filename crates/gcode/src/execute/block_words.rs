@@ -40,6 +40,9 @@ fn taken(block: &Block, motion: Option<Motion>) -> [Letters; 13] {
         match non_modal {
             Some(NonModal::Dwell) if block.dialect == Dialect::Fanuc => Letters::of(b"PXU"),
             Some(NonModal::Dwell) => Letters::of(b"P"),
+            Some(NonModal::GoToReference(_)) if block.dialect == Dialect::Marlin => {
+                Letters::of(b"OR")
+            }
             Some(NonModal::GoToReference(1)) if block.dialect == Dialect::Fanuc => {
                 Letters::of(b"P")
             }

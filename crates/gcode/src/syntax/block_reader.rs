@@ -213,7 +213,7 @@ impl Block {
         cursor.advance();
         match letter {
             b'N' => return block_number(cursor, start, first),
-            b'O' => {
+            b'O' if !(self.dialect == Dialect::Marlin && self.names_an_axis(*cursor, letter)) => {
                 return Err(Fault::new(
                     DiagnosticCode::FlowStructure,
                     SourceSpan::new(start, start + 1),

@@ -52,7 +52,8 @@ impl Block {
         }
     }
 
-    /// True for a letter alone behind G28 of a printer, which says which axis goes.
+    /// True for a letter alone behind G28 or G61 of a printer: which axis goes, or that it goes only where its
+    /// place is not known (O).
     pub(super) fn names_an_axis(&self, mut cursor: Cursor<'_>, letter: u8) -> bool {
         let goes_home = matches!(
             self.codes.non_modal,
@@ -61,8 +62,9 @@ impl Block {
                 ..
             })
         );
-        goes_home
-            && (AXIS_WORDS.has(letter) || letter == b'E')
+        let goes_back = self.codes.kept_place.is_some_and(|coded| !coded.code);
+        let is_axis = AXIS_WORDS.has(letter) || letter == b'E';
+        (goes_home && (is_axis || letter == b'O') || goes_back && is_axis)
             && !matches!(
                 cursor.next_visible(),
                 Some(b'0'..=b'9' | b'.' | b'+' | b'-')

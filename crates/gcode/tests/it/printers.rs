@@ -2,7 +2,7 @@
 
 use glidepath_gcode::{Connections, Dialect, Machine, Options, Program, check};
 use glidepath_geometry::Axis;
-use glidepath_program::{ItemKind, Rate};
+use glidepath_program::{Event, ItemKind, Rate};
 
 use crate::support::listed;
 
@@ -114,4 +114,45 @@ fn flags_and_checks_of_printers_are_read() {
     finds("M863.1", &["1:1 unknown-m-code"]);
     finds("M600", &["1:1 not-supported"]);
     finds("M207 S1", &["1:1 not-supported"]);
+}
+
+#[test]
+fn a_printer_goes_home_as_its_words_say() {
+    // The place is known: O leaves it.
+    assert_eq!(last("G1 X10 Y5 Z1\nG28 O"), [10.0, 5.0, 1.0, 0.0]);
+    assert_eq!(last("G1 X10 Y5 Z1\nG28 O X"), [10.0, 5.0, 1.0, 0.0]);
+    // R: up to Z5 first, then X alone; never down.
+    let ends: Vec<[f64; 4]> = moves("G1 X10 Y5 Z1\nG28 R5 X")
+        .into_iter()
+        .map(|all| all.0)
+        .collect();
+    assert_eq!(ends[1..], [[10.0, 5.0, 5.0, 0.0], [0.0, 5.0, 5.0, 0.0]]);
+    assert_eq!(last("G1 X10 Y5 Z9\nG28 R5 X"), [0.0, 5.0, 9.0, 0.0]);
+    // A letter of G61 without a number is the place itself.
+    let text = "G1 X10 Y5 Z1\nG60 S1\nG1 X50 Y9\nG61 X S1 Z2";
+    assert_eq!(last(text), [10.0, 9.0, 3.0, 0.0]);
+    finds("G1 O", &["1:4 flow-structure"]);
+}
+
+#[test]
+fn settings_of_the_firmware_are_events() {
+    for text in [
+        "M420 S1",
+        "M851 Z-1.2",
+        "M211 S0",
+        "M217 S10",
+        "M555 X1 Y1 W2 H2",
+        "M25",
+    ] {
+        finds(&format!("{text}\nG1 X1"), &[]);
+    }
+    let stops = |text: &str| {
+        Program::new(text.as_bytes(), options())
+            .filter(|item| {
+                let kind = item.as_ref().expect("a sound program").kind;
+                matches!(kind, ItemKind::Event(Event::ProgramStop(_)))
+            })
+            .count()
+    };
+    assert_eq!(stops("G1 X1\nM25\nG1 X2"), 1);
 }

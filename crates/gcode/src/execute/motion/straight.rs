@@ -1,6 +1,6 @@
 //! Straight moves, reference moves, and which motion a block makes.
 
-use glidepath_geometry::{Axis, AxisVector, Segment};
+use glidepath_geometry::{AXES, Axis, AxisVector, Segment};
 use glidepath_program::{Item, ItemKind};
 
 use crate::diagnostic::fault::Outcome;
@@ -59,6 +59,13 @@ impl Interpreter {
         index: usize,
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
+        if block.dialect == Dialect::Marlin {
+            if block.get(b'O').is_some() {
+                // The place of the machine is known.
+                return Ok(());
+            }
+            self.raise_before_homing(block, out)?;
+        }
         let is_flag = homes_without_mesh(block) && !self.options.machine.has(Axis::W);
         let named = |axis: Axis| !(is_flag && axis == Axis::W);
         let all = !block.axes().any(|(axis, _)| named(axis));
@@ -89,5 +96,17 @@ impl Interpreter {
             self.follow_tip_again(block, out)?;
         }
         Ok(())
+    }
+
+    /// R of a printer's G28: Z goes up to that coordinate first, and never down.
+    fn raise_before_homing(&mut self, block: &Block, out: &mut Vec<Item>) -> Outcome<()> {
+        let Some(height) = block.get(b'R').filter(|height| *height > 0.0) else {
+            return Ok(());
+        };
+        let mut wanted = [None; AXES];
+        wanted[2] = Some(height * self.state.modal.units.mm());
+        let mut target = self.state.position;
+        target[2] = target[2].max(self.absolute_target(&wanted)[2]);
+        self.straight(block, target, Pace::Rapid, out)
     }
 }

@@ -11,7 +11,7 @@ use crate::syntax::dialect::words::fanuc_systems::{OtherSystem, SystemCode};
 use crate::syntax::dialect::words::{Meaning, fanuc, fanuc_lathe, marlin, no_g, no_m, refused};
 use crate::syntax::modes::{
     ArcFeed, CannedCycle, FeedMode, LatheCycle, Motion, NonModal, Pockets, PoleFrom, Probe,
-    SpindleMode, ToolLength, Turning, Units,
+    SpindleMode, Stop, ToolLength, Turning, Units,
 };
 use glidepath_program::PathMode;
 
@@ -275,6 +275,8 @@ impl Codes {
     ) -> Outcome<()> {
         let number = code_number(value).or_else(|| function_with_decimal(value));
         match number {
+            // The printer stops until somebody has it go on.
+            Some(25) => return set(&mut self.stop, Stop::Program(0), span),
             Some(number @ (82 | 83)) => return set(&mut self.extruder, number == 83, span),
             Some(number) if is_function(number) => {
                 return set(&mut self.function, number, span);

@@ -32,7 +32,7 @@ pub(crate) const fn g(tenths: u32) -> Option<Meaning> {
 pub(crate) const fn m(number: u32) -> Option<Meaning> {
     Some(match number {
         0..=1 | 3..=5 | 7..=9 => Shared,
-        82 | 83 => Own,
+        25 | 82 | 83 => Own,
         2 | 30 => Refused(
             "the end of a program on other controls, a file on this one",
             "remove it: a program ends with its text",
