@@ -117,6 +117,15 @@ fn flags_and_checks_of_printers_are_read() {
 }
 
 #[test]
+fn another_extruder_than_the_first_is_refused() {
+    let text = "M83\nG1 X1 E1 F600\nT1\nG1 X2 E1";
+    finds(text, &["3:1 not-supported"]);
+    assert_eq!(last("M83\nT0\nG1 X2 E1 F600"), [2.0, 0.0, 0.0, 1.0]);
+    // Heaters of other tools move nothing.
+    finds("M104 T1 S200\nM218 T1 X20\nG1 X1", &[]);
+}
+
+#[test]
 fn a_printer_goes_home_as_its_words_say() {
     // The place is known: O leaves it.
     assert_eq!(last("G1 X10 Y5 Z1\nG28 O"), [10.0, 5.0, 1.0, 0.0]);

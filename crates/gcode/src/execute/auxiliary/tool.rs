@@ -24,6 +24,9 @@ const FIXTURE: usize = 8;
 impl Interpreter {
     /// T, M6 and M61.
     pub(crate) fn select_tool(&mut self, block: &Block, out: &mut Vec<Item>) -> Outcome<()> {
+        if block.dialect == Dialect::Marlin {
+            self.check_one_extruder(block)?;
+        }
         if block.is_lathe {
             return self.turret(block, out);
         }

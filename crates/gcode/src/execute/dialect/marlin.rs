@@ -79,6 +79,19 @@ impl<R: BufRead> Program<R> {
 }
 
 impl Interpreter {
+    /// Refuses T of a printer's program that names another tool than the first.
+    pub(crate) fn check_one_extruder(&self, block: &Block) -> Outcome<()> {
+        let Some(tool) = block.get(b'T').filter(|tool| *tool != 0.0) else {
+            return Ok(());
+        };
+        let message = format!("T{tool} (another extruder than T0) is not supported");
+        Err(
+            Fault::new(DiagnosticCode::NotSupported, block.span(b'T'), message)
+                .because("each tool of a printer has an extruder and a place of its own, and the machine has one extruder: E words behind it would move that of T0")
+                .help("let the slicer write the program for one extruder"),
+        )
+    }
+
     /// A block with a function of the machine: nothing else of it is executed.
     pub(crate) fn machine_function(
         &mut self,
