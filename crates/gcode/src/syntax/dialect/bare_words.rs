@@ -1,8 +1,8 @@
 //! The words of a line, for the detection of its dialect: letters with what is written behind them.
 
-/// A line without its comments.
-pub(super) fn without_comments(bare: &[u8]) -> Vec<u8> {
-    let mut depth = 0_u32;
+/// A line without its comments, and without the names of parameters in `< >`.
+pub(crate) fn without_comments(bare: &[u8]) -> Vec<u8> {
+    let (mut depth, mut is_name) = (0_u32, false);
     let code = bare.iter().take_while(|byte| **byte != b';');
     code.filter(|byte| match byte {
         b'(' => {
@@ -13,20 +13,28 @@ pub(super) fn without_comments(bare: &[u8]) -> Vec<u8> {
             depth = depth.saturating_sub(1);
             false
         }
-        _ => depth == 0,
+        b'<' | b'>' => {
+            is_name = depth == 0 && **byte == b'<';
+            depth == 0
+        }
+        _ => depth == 0 && !is_name,
     })
     .copied()
     .collect()
 }
 
 /// The words of a line without blanks and comments, in upper case: each letter with the number
-/// behind it, which is empty where something else stands there.
-pub(super) fn bare_words(code: &[u8]) -> Vec<(u8, &[u8])> {
+/// behind it, which is empty where something else stands there. Names of several letters are none.
+pub(crate) fn bare_words(code: &[u8]) -> Vec<(u8, &[u8])> {
     let (mut words, mut at) = (Vec::new(), 0);
     while let Some(byte) = code.get(at) {
         at += 1;
-        if byte.is_ascii_uppercase() {
-            let rest = code.get(at..).unwrap_or_default();
+        let rest = code.get(at..).unwrap_or_default();
+        let goes_on = |byte: &u8| byte.is_ascii_alphabetic() || *byte == b'_';
+        if goes_on(byte) && rest.first().is_some_and(goes_on) || *byte == b'_' {
+            let is_name = |byte: &&u8| byte.is_ascii_alphanumeric() || **byte == b'_';
+            at += rest.iter().take_while(is_name).count();
+        } else if byte.is_ascii_uppercase() {
             let is_number = |byte: &&u8| byte.is_ascii_digit() || b".+-".contains(byte);
             let length = rest.iter().take_while(is_number).count();
             words.push((*byte, rest.get(..length).unwrap_or_default()));
@@ -37,12 +45,12 @@ pub(super) fn bare_words(code: &[u8]) -> Vec<(u8, &[u8])> {
 }
 
 /// The value of a word.
-fn value(number: &[u8]) -> Option<f64> {
+pub(crate) fn value(number: &[u8]) -> Option<f64> {
     core::str::from_utf8(number).ok()?.parse().ok()
 }
 
 /// True if one of the words is that code.
-pub(super) fn has_code(words: &[(u8, &[u8])], letter: u8, number: f64) -> bool {
+pub(crate) fn has_code(words: &[(u8, &[u8])], letter: u8, number: f64) -> bool {
     let is_it = |value: f64| (value - number).abs() < 1e-6;
     words
         .iter()
@@ -50,7 +58,7 @@ pub(super) fn has_code(words: &[(u8, &[u8])], letter: u8, number: f64) -> bool {
 }
 
 /// True if one of the words has that letter.
-pub(super) fn has_letter(words: &[(u8, &[u8])], letter: u8) -> bool {
+pub(crate) fn has_letter(words: &[(u8, &[u8])], letter: u8) -> bool {
     words.iter().any(|(of, _)| *of == letter)
 }
 
@@ -66,6 +74,8 @@ mod tests {
         assert_eq!(found, right);
         assert!(has_code(&found, b'G', 1.0) && !has_code(&found, b'G', 2.0));
         assert!(has_letter(&found, b'Z') && !has_letter(&found, b'Y'));
+        assert_eq!(bare_words(b"NAME=LEG15_STL"), []);
         assert!(without_comments(b"(open").is_empty());
+        assert_eq!(without_comments(b"#<SEG15>=1"), b"#<>=1");
     }
 }

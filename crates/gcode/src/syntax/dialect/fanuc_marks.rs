@@ -1,5 +1,6 @@
 //! The marks of FANUC programs: what only they have.
 
+use crate::syntax::dialect::bare_words::{bare_words, has_code, has_letter, without_comments};
 use crate::syntax::dialect::fanuc::digits;
 use crate::syntax::dialect::line_body::body;
 
@@ -19,11 +20,42 @@ pub(crate) fn marks(bare: &[u8]) -> bool {
     let turret = text.strip_prefix(b"T").and_then(digits);
     let is_turret = turret.is_some_and(|(_, length)| length == 4 && text.len() == 5);
     let words = call.iter().chain(&lathe).any(|word| starts(word));
-    statement || program || is_turret || words
+    statement || program || is_turret || words || has_own_word(text)
+}
+
+/// True if a word stands somewhere in the line that no other language has: coordinates that are polar,
+/// mirrored or turned, offsets of G54.1, Haas' codes, chamfers and roundings behind a comma.
+fn has_own_word(text: &[u8]) -> bool {
+    // Messages of printers, and what FANUC prints.
+    if [&b"M117"[..], b"M118", b"DPRNT", b"BPRNT"]
+        .iter()
+        .any(|word| text.starts_with(word))
+    {
+        return false;
+    }
+    let code = without_comments(text);
+    let words = bare_words(&code);
+    let has = |number: f64| has_code(&words, b'G', number);
+    let letter = |letter: u8| has_letter(&words, letter);
+    let alone = [
+        15.0, 16.0, 43.4, 43.5, 50.1, 51.1, 53.1, 68.0, 68.2, 69.0, 154.0, 187.0, 234.0, 254.0,
+        255.0,
+    ];
+    let behind_comma = code.windows(3).any(|part| {
+        let [b',', b'C' | b'R' | b'A', next] = part else {
+            return false;
+        };
+        next.is_ascii_digit() || b".+-#[".contains(next)
+    });
+    alone.into_iter().any(has)
+        || (has(12.0) || has(13.0)) && letter(b'I')
+        || (has(54.1) || has(103.0)) && letter(b'P')
+        || has_code(&words, b'M', 97.0) && letter(b'P')
+        || behind_comma
 }
 
 /// True if a line is of a FANUC program, when a program number stands in front of it: P of a drilling
-/// cycle, or of a dwell that would be minutes, offsets of G54.1, and tools set by G10.
+/// cycle, or of a dwell that would be minutes, and tools set by G10.
 pub(crate) fn marks_behind_number(bare: &[u8]) -> bool {
     let text = bare.get(body(bare)..).unwrap_or_default();
     let has = |word: &[u8]| text.windows(word.len()).any(|part| part == word);
@@ -39,16 +71,9 @@ pub(crate) fn marks_behind_number(bare: &[u8]) -> bool {
     let dwells = has(b"G4P") || has(b"G04P") || has(b"G82") || has(b"G89");
     drills && number_behind(b'P').is_some()
         || dwells && number_behind(b'P').is_some_and(|number| number > 99)
-        || [
-            &b"G54.1P"[..],
-            b"G154P",
-            b"G10L10",
-            b"G10L11",
-            b"G10L12",
-            b"G10L13",
-        ]
-        .iter()
-        .any(|word| has(word))
+        || [&b"G10L10"[..], b"G10L11", b"G10L12", b"G10L13"]
+            .iter()
+            .any(|word| has(word))
 }
 
 /// True for a line with a program number: `O1234`.
@@ -58,4 +83,47 @@ pub(super) fn is_program_number(bare: &[u8]) -> bool {
             .get(1..)
             .and_then(digits)
             .is_some_and(|(_, length)| matches!(bare.get(1 + length), None | Some(b'(' | b';')))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_of_fanuc_and_haas_are_known_anywhere_in_a_line() {
+        for line in [
+            "N5G0G54.1P3X0",
+            "G90G16",
+            "G51.1X0",
+            "G69",
+            "G68X0Y0R90.",
+            "G187P1E.01",
+            "G90G154P2",
+            "M97P100",
+            "G12I5.F500",
+            "G1X10.,C1.",
+            "G1X10.,R#1(ROUND)",
+            "G103P1",
+            "G43.4H1",
+        ] {
+            assert!(marks(line.as_bytes()), "{line}");
+        }
+        for line in [
+            "G12",
+            "G12P1S1T3",
+            "G1X10(,C1.)",
+            "G1X10;G68",
+            "M117A,C5",
+            "G10L20P1X0",
+            "G54P1",
+            "#1=ATAN[1,-1]",
+            "G61.1",
+            "EXCLUDE_OBJECT_DEFINENAME=LEG15_STL",
+            "#<SEG15>=2",
+            "M97",
+            "G17.1",
+        ] {
+            assert!(!marks(line.as_bytes()), "{line}");
+        }
+    }
 }

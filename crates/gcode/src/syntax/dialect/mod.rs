@@ -1,6 +1,6 @@
 //! The dialects: what the languages of other controls have in the place of RS274/NGC's words.
 
-mod bare_words;
+pub(crate) mod bare_words;
 mod codes;
 pub(crate) mod detect;
 pub(crate) mod fanuc;

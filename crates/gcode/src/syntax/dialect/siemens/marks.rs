@@ -1,9 +1,10 @@
 //! The marks of SINUMERIK programs: what only they have, at their head and in their body.
 
+use crate::syntax::dialect::bare_words::{bare_words, has_code, without_comments};
 use crate::syntax::dialect::line_body::body;
 
 /// What a line of such a program may begin with.
-const BEGINNINGS: [&[u8]; 27] = [
+const BEGINNINGS: [&[u8]; 24] = [
     b"MSG(",
     b"PROC",
     b"DEFREAL",
@@ -23,14 +24,22 @@ const BEGINNINGS: [&[u8]; 27] = [
     b"ROTZ",
     b"MIRRORX",
     b"MIRRORY",
-    b"G641",
-    b"G642",
     b"MCALL",
     b"WORKPIECE(",
     b"TRANSX",
     b"TRANSY",
     b"TRANSZ",
-    b"SUPA",
+];
+
+/// Names that no other language has, anywhere in a line.
+const NAMES: [&[u8]; 13] = [
+    b"SUPA", b"TRAORI", b"TRAFOOF", b"DIAMON", b"DIAMOF", b"DIAM90", b"STOPRE", b"FNORM", b"FFWON",
+    b"FFWOF", b"COMPCAD", b"COMPOF", b"CFTCP",
+];
+
+/// Codes that no other language has.
+const CODES: [f64; 12] = [
+    450.0, 500.0, 601.0, 602.0, 603.0, 641.0, 642.0, 643.0, 644.0, 645.0, 700.0, 710.0,
 ];
 
 /// Cycles that are called by name; those called CYCLE have a number.
@@ -46,9 +55,10 @@ const CYCLES: [&[u8]; 7] = [
 
 /// Words that take their value behind an equals sign, where RS274/NGC has an address and a number.
 /// Longer ones first.
-const ASSIGNED: [&[u8]; 20] = [
-    b"TURN", b"ADIS", b"CR", b"AR", b"AP", b"RP", b"X", b"Y", b"Z", b"A", b"B", b"C", b"U", b"V",
-    b"W", b"I", b"J", b"K", b"T", b"F",
+const ASSIGNED: [&[u8]; 30] = [
+    b"TURN", b"ADIS", b"RNDM", b"RND", b"CHR", b"CHF", b"FRCM", b"FRC", b"ANG", b"LIMS", b"SPOS",
+    b"CTOL", b"CR", b"AR", b"AP", b"RP", b"X", b"Y", b"Z", b"A", b"B", b"C", b"U", b"V", b"W",
+    b"I", b"J", b"K", b"T", b"F",
 ];
 
 /// True if a line, without blanks and in upper case, is of a SINUMERIK program.
@@ -68,6 +78,32 @@ pub(crate) fn marks(bare: &[u8]) -> bool {
         || sets_a_parameter(text)
         || jumps(text)
         || assigns(text)
+        || has_own_word(text)
+}
+
+/// True if a name or a code of these alone stands somewhere in the line.
+fn has_own_word(text: &[u8]) -> bool {
+    if is_foreign(text) {
+        return false;
+    }
+    let code = without_comments(text);
+    let names = NAMES.iter().any(|name| {
+        code.windows(name.len()).enumerate().any(|(at, part)| {
+            let before = at.checked_sub(1).and_then(|at| code.get(at));
+            part == *name && !before.is_some_and(|byte| byte.is_ascii_alphabetic() || *byte == b'_')
+        })
+    });
+    let words = bare_words(&code);
+    names
+        || CODES
+            .into_iter()
+            .any(|number| has_code(&words, b'G', number))
+}
+
+/// True for messages of printers, settings of grbl and its kin, and what FANUC prints.
+fn is_foreign(text: &[u8]) -> bool {
+    let foreign: [&[u8]; 6] = [b"M117", b"M118", b"$", b"{", b"DPRNT", b"BPRNT"];
+    foreign.iter().any(|word| text.starts_with(word))
 }
 
 /// True for `GOTOF A`, and `GOTO A`: block numbers alone are another control's.
@@ -89,9 +125,7 @@ fn sets_a_parameter(text: &[u8]) -> bool {
 /// True if a word of the line has an equals sign behind its name, as in `G1X=AC(5)` or `CR=10`:
 /// outside comments, and not in lines that are text or settings of other controls.
 fn assigns(text: &[u8]) -> bool {
-    // Messages of printers, settings of grbl and its kin, FANUC's printing.
-    let foreign: [&[u8]; 6] = [b"M117", b"M118", b"$", b"{", b"DPRNT", b"BPRNT"];
-    if foreign.iter().any(|word| text.starts_with(word)) {
+    if is_foreign(text) {
         return false;
     }
     let end = text.iter().position(|byte| matches!(byte, b'(' | b';'));
@@ -132,6 +166,11 @@ mod tests {
             "GOTO_A",
             "N5AROTZ45",
             "ENDIF",
+            "G0SUPAZ0D0",
+            "G54G17G710",
+            "G500",
+            "G1X5RND=2",
+            "N30TRAORI",
         ] {
             assert!(marks(line.as_bytes()), "{line}");
         }
@@ -161,6 +200,12 @@ mod tests {
             "N10R5",
             "GOTO10",
             "GOTO#1",
+            "(SUPAZ0)",
+            "G0X1;TRAORI",
+            "SET_SUPA",
+            "M117G500",
+            "G50",
+            "G154P1",
         ] {
             assert!(!marks(line.as_bytes()), "{line}");
         }
