@@ -44,6 +44,14 @@ impl Fault {
         self
     }
 
+    /// Puts what is to be tried first in front of the help.
+    pub(crate) fn first_try(&mut self, first: &str) {
+        self.help = match self.help.as_str() {
+            "" => first.to_owned(),
+            help => format!("{first}; else {help}"),
+        };
+    }
+
     /// Adds the place: line number from 1, and the line's text.
     pub(crate) fn at(self, line: u32, text: &[u8]) -> Diagnostic {
         let small = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);

@@ -13,6 +13,7 @@ use crate::execute::line_origin::LineOrigin;
 use crate::execute::motion::tangent_arc::direction_behind;
 use crate::execute::program::Program;
 use crate::syntax::dialect::Dialect;
+use crate::syntax::dialect::other::name_dialects;
 
 impl<R: BufRead> Program<R> {
     /// Reads the next line and executes it; its items replace those of the line before.
@@ -62,10 +63,13 @@ impl<R: BufRead> Program<R> {
                 // What cutter radius compensation still held back is given out now.
                 (!self.items.is_empty()).then_some(Ok(()))
             }
-            Err(fault) => {
+            Err(mut fault) => {
+                let here = self.here();
+                let options = &self.interpreter.options;
+                name_dialects(&mut fault, &here.text, options.dialect, &options.machine);
                 let kept = matches!(self.origin, LineOrigin::Kept(..) | LineOrigin::Past(..));
                 self.ended |= kept || fault.code.is_fatal();
-                Some(Err(self.here().diagnostic(*fault)))
+                Some(Err(here.diagnostic(*fault)))
             }
         }
     }

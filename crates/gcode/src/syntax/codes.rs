@@ -349,7 +349,7 @@ const fn system_index(tenths: u32) -> usize {
 }
 
 /// The whole number a code's value stands for; a computed value may be off by rounding.
-pub(super) fn code_number(value: f64) -> Option<u32> {
+pub(crate) fn code_number(value: f64) -> Option<u32> {
     let nearest = value.round();
     let whole = (value - nearest).abs() < 1e-4 && (0.0..10_000.0).contains(&nearest);
     #[expect(
