@@ -16,6 +16,14 @@ use crate::syntax::letters::Letters;
 use crate::syntax::modes::{Distance, Motion, NonModal};
 use crate::syntax::word_check::{missing, unused, whole};
 
+#[cold]
+fn dwell_with_axes(span: SourceSpan) -> Box<Fault> {
+    let message = "G4 beside words of axes";
+    Fault::new(DiagnosticCode::UnusedWord, span, message)
+        .because("on a SINUMERIK a dwell has a block of its own")
+        .help("write two blocks")
+}
+
 impl Interpreter {
     pub(crate) fn act_non_modal(
         &mut self,
@@ -31,6 +39,9 @@ impl Interpreter {
         }
         match non_modal.code {
             // The dwell comes earlier, the machine coordinates with the motion.
+            NonModal::Dwell if block.dialect == Dialect::Siemens && block.has_axes() => {
+                return Err(dwell_with_axes(block.motion_span()));
+            }
             NonModal::Dwell => {}
             NonModal::MachineCoordinates => {
                 self.check_machine_coordinates(block, non_modal.span, motion)?;

@@ -172,6 +172,22 @@ fn an_arc_through_a_point() {
     let text = "G0 X5\nG91 CIP X20 I1=10 J1=10\nX20 I1=10 J1=-10";
     ends_at(text, [45.0, 0.0, 0.0]);
     assert!((length(text) - 5.0 - 20.0 * PI).abs() < 1e-4);
+    // AC and IC say it for the word alone: half a circle about X15, and about X10.
+    let right = 5.0 * PI;
+    let made = |text: &str| {
+        let all = moves(text).into_iter().skip(1);
+        all.map(|(segment, ..)| segment.length()).sum::<f64>()
+    };
+    for text in [
+        "G0 X10\nCIP X20 Y0 I1=AC(15) J1=AC(5)",
+        "G0 X10\nG91 CIP X=AC(20) Y=AC(0) I1=AC(15) J1=AC(5)",
+        "G0 X10\nCIP X=IC(10) Y=IC(0) I1=IC(5) J1=IC(5)",
+        "G0 X10\nG91 CIP X10 Y0 I1=IC(5) J1=IC(5)",
+    ] {
+        assert!((made(text) - right).abs() < 1e-6, "{text}: {}", made(text));
+    }
+    finds("CIP X20 Y0 I1=AC() J1=5", &["1:15 missing-word"]);
+    finds("G4 F2 X10", &["1:7 unused-word"]);
     finds("CIP X20 I1=10", &["1:1 arc-without-center"]);
     finds("CIP X20 Y0", &["1:1 missing-word"]);
     finds("G1 X20 I1=10", &["1:8 unused-word"]);

@@ -9,6 +9,7 @@ use crate::diagnostic::span::SourceSpan;
 use crate::syntax::dialect::siemens::system_index::Index;
 use crate::syntax::dialect::siemens::writer::Writer;
 use crate::syntax::letters::AXIS_LETTERS;
+use crate::syntax::named_word::Named;
 use crate::syntax::word_check::missing;
 
 /// Parts of a turn below this are rounding.
@@ -128,6 +129,36 @@ impl Writer<'_> {
             of_value: of(is_diameter) / of(counts_diameters),
             of_place: 2.0 / of(counts_diameters),
         }
+    }
+
+    /// `I1=5`, `I1=AC(5)`, `I1=IC(5)`: a place on an arc; `length` is that of the name. X counts radii there.
+    pub(super) fn via(&mut self, start: usize, length: usize, axis: usize) -> Outcome<()> {
+        let letter = Named::Via(axis).letter();
+        self.input.at = start + length;
+        self.input.eat(b'=');
+        self.input.next_visible();
+        let way = self.input.name_ahead();
+        let increment = match way.as_slice() {
+            b"AC" => false,
+            b"IC" => true,
+            _ => return self.value_of(start, length, &[b',', letter], 0.0),
+        };
+        let word = SourceSpan::new(self.input.at, self.input.at + way.len());
+        self.input.at += way.len();
+        let arguments = self.input.arguments()?;
+        let [Some(value)] = arguments.as_slice() else {
+            return Err(missing(word, "AC or IC", "( )", "one value in parentheses"));
+        };
+        let here = u32::try_from(axis).ok();
+        let here = here.and_then(|axis| self.names.scope.numbered(COORDINATES + axis));
+        let here = here.unwrap_or(0.0);
+        let value = match (increment, self.is_incremental()) {
+            (true, false) => value + here,
+            (false, true) => value - here,
+            _ => *value,
+        };
+        self.put(start, &[b',', letter, b'['], value);
+        Ok(())
     }
 
     /// Whether words of the line are increments, unless they say otherwise.

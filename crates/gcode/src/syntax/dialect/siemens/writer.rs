@@ -159,6 +159,9 @@ impl Writer<'_> {
         if matches!(name.as_slice(), b"AP" | b"RP") && is_assigned {
             return self.polar_value(start, &name);
         }
+        if let Some(Named::Via(axis)) = Named::of_name(&name).filter(|_| is_assigned) {
+            return self.via(start, length, axis);
+        }
         if let Some(word) = Named::of_name(&name).filter(|_| is_assigned) {
             return self.value_of(start, length, &[b',', word.letter()], 0.0);
         }
