@@ -97,7 +97,7 @@ fn newer_arguments_of_cycles_are_read_where_they_say_nothing_else() {
         moves("G0 Z5 F400\nCYCLE83(5,0,2,-20,,-6,,0,,,1,1,,6,0,0,0,0,0,1001110)"),
         deep
     );
-    finds("CYCLE81(5,0,2,-4,,0,0,11)", &["1:1 not-supported"]);
+    finds("CYCLE81(5,0,2,-4,,0,0,13)", &["1:1 not-supported"]);
     finds("CYCLE83(5,0,2,-20,,-6,,1,,,1,1,,6)", &["1:1 not-supported"]);
 }
 
@@ -137,4 +137,45 @@ fn a_slicer_and_klipper_are_read() {
     assert_eq!(marlin(silent), [""; 0]);
     assert_eq!(marlin("START_PRINT BED=60"), ["1:1 not-supported"]);
     assert_eq!(marlin("G1 X5 F600\nG28 X Y\nG3 X5 I2.5 P0"), [""; 0]);
+}
+
+/// AMODE of cycles for holes: its ones say what DP and DPR are, its tens what DTB is.
+#[test]
+fn newer_arguments_say_what_the_depth_is() {
+    let bottom = |text: &str| {
+        let ends = ends(text);
+        ends.into_iter().map(|[_, _, z]| z).fold(f64::MAX, f64::min)
+    };
+    for (text, right) in [
+        ("CYCLE81(10,-5,2,-15,,0,1,12)", -15.0),
+        // A coordinate counts, whatever DPR says.
+        ("CYCLE81(10,-5,2,-15,3,0,0,2)", -15.0),
+        ("CYCLE81(10,-5,2,,10,0,1,11)", -15.0),
+        // DP above the surface can be an increment alone.
+        ("CYCLE81(10,-5,2,10,,0,1,11)", -15.0),
+        // Both are the same.
+        ("CYCLE82(10,0,2,-10,,0.5,0,1,11)", -10.0),
+        ("CYCLE82(10,0,2,-10,,0.5,0,1,12)", -10.0),
+        ("CYCLE82(10,0,2,-10,,,0,1,22)", -10.0),
+        ("CYCLE85(10,0,2,,10,,300,600,0,1,11)", -10.0),
+        (
+            "CYCLE83(10,0,2,,20,-6,,0,,,1,1,,6,0,0,0,0,1,1001111)",
+            -20.0,
+        ),
+    ] {
+        assert_eq!(bottom(&format!("G0 Z20 F300\n{text}")), right, "{text}");
+    }
+    for (text, code) in [
+        // Either Z-12 or Z-15: which one is not known.
+        ("CYCLE81(10,-5,2,-12,,0,1,11)", "canned-cycle"),
+        ("CYCLE81(10,0,2,-10,,0,2,11)", "not-supported"),
+        ("CYCLE81(10,0,2,-10,,10,1,11)", "not-supported"),
+        ("CYCLE82(10,0,2,-10,,3,0,1,22)", "not-supported"),
+        ("CYCLE81(10,0,2,-10,,0,1,13)", "not-supported"),
+        ("CYCLE81(10,0,2,-10,,0,1,112)", "not-supported"),
+        ("CYCLE81(10,0,2,,10,0,1,12)", "missing-word"),
+        ("CYCLE81(10,0,2,-10,,0,1,12,1)", "not-supported"),
+    ] {
+        finds(&format!("G0 Z20 F300\n{text}"), &[&format!("2:1 {code}")]);
+    }
 }

@@ -29,6 +29,7 @@ use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::dialect::siemens::arguments::Arguments;
 use crate::execute::dialect::siemens::lines::Lines;
+use crate::execute::dialect::siemens::newer_arguments::Newer;
 use crate::execute::dialect::siemens::steps::{Before, CycleCall, Step};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::program::Program;
@@ -50,48 +51,6 @@ const CYCLES: [(&str, usize); 13] = [
     ("POCKET3", 23),
     ("POCKET4", 19),
 ];
-
-/// Arguments that the newer controls have behind those, and what each may be: the axis, a least depth
-/// and ways that are left out; GMODE, DMODE and AMODE, which say how the others are meant.
-const NEWER: [(&str, &[&[f64]]); 8] = [
-    ("CYCLE81", &[&[0.0], &[0.0], &[0.0, 10.0]]),
-    ("CYCLE82", &[&[0.0], &[0.0], &[0.0, 10.0]]),
-    (
-        "CYCLE83",
-        &[
-            &[0.0, 3.0],
-            &[],
-            &[0.0],
-            &[0.0],
-            &[0.0],
-            &[0.0],
-            &[0.0],
-            &[0.0, 10.0, 1_001_110.0],
-        ],
-    ),
-    ("CYCLE85", &[&[0.0], &[0.0], &[0.0, 10.0]]),
-    ("CYCLE86", &[&[0.0], &[0.0], &[0.0, 10.0]]),
-    ("CYCLE87", &[&[0.0], &[0.0], &[0.0, 10.0]]),
-    ("CYCLE88", &[&[0.0], &[0.0], &[0.0, 10.0]]),
-    ("CYCLE89", &[&[0.0], &[0.0], &[0.0, 10.0]]),
-];
-
-/// Whether the arguments behind the first ones say nothing that is not made.
-fn are_newer_known(name: &str, arguments: &[Option<f64>], most: usize) -> bool {
-    let more = arguments.get(most..).unwrap_or_default();
-    let known = NEWER.iter().find(|(known, _)| *known == name);
-    let known = known.map_or(&[][..], |(_, known)| *known);
-    more.iter().enumerate().all(|(index, value)| match value {
-        None => true,
-        Some(value) if *value == 0.0 => true,
-        Some(value) => known.get(index).is_some_and(|known| {
-            // The least depth of CYCLE83 counts where depths become less, by DAM.
-            let is_least_depth = known.is_empty();
-            is_least_depth && arguments.get(7).copied().flatten().unwrap_or(0.0) == 0.0
-                || known.iter().any(|known| (known - value).abs() < 1e-9)
-        }),
-    })
-}
 
 /// Whether the block is of the plane XY, ZX or YZ, and its axes.
 pub(super) fn plane_axes(
@@ -152,14 +111,15 @@ impl<R: BufRead> Program<R> {
             .into_iter()
             .find(|(known, _)| known.as_bytes() == name);
         let (name, most) = known.unwrap_or(("CYCLE81", 0));
-        let arguments = input.arguments()?;
+        let mut arguments = input.arguments()?;
         let span = SourceSpan::new(at, input.at);
-        if !are_newer_known(name, &arguments, most) {
-            let message = format!("{name} with more than {most} arguments");
-            return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
-                .because("what the others mean depends on the version of the control")
-                .help("leave them out, or let the CAM system write plain blocks"));
+        Newer {
+            name,
+            most,
+            plane: self.interpreter.state.modal.plane,
+            span,
         }
+        .settle(&mut arguments)?;
         if !input.is_at_end() {
             let span = SourceSpan::new(input.at, text.len());
             return Err(

@@ -26,6 +26,7 @@ mod flow;
 mod frames;
 mod lines;
 mod modal_call;
+mod newer_arguments;
 mod pocket;
 mod positions;
 mod procedure;

@@ -1,0 +1,166 @@
+//! The arguments that newer controls have behind those of a cycle for holes: GMODE, DMODE and AMODE,
+//! which say how the others are meant.
+//!
+//! | | ones | tens |
+//! |---|---|---|
+//! | GMODE | 0 | 0: the depth is that of the tip |
+//! | DMODE | 0: the plane in force; 1, 2, 3: G17, G18, G19 | 0 |
+//! | AMODE | 0: DP or DPR is the depth, whichever is written; 1: an increment; 2: a coordinate | DTB: 0, 1 seconds; 2 turns |
+//!
+//! CYCLE83 has other arguments in front of them, and further digits of AMODE for its other depths and
+//! dwells.
+
+use glidepath_geometry::Plane;
+
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::{Fault, Outcome};
+use crate::diagnostic::span::SourceSpan;
+
+/// The cycles that have them, and which of their arguments is the dwell at the bottom.
+const HOLES: [(&str, Option<usize>); 8] = [
+    ("CYCLE81", None),
+    ("CYCLE82", Some(5)),
+    ("CYCLE83", Some(8)),
+    ("CYCLE85", Some(5)),
+    ("CYCLE86", Some(5)),
+    ("CYCLE87", None),
+    ("CYCLE88", Some(5)),
+    ("CYCLE89", Some(5)),
+];
+/// What AMODE of CYCLE83 may say of its other depths and dwells, without ones and tens: nothing, or what
+/// its arguments mean by themselves.
+const OTHERS_OF_83: [i32; 2] = [0, 10_011];
+/// RFP, DP, DPR and DAM.
+/// Places of arguments that all of them have.
+const RFP: usize = 1;
+const DP: usize = 3;
+const DPR: usize = 4;
+/// By how much the strokes of CYCLE83 become shorter.
+const DAM: usize = 7;
+
+/// A call that is looked at.
+#[derive(Clone, Copy)]
+pub(super) struct Newer {
+    pub(super) name: &'static str,
+    /// How many arguments come before the newer ones.
+    pub(super) most: usize,
+    pub(super) plane: Plane,
+    pub(super) span: SourceSpan,
+}
+
+impl Newer {
+    /// Puts the depth into the argument that it is meant as.
+    ///
+    /// # Errors
+    /// An argument says something that is not made.
+    pub(super) fn settle(self, arguments: &mut [Option<f64>]) -> Outcome<()> {
+        let get = |index: usize| arguments.get(index).copied().flatten();
+        let more = arguments.iter().skip(self.most).flatten();
+        if more.copied().all(|value| value == 0.0) {
+            return Ok(());
+        }
+        let hole = HOLES.into_iter().find(|(name, _)| *name == self.name);
+        let Some((_, dwell)) = hole else {
+            return Err(self.more("what the others mean depends on the version of the control"));
+        };
+        let is_deep = self.name == "CYCLE83";
+        let modes = self.most + if is_deep { 5 } else { 0 };
+        if arguments.len() > modes + 3 || !self.are_others_known(arguments) {
+            return Err(self.more("what the others mean depends on the version of the control"));
+        }
+        if get(modes).is_some_and(|geometry| geometry != 0.0) {
+            return Err(self.more(
+                "GMODE other than 0 takes the depth for that of the shank, or for a diameter",
+            ));
+        }
+        if get(modes + 1).is_some_and(|plane| plane != 0.0 && Some(plane) != number_of(self.plane))
+        {
+            return Err(self.more("DMODE names another plane than the one in force"));
+        }
+        let amode = whole(get(modes + 2).unwrap_or(0.0));
+        let known: &[i32] = if is_deep { &OTHERS_OF_83 } else { &[0] };
+        let Some(amode) = amode.filter(|amode| known.contains(&(amode / 100))) else {
+            return Err(self.more("AMODE has digits that are not known"));
+        };
+        let has_dwell = dwell.and_then(get).is_some_and(|dwell| dwell != 0.0);
+        match amode / 10 % 10 {
+            0 | 1 => {}
+            2 if !has_dwell => {}
+            _ => {
+                return Err(
+                    self.more("AMODE has a dwell in turns of the spindle, which are not counted")
+                );
+            }
+        }
+        match amode % 10 {
+            0 => Ok(()),
+            1 => self.increment(arguments),
+            2 => {
+                if let Some(increment) = arguments.get_mut(DPR) {
+                    *increment = None;
+                }
+                Ok(())
+            }
+            _ => Err(self.more("AMODE has digits that are not known")),
+        }
+    }
+
+    /// The depth is an increment: DPR, or DP where it cannot be a coordinate below the surface, or is the
+    /// same as one.
+    fn increment(self, arguments: &mut [Option<f64>]) -> Outcome<()> {
+        let get = |index: usize| arguments.get(index).copied().flatten();
+        let (None, Some(depth)) = (get(DPR), get(DP)) else {
+            return Ok(());
+        };
+        let surface = get(RFP).unwrap_or(0.0);
+        let is_same = (surface - depth.abs() - depth).abs() < 1e-9;
+        if depth < surface && !is_same {
+            let message = format!("{}: AMODE takes DP {depth} for an increment", self.name);
+            return Err(Fault::new(DiagnosticCode::CannedCycle, self.span, message)
+                .because("as a coordinate it would be below the surface, too, and the bottom another one")
+                .help("write the increment as DPR, or AMODE 12 for a coordinate"));
+        }
+        if let Some(increment) = arguments.get_mut(DPR) {
+            *increment = Some(depth.abs());
+        }
+        Ok(())
+    }
+
+    /// The axis of CYCLE83, and its least depth, which counts where depths become less, by DAM; the others in front of
+    /// GMODE are 0.
+    fn are_others_known(self, arguments: &[Option<f64>]) -> bool {
+        let get = |index: usize| arguments.get(index).copied().flatten().unwrap_or(0.0);
+        if self.name != "CYCLE83" {
+            return true;
+        }
+        let first = self.most;
+        let axis = [0.0, 3.0].contains(&get(first));
+        let least = get(first + 1) == 0.0 || get(DAM) == 0.0;
+        axis && least && (2..5).all(|index| get(first + index) == 0.0)
+    }
+
+    #[cold]
+    fn more(self, reason: &str) -> Box<Fault> {
+        let message = format!("{} with more than {} arguments", self.name, self.most);
+        Fault::new(DiagnosticCode::NotSupported, self.span, message)
+            .because(reason)
+            .help("leave them out, or let the CAM system write plain blocks")
+    }
+}
+
+/// DMODE of a plane.
+const fn number_of(plane: Plane) -> Option<f64> {
+    match plane {
+        Plane::Xy => Some(1.0),
+        Plane::Zx => Some(2.0),
+        Plane::Yz => Some(3.0),
+        Plane::Uv | Plane::Wu | Plane::Vw => None,
+    }
+}
+
+/// A number of digits.
+fn whole(value: f64) -> Option<i32> {
+    let is_whole = (value - value.round()).abs() < 1e-9 && (0.0..1e8).contains(&value);
+    #[expect(clippy::cast_possible_truncation, reason = "range checked")]
+    is_whole.then_some(value.round() as i32)
+}
