@@ -289,7 +289,11 @@ pub(crate) fn check_named_words(
     let is_straight = matches!(motion, Some(Motion::Rapid | Motion::Linear));
     let goes_at_feed = is_arc || motion == Some(Motion::Linear);
     let takes = |word: Named| match word {
-        Named::SpeedLimit | Named::SpindleAngle | Named::CornerFeeds => true,
+        Named::SpeedLimit
+        | Named::UpperSpeed
+        | Named::LowerSpeed
+        | Named::SpindleAngle
+        | Named::CornerFeeds => true,
         Named::BlockFeed => goes_at_feed,
         Named::CornerFeed => block.corner.is_some() || rounds_all && goes_at_feed,
         Named::PolarRadius | Named::PolarAngle => is_arc || is_straight || sets_pole,

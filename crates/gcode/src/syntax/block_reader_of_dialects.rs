@@ -156,7 +156,10 @@ impl Block {
                 return Ok(());
             }
             self.any = true;
-            self.says_modes |= matches!(word, Named::SpeedLimit | Named::SpindleAngle);
+            self.says_modes |= matches!(
+                word,
+                Named::SpeedLimit | Named::UpperSpeed | Named::LowerSpeed | Named::SpindleAngle
+            );
             return self.named.add(word, value, span);
         }
         let kind = match letter {

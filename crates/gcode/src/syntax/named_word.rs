@@ -13,6 +13,10 @@ use crate::syntax::duplicate_word::duplicate;
 pub(crate) enum Named {
     /// LIMS: the highest speed of the spindle under G96 and G97.
     SpeedLimit,
+    /// S of G26: the highest speed of the spindle at all times.
+    UpperSpeed,
+    /// S of G25: its lowest speed while it turns.
+    LowerSpeed,
     /// RP: the distance from the pole.
     PolarRadius,
     /// AP: the angle about the pole, degrees.
@@ -36,13 +40,15 @@ pub(crate) enum Named {
 }
 
 /// How many there are.
-const COUNT: usize = 15;
+const COUNT: usize = 17;
 
 impl Named {
     /// The letter that stands for it behind a comma.
     pub(crate) const fn letter(self) -> u8 {
         match self {
             Self::SpeedLimit => b'S',
+            Self::UpperSpeed => b'H',
+            Self::LowerSpeed => b'E',
             Self::PolarRadius => b'P',
             Self::PolarAngle => b'Q',
             Self::ArcAngle => b'O',
@@ -64,6 +70,8 @@ impl Named {
     pub(crate) const fn of_letter(letter: u8) -> Option<Self> {
         Some(match letter {
             b'S' => Self::SpeedLimit,
+            b'H' => Self::UpperSpeed,
+            b'E' => Self::LowerSpeed,
             b'P' => Self::PolarRadius,
             b'Q' => Self::PolarAngle,
             b'O' => Self::ArcAngle,
@@ -108,6 +116,8 @@ impl Named {
     pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::SpeedLimit => "LIMS",
+            Self::UpperSpeed => "S of G26",
+            Self::LowerSpeed => "S of G25",
             Self::PolarRadius => "RP",
             Self::PolarAngle => "AP",
             Self::ArcAngle => "AR",
@@ -146,6 +156,8 @@ impl Named {
             Self::BlockFeed => 12,
             Self::CornerFeed => 13,
             Self::CornerFeeds => 14,
+            Self::UpperSpeed => 15,
+            Self::LowerSpeed => 16,
         }
     }
 }

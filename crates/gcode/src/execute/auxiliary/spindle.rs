@@ -116,8 +116,26 @@ impl Interpreter {
         }
     }
 
-    /// LIMS.
+    /// LIMS, and S of G25 and G26.
     fn speed_limit(&mut self, block: &Block) -> Outcome<()> {
+        for word in [Named::UpperSpeed, Named::LowerSpeed] {
+            let Some(limit) = block.named.find(word) else {
+                continue;
+            };
+            if limit.value < 0.0 || limit.value <= 0.0 && word == Named::UpperSpeed {
+                let message = format!("{} is {}", word.name(), limit.value);
+                return Err(
+                    Fault::new(DiagnosticCode::InvalidValue, limit.span, message)
+                        .because("it is a limit of the spindle's speed")
+                        .help("write revolutions a minute"),
+                );
+            }
+            let spindle = &mut self.state.spindle;
+            match word {
+                Named::UpperSpeed => spindle.upper = Some(limit.value),
+                _ => spindle.lower = Some(limit.value),
+            }
+        }
         let Some(limit) = block.named.find(Named::SpeedLimit) else {
             return Ok(());
         };
@@ -138,7 +156,8 @@ impl Interpreter {
         let spindle = &self.state.spindle;
         let allowed = spindle.allowed();
         let is_new = spindle.asked > 0.0 && (allowed - spindle.speed).abs() > 0.0;
-        let has_limit = block.dialect == Dialect::Siemens && spindle.most.is_some();
+        let limits = [spindle.most, spindle.upper, spindle.lower];
+        let has_limit = block.dialect == Dialect::Siemens && limits.iter().any(Option::is_some);
         if has_limit && spindle.surface.is_none() && is_new {
             self.tell_speed(allowed, out);
         }
@@ -188,8 +207,9 @@ impl Interpreter {
         let program = self.offsets.to_program(machine);
         let round_mm = TAU * program[0].abs();
         let speed = surface.speed / round_mm.max(1e-6);
-        let most = self.state.spindle.most.unwrap_or(MAX_NUMBER);
-        Some(speed.min(surface.most).min(most).min(MAX_NUMBER))
+        let spindle = &self.state.spindle;
+        let most = spindle.most.unwrap_or(MAX_NUMBER);
+        Some(spindle.in_range(speed.min(surface.most).min(most).min(MAX_NUMBER)))
     }
 
     /// After a move in G96: tells the spindle's speed if it has changed.

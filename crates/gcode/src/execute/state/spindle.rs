@@ -47,6 +47,12 @@ pub(crate) struct Spindle {
     /// The limit holds for the revolutions of G97, too (SINUMERIK).
     #[serde(default)]
     pub(crate) is_limited: bool,
+    /// Most revolutions a minute at all times (G26 of SINUMERIK).
+    #[serde(default)]
+    pub(crate) upper: Option<f64>,
+    /// Fewest revolutions a minute of a spindle that turns (G25 of SINUMERIK).
+    #[serde(default)]
+    pub(crate) lower: Option<f64>,
     /// The next tapping cycle is rigid (M29).
     pub(crate) is_rigid: bool,
 }
@@ -69,7 +75,16 @@ impl Spindle {
     /// The revolutions of G97, no more than its limit allows.
     pub(crate) fn allowed(&self) -> f64 {
         let most = self.most.filter(|_| self.is_limited);
-        most.map_or(self.asked, |most| self.asked.min(most))
+        self.in_range(most.map_or(self.asked, |most| self.asked.min(most)))
+    }
+
+    /// A speed above zero within the range of G25 and G26.
+    pub(crate) fn in_range(&self, speed: f64) -> f64 {
+        if speed <= 0.0 {
+            return speed;
+        }
+        let raised = self.lower.map_or(speed, |lower| speed.max(lower));
+        self.upper.map_or(raised, |upper| raised.min(upper))
     }
 
     /// It stands for taps alone, and is to turn again behind them.

@@ -179,3 +179,25 @@ fn newer_arguments_say_what_the_depth_is() {
         finds(&format!("G0 Z20 F300\n{text}"), &[&format!("2:1 {code}")]);
     }
 }
+
+#[test]
+fn the_speed_of_the_spindle_has_a_range() {
+    let speeds = |text: &str| {
+        Program::new(text.as_bytes(), options())
+            .filter_map(|item| match item.expect("a sound program").kind {
+                glidepath_program::ItemKind::Event(glidepath_program::Event::SpindleSpeed(
+                    speed,
+                )) => Some(speed.round()),
+                _ => None,
+            })
+            .collect::<Vec<_>>()
+    };
+    let text = "G26 S3000\nG25 S20\nS5000 M3\nS10\nS500\nG26 S400\nS0";
+    assert_eq!(speeds(text), [3000.0, 20.0, 500.0, 400.0, 0.0]);
+    // LIMS does not go beyond it; 200 m/min at a radius of 5 mm are 6366 turns.
+    let text = "G26 S=3000\nG18 G0 X5\nG95 G96 S200 LIMS=4000 M3";
+    assert_eq!(speeds(text), [3000.0]);
+    finds("G26 X100", &["1:1 not-supported"]);
+    finds("G25", &["1:1 missing-word"]);
+    finds("G26 S0", &["1:5 invalid-value"]);
+}

@@ -6,10 +6,13 @@ use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::codes::code_number;
 use crate::syntax::dialect::Dialect;
+use crate::syntax::dialect::bare_words::{bare_words, has_letter, without_comments};
 use crate::syntax::dialect::siemens::computed_words::no_address;
 use crate::syntax::dialect::siemens::writer::Writer;
 use crate::syntax::dialect::words::siemens::{self as words, ADDRESSES};
 use crate::syntax::dialect::words::{Meaning, no_g, no_m, refused};
+use crate::syntax::letters::AXIS_LETTERS;
+use crate::syntax::word_check::missing;
 
 /// The number that digits write.
 fn number_of(digits: &[u8]) -> Option<u32> {
@@ -49,6 +52,9 @@ impl Writer<'_> {
         match (name, number) {
             ([b'G', ..], Some(number)) => return self.g_code(span, number),
             ([b'M', ..], Some(number)) => return self.m_code(span, number),
+            ([b'S', ..], _) if self.speed_range().is_some() => {
+                self.replace(start, 1, self.speed_range().unwrap_or_default());
+            }
             ([b'F', ..], _) if dwell => self.replace(start, 1, b"P"),
             ([b'L', _, ..], _) => {
                 return Err(refused(
@@ -70,12 +76,56 @@ impl Writer<'_> {
         Ok(())
     }
 
+    /// What S is in a line with G25 or G26: a limit of the spindle's speed.
+    pub(super) fn speed_range(&self) -> Option<&'static [u8]> {
+        if self.has_code(26) {
+            Some(b",H")
+        } else if self.has_code(25) {
+            Some(b",E")
+        } else {
+            None
+        }
+    }
+
+    /// Refuses G25 and G26 of the working area, and without S.
+    fn check_speed_range(&self, number: u32, span: SourceSpan) -> Outcome<()> {
+        let bare: Vec<u8> = self
+            .input
+            .text
+            .iter()
+            .filter(|byte| !byte.is_ascii_whitespace())
+            .map(u8::to_ascii_uppercase)
+            .collect();
+        let code = without_comments(&bare);
+        let words = bare_words(&code);
+        if AXIS_LETTERS
+            .iter()
+            .any(|letter| has_letter(&words, *letter))
+        {
+            return Err(refused(
+                &format!("G{number} with axes"),
+                "a limit of the working area",
+                "set the travel of the axes in the configuration",
+                span,
+            ));
+        }
+        if !has_letter(&words, b'S') {
+            let name = format!("G{number}");
+            return Err(missing(span, &name, "S", "a limit of the spindle's speed"));
+        }
+        Ok(())
+    }
+
     fn g_code(&mut self, span: SourceSpan, number: u32) -> Outcome<()> {
         let length = span.length;
         let has_point = self.input.peek(length) == Some(b'.');
         let meaning = words::g(number).filter(|_| !has_point);
         let with: &[u8] = match (meaning, number) {
             (Some(Meaning::Own), 641..=645) => b"G64",
+            (Some(Meaning::Own), 25 | 26) => {
+                self.check_speed_range(number, span)?;
+                b""
+            }
             (Some(Meaning::Own), 9) => b"G9",
             (Some(Meaning::Own), 60) => b"G61.1",
             (Some(Meaning::Own), 153) => b"G53",

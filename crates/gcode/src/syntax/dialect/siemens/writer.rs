@@ -204,6 +204,10 @@ impl Writer<'_> {
             (b"SF", true) => self.value_of(start, length, b"Q", 0.0),
             (b"TURN", true) => self.value_of(start, length, b"P", 1.0),
             // The first spindle, which is the only one.
+            (b"S" | b"S1", true) if self.speed_range().is_some() => {
+                let limit = self.speed_range().unwrap_or_default();
+                self.value_of(start, length, limit, 0.0)
+            }
             (b"S1", true) => self.value_of(start, length, b"S", 0.0),
             (b"M" | b"M1", true) => self.computed_m_code(start, length),
             (b"SPOS", false) if self.input.peek(length) == Some(b'[') => self.spindle_angle(start),

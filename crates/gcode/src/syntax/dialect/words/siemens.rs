@@ -8,6 +8,9 @@ pub(crate) const fn g(number: u32) -> Option<Meaning> {
     Some(match number {
         0..=4 | 17..=19 | 33 | 40..=42 | 53..=57 | 64 | 90 | 91 | 93..=97 => Shared,
         9
+        // Limits of the spindle's speed.
+        | 25
+        | 26
         | 58
         | 59
         | 60
@@ -27,10 +30,6 @@ pub(crate) const fn g(number: u32) -> Option<Meaning> {
         // Windows of exact stops, and how corners of G41 and G42 are gone round: see the manual.
         450 | 601..=603 => ReadOver,
         5 | 7 => Refused("an inclined axis", PLAIN),
-        25 | 26 => Refused(
-            "a limit of the spindle's speed or of the working area",
-            "set it in the configuration",
-        ),
         34 | 35 => Refused("a thread whose pitch changes", PLAIN),
         63 => Refused("tapping with a compensating chuck", "write CYCLE84"),
         74 | 75 => Refused("a reference or fixed point", "write G53 and the place"),
