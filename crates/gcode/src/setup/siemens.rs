@@ -23,19 +23,22 @@ pub struct SiemensParameters {
     /// The first increment of an axis behind a new tool length goes the difference, too (SD 42442); else
     /// its own way alone.
     pub length_goes_with_increments: bool,
+    /// H words, which are functions of the machine's PLC, are read over; else they are refused.
+    pub reads_over_h: bool,
     /// Where the machine's Z goes up to before CYCLE800 turns the rotary axes, mm; `None`: that it shall
     /// go there (FR 1) is refused.
     pub swivel_z_mm: Option<f64>,
 }
 
 impl Default for SiemensParameters {
-    /// By the machine, and D1.
+    /// By the machine, and D1; increments go the shifts before them; H is refused.
     fn default() -> Self {
         Self {
             tool_change: None,
             edge_after_change: true,
             frame_goes_with_increments: true,
             length_goes_with_increments: true,
+            reads_over_h: false,
             swivel_z_mm: None,
         }
     }

@@ -75,6 +75,7 @@ pub(super) struct RawProgram {
     pub(super) edge_after_change: Optional<String>,
     pub(super) increment_after_frame: Optional<String>,
     pub(super) increment_after_length: Optional<String>,
+    pub(super) h_words: Optional<String>,
     pub(super) swivel_z: Optional<f64>,
     pub(super) tool_table: Optional<String>,
     pub(super) subroutine_path: Vec<String>,

@@ -1,7 +1,9 @@
 //! Tests of words that CAM systems write into every program.
 
 use super::{ends, finds, moves, options};
-use glidepath_gcode::{Dialect, Machine, Options, Program, Tool, ToolTable, check};
+use glidepath_gcode::{
+    Dialect, Machine, Options, Program, SiemensParameters, Tool, ToolTable, check,
+};
 use std::sync::Arc;
 
 /// Tool 1, 10 mm long and 6 mm thick.
@@ -200,4 +202,27 @@ fn the_speed_of_the_spindle_has_a_range() {
     finds("G26 X100", &["1:1 not-supported"]);
     finds("G25", &["1:1 missing-word"]);
     finds("G26 S0", &["1:5 invalid-value"]);
+}
+
+#[test]
+fn functions_of_the_plc_are_read_over_where_they_do_nothing() {
+    let text = "H5\nG0 X1 H12.5 Y2\nH-3";
+    finds(
+        text,
+        &[
+            "1:1 not-supported",
+            "2:7 not-supported",
+            "3:1 not-supported",
+        ],
+    );
+    let options = Options {
+        siemens: SiemensParameters {
+            reads_over_h: true,
+            ..SiemensParameters::default()
+        },
+        ..options()
+    };
+    let report = check(text.as_bytes(), options);
+    assert!(report.is_accepted(), "{:?}", report.diagnostics);
+    assert_eq!(report.final_position.as_slice()[..2], [1.0, 2.0]);
 }

@@ -174,6 +174,11 @@ impl Judge {
                 raw.increment_after_length.take(),
                 &[("shifted", true), ("alone", false)],
             ),
+            reads_over_h: self.choice(
+                "program.h_words",
+                raw.h_words.take(),
+                &[("refused", false), ("read-over", true)],
+            ),
             swivel_z_mm: raw
                 .swivel_z
                 .take()

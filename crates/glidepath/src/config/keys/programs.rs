@@ -113,6 +113,14 @@ pub(super) const PROGRAM: &[Key] = &[
         "the same behind a new length of the tool (SD 42442)",
     ),
     key(
+        "program.h_words",
+        Takes::Choice {
+            of: &["refused", "read-over"],
+        },
+        LeftOut::Value("\"refused\""),
+        "H words of a SINUMERIK, functions of the machine's PLC: \"read-over\": they do nothing here",
+    ),
+    key(
         "program.swivel_z",
         number(-1e6, 1e6, "mm"),
         LeftOut::Means("CYCLE800 with FR 1 is refused"),

@@ -34,6 +34,7 @@ impl Interpreter {
             (b"$AA_IM", _) => in_units(self, self.state.position, axis?.index()),
             // Asked for where a line is rewritten; no program can name these.
             (b"DIAM90", _) => f64::from(u8::from(self.state.diameter_by_distance)),
+            (b"H", []) => f64::from(u8::from(self.options.siemens.reads_over_h)),
             (b"COUNTED", [Index::Axis(axis)]) => self.counted_from(axis.index())?,
             (b"AP", _) => self.state.pole.degrees.unwrap_or(0.0),
             (b"RP", _) => self.state.pole.radius_mm.unwrap_or(0.0) / modal.units.mm(),
@@ -77,7 +78,6 @@ impl Interpreter {
         })
     }
 
-    /// The tool in the spindle with its edge; none where D0 is in force.
     /// The coordinate that increments of an axis count from; `None`: it is not known.
     fn counted_from(&self, axis: usize) -> Option<f64> {
         let untraversed = &self.state.untraversed;
@@ -85,6 +85,7 @@ impl Interpreter {
         is_clear.then(|| coordinate(self, axis) + in_units(self, untraversed.way, axis))
     }
 
+    /// The tool in the spindle with its edge; none where D0 is in force.
     fn tool_in_force(&self) -> Tool {
         let tools = self.tools.as_ref().filter(|_| self.state.edge != Some(0));
         let tool = tools.and_then(|tools| tools.get(self.state.tool));

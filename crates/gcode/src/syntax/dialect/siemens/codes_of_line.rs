@@ -52,6 +52,7 @@ impl Writer<'_> {
         match (name, number) {
             ([b'G', ..], Some(number)) => return self.g_code(span, number),
             ([b'M', ..], Some(number)) => return self.m_code(span, number),
+            ([b'H', ..], _) => return self.plc_function(span, name),
             ([b'S', ..], _) if self.speed_range().is_some() => {
                 self.replace(start, 1, self.speed_range().unwrap_or_default());
             }
@@ -72,6 +73,22 @@ impl Writer<'_> {
         // The number is copied as it is: it may go on with a point.
         while matches!(self.input.peek(0), Some(b'0'..=b'9' | b'.' | b'-' | b'+')) {
             self.copy();
+        }
+        Ok(())
+    }
+
+    /// `H5`, `H5.5`: a function of the machine's PLC.
+    fn plc_function(&mut self, span: SourceSpan, name: &[u8]) -> Outcome<()> {
+        if self.names.scope.system_value(b"H", &[]) != Some(1.0) {
+            let shown = String::from_utf8_lossy(name);
+            let message = format!("{shown} (a function of the machine's PLC) is not supported");
+            return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
+                .because("it could have been meant to stop or to clamp something")
+                .help("write an M code with a table [m_codes.M…] in its place, or set h_words = \"read-over\" in [program] if it does nothing on this machine"));
+        }
+        self.input.at = span.start + 1;
+        while matches!(self.input.peek(0), Some(b'0'..=b'9' | b'.' | b'-' | b'+')) {
+            self.input.at += 1;
         }
         Ok(())
     }

@@ -196,12 +196,12 @@ fn what_is_not_read_is_refused_with_the_word() {
 
 #[test]
 fn places_lead_back_to_the_line() {
-    let rewritten = rewritten("G1 X=R1+5 H7").expect("it can be read");
+    let rewritten = rewritten("G1 X=R1+5 K7").expect("it can be read");
     let at = rewritten
         .text
         .iter()
-        .position(|byte| *byte == b'H')
-        .expect("H");
+        .position(|byte| *byte == b'K')
+        .expect("K");
     assert_eq!(
         rewritten.origin(SourceSpan::new(at, at + 2)),
         SourceSpan::new(10, 12)
