@@ -375,7 +375,7 @@ fn a_life_from_cold_to_the_loss_of_every_process() {
     let _moving = life.operated.wait(|status| status.feed_v > 10.0);
     life.interpolator.signal(Signal::KILL);
     let _killed = running.wait().expect(5);
-    std::thread::sleep(Duration::from_millis(300));
+    std::thread::sleep(Duration::from_millis(800));
     let stands = life.stands();
     life.interpolator = life.operated.process(&["interpolator", "--best-effort"]);
     life.switch_on(MachineState::NotHomed);

@@ -13,6 +13,9 @@ use glidepath_realtime::{Clock as _, Monotonic};
 use crate::Instance;
 
 const POLL: Duration = Duration::from_millis(1);
+/// How long setpoints may stay away, ns. A thread of a test may be kept from the processor for longer than a servo
+/// should be patient for, and once it has stopped by itself it stays stopped.
+const PATIENCE_NS: u64 = 100_000_000;
 
 /// The servo library and a plant, stepped at the speed of the clock.
 #[derive(Debug)]
@@ -63,7 +66,11 @@ impl Drop for ServoStack {
 fn play(link: &LinkConfig, plant: &Mutex<Plant>, ending: &AtomicBool) {
     let transport = Ipc::connect(link).unwrap();
     let setpoints = transport.setpoint_source().unwrap();
-    let mut servo = Servo::new(setpoints, ServoSettings::default());
+    let settings = ServoSettings {
+        patience_ns: PATIENCE_NS,
+        ..ServoSettings::default()
+    };
+    let mut servo = Servo::new(setpoints, settings);
     let mut sink = transport.feedback_sink().unwrap();
     while !ending.load(Ordering::Relaxed) {
         while servo.receive(Monotonic.now_ns()).unwrap().is_some() {}

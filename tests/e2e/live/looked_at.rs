@@ -107,7 +107,7 @@ fn pages_that_look_at_different_programs_see_all_of_them() {
     std::fs::create_dir(&folder).unwrap();
     // Long enough that both are being planned at the same time.
     for (name, reach) in [("a.ngc", 11), ("b.ngc", 13)] {
-        let lines = (0..4000).map(|n| format!("G1 X{} Y{}\n", n % reach, n % 7));
+        let lines = (0..1000).map(|n| format!("G1 X{} Y{}\n", n % reach, n % 7));
         let text = format!("G21 G90 F3000\n{}M2\n", lines.collect::<String>());
         std::fs::write(format!("{folder}/{name}"), text).unwrap();
     }
