@@ -19,6 +19,8 @@ use glidepath_program::{Effort, Limits, Override, PathBounds, Settings, Smoothin
 use proptest::prelude::*;
 
 const PERIOD_T: f64 = 0.004;
+/// What differences of positions of hundreds of mm or degrees lose, in shares of a limit.
+const ROUNDING: f64 = 1e-9;
 
 /// A mechanism, the travel of its axes, and what its axes would do if joints let them.
 struct Machine {
@@ -251,7 +253,7 @@ proptest! {
             let text = program(&machine, &places);
             for effort in [Effort::Fast, Effort::Optimal] {
                 let most = used(&machine, effort, &text, feed_r);
-                prop_assert!(most.iter().all(|r| *r <= 1.0), "{effort:?}, {most:?}:\n{text}");
+                prop_assert!(most.iter().all(|r| *r <= 1.0 + ROUNDING), "{effort:?}, {most:?}:\n{text}");
             }
         }
     }
