@@ -1,35 +1,19 @@
 //! Tests of FANUC's and Haas' mills: ends and ways by values computed by hand.
 
-use std::f64::consts::PI;
-use std::sync::Arc;
-
 use glidepath_gcode::{
-    Connections, Dialect, FanucParameters, Machine, OffsetMemory, Options, PointInput, Program,
-    RemarkKind, Tool, ToolTable, check,
+    FanucParameters, Machine, OffsetMemory, Options, PointInput, Program, RemarkKind, check,
 };
 use glidepath_geometry::Axis;
 use glidepath_program::{Event, ItemKind};
+use std::f64::consts::PI;
 
 use crate::support::listed;
 
-/// Tools 1 and 2, 10 and 20 mm long, with a diameter of 6 and 10 mm.
+/// The same with rotary axes.
 fn options() -> Options {
-    let mut tools = ToolTable::new();
-    for (number, diameter_mm) in [(1, 6.0), (2, 10.0)] {
-        let mut tool = Tool {
-            diameter_mm,
-            ..Tool::default()
-        };
-        tool.offset[2] = 10.0 * f64::from(number);
-        tools.set(number, tool);
-    }
     Options {
-        dialect: Dialect::Fanuc,
-        connections: Connections::Simulated,
-        default_feed_mm_min: Some(600.0),
-        tools: Some(Arc::new(tools)),
         machine: Machine::new(&[Axis::X, Axis::Y, Axis::Z, Axis::A, Axis::C]),
-        ..Options::default()
+        ..crate::fanuc_calls::options()
     }
 }
 

@@ -1,37 +1,12 @@
 //! Tests of FANUC's and Haas' mills: offsets by other words, depths of Haas, round pockets, names
 //! of programs and variables, what is printed. Values are computed by hand.
 
-use std::sync::Arc;
-
-use glidepath_gcode::{
-    BoreShift, Connections, Dialect, FanucParameters, Machine, Options, Program, RemarkKind, Tool,
-    ToolTable, check,
-};
-use glidepath_geometry::{Axis, Segment};
+use glidepath_gcode::{BoreShift, FanucParameters, Options, Program, RemarkKind, check};
+use glidepath_geometry::Segment;
 use glidepath_program::{Event, ItemKind, Rate};
 
+use crate::fanuc_calls::options;
 use crate::support::listed;
-
-/// Tools 1 and 2, 10 and 20 mm long, with a diameter of 6 and 10 mm.
-fn options() -> Options {
-    let mut tools = ToolTable::new();
-    for (number, diameter_mm) in [(1, 6.0), (2, 10.0)] {
-        let mut tool = Tool {
-            diameter_mm,
-            ..Tool::default()
-        };
-        tool.offset[2] = 10.0 * f64::from(number);
-        tools.set(number, tool);
-    }
-    Options {
-        dialect: Dialect::Fanuc,
-        connections: Connections::Simulated,
-        default_feed_mm_min: Some(600.0),
-        tools: Some(Arc::new(tools)),
-        machine: Machine::new(&[Axis::X, Axis::Y, Axis::Z]),
-        ..Options::default()
-    }
-}
 
 fn moves(text: &str) -> Vec<(Segment, Rate)> {
     Program::new(text.as_bytes(), options())
