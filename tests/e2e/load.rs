@@ -84,6 +84,9 @@ fn play_beside_load(seconds: u32, form: u32) {
     let played = instance.path("run.csv");
     let run = recorded(&program, &played);
     let output = beside_load(|| Process::start(&instance, &run).wait_for(patience));
+    if let Some(why) = output.ended_by_host() {
+        return leave_out("a run beside load", &why);
+    }
     let report = output.expect(0).json();
     for key in [
         "planned_s",

@@ -34,6 +34,21 @@ impl Output {
         self
     }
 
+    /// Why a run has ended early, if it was the host's doing: it kept the interpolator from ticks for so long that the
+    /// servo stopped by itself, as it has to. `None` of every other end.
+    #[must_use]
+    pub fn ended_by_host(&self) -> Option<String> {
+        if self.status.code() != Some(5) {
+            return None;
+        }
+        let played = &self.json()["played"];
+        let missed = played["missed_ticks"]
+            .as_u64()
+            .filter(|missed| *missed > 1)?;
+        let is_silence = played["servo_stopped"] == "setpoints stayed away";
+        is_silence.then(|| format!("the host kept the interpolator from {missed} ticks in a row"))
+    }
+
     /// Standard output as one JSON object.
     #[must_use]
     pub fn json(&self) -> serde_json::Value {
