@@ -121,6 +121,33 @@ fn steps_move_the_axes_and_a_program_goes_on_from_there() {
 }
 
 #[test]
+fn of_two_clients_that_step_in_one_instant_each_is_told_what_its_step_did() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let services = Services::start(&instance);
+    for round in 0..4 {
+        let before = services.wait_for(MachineState::Idle).position[0];
+        let both = [(); 2].map(|()| Process::join(&instance, &["jog", "X1.5"]));
+        let outputs = both.map(Process::wait);
+        let (done, refused): (Vec<_>, Vec<_>) = outputs.iter().partition(|it| it.status.success());
+        for refused in refused {
+            assert_eq!(refused.status.code(), Some(5), "{refused:?}");
+            assert!(
+                refused.stderr.contains("another client jogs"),
+                "{refused:?}"
+            );
+        }
+        assert!(!done.is_empty(), "round {round}: {outputs:?}");
+        let moved = services.wait_for(MachineState::Idle).position[0] - before;
+        let told = 1.5 * done.len() as f64;
+        assert!(
+            (moved - told).abs() < 1e-9,
+            "round {round}: {moved} mm, told {told}"
+        );
+    }
+    assert_limits(&services.end().0.positions());
+}
+
+#[test]
 fn keys_move_while_they_repeat_and_a_killed_client_stops_the_jog() {
     let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
     let services = Services::start(&instance);

@@ -47,9 +47,9 @@ extern "C" {
 
 /* layout: begin, written by a test of the library */
 /* The version of the ABI: functions and structures. */
-#define GP_ABI 6u
+#define GP_ABI 7u
 /* What the structures of this header are, as one number. */
-#define GP_LAYOUT UINT64_C(0xcf5fd4d6531d8395)
+#define GP_LAYOUT UINT64_C(0x12b0f764a4d409a7)
 /* Axes X Y Z A B C U V W, and joints J0 to J8. */
 #define GP_AXES 9
 
@@ -553,7 +553,7 @@ GP_FIELD(gp_setpoint, away, 576, 72);
 GP_FIELD(gp_setpoint, events, 648, 512);
 
 /* What the interpolator does and how well. Counts are of this life of it. The record
-   glidepath.Status.v11. */
+   glidepath.Status.v12. */
 typedef struct gp_status {
     /* Identifies one life of the interpolator. */
     uint64_t boot_id;
@@ -724,8 +724,12 @@ typedef struct gp_status {
     char job[128];
     /* Why that job does not begin, for people; empty if it may. */
     char job_end[128];
+    /* The client of the jog whose demand was followed last; 0 before the first. */
+    uint64_t jog_client;
+    /* The number of that demand. */
+    uint64_t jog_number;
 } gp_status;
-GP_ASSERT(sizeof(gp_status) == 1776, "gp_status has another size");
+GP_ASSERT(sizeof(gp_status) == 1792, "gp_status has another size");
 GP_FIELD(gp_status, boot_id, 0, 8);
 GP_FIELD(gp_status, updated_ns, 8, 8);
 GP_FIELD(gp_status, period_ns, 16, 8);
@@ -805,6 +809,8 @@ GP_FIELD(gp_status, last_event, 1264, 128);
 GP_FIELD(gp_status, message, 1392, 128);
 GP_FIELD(gp_status, job, 1520, 128);
 GP_FIELD(gp_status, job_end, 1648, 128);
+GP_FIELD(gp_status, jog_client, 1776, 8);
+GP_FIELD(gp_status, jog_number, 1784, 8);
 
 /* What a servo stack knows of the joints it drives, at one moment. The record
    glidepath.Feedback.v1. */

@@ -41,6 +41,7 @@ use glidepath_geometry::{AXES, Axis, AxisVector};
 use glidepath_kinematics::JOINTS;
 use glidepath_link::JogMode;
 use glidepath_program::Limits;
+pub(crate) use holder::Jogged;
 use holder::{Heard, Holder};
 use travel::Travel;
 use way_back::WayBack;
@@ -161,6 +162,11 @@ impl Jog {
 
     pub(crate) const fn override_ratio(&self) -> f64 {
         self.override_ratio
+    }
+
+    /// Whose demand was followed last.
+    pub(crate) fn jogged(&self) -> Jogged {
+        self.holder.jogged()
     }
 
     /// Takes a demand. Returns whether a jog begins with it.

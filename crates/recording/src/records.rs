@@ -128,6 +128,8 @@ message!(Status, "glidepath.Status", {
     77 job_held,
     78 job,
     79 job_end,
+    80 jog_client,
+    81 jog_number,
 });
 
 #[cfg(test)]

@@ -6,8 +6,8 @@ Written by a test of the library: do not change it here.
 import ctypes
 import enum
 
-ABI = 6
-LAYOUT = 0xcf5fd4d6531d8395
+ABI = 7
+LAYOUT = 0x12b0f764a4d409a7
 AXES = 9
 
 
@@ -511,6 +511,8 @@ class StatusRecord(ctypes.Structure):
         ("message", ctypes.c_char * 128),
         ("job", ctypes.c_char * 128),
         ("job_end", ctypes.c_char * 128),
+        ("jog_client", ctypes.c_uint64),
+        ("jog_number", ctypes.c_uint64),
     ]
 
 
@@ -765,7 +767,7 @@ PLACES = {
         "away": 576,
         "events": 648,
     }),
-    StatusRecord: (1776, {
+    StatusRecord: (1792, {
         "boot_id": 0,
         "updated_ns": 8,
         "period_ns": 16,
@@ -845,6 +847,8 @@ PLACES = {
         "message": 1392,
         "job": 1520,
         "job_end": 1648,
+        "jog_client": 1776,
+        "jog_number": 1784,
     }),
     FeedbackRecord: (808, {
         "boot_id": 0,

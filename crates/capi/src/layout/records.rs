@@ -162,7 +162,7 @@ structure! {
 
 structure! {
     /// What the interpolator does and how well. Counts are of this life of it.
-    STATUS: "gp_status" = Status, Status::NAME, 1776 {
+    STATUS: "gp_status" = Status, Status::NAME, 1792 {
         /// Identifies one life of the interpolator.
         boot_id: u64,
         /// When this was true, ns of CLOCK_MONOTONIC. A reader takes an old one for a dead
@@ -330,6 +330,10 @@ structure! {
         job: Text,
         /// Why that job does not begin, for people; empty if it may.
         job_end: Text,
+        /// The client of the jog whose demand was followed last; 0 before the first.
+        jog_client: u64,
+        /// The number of that demand.
+        jog_number: u64,
     }
 }
 

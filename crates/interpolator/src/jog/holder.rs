@@ -34,6 +34,13 @@ struct Caller {
     sent_ns: u64,
 }
 
+/// The demand that was followed last; all 0 before the first.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub(crate) struct Jogged {
+    pub(crate) client: u64,
+    pub(crate) number: u64,
+}
+
 /// The holder of the jog.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Holder {
@@ -56,6 +63,15 @@ impl Holder {
             valid_ns,
             ahead_ns: 2 * period_ns,
         }
+    }
+
+    /// The demand that was followed last, of whoever jogs or jogged last.
+    pub(crate) fn jogged(&self) -> Jogged {
+        let last = self.owner.or(self.before);
+        last.map_or_else(Jogged::default, |last| Jogged {
+            client: last.client,
+            number: last.number,
+        })
     }
 
     /// True if nobody heard of the owner for so long that it must be taken for dead.

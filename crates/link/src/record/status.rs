@@ -61,7 +61,7 @@ pub struct Quantiles {
 /// The status of the interpolator: what it does and how well. Counts are of this life of it.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.Status.v11")]
+#[type_name("glidepath.Status.v12")]
 pub struct Status {
     /// Identifies one life of the interpolator.
     pub boot_id: u64,
@@ -231,6 +231,11 @@ pub struct Status {
     pub job: Text,
     /// Why that job does not begin, for people; empty if it may.
     pub job_end: Text,
+    /// The client of the jog whose demand was followed last; 0 before the first. While the machine jogs it is whoever
+    /// jogs.
+    pub jog_client: u64,
+    /// The number of that demand: what this client asked for with it has begun, or has been done.
+    pub jog_number: u64,
 }
 
 /// Drives that have said nothing for so long are silent: nobody knows where they are, ns.
@@ -339,7 +344,7 @@ impl Status {
 }
 
 impl Record for Status {
-    const NAME: &'static str = "glidepath.Status.v11";
+    const NAME: &'static str = "glidepath.Status.v12";
 
     fn check(&self) -> Result<(), RecordError> {
         let fields = Fields(Self::NAME);

@@ -1,8 +1,22 @@
 //! The demands of one client.
 
 use glidepath_geometry::AXES;
-use glidepath_link::{JogDemand, JogMode, LinkError, Publisher};
+use glidepath_link::{JogDemand, JogMode, LinkError, Publisher, Status};
 use glidepath_realtime::{Clock as _, Monotonic};
+
+/// One demand of a client, to be known again.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::command) struct Asked {
+    client: u64,
+    number: u64,
+}
+
+impl Asked {
+    /// Whether it moves the axes, or was the last that did.
+    pub(in crate::command) const fn is_followed(&self, status: &Status) -> bool {
+        status.jog_client == self.client && status.jog_number == self.number
+    }
+}
 
 /// What a client demands, and its way to the interpolator.
 pub(in crate::command) struct Demands {
@@ -41,6 +55,14 @@ impl Demands {
         self.demand.velocity_v = most_v;
         self.demand.by_joint = by_joint.into();
         self.again()
+    }
+
+    /// What was asked for last.
+    pub(in crate::command) const fn asked(&self) -> Asked {
+        Asked {
+            client: self.demand.client,
+            number: self.demand.number,
+        }
     }
 
     /// Says that the client lives, and wants what it wanted.

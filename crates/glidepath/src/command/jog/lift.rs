@@ -33,7 +33,6 @@ pub(in crate::command) fn lift(link: &LinkConfig, config: &MachineConfig) -> Res
         }
         std::thread::sleep(POLL);
     }
-    let start = panel.position();
     let mut value = [0.0; AXES];
     let axis = config.jog.tool_axis;
     if let Some(slot) = value.get_mut(axis.index()) {
@@ -41,7 +40,7 @@ pub(in crate::command) fn lift(link: &LinkConfig, config: &MachineConfig) -> Res
     }
     let demands = &mut panel.demands;
     demands.ask(asked_ns, JogMode::Incremental, value, 0.0, false)?;
-    set_out(&mut panel, &start, &interrupt)?;
+    set_out(&mut panel, &interrupt)?;
     while panel.state()? == MachineState::Jogging {
         if interrupt.is_set() {
             panel.demands.let_go()?;

@@ -76,6 +76,15 @@ impl Panel {
         Ok(self.status()?.state().map_err(LinkError::from)?)
     }
 
+    /// Whether what was asked for last moves the axes, or did.
+    ///
+    /// # Errors
+    /// The interpolator is heard of no more.
+    pub(super) fn is_followed(&mut self) -> Result<bool, Failure> {
+        let status = *self.status()?;
+        Ok(self.demands.asked().is_followed(&status))
+    }
+
     /// Positions of the axes that the machine has.
     pub(super) fn position(&self) -> Vec<(Axis, f64)> {
         self.of_axes(&self.last.position)

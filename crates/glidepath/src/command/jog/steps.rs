@@ -14,7 +14,7 @@ use crate::output;
 use crate::report::decimals;
 use core::time::Duration;
 use glidepath_geometry::{AXES, Axis};
-use glidepath_link::{JogMode, MachineState};
+use glidepath_link::{JogMode, MachineState, Objection};
 use serde_json::{Map, Value, json};
 use std::time::Instant;
 
@@ -22,6 +22,8 @@ use std::time::Instant;
 const POLL: Duration = Duration::from_millis(10);
 /// How long the machine may take to set out.
 const PATIENCE: Duration = Duration::from_secs(1);
+/// How long an interpolator may take to hear that a step is let go, and to show it: some of its status records.
+const HEARD: Duration = Duration::from_millis(100);
 
 /// Moves the axes, and waits until they are at rest.
 ///
@@ -65,7 +67,7 @@ pub(super) fn jog(
     panel
         .demands
         .ask(asked_ns, JogMode::Incremental, value, most_v, by_joint)?;
-    set_out(&mut panel, &start, &interrupt)?;
+    set_out(&mut panel, &interrupt)?;
     let mut has_let_go = false;
     // Held, the machine is slowing for as long as its last differences are not those of rest.
     while matches!(
@@ -99,32 +101,50 @@ fn means_axes(args: &JogArgs, config: &MachineConfig) -> bool {
             .all(|(axis, joint)| axis.index() == joint)
 }
 
-/// Waits until the machine moves, or has moved. Says it again meanwhile: the interpolator may just
-/// have learnt of this client.
-pub(super) fn set_out(
-    panel: &mut Panel,
-    start: &[(Axis, f64)],
-    interrupt: &Interrupt,
-) -> Result<(), Failure> {
+/// Waits until the step is begun, or done. Says it again meanwhile: the interpolator may just have learnt of this
+/// client. That the machine moves is no sign: two clients that ask in the same instant both see it set out, and one of
+/// them moves it.
+pub(super) fn set_out(panel: &mut Panel, interrupt: &Interrupt) -> Result<(), Failure> {
     let started = Instant::now();
-    while panel.state()? != MachineState::Jogging && panel.position() == start {
-        if interrupt.is_set() || started.elapsed() > PATIENCE {
-            panel.demands.let_go()?;
-            let state = panel.state()?;
-            let status = panel.status()?;
-            let reason = ending::failure(status)
-                .or_else(|| Panel::objection(state).map(|it| it.text().to_owned()))
-                .or_else(|| ending::why(status))
-                .unwrap_or_else(|| {
-                    "nothing moved: it is at the end of its travel or reach, or somebody else jogs"
-                        .to_owned()
-                });
-            return Err(refused(state.name(), reason));
+    while !panel.is_followed()? {
+        let is_anothers = panel.state()? == MachineState::Jogging;
+        if is_anothers || interrupt.is_set() || started.elapsed() > PATIENCE {
+            return give_up(panel, is_anothers);
         }
         panel.demands.again()?;
         std::thread::sleep(POLL);
     }
     Ok(())
+}
+
+/// Lets go of a step that was not begun, and says why it was not.
+///
+/// # Errors
+/// Why; none if the step was begun just before it was let go.
+fn give_up(panel: &mut Panel, is_anothers: bool) -> Result<(), Failure> {
+    let status = *panel.status()?;
+    let state = panel.state()?;
+    let given_up = Instant::now();
+    let asked = panel.demands.asked();
+    panel.demands.let_go()?;
+    while given_up.elapsed() < HEARD {
+        if asked.is_followed(panel.status()?) {
+            return Ok(());
+        }
+        std::thread::sleep(POLL);
+    }
+    let reason = if is_anothers {
+        Objection::ByHand.text().to_owned()
+    } else {
+        ending::failure(&status)
+            .or_else(|| Panel::objection(state).map(|it| it.text().to_owned()))
+            .or_else(|| ending::why(&status))
+            .unwrap_or_else(|| {
+                "nothing moved: it is at the end of its travel or reach, or somebody else jogs"
+                    .to_owned()
+            })
+    };
+    Err(refused(state.name(), reason))
 }
 
 const fn refused(state: &'static str, reason: String) -> Failure {
