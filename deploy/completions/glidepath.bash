@@ -157,6 +157,9 @@ _glidepath() {
             glidepath__subcmd__config,from-linuxcnc)
                 cmd="glidepath__subcmd__config__subcmd__from__subcmd__linuxcnc"
                 ;;
+            glidepath__subcmd__config,from-screw)
+                cmd="glidepath__subcmd__config__subcmd__from__subcmd__screw"
+                ;;
             glidepath__subcmd__config,help)
                 cmd="glidepath__subcmd__config__subcmd__help"
                 ;;
@@ -168,6 +171,9 @@ _glidepath() {
                 ;;
             glidepath__subcmd__config__subcmd__help,from-linuxcnc)
                 cmd="glidepath__subcmd__config__subcmd__help__subcmd__from__subcmd__linuxcnc"
+                ;;
+            glidepath__subcmd__config__subcmd__help,from-screw)
+                cmd="glidepath__subcmd__config__subcmd__help__subcmd__from__subcmd__screw"
                 ;;
             glidepath__subcmd__config__subcmd__help,help)
                 cmd="glidepath__subcmd__config__subcmd__help__subcmd__help"
@@ -324,6 +330,9 @@ _glidepath() {
                 ;;
             glidepath__subcmd__help__subcmd__config,from-linuxcnc)
                 cmd="glidepath__subcmd__help__subcmd__config__subcmd__from__subcmd__linuxcnc"
+                ;;
+            glidepath__subcmd__help__subcmd__config,from-screw)
+                cmd="glidepath__subcmd__help__subcmd__config__subcmd__from__subcmd__screw"
                 ;;
             glidepath__subcmd__help__subcmd__ethercat,scan)
                 cmd="glidepath__subcmd__help__subcmd__ethercat__subcmd__scan"
@@ -584,7 +593,7 @@ _glidepath() {
             return 0
             ;;
         glidepath__subcmd__config)
-            opts="-h --default --explain --check --json --help from-linuxcnc from-grbl from-klipper help"
+            opts="-h --default --explain --check --json --help from-linuxcnc from-grbl from-klipper from-screw help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -647,8 +656,34 @@ _glidepath() {
             COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
             return 0
             ;;
+        glidepath__subcmd__config__subcmd__from__subcmd__screw)
+            opts="-h --joint --values --unit --json --help"
+            if [[ ${cur} == -* || ${COMP_CWORD} -eq 3 ]] ; then
+                COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+                return 0
+            fi
+            case "${prev}" in
+                --joint)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --values)
+                    COMPREPLY=($(compgen -W "measured errors trims" -- "${cur}"))
+                    return 0
+                    ;;
+                --unit)
+                    COMPREPLY=($(compgen -W "mm inch" -- "${cur}"))
+                    return 0
+                    ;;
+                *)
+                    COMPREPLY=()
+                    ;;
+            esac
+            COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+            return 0
+            ;;
         glidepath__subcmd__config__subcmd__help)
-            opts="from-linuxcnc from-grbl from-klipper help"
+            opts="from-linuxcnc from-grbl from-klipper from-screw help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 3 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -690,6 +725,20 @@ _glidepath() {
             return 0
             ;;
         glidepath__subcmd__config__subcmd__help__subcmd__from__subcmd__linuxcnc)
+            opts=""
+            if [[ ${cur} == -* || ${COMP_CWORD} -eq 4 ]] ; then
+                COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+                return 0
+            fi
+            case "${prev}" in
+                *)
+                    COMPREPLY=()
+                    ;;
+            esac
+            COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+            return 0
+            ;;
+        glidepath__subcmd__config__subcmd__help__subcmd__from__subcmd__screw)
             opts=""
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 4 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
@@ -1138,7 +1187,7 @@ _glidepath() {
             return 0
             ;;
         glidepath__subcmd__help__subcmd__config)
-            opts="from-linuxcnc from-grbl from-klipper"
+            opts="from-linuxcnc from-grbl from-klipper from-screw"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 3 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -1180,6 +1229,20 @@ _glidepath() {
             return 0
             ;;
         glidepath__subcmd__help__subcmd__config__subcmd__from__subcmd__linuxcnc)
+            opts=""
+            if [[ ${cur} == -* || ${COMP_CWORD} -eq 4 ]] ; then
+                COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+                return 0
+            fi
+            case "${prev}" in
+                *)
+                    COMPREPLY=()
+                    ;;
+            esac
+            COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+            return 0
+            ;;
+        glidepath__subcmd__help__subcmd__config__subcmd__from__subcmd__screw)
             opts=""
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 4 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )

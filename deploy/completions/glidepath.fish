@@ -405,24 +405,34 @@ complete -c glidepath -n "__fish_glidepath_using_subcommand offsets; and __fish_
 complete -c glidepath -n "__fish_glidepath_using_subcommand offsets; and __fish_seen_subcommand_from help" -f -a "adopt" -d 'Use the kept state of a machine with other axes or kinematics for this machine'
 complete -c glidepath -n "__fish_glidepath_using_subcommand offsets; and __fish_seen_subcommand_from help" -f -a "recover" -d 'After a file was damaged: use the newest intact generation'
 complete -c glidepath -n "__fish_glidepath_using_subcommand offsets; and __fish_seen_subcommand_from help" -f -a "help" -d 'Print this message or the help of the given subcommand(s)'
-complete -c glidepath -n "__fish_glidepath_using_subcommand config; and not __fish_seen_subcommand_from from-linuxcnc from-grbl from-klipper help" -l explain -d 'Explain a key, all keys of a table, or every key: meaning, unit, range, default' -r
-complete -c glidepath -n "__fish_glidepath_using_subcommand config; and not __fish_seen_subcommand_from from-linuxcnc from-grbl from-klipper help" -l check -d 'List all errors in a configuration' -r -F
-complete -c glidepath -n "__fish_glidepath_using_subcommand config; and not __fish_seen_subcommand_from from-linuxcnc from-grbl from-klipper help" -l default -d 'Print the built-in machine as a configuration, with every key explained'
-complete -c glidepath -n "__fish_glidepath_using_subcommand config; and not __fish_seen_subcommand_from from-linuxcnc from-grbl from-klipper help" -l json -d 'Print one JSON object instead of text'
-complete -c glidepath -n "__fish_glidepath_using_subcommand config; and not __fish_seen_subcommand_from from-linuxcnc from-grbl from-klipper help" -s h -l help -d 'Print help'
-complete -c glidepath -n "__fish_glidepath_using_subcommand config; and not __fish_seen_subcommand_from from-linuxcnc from-grbl from-klipper help" -f -a "from-linuxcnc" -d 'Convert LinuxCNC\'s machine configuration'
-complete -c glidepath -n "__fish_glidepath_using_subcommand config; and not __fish_seen_subcommand_from from-linuxcnc from-grbl from-klipper help" -f -a "from-grbl" -d 'Convert grbl\'s or grblHAL\'s settings, as `$$` and `$#` print them'
-complete -c glidepath -n "__fish_glidepath_using_subcommand config; and not __fish_seen_subcommand_from from-linuxcnc from-grbl from-klipper help" -f -a "from-klipper" -d 'Convert Klipper\'s printer.cfg'
-complete -c glidepath -n "__fish_glidepath_using_subcommand config; and not __fish_seen_subcommand_from from-linuxcnc from-grbl from-klipper help" -f -a "help" -d 'Print this message or the help of the given subcommand(s)'
+complete -c glidepath -n "__fish_glidepath_using_subcommand config; and not __fish_seen_subcommand_from from-linuxcnc from-grbl from-klipper from-screw help" -l explain -d 'Explain a key, all keys of a table, or every key: meaning, unit, range, default' -r
+complete -c glidepath -n "__fish_glidepath_using_subcommand config; and not __fish_seen_subcommand_from from-linuxcnc from-grbl from-klipper from-screw help" -l check -d 'List all errors in a configuration' -r -F
+complete -c glidepath -n "__fish_glidepath_using_subcommand config; and not __fish_seen_subcommand_from from-linuxcnc from-grbl from-klipper from-screw help" -l default -d 'Print the built-in machine as a configuration, with every key explained'
+complete -c glidepath -n "__fish_glidepath_using_subcommand config; and not __fish_seen_subcommand_from from-linuxcnc from-grbl from-klipper from-screw help" -l json -d 'Print one JSON object instead of text'
+complete -c glidepath -n "__fish_glidepath_using_subcommand config; and not __fish_seen_subcommand_from from-linuxcnc from-grbl from-klipper from-screw help" -s h -l help -d 'Print help'
+complete -c glidepath -n "__fish_glidepath_using_subcommand config; and not __fish_seen_subcommand_from from-linuxcnc from-grbl from-klipper from-screw help" -f -a "from-linuxcnc" -d 'Convert LinuxCNC\'s machine configuration'
+complete -c glidepath -n "__fish_glidepath_using_subcommand config; and not __fish_seen_subcommand_from from-linuxcnc from-grbl from-klipper from-screw help" -f -a "from-grbl" -d 'Convert grbl\'s or grblHAL\'s settings, as `$$` and `$#` print them'
+complete -c glidepath -n "__fish_glidepath_using_subcommand config; and not __fish_seen_subcommand_from from-linuxcnc from-grbl from-klipper from-screw help" -f -a "from-klipper" -d 'Convert Klipper\'s printer.cfg'
+complete -c glidepath -n "__fish_glidepath_using_subcommand config; and not __fish_seen_subcommand_from from-linuxcnc from-grbl from-klipper from-screw help" -f -a "from-screw" -d 'Make the compensation of a joint from a measured screw: LinuxCNC\'s COMP_FILE, or columns of a laser or gauge'
+complete -c glidepath -n "__fish_glidepath_using_subcommand config; and not __fish_seen_subcommand_from from-linuxcnc from-grbl from-klipper from-screw help" -f -a "help" -d 'Print this message or the help of the given subcommand(s)'
 complete -c glidepath -n "__fish_glidepath_using_subcommand config; and __fish_seen_subcommand_from from-linuxcnc" -l json -d 'Print one JSON object instead of text'
 complete -c glidepath -n "__fish_glidepath_using_subcommand config; and __fish_seen_subcommand_from from-linuxcnc" -s h -l help -d 'Print help'
 complete -c glidepath -n "__fish_glidepath_using_subcommand config; and __fish_seen_subcommand_from from-grbl" -l json -d 'Print one JSON object instead of text'
 complete -c glidepath -n "__fish_glidepath_using_subcommand config; and __fish_seen_subcommand_from from-grbl" -s h -l help -d 'Print help'
 complete -c glidepath -n "__fish_glidepath_using_subcommand config; and __fish_seen_subcommand_from from-klipper" -l json -d 'Print one JSON object instead of text'
 complete -c glidepath -n "__fish_glidepath_using_subcommand config; and __fish_seen_subcommand_from from-klipper" -s h -l help -d 'Print help'
+complete -c glidepath -n "__fish_glidepath_using_subcommand config; and __fish_seen_subcommand_from from-screw" -l joint -d 'The joint, J0 to J8' -r
+complete -c glidepath -n "__fish_glidepath_using_subcommand config; and __fish_seen_subcommand_from from-screw" -l values -d 'What the values are' -r -f -a "measured\t'Where the carriage was (LinuxCNC\'s COMP_FILE_TYPE = 0)'
+errors\t'How far beyond its position it was'
+trims\t'What is to be added to the position (LinuxCNC\'s COMP_FILE_TYPE = 1)'"
+complete -c glidepath -n "__fish_glidepath_using_subcommand config; and __fish_seen_subcommand_from from-screw" -l unit -d 'Unit of the file; degrees are mm' -r -f -a "mm\t'Millimetres, or degrees'
+inch\t'Inches'"
+complete -c glidepath -n "__fish_glidepath_using_subcommand config; and __fish_seen_subcommand_from from-screw" -l json -d 'Print one JSON object instead of text'
+complete -c glidepath -n "__fish_glidepath_using_subcommand config; and __fish_seen_subcommand_from from-screw" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c glidepath -n "__fish_glidepath_using_subcommand config; and __fish_seen_subcommand_from help" -f -a "from-linuxcnc" -d 'Convert LinuxCNC\'s machine configuration'
 complete -c glidepath -n "__fish_glidepath_using_subcommand config; and __fish_seen_subcommand_from help" -f -a "from-grbl" -d 'Convert grbl\'s or grblHAL\'s settings, as `$$` and `$#` print them'
 complete -c glidepath -n "__fish_glidepath_using_subcommand config; and __fish_seen_subcommand_from help" -f -a "from-klipper" -d 'Convert Klipper\'s printer.cfg'
+complete -c glidepath -n "__fish_glidepath_using_subcommand config; and __fish_seen_subcommand_from help" -f -a "from-screw" -d 'Make the compensation of a joint from a measured screw: LinuxCNC\'s COMP_FILE, or columns of a laser or gauge'
 complete -c glidepath -n "__fish_glidepath_using_subcommand config; and __fish_seen_subcommand_from help" -f -a "help" -d 'Print this message or the help of the given subcommand(s)'
 complete -c glidepath -n "__fish_glidepath_using_subcommand doctor" -l interface -d 'Also check this network interface of drives' -r
 complete -c glidepath -n "__fish_glidepath_using_subcommand doctor" -s c -l config -d 'Machine configuration (TOML); without it the built-in 3-axis mill' -r -F
@@ -495,3 +505,4 @@ complete -c glidepath -n "__fish_glidepath_using_subcommand help; and __fish_see
 complete -c glidepath -n "__fish_glidepath_using_subcommand help; and __fish_seen_subcommand_from config" -f -a "from-linuxcnc" -d 'Convert LinuxCNC\'s machine configuration'
 complete -c glidepath -n "__fish_glidepath_using_subcommand help; and __fish_seen_subcommand_from config" -f -a "from-grbl" -d 'Convert grbl\'s or grblHAL\'s settings, as `$$` and `$#` print them'
 complete -c glidepath -n "__fish_glidepath_using_subcommand help; and __fish_seen_subcommand_from config" -f -a "from-klipper" -d 'Convert Klipper\'s printer.cfg'
+complete -c glidepath -n "__fish_glidepath_using_subcommand help; and __fish_seen_subcommand_from config" -f -a "from-screw" -d 'Make the compensation of a joint from a measured screw: LinuxCNC\'s COMP_FILE, or columns of a laser or gauge'

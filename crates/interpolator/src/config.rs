@@ -8,7 +8,8 @@ use crate::stops::StopSettings;
 use core::time::Duration;
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_kinematics::{
-    AxisList, JOINTS, JointLimits, JointWatch, Kinematics as _, Mechanism, Trivial,
+    AxisList, JOINTS, JointCompensation, JointLimits, JointWatch, Kinematics as _, Mechanism,
+    Trivial,
 };
 use glidepath_link::ALL_JOINTS;
 use glidepath_program::{Limits, TAP_OVERTRAVEL};
@@ -117,6 +118,9 @@ pub struct Config {
     /// What each joint can do; without meaning where every axis has a drive of its own. Frames that
     /// ask for more are refused.
     pub joint_limits: JointLimits,
+    /// What is taken out of where each joint is told to be; nothing where joints are not axes. It lives as long as
+    /// the process, so that the real-time thread reads it without owning or counting anything.
+    pub compensation: [Option<&'static JointCompensation>; JOINTS],
     /// Second joints. They come after those of the mechanism, in this order; only where joints are
     /// axes.
     pub gantries: [Option<Gantry>; GANTRIES],
@@ -164,6 +168,7 @@ impl Config {
                 axes: AxisList::new(&Axis::ALL),
             }),
             joint_limits: JointLimits::NONE,
+            compensation: [None; JOINTS],
             gantries: [None; GANTRIES],
             start_position: AxisVector::zeros(),
             horizon_frames: 600_000_000 / period_ns.max(1),

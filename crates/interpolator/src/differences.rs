@@ -312,7 +312,10 @@ fn ratio(pasts: &[Past; PAIRS], position: &AxisVector, allowed: &AllowedPairs) -
         let second = sub(first, past.first);
         let third = sub(second, past.second);
         for (difference, most) in [first, second, third].into_iter().zip(*most) {
-            let ratio = pairs::zip(difference, most, |d, most| d.abs() / most);
+            // The last axis has a neighbour that does not exist: 0 of 0 is nothing.
+            let ratio = pairs::zip(difference, most, |d, most| {
+                if d == 0.0 { 0.0 } else { d.abs() / most }
+            });
             most_ratio = pairs::zip(ratio, most_ratio, |ratio, most| {
                 if ratio <= most || most.is_nan() {
                     most

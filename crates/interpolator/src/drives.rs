@@ -261,7 +261,7 @@ impl Drives {
             self.seen_ticks = 0;
             requests.adapt(observation.adaptive_r);
         }
-        let rests = !is_open && output.published().is_at_rest();
+        let rests = !is_open && output.published().is_at_rest() && output.joints_rest();
         let consequence = self.watch(rests, requests.fault().is_some());
         if let Some(fault) = consequence.fault {
             requests.fail(Fault {

@@ -3,7 +3,9 @@
 //! The setpoint leaves the real-time thread whole, so what a drive gets depends on no other thread.
 //! The inverse is bounded work without allocation, a closed form for every mechanism.
 
+use crate::compensated::CompensatedJoints;
 use crate::config::Config;
+use crate::track::Track;
 use glidepath_geometry::AxisVector;
 use glidepath_kinematics::{
     JOINTS, JointMotion, JointVector, Kinematics as _, KinematicsError, Mechanism,
@@ -25,6 +27,7 @@ pub(crate) struct Joints {
     /// How far a second joint is beside the first, in the machine's count. It stays so: nothing
     /// squares a machine but its way home.
     beside: JointVector,
+    compensated: CompensatedJoints,
 }
 
 impl Joints {
@@ -39,6 +42,7 @@ impl Joints {
             last: JointVector::zeros(),
             offset: JointVector::zeros(),
             has_offset: false,
+            compensated: CompensatedJoints::new(config),
         }
     }
 
@@ -48,10 +52,33 @@ impl Joints {
         self.has_offset = offset.iter().any(|offset| *offset != 0.0);
     }
 
+    /// Looks ahead along the frames of a program for where joints turn round.
+    pub(crate) fn look_ahead(&mut self, track: &Track, sequence: u64) {
+        self.compensated.look_ahead(track, sequence);
+    }
+
+    /// Whether no play of a joint is being taken up.
+    pub(crate) fn rest(&self) -> bool {
+        self.compensated.rest()
+    }
+
+    /// Writes on which side of its play each joint is.
+    pub(crate) fn write_sides(&self, sides: &mut JointVector) {
+        self.compensated.write_sides(sides);
+    }
+
+    /// The position is taken over from the drives: on which side of their play joints stand is not known any more.
+    /// Writes where joints and axes are then.
+    pub(crate) fn take_over(&mut self, joints: &mut JointVector, axes: &mut AxisVector) {
+        self.compensated.take_over(joints, axes);
+    }
+
     /// Writes into a setpoint where joints are, of which those in `follows` may have moved by
     /// themselves; the others stay where they were told to be.
     pub(crate) fn repeat(&mut self, joints: &JointVector, follows: u32, setpoint: &mut Setpoint) {
-        let counted = joints - self.offset;
+        let mut told = *joints;
+        self.compensated.stand(&mut told);
+        let counted = told - self.offset;
         let places = self.last.iter_mut().zip(counted.iter()).enumerate();
         for (_, (last, counted)) in places.filter(|(joint, _)| follows & (1 << joint) != 0) {
             *last = *counted;
@@ -77,11 +104,14 @@ impl Joints {
         setpoint.joint_position = self.last.into();
         setpoint.joint_velocity = motion.velocity.into();
         setpoint.joint_acceleration = motion.acceleration.into();
+        let mut motion = *motion;
+        motion.position += self.offset;
+        self.compensated.mean(&mut motion);
         // Joints are axes here, so that their rates go the same way as their positions.
         let near = AxisVector::from(setpoint.position);
         let axes = |joints: &JointVector| self.mechanism.forward(joints, &near);
         Ok([
-            axes(&(motion.position + self.offset))?,
+            axes(&motion.position)?,
             axes(&motion.velocity)?,
             axes(&motion.acceleration)?,
         ])
@@ -121,8 +151,13 @@ impl Joints {
 
     /// The same where they were told to be last.
     pub(crate) fn stand_there(&mut self) {
-        let joints = self.last + self.offset;
-        self.stand(&joints);
+        let mut motion = JointMotion {
+            position: self.last + self.offset,
+            velocity: JointVector::zeros(),
+            acceleration: JointVector::zeros(),
+        };
+        self.compensated.mean(&mut motion);
+        self.stand(&motion.position);
     }
 
     /// Writes into a setpoint what the joints are to do for its axes. Returns where they are then, in the
@@ -142,6 +177,10 @@ impl Joints {
         match motion {
             Ok(mut motion) => {
                 self.add_second_joints(&mut motion);
+                let joints = motion.position;
+                if !self.compensated.is_empty() {
+                    self.compensated.tell(&mut motion);
+                }
                 self.last = if self.has_offset {
                     motion.position - self.offset
                 } else {
@@ -150,7 +189,7 @@ impl Joints {
                 setpoint.joint_position = self.last.into();
                 setpoint.joint_velocity = motion.velocity.into();
                 setpoint.joint_acceleration = motion.acceleration.into();
-                Ok(motion.position)
+                Ok(joints)
             }
             Err(error) => {
                 setpoint.joint_position = self.last.into();

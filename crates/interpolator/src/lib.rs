@@ -107,6 +107,7 @@ mod block_starts;
 mod block_stop;
 mod code_words;
 mod commands;
+mod compensated;
 mod config;
 mod counters;
 mod differences;

@@ -8,8 +8,9 @@
 use crate::fault::Fault;
 use crate::feedback::Observation;
 use crate::homing::{JointsOrder, Moved};
-use crate::jog::Demand;
+use crate::jog::{Demand, Jogged};
 use core::fmt;
+use glidepath_kinematics::JointVector;
 use glidepath_link::{
     Command, EndOfEpoch, EventId, MachineState, Power, Setpoint, SetpointFrame, StateChange,
 };
@@ -197,6 +198,8 @@ pub(crate) struct Report {
     pub(crate) feed_override: f64,
     pub(crate) rapid_override: f64,
     pub(crate) jog_override: f64,
+    /// Whose demand for a jog was followed last, and its number.
+    pub(crate) jogged: Jogged,
     pub(crate) single_block: bool,
     pub(crate) reserve_stops: u64,
     pub(crate) starved_ticks: u64,
@@ -204,6 +207,8 @@ pub(crate) struct Report {
     pub(crate) moved: Moved,
     /// No epoch up to this number begins any more.
     pub(crate) barred: u64,
+    /// On which side of its play each joint is, -1 to 1.
+    pub(crate) sides: JointVector,
 }
 
 impl Report {
@@ -227,12 +232,14 @@ impl Report {
             feed_override: 0.0,
             rapid_override: 0.0,
             jog_override: 0.0,
+            jogged: Jogged::default(),
             single_block: false,
             reserve_stops: 0,
             starved_ticks: 0,
             power: Power::Simulated,
             moved: Moved::default(),
             barred: 0,
+            sides: JointVector::zeros(),
         }
     }
 }

@@ -55,6 +55,16 @@ impl Output {
         &self.published
     }
 
+    /// Whether no play of a joint is being taken up.
+    pub(crate) fn joints_rest(&self) -> bool {
+        self.joints.rest()
+    }
+
+    /// Writes on which side of its play each joint is.
+    pub(crate) fn write_sides(&self, sides: &mut JointVector) {
+        self.joints.write_sides(sides);
+    }
+
     /// The limits on the differences.
     pub(crate) const fn allowed(&self) -> &Allowed {
         &self.allowed
@@ -82,6 +92,7 @@ impl Output {
         if writer.write_moving(epoch, now, track, setpoint).is_none() {
             return Written::Nothing;
         }
+        self.joints.look_ahead(track, now.time.sequence);
         self.go_to(&setpoint.position.into())
     }
 
@@ -170,9 +181,11 @@ impl Output {
 
     /// Takes the position over from the drives.
     pub(crate) fn hand_over(&mut self, seen: &Observation) {
-        self.published = at_rest(self.limited.as_ref(), &seen.axes);
+        let (mut joints, mut axes) = (seen.joints, seen.axes);
+        self.joints.take_over(&mut joints, &mut axes);
+        self.published = at_rest(self.limited.as_ref(), &axes);
         self.joints.count_from(&seen.offset);
-        self.joints.stand(&seen.joints);
+        self.joints.stand(&joints);
         self.setpoints.begin_reference();
     }
 

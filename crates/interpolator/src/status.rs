@@ -7,6 +7,7 @@ use crate::message::{FRAMES, Report};
 use crate::retrace::frames_kept;
 use crate::track::TRACK_CAPACITY;
 use glidepath_geometry::AXES;
+use glidepath_kinematics::{JOINTS, JointCompensation};
 use glidepath_link::{
     EndOfEpoch, FrameRefusal, Grants, MachineState, MotionMode, Quantiles, Setpoint, SetpointFrame,
     Status, Text,
@@ -21,6 +22,8 @@ pub(crate) struct StatusBook {
     entering: Option<SetpointFrame>,
     /// The file that was begun last, and where the machine stood then: lines may have been executed since.
     begun: Option<(u64, [f64; AXES])>,
+    /// What is taken out of where joints are told to be.
+    compensation: [Option<&'static JointCompensation>; JOINTS],
     lateness: Histogram,
     work: Histogram,
     latency: Histogram,
@@ -48,6 +51,7 @@ impl StatusBook {
             block_starts: BlockStarts::new(frames_kept(config.period_t())),
             entering: None,
             begun: None,
+            compensation: config.compensation,
             lateness: Histogram::new(),
             work: Histogram::new(),
             latency: Histogram::new(),
@@ -167,6 +171,12 @@ impl StatusBook {
         status.away = setpoint.away;
         status.reference = setpoint.reference;
         status.joint_actual = setpoint.joint_position;
+        for (joint, by) in self.compensation.iter().enumerate() {
+            if let Some(by) = by {
+                let at = &mut status.joint_actual[joint];
+                *at = by.meant(*at, report.sides[joint]);
+            }
+        }
         status.mode = mode(report).code();
         status.power = report.power.code();
         status.path_s = setpoint.path_s;
@@ -174,6 +184,8 @@ impl StatusBook {
         status.feed_override = report.feed_override;
         status.rapid_override = report.rapid_override;
         status.jog_override = report.jog_override;
+        status.jog_client = report.jogged.client;
+        status.jog_number = report.jogged.number;
         status.effective_override = setpoint.effective_override;
         status.ticks = setpoint.number + 1;
         status.missed_ticks = setpoint.missed_ticks;

@@ -178,9 +178,11 @@ impl Interpolator<'_> {
         };
         (report.feed_override, report.rapid_override) = (feed_override, rapid_override);
         report.jog_override = self.jog.override_ratio();
+        report.jogged = self.jog.jogged();
         report.power = self.drives.power();
         report.moved = self.mover.moved();
         report.barred = self.barred;
+        self.output.write_sides(&mut report.sides);
         report.single_block = self.requests.is_single_block();
         self.account.fill(report);
     }

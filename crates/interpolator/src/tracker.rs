@@ -77,6 +77,11 @@ impl Tracker {
         Profile::to_stop(self.now(), bounds)
     }
 
+    /// How long it takes from where it set out last.
+    pub(crate) fn duration_t(&self) -> f64 {
+        self.profile.duration_t()
+    }
+
     /// True once the target is reached.
     pub(crate) fn has_arrived(&self) -> bool {
         self.elapsed_t >= self.profile.duration_t()

@@ -49,6 +49,7 @@
 
 mod axes;
 mod axis_share;
+mod compensation;
 mod core_xy;
 mod curve_rates;
 mod error;
@@ -69,6 +70,9 @@ mod watch;
 
 pub use axes::AxisList;
 pub use axis_share::{AloneLimits, AxisRates, AxisShare};
+pub use compensation::{
+    CompensationError, CompensationPoint, JointCompensation, MOST_POINTS, TAKE_UP,
+};
 pub use core_xy::CoreXy;
 pub use curve_rates::CurveRates;
 pub use error::KinematicsError;

@@ -22,7 +22,9 @@ mod time;
 
 pub use basic::{BasicArgs, InstanceArgs, OverwriteArgs, RunInstanceArgs};
 pub use command::Command;
-pub use config::{ConfigAction, ConfigArgs, ConfigSource, ConvertArgs};
+pub use config::{
+    ConfigAction, ConfigArgs, ConfigSource, ConvertArgs, ScrewArgs, ScrewUnit, Values,
+};
 pub use curves::{FitArgs, FitMethod, PreviewArgs, PreviewMethod};
 pub use ethercat::{EthercatAction, EthercatArgs, ScanArgs};
 pub use grbl::GrblArgs;

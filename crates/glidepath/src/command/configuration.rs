@@ -1,13 +1,13 @@
 //! `glidepath config`: the configuration itself.
 
-use crate::cli::{ConfigAction, ConfigArgs, ConfigSource};
+use crate::cli::{ConfigAction, ConfigArgs, ConfigSource, ScrewArgs, ScrewUnit, Values};
 use crate::command::failure::Failure;
 use crate::config::{self, keys};
 use crate::exit::Exit;
 use crate::file_error::FileError;
 use crate::output;
 use crate::text_file;
-use glidepath_migration::{from_grbl, from_klipper, from_linuxcnc};
+use glidepath_migration::{ScrewValues, from_grbl, from_klipper, from_linuxcnc, from_screw};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -117,9 +117,12 @@ const MOST_BYTES: u64 = 4 << 20;
 
 /// Converts the configuration of another control.
 fn converted(from: &ConfigSource, as_json: bool) -> Result<Exit, Failure> {
-    let (ConfigSource::FromLinuxcnc(args)
-    | ConfigSource::FromGrbl(args)
-    | ConfigSource::FromKlipper(args)) = from;
+    let args = match from {
+        ConfigSource::FromScrew(args) => return screw(args, as_json),
+        ConfigSource::FromLinuxcnc(args)
+        | ConfigSource::FromGrbl(args)
+        | ConfigSource::FromKlipper(args) => args,
+    };
     let text = text_file::read(&args.file, MOST_BYTES).map_err(FileError::open(&args.file))?;
     // Included files are named from where the first one is.
     let folder = args.file.parent().unwrap_or(Path::new(""));
@@ -132,9 +135,11 @@ fn converted(from: &ConfigSource, as_json: bool) -> Result<Exit, Failure> {
         text_file::read(&path, MOST_BYTES).map_err(|error| error.to_string())
     };
     let converted = match from {
-        ConfigSource::FromLinuxcnc(_) => from_linuxcnc(&text, &include),
         ConfigSource::FromGrbl(_) => from_grbl(&text),
         ConfigSource::FromKlipper(_) => from_klipper(&text, &include),
+        ConfigSource::FromLinuxcnc(_) | ConfigSource::FromScrew(_) => {
+            from_linuxcnc(&text, &include)
+        }
     };
     let conversion = converted.map_err(|error| Failure::Foreign {
         file: args.file.display().to_string(),
@@ -152,6 +157,31 @@ fn converted(from: &ConfigSource, as_json: bool) -> Result<Exit, Failure> {
             conversion.no_counterpart.len(),
             conversion.asked.len()
         ));
+    }
+    Ok(Exit::Done)
+}
+
+/// Makes the compensation of a joint from a measured screw.
+fn screw(args: &ScrewArgs, as_json: bool) -> Result<Exit, Failure> {
+    let text = text_file::read(&args.file, MOST_BYTES).map_err(FileError::open(&args.file))?;
+    let values = match args.values {
+        Values::Measured => ScrewValues::Measured,
+        Values::Errors => ScrewValues::Errors,
+        Values::Trims => ScrewValues::Trims,
+    };
+    let mm_per_unit = match args.unit {
+        ScrewUnit::Mm => 1.0,
+        ScrewUnit::Inch => 25.4,
+    };
+    let table = from_screw(&text, args.joint, values, mm_per_unit);
+    let table = table.map_err(|error| Failure::Foreign {
+        file: args.file.display().to_string(),
+        error,
+    })?;
+    if as_json {
+        output::object(&json!({ "configuration": table }));
+    } else {
+        output::result(&table);
     }
     Ok(Exit::Done)
 }

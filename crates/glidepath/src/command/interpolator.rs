@@ -181,6 +181,7 @@ pub(super) fn settings(config: &MachineConfig, best_effort: bool) -> Config {
         start_position: config.home(),
         feedback: feedback(config),
         gantries: gantries(config),
+        compensation: config.compensation.joints(),
         gates: config.gates(),
         stops: config.stops,
         tap_overtravel: config

@@ -1,5 +1,6 @@
 //! The judged configuration of a machine: what the rest of the program works with.
 
+use super::compensation::Compensation;
 use super::probe::ProbeConfig;
 use super::program::ProgramConfig;
 use super::spindle::SpindleConfig;
@@ -156,6 +157,8 @@ pub struct MachineConfig {
     pub home_of_joints: [Option<JointHoming>; JOINTS],
     /// Axes with a second joint, in the order of those joints, and by how much the two may differ.
     pub gantries: Vec<(Axis, f64)>,
+    /// What is taken out of where joints are told to be.
+    pub compensation: Compensation,
     /// How it is moved by hand.
     pub jog: JogConfig,
     /// What the drives say.

@@ -8,6 +8,7 @@
 //! Nothing is guessed: a key that is not known or a value out of range refuses the file, with the
 //! line, the column and the remedy.
 
+mod compensation;
 mod diagnostic;
 mod instance;
 mod judge;
@@ -20,6 +21,7 @@ mod raw;
 mod spindle;
 mod tree;
 
+pub use compensation::Compensation;
 pub use diagnostic::{ConfigDiagnostic, ConfigError, DiagnosticReport};
 pub use instance::{INSTANCE_RULE, is_instance_name};
 pub(crate) use judge::{Judge, Range};

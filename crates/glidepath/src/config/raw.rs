@@ -20,6 +20,8 @@ pub(super) struct RawConfig {
     #[serde(default)]
     pub(super) home: BTreeMap<Spanned<String>, Spanned<RawHome>>,
     #[serde(default)]
+    pub(super) compensation: BTreeMap<Spanned<String>, Spanned<RawCompensation>>,
+    #[serde(default)]
     pub(super) path: RawPath,
     #[serde(default)]
     pub(super) interpolator: RawInterpolator,
@@ -218,6 +220,15 @@ pub(super) struct RawHome {
     pub(super) ignore_limits: bool,
     pub(super) search_travel: Optional<f64>,
     pub(super) clearance: Optional<f64>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct RawCompensation {
+    pub(super) backlash: Optional<f64>,
+    pub(super) positions: Optional<Vec<f64>>,
+    pub(super) corrections: Optional<Vec<f64>>,
+    pub(super) corrections_down: Optional<Vec<f64>>,
 }
 
 #[derive(Debug, Default, Deserialize)]

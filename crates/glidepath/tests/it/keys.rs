@@ -57,6 +57,9 @@ fn machine_with(key: &str) -> Table {
         put(&mut machine, "axis.Z.min_position", Value::Integer(500));
         return machine;
     }
+    if key.starts_with("compensation.") {
+        return shipped("mill");
+    }
     if key.starts_with("home.") {
         let mut machine = shipped("mill");
         put(&mut machine, "home.J0.shared", Value::Boolean(false));

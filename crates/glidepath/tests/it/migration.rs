@@ -96,8 +96,11 @@ fn values_are_those_of_the_other_control_in_our_units() {
     let mill = machine("linuxcnc", "mill-mm.ini");
     // The stricter one of axis and joint.
     assert_eq!(mill.axes[0].travel, Some((-0.5, 419.5)));
-    near(mill.axes[0].max_velocity, 95.0);
-    near(mill.axes[0].max_acceleration, 900.0);
+    // Its play is taken up with what plans leave free of the drive's limits.
+    let drive = *mill.compensation.joints()[0].unwrap().drive();
+    near(drive.velocity, 95.0);
+    near(drive.acceleration, 900.0);
+    assert!(mill.axes[0].max_velocity < 95.0);
     assert_eq!(mill.program.subroutine_path.len(), 2);
     let home = mill.home_of_joints[0].unwrap();
     assert_eq!(

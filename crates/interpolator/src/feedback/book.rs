@@ -15,7 +15,7 @@ use crate::config::Config;
 use crate::homing::{Conductor, Pair};
 use crate::message::Report;
 use glidepath_geometry::AxisVector;
-use glidepath_kinematics::{JOINTS, JointVector, Kinematics as _, Mechanism};
+use glidepath_kinematics::{JOINTS, JointCompensation, JointVector, Kinematics as _, Mechanism};
 use glidepath_link::{ContactKind, FaultCause, Feedback, Power, Status};
 
 /// Slower than this a joint is at rest, mm/s or °/s: more than a count in a millisecond.
@@ -44,6 +44,10 @@ pub(crate) struct DriveBook {
     pub(super) revolutions: RevolutionWatch,
     /// What is added to the drives' count.
     pub(super) offset: JointVector,
+    /// What is taken out of where joints are told to be.
+    pub(super) compensation: [Option<&'static JointCompensation>; JOINTS],
+    /// On which side of its play each joint is.
+    pub(super) sides: JointVector,
     /// Joints whose drives say that they know where they are, and are not believed.
     pub(super) unhomed: u32,
     /// The way home that drives look for themselves.
@@ -93,6 +97,8 @@ impl DriveBook {
             adaptive: AdaptiveWatch::new(settings.adaptive, ns(settings.stale_after)),
             revolutions: RevolutionWatch::new(ns(settings.stale_after)),
             offset: JointVector::zeros(),
+            compensation: config.compensation,
+            sides: JointVector::zeros(),
             unhomed: 0,
             search: DriveSearch::default(),
             handover: 0,
@@ -133,6 +139,7 @@ impl DriveBook {
         self.unhomed &= !self.search.note(report);
         self.ordered &= report.fault.is_none() && is_on;
         self.demands.push(&report.setpoint);
+        self.sides = report.sides;
         self.probe.note(report);
         self.adaptive.note(report);
         self.revolutions.note(report);
@@ -159,7 +166,7 @@ impl DriveBook {
             } else {
                 joints.position[joint]
             };
-            position[joint] = counted + self.offset[joint];
+            position[joint] = self.meant(joint, counted);
         }
         let age_ns = self.age_ns(&joints, now_ns);
         let axes = self.mechanism.forward(&position, &self.near);
@@ -247,12 +254,31 @@ impl DriveBook {
         }
     }
 
+    /// Where a joint is when its drive counts so much, in the machine's count.
+    pub(super) fn meant(&self, joint: usize, counted: f64) -> f64 {
+        let place = counted + self.offset[joint];
+        self.compensation[joint].map_or(place, |by| by.meant(place, self.sides[joint]))
+    }
+
+    /// What is added for a place of a joint, in the middle of its play.
+    pub(super) fn added(&self, joint: usize, place: f64) -> f64 {
+        self.compensation[joint].map_or(0.0, |by| by.told(place, 0.0) - place)
+    }
+
+    fn all_meant(&self, counted: &JointVector) -> JointVector {
+        let mut places = counted + self.offset;
+        for joint in (0..JOINTS).filter(|joint| self.compensation[*joint].is_some()) {
+            places[joint] = self.meant(joint, counted[joint]);
+        }
+        places
+    }
+
     /// How far the joints of a pair are apart, if both have found their home.
     pub(super) fn apart(&self, joints: &Joints, pair: &Pair) -> Option<f64> {
         let (first, second) = pair.joints;
         let bits = 1 << first | 1 << second;
         let are_known = self.found & joints.claimed & bits == bits;
-        let place = |joint: usize| joints.position[joint] + self.offset[joint];
+        let place = |joint: usize| self.meant(joint, joints.position[joint]);
         are_known.then(|| (place(second) - place(first)).abs())
     }
 
@@ -263,7 +289,7 @@ impl DriveBook {
         status.homed = self.homed(&joints);
         status.drive_faults = joints.fault;
         status.feedback_age_ns = self.age_ns(&joints, now_ns);
-        status.joint_actual = (JointVector::from(joints.position) + self.offset).into();
+        status.joint_actual = self.all_meant(&joints.position.into()).into();
         status.following_error = self.following.errors();
         status.following_peak = self.following.peaks();
         status.adaptive_feed = self.adaptive.told() * self.revolutions.told();
@@ -274,7 +300,7 @@ impl DriveBook {
         status.contact_kind = contact
             .map_or(ContactKind::None, |contact| contact.kind)
             .code();
-        let joints = contact.map(|contact| contact.joints + self.offset);
+        let joints = contact.map(|contact| self.all_meant(&contact.joints));
         if let Some(Ok(axes)) = joints.map(|joints| self.mechanism.forward(&joints, &self.near)) {
             status.contact = axes.into();
         }

@@ -127,8 +127,9 @@ impl DriveBook {
             refuse(joints.claimed & (1 << joint) != 0, Objection::Unreported)?;
             joints.position[joint]
         };
-        let shift = position - counted - self.offset[joint];
-        self.offset[joint] = position - counted;
+        let offset = position + self.added(joint, position) - counted;
+        let shift = offset - self.offset[joint];
+        self.offset[joint] = offset;
         self.unhomed |= 1 << joint;
         self.search.give_up(1 << joint);
         self.found &= !(1 << joint);

@@ -150,7 +150,9 @@ impl DriveBook {
                 offset,
             } => {
                 for joint in (0..JOINTS).filter(|joint| home & (1 << joint) != 0) {
-                    self.offset[joint] = offset[joint];
+                    // At its home a joint is where its table says, on neither side of its play, however it came there.
+                    let place = report.setpoint.joint_position[joint] + offset[joint];
+                    self.offset[joint] = offset[joint] + self.added(joint, place);
                     self.found_in[joint] = joints.boot_id[joint];
                 }
                 self.found |= home;

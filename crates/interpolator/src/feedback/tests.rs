@@ -13,6 +13,7 @@ mod adaptive;
 mod answers;
 mod bench;
 mod client;
+mod compensation;
 mod following;
 mod gantry;
 mod gates;

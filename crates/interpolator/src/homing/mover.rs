@@ -5,6 +5,10 @@ use crate::config::Config;
 use crate::tracker::{Bounds, Motion, Target, Tracker};
 use glidepath_kinematics::{JOINTS, JointMotion, JointVector};
 
+/// Share of its limits that a compensated joint uses on its way home: what is moved here is its drive, and its axis, which
+/// may be a hundredth faster, keeps the limits of axes.
+const COMPENSATED: f64 = 0.95;
+
 /// What moves the joints, each for itself.
 #[derive(Debug)]
 pub(crate) struct Mover {
@@ -20,11 +24,7 @@ pub(crate) struct Mover {
 impl Mover {
     pub(crate) fn new(config: &Config) -> Self {
         Self {
-            bounds: config.joint_bounds().map(|bounds| Bounds {
-                v: bounds.velocity,
-                a: bounds.acceleration,
-                j: bounds.jerk,
-            }),
+            bounds: bounds(config),
             trackers: [Tracker::new(Motion::at(0.0)); JOINTS],
             is_active: false,
             ends: false,
@@ -131,6 +131,21 @@ fn brake(tracker: &mut Tracker, bounds: &Bounds) {
     if !is_at_rest(tracker) {
         tracker.aim(Target::Speed(0.0), *bounds);
     }
+}
+
+fn bounds(config: &Config) -> [Bounds; JOINTS] {
+    let mut bounds = config.joint_bounds().map(|bounds| Bounds {
+        v: bounds.velocity,
+        a: bounds.acceleration,
+        j: bounds.jerk,
+    });
+    let compensated = bounds.iter_mut().zip(&config.compensation);
+    for (bounds, _) in compensated.filter(|(_, made)| made.is_some()) {
+        for limit in [&mut bounds.v, &mut bounds.a, &mut bounds.j] {
+            *limit *= COMPENSATED;
+        }
+    }
+    bounds
 }
 
 fn is_at_rest(tracker: &Tracker) -> bool {

@@ -13,6 +13,7 @@
 
 mod block_ends;
 mod commands;
+mod compensation;
 mod jog;
 mod jog_in_a_hold;
 mod jog_random;

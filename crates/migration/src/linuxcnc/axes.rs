@@ -7,6 +7,9 @@ use crate::inputs::{At, Fate};
 /// LinuxCNC's values for no limit are beyond this.
 const ENDLESS: f64 = 1e9;
 
+/// The largest play that is taken, mm.
+const MOST_PLAY: f64 = 10.0;
+
 /// How two values of the same kind become one.
 type Stricter = fn(f64, f64) -> f64;
 
@@ -25,6 +28,49 @@ impl Machine {
             if !done.contains(&letter) {
                 done.push(letter);
                 self.axis(letter, joint);
+                self.backlash(letter, joint);
+            }
+        }
+    }
+
+    /// The play of a joint, where joints are axes and each axis has one.
+    fn backlash(&mut self, letter: char, joint: usize) {
+        let own = self
+            .letters
+            .iter()
+            .filter(|other| **other == letter)
+            .count()
+            == 1;
+        if self.kinematics != Some("trivial") || !own {
+            return;
+        }
+        let section = format!("JOINT_{joint}");
+        let Some((at, value)) = self.inputs.number(&section, "BACKLASH") else {
+            return;
+        };
+        let has_table = self.inputs.find(&section, "COMP_FILE").is_some();
+        match (value, self.units.of_letter(letter)) {
+            (Ok(_), _) if has_table => {
+                let note = "not used there beside COMP_FILE, whose two columns differ by it";
+                self.inputs.decide(at, Fate::Changed, note);
+            }
+            (Ok(0.0), _) => {
+                let note = "none, as where it is left out here";
+                self.inputs.decide(at, Fate::Converted, note);
+            }
+            (Ok(value), Some(factor)) if value > 0.0 && value * factor <= MOST_PLAY => {
+                let table = format!("compensation.J{joint}");
+                let from = self.inputs.name(at);
+                self.draft
+                    .known(&table, "backlash", float(value * factor), &from);
+                let note = format!(
+                    "{table}.backlash: taken up inside the joint's limits, of which plans leave a share free"
+                );
+                self.inputs.decide(at, Fate::Changed, note);
+            }
+            _ => {
+                let note = "no play, or not in a unit that is known";
+                self.inputs.decide(at, Fate::NoCounterpart, note);
             }
         }
     }

@@ -58,8 +58,14 @@ const JOINT_KEYS: [(&str, &str); 20] = [
     ),
     ("FERROR", "see feedback.following_error"),
     ("MIN_FERROR", "see feedback.min_following_error"),
-    ("BACKLASH", "it is compensated by the drive"),
-    ("COMP_FILE", "it is compensated by the drive"),
+    (
+        "BACKLASH",
+        "it is converted where joints are axes and each axis has one; else see compensation.J0.backlash",
+    ),
+    (
+        "COMP_FILE",
+        "`glidepath config from-screw FILE --joint J0 --values measured` makes its table (trims, if COMP_FILE_TYPE is 1)",
+    ),
     ("TYPE", "letters say which axes turn"),
     ("UNITS", "units are those of [TRAJ]"),
     ("P", "the drive's control loop"),

@@ -23,7 +23,17 @@ pub(in crate::command) fn settings(config: &MachineConfig) -> ServoSettings {
     let axes = of_joints
         .into_iter()
         .filter_map(|of| config.axes.iter().find(|axis| axis.axis == of))
-        .map(|axis| (axis.max_velocity, axis.max_acceleration, axis.max_jerk));
+        .zip(config.compensation.joints())
+        .map(|(axis, compensation)| {
+            // What is left of a compensated joint's limits is what plans keep to; its drive can do more.
+            compensation.map_or(
+                (axis.max_velocity, axis.max_acceleration, axis.max_jerk),
+                |made| {
+                    let drive = made.drive();
+                    (drive.velocity, drive.acceleration, drive.jerk)
+                },
+            )
+        });
     let drives = settings.stop.iter_mut().zip(&mut settings.jump);
     for ((stop, jump), (velocity, acceleration, jerk)) in drives.zip(joints.chain(axes)) {
         *stop = StopLimits { acceleration, jerk };

@@ -5,6 +5,7 @@
 mod adaptive_feed;
 mod axes;
 mod axis_share;
+mod compensation;
 mod feedback;
 mod home;
 mod horizon;
@@ -58,10 +59,10 @@ pub(super) fn judge(
     let names: Vec<Axis> = axes.iter().map(|axis| axis.axis).collect();
     let mechanism = judge.mechanism(&raw.machine, &names);
     let joint_limits = judge.joints(&raw.joint, &mechanism);
-    let given: Vec<_> = raw_axes()
-        .filter_map(|(axis, raw)| Some((axis, raw.as_ref()?)))
-        .collect();
+    let given = raw_axes().filter_map(|(axis, raw)| Some((axis, raw.as_ref()?)));
+    let given: Vec<_> = given.collect();
     judge.complete(&mut axes, &given, (&mechanism, &joint_limits));
+    let compensation = judge.compensation(&raw.compensation, &mechanism, &mut axes, &given);
     let axis_share = judge.axis_share(&mechanism, &joint_limits, &axes);
     let interpolator = {
         let raw_axes: Vec<_> = raw_axes()
@@ -101,6 +102,7 @@ pub(super) fn judge(
     let config = MachineConfig {
         mechanism,
         home_of_joints,
+        compensation,
         gantries,
         joint_limits,
         axis_share,

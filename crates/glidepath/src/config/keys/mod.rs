@@ -5,6 +5,7 @@
 //! the test.
 
 mod adaptive_feed;
+mod compensation;
 mod key;
 mod mechanisms;
 mod probing;
@@ -22,6 +23,7 @@ pub fn all() -> impl Iterator<Item = &'static Key> {
         tables::AXIS,
         tables::JOINT,
         tables::HOME,
+        compensation::COMPENSATION,
         tables::PATH,
         tables::INTERPOLATOR,
         tables::JOG,
@@ -81,7 +83,7 @@ fn general(name: &str) -> String {
     let mut parts: Vec<&str> = name.split('.').collect();
     match parts.as_mut_slice() {
         ["axis", axis, ..] if axis.len() == 1 && "XYZABCUVW".contains(*axis) => *axis = "X",
-        ["joint" | "home", joint, ..] if is_joint(joint) => *joint = "J0",
+        ["joint" | "home" | "compensation", joint, ..] if is_joint(joint) => *joint = "J0",
         ["m_codes", code, ..] if code.starts_with('M') => *code = "M6",
         _ => {}
     }

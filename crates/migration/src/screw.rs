@@ -1,0 +1,156 @@
+//! The conversion of a measured screw: a table of positions and what was measured there, to `[compensation.J0]`.
+//!
+//! The input is LinuxCNC's compensation file (`COMP_FILE`: nominal, forward, reverse), or the columns of a laser or a
+//! gauge, apart by spaces, tabs, commas or semicolons. Lines that begin with `#`, `;` or a letter are none of the table.
+
+use crate::draft::float;
+use crate::ini::ReadError;
+use std::fmt::Write as _;
+
+/// What the second and third column are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ScrewValues {
+    /// Where the carriage was when it was told to be at the first column: LinuxCNC's `COMP_FILE_TYPE = 0`.
+    Measured,
+    /// How far beyond the first column it was.
+    Errors,
+    /// What is to be added to the first column: LinuxCNC's `COMP_FILE_TYPE = 1`.
+    Trims,
+}
+
+/// Measured values that are further than this from their positions are none, in the unit of the file.
+const FARTHEST: f64 = 10.0;
+
+/// The table of a joint, in TOML, from that of a measurement in units of so many mm (or degrees).
+///
+/// # Errors
+/// A line that is no row of the table.
+pub fn from_screw(
+    text: &str,
+    joint: usize,
+    values: ScrewValues,
+    mm_per_unit: f64,
+) -> Result<String, ReadError> {
+    let mut rows: Vec<[f64; 3]> = Vec::new();
+    let mut is_two_way = false;
+    for (line, number) in text.lines().zip(1_usize..) {
+        let line = line.trim();
+        if line.is_empty() || line.starts_with(|c: char| c == '#' || c == ';' || c.is_alphabetic())
+        {
+            continue;
+        }
+        let row = row(line, values).map_err(|reason| ReadError {
+            place: format!("line {number}"),
+            reason,
+        })?;
+        is_two_way |= row.2;
+        rows.push([row.0, row.1[0], row.1[1]].map(|value| value * mm_per_unit));
+    }
+    if rows.len() < 2 {
+        return Err(ReadError {
+            place: "the file".to_owned(),
+            reason: format!("{} rows with numbers: a table has two at least", rows.len()),
+        });
+    }
+    rows.sort_by(|one, other| one[0].total_cmp(&other[0]));
+    let column = |k: usize| {
+        let values: Vec<String> = rows.iter().map(|row| rounded(row[k])).collect();
+        values.join(", ")
+    };
+    let mut toml = format!("[compensation.J{joint}]\n");
+    // Writing to a String does not fail.
+    let _ = writeln!(toml, "positions = [{}]", column(0));
+    let _ = writeln!(toml, "corrections = [{}]", column(1));
+    if is_two_way {
+        let _ = writeln!(toml, "corrections_down = [{}]", column(2));
+    }
+    Ok(toml)
+}
+
+/// A tenth of a nanometre is enough, and reads better than sixteen digits.
+fn rounded(value: f64) -> String {
+    let value = (value * 1e7).round() / 1e7;
+    // No sign of nothing.
+    float(value + 0.0)
+}
+
+/// Position, corrections up and down, and whether both were given.
+fn row(line: &str, values: ScrewValues) -> Result<(f64, [f64; 2], bool), String> {
+    let is_between = |c: char| c.is_whitespace() || c == ',' || c == ';';
+    let words = line.split(is_between).filter(|word| !word.is_empty());
+    let numbers: Result<Vec<f64>, String> = words
+        .map(|word| {
+            let number = word.parse::<f64>().ok().filter(|number| number.is_finite());
+            number.ok_or_else(|| format!("`{word}` is no number"))
+        })
+        .collect();
+    let numbers = numbers?;
+    let (at, up, down) = match *numbers {
+        [at, up] => (at, up, None),
+        [at, up, down] => (at, up, Some(down)),
+        _ => {
+            return Err(format!(
+                "{} columns; a row is a position and one or two values",
+                numbers.len()
+            ));
+        }
+    };
+    let correction = |value: f64| match values {
+        ScrewValues::Measured => at - value,
+        ScrewValues::Errors => -value,
+        ScrewValues::Trims => value,
+    };
+    let corrections = [correction(up), correction(down.unwrap_or(up))];
+    let far = corrections.iter().find(|value| value.abs() > FARTHEST);
+    if let Some(far) = far {
+        return Err(format!(
+            "a correction of {far} at {at}: other values than were said? (measured positions, errors or trims)"
+        ));
+    }
+    Ok((at, corrections, down.is_some()))
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test")]
+
+    use super::*;
+
+    #[test]
+    fn the_file_of_linuxcnc_is_a_table() {
+        // nominal, forward, reverse, as its documentation has it.
+        let text = "# X of the mill\n0.0 0.0 -0.0015\n100 100.003 100.001\n50,49.998;49.9965\n";
+        let toml = from_screw(text, 0, ScrewValues::Measured, 1.0).unwrap();
+        assert_eq!(
+            toml,
+            "[compensation.J0]\npositions = [0.0, 50.0, 100.0]\n\
+             corrections = [0.0, 0.002, -0.003]\ncorrections_down = [0.0015, 0.0035, -0.001]\n"
+        );
+    }
+
+    #[test]
+    fn errors_trims_and_inches_mean_what_they_say() {
+        let text = "position,error\n-1 0.0002\n1 -0.0001\n";
+        let toml = from_screw(text, 2, ScrewValues::Errors, 25.4).unwrap();
+        assert_eq!(
+            toml,
+            "[compensation.J2]\npositions = [-25.4, 25.4]\ncorrections = [-0.00508, 0.00254]\n"
+        );
+        let toml = from_screw(text, 2, ScrewValues::Trims, 25.4).unwrap();
+        assert!(toml.contains("corrections = [0.00508, -0.00254]"), "{toml}");
+    }
+
+    #[test]
+    fn what_is_no_table_is_told_by_its_line() {
+        let of = |text: &str| from_screw(text, 0, ScrewValues::Errors, 1.0).unwrap_err();
+        assert_eq!(of("0 0\n1 x\n").to_string(), "line 2: `x` is no number");
+        assert!(of("0 0 0 0\n").to_string().contains("4 columns"));
+        assert!(of("0 0\n").to_string().contains("two at least"));
+        // Measured positions given as errors.
+        assert!(
+            of("0 0\n100 100.003\n")
+                .to_string()
+                .contains("other values")
+        );
+    }
+}
