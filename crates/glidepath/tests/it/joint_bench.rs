@@ -7,6 +7,8 @@
 #![allow(
     clippy::unwrap_used,
     clippy::expect_used,
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
     reason = "a test that fails may panic"
 )]
 
@@ -31,16 +33,23 @@ struct Row {
 
 /// How long a plan takes, s.
 fn planned_s(name: &str, row: &Row, corners: &str, effort: &str) -> f64 {
+    let program = std::fs::read_to_string(format!("{FOLDER}/programs/{name}.ngc")).unwrap();
+    time_of(name, &program, row, corners, effort)
+}
+
+/// The same for another program of its machine.
+fn time_of(name: &str, program: &str, row: &Row, corners: &str, effort: &str) -> f64 {
     let machine = format!("{FOLDER}/machines/{}.toml", row.machine);
     let machine = std::fs::read_to_string(machine).unwrap();
     let corners = format!("[path]\ncorners = \"{corners}\"");
     let folder = tempfile::tempdir().unwrap();
     let config = folder.path().join("machine.toml");
     std::fs::write(&config, machine.replace("[path]", &corners)).unwrap();
-    let program = format!("{FOLDER}/programs/{name}.ngc");
-    let config = config.to_str().unwrap();
+    let file = folder.path().join("program.ngc");
+    std::fs::write(&file, program).unwrap();
+    let (program, config) = (file.to_str().unwrap(), config.to_str().unwrap());
     let output = glidepath(&[
-        "plan", &program, "--config", config, "--effort", effort, "--json",
+        "plan", program, "--config", config, "--effort", effort, "--json",
     ]);
     assert!(output.status.success(), "{name}, {corners}, {effort}");
     let report = object(&output);
@@ -73,5 +82,37 @@ fn joints_are_used_nearly_as_far_as_they_can() {
                 "{name}, {corners}: {time_s} s, with stops {stops_s}"
             );
         }
+    }
+}
+
+/// What takes longer than a few seconds is planned as it comes, and no other way is there to choose.
+#[test]
+fn long_programs_are_as_fast_as_short_ones() {
+    let rows = std::fs::read_to_string(format!("{FOLDER}/optima.json")).unwrap();
+    let rows: BTreeMap<String, Row> = serde_json::from_str(&rows).unwrap();
+    // These end where they begin, so that the time of each round is known.
+    for name in ["cx_square20", "hx_square20", "ld_square20"] {
+        let row = &rows[name];
+        let once = std::fs::read_to_string(format!("{FOLDER}/programs/{name}.ngc")).unwrap();
+        let moves: Vec<&str> = once.lines().filter(|line| line.starts_with("G1")).collect();
+        let head: Vec<&str> = once
+            .lines()
+            .take_while(|line| !line.starts_with("G1"))
+            .collect();
+        let rounds = (12.0 / row.optimum_s).ceil();
+        let mut text = head.join("\n");
+        for _ in 0..rounds as usize {
+            text = format!("{text}\n{}", moves.join("\n"));
+        }
+        text.push_str("\nM2\n");
+        let time_s = time_of(name, &text, row, "inner", "optimal");
+        let ratio = time_s / (rounds * row.optimum_s);
+        eprintln!("{name:12} {rounds} rounds {time_s:.3} s {ratio:.3}");
+        assert!(ratio <= INNER_R, "{name}: {ratio}");
+        let fast_s = time_of(name, &text, row, "inner", "fast");
+        assert!(
+            time_s <= fast_s,
+            "{name}: {time_s} s, along the path {fast_s}"
+        );
     }
 }

