@@ -4,6 +4,10 @@
 //! stays within tolerance of the piece, because distances between two straight motions are convex.
 //! So whatever else fails, a leg brings the motion to the next vertex. Its seven-phase profile
 //! keeps the limits of every axis, and of every joint, at every instant, hence all differences over a period.
+//!
+//! From a rest beside a cut that is to be [straight](crate::in_tube::window), two legs lead to its end: to the
+//! nearest point of the piece, and along it. One alone would be askew all the way: beside the line by what the
+//! tolerance allowed at the corner before, in the middle of the move.
 
 use crate::in_tube::path::{Bounds, TubePiece, directional, top_v};
 use crate::in_tube::period::Period;
@@ -12,13 +16,18 @@ use crate::scurve::Profile;
 use glidepath_geometry::{AxisVector, feed_length};
 use glidepath_program::Limits;
 
+/// Up to here a piece is to be straight: behind its middle half the tolerance is for the next corner.
+const STRAIGHT_UNTIL: f64 = 0.75;
+
 /// A straight motion from rest to rest.
 #[derive(Debug, Clone)]
 pub(crate) struct StopLeg {
     from: AxisVector,
     pub(crate) to: AxisVector,
-    /// The piece at whose end it ends.
+    /// The piece at whose end it ends, or which it only comes to.
     pub(crate) piece: usize,
+    /// How long the leg takes that is left to the end of the piece, if it only comes to the piece.
+    rest_t: Option<f64>,
     /// Change of every axis per unit of path.
     along: AxisVector,
     profile: Profile,
@@ -32,7 +41,26 @@ impl StopLeg {
         index: usize,
         piece: &TubePiece,
     ) -> Option<Self> {
-        let displacement = piece.end - from;
+        if let Some(to) = nearest_if_beside(piece, &from)
+            && let Some(there) = Self::between((limits, joints), (from, to), index, piece)
+            && let Some(on) = Self::between((limits, joints), (to, piece.end), index, piece)
+        {
+            return Some(Self {
+                rest_t: Some(on.duration_t()),
+                ..there
+            });
+        }
+        Self::between((limits, joints), (from, piece.end), index, piece)
+    }
+
+    /// From one place to another near a piece.
+    fn between(
+        (limits, joints): (&Limits, Option<&JointRows>),
+        (from, to): (AxisVector, AxisVector),
+        index: usize,
+        piece: &TubePiece,
+    ) -> Option<Self> {
+        let displacement = to - from;
         let length_s = feed_length(&displacement);
         if length_s <= 0.0 || !length_s.is_finite() {
             return None;
@@ -49,8 +77,9 @@ impl StopLeg {
         let profile = Profile::new(0.0, 0.0, length_s, bounds.speed_v, bounds.path)?;
         Some(Self {
             from,
-            to: piece.end,
+            to,
             piece: index,
+            rest_t: None,
             along,
             profile,
         })
@@ -58,6 +87,24 @@ impl StopLeg {
 
     pub(crate) const fn duration_t(&self) -> f64 {
         self.profile.duration_t()
+    }
+
+    /// From its start until the end of the piece, with the leg that may be left behind it.
+    pub(crate) fn arrival_t(&self) -> f64 {
+        self.duration_t() + self.rest_t.unwrap_or(0.0)
+    }
+
+    /// The piece from which on the next leg leads.
+    pub(crate) const fn next_piece(&self) -> usize {
+        match self.rest_t {
+            Some(_) => self.piece,
+            None => self.piece + 1,
+        }
+    }
+
+    /// Whether it ends at the end of its piece.
+    pub(crate) const fn ends_piece(&self) -> bool {
+        self.rest_t.is_none()
     }
 
     /// When it begins to slow down for its end, s after its start: at once if it has not the length
@@ -95,4 +142,17 @@ impl StopLeg {
             rest_at_end: false,
         }
     }
+}
+
+/// The point of a straight piece next to a place that is beside it by more than is allowed in its middle, if that is
+/// not behind it.
+fn nearest_if_beside(piece: &TubePiece, from: &AxisVector) -> Option<AxisVector> {
+    let allowed_mm = piece.straight_mm?;
+    let along = piece.end - piece.start;
+    let share = (from - piece.start).dot(&along) / along.norm_squared();
+    if share >= STRAIGHT_UNTIL {
+        return None;
+    }
+    let across = from - (piece.start + along * share);
+    (across.norm() > allowed_mm).then(|| piece.start + along * share.max(0.0))
 }

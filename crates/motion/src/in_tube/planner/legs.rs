@@ -82,7 +82,7 @@ impl PlannerState {
             return None;
         }
         self.is_over = next.is_resting
-            && self.reference_path.is_last(next.leg.piece)
+            && self.ends_path(&next.leg)
             && self.follower.reachable.is_at_end(&self.reference_path);
         self.active = ActiveMotion::Legs {
             leg_t: if next.is_resting { 0.0 } else { next.leg_t },
@@ -93,12 +93,17 @@ impl PlannerState {
         Some(period)
     }
 
+    /// Whether a leg ends where the path does.
+    fn ends_path(&self, leg: &StopLeg) -> bool {
+        leg.ends_piece() && self.reference_path.is_last(leg.piece)
+    }
+
     /// A period later, past every vertex on the way. `None` if more of the path is needed.
     fn passed_on(&mut self, now: &LegProgress) -> Option<LegProgress> {
         let mut next = now.later(self.period_t);
-        while next.is_resting && !self.reference_path.is_last(next.leg.piece) {
+        while next.is_resting && !self.ends_path(&next.leg) {
             let leg_t = next.leg_t - next.leg.duration_t();
-            let leg = self.leg_from(next.leg.to, next.leg.piece + 1)?;
+            let leg = self.leg_from(next.leg.to, next.leg.next_piece())?;
             if let Some(baseline) = &mut self.baseline {
                 let machine = (&self.limits, self.joint_rows.as_ref());
                 baseline.end_t(machine, &self.reference_path, leg.piece);
@@ -116,7 +121,9 @@ impl PlannerState {
     /// The furthest of what can be next: past the vertices, at rest at the first one, or still at
     /// rest.
     fn checked(&self, now: LegProgress, passed: LegProgress) -> LegProgress {
-        let begins = now.leg_t <= 0.0 || passed.leg.piece != now.leg.piece;
+        let is_another =
+            passed.leg.piece != now.leg.piece || passed.leg.ends_piece() != now.leg.ends_piece();
+        let begins = now.leg_t <= 0.0 || is_another;
         if !begins || self.can_go_on(&passed) {
             return passed;
         }

@@ -162,7 +162,7 @@ impl PlannerState {
         let near = NearPieces::of(&self.reference_path, &self.follower.reachable, &from);
         let leg = self.leg_from(from, near.last)?;
         if self.baseline.is_none() {
-            let end_t = self.clock_t() + leg.duration_t();
+            let end_t = self.clock_t() + leg.arrival_t();
             self.baseline = Some(Baseline::new(leg.piece, end_t));
         }
         self.active = ActiveMotion::Legs {

@@ -130,7 +130,7 @@ impl PlannerState {
             ..
         } = &self.active
         {
-            let end_t = self.clock_t() - leg_t + leg.duration_t();
+            let end_t = self.clock_t() - leg_t + leg.arrival_t();
             let machine = (&self.limits, self.joint_rows.as_ref());
             let baseline = self.baseline.as_mut()?;
             let baseline_t = baseline.end_t(machine, &self.reference_path, leg.piece)?;

@@ -33,6 +33,10 @@ pub(super) fn add<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, 
         if !sides.is_rest && place.is_on_a_bend(path, axis) {
             continue;
         }
+        let at = f64::midpoint(points[k][axis], points[k + 1][axis]);
+        if !sides.is_rest && segment.has_to_come_back(place.progress, (axis, at), sense) {
+            continue;
+        }
         let mut normal = [0.0; D];
         normal[axis] = sense / (BACK_R * radius);
         // An axis that rests in the last motion, as all do in the tail's rest, may be fast in the next one:

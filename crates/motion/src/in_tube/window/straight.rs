@@ -28,4 +28,21 @@ impl<const D: usize> ScaledSegment<D> {
         });
         straight.map_or(radius, |straight| (PLANNED_R * straight.within).min(radius))
     }
+
+    /// True if an axis at a coordinate, at a progress, is ahead of the line along the way that it goes, by more than the
+    /// line comes up until the piece has to be straight. To turn round is the lesser evil then: a slot that leans a
+    /// little would lie beside its line until that has caught up.
+    pub(super) fn has_to_come_back(
+        &self,
+        progress: f64,
+        (axis, at): (usize, f64),
+        sense: f64,
+    ) -> bool {
+        self.straight.is_some_and(|straight| {
+            let [from, to] = straight.between;
+            let line = self.start[axis] + self.tangent[axis] * (progress - self.s);
+            let comes_up = self.tangent[axis].abs() * (from - progress).max(0.0);
+            progress < to && sense * (at - line) > comes_up + straight.within
+        })
+    }
 }
