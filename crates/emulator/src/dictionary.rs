@@ -1,5 +1,6 @@
 //! The object dictionary of a drive, as CoE tells it.
 
+use crate::channels::Channels;
 use crate::eeprom::Identity;
 use std::collections::BTreeMap;
 
@@ -101,6 +102,41 @@ impl Dictionary {
         set(0x60c2, 1, 1, 1);
         set(0x60c2, 2, 1, 0xfd);
         set(0x6502, 0, 4, 1 << 7 | 1 << 5);
+        Self(objects)
+    }
+
+    /// The objects of a device that is no drive: who it is, its maps, and which of them are assigned.
+    pub(crate) fn of_channels(identity: Identity, channels: &Channels) -> Self {
+        let mut objects = BTreeMap::new();
+        let mut set = |index, sub, size, value| {
+            objects.insert((index, sub), (size, value));
+        };
+        set(0x1000, 0, 4, 0x0140_1389);
+        set(0x1018, 0, 1, 4);
+        for (sub, value) in (1..).zip(identity) {
+            set(0x1018, sub, 4, value);
+        }
+        let ways = [
+            (0x1600_u16, 0x1c12, &channels.outputs, None),
+            (0x1a00, 0x1c13, &channels.inputs, channels.assigned.as_ref()),
+        ];
+        for (first, assignment, maps, assigned) in ways {
+            for (map, entries) in (first..).zip(maps) {
+                set(map, 0, 1, u32::try_from(entries.len()).unwrap_or(0));
+                for (sub, entry) in (1..).zip(entries) {
+                    set(map, sub, 4, *entry);
+                }
+            }
+            let all: Vec<u16> = (first..).zip(maps).map(|(map, _)| map).collect();
+            let assigned = assigned.unwrap_or(&all);
+            set(assignment, 0, 1, u32::try_from(assigned.len()).unwrap_or(0));
+            for (sub, nth) in (1..).zip(0..all.len()) {
+                let map = assigned.get(nth).copied().unwrap_or(0);
+                set(assignment, sub, 2, map.into());
+            }
+        }
+        // A setting, as terminals have them from here on.
+        set(0x8000, 1, 2, 0);
         Self(objects)
     }
 

@@ -1,5 +1,6 @@
 //! The EEPROM of a device (SII): its identity, and its sync managers.
 
+use crate::channels::{Channels, INPUTS, OUTPUTS};
 use crate::memory::{EEPROM_ADDRESS, EEPROM_CONTROL, EEPROM_DATA, Memory};
 use crate::settings::{DriveSettings, ImageAccess, OutputWatchdog};
 
@@ -8,9 +9,6 @@ pub(crate) const MAILBOX: u16 = 128;
 /// Where what the master writes goes, and where it reads.
 pub(crate) const MAILBOX_OUT: u16 = 0x1000;
 pub(crate) const MAILBOX_IN: u16 = 0x1080;
-/// Where process data is.
-const OUTPUTS: u16 = 0x1100;
-const INPUTS: u16 = 0x1180;
 
 /// Vendor, product, revision, serial number.
 pub(crate) type Identity = [u32; 4];
@@ -30,6 +28,9 @@ fn checksum(bytes: &[u8]) -> u8 {
 
 /// The image of a drive with a mailbox, CoE and four sync managers, or of a device without all that.
 pub(crate) fn image(settings: &DriveSettings) -> Vec<u8> {
+    if let Some(image) = &settings.eeprom {
+        return image.clone();
+    }
     let (name, has_mailbox) = (&settings.name, settings.has_mailbox);
     let mut image = vec![0; 128];
     image[0] = 0x05;
@@ -62,6 +63,11 @@ pub(crate) fn image(settings: &DriveSettings) -> Vec<u8> {
     if has_mailbox && settings.tells_managers {
         process_categories(&mut image, settings.watchdog);
     }
+    if let Some(channels) = &settings.channels
+        && !has_mailbox
+    {
+        channel_categories(&mut image, channels);
+    }
     image.extend_from_slice(&[0xff; 64]);
     image
 }
@@ -84,6 +90,38 @@ fn process_categories(image: &mut Vec<u8>, watchdog: OutputWatchdog) {
         [s0, s1, l0, l1, control, 0, 1, kind]
     });
     category(image, 41, &managers.concat());
+}
+
+/// Which windows a simple terminal has, and what is in each. Their lengths are 0, as an EL2004 has it.
+fn channel_categories(image: &mut Vec<u8>, channels: &Channels) {
+    let (mut managers, mut inputs, mut outputs) = (Vec::new(), Vec::new(), Vec::new());
+    for (window, maps) in channels.simple_windows() {
+        let [s0, s1] = window.start.to_le_bytes();
+        let (control, kind) = if window.is_output { (0x44, 3) } else { (0, 4) };
+        managers.extend([s0, s1, 0, 0, control, 0, 9, kind]);
+        let (rows, first) = if window.is_output {
+            (&mut outputs, 0x1600_u16)
+        } else {
+            (&mut inputs, 0x1a00)
+        };
+        for (map, entries) in (first..).zip(maps) {
+            let [low, high] = map.to_le_bytes();
+            let count = u8::try_from(entries.len()).unwrap_or(0);
+            rows.extend([low, high, count, window.manager, 0, 0, 0x11, 0]);
+            for entry in entries {
+                let [bits, sub, low, high] = entry.to_le_bytes();
+                rows.extend([low, high, sub, 0, 1, bits, 0, 0]);
+            }
+        }
+    }
+    category(image, 41, &managers);
+    // Some have others between those that masters know.
+    category(image, 43, &[0; 2]);
+    for (kind, rows) in [(50, inputs), (51, outputs)] {
+        if !rows.is_empty() {
+            category(image, kind, &rows);
+        }
+    }
 }
 
 fn category(image: &mut Vec<u8>, kind: u16, data: &[u8]) {

@@ -1,10 +1,11 @@
-//! Emulated EtherCAT drives: the devices on the wire of `glidepath ethercat` in tests and on the
-//! desk.
+//! Emulated EtherCAT drives and terminals: the devices on the wire of `glidepath ethercat` in tests and
+//! on the desk.
 //!
 //! ```text
 //!   frame ─► device 0 ─► device 1 ─► … ─► frame, with answers and working counters
 //!              │ registers, EEPROM, mailbox, clock          (this crate does no I/O)
-//!              └ drive: CiA 402 at every SYNC0, motor with lag
+//!              ├ drive: CiA 402 at every SYNC0, motor with lag
+//!              └ terminal: pins that follow frames, and fall with the watchdog
 //! ```
 //!
 //! A [`Segment`] is handed frames as they come from the wire, changes them as the devices would,
@@ -16,7 +17,8 @@
 //! people bring its drives into operation, too.
 //!
 //! Devices hang in a row, or in a tree of cables of any length, and answer as real ones were seen to:
-//! garbage in the times of closed ports, terminals that note times and have no clock.
+//! garbage in the times of closed ports, terminals that note times and have no clock. Terminals have
+//! digital inputs and outputs without a mailbox, or analog ones with; any part of the line can be unplugged.
 //!
 //! What it does not have: redundancy, segmented SDO and complete access, hot connect.
 //!
@@ -36,6 +38,7 @@
 //! ```
 
 mod cable;
+mod channels;
 mod clock;
 mod coe;
 mod device;
@@ -44,6 +47,7 @@ mod drive;
 mod eeprom;
 mod frame;
 mod memory;
+mod pins;
 mod power;
 mod process;
 mod segment;
@@ -52,7 +56,9 @@ mod states;
 mod upset;
 
 pub use cable::Cable;
+pub use channels::Channels;
 pub use clock::ClockKind;
+pub use pins::OutputRecord;
 pub use segment::{Segment, SyncRecord};
 pub use settings::{DriveSettings, HomeSwitch, ImageAccess, Maps, OutputWatchdog, SyncType};
 pub use upset::Upset;

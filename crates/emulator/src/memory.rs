@@ -10,6 +10,10 @@ pub(crate) const AL_STATUS: u16 = 0x0130;
 pub(crate) const AL_CODE: u16 = 0x0134;
 pub(crate) const WATCHDOG_DIVIDER: u16 = 0x0400;
 pub(crate) const WATCHDOG_OUTPUTS: u16 = 0x0420;
+/// Bit 0: the watchdog of outputs has not expired.
+pub(crate) const WATCHDOG_STATUS: u16 = 0x0440;
+/// How often it has.
+pub(crate) const WATCHDOG_COUNT: u16 = 0x0442;
 pub(crate) const EEPROM_CONTROL: u16 = 0x0502;
 pub(crate) const EEPROM_ADDRESS: u16 = 0x0504;
 pub(crate) const EEPROM_DATA: u16 = 0x0508;

@@ -3,8 +3,10 @@
 use crate::cable::{Cable, passages};
 use crate::device::Device;
 use crate::frame::{Datagram, datagrams};
+use crate::pins::OutputRecord;
 use crate::settings::DriveSettings;
 use crate::upset::Upset;
+use core::ops::Range;
 
 pub use crate::device::SyncRecord;
 
@@ -57,6 +59,7 @@ impl Segment {
     pub fn keep_records(&mut self) {
         for device in &mut self.devices {
             device.records.get_or_insert_default();
+            device.pins.records.get_or_insert_default();
         }
     }
 
@@ -73,6 +76,43 @@ impl Segment {
         if let Some(device) = self.devices.get_mut(drive) {
             device.upset(upset, now_ns);
         }
+    }
+
+    /// Takes devices from the wire, or puts them back: no frame reaches them meanwhile.
+    pub fn unplug(&mut self, devices: Range<usize>, is_away: bool, now_ns: u64) {
+        self.advance(now_ns);
+        for device in self.devices.get_mut(devices).unwrap_or_default() {
+            device.is_unplugged = is_away;
+        }
+    }
+
+    /// Something comes to an input of a device: a bit of its inputs, in their order.
+    pub fn set_input(&mut self, device: usize, bit: usize, is_high: bool) {
+        if let Some(device) = self.devices.get_mut(device) {
+            device.change_inputs(|pins| pins.set_bit(bit, is_high));
+        }
+    }
+
+    /// The same for whole bytes of them, from one on.
+    pub fn set_input_bytes(&mut self, device: usize, from: usize, bytes: &[u8]) {
+        if let Some(device) = self.devices.get_mut(device) {
+            device.change_inputs(|pins| pins.set_inputs(from, bytes));
+        }
+    }
+
+    /// What the outputs of a device are, in the order of its windows; nothing of a drive.
+    #[must_use]
+    pub fn outputs(&self, device: usize) -> &[u8] {
+        let device = self.devices.get(device);
+        device.map_or(&[][..], |device| &device.pins.outputs)
+    }
+
+    /// The changes of the outputs of a device since this was asked last; none before
+    /// [`Segment::keep_records`].
+    pub fn take_output_records(&mut self, device: usize) -> Vec<OutputRecord> {
+        let device = self.devices.get_mut(device);
+        let records = device.and_then(|device| device.pins.records.as_mut());
+        records.map(core::mem::take).unwrap_or_default()
     }
 
     /// Lets time pass without a frame.
@@ -103,7 +143,11 @@ impl Segment {
             return 0;
         };
         let mut counted = 0_u16;
-        for device in &mut self.devices {
+        for device in self
+            .devices
+            .iter_mut()
+            .filter(|device| !device.is_unplugged)
+        {
             let at_ns = now_ns + device.read_ns();
             counted += pass_device(device, datagram, data, at_ns);
         }

@@ -1,5 +1,6 @@
 //! The settings of an emulated drive: what it is, and in what it is like real ones.
 
+use crate::channels::Channels;
 use crate::clock::ClockKind;
 
 /// A switch at which a drive finds its home.
@@ -96,8 +97,12 @@ pub struct DriveSettings {
     pub sync_type: SyncType,
     /// Its distributed clock.
     pub clock: ClockKind,
-    /// Whether it has a mailbox, objects and process data; a coupler or a simple terminal does not.
+    /// Whether it has a mailbox and objects; a coupler or a simple terminal does not.
     pub has_mailbox: bool,
+    /// Its inputs and outputs, if it is no drive.
+    pub channels: Option<Channels>,
+    /// Its whole EEPROM; `None` for one that says what is said here.
+    pub eeprom: Option<Vec<u8>>,
 }
 
 impl DriveSettings {
@@ -110,6 +115,74 @@ impl DriveSettings {
             clock,
             has_mailbox: false,
             ..Self::default()
+        }
+    }
+
+    /// Digital inputs, as an EL1004 has four: a window of a bit each, and no clock.
+    #[must_use]
+    pub fn inputs(count: u16) -> Self {
+        Self {
+            channels: Some(Channels {
+                inputs: Channels::bits(0x6000, count),
+                ..Channels::default()
+            }),
+            ..Self::terminal("INPUTS", ClockKind::ReceiveTimes)
+        }
+    }
+
+    /// Digital outputs, as an EL2004 has four, or an EL2889 sixteen in two windows: they fall with the
+    /// watchdog.
+    #[must_use]
+    pub fn outputs(count: u16) -> Self {
+        Self {
+            identity: [2, 0x07d4_3052, 1, 0],
+            channels: Some(Channels {
+                outputs: Channels::bits(0x7000, count),
+                output_windows: usize::from(count.div_ceil(8)),
+                ..Channels::default()
+            }),
+            ..Self::terminal("OUTPUTS", ClockKind::ReceiveTimes)
+        }
+    }
+
+    /// Analog inputs with a mailbox, as an EL3004 has four: state and value of each in a map, or the value
+    /// alone in the next one. All states and values are assigned.
+    #[must_use]
+    pub fn analog_inputs(count: u16) -> Self {
+        let of = |nth: u16| {
+            let index = u32::from(0x6000 + 0x10 * nth) << 16;
+            let state = [0x0101, 0x0201, 0x0302, 0x0502, 0x0701, 0x0f01, 0x1001];
+            let gap = 7;
+            let mut both: Vec<u32> = state.iter().map(|entry| index | entry).collect();
+            both.insert(5, gap);
+            both.push(index | 0x1110);
+            [both, vec![index | 0x1110]]
+        };
+        let maps = 0x1a00..0x1a00 + 2 * count;
+        Self {
+            identity: [2, 0x0bbc_3052, 1, 0],
+            has_mailbox: true,
+            channels: Some(Channels {
+                inputs: (0..count).flat_map(of).collect(),
+                assigned: Some(maps.step_by(2).collect()),
+                ..Channels::default()
+            }),
+            ..Self::terminal("ANALOG INPUTS", ClockKind::ReceiveTimes)
+        }
+    }
+
+    /// Analog outputs with a mailbox, as an EL4002 has two: a value each.
+    #[must_use]
+    pub fn analog_outputs(count: u16) -> Self {
+        let of = |nth: u16| vec![u32::from(0x7000 + 0x10 * nth) << 16 | 0x0110];
+        Self {
+            identity: [2, 0x0fa2_3052, 1, 0],
+            has_mailbox: true,
+            channels: Some(Channels {
+                outputs: (0..count).map(of).collect(),
+                ..Channels::default()
+            }),
+            ..Self::terminal("ANALOG OUTPUTS", ClockKind::ReceiveTimes)
         }
     }
 }
@@ -134,6 +207,8 @@ impl Default for DriveSettings {
             sync_type: SyncType::Written,
             clock: ClockKind::Bits64,
             has_mailbox: true,
+            channels: None,
+            eeprom: None,
         }
     }
 }

@@ -9,7 +9,7 @@ pub struct Counts {
     pub cycles: u64,
     /// Frames that did not come back in time.
     pub lost: u64,
-    /// Frames in which not every drive took part.
+    /// Frames in which not every device took part.
     pub short: u64,
     /// Frames that came back when they were not waited for any more.
     pub stale: u64,

@@ -22,11 +22,12 @@ use crate::image::Inputs;
 use crate::settings::Settings;
 use crate::wire::Wire;
 use core::sync::atomic::{AtomicBool, Ordering};
-use glidepath_link::{Feedback, Setpoint, Subscriber};
-use rtrb::Producer;
+use glidepath_link::{Auxiliary, Feedback, Setpoint, Subscriber};
+use rtrb::{Consumer, Producer};
 use std::sync::mpsc::Sender;
 
-/// Cycles before the bus is left in which every drive hears that it has no power.
+/// Cycles before the bus is left in which every drive hears that it has no power, and every output that
+/// it is at rest.
 const LAST_CYCLES: u32 = 10;
 /// Between two attempts to bring the bus up again.
 const PAUSE_NS: u64 = 500_000_000;
@@ -46,6 +47,8 @@ pub struct Ends {
     pub log: Sender<String>,
     /// The demand of every cycle, for measurements; `None` for none.
     pub demands: Option<Producer<Demand>>,
+    /// The auxiliary record, whenever it changes; `None` where nothing obeys it.
+    pub auxiliary: Option<Consumer<Auxiliary>>,
 }
 
 impl Ends {
@@ -154,13 +157,18 @@ impl<W: Wire, S: Subscriber<Setpoint>> Run<'_, '_, W, S> {
         let is_sent = self.op.send(&standing).is_ok();
         self.hear(&mut clock, &beat, is_sent);
         self.bridge.begin(boot_id, &self.inputs);
+        self.bridge.begin_terminals(self.op.wiring());
+        let ends = &mut *self.ends;
+        self.bridge
+            .hear_terminals(self.op.answered(), &mut |event| ends.tell(event));
         self.ends.tell(Event::InOperation);
         let (mut ends_ns, mut off) = (None, 0);
         loop {
             if ends_ns.is_none() && stop.load(Ordering::Relaxed) {
                 let now_ns = self.op.wire().now_ns();
                 self.bridge.end();
-                ends_ns = Some(now_ns + FAREWELL_NS);
+                // Outputs hear it, too.
+                (ends_ns, off) = (Some(now_ns + FAREWELL_NS), 0);
             }
             let now_ns = self.cycle(&mut clock);
             off = if self.bridge.is_off() { off + 1 } else { 0 };
@@ -171,9 +179,9 @@ impl<W: Wire, S: Subscriber<Setpoint>> Run<'_, '_, W, S> {
                 self.bridge.lose_bus(now_ns);
                 self.ends.tell(Event::BusLost);
             }
-            let has_lost_drive = self.bridge.has_lost_drive() && off > LAST_CYCLES;
+            let has_lost_device = self.bridge.has_lost_device() && off > LAST_CYCLES;
             let silent_ns = u64::from(self.lost) * clock.period_ns();
-            if has_lost_drive || silent_ns > SILENCE_NS {
+            if has_lost_device || silent_ns > SILENCE_NS {
                 return End::BusLost;
             }
         }
@@ -190,10 +198,14 @@ impl<W: Wire, S: Subscriber<Setpoint>> Run<'_, '_, W, S> {
             .record(now_ns.saturating_sub(beat.send_ns));
         let since_ns = beat.sync_ns.saturating_sub(self.targets_ns);
         let ends = &mut *self.ends;
+        while let Some(Ok(record)) = ends.auxiliary.as_mut().map(Consumer::pop) {
+            self.bridge.hear_record(&record, now_ns);
+        }
         let mut tell = |event| ends.tell(event);
         let meant_ns = beat.sync_ns.saturating_sub(self.settings.bus.delay_ns);
-        let outputs = self.bridge.cycle(now_ns, meant_ns, since_ns, &mut tell);
-        let is_sent = self.op.send(outputs).is_ok();
+        self.bridge.cycle(now_ns, meant_ns, since_ns, &mut tell);
+        self.bridge.outputs(now_ns, meant_ns, self.op.outputs());
+        let is_sent = self.op.send(self.bridge.targets()).is_ok();
         let played = self.bridge.played();
         if let Some(demands) = &mut self.ends.demands {
             let _ = demands.push(Demand {
@@ -218,12 +230,7 @@ impl<W: Wire, S: Subscriber<Setpoint>> Run<'_, '_, W, S> {
             let _ = self.ends.feedback.push(feedback);
         }
         if let Some((nth, code)) = self.op.take_emergency() {
-            let joint = self
-                .settings
-                .drives
-                .get(nth)
-                .map_or(nth, |drive| drive.joint);
-            self.ends.tell(Event::Emergency(joint, code));
+            self.ends.tell(emergency(self.settings, nth, code));
         }
         self.op.wire().now_ns()
     }
@@ -244,11 +251,15 @@ impl<W: Wire, S: Subscriber<Setpoint>> Run<'_, '_, W, S> {
                 let trip_ns = times.received_ns.saturating_sub(times.sent_ns);
                 self.counts.round_trip.record(trip_ns);
                 self.bridge.hear(&self.inputs, self.op.states(), &mut tell);
+                let answered = self.op.answered();
+                self.counts.short += u64::from(!answered.is_whole);
+                self.bridge.hear_terminals(answered, &mut tell);
                 self.lost = 0;
             }
             Reception::Short { counted, .. } => {
                 self.counts.short += 1;
                 self.bridge.hear(&self.inputs, self.op.states(), &mut tell);
+                self.bridge.hear_terminals(self.op.answered(), &mut tell);
                 // The drives that answer can be led to rest; one that does not has failed.
                 let says_why = counted > 0 && self.bridge.has_lost_drive();
                 self.lost = if says_why { 0 } else { self.lost + 1 };
@@ -266,4 +277,15 @@ impl<W: Wire, S: Subscriber<Setpoint>> Run<'_, '_, W, S> {
             }
         }
     }
+}
+
+/// An emergency of the nth device: drives first, then all others.
+fn emergency(settings: &Settings, nth: usize, code: u16) -> Event {
+    if let Some(drive) = settings.drives.get(nth) {
+        return Event::Emergency(drive.joint, code);
+    }
+    let terminal = settings
+        .terminals
+        .get(nth.saturating_sub(settings.drives.len()));
+    Event::TerminalEmergency(terminal.map_or(nth, |terminal| terminal.position), code)
 }

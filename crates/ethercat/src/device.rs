@@ -1,5 +1,7 @@
 //! A device on the bus, as its EEPROM tells.
 
+use crate::entry::Entry;
+
 /// The identity of a device: who made it, and which it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Identity {
@@ -61,6 +63,19 @@ impl ClockKind {
     }
 }
 
+/// A window of process data, and what its EEPROM says is in it.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Window {
+    /// The number of its sync manager.
+    pub number: u8,
+    /// The sync manager. Its length is often said to be 0.
+    pub manager: SyncManager,
+    /// The master writes it.
+    pub is_output: bool,
+    /// The objects in it, in order. None of a device with CoE, which is asked for them.
+    pub entries: Vec<Entry>,
+}
+
 /// How sync managers of process data work: three buffers, written by the master and watched, or read.
 const OUTPUTS: u8 = 0x64;
 const INPUTS: u8 = 0x20;
@@ -82,6 +97,10 @@ pub struct Device {
     pub has_coe: bool,
     /// Process data to and from it; `None` without.
     pub process: Option<(SyncManager, SyncManager)>,
+    /// All windows of its process data: a simple terminal has no mailbox, and any number of these.
+    pub windows: Vec<Window>,
+    /// Its EEPROM says how it works with SYNC0.
+    pub has_sync_modes: bool,
     /// Whether it does not know the datagram that reads and writes process data in one (LRW).
     pub lacks_lrw: bool,
     /// Its distributed clock.
@@ -96,6 +115,13 @@ impl Device {
     #[must_use]
     pub const fn may_be_drive(&self) -> bool {
         self.mailbox.is_some() && self.has_coe
+    }
+
+    /// Its first window of outputs or of inputs.
+    pub(crate) fn window(&self, is_output: bool) -> Option<&Window> {
+        self.windows
+            .iter()
+            .find(|window| window.is_output == is_output)
     }
 
     /// Takes its process data to be where its EEPROM says, or else at these addresses.

@@ -1,6 +1,7 @@
 //! The reader of a device's EEPROM (SII, ETG.1000.6 and ETG.2010).
 
-use crate::device::{ClockKind, Device, Identity, SyncManager};
+use crate::device::{ClockKind, Device, Identity, SyncManager, Window};
+use crate::entry::Entry;
 use crate::error::BusError;
 use crate::exchange::Exchange;
 use crate::registers::{ALIAS, EEPROM_CONTROL, EEPROM_DATA, EEPROM_OWNER, FEATURES, PORTS};
@@ -15,7 +16,13 @@ const CATEGORIES: u16 = 0x40;
 const STRINGS: u16 = 10;
 const GENERAL: u16 = 30;
 const MANAGERS: u16 = 41;
+const INPUT_MAPS: u16 = 50;
+const OUTPUT_MAPS: u16 = 51;
+const SYNC_MODES: u16 = 60;
 const END: u16 = 0xffff;
+/// What sync managers are for: process data to a device, and from it.
+const OUTPUT_KIND: u8 = 3;
+const INPUT_KIND: u8 = 4;
 /// Bit of the protocols: CoE.
 const COE: u32 = 4;
 /// Bit of the features, and of the flags of the general category: it does not know LRW.
@@ -24,7 +31,7 @@ const NOT_LRW: u8 = 1 << 1;
 /// Of the two bits of a port: frames go out by it, and there is somebody.
 const OPEN: u8 = 0b10;
 /// Words that are read of one category, and categories of one device, at most.
-const MOST_WORDS: u16 = 512;
+const MOST_WORDS: u16 = 2048;
 const MOST_CATEGORIES: usize = 64;
 /// How long a device may be busy reading, and how often it is asked.
 const BUSY_NS: u64 = 500_000;
@@ -83,7 +90,11 @@ fn text(strings: &[u8], nth: u8) -> Option<String> {
     let length = usize::from(*strings.get(at)?);
     let bytes = strings.get(at + 1..at + 1 + length).filter(|_| nth > 0)?;
     let shown = |c: char| if c.is_control() { ' ' } else { c };
-    Some(String::from_utf8_lossy(bytes).chars().map(shown).collect())
+    // UTF-8 by the standard, Latin-1 as many have it.
+    Some(core::str::from_utf8(bytes).map_or_else(
+        |_| bytes.iter().map(|byte| shown(char::from(*byte))).collect(),
+        |text| text.chars().map(shown).collect(),
+    ))
 }
 
 fn managers(bytes: &[u8]) -> Vec<(SyncManager, u8)> {
@@ -97,6 +108,57 @@ fn managers(bytes: &[u8]) -> Vec<(SyncManager, u8)> {
         (manager, row[7])
     })
     .collect()
+}
+
+/// A map of process data, and the number of the sync manager that it belongs to; that of none is not
+/// there.
+#[derive(Debug, Clone, PartialEq, Eq)]
+struct Map {
+    manager: u8,
+    is_output: bool,
+    entries: Vec<Entry>,
+}
+
+/// The maps of a category, as far as they are whole.
+fn maps(bytes: &[u8], is_output: bool) -> Vec<Map> {
+    let (mut maps, mut rows) = (Vec::new(), bytes.chunks_exact(8));
+    while let Some(&[_, _, count, manager, ..]) = rows.next() {
+        let entry = |row: &[u8]| Entry {
+            index: u16::from_le_bytes([row[0], row[1]]),
+            sub: row[2],
+            bits: row[5].into(),
+        };
+        let entries: Vec<_> = rows.by_ref().take(count.into()).map(entry).collect();
+        if entries.len() < usize::from(count) {
+            break;
+        }
+        maps.push(Map {
+            manager,
+            is_output,
+            entries,
+        });
+    }
+    maps
+}
+
+/// The windows of process data, and the maps that are in them as the device is delivered.
+fn windows(managers: &[(SyncManager, u8)], maps: &[Map]) -> Vec<Window> {
+    let numbered = (0..=u8::MAX).zip(managers);
+    let of_data = numbered.filter(|(_, (_, kind))| matches!(*kind, OUTPUT_KIND | INPUT_KIND));
+    of_data
+        .map(|(number, (manager, kind))| {
+            let is_output = *kind == OUTPUT_KIND;
+            let own = maps
+                .iter()
+                .filter(|map| (map.manager, map.is_output) == (number, is_output));
+            Window {
+                number,
+                manager: *manager,
+                is_output,
+                entries: own.flat_map(|map| map.entries.iter().copied()).collect(),
+            }
+        })
+        .collect()
 }
 
 /// Reads all that is wanted of a device.
@@ -151,6 +213,7 @@ fn read_categories<W: Wire>(
     device: &mut Device,
 ) -> Result<(), BusError> {
     let (mut at, mut strings, mut name) = (CATEGORIES, Vec::new(), (0, 0));
+    let (mut found, mut mapped) = (Vec::new(), Vec::new());
     for _ in 0..MOST_CATEGORIES {
         let (kind, length) = halves(words(bus, nth, at)?);
         if kind == END {
@@ -166,15 +229,55 @@ fn read_categories<W: Wire>(
                 device.lacks_lrw |= byte(11) & NOT_LRW != 0;
             }
             MANAGERS => {
-                let found = managers(&bytes(bus, nth, from, length.min(64))?);
+                found = managers(&bytes(bus, nth, from, length.min(64))?);
                 let of = |kind| found.iter().find(|(_, k)| *k == kind).map(|(m, _)| *m);
-                device.process = of(3).zip(of(4));
+                device.process = of(OUTPUT_KIND).zip(of(INPUT_KIND));
             }
+            // What has a dictionary is asked for what is mapped.
+            INPUT_MAPS | OUTPUT_MAPS if device.mailbox.is_none() || !device.has_coe => {
+                let bytes = bytes(bus, nth, from, length)?;
+                mapped.extend(maps(&bytes, kind == OUTPUT_MAPS));
+            }
+            SYNC_MODES => device.has_sync_modes = true,
             _ => {}
         }
         at = from.saturating_add(length);
     }
+    device.windows = windows(&found, &mapped);
     let named = text(&strings, name.0).or_else(|| text(&strings, name.1));
     device.name = named.unwrap_or_else(|| "without a name".to_owned());
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn maps_belong_to_the_windows_that_they_name() {
+        // One map of a bit and a gap at sync manager 1, one of none, and one that is cut off.
+        let bytes = [
+            [0x00, 0x16, 2, 1, 0, 0, 0x11, 0],
+            [0x00, 0x70, 1, 0, 1, 1, 0, 0],
+            [0x00, 0x00, 0, 0, 0, 7, 0, 0],
+            [0x01, 0x16, 0, 255, 0, 0, 0, 0],
+            [0x02, 0x16, 1, 1, 0, 0, 0, 0],
+        ];
+        let maps = maps(&bytes.concat(), true);
+        assert_eq!(maps.len(), 2, "{maps:?}");
+        let manager = SyncManager {
+            start: 0xf00,
+            length: 0,
+            control: 0x44,
+        };
+        let managers = [(manager, INPUT_KIND), (manager, OUTPUT_KIND), (manager, 1)];
+        let windows = windows(&managers, &maps);
+        let seen: Vec<_> = windows
+            .iter()
+            .map(|window| (window.number, window.is_output, window.entries.len()))
+            .collect();
+        assert_eq!(seen, [(0, false, 0), (1, true, 2)]);
+        let (bit, gap) = (Entry::new(0x7000_0101), Entry::new(0x0000_0007));
+        assert_eq!(windows[1].entries, [bit, gap]);
+    }
 }

@@ -33,7 +33,7 @@ pub enum BusError {
     },
     /// There are other devices than the file says.
     #[error(
-        "drives.toml wants a drive at position {position}, and {found} devices are there: \
+        "drives.toml wants a device at position {position}, and {found} devices are there: \
          `glidepath ethercat scan INTERFACE` lists them"
     )]
     Missing {
@@ -66,6 +66,17 @@ pub enum BusError {
         name: String,
         /// What it lacks, and what to do.
         what: String,
+    },
+    /// All that is to be exchanged in a cycle is too long.
+    #[error(
+        "what is exchanged in a cycle takes {needed} bytes, and a frame has {most}: leave devices out of \
+         drives.toml that nothing obeys and nothing waits for"
+    )]
+    Room {
+        /// Bytes.
+        needed: usize,
+        /// Bytes of a frame.
+        most: usize,
     },
     /// A device does not change its state.
     #[error("device {device} ({name}) does not go to {wanted}: {}", al_status::text(*code))]

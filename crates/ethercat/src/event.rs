@@ -4,7 +4,7 @@ use crate::trouble::Trouble;
 use crate::{al_status, fault_text};
 use core::fmt;
 
-/// An event that an operator is told. The number is that of a joint.
+/// An event that an operator is told. A number is that of a joint, where nothing else is said.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Event {
     /// Cycles begin.
@@ -23,6 +23,14 @@ pub enum Event {
     Gone(usize),
     /// A drive has sent an emergency.
     Emergency(usize, u16),
+    /// The device at this place of the line, which is no drive, does not answer.
+    TerminalGone(usize),
+    /// It is not in OP, with its AL status code.
+    TerminalLeftOp(usize, u16),
+    /// It has sent an emergency.
+    TerminalEmergency(usize, u16),
+    /// Devices that are no drives do not take part in the process data, and say nothing.
+    TerminalsShort,
     /// A drive looks for its home.
     Homing(usize),
     /// It has found it.
@@ -65,6 +73,26 @@ impl fmt::Display for Event {
             Self::Emergency(joint, code) => {
                 write!(f, "J{joint}: emergency message {}", fault_text::text(*code))
             }
+            Self::TerminalGone(position) => write!(
+                f,
+                "the device at position {position} does not answer: its supply, or the cable before it"
+            ),
+            Self::TerminalLeftOp(position, code) => write!(
+                f,
+                "the device at position {position} is not in OP: {}",
+                al_status::text(*code)
+            ),
+            Self::TerminalEmergency(position, code) => {
+                write!(
+                    f,
+                    "the device at position {position}: emergency message {code:#06x}"
+                )
+            }
+            Self::TerminalsShort => write!(
+                f,
+                "a device that is no drive does not take part, and says that it is in OP: its inputs and \
+                 outputs are not known"
+            ),
             Self::Homing(joint) => write!(f, "J{joint} looks for its home"),
             Self::Home(joint) => write!(f, "J{joint} has found its home"),
             Self::Trouble(trouble) => write!(f, "{trouble}"),

@@ -1,6 +1,7 @@
 //! Where each object is in the process data of a drive.
 
 use crate::device::Device;
+use crate::entry::{Entry, bits, bytes};
 
 const CONTROL: Wanted = Wanted(0x6040, 16, "0x6040 (controlword)");
 const TARGET: Wanted = Wanted(0x607a, 32, "0x607A (target position)");
@@ -26,40 +27,6 @@ impl Wanted {
 
     fn place_or_name(self, entries: &[Entry]) -> Result<usize, &'static str> {
         self.place(entries).ok_or(self.2)
-    }
-}
-
-fn bits(entries: &[Entry]) -> u32 {
-    entries.iter().map(|entry| entry.bits).sum()
-}
-
-/// How many bytes that is.
-pub(crate) fn bytes(entries: &[Entry]) -> usize {
-    bits(entries).div_ceil(8) as usize
-}
-
-/// An entry of a map: an object, or a gap of index 0.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Entry {
-    pub(crate) index: u16,
-    pub(crate) sub: u8,
-    pub(crate) bits: u32,
-}
-
-impl Entry {
-    /// As a map has it.
-    #[allow(clippy::cast_possible_truncation, reason = "parts of an entry")]
-    pub(crate) const fn new(entry: u32) -> Self {
-        Self {
-            index: (entry >> 16) as u16,
-            sub: (entry >> 8) as u8,
-            bits: entry & 0xff,
-        }
-    }
-
-    /// Whether it is one that the master writes in every cycle.
-    pub(crate) const fn is_led(self) -> bool {
-        matches!(self.index, 0x6040 | 0x607a | 0x6060)
     }
 }
 

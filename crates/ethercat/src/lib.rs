@@ -1,5 +1,5 @@
-//! The EtherCAT master: setpoints to targets of drives, at the bus period, and the positions of the
-//! joints back.
+//! The EtherCAT master: setpoints to targets of drives and outputs of terminals, at the bus period, and
+//! the positions of the joints and the inputs of terminals back.
 //!
 //! ```text
 //!                      ┌ setpoints ► ring ┐
@@ -25,13 +25,14 @@
 //! allocates. The price: other people's masters have seen hundreds of devices, and this one has seen
 //! the drives of `glidepath-emulator`, which three other masters have accepted.
 //!
-//! What it does not do: rings of cable, drives without clocks, inputs and outputs of terminals, hot connect,
+//! What it does not do: rings of cable, drives without clocks, terminals that work with SYNC0, hot connect,
 //! segmented parameters, redundancy, safety over EtherCAT.
 //!
 //! Invariants:
 //!
 //! * a target is never further from the one before than the joint can go in the time between;
 //! * the drives get power together, and only when an operator asked for it after whatever took it;
+//! * outputs are at rest where nobody is to be obeyed, and the spindle never starts again by itself;
 //! * the cycle makes no allocation; whatever fails in it ends in drives that stop by themselves.
 
 mod abort_text;
@@ -45,7 +46,9 @@ mod counts;
 mod cycle;
 mod demand;
 mod device;
+mod device_state;
 mod eeprom;
+mod entry;
 mod error;
 mod event;
 mod exchange;
@@ -57,19 +60,22 @@ mod registers;
 mod run;
 mod settings;
 mod state;
+mod terminal;
 mod trouble;
 mod wire;
 
 pub use abort_text::text as abort_text;
 pub use al_status::text as al_status_text;
 pub use bridge::Bridge;
-pub use bus::{DeviceState, Init, Op, PreOp, Reception, SafeOp};
+pub use bus::{Init, Op, OutputWatchdog, PreOp, Reception, SafeOp};
 pub use bus_clock::{Beat, BusClock, FrameTimes};
 pub use coe::{Object, object};
 pub use counts::Counts;
 pub use cycle::{Ends, drive_bus};
 pub use demand::Demand;
-pub use device::{ClockKind, Device, Identity, SyncManager};
+pub use device::{ClockKind, Device, Identity, SyncManager, Window};
+pub use device_state::DeviceState;
+pub use entry::Entry;
 pub use error::BusError;
 pub use event::Event;
 pub use fault_text::text as fault_text;
@@ -77,5 +83,9 @@ pub use frame::{Address, Answer, Command, Frame, Slot};
 pub use image::{Inputs, Outputs};
 pub use run::{Listeners, RunError, RunSettings, run};
 pub use settings::{BusSettings, DriveSettings, HomingSettings, Mapping, Settings};
+pub use terminal::{
+    ANALOG_INPUTS, AnalogInput, AnalogOutput, At, DIGITAL_INPUTS, DigitalInput, DigitalOutput,
+    Parameter, Quantity, Signal, TerminalSettings,
+};
 pub use trouble::Trouble;
 pub use wire::{MAX_FRAME, PacketWire, Wire, WireError};

@@ -9,8 +9,14 @@ pub(crate) const PORTS: u16 = 0x0110;
 pub(crate) const AL_CONTROL: u16 = 0x0120;
 /// The state, and six bytes from here on with its code.
 pub(crate) const AL_STATUS: u16 = 0x0130;
-/// In units of 100 µs.
+/// The unit of watchdogs: two more than this, of 40 ns.
+pub(crate) const WATCHDOG_DIVIDER: u16 = 0x0400;
+/// In those units: 100 µs as a rule.
 pub(crate) const OUTPUT_WATCHDOG: u16 = 0x0420;
+/// Bit 0: outputs did not stay away for so long.
+pub(crate) const WATCHDOG_STATUS: u16 = 0x0440;
+/// How often they did.
+pub(crate) const WATCHDOG_COUNT: u16 = 0x0442;
 pub(crate) const EEPROM_OWNER: u16 = 0x0500;
 pub(crate) const EEPROM_CONTROL: u16 = 0x0502;
 pub(crate) const EEPROM_DATA: u16 = 0x0508;

@@ -4,7 +4,7 @@
 //! |---|---|---|
 //! | setpoints | ordinary | takes setpoints from shared memory, fills a ring |
 //! | bus | real time | [`drive_bus`] |
-//! | the calling one | ordinary | feedback to the interpolator, lines to the log |
+//! | the calling one | ordinary | feedback to the interpolator, lines to the log, the auxiliary record to the bus |
 
 use crate::counts::Counts;
 use crate::cycle::{Ends, drive_bus};
@@ -16,9 +16,11 @@ use crate::wire::Wire;
 use core::sync::atomic::{AtomicBool, Ordering};
 use core::time::Duration;
 use glidepath_link::servo::{RingFiller, ring};
-use glidepath_link::{Feedback, LinkError, Setpoint, Subscriber, Transport};
+use glidepath_link::{
+    Auxiliary, Feedback, LinkError, Record as _, Setpoint, Subscriber, Transport,
+};
 use glidepath_realtime::{Mode, NotRealTime, Request, enter};
-use rtrb::{Consumer, RingBuffer};
+use rtrb::{Consumer, Producer, RingBuffer};
 use std::sync::mpsc::{Receiver, channel};
 
 /// Between two looks for feedback.
@@ -27,6 +29,8 @@ const POLL: Duration = Duration::from_micros(500);
 const FEEDBACK: usize = 1024;
 const EVENTS: usize = 256;
 const DEMANDS: usize = 4096;
+/// Auxiliary records on their way: only the last one counts.
+const RECORDS: usize = 16;
 
 /// The settings of the process.
 #[derive(Debug, Clone, Copy)]
@@ -83,7 +87,8 @@ pub fn run<W: Wire + Send>(
     listeners: Listeners<'_, '_>,
 ) -> Result<Counts, RunError> {
     let Listeners { log, mut demands } = listeners;
-    let mut sink = transport()?.feedback_sink()?;
+    let own = transport()?;
+    let mut sink = own.feedback_sink()?;
     let connect = move || -> Result<Box<dyn Subscriber<Setpoint>>, LinkError> {
         transport()?.setpoint_source()
     };
@@ -92,11 +97,18 @@ pub fn run<W: Wire + Send>(
     let (events, mut happened) = RingBuffer::new(EVENTS);
     let (told, mut asked) = RingBuffer::new(DEMANDS);
     let (lines, said) = channel();
+    let (auxiliary, mut record) = if settings.terminals.is_empty() {
+        (None, None)
+    } else {
+        let (into, from) = RingBuffer::new(RECORDS);
+        (Some(from), Some((own.auxiliary_source()?, into)))
+    };
     let mut ends = Ends {
         feedback,
         events,
         log: lines,
         demands: demands.is_some().then_some(told),
+        auxiliary,
     };
     let is_over = AtomicBool::new(false);
     std::thread::scope(|scope| {
@@ -121,6 +133,14 @@ pub fn run<W: Wire + Send>(
                 if let Err(error) = &written {
                     log(&format!("feedback cannot be sent: {error}"));
                 }
+            }
+            if let Some((source, into)) = &mut record
+                && let Err(error) = pass_on(source.as_mut(), into)
+            {
+                log(&format!(
+                    "outputs obey setpoints alone from here on: {error}"
+                ));
+                record = None;
             }
             tell(&mut happened, &said, log);
             while let Ok(demand) = asked.pop() {
@@ -158,6 +178,22 @@ fn publish(
 ) -> Result<(), LinkError> {
     while let Ok(record) = records.pop() {
         sink.publish(&record)?;
+    }
+    Ok(())
+}
+
+/// Hands the auxiliary record to the thread of the bus. One that fails its check is none.
+fn pass_on(
+    source: &mut dyn Subscriber<Auxiliary>,
+    into: &mut Producer<Auxiliary>,
+) -> Result<(), LinkError> {
+    while !into.is_full()
+        && let Some(record) = source.take()?
+    {
+        if record.check().is_ok() {
+            // There is room: nobody else puts anything in.
+            let _ = into.push(record);
+        }
     }
     Ok(())
 }

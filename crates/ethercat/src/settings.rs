@@ -1,5 +1,6 @@
 //! The settings of the bus and of its drives.
 
+use crate::terminal::TerminalSettings;
 use glidepath_geometry::AXES;
 use glidepath_link::servo::ServoSettings;
 
@@ -144,6 +145,8 @@ pub struct Settings {
     pub bus: BusSettings,
     /// The drives, one for each joint, at most nine, no place and no joint twice.
     pub drives: Vec<DriveSettings>,
+    /// All devices besides that are led: none of them at the place of a drive, and none twice.
+    pub terminals: Vec<TerminalSettings>,
     /// What the joints' own stop may use.
     pub servo: ServoSettings,
 }

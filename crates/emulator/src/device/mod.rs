@@ -1,6 +1,8 @@
 //! An emulated device: what its registers do when they are read and written, and when time passes.
 
+mod simple;
 mod time;
+mod watchdog;
 
 use crate::cable::Passage;
 use crate::clock::{ClockKind, DeviceClock};
@@ -13,16 +15,13 @@ use crate::eeprom::{self, MAILBOX, MAILBOX_OUT};
 use crate::memory::{
     AL_CODE, AL_CONTROL, AL_STATUS, CLOCK, EEPROM_CONTROL, Memory, PORT_TIMES, SPEED_START,
     STATION_ADDRESS, SYNC_ACTIVATION, SYNC_MANAGER, SYNC0_CYCLE, SYSTEM_TIME, WATCHDOG_DIVIDER,
-    WATCHDOG_OUTPUTS,
+    WATCHDOG_OUTPUTS, WATCHDOG_STATUS,
 };
+use crate::pins::Pins;
 use crate::process;
 use crate::settings::{DriveSettings, ImageAccess, Maps, OutputWatchdog, SyncType};
 use crate::states::{self, ERROR, INIT, OP, PRE_OP, SAFE_OP};
 use crate::upset::Upset;
-
-/// How the sync manager of outputs works, and the bit in it that has the watchdog watch them.
-const OUTPUT_CONTROL: u16 = SYNC_MANAGER + 2 * 8 + 4;
-const WATCHED: u8 = 1 << 6;
 
 /// The record of what a drive did at one SYNC0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -61,6 +60,9 @@ pub(crate) struct Device {
     heard_ns: u64,
     index: u8,
     pub(crate) records: Option<Vec<SyncRecord>>,
+    pub(crate) pins: Pins,
+    /// No frame reaches it.
+    pub(crate) is_unplugged: bool,
 }
 
 impl Device {
@@ -80,9 +82,14 @@ impl Device {
         passage.put(&mut memory);
         memory.put(WATCHDOG_DIVIDER, &2498_u16.to_le_bytes());
         memory.put(WATCHDOG_OUTPUTS, &1000_u16.to_le_bytes());
+        memory.put(WATCHDOG_STATUS, &[1]);
         memory.put(AL_STATUS, &[INIT]);
         let ramp = 1_000_000_000;
-        let mut objects = Dictionary::new(settings.identity, settings.following_counts, ramp);
+        let identity = settings.identity;
+        let mut objects = match &settings.channels {
+            Some(channels) => Dictionary::of_channels(identity, channels),
+            None => Dictionary::new(identity, settings.following_counts, ramp),
+        };
         if let Maps::Fixed { outputs, inputs } = &settings.maps {
             objects.fix_maps(outputs, inputs);
         }
@@ -100,6 +107,8 @@ impl Device {
             heard_ns: host_ns,
             index: 0,
             records: None,
+            pins: Pins::default(),
+            is_unplugged: false,
             settings: settings.clone(),
             passage,
             memory,
@@ -131,12 +140,14 @@ impl Device {
             Upset::Drop(code) if self.state() == OP => {
                 self.set_state(SAFE_OP | ERROR, code);
                 self.drive.lose_bus();
+                self.settle_pins(now_ns);
             }
             Upset::Reboot => {
-                let records = self.records.take();
+                let (records, pins) = (self.records.take(), core::mem::take(&mut self.pins));
                 let drive = self.drive.rebooted(&self.settings);
                 *self = Self::new(&self.settings, self.passage, now_ns);
-                (self.drive, self.records) = (drive, records);
+                (self.drive, self.records, self.pins) = (drive, records, pins);
+                self.settle_pins(now_ns);
             }
             upset => self.drive.upset(upset),
         }
@@ -154,22 +165,12 @@ impl Device {
             match (sync_ns, watchdog_ns) {
                 (None, None) => return,
                 (sync, Some(dog)) if sync.is_none_or(|sync| dog < sync) => {
-                    self.set_state(SAFE_OP | ERROR, 0x1b);
-                    self.drive.lose_bus();
+                    self.expire(dog);
                 }
                 (Some(sync), _) => self.sync(sync),
                 (None, Some(_)) => return,
             }
         }
-    }
-
-    /// How long outputs may stay away, ns; 0 for ever.
-    fn watchdog_ns(&self) -> u64 {
-        if self.memory.byte(OUTPUT_CONTROL) & WATCHED == 0 {
-            return 0;
-        }
-        let tick_ns = (u64::from(self.memory.word(WATCHDOG_DIVIDER)) + 2) * 40;
-        u64::from(self.memory.word(WATCHDOG_OUTPUTS)) * tick_ns
     }
 
     #[allow(clippy::cast_precision_loss, reason = "a period")]
@@ -182,6 +183,9 @@ impl Device {
     /// What the drive does with the outputs there are.
     #[allow(clippy::cast_precision_loss, reason = "a period")]
     fn step(&mut self, at_ns: u64) {
+        if self.settings.channels.is_some() {
+            return;
+        }
         let outputs = if self.state() == OP {
             process::outputs(&self.memory, &self.outputs, &mut self.objects)
         } else {
@@ -249,9 +253,8 @@ impl Device {
             AL_STATUS..0x0136 => return false,
             _ => self.memory.put(address, bytes),
         }
-        if self.settings.watchdog == OutputWatchdog::Never && touches(OUTPUT_CONTROL) {
-            let control = self.memory.byte(OUTPUT_CONTROL) & !WATCHED;
-            self.memory.put(OUTPUT_CONTROL, &[control]);
+        if self.settings.watchdog == OutputWatchdog::Never && touches(self.output_control()) {
+            self.refuse_watchdog();
         }
         self.clear_managers(address, end);
         if touches(AL_CONTROL) {
@@ -263,19 +266,17 @@ impl Device {
         if touches(SYNC_ACTIVATION) {
             self.activate_sync(now_ns);
         }
-        if self
-            .memory
-            .sync_manager(0)
-            .is_completed_by(address, bytes.len())
-        {
+        let mailbox = self.memory.sync_manager(0);
+        if self.settings.has_mailbox && mailbox.is_completed_by(address, bytes.len()) {
             let message = self.memory.get(MAILBOX_OUT, MAILBOX.into());
             let message = message.unwrap_or_default().to_vec();
             let is_fixed = self.state() > PRE_OP;
             let is_told = self.settings.sync_type == SyncType::Written;
-            let maps = &self.settings.maps;
+            let (maps, is_drive) = (&self.settings.maps, self.settings.channels.is_none());
             let refusal = |objects: &Dictionary, object: Object, value: u32| match object {
                 (0x1600..=0x1bff | 0x1c12 | 0x1c13, _) if is_fixed => Some(NO_ACCESS),
                 (0x1c12 | 0x1c13, _) if matches!(maps, Maps::Fixed { .. }) => Some(READ_ONLY),
+                (0x1600..=0x1bff, _) if !is_drive => Some(READ_ONLY),
                 (0x1600..=0x1bff, 1..)
                     if *maps == Maps::Short && !objects.is_short(object, value) =>
                 {
@@ -316,7 +317,13 @@ impl Device {
         }
         let has_sync = self.next_sync.is_some();
         let is_odd = self.settings.maps == Maps::Short && self.has_odd_length();
-        let code = match states::objection(&self.memory, &self.objects, has_sync, wanted, present) {
+        let objection = if self.settings.has_mailbox {
+            states::objection(&self.memory, &self.objects, has_sync, wanted, present)
+        } else {
+            let channels = self.settings.channels.as_ref();
+            states::simple_objection(&self.memory, channels, wanted, present)
+        };
+        let code = match objection {
             0 if wanted == SAFE_OP && is_odd => 0x1e,
             code => code,
         };
@@ -331,7 +338,9 @@ impl Device {
             self.mailbox.clear();
             self.next_sync = None;
         }
-        if wanted == SAFE_OP {
+        if wanted == SAFE_OP && self.settings.channels.is_some() {
+            self.show_inputs();
+        } else if wanted == SAFE_OP {
             let sync_type = match self.settings.sync_type {
                 SyncType::Written => None,
                 SyncType::Follows => Some(if has_sync { 2 } else { 1 }),
@@ -347,6 +356,7 @@ impl Device {
         }
         self.heard_ns = now_ns;
         self.set_state(wanted, 0);
+        self.settle_pins(now_ns);
     }
 
     /// A datagram of the logical address space passes. Returns what is to be counted.
@@ -368,6 +378,8 @@ impl Device {
             process::exchange(&mut self.memory, at, data, ways, takes_outputs);
         if was_written {
             (self.heard_ns, self.index) = (now_ns, index);
+            self.memory.put(WATCHDOG_STATUS, &[1]);
+            self.settle_pins(now_ns);
             if self.memory.byte(SYNC_ACTIVATION) & 3 != 3 {
                 // Without SYNC0 a drive works with the frame.
                 self.step(now_ns);

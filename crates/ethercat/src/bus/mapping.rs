@@ -3,9 +3,10 @@
 use crate::abort_text;
 use crate::coe::{Object, object, read, write};
 use crate::device::Device;
+use crate::entry::{Entry, bytes};
 use crate::error::BusError;
 use crate::exchange::Exchange;
-use crate::layout::{Entry, Layout, bytes};
+use crate::layout::Layout;
 use crate::settings::{DriveSettings, Mapping};
 use crate::wire::Wire;
 
@@ -15,8 +16,8 @@ const INPUTS: [u32; 4] = [0x6041_0010, 0x6064_0020, 0x6061_0008, 0x603f_0010];
 /// A gap of a byte.
 const GAP: u32 = 0x0000_0008;
 
-const OUTPUT_ASSIGNMENT: u16 = 0x1c12;
-const INPUT_ASSIGNMENT: u16 = 0x1c13;
+pub(super) const OUTPUT_ASSIGNMENT: u16 = 0x1c12;
+pub(super) const INPUT_ASSIGNMENT: u16 = 0x1c13;
 const OUTPUT_MAP: u16 = 0x1600;
 const INPUT_MAP: u16 = 0x1a00;
 /// Bytes of a map that every drive takes. Some take no more (Kollmorgen AKD).
@@ -90,8 +91,8 @@ fn keep<W: Wire>(
     Ok(())
 }
 
-/// What is mapped, as the drive tells.
-fn mapped<W: Wire>(
+/// What is mapped, as the device tells.
+pub(super) fn mapped<W: Wire>(
     bus: &mut Exchange<'_, W>,
     device: &Device,
     assignment: u16,

@@ -7,19 +7,21 @@
 
 mod bus_time;
 mod clocks;
+mod group;
 mod init;
 mod mapping;
 mod op;
+mod others;
 mod parameters;
 mod pre_op;
 mod safe_op;
 mod state;
 mod tree;
+mod watchdog;
 mod windows;
 
 pub use init::Init;
-pub use op::{DeviceState, Op, Reception};
+pub use op::{Op, Reception};
 pub use pre_op::PreOp;
 pub use safe_op::SafeOp;
-
-pub(crate) use op::StateCode;
+pub use watchdog::OutputWatchdog;

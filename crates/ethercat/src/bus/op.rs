@@ -1,45 +1,33 @@
 //! The bus in OP: one frame a cycle.
 //!
 //! ```text
-//! FRMW 0x0910 │ LRW: outputs and inputs of all │ FPRD 0x0130 of each │ FPRD of one mailbox
+//! FRMW 0x0910 │ LRW: drives │ LRW: all others │ FPRD 0x0130 of each │ FPRD of one mailbox
 //! ```
 //!
-//! A drive that does not know LRW gets LWR and LRD in its place, and then all do.
+//! A device that does not know LRW gets LWR and LRD in its place, and then all do. What there is not
+//! has no datagram: of a machine without terminals, theirs.
 //!
-//! The time of the reference goes to all clocks, process data is exchanged, and every drive says in
-//! what state it is and why. The last datagram looks whether a mailbox is full, of one drive after the
+//! The time of the reference goes to all clocks, process data is exchanged, and every device says in
+//! what state it is and why. The last datagram looks whether a mailbox is full, of one device after the
 //! other, and if one is, takes the message out: emergencies come that way.
 
 use super::bus_time::BusTime;
+use super::group::Group;
+use super::others::Others;
 use super::state::{ERROR, INIT};
 use crate::bus_clock::{BusClock, FrameTimes};
 use crate::coe::emergency;
+use crate::device::Device;
+use crate::device_state::DeviceState;
 use crate::error::BusError;
 use crate::exchange::{Exchange, station};
 use crate::frame::{Address, Command, Frame, Slot};
 use crate::image::{Inputs, Outputs};
 use crate::layout::Led;
 use crate::registers::{AL_CONTROL, AL_STATUS, MAILBOX_IN_STATUS, SYSTEM_TIME};
+use crate::terminal::{Answered, Wiring, at_rest};
 use crate::wire::{MAX_FRAME, Wire};
 use std::io;
-
-/// The state of a device, as it says itself.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct DeviceState {
-    /// 8 for OP.
-    pub state: u8,
-    /// It did not get or keep what it was asked for.
-    pub has_error: bool,
-    /// AL status code.
-    pub code: u16,
-}
-
-/// The state that a device has to have for its outputs to count.
-pub(crate) struct StateCode;
-
-impl StateCode {
-    pub(crate) const OP: u8 = super::state::OP;
-}
 
 /// The outcome of a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -60,10 +48,31 @@ pub enum Reception {
 /// What the last datagram of a frame is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Aside {
-    /// Whether the mailbox of this drive is full.
+    /// Whether the mailbox of this device is full.
     Look(usize),
     /// The message in it.
     Take(usize),
+}
+
+/// The mailbox from a device: whose, where, and how long.
+#[derive(Debug, Clone, Copy, Default)]
+struct Mailbox {
+    nth: usize,
+    station: u16,
+    start: u16,
+    length: u16,
+}
+
+impl Mailbox {
+    fn of(nth: usize, device: &Device) -> Option<Self> {
+        let (_, back) = device.mailbox?;
+        Some(Self {
+            nth,
+            station: station(device.position),
+            start: back.start,
+            length: back.length,
+        })
+    }
 }
 
 /// A bus in operation.
@@ -74,23 +83,24 @@ pub struct Op<'w, W> {
     received: Vec<u8>,
     index: u8,
     time: Option<Slot>,
-    /// Outputs and inputs, or outputs alone.
-    image: Option<Slot>,
-    /// Inputs, where they have a datagram of their own.
-    inputs: Option<Slot>,
-    lacks_lrw: bool,
+    drives_group: Group,
+    /// All others; `None` if they have no process data.
+    others_group: Option<Group>,
     status: Vec<Slot>,
     aside: Option<(Slot, Aside)>,
     next_aside: Aside,
     reference: u16,
     bus_time: BusTime,
+    /// Drives first, then all others.
     stations: Vec<u16>,
-    /// Mailboxes from the drives: where, and how long.
-    mailboxes: Vec<(u16, u16)>,
+    mailboxes: Vec<Mailbox>,
     states: Vec<DeviceState>,
     drives: Vec<Led>,
-    /// Bytes of the outputs and of the inputs of all.
-    sizes: (usize, usize),
+    others: Others,
+    /// What the others are to put out, and what they told last.
+    others_outputs: Vec<u8>,
+    others_inputs: Vec<u8>,
+    are_others_whole: bool,
     sent_ns: u64,
     /// Frames that came back when they were not waited for any more.
     stale: u64,
@@ -102,35 +112,41 @@ impl<'w, W: Wire> Op<'w, W> {
     pub(super) fn new(
         wire: &'w mut W,
         drives: Vec<Led>,
+        others: Others,
         (reference, bus_time): (usize, BusTime),
     ) -> Self {
-        let mailbox = |led: &Led| {
-            led.device
-                .mailbox
-                .map_or((0, 0), |(_, m)| (m.start, m.length))
-        };
+        let devices = || drives.iter().map(|led| &led.device).chain(&others.devices);
+        let lacks_lrw = devices().any(|device| device.lacks_lrw);
+        let sizes = Led::sizes(&drives);
+        let count = u16::try_from(drives.len()).unwrap_or(u16::MAX);
+        let (out, back) = others.wiring.sizes;
+        let behind = u32::try_from(sizes.0 + sizes.1).unwrap_or(u32::MAX);
+        let others_group =
+            (out + back > 0).then(|| Group::new(behind, (out, back), others.counts, lacks_lrw));
+        let mailboxes = devices().enumerate();
+        let mailboxes = mailboxes.filter_map(|(nth, device)| Mailbox::of(nth, device));
+        let stations: Vec<u16> = devices().map(|device| station(device.position)).collect();
         Self {
             wire,
             frame: Frame::default(),
             received: vec![0; MAX_FRAME],
             index: 0,
             time: None,
-            image: None,
-            inputs: None,
-            lacks_lrw: drives.iter().any(|led| led.device.lacks_lrw),
-            status: Vec::with_capacity(drives.len()),
+            drives_group: Group::new(0, sizes, (count, count), lacks_lrw),
+            are_others_whole: others_group.is_none(),
+            others_group,
+            status: Vec::with_capacity(stations.len()),
             aside: None,
             next_aside: Aside::Look(0),
             reference: station(reference),
             bus_time,
-            stations: drives
-                .iter()
-                .map(|led| station(led.device.position))
-                .collect(),
-            mailboxes: drives.iter().map(mailbox).collect(),
-            states: vec![DeviceState::default(); drives.len()],
-            sizes: Led::sizes(&drives),
+            mailboxes: mailboxes.collect(),
+            states: vec![DeviceState::default(); stations.len()],
+            stations,
             drives,
+            others_outputs: at_rest(&others.wiring),
+            others_inputs: vec![0; back],
+            others,
             sent_ns: 0,
             stale: 0,
             emergency: None,
@@ -152,10 +168,30 @@ impl<'w, W: Wire> Op<'w, W> {
         self.wire
     }
 
-    /// In what states the drives were when they answered last.
+    /// In what states the devices were when they answered last: drives first, then all others.
     #[must_use]
     pub fn states(&self) -> &[DeviceState] {
         &self.states
+    }
+
+    /// Where the inputs and outputs of all that are no drives are, and their places in the line.
+    pub(crate) fn wiring(&self) -> (&Wiring, impl Iterator<Item = usize>) {
+        let devices = self.others.devices.iter();
+        (&self.others.wiring, devices.map(|device| device.position))
+    }
+
+    /// What those have answered.
+    pub(crate) fn answered(&self) -> Answered<'_> {
+        Answered {
+            is_whole: self.are_others_whole,
+            inputs: &self.others_inputs,
+            states: self.states.get(self.drives.len()..).unwrap_or_default(),
+        }
+    }
+
+    /// What those are to put out with the next frame.
+    pub(crate) fn outputs(&mut self) -> &mut [u8] {
+        &mut self.others_outputs
     }
 
     /// Frames that came back when they were not waited for any more.
@@ -164,7 +200,7 @@ impl<'w, W: Wire> Op<'w, W> {
         self.stale
     }
 
-    /// The emergency that came last, and from which drive; `None` if that was told.
+    /// The emergency that came last, and from which device, drives first; `None` if that was told.
     pub const fn take_emergency(&mut self) -> Option<(usize, u16)> {
         self.emergency.take()
     }
@@ -199,17 +235,7 @@ impl<'w, W: Wire> Op<'w, W> {
         frame.clear();
         let reference = Address::station(self.reference, SYSTEM_TIME);
         self.time = frame.push(Command::Frmw, index, reference, 8);
-        let (out, back) = self.sizes;
-        if self.lacks_lrw {
-            // What is read lies behind what is written.
-            let from = Address::logical(u32::try_from(out).unwrap_or(u32::MAX));
-            self.image = frame.push(Command::Lwr, index, Address::logical(0), out);
-            self.inputs = frame.push(Command::Lrd, index, from, back);
-        } else {
-            self.image = frame.push(Command::Lrw, index, Address::logical(0), out + back);
-        }
-        if let Some(image) = &self.image {
-            let data = frame.data(image);
+        if let Some(data) = self.drives_group.push(frame, index) {
             for (led, output) in self.drives.iter().zip(outputs) {
                 let length = led.layout.rest.len();
                 if let Some(place) = data.get_mut(led.outputs_at..led.outputs_at + length) {
@@ -217,24 +243,27 @@ impl<'w, W: Wire> Op<'w, W> {
                 }
             }
         }
+        if let Some(others) = &mut self.others_group
+            && let Some(data) = others.push(frame, index)
+        {
+            data.copy_from_slice(&self.others_outputs);
+        }
         self.status.clear();
         for station in &self.stations {
             let address = Address::station(*station, AL_STATUS);
             self.status
                 .extend(frame.push(Command::Fprd, index, address, 6));
         }
-        let (nth, register, length) = match self.next_aside {
-            Aside::Look(nth) => (nth, MAILBOX_IN_STATUS, 1),
-            Aside::Take(nth) => {
-                let (start, length) = self.mailboxes.get(nth).copied().unwrap_or_default();
-                (nth, start, length.into())
-            }
+        let (Aside::Look(nth) | Aside::Take(nth)) = self.next_aside;
+        let mailbox = self.mailboxes.get(nth).copied().unwrap_or_default();
+        let (register, length) = match self.next_aside {
+            Aside::Look(_) => (MAILBOX_IN_STATUS, 1),
+            Aside::Take(_) => (mailbox.start, mailbox.length.into()),
         };
-        let station = self.stations.get(nth).copied().unwrap_or_default();
         let slot = frame.push(
             Command::Fprd,
             index,
-            Address::station(station, register),
+            Address::station(mailbox.station, register),
             length,
         );
         self.aside = slot.map(|slot| (slot, self.next_aside));
@@ -267,16 +296,7 @@ impl<'w, W: Wire> Op<'w, W> {
     ) -> Option<Reception> {
         let received = self.received.get(..length)?;
         let time = self.frame.answer(self.time.as_ref()?, received)?;
-        let image = self.frame.answer(self.image.as_ref()?, received)?;
-        let count = self.stations.len();
-        // Reading counts 1, writing 1, and 2 where both are one datagram.
-        let (counted, each, back) = if let Some(slot) = &self.inputs {
-            let inputs = self.frame.answer(slot, received)?;
-            (image.counter + inputs.counter, 2, inputs.data)
-        } else {
-            let (_, back) = image.data.split_at(self.sizes.0);
-            (image.counter, 3, back)
-        };
+        let drives = self.drives_group.answer(&self.frame, received)?;
         self.bus_time.hear(*time.data.first_chunk()?);
         for (slot, state) in self.status.iter().zip(&mut self.states) {
             let answer = self.frame.answer(slot, received);
@@ -290,23 +310,33 @@ impl<'w, W: Wire> Op<'w, W> {
                 _ => DeviceState::default(),
             };
         }
-        self.next_aside = next_aside(self.aside.as_ref(), self.stations.len(), |slot, aside| {
+        if let Some(group) = &self.others_group {
+            let others = group.answer(&self.frame, received)?;
+            self.are_others_whole = others.counted == others.expected;
+            if self.are_others_whole {
+                self.others_inputs.copy_from_slice(others.inputs);
+            }
+        }
+        let mailboxes = &self.mailboxes;
+        self.next_aside = next_aside(self.aside.as_ref(), mailboxes.len(), |slot, aside| {
             let answer = self.frame.answer(slot, received)?;
             let full = answer.counter == 1 && answer.data.first().is_some_and(|s| s & 8 != 0);
             if let (Aside::Take(nth), 1) = (aside, answer.counter) {
                 self.emergency = emergency(answer.data)
-                    .map(|code| (nth, code))
+                    .zip(mailboxes.get(nth))
+                    .map(|(code, mailbox)| (mailbox.nth, code))
                     .or(self.emergency);
             }
             Some(full)
         });
-        #[allow(clippy::cast_possible_truncation, reason = "nine drives")]
-        let expected = each * count as u16;
-        if counted != expected {
-            return Some(Reception::Short { counted, expected });
+        if drives.counted != drives.expected {
+            return Some(Reception::Short {
+                counted: drives.counted,
+                expected: drives.expected,
+            });
         }
         for (led, input) in self.drives.iter().zip(inputs) {
-            *input = Inputs::take(&led.layout, back.get(led.inputs_at..)?)?;
+            *input = Inputs::take(&led.layout, drives.inputs.get(led.inputs_at..)?)?;
         }
         Some(Reception::Good(FrameTimes {
             sent_ns: self.sent_ns,
@@ -317,10 +347,10 @@ impl<'w, W: Wire> Op<'w, W> {
 }
 
 /// What the last datagram of the next frame is about: the message, if a mailbox is full, else the
-/// next drive's mailbox.
+/// next one's.
 fn next_aside(
     last: Option<&(Slot, Aside)>,
-    drives: usize,
+    mailboxes: usize,
     mut is_full: impl FnMut(&Slot, Aside) -> Option<bool>,
 ) -> Aside {
     let Some((slot, aside)) = last else {
@@ -329,6 +359,6 @@ fn next_aside(
     let full = is_full(slot, *aside).unwrap_or(false);
     match aside {
         Aside::Look(nth) if full => Aside::Take(*nth),
-        Aside::Look(nth) | Aside::Take(nth) => Aside::Look((nth + 1) % drives.max(1)),
+        Aside::Look(nth) | Aside::Take(nth) => Aside::Look((nth + 1) % mailboxes.max(1)),
     }
 }

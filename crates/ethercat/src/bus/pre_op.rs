@@ -2,18 +2,24 @@
 
 use super::clocks;
 use super::mapping;
+use super::others::{self, Others};
 use super::parameters;
 use super::safe_op::SafeOp;
 use super::state::{self, SAFE_OP};
-use super::windows::{WATCHED, process};
+use super::watchdog::{self, OutputWatchdog};
+use super::windows::process;
 use crate::coe::{self, Object};
-use crate::device::Device;
+use crate::device::{Device, Window};
 use crate::error::BusError;
 use crate::exchange::Exchange;
 use crate::layout::Led;
-use crate::registers::{FMMU, OUTPUT_WATCHDOG, SYNC_MANAGER};
+use crate::registers::{FMMU, SYNC_MANAGER};
 use crate::settings::{DriveSettings, Settings};
-use crate::wire::Wire;
+use crate::wire::{MAX_FRAME, Wire};
+
+/// Bytes of the head of a frame, and of a datagram without its data.
+const HEAD: usize = 16;
+const DATAGRAM: usize = 12;
 
 /// A bus whose devices can be asked for parameters.
 #[derive(Debug)]
@@ -46,17 +52,40 @@ impl<'w, W: Wire> PreOp<'w, W> {
         coe::read(&mut self.bus, device, object)
     }
 
-    /// The device that is to be a drive, if it is the one that is expected there.
-    fn drive(&self, wanted: &DriveSettings) -> Result<Device, BusError> {
-        let position = wanted.position;
+    /// What is in the process data of a device, as far as it tells: a simple one by its EEPROM, one with
+    /// CoE when it is asked.
+    ///
+    /// # Errors
+    ///
+    /// There is no such device, or it does not answer.
+    pub fn windows(&mut self, position: usize) -> Result<Vec<Window>, BusError> {
         let found = self.devices.len();
         let device = self.devices.get(position);
         let device = device.ok_or(BusError::Missing { position, found })?;
-        for (what, wanted, found) in [
-            ("vendor", wanted.vendor, device.identity.vendor),
-            ("product", wanted.product, device.identity.product),
-            ("alias", wanted.alias.into(), device.alias.into()),
-        ] {
+        if device.mailbox.is_some() && device.has_coe {
+            return others::told_windows(&mut self.bus, device);
+        }
+        Ok(device.windows.clone())
+    }
+
+    /// How a device watches its outputs.
+    ///
+    /// # Errors
+    ///
+    /// There is no such device, or it does not answer.
+    pub fn watchdog(&mut self, position: usize) -> Result<OutputWatchdog, BusError> {
+        watchdog::read(&mut self.bus, position)
+    }
+
+    /// The device at a place, if it is the one that is expected there: vendor, product and alias.
+    fn expected(&self, position: usize, ids: [u32; 3]) -> Result<&Device, BusError> {
+        let found = self.devices.len();
+        let device = self.devices.get(position);
+        let device = device.ok_or(BusError::Missing { position, found })?;
+        let own = &device.identity;
+        let own = [own.vendor, own.product, device.alias.into()];
+        let named = ["vendor", "product", "alias"].into_iter();
+        for ((what, wanted), found) in named.zip(ids).zip(own) {
             if wanted != 0 && wanted != found {
                 return Err(BusError::Other {
                     position,
@@ -66,6 +95,14 @@ impl<'w, W: Wire> PreOp<'w, W> {
                 });
             }
         }
+        Ok(device)
+    }
+
+    /// The device that is to be a drive, if it is the one that is expected there.
+    fn drive(&self, wanted: &DriveSettings) -> Result<Device, BusError> {
+        let position = wanted.position;
+        let ids = [wanted.vendor, wanted.product, wanted.alias.into()];
+        let device = self.expected(position, ids)?;
         let device = device.clone().or_process_at(wanted.process_at);
         let lacks = if !device.may_be_drive() {
             "it has no mailbox with CoE: it is no drive that this master knows"
@@ -84,23 +121,6 @@ impl<'w, W: Wire> PreOp<'w, W> {
         })
     }
 
-    /// Looks whether a drive will notice that frames stay away.
-    fn check_watchdog(&mut self, device: &Device, action: &'static str) -> Result<(), BusError> {
-        let [control] = self
-            .bus
-            .read(device.position, SYNC_MANAGER + 16 + 4, action)?;
-        if control & WATCHED != 0 {
-            return Ok(());
-        }
-        Err(BusError::Unfit {
-            device: device.position,
-            name: device.name.clone(),
-            what: "it does not let the watchdog of its outputs be switched on (bit 6 of 0x0814), so \
-                   that it would go on when the bus is lost: its manufacturer has to say how it stops"
-                .to_owned(),
-        })
-    }
-
     /// Writes parameters, maps process data, starts SYNC0, and brings the drives to SAFE-OP.
     ///
     /// # Errors
@@ -115,18 +135,23 @@ impl<'w, W: Wire> PreOp<'w, W> {
             drives.push((device, layout));
         }
         let drives = Led::in_a_row(drives);
-        let (outputs, _) = Led::sizes(&drives);
-        let watchdog = u16::try_from(settings.bus.watchdog_ns / 100_000).unwrap_or(u16::MAX);
+        let (outputs, inputs) = Led::sizes(&drives);
         for led in &drives {
             let action = "to the place of its process data";
             let at = led.device.position;
-            self.bus
-                .write(at, OUTPUT_WATCHDOG, &watchdog.to_le_bytes(), action)?;
             let (managers, windows) = process(led, outputs);
             self.bus.write(at, SYNC_MANAGER + 16, &managers, action)?;
-            self.check_watchdog(&led.device, action)?;
+            watchdog::set(&mut self.bus, &led.device, 2, settings.bus.watchdog_ns)?;
             self.bus.write(at, FMMU, &windows, action)?;
         }
+        let mut others = Others::default();
+        for wanted in &settings.terminals {
+            let ids = [wanted.vendor, wanted.product, wanted.alias.into()];
+            let device = self.expected(wanted.position, ids)?.clone();
+            others.add(&mut self.bus, &device, wanted)?;
+        }
+        others.place(&mut self.bus, outputs + inputs, settings.bus.watchdog_ns)?;
+        check_room(&drives, &others)?;
         let reference = clocks::reference(&self.devices).unwrap_or(0);
         let time = clocks::settle(&mut self.bus, &self.devices, reference)?;
         let period_ns = settings.bus.period_ns;
@@ -135,6 +160,30 @@ impl<'w, W: Wire> PreOp<'w, W> {
             state::request(&mut self.bus, &led.device, SAFE_OP)?;
             parameters::check_sync(&mut self.bus, &led.device)?;
         }
-        Ok(SafeOp::new(self.bus, drives, (reference, time), start_ns))
+        for device in &others.devices {
+            state::request(&mut self.bus, device, SAFE_OP)?;
+        }
+        let reference = (reference, time);
+        Ok(SafeOp::new(self.bus, (drives, others), reference, start_ns))
     }
+}
+
+/// Looks whether the datagrams of a cycle fit into one frame.
+fn check_room(drives: &[Led], others: &Others) -> Result<(), BusError> {
+    let devices = || drives.iter().map(|led| &led.device).chain(&others.devices);
+    let (out, back) = Led::sizes(drives);
+    let (others_out, others_back) = others.wiring.sizes;
+    let longest = devices().filter_map(|device| Some(device.mailbox?.1.length));
+    let mailbox = longest.map(usize::from).max().unwrap_or(1);
+    // The head of the frame, the time, two datagrams of process data for each way, the states.
+    let states = devices().count() * (DATAGRAM + 6);
+    let data = out + back + others_out + others_back + 4 * DATAGRAM;
+    let needed = HEAD + (DATAGRAM + 8) + data + states + (DATAGRAM + mailbox);
+    if needed <= MAX_FRAME {
+        return Ok(());
+    }
+    Err(BusError::Room {
+        needed,
+        most: MAX_FRAME,
+    })
 }

@@ -1,10 +1,12 @@
 //! The bus in SAFE-OP: inputs come, outputs do not yet count.
 
 use super::bus_time::BusTime;
-use super::op::{DeviceState, Op, Reception};
+use super::op::{Op, Reception};
+use super::others::Others;
 use super::state::{self, OP};
 use crate::bus_clock::BusClock;
 use crate::device::Device;
+use crate::device_state::DeviceState;
 use crate::error::BusError;
 use crate::exchange::Exchange;
 use crate::image::{Inputs, Outputs};
@@ -13,7 +15,7 @@ use crate::registers::AL_CONTROL;
 use crate::settings::BusSettings;
 use crate::wire::Wire;
 
-/// How long the drives may take to OP.
+/// How long the devices may take to OP.
 const PATIENCE_NS: u64 = 10_000_000_000;
 
 /// A bus that gives inputs.
@@ -21,35 +23,45 @@ const PATIENCE_NS: u64 = 10_000_000_000;
 pub struct SafeOp<'w, W> {
     bus: Exchange<'w, W>,
     drives: Vec<Led>,
+    others: Others,
     /// Whose clock it is, and what time.
     reference: (usize, BusTime),
     start_ns: u64,
 }
 
 impl<'w, W: Wire> SafeOp<'w, W> {
-    pub(super) const fn new(
+    pub(super) fn new(
         bus: Exchange<'w, W>,
-        drives: Vec<Led>,
+        (drives, others): (Vec<Led>, Others),
         reference: (usize, BusTime),
         start_ns: u64,
     ) -> Self {
         Self {
             bus,
             drives,
+            others,
             reference,
             start_ns,
         }
     }
 
-    /// Brings the drives to OP while cycles are exchanged whose targets are where the drives stand.
+    /// Brings the devices to OP while cycles are exchanged whose targets are where the drives stand, and
+    /// whose outputs are at rest.
     ///
     /// # Errors
     ///
-    /// A drive does not go there.
+    /// A device does not go there.
     pub fn into_op(self, settings: &BusSettings) -> Result<Op<'w, W>, BusError> {
         let now_ns = self.bus.wire.now_ns();
         let clock = BusClock::new(settings, self.start_ns, now_ns);
-        let op = Op::new(self.bus.wire, self.drives.clone(), self.reference);
+        let op = Op::new(
+            self.bus.wire,
+            self.drives.clone(),
+            self.others.clone(),
+            self.reference,
+        );
+        let devices = self.drives.iter().map(|led| &led.device);
+        let devices: Vec<&Device> = devices.chain(&self.others.devices).collect();
         let mut start = Start {
             inputs: vec![Inputs::default(); self.drives.len()],
             outputs: vec![Outputs::default(); self.drives.len()],
@@ -61,20 +73,17 @@ impl<'w, W: Wire> SafeOp<'w, W> {
         while !start.clock.is_settled() {
             start.cycle()?;
             if start.op.wire().now_ns() > until_ns {
-                return Err(self.drives.first().map_or(BusError::Nobody, |led| {
-                    refusal(&led.device, start.op.states().first())
+                return Err(devices.first().map_or(BusError::Nobody, |device| {
+                    refusal(device, start.op.states().first())
                 }));
             }
         }
-        start.request(&self.drives)?;
+        start.request(&devices)?;
         let until_ns = start.op.wire().now_ns() + PATIENCE_NS;
         loop {
             start.cycle()?;
             let states = start.op.states();
-            if states
-                .iter()
-                .all(|state| state.state == OP && !state.has_error)
-            {
+            if states.iter().all(|state| state.is_in_op()) {
                 start.op.take_over(start.clock);
                 return Ok(start.op);
             }
@@ -82,10 +91,7 @@ impl<'w, W: Wire> SafeOp<'w, W> {
             let late = states.iter().position(|state| state.state != OP);
             let is_late = start.op.wire().now_ns() > until_ns;
             if let Some(nth) = failed.or(late.filter(|_| is_late)) {
-                return Err(refusal(
-                    &self.drives[nth].device,
-                    start.op.states().get(nth),
-                ));
+                return Err(refusal(devices[nth], start.op.states().get(nth)));
             }
         }
     }
@@ -124,11 +130,11 @@ impl<W: Wire> Start<'_, W> {
         Ok(())
     }
 
-    fn request(&mut self, drives: &[Led]) -> Result<(), BusError> {
+    fn request(&mut self, devices: &[&Device]) -> Result<(), BusError> {
         let mut bus = Exchange::new(self.op.wire());
-        for led in drives {
+        for device in devices {
             let action = "to a change of its state";
-            bus.write(led.device.position, AL_CONTROL, &[OP, 0], action)?;
+            bus.write(device.position, AL_CONTROL, &[OP, 0], action)?;
         }
         Ok(())
     }

@@ -9,7 +9,7 @@ use crate::wire::Wire;
 pub(super) const INIT: u8 = 1;
 pub(super) const PRE_OP: u8 = 2;
 pub(super) const SAFE_OP: u8 = 4;
-pub(super) const OP: u8 = 8;
+pub(super) use crate::device_state::OP;
 /// Bit of the state: there is an error; of the control: it is taken note of.
 pub(super) const ERROR: u8 = 0x10;
 

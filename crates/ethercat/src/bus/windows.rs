@@ -43,7 +43,7 @@ pub(super) fn process(led: &Led, outputs: usize) -> (Vec<u8>, Vec<u8>) {
 }
 
 /// An FMMU as it is written; `kind` 1 for reading, 2 for writing.
-fn window(at: u32, manager: SyncManager, kind: u8) -> [u8; 16] {
+pub(super) fn window(at: u32, manager: SyncManager, kind: u8) -> [u8; 16] {
     let [a, b, c, d] = at.to_le_bytes();
     let ([l0, l1], [p0, p1]) = (manager.length.to_le_bytes(), manager.start.to_le_bytes());
     [a, b, c, d, l0, l1, 0, 7, p0, p1, 0, kind, 1, 0, 0, 0]

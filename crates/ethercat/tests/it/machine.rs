@@ -6,16 +6,19 @@ use core::sync::atomic::{AtomicBool, Ordering};
 use core::time::Duration;
 use glidepath_emulator::{DriveSettings as Emulated, HomeSwitch, Segment, SyncRecord};
 use glidepath_ethercat::{
-    BusSettings, Counts, DriveSettings, Ends, Event, HomingSettings, Mapping, Settings, drive_bus,
+    BusSettings, Counts, DriveSettings, Ends, Event, HomingSettings, Mapping, Settings,
+    TerminalSettings, drive_bus,
 };
-use glidepath_gcode::Options;
+use glidepath_gcode::{Connections, Options};
 use glidepath_geometry::{AXES, Axis, AxisVector};
-use glidepath_interpolator::{Config, FeedbackSettings, JointFeedback, Served, served};
+use glidepath_interpolator::{
+    Config, FeedbackSettings, JointFeedback, JointHoming, ProbeInput, Served, served,
+};
 use glidepath_kinematics::{AxisList, Mechanism, Trivial};
 use glidepath_link::servo::{JumpLimits, ServoSettings, StopLimits};
 use glidepath_link::{
-    Client, Command, CommandReply, CommandRequest, Feedback, FrameSink, InProcess, LinkError,
-    MachineState, Publisher, Setpoint, SetpointFrame, Status, Subscriber, Transport,
+    Auxiliary, Client, Command, CommandReply, CommandRequest, Feedback, FrameSink, InProcess,
+    LinkError, MachineState, Publisher, Setpoint, SetpointFrame, Status, Subscriber, Transport,
 };
 use glidepath_planner::{Output, Pipeline, ProgramSource};
 use glidepath_program::{Effort, Limits, Settings as PlanSettings, Smoothing};
@@ -89,6 +92,10 @@ pub(crate) struct Setup {
     pub(crate) bus: BusSettings,
     pub(crate) drives: Vec<DriveSettings>,
     pub(crate) emulated: Vec<Emulated>,
+    pub(crate) terminals: Vec<TerminalSettings>,
+    /// The first joint is brought home by the controller.
+    pub(crate) homing: Option<JointHoming>,
+    pub(crate) probe: Option<ProbeInput>,
 }
 
 impl Setup {
@@ -105,6 +112,9 @@ impl Setup {
             },
             drives: (0..3).map(drive).collect(),
             emulated: vec![Emulated::default(); 3],
+            terminals: Vec::new(),
+            homing: None,
+            probe: None,
         }
     }
 
@@ -125,7 +135,11 @@ impl Setup {
     }
 }
 
-fn config(homes: bool, bus: &BusSettings) -> Config {
+fn config(setup: &Setup) -> Config {
+    let (homes, bus) = (
+        setup.drives.iter().any(|drive| drive.homing.is_some()),
+        &setup.bus,
+    );
     let joint = JointFeedback {
         min_following_error: 0.2,
         following_error: 2.0,
@@ -133,13 +147,16 @@ fn config(homes: bool, bus: &BusSettings) -> Config {
         homes,
         homing: None,
     };
+    let mut feedback = FeedbackSettings::new(PERIOD_NS, joint);
+    feedback.joints[0].homing = setup.homing;
     Config {
         feedback: Some(FeedbackSettings {
+            probe: setup.probe,
             // As the manual has it: frames that are lost are not yet feedback that is.
             stale_after: Duration::from_nanos(
                 3 * PERIOD_NS + u64::from(bus.lost_frames) * bus.period_ns + bus.delay_ns,
             ),
-            ..FeedbackSettings::new(PERIOD_NS, joint)
+            ..feedback
         }),
         mechanism: Mechanism::Trivial(Trivial {
             axes: AxisList::new(&[Axis::X, Axis::Y, Axis::Z]),
@@ -152,6 +169,8 @@ fn config(homes: bool, bus: &BusSettings) -> Config {
 pub(crate) fn plan(text: &str, start: AxisVector, epoch: u64) -> Vec<SetpointFrame> {
     let options = Options {
         start,
+        connections: Connections::Real,
+        probing_v: Some(20.0),
         ..Options::default()
     };
     let settings = PlanSettings {
@@ -191,6 +210,7 @@ impl Subscriber<Setpoint> for Source {
 struct Life<'s> {
     tick: Box<dyn FnMut(u64) -> Setpoint + 's>,
     setpoints: Box<dyn Subscriber<Setpoint>>,
+    auxiliary: Box<dyn Subscriber<Auxiliary>>,
     feedback: Box<dyn Publisher<Feedback>>,
     frames: Box<dyn FrameSink>,
     client: Box<dyn Client<CommandRequest, CommandReply>>,
@@ -202,6 +222,7 @@ impl<'s> Life<'s> {
         Self {
             tick: Box::new(|now_ns| served.tick(now_ns)),
             setpoints: link.setpoint_source().unwrap(),
+            auxiliary: link.auxiliary_source().unwrap(),
             feedback: link.feedback_sink().unwrap(),
             frames: link.frame_sink().unwrap(),
             client: link.command_client().unwrap(),
@@ -263,6 +284,7 @@ struct Reality<'c, 's> {
     lives_now: bool,
     case: &'c mut dyn Case,
     queue: Queue,
+    auxiliary: rtrb::Producer<Auxiliary>,
     records: rtrb::Consumer<Feedback>,
     happened: rtrb::Consumer<Event>,
     events: Rc<RefCell<Vec<Event>>>,
@@ -384,6 +406,10 @@ impl Reality<'_, '_> {
         while let Some(status) = life.statuses.take().unwrap() {
             self.status = Some(status);
         }
+        while let Some(record) = life.auxiliary.take().unwrap() {
+            // Who has no terminals does not listen.
+            let _ = self.auxiliary.push(record);
+        }
         while let Some(setpoint) = life.setpoints.take().unwrap() {
             self.queue.borrow_mut().push_back(setpoint);
         }
@@ -419,11 +445,7 @@ pub(crate) fn run_on(
     segment: Segment,
     start_ns: u64,
 ) -> Outcome {
-    let homes = setup.drives.iter().any(|drive| drive.homing.is_some());
-    let (config, links) = (
-        config(homes, &setup.bus),
-        [InProcess::default(), InProcess::default()],
-    );
+    let (config, links) = (config(setup), [InProcess::default(), InProcess::default()]);
     let [first, second] = &links;
     served(&config, 11, Box::new(first.clone()), |a| {
         served(&config, 22, Box::new(second.clone()), |b| {
@@ -444,9 +466,11 @@ fn with_bridge(
     let settings = Settings {
         bus: setup.bus,
         drives: setup.drives.clone(),
+        terminals: setup.terminals.clone(),
         servo: servo(),
     };
     let queue = Queue::default();
+    let (auxiliary, heard) = RingBuffer::new(1024);
     let (feedback, records) = RingBuffer::new(256);
     let (events, happened) = RingBuffer::new(256);
     let (log, _said) = channel();
@@ -455,6 +479,7 @@ fn with_bridge(
         events,
         log,
         demands: None,
+        auxiliary: (!setup.terminals.is_empty()).then_some(heard),
     };
     let stop = Rc::new(AtomicBool::new(false));
     let (told, setpoints) = (Rc::default(), Rc::default());
@@ -463,6 +488,7 @@ fn with_bridge(
         lives_now: true,
         case,
         queue: Rc::clone(&queue),
+        auxiliary,
         records,
         happened,
         events: Rc::clone(&told),
@@ -498,8 +524,10 @@ fn with_bridge(
     }
     let end_ns = glidepath_ethercat::Wire::now_ns(&wire);
     let mut segment = wire.segment;
-    let records = (0..setup.drives.len())
-        .map(|nth| segment.take_records(nth))
+    let records = setup
+        .drives
+        .iter()
+        .map(|drive| segment.take_records(drive.position))
         .collect();
     Outcome {
         counts,

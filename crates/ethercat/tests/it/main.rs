@@ -17,6 +17,8 @@ mod life;
 mod machine;
 mod maps;
 mod matrix;
+mod terminals;
+mod terminals_up;
 mod wire;
 
 /// The thread of the bus does not allocate.

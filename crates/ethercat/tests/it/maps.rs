@@ -79,6 +79,7 @@ fn refusal(setup: &Setup) -> String {
     let settings = Settings {
         bus: setup.bus,
         drives: setup.drives.clone(),
+        terminals: setup.terminals.clone(),
         servo: ServoSettings::default(),
     };
     let bus = Init::find(&mut wire).and_then(Init::into_pre_op);

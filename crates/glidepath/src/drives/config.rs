@@ -1,6 +1,6 @@
-//! The configuration of the drives, judged.
+//! The configuration of what hangs on the bus, judged.
 
-use glidepath_ethercat::{BusSettings, DriveSettings};
+use glidepath_ethercat::{BusSettings, DriveSettings, TerminalSettings};
 
 /// The content of `drives.toml`.
 #[derive(Debug, Clone, PartialEq)]
@@ -11,4 +11,6 @@ pub struct DrivesConfig {
     pub bus: BusSettings,
     /// The drives, one for each joint of the machine.
     pub drives: Vec<DriveSettings>,
+    /// All other devices that are led.
+    pub terminals: Vec<TerminalSettings>,
 }

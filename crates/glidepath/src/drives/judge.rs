@@ -2,6 +2,7 @@
 //! the whole against the machine.
 
 use super::config::DrivesConfig;
+use super::device;
 use super::raw::{RawBus, RawDrive, RawDrives, RawHoming, RawMap};
 use crate::config::{ConfigDiagnostic, HomingBy, Judge, MachineConfig, Range};
 use core::ops::Range as Span;
@@ -119,11 +120,14 @@ pub(super) fn judge(
             span: None,
         });
     }
+    let drives: Vec<_> = drives.into_iter().map(|(drive, _)| drive).collect();
+    let terminals = device::devices(&mut judge, raw.device, &drives, velocities.len());
     if judge.diagnostics.is_empty() {
         Ok(DrivesConfig {
             interface,
             bus,
-            drives: drives.into_iter().map(|(drive, _)| drive).collect(),
+            drives,
+            terminals,
         })
     } else {
         Err(judge.diagnostics)

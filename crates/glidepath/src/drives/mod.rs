@@ -3,10 +3,14 @@
 //! Read like a configuration: names first, values second, every diagnostic at once, with its place.
 
 mod config;
+mod device;
 mod judge;
 mod raw;
+mod raw_device;
+mod tables;
 #[cfg(test)]
 mod tests;
+mod words;
 mod written;
 
 pub use config::DrivesConfig;

@@ -1,9 +1,8 @@
 //! The raw `drives.toml`, as it is written, before any value is judged.
 
+use super::raw_device::{Optional, RawDevice};
 use serde::Deserialize;
 use toml::Spanned;
-
-pub(super) type Optional<T> = Option<Spanned<T>>;
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -11,6 +10,8 @@ pub(super) struct RawDrives {
     pub(super) bus: RawBus,
     #[serde(default)]
     pub(super) drive: Vec<Spanned<RawDrive>>,
+    #[serde(default)]
+    pub(super) device: Vec<Spanned<RawDevice>>,
 }
 
 #[derive(Debug, Deserialize)]

@@ -1,7 +1,8 @@
 //! The writer of a first `drives.toml`, from the devices found on the wire.
 
+use super::tables::Tables;
 use core::fmt::Write as _;
-use glidepath_ethercat::Device;
+use glidepath_ethercat::{Device, OutputWatchdog, Window};
 
 /// A device, and what it says of itself.
 #[derive(Debug, Clone)]
@@ -13,6 +14,10 @@ pub struct Found {
     /// Whether it can follow positions cycle by cycle, and find its home by itself; `None` if it is
     /// no drive of CiA 402.
     pub modes: Option<(bool, bool)>,
+    /// What is in its process data.
+    pub windows: Vec<Window>,
+    /// How it watches its outputs, if it tells.
+    pub watchdog: Option<OutputWatchdog>,
 }
 
 impl Found {
@@ -26,6 +31,9 @@ impl Found {
     /// What it is, in words.
     fn verdict(&self) -> &'static str {
         match self.modes {
+            None if self.windows.iter().all(|window| window.entries.is_empty()) => {
+                "no drive, without process data"
+            }
             None => "no drive",
             Some((false, _)) => "a drive without cyclic position (mode 8): cannot be led",
             Some(_) if !self.device.clock.is_clock() => {
@@ -37,7 +45,7 @@ impl Found {
     }
 }
 
-/// The file: what was found as comments, and a table for each drive. What nobody but the builder of
+/// The file: what was found as comments, a table for each drive, and one as a comment for each other device. What nobody but the builder of
 /// the machine knows is left for them to fill in, in a way that is refused as it stands.
 #[must_use]
 pub fn written(interface: &str, found: &[Found]) -> String {
@@ -101,6 +109,10 @@ pub fn written(interface: &str, found: &[Found]) -> String {
              # Without an absolute encoder:\n\
              # homing = {{ method = 17, fast = 20.0, slow = 2.0, acceleration = 500.0, sequence = 0 }}\n"
         );
+    }
+    let mut tables = Tables::default();
+    for item in found.iter().filter(|item| !item.is_drive()) {
+        tables.write(&mut text, &item.device, &item.windows, item.watchdog);
     }
     text
 }

@@ -40,6 +40,7 @@ pub(super) fn drive(args: &EthercatArgs, config: &MachineConfig) -> Result<Exit,
     let settings = Settings {
         bus: drives.bus,
         drives: drives.drives,
+        terminals: drives.terminals,
         servo: servo::settings(config),
     };
     let mut wire = PacketWire::open(&drives.interface)?;

@@ -1,6 +1,7 @@
 //! The bridge to emulated drives, together with them.
 
 use super::bridge;
+use super::emulated_terminals;
 use super::namespace::{self, DRIVES, MASTER};
 use crate::cli::EthercatArgs;
 use crate::command::failure::Failure;
@@ -13,7 +14,7 @@ use core::sync::atomic::{AtomicBool, Ordering};
 use glidepath_emulator::{DriveSettings as Emulated, HomeSwitch, Segment};
 use glidepath_ethercat::{
     BusSettings, Demand, DriveSettings, HomingSettings, MAX_FRAME, Mapping, PacketWire, Settings,
-    Wire as _,
+    TerminalSettings, Wire as _,
 };
 use glidepath_realtime::{Mode, Request, enter};
 use std::fs::File;
@@ -44,7 +45,7 @@ const POLL_NS: u64 = 50_000_000;
 pub(super) fn drive(args: &EthercatArgs, config: &MachineConfig) -> Result<Exit, Failure> {
     let interrupt = bridge::interrupt(args)?;
     namespace::make_interfaces()?;
-    let (drives, emulated) = machine(args, config)?;
+    let (drives, terminals, emulated) = machine(args, config)?;
     let period_ns = u64::from(args.emulated_period_us) * 1000;
     let mut settings = Settings {
         bus: BusSettings {
@@ -54,6 +55,7 @@ pub(super) fn drive(args: &EthercatArgs, config: &MachineConfig) -> Result<Exit,
             ..BusSettings::default()
         },
         drives,
+        terminals,
         servo: servo::settings(config),
     };
     if args.best_effort {
@@ -114,11 +116,11 @@ fn answer(wire: &mut PacketWire, segment: &mut Segment, is_over: &AtomicBool) {
     }
 }
 
+/// Drives and other devices as the bridge knows them, and all of them as they are.
+type Machine = (Vec<DriveSettings>, Vec<TerminalSettings>, Vec<Emulated>);
+
 /// The drives of a machine, as the bridge and as they themselves know them.
-fn machine(
-    args: &EthercatArgs,
-    config: &MachineConfig,
-) -> Result<(Vec<DriveSettings>, Vec<Emulated>), Failure> {
+fn machine(args: &EthercatArgs, config: &MachineConfig) -> Result<Machine, Failure> {
     let given = args
         .drives
         .as_deref()
@@ -159,11 +161,18 @@ fn machine(
         quick_stop_a: 4000.0,
         max_v,
     };
-    let drives: Vec<_> = given.map_or_else(
-        || velocities.into_iter().enumerate().map(drive).collect(),
-        |given| given.drives,
+    let (drives, terminals): (Vec<_>, _) = given.map_or_else(
+        || {
+            (
+                velocities.into_iter().enumerate().map(drive).collect(),
+                Vec::new(),
+            )
+        },
+        |given| (given.drives, given.terminals),
     );
-    let last = drives.iter().map(|drive| drive.position).max().unwrap_or(0);
+    let positions = drives.iter().map(|drive| drive.position);
+    let positions = positions.chain(terminals.iter().map(|terminal| terminal.position));
+    let last = positions.max().unwrap_or(0);
     let mut emulated = vec![Emulated::default(); last + 1];
     for drive in &drives {
         let begin = drive.counts(begins[drive.joint]).unwrap_or(0);
@@ -186,7 +195,11 @@ fn machine(
             there.start_counts = begin;
         }
     }
-    Ok((drives, emulated))
+    for terminal in &terminals {
+        emulated[terminal.position] = emulated_terminals::emulated(terminal);
+    }
+    let terminals = terminals.iter().map(emulated_terminals::plain).collect();
+    Ok((drives, terminals, emulated))
 }
 
 /// What the drives recorded, for what time each target was meant, and what had become of the setpoints

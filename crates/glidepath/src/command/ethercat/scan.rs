@@ -29,6 +29,13 @@ pub(super) fn scan(args: &ScanArgs) -> Result<Exit, Failure> {
                 "has_clock": device.clock.is_clock(),
                 "counts_per_revolution": found.counts_per_revolution,
                 "drive": found.is_drive(),
+                "input_bits": bits(found, false),
+                "output_bits": bits(found, true),
+                "output_watchdog": found.watchdog.map(|watchdog| json!({
+                    "time_us": watchdog.time_ns / 1000,
+                    "expired": watchdog.has_expired,
+                    "count": watchdog.count,
+                })),
             })
         };
         let devices: Vec<_> = found.iter().map(device).collect();
@@ -37,6 +44,13 @@ pub(super) fn scan(args: &ScanArgs) -> Result<Exit, Failure> {
         output::result(&written(&args.interface, &found));
     }
     Ok(Exit::Done)
+}
+
+/// Bits of its inputs or outputs.
+fn bits(found: &Found, is_output: bool) -> u32 {
+    let windows = found.windows.iter().filter(|w| w.is_output == is_output);
+    let entries = windows.flat_map(|window| &window.entries);
+    entries.map(|entry| entry.bits).sum()
 }
 
 fn look<W: Wire>(wire: &mut W) -> Result<Vec<Found>, BusError> {
@@ -53,6 +67,13 @@ fn look<W: Wire>(wire: &mut W) -> Result<Vec<Found>, BusError> {
             let modes = is_drive.then(|| read(0x6502, 0).unwrap_or(0));
             let counts = modes.and_then(|_| counts_per_revolution(&mut bus, position));
             Found {
+                // One that does not tell has none that can be named.
+                windows: if modes.is_none() {
+                    bus.windows(position).unwrap_or_default()
+                } else {
+                    Vec::new()
+                },
+                watchdog: bus.watchdog(position).ok(),
                 device,
                 counts_per_revolution: counts,
                 modes: modes.map(|modes| (modes & 1 << 7 != 0, modes & 1 << 5 != 0)),

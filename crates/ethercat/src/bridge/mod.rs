@@ -1,23 +1,24 @@
 //! The bridge between setpoints and drives: what each drive is to be told in a cycle, and what is
 //! said of it.
 
+mod outputs;
+mod report;
+
 use crate::axis::{self, Axis, Sight, Wish};
-use crate::bus::{DeviceState, StateCode};
+use crate::device_state::DeviceState;
 use crate::event::Event;
 use crate::image::{Inputs, Outputs};
 use crate::settings::Settings;
 use crate::state;
-use bytemuck::Zeroable as _;
+use crate::terminal::Terminals;
 use glidepath_geometry::AXES;
 use glidepath_link::servo::{JointStates, OwnStop, Servo, ServoCounts};
-use glidepath_link::{DriveState, Feedback, MachineState, Setpoint, Subscriber};
+use glidepath_link::{DriveState, MachineState, Setpoint, Subscriber};
 
 /// Over how many cycles a velocity is taken: a count is not to look like a motion.
 const WINDOW: usize = 16;
 /// How long the motion may go on after a drive has failed, ns. Then the joints stop by themselves.
 const LED_NS: u64 = 1_000_000_000;
-/// Added to the code of a state, where that is told in the place of a drive's own fault.
-const AL_CODE: u32 = 0x1_0000;
 
 /// A drive and what is known of it.
 #[derive(Debug)]
@@ -32,7 +33,7 @@ struct Drive {
 
 impl Drive {
     const fn is_present(&self) -> bool {
-        self.device.state == StateCode::OP && !self.device.has_error
+        self.device.is_in_op()
     }
 
     const fn has_failed(&self) -> bool {
@@ -66,6 +67,12 @@ pub struct Bridge<S: Subscriber<Setpoint>> {
     failed_ns: Option<u64>,
     stops_told: u64,
     restarts_told: u64,
+    /// All that is no drive; `None` if there is nothing.
+    terminals: Option<Terminals>,
+    /// How long after the time of the last setpoint somebody is still obeyed, ns.
+    patience_ns: u64,
+    /// Too many frames were lost, and none has come since.
+    is_bus_lost: bool,
 }
 
 impl<S: Subscriber<Setpoint>> Bridge<S> {
@@ -97,6 +104,10 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
             failed_ns: None,
             stops_told: 0,
             restarts_told: 0,
+            terminals: (!settings.terminals.is_empty())
+                .then(|| Terminals::new(settings.bus.lost_frames)),
+            patience_ns: settings.servo.patience_ns,
+            is_bus_lost: false,
         }
     }
 
@@ -107,16 +118,13 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
         self.boot_id = boot_id;
         (self.number, self.cycles) = (0, 0);
         // Nobody gets power by a setpoint of before.
-        self.is_latched = true;
+        (self.is_latched, self.is_bus_lost) = (true, false);
         let (mut actual, mut window) = ([0.0; AXES], [f64::INFINITY; AXES]);
         for (drive, inputs) in self.drives.iter_mut().zip(inputs) {
             let settings = drive.axis.settings;
             drive.axis = Axis::new(settings);
             drive.inputs = *inputs;
-            drive.device = DeviceState {
-                state: StateCode::OP,
-                ..DeviceState::default()
-            };
+            drive.device = DeviceState::in_op();
             drive.told = drive.device;
             let place = settings.place(inputs.actual);
             drive.places = [place; WINDOW];
@@ -134,6 +142,7 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
 
     /// The drives that answered, and in what states they are.
     pub fn hear(&mut self, inputs: &[Inputs], states: &[DeviceState], tell: &mut dyn FnMut(Event)) {
+        self.is_bus_lost = false;
         for (drive, (inputs, device)) in self.drives.iter_mut().zip(inputs.iter().zip(states)) {
             drive.device = *device;
             if drive.is_present() {
@@ -155,7 +164,7 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
     /// No setpoint is played until the position was taken over anew.
     pub fn lose_bus(&mut self, now_ns: u64) {
         self.servo.stop(now_ns);
-        self.is_latched = true;
+        (self.is_latched, self.is_bus_lost) = (true, true);
     }
 
     /// From here on the joints come to rest, and lose their power then: where the setpoints that have
@@ -176,13 +185,29 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
         !self.drives.iter().all(Drive::is_present)
     }
 
+    /// Whether that, or another device is lost.
+    #[must_use]
+    pub fn has_lost_device(&self) -> bool {
+        self.has_lost_drive() || self.has_lost_terminal()
+    }
+
+    fn has_lost_terminal(&self) -> bool {
+        self.terminals.as_ref().is_some_and(Terminals::has_lost)
+    }
+
     /// The counts of what has become of the setpoints so far.
     #[must_use]
     pub const fn played(&self) -> ServoCounts {
         *self.servo.counts()
     }
 
-    /// A cycle: takes setpoints in, and says what each drive is to be told, for the setpoints of
+    /// What each drive is to be told in this cycle.
+    #[must_use]
+    pub fn targets(&self) -> &[Outputs] {
+        &self.outputs
+    }
+
+    /// A cycle: takes setpoints in, and finds what each drive is to be told, for the setpoints of
     /// `meant_ns`. `since_ns` is the time since targets reached the drives last. Times are of
     /// `CLOCK_MONOTONIC`.
     pub fn cycle(
@@ -191,9 +216,12 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
         meant_ns: u64,
         since_ns: u64,
         tell: &mut dyn FnMut(Event),
-    ) -> &[Outputs] {
+    ) {
         // A source that fails falls silent.
-        while let Ok(Some(_)) = self.servo.receive(now_ns) {
+        while let Ok(Some(setpoint)) = self.servo.receive(now_ns) {
+            if let Some(terminals) = &mut self.terminals {
+                terminals.note(&setpoint);
+            }
             self.look_at_state();
         }
         if self.ends && !self.servo.comes_to_rest() {
@@ -251,7 +279,6 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
             self.is_latched = true;
             self.drives.iter_mut().for_each(|drive| drive.axis.latch());
         }
-        &self.outputs
     }
 
     /// A fault was taken note of: the drives' own are to be reset.
@@ -273,7 +300,7 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
         tell: &mut dyn FnMut(Event),
     ) {
         let moves = demand.is_some_and(|joints| joints.iter().any(|joint| joint.velocity != 0.0));
-        let has_failed = self.drives.iter().any(Drive::has_failed);
+        let has_failed = self.drives.iter().any(Drive::has_failed) || self.has_lost_terminal();
         if !(has_failed && moves && self.servo.is_armed()) {
             self.failed_ns = None;
             return;
@@ -311,50 +338,5 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
         asked
             .filter_map(|drive| Some(drive.axis.settings.homing?.sequence))
             .min()
-    }
-
-    /// What is known of the joints, as it was when the setpoints of `sample_ns` were played.
-    #[allow(clippy::cast_precision_loss, reason = "a few periods")]
-    pub fn feedback(&mut self, sample_ns: u64) -> Feedback {
-        let mut feedback = Feedback {
-            boot_id: self.boot_id,
-            number: self.number,
-            sample_ns,
-            joints: self.joints,
-            ..Feedback::zeroed()
-        };
-        if let Some(setpoint) = self.servo.last() {
-            (feedback.reference, feedback.setpoint_number) = (setpoint.reference, setpoint.number);
-        }
-        let slot = self.cycles % WINDOW;
-        let window_t = (WINDOW as u64 * self.period_ns) as f64 * 1e-9;
-        for drive in &mut self.drives {
-            let joint = drive.axis.settings.joint.min(AXES - 1);
-            let place = drive.axis.settings.place(drive.inputs.actual);
-            let before = core::mem::replace(&mut drive.places[slot], place);
-            feedback.position[joint] = place;
-            feedback.velocity[joint] = (place - before) / window_t;
-            let bit = |is: bool| u32::from(is) << joint;
-            let is_present = drive.is_present();
-            feedback.enabled |= bit(is_present && drive.axis.is_enabled());
-            feedback.homed |= bit(is_present && drive.axis.is_homed());
-            feedback.homing |= bit(is_present && drive.axis.is_homing());
-            feedback.fault |= bit(drive.has_failed());
-            feedback.drive_state[joint] = if is_present {
-                state::of(drive.inputs.status).code()
-            } else {
-                DriveState::Unknown.code()
-            };
-            feedback.fault_code[joint] = if !is_present {
-                AL_CODE | u32::from(drive.device.code)
-            } else if drive.has_failed() {
-                drive.inputs.fault.into()
-            } else {
-                0
-            };
-        }
-        self.number += 1;
-        self.cycles = self.cycles.wrapping_add(1);
-        feedback
     }
 }

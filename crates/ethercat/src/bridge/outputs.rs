@@ -1,0 +1,49 @@
+//! The devices of a bridge that are no drives: what they tell, and when their outputs are obeyed.
+
+use super::Bridge;
+use crate::event::Event;
+use crate::terminal::{Answered, Wiring};
+use glidepath_link::{Auxiliary, Setpoint, Subscriber};
+
+impl<S: Subscriber<Setpoint>> Bridge<S> {
+    /// All that is no drive has come up, too: where its inputs and outputs are, and who it is.
+    pub(crate) fn begin_terminals(
+        &mut self,
+        (wiring, positions): (&Wiring, impl Iterator<Item = usize>),
+    ) {
+        if let Some(terminals) = &mut self.terminals {
+            terminals.begin(wiring, positions);
+        }
+    }
+
+    /// What all that is no drive has answered.
+    pub(crate) fn hear_terminals(&mut self, answered: Answered<'_>, tell: &mut dyn FnMut(Event)) {
+        if let Some(terminals) = &mut self.terminals {
+            terminals.hear(answered, tell);
+        }
+    }
+
+    /// The auxiliary record has come.
+    pub(crate) fn hear_record(&mut self, record: &Auxiliary, now_ns: u64) {
+        if let Some(terminals) = &mut self.terminals {
+            terminals.hear_record(record, now_ns);
+        }
+    }
+
+    /// Writes what outputs are to be, for the setpoints of `meant_ns`, after the cycle of the drives.
+    ///
+    /// Nobody is to be obeyed without setpoints, when the bridge ends, without the bus, or without
+    /// one of the devices: as soon as no joint is told to move, because a tool that moves on in the
+    /// material with its spindle at rest breaks.
+    pub(crate) fn outputs(&mut self, now_ns: u64, meant_ns: u64, image: &mut [u8]) {
+        let Some(terminals) = &mut self.terminals else {
+            return;
+        };
+        let last = self.servo.last();
+        let is_silent =
+            last.is_none_or(|last| meant_ns > last.apply_ns.saturating_add(self.patience_ns));
+        let is_alone = is_silent || self.ends || terminals.has_lost();
+        let is_safe = self.is_bus_lost || (is_alone && self.rests);
+        terminals.obey((now_ns, meant_ns), is_safe, image);
+    }
+}

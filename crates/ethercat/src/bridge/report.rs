@@ -1,0 +1,60 @@
+//! The feedback of a bridge: what is known of the joints and of the inputs.
+
+use super::{Bridge, WINDOW};
+use crate::state;
+use bytemuck::Zeroable as _;
+use glidepath_geometry::AXES;
+use glidepath_link::{DriveState, Feedback, Setpoint, Subscriber};
+
+/// Added to the code of a state, where that is told in the place of a drive's own fault.
+const AL_CODE: u32 = 0x1_0000;
+
+impl<S: Subscriber<Setpoint>> Bridge<S> {
+    /// What is known of the joints, as it was when the setpoints of `sample_ns` were played.
+    #[allow(clippy::cast_precision_loss, reason = "a few periods")]
+    pub fn feedback(&mut self, sample_ns: u64) -> Feedback {
+        let mut feedback = Feedback {
+            boot_id: self.boot_id,
+            number: self.number,
+            sample_ns,
+            joints: self.joints,
+            ..Feedback::zeroed()
+        };
+        if let Some(setpoint) = self.servo.last() {
+            (feedback.reference, feedback.setpoint_number) = (setpoint.reference, setpoint.number);
+        }
+        let slot = self.cycles % WINDOW;
+        let window_t = (WINDOW as u64 * self.period_ns) as f64 * 1e-9;
+        for drive in &mut self.drives {
+            let joint = drive.axis.settings.joint.min(AXES - 1);
+            let place = drive.axis.settings.place(drive.inputs.actual);
+            let before = core::mem::replace(&mut drive.places[slot], place);
+            feedback.position[joint] = place;
+            feedback.velocity[joint] = (place - before) / window_t;
+            let bit = |is: bool| u32::from(is) << joint;
+            let is_present = drive.is_present();
+            feedback.enabled |= bit(is_present && drive.axis.is_enabled());
+            feedback.homed |= bit(is_present && drive.axis.is_homed());
+            feedback.homing |= bit(is_present && drive.axis.is_homing());
+            feedback.fault |= bit(drive.has_failed());
+            feedback.drive_state[joint] = if is_present {
+                state::of(drive.inputs.status).code()
+            } else {
+                DriveState::Unknown.code()
+            };
+            feedback.fault_code[joint] = if !is_present {
+                AL_CODE | u32::from(drive.device.code)
+            } else if drive.has_failed() {
+                drive.inputs.fault.into()
+            } else {
+                0
+            };
+        }
+        if let Some(terminals) = &self.terminals {
+            terminals.tell(&mut feedback);
+        }
+        self.number += 1;
+        self.cycles = self.cycles.wrapping_add(1);
+        feedback
+    }
+}

@@ -1,0 +1,39 @@
+//! The entries of process data: which object, and how many bits.
+
+/// An entry of a map: an object, or a gap of index 0.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Entry {
+    /// Index of the object, 0 for a gap.
+    pub index: u16,
+    /// Subindex.
+    pub sub: u8,
+    /// How long it is, bits.
+    pub bits: u32,
+}
+
+impl Entry {
+    /// As a map has it.
+    #[allow(clippy::cast_possible_truncation, reason = "parts of an entry")]
+    pub(crate) const fn new(entry: u32) -> Self {
+        Self {
+            index: (entry >> 16) as u16,
+            sub: (entry >> 8) as u8,
+            bits: entry & 0xff,
+        }
+    }
+
+    /// Whether it is one that the master writes in every cycle.
+    pub(crate) const fn is_led(self) -> bool {
+        matches!(self.index, 0x6040 | 0x607a | 0x6060)
+    }
+}
+
+/// How many bits entries have.
+pub(crate) fn bits(entries: &[Entry]) -> u32 {
+    entries.iter().map(|entry| entry.bits).sum()
+}
+
+/// How many bytes that is.
+pub(crate) fn bytes(entries: &[Entry]) -> usize {
+    bits(entries).div_ceil(8) as usize
+}

@@ -1,0 +1,27 @@
+//! Devices that are no drives: couplers, inputs, outputs.
+//!
+//! | file | has |
+//! |---|---|
+//! | `settings` | what the file says of them |
+//! | `signal` | what outputs obey |
+//! | `commands` | what is commanded, and when |
+//! | `wiring` | where in the process data everything is |
+//! | `driven` | outputs, cycle by cycle |
+//! | `worked` | all of it at work |
+
+mod commands;
+mod driven;
+mod settings;
+mod signal;
+mod wiring;
+mod worked;
+
+pub use settings::{
+    ANALOG_INPUTS, AnalogInput, AnalogOutput, At, DIGITAL_INPUTS, DigitalInput, DigitalOutput,
+    Parameter, TerminalSettings,
+};
+pub use signal::{Quantity, Signal};
+
+pub(crate) use driven::at_rest;
+pub(crate) use wiring::Wiring;
+pub(crate) use worked::{Answered, Terminals};

@@ -1,0 +1,313 @@
+//! The wiring of devices: where in the image of all each input and output is.
+
+use super::settings::{
+    AnalogInput, AnalogOutput, At, DigitalInput, DigitalOutput, TerminalSettings,
+};
+use crate::device::Window;
+use crate::entry::{Entry, bits, bytes};
+use core::fmt;
+
+/// A bit or a number in the image, and what it is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Wired<T> {
+    /// From the beginning of the inputs or outputs of all, bits.
+    pub(crate) bit: usize,
+    /// How long it is, bits.
+    pub(crate) bits: u32,
+    /// What it is.
+    pub(crate) what: T,
+}
+
+/// What is in the image: the outputs of all devices, and their inputs.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct Wiring {
+    pub(crate) inputs: Vec<Wired<DigitalInput>>,
+    pub(crate) analog_inputs: Vec<Wired<AnalogInput>>,
+    pub(crate) outputs: Vec<Wired<DigitalOutput>>,
+    pub(crate) analog_outputs: Vec<Wired<AnalogOutput>>,
+    /// Bytes of the outputs and of the inputs.
+    pub(crate) sizes: (usize, usize),
+}
+
+/// Why something is not where the file says.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct NotThere {
+    /// "input" or "output".
+    what: &'static str,
+    at: At,
+    /// What is there instead, bits.
+    found: Option<u32>,
+    /// What could be meant.
+    known: Vec<Entry>,
+}
+
+impl fmt::Display for NotThere {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { what, at, .. } = self;
+        match self.found {
+            Some(bits) => write!(f, "{what} {at} has {bits} bits, and cannot be this")?,
+            None => write!(f, "there is no {what} {at} in its process data")?,
+        }
+        let known: Vec<String> = self
+            .known
+            .iter()
+            .filter(|entry| entry.index != 0)
+            .map(|entry| {
+                let at = At::Object {
+                    index: entry.index,
+                    sub: entry.sub,
+                };
+                format!("{at} ({} bit)", entry.bits)
+            })
+            .collect();
+        if known.is_empty() {
+            write!(f, ", which has none that can be named")
+        } else {
+            write!(f, ", which has {}", known.join(", "))
+        }
+    }
+}
+
+/// The windows of one way of a device, one after the other, each in whole bytes.
+#[derive(Debug, Clone, Copy)]
+struct Row<'w> {
+    what: &'static str,
+    windows: &'w [Window],
+    is_output: bool,
+    /// Where it begins among those of all devices, bits.
+    from: usize,
+}
+
+impl Row<'_> {
+    fn windows(&self) -> impl Iterator<Item = &Window> {
+        let is_output = self.is_output;
+        self.windows
+            .iter()
+            .filter(move |window| window.is_output == is_output)
+    }
+
+    fn bytes(&self) -> usize {
+        self.windows().map(|window| bytes(&window.entries)).sum()
+    }
+
+    /// Where a value is: bits from the beginning of the row, and how many it has.
+    fn place(&self, at: At) -> Option<(usize, u32)> {
+        match at {
+            At::Bit(bit) => {
+                let bit = bit as usize;
+                (bit < 8 * self.bytes()).then_some((bit, 1))
+            }
+            At::Object { index, sub } => {
+                let mut before = 0;
+                for window in self.windows() {
+                    let is_meant = |entry: &Entry| (entry.index, entry.sub) == (index, sub);
+                    if let Some(nth) = window.entries.iter().position(is_meant) {
+                        let into = bits(&window.entries[..nth]) as usize;
+                        return Some((8 * before + into, window.entries[nth].bits));
+                    }
+                    before += bytes(&window.entries);
+                }
+                None
+            }
+        }
+    }
+
+    /// Finds a value that `fits` says may be so many bits, beginning at such a bit.
+    fn find<T>(
+        &self,
+        at: At,
+        what: T,
+        fits: impl Fn(usize, u32) -> bool,
+    ) -> Result<Wired<T>, NotThere> {
+        let found = self.place(at);
+        if let Some((bit, bits)) = found.filter(|(bit, bits)| fits(*bit, *bits)) {
+            let bit = self.from + bit;
+            return Ok(Wired { bit, bits, what });
+        }
+        let entries = self.windows().flat_map(|window| &window.entries);
+        Err(NotThere {
+            what: self.what,
+            at,
+            found: found.map(|(_, bits)| bits),
+            known: entries.copied().collect(),
+        })
+    }
+}
+
+const fn is_bit(_: usize, bits: u32) -> bool {
+    bits == 1
+}
+
+const fn is_number(bit: usize, bits: u32) -> bool {
+    bit.is_multiple_of(8) && matches!(bits, 8 | 16 | 32)
+}
+
+impl Wiring {
+    /// Adds a device with these windows behind those that there are.
+    pub(crate) fn add(
+        &mut self,
+        settings: &TerminalSettings,
+        windows: &[Window],
+    ) -> Result<(), NotThere> {
+        let row = |what, is_output, from: usize| Row {
+            what,
+            windows,
+            is_output,
+            from: 8 * from,
+        };
+        let outputs = row("output", true, self.sizes.0);
+        let inputs = row("input", false, self.sizes.1);
+        for input in &settings.inputs {
+            self.inputs.push(inputs.find(input.at, *input, is_bit)?);
+        }
+        for input in &settings.analog_inputs {
+            let wire = inputs.find(input.at, *input, is_number)?;
+            self.analog_inputs.push(wire);
+        }
+        for output in &settings.outputs {
+            self.outputs.push(outputs.find(output.at, *output, is_bit)?);
+        }
+        for output in &settings.analog_outputs {
+            let has_room = |bits: u32| u64::from(output.full_counts) < 1 << bits;
+            let fits = |bit, bits| is_number(bit, bits) && has_room(bits);
+            let wire = outputs.find(output.at, *output, fits)?;
+            self.analog_outputs.push(wire);
+        }
+        self.sizes.0 += outputs.bytes();
+        self.sizes.1 += inputs.bytes();
+        Ok(())
+    }
+}
+
+/// Whether a bit of an image is set.
+pub(crate) fn bit(image: &[u8], bit: usize) -> bool {
+    image
+        .get(bit / 8)
+        .is_some_and(|byte| byte >> (bit % 8) & 1 == 1)
+}
+
+/// Sets or clears a bit of an image.
+pub(crate) fn put_bit(image: &mut [u8], bit: usize, is_on: bool) {
+    if let Some(byte) = image.get_mut(bit / 8) {
+        let mask = 1 << (bit % 8);
+        *byte = if is_on { *byte | mask } else { *byte & !mask };
+    }
+}
+
+/// A number of up to four bytes that begins with a byte.
+pub(crate) fn number(image: &[u8], bit: usize, bits: u32) -> u32 {
+    let bytes = image.iter().skip(bit / 8).take(bits as usize / 8);
+    bytes.zip(0..).fold(0, |number, (byte, nth)| {
+        number | u32::from(*byte) << (8 * nth)
+    })
+}
+
+/// Writes such a number.
+pub(crate) fn put_number(image: &mut [u8], bit: usize, bits: u32, number: u32) {
+    let places = image.iter_mut().skip(bit / 8).take(bits as usize / 8);
+    for (place, byte) in places.zip(number.to_le_bytes()) {
+        *place = byte;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+
+    use super::*;
+    use crate::device::SyncManager;
+
+    fn window(number: u8, is_output: bool, entries: &[u32]) -> Window {
+        Window {
+            number,
+            manager: SyncManager::default(),
+            is_output,
+            entries: entries.iter().copied().map(Entry::new).collect(),
+        }
+    }
+
+    fn input(at: At) -> DigitalInput {
+        DigitalInput {
+            at,
+            number: Some(0),
+            home: None,
+            limit_low: None,
+            limit_high: None,
+            is_inverted: false,
+        }
+    }
+
+    fn object(index: u16, sub: u8) -> At {
+        At::Object { index, sub }
+    }
+
+    #[test]
+    fn values_are_found_behind_those_of_other_devices_and_windows() {
+        let mut wiring = Wiring::default();
+        let mut settings = TerminalSettings {
+            inputs: vec![input(object(0x6010, 1))],
+            ..TerminalSettings::default()
+        };
+        let four = [0x6000_0101, 0x6010_0101, 0x6020_0101, 0x6030_0101];
+        wiring.add(&settings, &[window(0, false, &four)]).unwrap();
+        // Nine bits in two bytes, then another window, then a number.
+        let nine = [0x6000_0108, 0x6010_0101];
+        let number = [0x0000_0008, 0x6020_1110];
+        let windows = [
+            window(0, false, &nine),
+            window(1, true, &four),
+            window(2, false, &number),
+        ];
+        settings.inputs.push(input(At::Bit(31)));
+        settings.analog_inputs.push(AnalogInput {
+            at: object(0x6020, 0x11),
+            number: 0,
+            scale: 1.0,
+            offset: 0.0,
+            is_signed: true,
+        });
+        wiring.add(&settings, &windows).unwrap();
+        let bits: Vec<_> = wiring.inputs.iter().map(|wire| wire.bit).collect();
+        assert_eq!(bits, [1, 8 + 8, 8 + 31]);
+        assert_eq!(wiring.analog_inputs[0].bit, 8 + 16 + 8);
+        assert_eq!((wiring.sizes, wiring.analog_inputs[0].bits), ((1, 6), 16));
+    }
+
+    #[test]
+    fn what_is_not_there_is_told_with_what_is() {
+        let mut wiring = Wiring::default();
+        let windows = [window(0, false, &[0x6000_0101, 0x0000_0007, 0x6000_1110])];
+        let mut told = |at| {
+            let settings = TerminalSettings {
+                inputs: vec![input(at)],
+                ..TerminalSettings::default()
+            };
+            wiring.add(&settings, &windows).unwrap_err().to_string()
+        };
+        assert_eq!(
+            told(object(0x6000, 2)),
+            "there is no input 0x6000:02 in its process data, which has 0x6000:01 (1 bit), 0x6000:11 \
+             (16 bit)"
+        );
+        let number = told(object(0x6000, 0x11));
+        assert!(
+            number.starts_with("input 0x6000:11 has 16 bits, and cannot"),
+            "{number}"
+        );
+        let beyond = told(At::Bit(24));
+        assert!(beyond.starts_with("there is no input bit 24"), "{beyond}");
+    }
+
+    #[test]
+    fn bits_and_numbers_are_where_they_were_put() {
+        let mut image = [0xff, 0, 0, 0];
+        put_bit(&mut image, 3, false);
+        put_bit(&mut image, 8, true);
+        put_bit(&mut image, 99, true);
+        assert_eq!(image, [0xf7, 1, 0, 0]);
+        assert!(bit(&image, 8) && !bit(&image, 3) && !bit(&image, 99));
+        put_number(&mut image, 16, 16, 0xffff_8001);
+        assert_eq!(image, [0xf7, 1, 1, 0x80]);
+        assert_eq!(number(&image, 16, 16), 0x8001);
+    }
+}

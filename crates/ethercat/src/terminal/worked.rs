@@ -1,0 +1,295 @@
+//! Devices at work: their inputs as feedback has them, and their outputs.
+
+use super::commands::Commands;
+use super::driven::DrivenOutputs;
+use super::settings::AnalogInput;
+use super::wiring::{Wired, Wiring, bit, number};
+use crate::device_state::DeviceState;
+use crate::event::Event;
+use glidepath_link::{Auxiliary, Feedback, Setpoint};
+
+/// Added to the position of a device that is lost, in the place of a drive's own fault.
+const LOST_CODE: u32 = 0x2_0000;
+
+/// The answers of all devices in one cycle.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Answered<'a> {
+    /// Whether all took part in the process data.
+    pub(crate) is_whole: bool,
+    /// Their inputs, as they came last.
+    pub(crate) inputs: &'a [u8],
+    /// Their states.
+    pub(crate) states: &'a [DeviceState],
+}
+
+/// Devices at work.
+#[derive(Debug)]
+pub(crate) struct Terminals {
+    commands: Commands,
+    outputs: DrivenOutputs,
+    wiring: Wiring,
+    inputs: Vec<u8>,
+    /// Place in the line of each, and the state that was told last.
+    told: Vec<(usize, DeviceState)>,
+    /// Frames in a row in which not all took part.
+    short: u32,
+    most_short: u32,
+    was_told_short: bool,
+}
+
+impl Terminals {
+    /// Devices of which nothing is known yet; so many frames in a row may be without one of them.
+    pub(crate) fn new(most_short: u32) -> Self {
+        Self {
+            commands: Commands::new(),
+            outputs: DrivenOutputs::default(),
+            wiring: Wiring::default(),
+            inputs: Vec::new(),
+            told: Vec::new(),
+            short: 0,
+            most_short,
+            was_told_short: false,
+        }
+    }
+
+    /// The bus has come up, with the devices at these places of the line.
+    pub(crate) fn begin(&mut self, wiring: &Wiring, positions: impl Iterator<Item = usize>) {
+        self.wiring = wiring.clone();
+        self.outputs = DrivenOutputs::new(wiring);
+        self.inputs = vec![0; wiring.sizes.1];
+        let told = positions.map(|position| (position, DeviceState::in_op()));
+        self.told = told.collect();
+        (self.short, self.was_told_short) = (0, false);
+    }
+
+    /// A setpoint has come.
+    pub(crate) fn note(&mut self, setpoint: &Setpoint) {
+        self.commands.note(setpoint);
+    }
+
+    /// The auxiliary record has come.
+    pub(crate) fn hear_record(&mut self, record: &Auxiliary, now_ns: u64) {
+        self.commands.hear(record, now_ns);
+    }
+
+    /// Takes up what they answered. The inputs of before stay where one did not.
+    pub(crate) fn hear(&mut self, answered: Answered<'_>, tell: &mut dyn FnMut(Event)) {
+        if answered.is_whole {
+            for (own, byte) in self.inputs.iter_mut().zip(answered.inputs) {
+                *own = *byte;
+            }
+        }
+        self.short = if answered.is_whole {
+            0
+        } else {
+            self.short.saturating_add(1)
+        };
+        for ((position, told), state) in self.told.iter_mut().zip(answered.states) {
+            if told != state {
+                *told = *state;
+                if state.state == 0 {
+                    tell(Event::TerminalGone(*position));
+                } else if !state.is_in_op() {
+                    tell(Event::TerminalLeftOp(*position, state.code));
+                }
+            }
+        }
+        let is_short = self.short >= self.most_short;
+        if is_short && !self.was_told_short && self.missing().is_none() {
+            tell(Event::TerminalsShort);
+        }
+        self.was_told_short = is_short;
+    }
+
+    /// The first device that is not in OP.
+    fn missing(&self) -> Option<usize> {
+        let mut told = self.told.iter();
+        told.find(|(_, state)| !state.is_in_op())
+            .map(|(position, _)| *position)
+    }
+
+    /// Whether a device is lost.
+    pub(crate) fn has_lost(&self) -> bool {
+        self.short >= self.most_short || self.missing().is_some()
+    }
+
+    /// Writes what the outputs are to be, for what is commanded until `meant_ns`; at rest where
+    /// nobody is to be obeyed.
+    pub(crate) fn obey(&mut self, (now_ns, meant_ns): (u64, u64), is_safe: bool, image: &mut [u8]) {
+        let times = (now_ns, meant_ns);
+        self.outputs.obey(&mut self.commands, times, is_safe, image);
+    }
+
+    /// Adds what they know. A device that is lost is a fault of all joints: what their switches are
+    /// is not known any more.
+    pub(crate) fn tell(&self, feedback: &mut Feedback) {
+        for wired in &self.wiring.inputs {
+            let what = &wired.what;
+            if bit(&self.inputs, wired.bit) == what.is_inverted {
+                continue;
+            }
+            feedback.digital_in |= what.number.map_or(0, |number| 1 << (number & 63));
+            let of_joint = |joint: Option<usize>| joint.map_or(0, |joint| 1 << (joint & 31));
+            feedback.home_switch |= of_joint(what.home);
+            feedback.limit_low |= of_joint(what.limit_low);
+            feedback.limit_high |= of_joint(what.limit_high);
+        }
+        for wired in &self.wiring.analog_inputs {
+            if let Some(place) = feedback.analog_in.get_mut(wired.what.number) {
+                *place = value(&self.inputs, wired);
+            }
+        }
+        if self.has_lost() {
+            let position = self
+                .missing()
+                .and_then(|position| u32::try_from(position).ok());
+            let code = LOST_CODE + position.unwrap_or(0xffff);
+            for (joint, own) in feedback.fault_code.iter_mut().enumerate() {
+                let bit = 1 << joint;
+                if feedback.joints & bit != 0 && feedback.fault & bit == 0 {
+                    *own = code;
+                }
+            }
+            feedback.fault |= feedback.joints;
+        }
+    }
+}
+
+/// The value of an analog input, in its unit.
+#[allow(
+    clippy::cast_possible_wrap,
+    reason = "the bits of a number with a sign"
+)]
+fn value(inputs: &[u8], wired: &Wired<AnalogInput>) -> f64 {
+    let what = &wired.what;
+    let raw = number(inputs, wired.bit, wired.bits);
+    let counts = if what.is_signed {
+        let unused = 32 - wired.bits.clamp(1, 32);
+        f64::from((raw << unused) as i32 >> unused)
+    } else {
+        f64::from(raw)
+    };
+    counts * what.scale + what.offset
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::terminal::settings::{At, DigitalInput};
+    use bytemuck::Zeroable as _;
+
+    fn switch(bit: usize, is_inverted: bool) -> Wired<DigitalInput> {
+        Wired {
+            bit,
+            bits: 1,
+            what: DigitalInput {
+                at: At::Bit(0),
+                number: Some(60 + bit),
+                home: Some(bit),
+                limit_low: None,
+                limit_high: (bit == 1).then_some(2),
+                is_inverted,
+            },
+        }
+    }
+
+    fn terminals() -> Terminals {
+        let analog = Wired {
+            bit: 8,
+            bits: 16,
+            what: AnalogInput {
+                at: At::Bit(8),
+                number: 3,
+                scale: 0.5,
+                offset: 1.0,
+                is_signed: true,
+            },
+        };
+        let wiring = Wiring {
+            inputs: vec![switch(0, false), switch(1, true)],
+            analog_inputs: vec![analog],
+            sizes: (0, 3),
+            ..Wiring::default()
+        };
+        let mut terminals = Terminals::new(3);
+        terminals.begin(&wiring, [4, 6].into_iter());
+        terminals
+    }
+
+    fn told(terminals: &Terminals) -> Feedback {
+        let mut feedback = Feedback {
+            joints: 7,
+            fault: 2,
+            ..Feedback::zeroed()
+        };
+        feedback.fault_code[1] = 0x8611;
+        terminals.tell(&mut feedback);
+        feedback
+    }
+
+    #[test]
+    fn inputs_are_all_that_they_are_said_to_be() {
+        let mut terminals = terminals();
+        let states = [DeviceState::in_op(); 2];
+        let mut events = Vec::new();
+        let inputs = &[0b01, 0xfe, 0xff];
+        let whole = Answered {
+            is_whole: true,
+            inputs,
+            states: &states,
+        };
+        terminals.hear(whole, &mut |event| events.push(event));
+        let said = told(&terminals);
+        assert_eq!(said.digital_in, 0b11 << 60);
+        let switches = (said.home_switch, said.limit_low, said.limit_high);
+        assert_eq!(switches, (0b11, 0, 0b100));
+        // −2 counts.
+        assert!(said.analog_in[3].abs() < 1e-12, "{}", said.analog_in[3]);
+        assert_eq!((said.fault, events.len()), (2, 0));
+    }
+
+    #[test]
+    fn a_device_that_is_lost_is_a_fault_of_all_joints() {
+        let mut terminals = terminals();
+        let mut events = Vec::new();
+        let (op, gone) = (DeviceState::in_op(), DeviceState::default());
+        let mut hear = |is_whole, states: [DeviceState; 2], inputs: &[u8]| {
+            let answered = Answered {
+                is_whole,
+                inputs,
+                states: &states,
+            };
+            terminals.hear(answered, &mut |event| events.push(event));
+            let said = told(&terminals);
+            (
+                said.digital_in,
+                said.fault,
+                said.fault_code[0],
+                said.fault_code[1],
+            )
+        };
+        let both = 0b11 << 60;
+        assert_eq!(hear(true, [op; 2], &[1, 0, 0]), (both, 2, 0, 0x8611));
+        // A frame or two without one of them is no loss, and its inputs stay.
+        for _ in 0..2 {
+            assert_eq!(hear(false, [op; 2], &[0, 0, 0]), (both, 2, 0, 0x8611));
+        }
+        let unknown = LOST_CODE + 0xffff;
+        assert_eq!(hear(false, [op; 2], &[0; 3]), (both, 7, unknown, 0x8611));
+        let second = LOST_CODE + 6;
+        assert_eq!(hear(false, [op, gone], &[0; 3]), (both, 7, second, 0x8611));
+        assert_eq!(hear(true, [op; 2], &[0, 0, 0]).1, 2);
+        let left = DeviceState {
+            state: 4,
+            has_error: true,
+            code: 0x1b,
+        };
+        assert_eq!(hear(true, [left, op], &[0, 0, 0]).2, LOST_CODE + 4);
+        let expected = [
+            Event::TerminalsShort,
+            Event::TerminalGone(6),
+            Event::TerminalLeftOp(4, 0x1b),
+        ];
+        assert_eq!(events, expected);
+    }
+}

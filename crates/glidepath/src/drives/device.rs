@@ -1,0 +1,366 @@
+//! The judgement of devices that are no drives: what their inputs are, and what their outputs obey.
+
+use super::raw_device::{
+    RawAnalogInput, RawAnalogOutput, RawDevice, RawInput, RawOutput, RawParameter,
+};
+use super::words::{OBJECT, QUANTITIES, SIGNALS, object, quantity, signal};
+use crate::config::{ConfigDiagnostic, Judge, Range};
+use core::ops::Range as Span;
+use glidepath_ethercat::{
+    ANALOG_INPUTS, AnalogInput, AnalogOutput, At, DIGITAL_INPUTS, DigitalInput, DigitalOutput,
+    DriveSettings, Parameter, TerminalSettings,
+};
+use toml::Spanned;
+
+const SCALE: Range = Range {
+    min: -1e9,
+    max: 1e9,
+    unit: "a count",
+    help: "what a count is in the unit that programs have: 10.0 / 32768 for ± 10 V in 16 bits",
+};
+const OFFSET: Range = Range {
+    min: -1e9,
+    max: 1e9,
+    unit: "units",
+    help: "what the input is at 0 counts",
+};
+const FULL: Range = Range {
+    min: 1e-9,
+    max: 1e9,
+    unit: "units",
+    help: "the value at full counts: the speed of the spindle at 10 V",
+};
+const REST: Range = Range {
+    min: -1e9,
+    max: 1e9,
+    unit: "units",
+    help: "the value while nobody is to be obeyed",
+};
+/// Maps that can be assigned.
+const MAPS: usize = 16;
+/// Bits of process data that a frame could have.
+const BITS: i64 = 8 * 1486 - 1;
+
+/// The claims of devices so far: no two may have the same.
+#[derive(Debug, Default)]
+struct Claims(Vec<(&'static str, usize)>);
+
+impl Claims {
+    /// Whether this one is new.
+    fn take(&mut self, what: &'static str, number: usize) -> bool {
+        let claim = (what, number);
+        let is_new = !self.0.contains(&claim);
+        self.0.push(claim);
+        is_new
+    }
+}
+
+/// The judge of devices.
+struct Devices<'j> {
+    judge: &'j mut Judge,
+    /// Joints of the machine.
+    joints: usize,
+    claims: Claims,
+}
+
+/// Judges all devices that are no drives.
+pub(super) fn devices(
+    judge: &mut Judge,
+    raw: Vec<Spanned<RawDevice>>,
+    drives: &[DriveSettings],
+    joints: usize,
+) -> Vec<TerminalSettings> {
+    let mut devices = Devices {
+        judge,
+        joints,
+        claims: Claims::default(),
+    };
+    for drive in drives {
+        devices.claims.take("position", drive.position);
+    }
+    let each = raw.into_iter().map(|raw| devices.device(raw));
+    each.collect()
+}
+
+impl Devices<'_> {
+    fn tell(&mut self, key: &str, message: String, help: &str, span: Span<usize>) {
+        self.judge.diagnostics.push(ConfigDiagnostic {
+            key: key.to_owned(),
+            message,
+            help: Some(help.to_owned()),
+            span: Some(span),
+        });
+    }
+
+    fn device(&mut self, raw: Spanned<RawDevice>) -> TerminalSettings {
+        let span = raw.span();
+        let raw = raw.into_inner();
+        let help = "counted from the master on, from 0";
+        let position = self
+            .judge
+            .whole("device.position", &raw.position, (0, 63), help);
+        let position: usize = position.unwrap_or(0);
+        if !self.claims.take("position", position) {
+            let message = format!("two devices are at position {position}");
+            let help = "every table has a place of its own in the line";
+            self.tell("device.position", message, help, span);
+        }
+        let mut id = |key, value: &Option<Spanned<i64>>, most| {
+            let help = "as `glidepath ethercat scan INTERFACE` shows it; 0 compares nothing";
+            let value = value.as_ref()?;
+            self.judge.whole(key, value, (0, most), help)
+        };
+        let vendor = id("device.vendor", &raw.vendor, u32::MAX.into());
+        let product = id("device.product", &raw.product, u32::MAX.into());
+        let alias: Option<u32> = id("device.alias", &raw.alias, u16::MAX.into());
+        let assign_outputs = self.maps("device.assign_outputs", raw.assign_outputs, 0x1600);
+        let assign_inputs = self.maps("device.assign_inputs", raw.assign_inputs, 0x1a00);
+        let mut terminal = TerminalSettings {
+            position,
+            vendor: vendor.unwrap_or(0),
+            product: product.unwrap_or(0),
+            alias: alias
+                .and_then(|alias| u16::try_from(alias).ok())
+                .unwrap_or(0),
+            assign_outputs,
+            assign_inputs,
+            ..TerminalSettings::default()
+        };
+        let parameters = raw.parameters.iter().filter_map(|p| self.parameter(p));
+        terminal.parameters = parameters.collect();
+        let inputs = raw.inputs.into_iter().filter_map(|input| self.input(input));
+        terminal.inputs = inputs.collect();
+        let inputs = raw
+            .analog_inputs
+            .iter()
+            .filter_map(|i| self.analog_input(i));
+        terminal.analog_inputs = inputs.collect();
+        self.outputs(&mut terminal, raw.outputs, &raw.analog_outputs);
+        terminal
+    }
+
+    /// All outputs of a device, no two of which are at the same place.
+    fn outputs(
+        &mut self,
+        terminal: &mut TerminalSettings,
+        digital: Vec<Spanned<RawOutput>>,
+        analog: &[RawAnalogOutput],
+    ) {
+        let mut places = Vec::new();
+        for raw in digital {
+            let span = raw.span();
+            if let Some(output) = self.output(raw) {
+                places.push((output.at, span));
+                terminal.outputs.push(output);
+            }
+        }
+        for raw in analog {
+            if let Some(output) = self.analog_output(raw) {
+                places.push((output.at, raw.at.span()));
+                terminal.analog_outputs.push(output);
+            }
+        }
+        for (nth, (at, span)) in places.iter().enumerate() {
+            if places[..nth].iter().any(|(other, _)| other == at) {
+                let message = format!("two outputs are at {at}");
+                let help = "an output obeys one thing";
+                self.tell("device.outputs", message, help, span.clone());
+            }
+        }
+    }
+
+    fn maps(&mut self, key: &str, raw: Option<Vec<Spanned<i64>>>, first: i64) -> Option<Vec<u16>> {
+        let raw = raw?;
+        if raw.len() > MAPS {
+            let message = format!("{key} has {} maps", raw.len());
+            let span = raw[MAPS].span();
+            self.tell(key, message, "no device takes more than 16", span);
+        }
+        let help =
+            "the maps that the manufacturer's manual has for it, in the order to be assigned";
+        let maps = raw
+            .iter()
+            .filter_map(|map| self.judge.whole(key, map, (first, first + 0x1ff), help));
+        Some(maps.collect())
+    }
+
+    fn object(&mut self, key: &str, text: &Spanned<String>) -> Option<(u16, u8)> {
+        let found = object(text.as_ref());
+        if found.is_none() {
+            let message = format!("{key} = \"{}\" is no object", text.as_ref());
+            self.tell(key, message, OBJECT, text.span());
+        }
+        found
+    }
+
+    fn parameter(&mut self, raw: &RawParameter) -> Option<Parameter> {
+        let (index, sub) = self.object("device.parameters.object", &raw.object)?;
+        let bytes = *raw.bytes.as_ref();
+        let size = match bytes {
+            1 | 2 | 4 => u8::try_from(bytes).unwrap_or(1),
+            _ => {
+                let message = format!("device.parameters.bytes = {bytes} is not known");
+                let help = "give 1, 2 or 4: longer objects are not written";
+                self.tell("device.parameters.bytes", message, help, raw.bytes.span());
+                return None;
+            }
+        };
+        let bits = 8 * i64::from(size);
+        let range = (-(1 << (bits - 1)), (1 << bits) - 1);
+        let help = "as many bytes as the object has";
+        let key = "device.parameters.value";
+        let value: i64 = self.judge.whole(key, &raw.value, range, help)?;
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a negative number is written as its bits"
+        )]
+        let value = value as u32;
+        Some(Parameter {
+            index,
+            sub,
+            size,
+            value,
+        })
+    }
+
+    /// Where a digital input or output is: an object, or a bit.
+    fn at(
+        &mut self,
+        key: &str,
+        (at, bit): (Option<&Spanned<String>>, Option<&Spanned<i64>>),
+        span: Span<usize>,
+    ) -> Option<At> {
+        match (at, bit) {
+            (Some(at), None) => {
+                let (index, sub) = self.object(&format!("{key}.at"), at)?;
+                Some(At::Object { index, sub })
+            }
+            (None, Some(bit)) => {
+                let help = "counted from the first of its inputs or outputs, from 0";
+                let key = format!("{key}.bit");
+                let bit = self.judge.whole(&key, bit, (0, BITS), help)?;
+                Some(At::Bit(bit))
+            }
+            _ => {
+                let message = "it has `at`, or `bit`".to_owned();
+                self.tell(key, message, OBJECT, span);
+                None
+            }
+        }
+    }
+
+    /// The number of something that there is once.
+    fn claimed(
+        &mut self,
+        (key, what): (&str, &'static str),
+        raw: Option<&Spanned<i64>>,
+        most: usize,
+    ) -> Option<usize> {
+        let raw = raw?;
+        let most = i64::try_from(most).unwrap_or(i64::MAX) - 1;
+        let number = self.judge.whole(key, raw, (0, most), what)?;
+        if !self.claims.take(what, number) {
+            let message = format!("two inputs are {what} {number}");
+            let help = "each is one input of one device";
+            self.tell(key, message, help, raw.span());
+        }
+        Some(number)
+    }
+
+    fn input(&mut self, raw: Spanned<RawInput>) -> Option<DigitalInput> {
+        let (span, key) = (raw.span(), "device.inputs");
+        let raw = raw.into_inner();
+        let at = self.at(key, (raw.at.as_ref(), raw.bit.as_ref()), span.clone());
+        let joints = self.joints;
+        let number = ("device.inputs.number", "digital input");
+        let number = self.claimed(number, raw.number.as_ref(), DIGITAL_INPUTS);
+        let home = ("device.inputs.home", "home switch of joint");
+        let home = self.claimed(home, raw.home.as_ref(), joints);
+        let low = ("device.inputs.limit_low", "lower limit switch of joint");
+        let limit_low = self.claimed(low, raw.limit_low.as_ref(), joints);
+        let high = ("device.inputs.limit_high", "upper limit switch of joint");
+        let limit_high = self.claimed(high, raw.limit_high.as_ref(), joints);
+        let is_something = [&raw.number, &raw.home, &raw.limit_low, &raw.limit_high]
+            .into_iter()
+            .any(Option::is_some);
+        if !is_something {
+            let message = "nothing is said of what this input is".to_owned();
+            let help = "give number, home, limit_low or limit_high, or several of them";
+            self.tell(key, message, help, span);
+        }
+        Some(DigitalInput {
+            at: at?,
+            number,
+            home,
+            limit_low,
+            limit_high,
+            is_inverted: raw.invert,
+        })
+    }
+
+    fn analog_input(&mut self, raw: &RawAnalogInput) -> Option<AnalogInput> {
+        let at = self.object("device.analog_inputs.at", &raw.at);
+        let number = ("device.analog_inputs.number", "analog input");
+        let number = self.claimed(number, Some(&raw.number), ANALOG_INPUTS);
+        let judge = &mut *self.judge;
+        let scale = judge.number("device.analog_inputs.scale", &raw.scale, &SCALE);
+        let offset = judge.number_or("device.analog_inputs.offset", &raw.offset, &OFFSET, 0.0);
+        let (index, sub) = at?;
+        Some(AnalogInput {
+            at: At::Object { index, sub },
+            number: number?,
+            scale,
+            offset,
+            is_signed: raw.signed,
+        })
+    }
+
+    /// What an output obeys.
+    fn from<T>(
+        &mut self,
+        key: &str,
+        text: &Spanned<String>,
+        (find, known): (fn(&str) -> Option<T>, &str),
+    ) -> Option<T> {
+        let found = find(text.as_ref());
+        if found.is_none() {
+            let message = format!("{key} = \"{}\" is not known", text.as_ref());
+            self.tell(key, message, known, text.span());
+        }
+        found
+    }
+
+    fn output(&mut self, raw: Spanned<RawOutput>) -> Option<DigitalOutput> {
+        let (span, key) = (raw.span(), "device.outputs");
+        let raw = raw.into_inner();
+        let at = self.at(key, (raw.at.as_ref(), raw.bit.as_ref()), span);
+        let from = self.from("device.outputs.from", &raw.from, (signal, SIGNALS));
+        Some(DigitalOutput {
+            at: at?,
+            from: from?,
+            is_inverted: raw.invert,
+            rest: raw.rest.unwrap_or(raw.invert),
+        })
+    }
+
+    fn analog_output(&mut self, raw: &RawAnalogOutput) -> Option<AnalogOutput> {
+        let at = self.object("device.analog_outputs.at", &raw.at);
+        let key = "device.analog_outputs.from";
+        let from = self.from(key, &raw.from, (quantity, QUANTITIES));
+        let judge = &mut *self.judge;
+        let full = judge.number("device.analog_outputs.full", &raw.full, &FULL);
+        let rest = judge.number_or("device.analog_outputs.rest", &raw.rest, &REST, 0.0);
+        let help = "counts at full: 32767 for 10 V in 16 bits";
+        let key = "device.analog_outputs.counts";
+        let counts = judge.whole(key, &raw.counts, (1, u32::MAX.into()), help);
+        let (index, sub) = at?;
+        Some(AnalogOutput {
+            at: At::Object { index, sub },
+            from: from?,
+            full,
+            full_counts: counts?,
+            rest,
+        })
+    }
+}

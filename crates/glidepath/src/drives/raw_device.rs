@@ -1,0 +1,84 @@
+//! The raw tables of devices that are no drives.
+
+use serde::Deserialize;
+use toml::Spanned;
+
+pub(super) type Optional<T> = Option<Spanned<T>>;
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawDevice {
+    pub(super) position: Spanned<i64>,
+    pub(super) vendor: Optional<i64>,
+    pub(super) product: Optional<i64>,
+    pub(super) alias: Optional<i64>,
+    #[serde(default)]
+    pub(super) parameters: Vec<RawParameter>,
+    pub(super) assign_outputs: Option<Vec<Spanned<i64>>>,
+    pub(super) assign_inputs: Option<Vec<Spanned<i64>>>,
+    #[serde(default)]
+    pub(super) inputs: Vec<Spanned<RawInput>>,
+    #[serde(default)]
+    pub(super) analog_inputs: Vec<RawAnalogInput>,
+    #[serde(default)]
+    pub(super) outputs: Vec<Spanned<RawOutput>>,
+    #[serde(default)]
+    pub(super) analog_outputs: Vec<RawAnalogOutput>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawParameter {
+    pub(super) object: Spanned<String>,
+    pub(super) bytes: Spanned<i64>,
+    pub(super) value: Spanned<i64>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawInput {
+    pub(super) at: Optional<String>,
+    pub(super) bit: Optional<i64>,
+    pub(super) number: Optional<i64>,
+    pub(super) home: Optional<i64>,
+    pub(super) limit_low: Optional<i64>,
+    pub(super) limit_high: Optional<i64>,
+    #[serde(default)]
+    pub(super) invert: bool,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawAnalogInput {
+    pub(super) at: Spanned<String>,
+    pub(super) number: Spanned<i64>,
+    pub(super) scale: Spanned<f64>,
+    pub(super) offset: Optional<f64>,
+    #[serde(default = "yes")]
+    pub(super) signed: bool,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawOutput {
+    pub(super) at: Optional<String>,
+    pub(super) bit: Optional<i64>,
+    pub(super) from: Spanned<String>,
+    #[serde(default)]
+    pub(super) invert: bool,
+    pub(super) rest: Option<bool>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawAnalogOutput {
+    pub(super) at: Spanned<String>,
+    pub(super) from: Spanned<String>,
+    pub(super) full: Spanned<f64>,
+    pub(super) counts: Spanned<i64>,
+    pub(super) rest: Optional<f64>,
+}
+
+const fn yes() -> bool {
+    true
+}
