@@ -105,6 +105,20 @@ fn corpus_for(extent: Extent) -> Option<PathBuf> {
     folder
 }
 
+/// The folder of captures and EEPROMs of real devices that `GLIDEPATH_CAPTURES` names; without one, the test
+/// that asks is skipped.
+#[must_use]
+pub fn captures() -> Option<PathBuf> {
+    let folder = std::env::var_os("GLIDEPATH_CAPTURES").map(PathBuf::from);
+    if folder.is_none() {
+        skip(
+            "captures of real devices",
+            "GLIDEPATH_CAPTURES names no folder",
+        );
+    }
+    folder
+}
+
 /// Whether tests run as root, and may be another user; otherwise, the test that asks is skipped.
 #[must_use]
 pub fn can_be_another_user() -> bool {

@@ -11,6 +11,7 @@
 )]
 
 mod bring_up;
+mod captures;
 mod ending;
 mod judge;
 mod life;
