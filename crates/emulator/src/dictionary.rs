@@ -21,6 +21,31 @@ pub(crate) const MOST_TORQUE: Object = (0x6072, 0);
 pub(crate) const SYNC_OUTPUTS: Object = (0x1c32, 1);
 pub(crate) const SYNC_INPUTS: Object = (0x1c33, 1);
 
+/// How far the objects of an axis are from those of the one before, and its maps.
+const OBJECT_STEP: u16 = 0x800;
+const MAP_STEP: u16 = 0x10;
+
+/// The objects of one axis of a device.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct AxisObjects<'d> {
+    pub(crate) all: &'d Dictionary,
+    pub(crate) axis: u16,
+}
+
+impl AxisObjects<'_> {
+    pub(crate) fn value(self, (index, sub): Object) -> u32 {
+        self.all.value((index + OBJECT_STEP * self.axis, sub))
+    }
+}
+
+/// The axis that an object of CiA 402 belongs to, and its index at the first one.
+pub(crate) const fn own(index: u16) -> (u16, u16) {
+    match index {
+        0x6000..0xa000 => ((index - 0x6000) / OBJECT_STEP, 0x6000 | (index & 0x7ff)),
+        _ => (0, index),
+    }
+}
+
 /// An object in the process data: which, where it begins, how many bytes.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Mapped {
@@ -36,7 +61,50 @@ pub(crate) struct Dictionary(BTreeMap<Object, (u8, u32)>);
 
 impl Dictionary {
     /// The objects of a drive as it is delivered.
-    pub(crate) fn new(identity: Identity, following_counts: u32, quick_stop: u32) -> Self {
+    pub(crate) fn new(
+        identity: Identity,
+        axes: u16,
+        following_counts: u32,
+        quick_stop: u32,
+    ) -> Self {
+        let mut all = Self::of_one(identity, following_counts, quick_stop);
+        let own: Vec<_> = all
+            .0
+            .iter()
+            .filter(
+                |((index, _), _)| matches!(index, 0x1600..0x1700 | 0x1a00..0x1b00 | 0x6000..0x6800),
+            )
+            .map(|(object, value)| (*object, *value))
+            .collect();
+        for axis in 1..axes {
+            for ((index, sub), (size, value)) in &own {
+                let step = if *index < 0x6000 {
+                    MAP_STEP
+                } else {
+                    OBJECT_STEP
+                };
+                // What is mapped as delivered is of the same axis.
+                let is_entry = *index < 0x6000 && *sub > 0 && *value != 0;
+                let more = if is_entry {
+                    u32::from(OBJECT_STEP * axis) << 16
+                } else {
+                    0
+                };
+                let object = (index + step * axis, *sub);
+                all.0.insert(object, (*size, value + more));
+            }
+        }
+        // Room for the maps of all.
+        for assignment in [OUTPUTS_ASSIGNED, INPUTS_ASSIGNED] {
+            for sub in 3..u8::try_from(2 * axes + 1).unwrap_or(u8::MAX) {
+                all.0.insert((assignment, sub), (2, 0));
+            }
+        }
+        all
+    }
+
+    /// The objects of a device with one drive.
+    fn of_one(identity: Identity, following_counts: u32, quick_stop: u32) -> Self {
         let mut objects = BTreeMap::new();
         let mut set = |index, sub, size, value| {
             objects.insert((index, sub), (size, value));

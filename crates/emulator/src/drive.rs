@@ -4,7 +4,7 @@
 //! `x += (target − x) (1 − e^(−T/τ))`. A motor without current stands: it has a brake.
 
 use crate::dictionary::{
-    Dictionary, FOLLOWING_TIMEOUT, FOLLOWING_WINDOW, HOME_OFFSET, HOMING_METHOD, HOMING_SPEED,
+    AxisObjects, FOLLOWING_TIMEOUT, FOLLOWING_WINDOW, HOME_OFFSET, HOMING_METHOD, HOMING_SPEED,
     MOST_TORQUE, QUICK_STOP,
 };
 use crate::power::Power;
@@ -72,13 +72,13 @@ pub(crate) struct Drive {
 }
 
 impl Drive {
-    pub(crate) fn new(settings: &DriveSettings) -> Self {
+    pub(crate) fn new(settings: &DriveSettings, axis: usize) -> Self {
         Self {
             lag_t: settings.lag_t,
             brake_t: settings.brake_t,
             home: settings.home,
             power: Power::SwitchOnDisabled,
-            place: settings.start_counts.into(),
+            place: settings.start_counts.get(axis).copied().unwrap_or(0).into(),
             offset: 0.0,
             velocity: 0.0,
             outputs: Outputs::default(),
@@ -96,7 +96,7 @@ impl Drive {
     pub(crate) fn rebooted(&self, settings: &DriveSettings) -> Self {
         Self {
             place: self.place,
-            ..Self::new(settings)
+            ..Self::new(settings, 0)
         }
     }
 
@@ -163,7 +163,7 @@ impl Drive {
     }
 
     /// A step of `step_t` seconds, with what the master said last.
-    pub(crate) fn step(&mut self, step_t: f64, outputs: Outputs, objects: &Dictionary) {
+    pub(crate) fn step(&mut self, step_t: f64, outputs: Outputs, objects: AxisObjects<'_>) {
         let resets = outputs.control & 0x80 != 0 && self.outputs.control & 0x80 == 0;
         let starts_homing = outputs.control & 0x10 != 0 && self.outputs.control & 0x10 == 0;
         self.outputs = outputs;
@@ -223,7 +223,7 @@ impl Drive {
         self.place += (target - self.place) * share;
     }
 
-    fn watch_following(&mut self, step_t: f64, objects: &Dictionary) {
+    fn watch_following(&mut self, step_t: f64, objects: AxisObjects<'_>) {
         let window = objects.value(FOLLOWING_WINDOW);
         let follows = self.power == Power::Enabled && self.outputs.mode == CYCLIC_POSITION;
         let behind = f64::from(self.outputs.target) - self.place - self.offset;
@@ -243,7 +243,7 @@ impl Drive {
         clippy::cast_precision_loss,
         reason = "the offset is a signed object; places are far below 2⁵³"
     )]
-    fn go_home(&mut self, step_t: f64, starts: bool, objects: &Dictionary) {
+    fn go_home(&mut self, step_t: f64, starts: bool, objects: AxisObjects<'_>) {
         if starts {
             self.homing = Homing::Under;
         }

@@ -1,40 +1,49 @@
 //! The process data of a drive in the memory of its device.
 
-use crate::dictionary::{Dictionary, MODE, Mapped};
+use crate::dictionary::{AxisObjects, Dictionary, MODE, Mapped, own};
 use crate::drive::{Inputs, Outputs};
 use crate::memory::Memory;
 
-/// What the master has written; what is no demand goes to the objects.
+/// What the master has written for an axis; what is no demand goes to the objects.
 #[allow(
     clippy::cast_possible_truncation,
     clippy::cast_possible_wrap,
     reason = "objects have the size of their type"
 )]
-pub(crate) fn outputs(memory: &Memory, mapped: &[Mapped], objects: &mut Dictionary) -> Outputs {
+pub(crate) fn outputs(
+    memory: &Memory,
+    mapped: &[Mapped],
+    objects: &mut Dictionary,
+    axis: u16,
+) -> Outputs {
     let start = memory.sync_manager(2).start;
     // The mode that was written as a parameter, unless it is mapped.
+    let own_objects = AxisObjects { all: objects, axis };
     let mut outputs = Outputs {
-        mode: objects.value(MODE) as u8 as i8,
+        mode: own_objects.value(MODE) as u8 as i8,
         ..Outputs::default()
     };
     for object in mapped {
         let value = memory.number(start + object.offset, object.length.into());
-        match object.index {
-            0x6040 => outputs.control = value as u16,
-            0x607a => outputs.target = value as u32 as i32,
-            0x6060 => outputs.mode = value as u8 as i8,
-            index => objects.set((index, object.sub), value as u32),
+        match own(object.index) {
+            (of, 0x6040) if of == axis => outputs.control = value as u16,
+            (of, 0x607a) if of == axis => outputs.target = value as u32 as i32,
+            (of, 0x6060) if of == axis => outputs.mode = value as u8 as i8,
+            (_, 0x6040 | 0x607a | 0x6060) => {}
+            _ => objects.set((object.index, object.sub), value as u32),
         }
     }
     outputs
 }
 
-/// What the master will read.
-pub(crate) fn put_inputs(memory: &mut Memory, mapped: &[Mapped], inputs: Inputs) {
+/// What the master will read of an axis.
+pub(crate) fn put_inputs(memory: &mut Memory, mapped: &[Mapped], inputs: Inputs, axis: u16) {
     let start = memory.sync_manager(3).start;
     for object in mapped {
         let at = start + object.offset;
-        match object.index {
+        let (of, index) = own(object.index);
+        match index {
+            _ if of != axis => {}
             0x6041 => memory.put(at, &inputs.status.to_le_bytes()),
             0x6064 => memory.put(at, &inputs.actual.to_le_bytes()),
             0x6061 => memory.put(at, &inputs.mode.to_le_bytes()),

@@ -58,23 +58,39 @@ impl Segment {
     /// Keeps a record of every SYNC0 from here on.
     pub fn keep_records(&mut self) {
         for device in &mut self.devices {
-            device.records.get_or_insert_default();
+            let axes = device.drives.len();
+            device.records.get_or_insert_with(|| vec![Vec::new(); axes]);
             device.pins.records.get_or_insert_default();
         }
     }
 
-    /// What a drive did since this was asked last.
+    /// What a drive did since this was asked last: the first one of a device.
     pub fn take_records(&mut self, drive: usize) -> Vec<SyncRecord> {
-        let device = self.devices.get_mut(drive);
+        self.take_axis_records(drive, 0)
+    }
+
+    /// The same of any of its drives, from 0.
+    pub fn take_axis_records(&mut self, device: usize, axis: usize) -> Vec<SyncRecord> {
+        let device = self.devices.get_mut(device);
         let records = device.and_then(|device| device.records.as_mut());
+        let records = records.and_then(|records| records.get_mut(axis));
         records.map(core::mem::take).unwrap_or_default()
     }
 
-    /// Something goes wrong with a drive, or right again.
+    /// Something goes wrong with a device and all drives of it, or right again.
     pub fn upset(&mut self, drive: usize, upset: Upset, now_ns: u64) {
         self.advance(now_ns);
         if let Some(device) = self.devices.get_mut(drive) {
             device.upset(upset, now_ns);
+        }
+    }
+
+    /// Something goes wrong with one of the drives of a device, or right again.
+    pub fn upset_axis(&mut self, device: usize, axis: usize, upset: Upset, now_ns: u64) {
+        self.advance(now_ns);
+        let device = self.devices.get_mut(device);
+        if let Some(drive) = device.and_then(|device| device.drives.get_mut(axis)) {
+            drive.upset(upset);
         }
     }
 

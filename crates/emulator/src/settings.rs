@@ -70,8 +70,10 @@ pub struct DriveSettings {
     pub identity: [u32; 4],
     /// Its name in the EEPROM.
     pub name: String,
-    /// What it counts at the start.
-    pub start_counts: i32,
+    /// Its drives: objects of each are 0x800 behind those of the one before, maps 0x10.
+    pub axes: usize,
+    /// What each of them counts at the start; those that are not here, 0.
+    pub start_counts: Vec<i32>,
     /// Time constant of its lag, s; 0 for none.
     pub lag_t: f64,
     /// How long it takes from "switched on" to "operation enabled", s: a brake opens.
@@ -193,7 +195,8 @@ impl Default for DriveSettings {
         Self {
             identity: [0x0000_0e1e, 0x0402, 1, 0],
             name: "GPDRIVE".to_owned(),
-            start_counts: 0,
+            axes: 1,
+            start_counts: Vec::new(),
             lag_t: 0.002,
             brake_t: 0.02,
             drift_ppm: 0.0,

@@ -22,9 +22,10 @@ impl Entry {
         }
     }
 
-    /// Whether it is one that the master writes in every cycle.
+    /// Whether it is one that the master writes in every cycle, of any axis.
     pub(crate) const fn is_led(self) -> bool {
-        matches!(self.index, 0x6040 | 0x607a | 0x6060)
+        let of_axes = matches!(self.index, 0x6000..0xa000);
+        of_axes && matches!(self.index & 0x7ff, 0x40 | 0x7a | 0x60)
     }
 }
 

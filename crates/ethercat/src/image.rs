@@ -57,14 +57,13 @@ impl Outputs {
         }
     }
 
-    /// Writes it where a drive has it.
+    /// Writes it where a drive has it among the outputs of its device.
     pub(crate) fn put(self, layout: &Layout, bytes: &mut [u8]) {
         let mut write = |at: usize, value: &[u8]| {
             if let Some(place) = bytes.get_mut(at..at + value.len()) {
                 place.copy_from_slice(value);
             }
         };
-        write(0, &layout.rest);
         write(layout.control, &self.control.to_le_bytes());
         write(layout.target, &self.target.to_le_bytes());
         if let Some(at) = layout.mode {

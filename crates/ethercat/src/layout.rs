@@ -1,7 +1,7 @@
 //! Where each object is in the process data of a drive.
 
 use crate::device::Device;
-use crate::entry::{Entry, bits, bytes};
+use crate::entry::{Entry, bits};
 
 const CONTROL: Wanted = Wanted(0x6040, 16, "0x6040 (controlword)");
 const TARGET: Wanted = Wanted(0x607a, 32, "0x607A (target position)");
@@ -15,32 +15,37 @@ const FAULT: Wanted = Wanted(0x603f, 16, "0x603F (error code)");
 #[derive(Debug, Clone, Copy)]
 struct Wanted(u16, u32, &'static str);
 
-impl Wanted {
-    /// Where it begins, bytes; `None` if it is not mapped, with another size, or inside a byte.
-    fn place(self, entries: &[Entry]) -> Option<usize> {
-        let nth = entries
+/// What is mapped in one way, as an axis sees it: `own` is where it has an object.
+#[derive(Clone, Copy)]
+struct Mapped<'e> {
+    entries: &'e [Entry],
+    own: &'e dyn Fn(u16) -> u16,
+}
+
+impl Mapped<'_> {
+    /// Where an object begins, bytes; `None` if it is not mapped, with another size, or inside a byte.
+    fn place(self, wanted: Wanted) -> Option<usize> {
+        let own = (self.own)(wanted.0);
+        let nth = self
+            .entries
             .iter()
-            .position(|entry| (entry.index, entry.sub, entry.bits) == (self.0, 0, self.1))?;
-        let bits = bits(&entries[..nth]);
+            .position(|entry| (entry.index, entry.sub, entry.bits) == (own, 0, wanted.1))?;
+        let bits = bits(&self.entries[..nth]);
         bits.is_multiple_of(8).then_some(bits as usize / 8)
     }
 
-    fn place_or_name(self, entries: &[Entry]) -> Result<usize, &'static str> {
-        self.place(entries).ok_or(self.2)
+    fn place_or_name(self, wanted: Wanted) -> Result<usize, &'static str> {
+        self.place(wanted).ok_or(wanted.2)
     }
 }
 
-/// The layout of the process data of a drive.
+/// The layout of the process data of an axis, in that of its device.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Layout {
-    /// What is sent in every cycle beside what is led: 0, or what the drive has.
-    pub(crate) rest: Vec<u8>,
     pub(crate) control: usize,
     pub(crate) target: usize,
     /// Where the mode is; `None` if it is not mapped, and was set as a parameter.
     pub(crate) mode: Option<usize>,
-    /// Bytes of the inputs.
-    pub(crate) input_bytes: usize,
     pub(crate) status: usize,
     pub(crate) actual: usize,
     pub(crate) shown_mode: Option<usize>,
@@ -48,65 +53,89 @@ pub(crate) struct Layout {
 }
 
 impl Layout {
-    /// The layout of what is mapped, or the object that is missing or not where a byte begins.
-    /// `switches_mode` if the mode has to be switched and seen.
+    /// The layout of what is mapped, or the object that is missing or not where a byte begins. `own`
+    /// is where the axis has an object. `switches_mode` if the mode has to be switched and seen.
     pub(crate) fn of(
         outputs: &[Entry],
         inputs: &[Entry],
+        own: &dyn Fn(u16) -> u16,
         switches_mode: bool,
     ) -> Result<Self, &'static str> {
+        let mapped = |entries| Mapped { entries, own };
+        let (outputs, inputs) = (mapped(outputs), mapped(inputs));
         if switches_mode {
-            MODE.place_or_name(outputs)?;
-            SHOWN_MODE.place_or_name(inputs)?;
+            outputs.place_or_name(MODE)?;
+            inputs.place_or_name(SHOWN_MODE)?;
         }
         Ok(Self {
-            rest: vec![0; bytes(outputs)],
-            control: CONTROL.place_or_name(outputs)?,
-            target: TARGET.place_or_name(outputs)?,
-            mode: MODE.place(outputs),
-            input_bytes: bytes(inputs),
-            status: STATUS.place_or_name(inputs)?,
-            actual: ACTUAL.place_or_name(inputs)?,
-            shown_mode: SHOWN_MODE.place(inputs),
-            fault: FAULT.place(inputs),
+            control: outputs.place_or_name(CONTROL)?,
+            target: outputs.place_or_name(TARGET)?,
+            mode: outputs.place(MODE),
+            status: inputs.place_or_name(STATUS)?,
+            actual: inputs.place_or_name(ACTUAL)?,
+            shown_mode: inputs.place(SHOWN_MODE),
+            fault: inputs.place(FAULT),
         })
     }
 }
 
-/// A drive in the image of all: the outputs of all drives, then the inputs of all.
+/// A device with one or several drives, in the image of all: the outputs of all devices, then the
+/// inputs of all.
 #[derive(Debug, Clone)]
-pub(crate) struct Led {
+pub(crate) struct DriveDevice {
     pub(crate) device: Device,
-    pub(crate) layout: Layout,
+    /// What is sent in every cycle beside what is led: 0, or what the device has.
+    pub(crate) rest: Vec<u8>,
+    /// Bytes of the inputs.
+    pub(crate) input_bytes: usize,
     /// Where its outputs are among those of all, bytes.
     pub(crate) outputs_at: usize,
     /// Where its inputs are among those of all, bytes.
     pub(crate) inputs_at: usize,
 }
 
-impl Led {
-    /// Drives one after the other.
-    pub(crate) fn in_a_row(drives: Vec<(Device, Layout)>) -> Vec<Self> {
-        let (mut outputs_at, mut inputs_at) = (0, 0);
-        let place = |(device, layout): (Device, Layout)| {
-            let led = Self {
-                device,
-                outputs_at,
-                inputs_at,
-                layout,
-            };
-            outputs_at += led.layout.rest.len();
-            inputs_at += led.layout.input_bytes;
-            led
-        };
-        drives.into_iter().map(place).collect()
+/// An axis of such a device: a drive, as the settings have it.
+#[derive(Debug, Clone)]
+pub(crate) struct LedAxis {
+    /// Which device it is of.
+    pub(crate) device: usize,
+    pub(crate) layout: Layout,
+}
+
+/// All drives, in the order of the settings, and their devices.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Drives {
+    pub(crate) devices: Vec<DriveDevice>,
+    pub(crate) axes: Vec<LedAxis>,
+}
+
+impl Drives {
+    /// Adds a device behind the others.
+    pub(crate) fn add(&mut self, device: Device, rest: Vec<u8>, input_bytes: usize) {
+        let (outputs_at, inputs_at) = self.sizes();
+        self.devices.push(DriveDevice {
+            device,
+            rest,
+            input_bytes,
+            outputs_at,
+            inputs_at,
+        });
     }
 
     /// Bytes of the outputs and of the inputs of all.
-    pub(crate) fn sizes(drives: &[Self]) -> (usize, usize) {
-        let outputs = drives.iter().map(|led| led.layout.rest.len()).sum();
-        let inputs = drives.iter().map(|led| led.layout.input_bytes).sum();
+    pub(crate) fn sizes(&self) -> (usize, usize) {
+        let outputs = self.devices.iter().map(|device| device.rest.len()).sum();
+        let inputs = self.devices.iter().map(|device| device.input_bytes).sum();
         (outputs, inputs)
+    }
+
+    /// The device of each axis.
+    pub(crate) fn of_axes(&self) -> impl Iterator<Item = &Device> {
+        let devices = &self.devices;
+        self.axes
+            .iter()
+            .filter_map(|axis| devices.get(axis.device))
+            .map(|device| &device.device)
     }
 }
 
@@ -120,17 +149,33 @@ mod tests {
         entries.iter().copied().map(Entry::new).collect()
     }
 
+    /// A device with one axis.
+    const fn own(index: u16) -> u16 {
+        index
+    }
+
+    #[test]
+    fn an_axis_finds_its_own_objects() {
+        let outputs = entries(&[0x6040_0010, 0x607a_0020, 0x6840_0010, 0x687a_0020]);
+        let inputs = entries(&[0x6841_0010, 0x6864_0020, 0x6041_0010, 0x6064_0020]);
+        let second = |index| index + 0x800;
+        let layout = Layout::of(&outputs, &inputs, &second, false).unwrap();
+        let seen = (layout.control, layout.target, layout.status, layout.actual);
+        assert_eq!(seen, (6, 8, 0, 2));
+        assert!(outputs.iter().all(|entry| entry.is_led()));
+        assert!(!inputs.iter().any(|entry| entry.is_led()));
+    }
+
     #[test]
     fn objects_are_found_where_they_are_mapped() {
         // As an Omron G5 has it.
         let outputs = entries(&[0x6040_0010, 0x607a_0020, 0x60b8_0010, 0x60fe_0120]);
         let inputs = entries(&[0x603f_0010, 0x6041_0010, 0x6064_0020, 0x60fd_0020]);
-        let layout = Layout::of(&outputs, &inputs, false).unwrap();
+        let layout = Layout::of(&outputs, &inputs, &own, false).unwrap();
         assert_eq!((layout.control, layout.target, layout.mode), (0, 2, None));
-        assert_eq!((layout.rest.len(), layout.input_bytes), (12, 12));
         let seen = (layout.fault, layout.status, layout.actual);
         assert_eq!(seen, (Some(0), 2, 4));
-        let refused = Layout::of(&outputs, &inputs, true);
+        let refused = Layout::of(&outputs, &inputs, &own, true);
         assert_eq!(refused, Err("0x6060 (mode)"));
     }
 
@@ -138,9 +183,9 @@ mod tests {
     fn what_is_inside_a_byte_or_of_another_size_does_not_count() {
         let outputs = entries(&[0x0000_0004, 0x6040_0010, 0x0000_0004, 0x607a_0020]);
         let inputs = entries(&[0x6041_0010, 0x6064_0010]);
-        let refused = Layout::of(&outputs, &inputs, false);
+        let refused = Layout::of(&outputs, &inputs, &own, false);
         assert_eq!(refused, Err("0x6040 (controlword)"));
-        let refused = Layout::of(&entries(&[0x6040_0010, 0x607a_0020]), &inputs, false);
+        let refused = Layout::of(&entries(&[0x6040_0010, 0x607a_0020]), &inputs, &own, false);
         assert_eq!(refused, Err("0x6064 (actual position)"));
     }
 }

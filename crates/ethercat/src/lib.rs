@@ -82,7 +82,7 @@ pub use fault_text::text as fault_text;
 pub use frame::{Address, Answer, Command, Frame, Slot};
 pub use image::{Inputs, Outputs};
 pub use run::{Listeners, RunError, RunSettings, run};
-pub use settings::{BusSettings, DriveSettings, HomingSettings, Mapping, Settings};
+pub use settings::{BusSettings, DEVICE_AXES, DriveSettings, HomingSettings, Mapping, Settings};
 pub use terminal::{
     ANALOG_INPUTS, AnalogInput, AnalogOutput, At, DIGITAL_INPUTS, DigitalInput, DigitalOutput,
     Parameter, Quantity, Signal, TerminalSettings,

@@ -59,6 +59,11 @@ pub enum Mapping {
     Kept,
 }
 
+/// Axes that a device has at most: their objects are from 0x6000 to 0x9FFF.
+pub const DEVICE_AXES: u16 = 8;
+/// How far the objects of an axis are from those of the one before.
+const OBJECT_STEP: u16 = 0x800;
+
 /// A drive, and the joint that it moves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DriveSettings {
@@ -66,6 +71,10 @@ pub struct DriveSettings {
     pub joint: usize,
     /// The place in the line, from 0.
     pub position: usize,
+    /// Which of the axes of a device it is, from 0.
+    pub axis: u16,
+    /// How far the maps of an axis are from those of the one before.
+    pub map_step: u16,
     /// What it is to be; nothing is compared with 0.
     pub vendor: u32,
     /// The vendor's number of the product.
@@ -97,6 +106,14 @@ pub struct DriveSettings {
 }
 
 impl DriveSettings {
+    /// Where its axis has an object of CiA 402. Others are the whole device's.
+    pub(crate) const fn own(&self, index: u16) -> u16 {
+        match index {
+            0x6000..0x6800 => index + OBJECT_STEP * self.axis,
+            _ => index,
+        }
+    }
+
     fn sign(&self) -> f64 {
         if self.is_inverted { -1.0 } else { 1.0 }
     }

@@ -1,5 +1,6 @@
 //! An emulated device: what its registers do when they are read and written, and when time passes.
 
+mod motion;
 mod simple;
 mod time;
 mod watchdog;
@@ -10,11 +11,11 @@ use crate::coe::{Mailbox, NO_ACCESS, READ_ONLY, TOO_LONG};
 use crate::dictionary::{
     Dictionary, INPUTS_ASSIGNED, Mapped, OUTPUTS_ASSIGNED, Object, SYNC_INPUTS, SYNC_OUTPUTS,
 };
-use crate::drive::{Drive, Outputs};
+use crate::drive::Drive;
 use crate::eeprom::{self, MAILBOX, MAILBOX_OUT};
 use crate::memory::{
     AL_CODE, AL_CONTROL, AL_STATUS, CLOCK, EEPROM_CONTROL, Memory, PORT_TIMES, SPEED_START,
-    STATION_ADDRESS, SYNC_ACTIVATION, SYNC_MANAGER, SYNC0_CYCLE, SYSTEM_TIME, WATCHDOG_DIVIDER,
+    STATION_ADDRESS, SYNC_ACTIVATION, SYNC_MANAGER, SYSTEM_TIME, WATCHDOG_DIVIDER,
     WATCHDOG_OUTPUTS, WATCHDOG_STATUS,
 };
 use crate::pins::Pins;
@@ -49,7 +50,7 @@ pub(crate) struct Device {
     objects: Dictionary,
     mailbox: Mailbox,
     clock: DeviceClock,
-    pub(crate) drive: Drive,
+    pub(crate) drives: Vec<Drive>,
     outputs: Vec<Mapped>,
     inputs: Vec<Mapped>,
     /// When the next SYNC0 is, by the system time; `None` without.
@@ -59,7 +60,8 @@ pub(crate) struct Device {
     /// When outputs came last.
     heard_ns: u64,
     index: u8,
-    pub(crate) records: Option<Vec<SyncRecord>>,
+    /// By axis.
+    pub(crate) records: Option<Vec<Vec<SyncRecord>>>,
     pub(crate) pins: Pins,
     /// No frame reaches it.
     pub(crate) is_unplugged: bool,
@@ -85,10 +87,11 @@ impl Device {
         memory.put(WATCHDOG_STATUS, &[1]);
         memory.put(AL_STATUS, &[INIT]);
         let ramp = 1_000_000_000;
-        let identity = settings.identity;
+        let (identity, axes) = (settings.identity, settings.axes);
+        let axes = u16::try_from(axes).unwrap_or(1);
         let mut objects = match &settings.channels {
             Some(channels) => Dictionary::of_channels(identity, channels),
-            None => Dictionary::new(identity, settings.following_counts, ramp),
+            None => Dictionary::new(identity, axes, settings.following_counts, ramp),
         };
         if let Maps::Fixed { outputs, inputs } = &settings.maps {
             objects.fix_maps(outputs, inputs);
@@ -98,7 +101,9 @@ impl Device {
             objects,
             mailbox: Mailbox::new(settings.drops_repeats),
             clock: DeviceClock::new(host_ns, 0.0, settings.drift_ppm),
-            drive: Drive::new(settings),
+            drives: (0..settings.axes)
+                .map(|axis| Drive::new(settings, axis))
+                .collect(),
             outputs: Vec::new(),
             inputs: Vec::new(),
             next_sync: None,
@@ -139,17 +144,21 @@ impl Device {
             Upset::Emergency(code) => self.mailbox.emergency(&mut self.memory, code),
             Upset::Drop(code) if self.state() == OP => {
                 self.set_state(SAFE_OP | ERROR, code);
-                self.drive.lose_bus();
+                self.lose_bus();
                 self.settle_pins(now_ns);
             }
             Upset::Reboot => {
                 let (records, pins) = (self.records.take(), core::mem::take(&mut self.pins));
-                let drive = self.drive.rebooted(&self.settings);
+                let drives = self
+                    .drives
+                    .iter()
+                    .map(|drive| drive.rebooted(&self.settings));
+                let drives = drives.collect();
                 *self = Self::new(&self.settings, self.passage, now_ns);
-                (self.drive, self.records, self.pins) = (drive, records, pins);
+                (self.drives, self.records, self.pins) = (drives, records, pins);
                 self.settle_pins(now_ns);
             }
-            upset => self.drive.upset(upset),
+            upset => self.drives.iter_mut().for_each(|drive| drive.upset(upset)),
         }
     }
 
@@ -170,42 +179,6 @@ impl Device {
                 (Some(sync), _) => self.sync(sync),
                 (None, Some(_)) => return,
             }
-        }
-    }
-
-    #[allow(clippy::cast_precision_loss, reason = "a period")]
-    fn sync(&mut self, at_ns: u64) {
-        let cycle_ns = self.memory.number(SYNC0_CYCLE, 4);
-        self.next_sync = self.next_sync.map(|sync| sync + cycle_ns.max(1) as f64);
-        self.step(at_ns);
-    }
-
-    /// What the drive does with the outputs there are.
-    #[allow(clippy::cast_precision_loss, reason = "a period")]
-    fn step(&mut self, at_ns: u64) {
-        if self.settings.channels.is_some() {
-            return;
-        }
-        let outputs = if self.state() == OP {
-            process::outputs(&self.memory, &self.outputs, &mut self.objects)
-        } else {
-            Outputs::default()
-        };
-        let step_t = at_ns.saturating_sub(self.stepped_ns).max(1) as f64 * 1e-9;
-        self.stepped_ns = at_ns;
-        self.drive.step(step_t, outputs, &self.objects);
-        let inputs = self.drive.inputs();
-        process::put_inputs(&mut self.memory, &self.inputs, inputs);
-        let index = self.index;
-        if let Some(records) = &mut self.records {
-            records.push(SyncRecord {
-                at_ns,
-                index,
-                target: outputs.target,
-                actual: inputs.actual,
-                status: inputs.status,
-                follows: inputs.status & 0x1000 != 0,
-            });
         }
     }
 
@@ -332,7 +305,7 @@ impl Device {
             return;
         }
         if present == OP && wanted != OP {
-            self.drive.lose_bus();
+            self.lose_bus();
         }
         if wanted <= PRE_OP {
             self.mailbox.clear();
@@ -352,7 +325,9 @@ impl Device {
             }
             (self.outputs, _) = self.objects.mapped(OUTPUTS_ASSIGNED);
             (self.inputs, _) = self.objects.mapped(INPUTS_ASSIGNED);
-            process::put_inputs(&mut self.memory, &self.inputs, self.drive.inputs());
+            for (axis, drive) in (0..).zip(&self.drives) {
+                process::put_inputs(&mut self.memory, &self.inputs, drive.inputs(), axis);
+            }
         }
         self.heard_ns = now_ns;
         self.set_state(wanted, 0);

@@ -31,7 +31,7 @@ impl Device {
         let count = self.memory.byte(WATCHDOG_COUNT).saturating_add(1);
         self.memory.put(WATCHDOG_COUNT, &[count]);
         self.memory.put(WATCHDOG_STATUS, &[0]);
-        self.drive.lose_bus();
+        self.lose_bus();
         self.settle_pins(at_ns);
     }
 

@@ -13,7 +13,7 @@ use crate::device::{ClockKind, Device};
 use crate::error::BusError;
 use crate::exchange::{Exchange, station};
 use crate::frame::{Address, Command};
-use crate::layout::Led;
+use crate::layout::DriveDevice;
 use crate::registers::{
     FEATURES, LATCHED_TIME, PORT_TIMES, SYNC_ACTIVATION, SYNC_START, SYNC0_CYCLE, SYSTEM_TIME,
     TIME_DELAY, TIME_DIFFERENCE, TIME_OFFSET,
@@ -176,10 +176,10 @@ pub(super) fn settle<W: Wire>(
     }
 }
 
-/// Starts SYNC0 of every drive; returns when the first one is, by the time of the bus.
+/// Starts SYNC0 of every device with drives; returns when the first one is, by the time of the bus.
 pub(super) fn start_sync<W: Wire>(
     bus: &mut Exchange<'_, W>,
-    drives: &[Led],
+    drives: &[DriveDevice],
     bus_time_ns: u64,
     period_ns: u64,
 ) -> Result<u64, BusError> {

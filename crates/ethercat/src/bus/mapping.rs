@@ -28,36 +28,67 @@ const MOST: u32 = 64;
 /// Cyclic synchronous position.
 const CYCLIC_POSITION: u32 = 8;
 
-/// Sees to what is in the process data of a drive; returns where.
+/// What is in the process data of a device with drives.
+#[derive(Debug)]
+pub(super) struct Mapped {
+    /// Where each of them has its objects.
+    pub(super) layouts: Vec<Layout>,
+    /// What is sent beside what is led.
+    pub(super) rest: Vec<u8>,
+    /// Bytes of the inputs.
+    pub(super) input_bytes: usize,
+}
+
+/// Sees to what is in the process data of a device with these drives.
 pub(super) fn set<W: Wire>(
     bus: &mut Exchange<'_, W>,
     device: &Device,
-    drive: &DriveSettings,
-) -> Result<Layout, BusError> {
-    let unfit = |what: String| BusError::Unfit {
-        device: device.position,
-        name: device.name.clone(),
-        what,
-    };
-    let (outputs, inputs) = match drive.mapping {
-        Mapping::Written => map(bus, device)?,
-        Mapping::Kept => (
+    drives: &[&DriveSettings],
+) -> Result<Mapped, BusError> {
+    let is_kept = drives.iter().any(|drive| drive.mapping == Mapping::Kept);
+    let (outputs, inputs) = if is_kept {
+        (
             mapped(bus, device, OUTPUT_ASSIGNMENT)?,
             mapped(bus, device, INPUT_ASSIGNMENT)?,
-        ),
+        )
+    } else {
+        map(bus, device, drives)?
     };
-    let layout = Layout::of(&outputs, &inputs, drive.homing.is_some());
-    let mut layout = layout.map_err(|lacks| {
-        unfit(format!(
-            "its process data lacks {lacks}: map it with the manufacturer's tool, or leave map = \
-             \"keep\" out of its table in drives.toml"
-        ))
-    })?;
-    if layout.mode.is_none() {
-        write(bus, device, object(0x6060, 0, 1), CYCLIC_POSITION)?;
+    let mut layouts = Vec::new();
+    for drive in drives {
+        let own = |index| drive.own(index);
+        let layout = Layout::of(&outputs, &inputs, &own, drive.homing.is_some());
+        let layout = layout.map_err(|lacks| BusError::Unfit {
+            device: device.position,
+            name: device.name.clone(),
+            what: format!(
+                "its process data lacks {lacks}{}: map it with the manufacturer's tool, or leave map = \
+                 \"keep\" out of its table in drives.toml",
+                of_axis(drive)
+            ),
+        })?;
+        if layout.mode.is_none() {
+            let mode = object(drive.own(0x6060), 0, 1);
+            write(bus, device, mode, CYCLIC_POSITION)?;
+        }
+        layouts.push(layout);
     }
-    keep(bus, device, &outputs, &mut layout.rest)?;
-    Ok(layout)
+    let mut rest = vec![0; bytes(&outputs)];
+    keep(bus, device, &outputs, &mut rest)?;
+    Ok(Mapped {
+        layouts,
+        rest,
+        input_bytes: bytes(&inputs),
+    })
+}
+
+/// Which of several axes of a device it is.
+fn of_axis(drive: &DriveSettings) -> String {
+    if drive.axis == 0 {
+        String::new()
+    } else {
+        format!(" of axis {}", drive.axis)
+    }
 }
 
 /// Fills in what is not led with what the drive has: a limit of torque that is mapped is not to become
@@ -114,24 +145,30 @@ fn count<W: Wire>(bus: &mut Exchange<'_, W>, device: &Device, index: u16) -> Res
     Ok(read(bus, device, object(index, 0, 1))?.min(MOST) as u8)
 }
 
-/// Maps what is needed: outputs and inputs into one map each, or, where a drive does not take that,
-/// into maps of 8 bytes and an even length each. Returns both.
+/// Maps: the index and the entries of each.
+type Maps = Vec<(u16, Vec<u32>)>;
+
+/// Maps what is needed: outputs and inputs of each drive into one map each, or, where the device does not
+/// take that, into maps of 8 bytes and an even length each. Returns both.
 fn map<W: Wire>(
     bus: &mut Exchange<'_, W>,
     device: &Device,
+    drives: &[&DriveSettings],
 ) -> Result<(Vec<Entry>, Vec<Entry>), BusError> {
-    let mut try_both = |outputs: &[Vec<u32>], inputs: &[Vec<u32>]| {
-        try_maps(bus, device, (OUTPUT_ASSIGNMENT, OUTPUT_MAP), outputs)?;
-        try_maps(bus, device, (INPUT_ASSIGNMENT, INPUT_MAP), inputs)?;
-        Ok((told(outputs), told(inputs)))
+    let mut try_both = |split: fn(&[u32]) -> Vec<Vec<u32>>| {
+        let outputs = of_all(drives, OUTPUT_MAP, &OUTPUTS, split);
+        let inputs = of_all(drives, INPUT_MAP, &INPUTS, split);
+        try_maps(bus, device, OUTPUT_ASSIGNMENT, &outputs)?;
+        try_maps(bus, device, INPUT_ASSIGNMENT, &inputs)?;
+        Ok((told(&outputs), told(&inputs)))
     };
-    let (index, sub, code) = match try_both(&[OUTPUTS.to_vec()], &[INPUTS.to_vec()]) {
+    let (index, sub, code) = match try_both(|entries| vec![entries.to_vec()]) {
         Err(BusError::Object {
             index, sub, code, ..
         }) => (index, sub, code),
         done => return done,
     };
-    match try_both(&short(&OUTPUTS), &short(&INPUTS)) {
+    match try_both(short) {
         // The first refusal is the one to know.
         Err(BusError::Object { .. }) => Err(BusError::Unfit {
             device: device.position,
@@ -146,8 +183,30 @@ fn map<W: Wire>(
     }
 }
 
-fn told(maps: &[Vec<u32>]) -> Vec<Entry> {
-    maps.iter().flatten().copied().map(Entry::new).collect()
+/// The maps of all drives of a device, with the objects that are each one's own.
+fn of_all(
+    drives: &[&DriveSettings],
+    first: u16,
+    entries: &[u32],
+    split: fn(&[u32]) -> Vec<Vec<u32>>,
+) -> Maps {
+    let of = |drive: &&DriveSettings| {
+        let first = first + drive.map_step * drive.axis;
+        let entries: Vec<u32> = entries
+            .iter()
+            .map(|entry| {
+                let own = drive.own(Entry::new(*entry).index);
+                u32::from(own) << 16 | entry & 0xffff
+            })
+            .collect();
+        (first..).zip(split(&entries)).collect::<Maps>()
+    };
+    drives.iter().flat_map(of).collect()
+}
+
+fn told(maps: &Maps) -> Vec<Entry> {
+    let entries = maps.iter().flat_map(|(_, entries)| entries);
+    entries.copied().map(Entry::new).collect()
 }
 
 /// The same entries in maps of 8 bytes at most, each of an even length.
@@ -178,17 +237,17 @@ fn short(entries: &[u32]) -> Vec<Vec<u32>> {
 fn try_maps<W: Wire>(
     bus: &mut Exchange<'_, W>,
     device: &Device,
-    (assignment, first): (u16, u16),
-    maps: &[Vec<u32>],
+    assignment: u16,
+    maps: &Maps,
 ) -> Result<(), BusError> {
     let assigned = object(assignment, 0, 1);
     let mut counts = vec![assigned];
-    counts.extend((first..).zip(maps).map(|(map, _)| object(map, 0, 1)));
+    counts.extend(maps.iter().map(|(map, _)| object(*map, 0, 1)));
     let mut before = Vec::new();
     for count in counts {
         before.push((count, read(bus, device, count)?));
     }
-    let written = write_maps(bus, device, (assignment, first), maps);
+    let written = write_maps(bus, device, assignment, maps);
     if written.is_err() {
         // The drive may refuse that, too; the first refusal is the one to know.
         for (count, value) in before.iter().rev() {
@@ -202,20 +261,20 @@ fn try_maps<W: Wire>(
 fn write_maps<W: Wire>(
     bus: &mut Exchange<'_, W>,
     device: &Device,
-    (assignment, first): (u16, u16),
-    maps: &[Vec<u32>],
+    assignment: u16,
+    maps: &Maps,
 ) -> Result<(), BusError> {
     let mut set = |object: Object, value: u32| write(bus, device, object, value);
     set(object(assignment, 0, 1), 0)?;
-    for (map, entries) in (first..).zip(maps) {
-        set(object(map, 0, 1), 0)?;
+    for (map, entries) in maps {
+        set(object(*map, 0, 1), 0)?;
         for (sub, entry) in (1..).zip(entries) {
-            set(object(map, sub, 4), *entry)?;
+            set(object(*map, sub, 4), *entry)?;
         }
-        set(object(map, 0, 1), entries.len() as u32)?;
+        set(object(*map, 0, 1), entries.len() as u32)?;
     }
-    for (sub, (map, _)) in (1..).zip((first..).zip(maps)) {
-        set(object(assignment, sub, 2), map.into())?;
+    for (sub, (map, _)) in (1..).zip(maps) {
+        set(object(assignment, sub, 2), (*map).into())?;
     }
     set(object(assignment, 0, 1), maps.len() as u32)
 }

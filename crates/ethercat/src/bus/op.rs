@@ -23,7 +23,7 @@ use crate::error::BusError;
 use crate::exchange::{Exchange, station};
 use crate::frame::{Address, Command, Frame, Slot};
 use crate::image::{Inputs, Outputs};
-use crate::layout::Led;
+use crate::layout::Drives;
 use crate::registers::{AL_CONTROL, AL_STATUS, MAILBOX_IN_STATUS, SYSTEM_TIME};
 use crate::terminal::{Answered, Wiring, at_rest};
 use crate::wire::{MAX_FRAME, Wire};
@@ -94,8 +94,11 @@ pub struct Op<'w, W> {
     /// Drives first, then all others.
     stations: Vec<u16>,
     mailboxes: Vec<Mailbox>,
+    /// Of each drive, and of each other device.
     states: Vec<DeviceState>,
-    drives: Vec<Led>,
+    /// Of each device.
+    of_devices: Vec<DeviceState>,
+    drives: Drives,
     others: Others,
     /// What the others are to put out, and what they told last.
     others_outputs: Vec<u8>,
@@ -111,19 +114,25 @@ pub struct Op<'w, W> {
 impl<'w, W: Wire> Op<'w, W> {
     pub(super) fn new(
         wire: &'w mut W,
-        drives: Vec<Led>,
+        drives: Drives,
         others: Others,
         (reference, bus_time): (usize, BusTime),
     ) -> Self {
-        let devices = || drives.iter().map(|led| &led.device).chain(&others.devices);
+        let of_drives = || drives.devices.iter().map(|led| &led.device);
+        let devices = || of_drives().chain(&others.devices);
         let lacks_lrw = devices().any(|device| device.lacks_lrw);
-        let sizes = Led::sizes(&drives);
-        let count = u16::try_from(drives.len()).unwrap_or(u16::MAX);
+        let sizes = drives.sizes();
+        let count = u16::try_from(drives.devices.len()).unwrap_or(u16::MAX);
         let (out, back) = others.wiring.sizes;
         let behind = u32::try_from(sizes.0 + sizes.1).unwrap_or(u32::MAX);
         let others_group =
             (out + back > 0).then(|| Group::new(behind, (out, back), others.counts, lacks_lrw));
-        let mailboxes = devices().enumerate();
+        // By the first axis of a device.
+        let first = |nth| drives.axes.iter().position(|axis| axis.device == nth);
+        let of_drives = (0..).map_while(first);
+        let of_others = (0..).map(|nth| drives.axes.len() + nth);
+        let numbers = of_drives.chain(of_others);
+        let mailboxes = numbers.zip(devices());
         let mailboxes = mailboxes.filter_map(|(nth, device)| Mailbox::of(nth, device));
         let stations: Vec<u16> = devices().map(|device| station(device.position)).collect();
         Self {
@@ -141,7 +150,8 @@ impl<'w, W: Wire> Op<'w, W> {
             reference: station(reference),
             bus_time,
             mailboxes: mailboxes.collect(),
-            states: vec![DeviceState::default(); stations.len()],
+            states: vec![DeviceState::default(); drives.axes.len() + others.devices.len()],
+            of_devices: vec![DeviceState::default(); stations.len()],
             stations,
             drives,
             others_outputs: at_rest(&others.wiring),
@@ -185,7 +195,10 @@ impl<'w, W: Wire> Op<'w, W> {
         Answered {
             is_whole: self.are_others_whole,
             inputs: &self.others_inputs,
-            states: self.states.get(self.drives.len()..).unwrap_or_default(),
+            states: self
+                .states
+                .get(self.drives.axes.len()..)
+                .unwrap_or_default(),
         }
     }
 
@@ -236,10 +249,17 @@ impl<'w, W: Wire> Op<'w, W> {
         let reference = Address::station(self.reference, SYSTEM_TIME);
         self.time = frame.push(Command::Frmw, index, reference, 8);
         if let Some(data) = self.drives_group.push(frame, index) {
-            for (led, output) in self.drives.iter().zip(outputs) {
-                let length = led.layout.rest.len();
-                if let Some(place) = data.get_mut(led.outputs_at..led.outputs_at + length) {
-                    output.put(&led.layout, place);
+            for led in &self.drives.devices {
+                let end = led.outputs_at + led.rest.len();
+                if let Some(place) = data.get_mut(led.outputs_at..end) {
+                    place.copy_from_slice(&led.rest);
+                }
+            }
+            for (axis, output) in self.drives.axes.iter().zip(outputs) {
+                if let Some(led) = self.drives.devices.get(axis.device)
+                    && let Some(place) = data.get_mut(led.outputs_at..)
+                {
+                    output.put(&axis.layout, place);
                 }
             }
         }
@@ -298,7 +318,7 @@ impl<'w, W: Wire> Op<'w, W> {
         let time = self.frame.answer(self.time.as_ref()?, received)?;
         let drives = self.drives_group.answer(&self.frame, received)?;
         self.bus_time.hear(*time.data.first_chunk()?);
-        for (slot, state) in self.status.iter().zip(&mut self.states) {
+        for (slot, state) in self.status.iter().zip(&mut self.of_devices) {
             let answer = self.frame.answer(slot, received);
             *state = match answer.map(|answer| (answer.counter, answer.data)) {
                 Some((1.., &[status, _, _, _, low, high])) => DeviceState {
@@ -309,6 +329,11 @@ impl<'w, W: Wire> Op<'w, W> {
                 // It does not answer.
                 _ => DeviceState::default(),
             };
+        }
+        let axes = self.drives.axes.iter().map(|axis| axis.device);
+        let devices = axes.chain(self.drives.devices.len()..);
+        for (state, nth) in self.states.iter_mut().zip(devices) {
+            *state = self.of_devices.get(nth).copied().unwrap_or_default();
         }
         if let Some(group) = &self.others_group {
             let others = group.answer(&self.frame, received)?;
@@ -335,8 +360,9 @@ impl<'w, W: Wire> Op<'w, W> {
                 expected: drives.expected,
             });
         }
-        for (led, input) in self.drives.iter().zip(inputs) {
-            *input = Inputs::take(&led.layout, drives.inputs.get(led.inputs_at..)?)?;
+        for (axis, input) in self.drives.axes.iter().zip(inputs) {
+            let led = self.drives.devices.get(axis.device)?;
+            *input = Inputs::take(&axis.layout, drives.inputs.get(led.inputs_at..)?)?;
         }
         Some(Reception::Good(FrameTimes {
             sent_ns: self.sent_ns,

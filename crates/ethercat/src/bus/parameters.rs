@@ -27,28 +27,29 @@ pub(super) fn write_all<W: Wire>(
     settings: &BusSettings,
     drive: &DriveSettings,
 ) -> Result<(), BusError> {
+    let own = |index, sub, size| object(drive.own(index), sub, size);
     let mut set = |object, value| write(bus, device, object, value);
     // Interpolation between targets: the period of the bus, as a number of milliseconds, or else of
     // tens of microseconds.
     let (count, exponent) = interpolation_time(settings.period_ns);
-    set(object(0x60c2, 1, 1), count)?;
-    set(object(0x60c2, 2, 1), exponent)?;
-    set(object(0x6065, 0, 4), drive.unsigned(drive.following_error))?;
-    set(object(0x6066, 0, 2), drive.following_ms.into())?;
-    set(object(0x6085, 0, 4), drive.unsigned(drive.quick_stop_a))?;
+    set(own(0x60c2, 1, 1), count)?;
+    set(own(0x60c2, 2, 1), exponent)?;
+    set(own(0x6065, 0, 4), drive.unsigned(drive.following_error))?;
+    set(own(0x6066, 0, 2), drive.following_ms.into())?;
+    set(own(0x6085, 0, 4), drive.unsigned(drive.quick_stop_a))?;
     if let Some(homing) = drive.homing {
         #[allow(clippy::cast_sign_loss, reason = "the object is a signed byte")]
-        set(object(0x6098, 0, 1), u32::from(homing.method as u8))?;
-        set(object(0x6099, 1, 4), drive.unsigned(homing.fast_v))?;
-        set(object(0x6099, 2, 4), drive.unsigned(homing.slow_v))?;
-        set(object(0x609a, 0, 4), drive.unsigned(homing.acceleration_a))?;
-        set(object(0x607c, 0, 4), 0)?;
+        set(own(0x6098, 0, 1), u32::from(homing.method as u8))?;
+        set(own(0x6099, 1, 4), drive.unsigned(homing.fast_v))?;
+        set(own(0x6099, 2, 4), drive.unsigned(homing.slow_v))?;
+        set(own(0x609a, 0, 4), drive.unsigned(homing.acceleration_a))?;
+        set(own(0x607c, 0, 4), 0)?;
     }
     // What not all drives let themselves be told: what to do at a quick stop and at a fault, and that
     // outputs and inputs are those of SYNC0, which many see by SYNC0 itself.
     for (option, value) in [
-        (object(0x605a, 0, 2), BY_RAMP),
-        (object(0x605e, 0, 2), BY_RAMP),
+        (own(0x605a, 0, 2), BY_RAMP),
+        (own(0x605e, 0, 2), BY_RAMP),
         (SYNC_OUTPUTS, BY_SYNC0),
         (SYNC_INPUTS, BY_SYNC0),
     ] {

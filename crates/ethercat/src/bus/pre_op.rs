@@ -12,7 +12,7 @@ use crate::coe::{self, Object};
 use crate::device::{Device, Window};
 use crate::error::BusError;
 use crate::exchange::Exchange;
-use crate::layout::Led;
+use crate::layout::{Drives, LedAxis};
 use crate::registers::{FMMU, SYNC_MANAGER};
 use crate::settings::{DriveSettings, Settings};
 use crate::wire::{MAX_FRAME, Wire};
@@ -121,22 +121,46 @@ impl<'w, W: Wire> PreOp<'w, W> {
         })
     }
 
+    /// Maps the process data of all drives, a device at a time, and gives each its parameters.
+    fn drives(&mut self, settings: &Settings) -> Result<Drives, BusError> {
+        let mut drives = Drives::default();
+        let mut axes: Vec<Option<LedAxis>> = vec![None; settings.drives.len()];
+        for (nth, first) in settings.drives.iter().enumerate() {
+            if axes.get(nth).is_some_and(Option::is_some) {
+                continue;
+            }
+            let mut device = self.drive(first)?;
+            let numbered = settings.drives.iter().enumerate();
+            let of_device: Vec<_> = numbered
+                .filter(|(_, drive)| drive.position == first.position)
+                .collect();
+            for (_, drive) in &of_device {
+                device = self.drive(drive)?;
+            }
+            let own: Vec<_> = of_device.iter().map(|(_, drive)| *drive).collect();
+            let mapped = mapping::set(&mut self.bus, &device, &own)?;
+            for ((nth, drive), layout) in of_device.into_iter().zip(mapped.layouts) {
+                parameters::write_all(&mut self.bus, &device, &settings.bus, drive)?;
+                axes[nth] = Some(LedAxis {
+                    device: drives.devices.len(),
+                    layout,
+                });
+            }
+            drives.add(device, mapped.rest, mapped.input_bytes);
+        }
+        drives.axes = axes.into_iter().flatten().collect();
+        Ok(drives)
+    }
+
     /// Writes parameters, maps process data, starts SYNC0, and brings the drives to SAFE-OP.
     ///
     /// # Errors
     ///
     /// A device is not the expected one, refuses something, or the clocks do not agree.
     pub fn into_safe_op(mut self, settings: &Settings) -> Result<SafeOp<'w, W>, BusError> {
-        let mut drives = Vec::new();
-        for drive in &settings.drives {
-            let device = self.drive(drive)?;
-            let layout = mapping::set(&mut self.bus, &device, drive)?;
-            parameters::write_all(&mut self.bus, &device, &settings.bus, drive)?;
-            drives.push((device, layout));
-        }
-        let drives = Led::in_a_row(drives);
-        let (outputs, inputs) = Led::sizes(&drives);
-        for led in &drives {
+        let drives = self.drives(settings)?;
+        let (outputs, inputs) = drives.sizes();
+        for led in &drives.devices {
             let action = "to the place of its process data";
             let at = led.device.position;
             let (managers, windows) = process(led, outputs);
@@ -155,8 +179,9 @@ impl<'w, W: Wire> PreOp<'w, W> {
         let reference = clocks::reference(&self.devices).unwrap_or(0);
         let time = clocks::settle(&mut self.bus, &self.devices, reference)?;
         let period_ns = settings.bus.period_ns;
-        let start_ns = clocks::start_sync(&mut self.bus, &drives, time.now_ns(), period_ns)?;
-        for led in &drives {
+        let start_ns =
+            clocks::start_sync(&mut self.bus, &drives.devices, time.now_ns(), period_ns)?;
+        for led in &drives.devices {
             state::request(&mut self.bus, &led.device, SAFE_OP)?;
             parameters::check_sync(&mut self.bus, &led.device)?;
         }
@@ -169,9 +194,10 @@ impl<'w, W: Wire> PreOp<'w, W> {
 }
 
 /// Looks whether the datagrams of a cycle fit into one frame.
-fn check_room(drives: &[Led], others: &Others) -> Result<(), BusError> {
-    let devices = || drives.iter().map(|led| &led.device).chain(&others.devices);
-    let (out, back) = Led::sizes(drives);
+fn check_room(drives: &Drives, others: &Others) -> Result<(), BusError> {
+    let of_drives = || drives.devices.iter().map(|led| &led.device);
+    let devices = || of_drives().chain(&others.devices);
+    let (out, back) = drives.sizes();
     let (others_out, others_back) = others.wiring.sizes;
     let longest = devices().filter_map(|device| Some(device.mailbox?.1.length));
     let mailbox = longest.map(usize::from).max().unwrap_or(1);

@@ -10,7 +10,7 @@ use crate::device_state::DeviceState;
 use crate::error::BusError;
 use crate::exchange::Exchange;
 use crate::image::{Inputs, Outputs};
-use crate::layout::Led;
+use crate::layout::Drives;
 use crate::registers::AL_CONTROL;
 use crate::settings::BusSettings;
 use crate::wire::Wire;
@@ -22,7 +22,7 @@ const PATIENCE_NS: u64 = 10_000_000_000;
 #[derive(Debug)]
 pub struct SafeOp<'w, W> {
     bus: Exchange<'w, W>,
-    drives: Vec<Led>,
+    drives: Drives,
     others: Others,
     /// Whose clock it is, and what time.
     reference: (usize, BusTime),
@@ -32,7 +32,7 @@ pub struct SafeOp<'w, W> {
 impl<'w, W: Wire> SafeOp<'w, W> {
     pub(super) fn new(
         bus: Exchange<'w, W>,
-        (drives, others): (Vec<Led>, Others),
+        (drives, others): (Drives, Others),
         reference: (usize, BusTime),
         start_ns: u64,
     ) -> Self {
@@ -60,11 +60,11 @@ impl<'w, W: Wire> SafeOp<'w, W> {
             self.others.clone(),
             self.reference,
         );
-        let devices = self.drives.iter().map(|led| &led.device);
-        let devices: Vec<&Device> = devices.chain(&self.others.devices).collect();
+        // As states are told: those of all drives, then those of all others.
+        let devices: Vec<&Device> = self.drives.of_axes().chain(&self.others.devices).collect();
         let mut start = Start {
-            inputs: vec![Inputs::default(); self.drives.len()],
-            outputs: vec![Outputs::default(); self.drives.len()],
+            inputs: vec![Inputs::default(); self.drives.axes.len()],
+            outputs: vec![Outputs::default(); self.drives.axes.len()],
             op,
             clock,
         };

@@ -1,7 +1,7 @@
 //! Windows into the memory of a device, as they are written: sync managers and FMMUs.
 
 use crate::device::SyncManager;
-use crate::layout::Led;
+use crate::layout::DriveDevice;
 
 /// Bit in the control of a sync manager: the watchdog waits for what is written.
 pub(super) const WATCHED: u8 = 1 << 6;
@@ -21,19 +21,16 @@ pub(super) fn manager(manager: SyncManager) -> [u8; 8] {
     ]
 }
 
-/// The sync managers of a drive's process data, and the windows onto them in the logical image: the
-/// outputs of all drives, which are so many bytes, then their inputs.
+/// The sync managers of a device's process data, and the windows onto them in the logical image: the
+/// outputs of all devices with drives, which are so many bytes, then their inputs.
 #[allow(clippy::cast_possible_truncation, reason = "nine drives")]
-pub(super) fn process(led: &Led, outputs: usize) -> (Vec<u8>, Vec<u8>) {
+pub(super) fn process(led: &DriveDevice, outputs: usize) -> (Vec<u8>, Vec<u8>) {
     let (out, back) = led.device.process.unwrap_or_default();
     let sized = |from: SyncManager, length: usize| SyncManager {
         length: length as u16,
         ..from
     };
-    let (mut out, back) = (
-        sized(out, led.layout.rest.len()),
-        sized(back, led.layout.input_bytes),
-    );
+    let (mut out, back) = (sized(out, led.rest.len()), sized(back, led.input_bytes));
     // Not every EEPROM has it, and without it the drive waits for frames for ever.
     out.control |= WATCHED;
     let (at_out, at_back) = (led.outputs_at as u32, (outputs + led.inputs_at) as u32);

@@ -45,7 +45,8 @@ pub(crate) fn rounding(setup: &Setup, nth: i32) -> f64 {
 /// The largest difference of the motor to where the model has it: behind the target by what is left
 /// of it after a lag; mm.
 pub(crate) fn model_error(setup: &Setup, outcome: &Outcome, joint: usize) -> f64 {
-    let (drive, lag_t) = (&setup.drives[joint], setup.emulated[joint].lag_t);
+    let drive = &setup.drives[joint];
+    let lag_t = setup.emulated[drive.position].lag_t;
     let stays = (-(setup.bus.period_ns as f64) * 1e-9 / lag_t).exp();
     let mut worst = 0.0_f64;
     for pair in outcome.records[joint].windows(2) {

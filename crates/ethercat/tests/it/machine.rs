@@ -42,6 +42,8 @@ pub(crate) fn drive(joint: usize) -> DriveSettings {
     DriveSettings {
         joint,
         position: joint,
+        axis: 0,
+        map_step: 0x10,
         vendor: 0xe1e,
         product: 0x402,
         alias: 0,
@@ -121,7 +123,7 @@ impl Setup {
     /// Three axes that have to find their home.
     pub(crate) fn homing(period_ns: u64) -> Self {
         let home = |joint: i32| Emulated {
-            start_counts: 1000 * (joint + 1),
+            start_counts: vec![1000 * (joint + 1)],
             home: Some(HomeSwitch {
                 at_counts: -5 * COUNTS as i64,
             }),
@@ -527,7 +529,7 @@ fn with_bridge(
     let records = setup
         .drives
         .iter()
-        .map(|drive| segment.take_records(drive.position))
+        .map(|drive| segment.take_axis_records(drive.position, drive.axis.into()))
         .collect();
     Outcome {
         counts,

@@ -10,6 +10,7 @@
     reason = "tests"
 )]
 
+mod axes;
 mod bring_up;
 mod captures;
 mod ending;

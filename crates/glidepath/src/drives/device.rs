@@ -76,6 +76,7 @@ pub(super) fn devices(
         claims: Claims::default(),
     };
     for drive in drives {
+        // Those of one device are at the same.
         devices.claims.take("position", drive.position);
     }
     let each = raw.into_iter().map(|raw| devices.device(raw));

@@ -6,9 +6,12 @@ use super::device;
 use super::raw::{RawBus, RawDrive, RawDrives, RawHoming, RawMap};
 use crate::config::{ConfigDiagnostic, HomingBy, Judge, MachineConfig, Range};
 use core::ops::Range as Span;
-use glidepath_ethercat::{BusSettings, DriveSettings, HomingSettings, Mapping};
+use glidepath_ethercat::{BusSettings, DEVICE_AXES, DriveSettings, HomingSettings, Mapping};
 use glidepath_geometry::AXES;
 use toml::Spanned;
+
+/// How far the maps of an axis are from those of the one before, as a rule.
+const MAP_STEP: u16 = 0x10;
 
 const COUNTS: Range = Range {
     min: 1e-3,
@@ -96,17 +99,34 @@ pub(super) fn judge(
             ),
             (
                 "position",
-                drives.iter().any(|(d, _)| d.position == settings.position),
+                drives.iter().any(|(d, _)| place(d) == place(&settings)),
             ),
         ] {
             if is_same {
                 judge.diagnostics.push(ConfigDiagnostic {
                     key: format!("drive.{what}"),
                     message: format!("two drives have the same {what}"),
-                    help: Some("each joint has one drive, at a place of its own".to_owned()),
+                    help: Some(
+                        "each joint has one drive, at a place of its own or with another axis there"
+                            .to_owned(),
+                    ),
                     span: Some(span.clone()),
                 });
             }
+        }
+        let differs = |(other, _): &(DriveSettings, Span<usize>)| {
+            other.position == settings.position && of_device(other) != of_device(&settings)
+        };
+        if drives.iter().any(differs) {
+            judge.diagnostics.push(ConfigDiagnostic {
+                key: "drive.position".to_owned(),
+                message: "drives of one device differ in what is the device's".to_owned(),
+                help: Some(
+                    "give them the same vendor, product, alias, map, map_step, outputs_at and inputs_at"
+                        .to_owned(),
+                ),
+                span: Some(span.clone()),
+            });
         }
         drives.push((settings, span));
     }
@@ -132,6 +152,19 @@ pub(super) fn judge(
     } else {
         Err(judge.diagnostics)
     }
+}
+
+/// Where a drive is.
+const fn place(drive: &DriveSettings) -> (usize, u16) {
+    (drive.position, drive.axis)
+}
+
+/// What is the same of all drives of a device.
+#[allow(clippy::type_complexity, reason = "what is compared, as it stands")]
+const fn of_device(drive: &DriveSettings) -> ([u32; 2], u16, u16, Option<(u16, u16)>, Mapping) {
+    let ids = [drive.vendor, drive.product];
+    let (alias, step) = (drive.alias, drive.map_step);
+    (ids, alias, step, drive.process_at, drive.mapping)
 }
 
 fn bus(judge: &mut Judge, raw: &RawBus) -> BusSettings {
@@ -222,6 +255,7 @@ fn drive(judge: &mut Judge, raw: RawDrive, velocities: &[f64]) -> DriveSettings 
             "counted from the master on, from 0",
         )
         .unwrap_or(0);
+    let (axis, map_step) = axis(judge, &raw);
     let mut id = |key, value: &Option<Spanned<i64>>, most| {
         let help = "as `glidepath ethercat scan INTERFACE` shows it; 0 compares nothing";
         let value = value
@@ -257,6 +291,8 @@ fn drive(judge: &mut Judge, raw: RawDrive, velocities: &[f64]) -> DriveSettings 
     DriveSettings {
         joint,
         position,
+        axis,
+        map_step,
         vendor,
         product,
         alias: u16::try_from(alias).unwrap_or(0),
@@ -277,6 +313,21 @@ fn drive(judge: &mut Judge, raw: RawDrive, velocities: &[f64]) -> DriveSettings 
         quick_stop_a: judge.number("drive.quick_stop", &raw.quick_stop, &RATE),
         max_v: velocities.get(joint).copied().unwrap_or(1.0),
     }
+}
+
+/// Which axis of a device it is, and how far the maps of axes are apart.
+fn axis(judge: &mut Judge, raw: &RawDrive) -> (u16, u16) {
+    let mut own = |key, value: &Option<Spanned<i64>>, range, help, default| {
+        let value = value.as_ref();
+        let value = value.map(|value| judge.whole(key, value, range, help));
+        value.flatten().unwrap_or(default)
+    };
+    let most = i64::from(DEVICE_AXES) - 1;
+    let help = "which axis of a device with several, from 0";
+    let axis = own("drive.axis", &raw.axis, (0, most), help, 0);
+    let help = "how far the maps of an axis are from those of the one before: 16 as a rule, or 1";
+    let map_step = own("drive.map_step", &raw.map_step, (1, 0x20), help, MAP_STEP);
+    (axis, map_step)
 }
 
 /// Where outputs and inputs are in the memory of a drive whose EEPROM does not say.

@@ -30,6 +30,8 @@ pub(super) struct RawBus {
 pub(super) struct RawDrive {
     pub(super) joint: Spanned<i64>,
     pub(super) position: Spanned<i64>,
+    pub(super) axis: Optional<i64>,
+    pub(super) map_step: Optional<i64>,
     pub(super) vendor: Optional<i64>,
     pub(super) product: Optional<i64>,
     pub(super) alias: Optional<i64>,

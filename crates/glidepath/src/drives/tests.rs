@@ -35,6 +35,7 @@ fn found(position: usize) -> Found {
         },
         counts_per_revolution: Some(8_388_608.0),
         modes: Some((true, true)),
+        axes: 1,
         windows: Vec::new(),
         watchdog: None,
     }
@@ -164,6 +165,51 @@ fn a_drive_whose_eeprom_does_not_say_where_its_data_is_asks_for_it() {
     let drives = parse("drives.toml", &mended, &machine("none")).unwrap();
     let places: Vec<_> = drives.drives.iter().map(|drive| drive.process_at).collect();
     assert_eq!(places, [None, Some((0x1100, 0x1400)), None]);
+}
+
+#[test]
+fn a_device_with_several_drives_has_a_table_for_each() {
+    let mut both = found(0);
+    both.axes = 2;
+    let text = written("enp3s0", &[both, found(1)]);
+    let text = text.replace("counts_per_mm = 0.0", "counts_per_mm = 1677721.6");
+    let drives = parse("drives.toml", &text, &machine("none"))
+        .unwrap()
+        .drives;
+    let places: Vec<_> = drives
+        .iter()
+        .map(|d| (d.joint, d.position, d.axis))
+        .collect();
+    assert_eq!(places, [(0, 0, 0), (1, 0, 1), (2, 1, 0)]);
+    assert_eq!(drives[1].map_step, 0x10);
+    let line = |text: &str, key: &str| text.lines().position(|l| l.starts_with(key)).unwrap() + 1;
+    for (from, to, words) in [
+        (
+            "axis = 1\n",
+            "axis = 0\n",
+            "two drives have the same position",
+        ),
+        ("axis = 1\n", "axis = 8\n", "drive.axis = 8 is out of range"),
+        (
+            "axis = 1\n",
+            "axis = 1\nmap_step = 1\n",
+            "drives of one device differ in what is the",
+        ),
+        (
+            "axis = 1\n",
+            "axis = 1\nmap_step = 0\n",
+            "drive.map_step = 0 is out of range",
+        ),
+    ] {
+        let text = text.replace(from, to);
+        let told = wrong(&text);
+        let is_told = |(_, what): &(usize, String)| what.contains(words);
+        let found = told.iter().find(|told| is_told(told));
+        assert!(found.is_some(), "{to}: {told:?}");
+        if to.contains('8') {
+            assert_eq!(found.unwrap().0, line(&text, "axis = 8"));
+        }
+    }
 }
 
 fn terminal(position: usize, windows: &[(bool, &[u32])]) -> Found {

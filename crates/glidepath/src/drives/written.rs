@@ -14,6 +14,8 @@ pub struct Found {
     /// Whether it can follow positions cycle by cycle, and find its home by itself; `None` if it is
     /// no drive of CiA 402.
     pub modes: Option<(bool, bool)>,
+    /// Its drives, 1 where it is none.
+    pub axes: u16,
     /// What is in its process data.
     pub windows: Vec<Window>,
     /// How it watches its outputs, if it tells.
@@ -75,13 +77,18 @@ pub fn written(interface: &str, found: &[Found]) -> String {
          lost_frames = 3       # in a row, then every drive stops by itself\n\
          watchdog_ms = 10      # without frames, then every drive stops by itself\n"
     );
-    for (joint, item) in found.iter().filter(|item| item.is_drive()).enumerate() {
+    let drives = found.iter().filter(|item| item.is_drive());
+    let drives = drives.flat_map(|item| (0..item.axes).map(move |axis| (axis, item)));
+    for (joint, (axis, item)) in drives.enumerate() {
         let (device, id) = (&item.device, item.device.identity);
         let _ = write!(
             text,
             "\n[[drive]]                       # {}\njoint = {joint}\nposition = {}\nvendor = {:#x}\nproduct = {:#x}\n",
             device.name, device.position, id.vendor, id.product
         );
+        if item.axes > 1 {
+            let _ = writeln!(text, "axis = {axis}");
+        }
         if device.alias != 0 {
             let _ = writeln!(text, "alias = {}", device.alias);
         }

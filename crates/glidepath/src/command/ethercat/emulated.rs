@@ -38,6 +38,9 @@ const PATIENCE_PERIODS: u64 = 8;
 /// Between two looks whether it is over.
 const POLL_NS: u64 = 50_000_000;
 
+/// How far the maps of an axis are from those of the one before, as drives and emulated ones have it.
+const MAP_STEP: u16 = 0x10;
+
 /// Runs both until interrupted.
 ///
 /// # Errors
@@ -139,6 +142,8 @@ fn machine(args: &EthercatArgs, config: &MachineConfig) -> Result<Machine, Failu
     let drive = |(joint, max_v): (usize, f64)| DriveSettings {
         joint,
         position: joint,
+        axis: 0,
+        map_step: MAP_STEP,
         vendor: 0,
         product: 0,
         alias: 0,
@@ -170,13 +175,33 @@ fn machine(args: &EthercatArgs, config: &MachineConfig) -> Result<Machine, Failu
         },
         |given| (given.drives, given.terminals),
     );
+    let mut emulated = as_they_are(&drives, &terminals, &begins);
+    for terminal in &terminals {
+        emulated[terminal.position] = emulated_terminals::emulated(terminal);
+    }
+    let terminals = terminals.iter().map(emulated_terminals::plain).collect();
+    let drives = drives.into_iter();
+    let drives = drives.map(|drive| DriveSettings {
+        map_step: MAP_STEP,
+        ..drive
+    });
+    Ok((drives.collect(), terminals, emulated))
+}
+
+/// All devices, the drives among them as they begin.
+fn as_they_are(
+    drives: &[DriveSettings],
+    terminals: &[TerminalSettings],
+    begins: &[f64],
+) -> Vec<Emulated> {
     let positions = drives.iter().map(|drive| drive.position);
     let positions = positions.chain(terminals.iter().map(|terminal| terminal.position));
     let last = positions.max().unwrap_or(0);
     let mut emulated = vec![Emulated::default(); last + 1];
-    for drive in &drives {
+    for drive in drives {
         let begin = drive.counts(begins[drive.joint]).unwrap_or(0);
         let there = &mut emulated[drive.position];
+        there.axes = there.axes.max(usize::from(drive.axis) + 1);
         there.identity[0] = if drive.vendor == 0 {
             there.identity[0]
         } else {
@@ -192,14 +217,11 @@ fn machine(args: &EthercatArgs, config: &MachineConfig) -> Result<Machine, Failu
             let switch = (-TO_HOME * drive.counts_per_unit) as i64;
             there.home = Some(HomeSwitch { at_counts: switch });
         } else {
-            there.start_counts = begin;
+            there.start_counts.resize(there.axes, 0);
+            there.start_counts[usize::from(drive.axis)] = begin;
         }
     }
-    for terminal in &terminals {
-        emulated[terminal.position] = emulated_terminals::emulated(terminal);
-    }
-    let terminals = terminals.iter().map(emulated_terminals::plain).collect();
-    Ok((drives, terminals, emulated))
+    emulated
 }
 
 /// What the drives recorded, for what time each target was meant, and what had become of the setpoints
@@ -217,7 +239,7 @@ fn write(
     )?;
     let period_ns = settings.bus.period_ns;
     for drive in &settings.drives {
-        for record in segment.take_records(drive.position) {
+        for record in segment.take_axis_records(drive.position, drive.axis.into()) {
             // The demand of that number that is nearest in time.
             let from =
                 demanded.partition_point(|demand| demand.sync_ns + 64 * period_ns < record.at_ns);

@@ -5,7 +5,7 @@ use crate::command::failure::Failure;
 use crate::drives::{Found, written};
 use crate::exit::Exit;
 use crate::output;
-use glidepath_ethercat::{BusError, Init, PacketWire, PreOp, RunError, Wire, object};
+use glidepath_ethercat::{BusError, DEVICE_AXES, Init, PacketWire, PreOp, RunError, Wire, object};
 use serde_json::json;
 
 /// Lists the devices as a first `drives.toml`.
@@ -29,6 +29,7 @@ pub(super) fn scan(args: &ScanArgs) -> Result<Exit, Failure> {
                 "has_clock": device.clock.is_clock(),
                 "counts_per_revolution": found.counts_per_revolution,
                 "drive": found.is_drive(),
+                "axes": found.axes,
                 "input_bits": bits(found, false),
                 "output_bits": bits(found, true),
                 "output_watchdog": found.watchdog.map(|watchdog| json!({
@@ -65,6 +66,9 @@ fn look<W: Wire>(wire: &mut W) -> Result<Vec<Found>, BusError> {
             let is_drive =
                 device.has_coe && read(0x1000, 0).is_some_and(|kind| kind & 0xffff == 402);
             let modes = is_drive.then(|| read(0x6502, 0).unwrap_or(0));
+            // Objects of an axis are 0x800 behind those of the one before.
+            let has = |axis: &u16| read(0x6502 + 0x800 * axis, 0).is_some();
+            let axes = modes.map_or(1, |_| 1 + (1..DEVICE_AXES).take_while(has).count());
             let counts = modes.and_then(|_| counts_per_revolution(&mut bus, position));
             Found {
                 // One that does not tell has none that can be named.
@@ -75,6 +79,7 @@ fn look<W: Wire>(wire: &mut W) -> Result<Vec<Found>, BusError> {
                 },
                 watchdog: bus.watchdog(position).ok(),
                 device,
+                axes: u16::try_from(axes).unwrap_or(1),
                 counts_per_revolution: counts,
                 modes: modes.map(|modes| (modes & 1 << 7 != 0, modes & 1 << 5 != 0)),
             }
