@@ -21,6 +21,7 @@ mod maps;
 mod matrix;
 mod terminals;
 mod terminals_up;
+mod threads;
 mod wire;
 
 /// The thread of the bus does not allocate.
