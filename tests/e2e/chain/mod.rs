@@ -13,6 +13,7 @@
 
 mod between;
 mod judge;
+mod terminals;
 
 use std::fmt::Write as _;
 use std::time::Duration;

@@ -1,0 +1,99 @@
+//! Terminals beside emulated drives, with the processes of a machine: a program waits for an input and
+//! moves by what it reads, and the bridge goes on without a terminal missing.
+
+use std::time::{Duration, Instant};
+
+use glidepath_link::MachineState;
+use glidepath_testing::leave_out;
+use glidepath_tests::{Instance, Operated, Watchdog};
+
+const PATIENCE: Duration = Duration::from_secs(240);
+/// How old what drives say may be, ns: a host of tests stands still now and then.
+const FRESH_NS: u64 = 100_000_000;
+
+/// Two drives in one device, one in another, and terminals whose inputs are low.
+const LINE: &str = r#"[bus]
+interface = "none"
+[[drive]]
+joint = 0
+position = 0
+counts_per_mm = 100000.0
+following_error = 50.0
+quick_stop = 2000.0
+[[drive]]
+joint = 1
+position = 0
+axis = 1
+counts_per_mm = 100000.0
+following_error = 50.0
+quick_stop = 2000.0
+[[drive]]
+joint = 2
+position = 3
+counts_per_mm = 100000.0
+following_error = 50.0
+quick_stop = 2000.0
+[[device]]
+position = 1
+inputs = [
+    { at = "0x6000:01", number = 0 },
+    { at = "0x6010:01", number = 7, invert = true },
+]
+[[device]]
+position = 2
+outputs = [
+    { at = "0x7000:01", from = "spindle.forward" },
+    { at = "0x7010:01", from = "output 5" },
+]
+analog_outputs = [{ at = "0x7020:01", from = "spindle.speed", full = 24000.0, counts = 32767 }]
+"#;
+
+/// X says what the second input was, and Y what the first one was.
+const PROGRAM: &str = "G21 G90 F3000\nM3 S6000\nM62 P5\nG1 X1\nM63 P5\nM66 P7 L3 Q30\nG1 X[2+#5399]\n\
+                       M66 P0 L0\nG1 Y[2+#5399]\nM5\nM2\n";
+
+#[test]
+fn programs_read_terminals_and_switch_them() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let real = ("inputs_outputs = \"none\"", "inputs_outputs = \"feedback\"");
+    let bench = Operated::new(&instance, &[real], "");
+    let line = instance.file("drives.toml", LINE);
+    let interpolator = bench.process(&["interpolator", "--best-effort"]);
+    let emulated = [
+        "ethercat",
+        "--emulated",
+        "--best-effort",
+        "--json",
+        "--drives",
+        &line,
+    ];
+    let mut bus = bench.process(&emulated);
+    let (began, off) = (Instant::now(), MachineState::Off.code());
+    let is_there = || {
+        let status = instance.wait_for_status(|_| true);
+        status.state == off && status.feedback_age_ns < FRESH_NS
+    };
+    while !is_there() {
+        if !bus.runs() {
+            let output = bus.wait();
+            assert!(
+                output.stderr.contains("cannot emulate drives"),
+                "{output:?}"
+            );
+            leave_out("emulated drives", &output.stderr);
+            let _ended = interpolator.end().expect(0);
+            return;
+        }
+        assert!(began.elapsed() < PATIENCE);
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    bench.operate(&["enable"]);
+    let _ready = bench.wait_for(MachineState::Idle);
+    let program = instance.file("inputs.ngc", PROGRAM);
+    bench.operate(&["planner", &program]);
+    bench.assert_at([3.0, 2.0, 0.0]);
+    let report = bus.end().expect(0).json();
+    assert_eq!(report["bad_working_counters"], 0, "{report:#}");
+    assert_eq!(report["bus_restarts"], 0, "{report:#}");
+    let _ended = interpolator.end().expect(0);
+}
