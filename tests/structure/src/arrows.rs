@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::process::Command;
 
 /// From a crate to those it uses.
-type Arrows = BTreeMap<String, BTreeSet<String>>;
+pub(crate) type Arrows = BTreeMap<String, BTreeSet<String>>;
 
 /// A pair that must not know each other, and why.
 #[derive(Debug)]
@@ -71,7 +71,7 @@ fn block(name: &str) -> Vec<String> {
     lines
 }
 
-fn drawn() -> Arrows {
+pub(crate) fn drawn() -> Arrows {
     let arrow = |line: &String| {
         let (from, to) = line.split_once(" ->").expect("`crate -> crates it uses`");
         (
@@ -96,7 +96,7 @@ fn forbidden() -> Vec<Never> {
 }
 
 /// All that a crate reaches, by any way.
-fn reached<'a>(arrows: &'a Arrows, from: &'a str) -> BTreeSet<&'a str> {
+pub(crate) fn reached<'a>(arrows: &'a Arrows, from: &'a str) -> BTreeSet<&'a str> {
     let mut found = BTreeSet::new();
     let mut open = vec![from];
     while let Some(at) = open.pop() {

@@ -6,6 +6,7 @@
 //! * `circles`: inside a crate, no file imports by way of others what imports it (`modules` reads
 //!   the imports). The few circles that stand are named there, each with its reason.
 //! * `links`: links between pages lead to what is there.
+//! * `names`: no public type name stands twice across crates that know each other.
 //! * `readmes`: the pages of crates on a registry say what their documentation says.
 //! * `told`: people are not told names of variants, and no state or command is forgotten.
 
@@ -23,6 +24,8 @@ mod circles;
 mod links;
 #[cfg(test)]
 mod modules;
+#[cfg(test)]
+mod names;
 #[cfg(test)]
 mod readmes;
 #[cfg(test)]
