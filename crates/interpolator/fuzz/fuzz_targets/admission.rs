@@ -134,7 +134,7 @@ fuzz_target!(|input: (u8, Vec<Change>, Turns)| {
                         room -= 1;
                     }
                     Verdict::Fault(_) => is_broken = true,
-                    Verdict::Known | Verdict::Refused(_) => {}
+                    Verdict::Known | Verdict::Late | Verdict::Refused(_) => {}
                 }
                 waiting.next();
             }
