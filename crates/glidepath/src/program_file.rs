@@ -60,6 +60,12 @@ impl ProgramFile {
         self.name == Path::new("-")
     }
 
+    /// True for standard input that is not kept: it is executed as it comes.
+    #[must_use]
+    pub fn is_stream(&self) -> bool {
+        self.is_standard_input() && self.kept.get().is_none()
+    }
+
     /// Where it can be read.
     #[must_use]
     pub fn path(&self) -> &Path {

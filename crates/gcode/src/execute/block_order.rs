@@ -9,7 +9,7 @@
 
 use std::sync::Arc;
 
-use glidepath_geometry::AXES;
+use glidepath_geometry::{AXES, AxisVector};
 use glidepath_program::{Event, Item, ItemKind, PathMode};
 
 use crate::diagnostic::fault::Outcome;
@@ -79,6 +79,7 @@ impl Interpreter {
         let compensation = self.compensation.clone();
         let corner = self.corner.clone();
         let (open_line, open_tap) = (self.open_line.clone(), self.open_tap);
+        let open_thread = self.open_thread.clone();
         let (axes_end, is_mapped) = (self.axes_end, self.is_mapped);
         let mark = OpenSpline::mark(self.open_spline.as_ref());
         let result = self.run(block, out).and_then(|after| {
@@ -92,6 +93,7 @@ impl Interpreter {
             self.compensation = compensation;
             self.corner = corner;
             (self.open_line, self.open_tap) = (open_line, open_tap);
+            self.open_thread = open_thread;
             OpenSpline::rewind(&mut self.open_spline, mark);
             if let Some(saved_states) = saved_states {
                 self.saved_states = saved_states;
@@ -220,6 +222,7 @@ impl Interpreter {
         self.offsets.frame = Frame::default();
         self.offsets.tilted = Frame::default();
         self.offsets.fanuc.dynamic = None;
+        self.offsets.fanuc.local = AxisVector::zeros();
         self.offsets.fanuc.active = None;
         self.offsets.fanuc.frames = FanucFrames::default();
     }
@@ -245,6 +248,7 @@ impl Interpreter {
     ) -> Outcome<()> {
         if block.dialect != Dialect::LinuxCnc {
             self.check_open_tap(block, motion)?;
+            self.settle_thread(block, motion, out)?;
             check_named_words(block, motion, self.state.rounds_mm > 0.0)?;
             self.settle_line(block, motion, out)?;
         }

@@ -89,7 +89,7 @@ impl Interpreter {
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
         let normal = self.state.modal.plane.normal();
-        let sticky = self.keep(block, cycle)?;
+        let mut sticky = self.keep(block, cycle)?;
         self.check_cycle(block, &sticky)?;
         // Beside I of depths, K is the least depth of Haas.
         let depths = block.get(b'I').filter(|_| cycle != CannedCycle::FineBore);
@@ -120,13 +120,12 @@ impl Interpreter {
             0.0
         };
         let initial = self.state.cycles.initial.unwrap_or(start + way);
-        let (r, bottom) = if incremental {
-            (initial + sticky.r, initial + sticky.r + sticky.depth)
-        } else if block.has_increments() {
-            (self.r_of_lathe(initial, &sticky), sticky.depth)
+        let [r, bottom] = if block.has_increments() && !incremental {
+            [self.r_of_lathe(initial, &sticky), sticky.depth]
         } else {
-            (sticky.r, sticky.depth)
+            self.levels(block, &sticky, initial)
         };
+        sticky.levels_mm = Some([r, bottom]);
         if r < bottom {
             let message = "the R plane is below the bottom of the hole";
             return Err(
@@ -162,6 +161,27 @@ impl Interpreter {
         let made = self.holes(block, hole, holes, out);
         self.state.modal.path_mode = mode;
         made
+    }
+
+    /// The R plane and the bottom, coordinates. A FANUC keeps them as such: words of a block before mean
+    /// what they meant there.
+    fn levels(&self, block: &Block, sticky: &StickyWords, initial: f64) -> [f64; 2] {
+        let normal = self.state.modal.plane.normal();
+        let is_incremental = self.state.modal.distance == Distance::Incremental;
+        let last = self.state.cycles.last;
+        let kept = last.filter(|_| block.dialect == Dialect::Fanuc);
+        let kept = kept.and_then(|last| last.levels_mm);
+        let says_depth = block.axes().any(|(axis, _)| axis == normal);
+        let from = |base: f64| if is_incremental { base } else { 0.0 };
+        let r = match kept {
+            Some([r, _]) if block.get(b'R').is_none() => r,
+            _ => from(initial) + sticky.r,
+        };
+        let bottom = match kept {
+            Some([_, bottom]) if !says_depth => bottom,
+            _ => from(r) + sticky.depth,
+        };
+        [r, bottom]
     }
 
     /// The R plane of a lathe of system A: R is the way from the initial level, to FANUC. To Haas it is the

@@ -47,6 +47,7 @@ impl Interpreter {
             r,
             says_r: block.get(b'R').is_some() || stays.is_some_and(|l| l.says_r),
             depth,
+            levels_mm: None,
             dwell_s: 0.0,
             peck: 0.0,
             less: 0.0,

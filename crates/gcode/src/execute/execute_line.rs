@@ -9,9 +9,28 @@ use crate::execute::program::Program;
 use crate::execute::scope::ProgramScope;
 use crate::syntax::block::{Assignment, LineKind};
 use crate::syntax::dialect::Dialect;
+use crate::syntax::dialect::bare_words::goes_on_with_thread;
 use crate::syntax::expression::scope::Parameter;
+use crate::syntax::modes::Motion;
 
 impl<R: BufRead> Program<R> {
+    /// Whether the block goes on with a thread in the next line: what cannot be read there is refused
+    /// there.
+    fn look_at_next_thread(&mut self) {
+        let motion = match self.block.codes.motion {
+            Some(coded) => coded.code,
+            None => self.interpreter.state.modal.motion,
+        };
+        let is_thread = motion == Some(Motion::Thread) && self.block.has_axes();
+        let has_tape = matches!(self.block.dialect, Dialect::Fanuc | Dialect::Siemens);
+        self.interpreter.thread_goes_on = is_thread && has_tape && !self.is_typed && {
+            let next = self.tape.next;
+            let is_there = self.tape.reach(next, &mut self.source).unwrap_or(false);
+            let line = self.tape.get(next).filter(|_| is_there);
+            line.is_some_and(|(_, text)| goes_on_with_thread(text))
+        };
+    }
+
     /// Executes a text as a block.
     pub(crate) fn execute_text(&mut self, number: u32, text: &[u8]) -> Outcome<bool> {
         self.interpreter.line = number;
@@ -50,6 +69,7 @@ impl<R: BufRead> Program<R> {
                     .check_assignable(&assignment.parameter, assignment.span)?,
             }
         }
+        self.look_at_next_thread();
         let asked = self.asked_lathe_cycle(&self.block)?;
         let flow = if self.lathe_cycle.is_some() {
             self.draw_block()?;

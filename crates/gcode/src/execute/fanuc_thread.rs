@@ -237,6 +237,7 @@ impl Interpreter {
                     end: self.offsets.to_machine(point),
                     pitch_mm: thread.lead_mm * along,
                     corner_mm: 0.25 * exit_mm.min(thread.height_mm),
+                    line: self.line,
                 }
             })
             .collect();

@@ -19,6 +19,7 @@ use crate::execute::state::open_corner::OpenCorner;
 use crate::execute::state::open_line::OpenLine;
 use crate::execute::state::open_spline::OpenSpline;
 use crate::execute::state::open_tap::OpenTap;
+use crate::execute::state::open_thread::OpenThread;
 use crate::execute::state::pole::Pole;
 use crate::execute::state::printer::KeptByPrinter;
 use crate::execute::state::probe_result::{ProbeResult, Search};
@@ -57,6 +58,10 @@ pub(crate) struct Interpreter {
     pub(crate) open_line: Option<Box<OpenLine>>,
     /// The tap that is in its hole.
     pub(crate) open_tap: Option<OpenTap>,
+    /// The thread that its next block goes on with.
+    pub(crate) open_thread: Option<OpenThread>,
+    /// The block that is executed next goes on with the thread of this one.
+    pub(crate) thread_goes_on: bool,
     /// The direction in which the last move ended, for a block with CT.
     pub(crate) tangent: Option<AxisVector>,
     /// The NURBS whose control points are being read.
@@ -151,6 +156,8 @@ impl Interpreter {
             corner: None,
             open_line: None,
             open_tap: None,
+            open_thread: None,
+            thread_goes_on: false,
             tangent: None,
             tools,
             saved_states: SavedStates::default(),

@@ -208,6 +208,7 @@ impl<R: BufRead> Program<R> {
             || interpreter.corner.is_some()
             || interpreter.open_line.is_some()
             || interpreter.open_tap.is_some()
+            || interpreter.open_thread.is_some()
             || interpreter.open_spline.is_some()
             || interpreter.state.fanuc.open_plane.is_some()
             || self.lathe_cycle.is_some()
@@ -341,6 +342,11 @@ impl<R: BufRead> Program<R> {
                 self.interpreter.check_tap_complete()?;
                 self.interpreter
                     .check_plane_complete(SourceSpan::default())?;
+                self.interpreter.make_thread(
+                    &self.block,
+                    SourceSpan::default(),
+                    &mut self.items,
+                )?;
                 self.interpreter.end_corner(&self.block, &mut self.items)?;
                 self.interpreter.end_compensation(&mut self.items)?;
                 self.count();

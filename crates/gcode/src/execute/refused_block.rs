@@ -95,6 +95,9 @@ impl<R: BufRead> Program<R> {
         }
         self.interpreter.open_line = None;
         self.interpreter.open_tap = None;
+        if self.interpreter.open_thread.take().is_some() {
+            self.interpreter.state.path_end = self.interpreter.state.position;
+        }
         self.interpreter.state.fanuc.open_plane = None;
         self.interpreter.adopt_modes(&self.block);
         self.interpreter.adopt_place(&self.block, diagnostic.code);

@@ -202,6 +202,7 @@ impl Interpreter {
                 end: self.offsets.to_machine(point),
                 pitch_mm,
                 corner_mm,
+                line: self.line,
             })
             .collect();
         self.pass(block, &grooves, 0, out)?;

@@ -72,6 +72,25 @@ impl Threading {
         }
     }
 
+    /// By how much a corner is rounded where the velocity of the axes changes by so much, mm/s, at the
+    /// acceleration and the jerk that they have: twice what is needed.
+    pub(crate) fn corner_mm(&self, change: &AxisVector) -> f64 {
+        let v = change.norm();
+        if v <= 0.0 {
+            return 0.0;
+        }
+        let direction = change / v;
+        let a = limit_along(&direction, &self.limits.acceleration);
+        let j = limit_along(&direction, &self.limits.jerk);
+        let change_t = if v <= a * a / j {
+            2.0 * (v / j).sqrt()
+        } else {
+            v / a + a / j
+        };
+        // Half the change on each side of the corner, for half of the time.
+        0.25 * v * change_t
+    }
+
     /// What a pass needs between its run-in and its run-out, mm.
     pub(crate) fn steady_mm(&self, v: f64) -> f64 {
         STEADY_PERIODS * self.period_t * v

@@ -104,10 +104,15 @@ impl ToolTable {
     /// where several have it.
     #[must_use]
     pub fn named(&self, name: &str) -> Option<u32> {
-        self.names
-            .get(&name.trim().to_uppercase())
-            .copied()
-            .flatten()
+        let name = name.trim().to_uppercase();
+        match self.names.get(&name) {
+            Some(entry) => *entry,
+            // A tool without a name is called by its number.
+            None => name
+                .parse()
+                .ok()
+                .filter(|number: &u32| number.to_string() == name && self.get(*number).is_some()),
+        }
     }
 
     /// Gives a tool a name.

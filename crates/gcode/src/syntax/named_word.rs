@@ -97,7 +97,7 @@ impl Named {
             b"RP" => Self::PolarRadius,
             b"AP" => Self::PolarAngle,
             b"AR" => Self::ArcAngle,
-            b"ANG" => Self::LineAngle,
+            b"ANG" | b"ANG1" | b"ANG2" => Self::LineAngle,
             b"I1" => Self::Via(0),
             b"J1" => Self::Via(1),
             b"K1" => Self::Via(2),

@@ -10,7 +10,7 @@ use glidepath_kinematics::{FiveAxis, Rotaries, Tilt};
 use glidepath_program::ItemKind;
 use nalgebra::Vector3;
 
-const SIEMENS: [&str; 78] = [
+const SIEMENS: [&str; 88] = [
     "IF @",
     "ELSE",
     "ENDIF",
@@ -89,9 +89,22 @@ const SIEMENS: [&str; 78] = [
     "G1 A=@ C=@",
     "CYCLE800(0,\"\",0,57,@,@,@,@,@,@,@,@,@,-1)",
     "CYCLE800()",
+    "CYCLE802(121,111,@,@,@,@)",
+    "DEF STRING[9] S_S=\"A_\", T_T[2]",
+    "S_S=S_S<<@ T_T[@]=S_S",
+    "IF S_S==\"A_A\" GOTOF \"B_\"<<T_T[1]",
+    "GOTOB S_S<<\"A\"",
+    "$P_PFRAME=CTRANS(X,@):CROT(Z,@):CSCALE(Y,@)",
+    "$P_PFRAME[X,TR]=$P_PFRAME[Z,RT]+@",
+    "R1=@ B_AND @ R2=B_NOT R1",
+    "G33 Z=@ X=@ K=@",
+    "M3 S500 G97",
 ];
 
-const FANUC: [&str; 58] = [
+const FANUC: [&str; 61] = [
+    "M3 S500 G97",
+    "G33 Z@ X@ F@",
+    "G28",
     "G0 X@ Y@ Z@",
     "G1 X@ Y@ F@",
     "G2 X@ Y@ R@",

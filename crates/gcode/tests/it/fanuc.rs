@@ -146,6 +146,8 @@ fn alarms_stop_with_their_text() {
 #[test]
 fn system_variables_are_read_and_written() {
     assert_eq!(last("G91\n#1=#4003\nG90\nG0 X#1")[0], 91.0);
+    // The same of the block that is executed.
+    assert_eq!(last("G91\n#1=#4203\nG90\nG0 X#1")[0], 91.0);
     assert_eq!(last("#10=#4003\nG91\nG0 X5\nX5\nG#10\nX3")[0], 3.0);
     assert_eq!(
         last("T1\nS1200\nG43 H1\nF500\n#1=#4109/100\n#2=#4119/100\n#3=#4120+#4111\nG0 X#1 Y#2 Z#3"),

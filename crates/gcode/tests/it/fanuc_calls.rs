@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use glidepath_gcode::{
-    Connections, Dialect, FanucParameters, Machine, Options, PointInput, Program, Tool, ToolTable,
-    check,
+    Connections, Dialect, FanucParameters, Machine, OffsetMemory, Options, PointInput, Program,
+    Tool, ToolTable, check,
 };
 use glidepath_geometry::Axis;
 use glidepath_program::ItemKind;
@@ -85,6 +85,33 @@ fn a_program_ends_where_the_next_one_begins() {
     assert_eq!(
         last("(TITLE)\n%\nO1 (PART)\n(MADE TODAY)\nG0 X1"),
         [1.0, 0.0, 0.0]
+    );
+}
+
+#[test]
+fn a_number_is_that_of_one_program() {
+    let subs = "\nM30\nO2\nG0 X6\nM99\nO3\nM99\nO2\nG0 X7\nM99";
+    finds(&format!("O1\nM98 P2{subs}"), &["2:1 ambiguous-word"]);
+    finds(&format!("O1\nG65 P2{subs}"), &["2:1 ambiguous-word"]);
+    // Nothing depends on which of them is meant where nothing calls it.
+    finds(&format!("O1\nM98 P3{subs}"), &[]);
+    // Not the third repetition of another program either.
+    let subs = "\nM30\nO30002\nM99\nO30002\nM99\nO2\nG0 X1\nM99";
+    finds(&format!("O1\nM98 P30002{subs}"), &["2:1 ambiguous-word"]);
+}
+
+#[test]
+fn the_reference_position_is_gone_to_by_named_axes() {
+    finds("G91 G28", &["1:5 ambiguous-word"]);
+    finds("G91 G30", &["1:5 ambiguous-word"]);
+    let fanuc = FanucParameters {
+        offset_memory: OffsetMemory::Haas,
+        ..FanucParameters::default()
+    };
+    let options = Options { fanuc, ..options() };
+    assert_eq!(
+        ends_with("G0 X5 Y6 Z7\nG28", options).last(),
+        Some(&[0.0, 0.0, 0.0])
     );
 }
 

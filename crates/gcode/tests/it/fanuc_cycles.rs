@@ -135,3 +135,29 @@ fn a_dwell_may_be_alone_or_in_u() {
     let report = check(&b"G103 P1\nG103\nG187 P3 E0.01\nG187"[..], options());
     assert!(report.diagnostics.is_empty());
 }
+
+#[test]
+fn levels_stay_where_distances_change_to_increments() {
+    // A row and a column of holes from a hole that was given by coordinates.
+    let bottoms = |text: &str| -> Vec<[f64; 3]> {
+        let all = ends(text).into_iter();
+        all.filter(|[_, _, z]| *z < 0.0).collect()
+    };
+    let text = "G0 Z10.\nG99 G81 Z-5. R2. F100. L0\nG91 X10. L2\nY5.\nG90 X0 Y0\nG80";
+    let expected = [
+        [10.0, 0.0, -5.0],
+        [20.0, 0.0, -5.0],
+        [20.0, 5.0, -5.0],
+        [0.0, 0.0, -5.0],
+    ];
+    assert_eq!(bottoms(text), expected);
+    // And the other way round: R is at 10 - 8, the bottom 5 below it. A new R alone leaves the bottom.
+    let text = "G0 Z10.\nG91 G99 G81 X1. Z-5. R-8. F100.\nG90 X7.\nG91 X1. R-9.\nX1. Z-2.";
+    let expected = [
+        [1.0, 0.0, -3.0],
+        [7.0, 0.0, -3.0],
+        [8.0, 0.0, -3.0],
+        [9.0, 0.0, -1.0],
+    ];
+    assert_eq!(bottoms(text), expected);
+}

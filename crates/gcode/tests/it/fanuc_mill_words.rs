@@ -259,3 +259,22 @@ fn bored_holes_are_left_beside_the_wall() {
     );
     assert_eq!(listed(&report), ["2:16 ambiguous-word"]);
 }
+
+#[test]
+fn the_local_offset_stands_beside_that_of_g92() {
+    let xs = |text: &str| -> Vec<f64> { ends(text).into_iter().map(|[x, ..]| x).collect() };
+    // The place is named 5; the local zero is 10 further, and back.
+    assert_eq!(xs("G92 X5.\nG52 X10.\nG0 X5.\nG52 X0\nG0 X6."), [10.0, 1.0]);
+    // In every coordinate system, and over those that are set.
+    assert_eq!(
+        xs("G52 X10.\nG55 G0 X1.\nG10 L2 P2 X100.\nG0 X1."),
+        [11.0, 111.0]
+    );
+    // G92 ends it along its axes.
+    assert_eq!(
+        ends("G52 X10. Y20.\nG0 X0 Y0\nG92 X1.\nG0 X2. Y1."),
+        [[10.0, 20.0, 0.0], [11.0, 21.0, 0.0]]
+    );
+    // A place of the machine is one.
+    assert_eq!(last("G52 X10.\nG0 G53 X1."), [1.0, 0.0, 0.0]);
+}

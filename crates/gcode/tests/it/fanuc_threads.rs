@@ -2,7 +2,7 @@
 
 use crate::support::listed;
 use glidepath_gcode::{Dialect, FanucControl, FanucParameters, Options, Program, Threading, check};
-use glidepath_program::{Event, ItemKind, Limits};
+use glidepath_program::{Event, ItemKind, Limits, PHASE_STEPS, PathMode};
 
 fn options() -> Options {
     Options {
@@ -148,5 +148,52 @@ fn the_lead_of_a_taper_is_that_of_the_longer_axis() {
     assert_eq!(
         cut,
         [format!("{}@0 -10,-20", (1.5 * along * 1e3).round() / 1e3)]
+    );
+}
+
+#[test]
+fn blocks_of_a_thread_are_one_pass() {
+    // Along Z, and out at 45 degrees.
+    let text = "S600 M3\nG0 X20 Z4\nG32 Z-20 F1.5\nU8 W-4\nG0 X40";
+    assert_eq!(cuts(text), ["1.5@0 10,-20 14,-24"]);
+    let text = "S600 M3\nG0 X20 Z4\nG32 Z-20 F1.5 Q90000\nG32 Z-30 X24 F1.5\nZ-40\nM30";
+    let phase = PHASE_STEPS / 4;
+    assert_eq!(
+        cuts(text),
+        [format!("1.5@{phase} 10,-20 12,-30 12,-40").as_str()]
+    );
+    // At 16.5 mm/s X sets out with 16.5: with a jerk of 40 m/s³ that takes 40.6 ms, and a quarter of
+    // 16.5 · 0.0406 is left to the corner.
+    let items: Vec<_> = Program::new(
+        &b"S600 M3\nG0 X20 Z4\nG32 Z-20 F1.5\nU8 W-4\nG0 X40"[..],
+        lathe(),
+    )
+    .map(|item| item.expect("a sound program"))
+    .filter(|item| matches!(item.kind, ItemKind::Move { rate, .. } if rate.is_synchronised()))
+    .collect();
+    let lines: Vec<u32> = items.iter().map(|item| item.line).collect();
+    assert_eq!(lines, [3, 4]);
+    for item in &items {
+        let ItemKind::Move { mode, .. } = item.kind else {
+            continue;
+        };
+        let PathMode::Continuous {
+            tolerance_mm: Some(tolerance_mm),
+        } = mode
+        else {
+            panic!("{mode:?}");
+        };
+        assert!((tolerance_mm - 0.1676).abs() < 1e-4, "{tolerance_mm}");
+    }
+    // Each block alone where the tool goes back in between, and at the end of the program.
+    let text = "S600 M3\nG0 X20 Z4\nG32 Z-20 F1.5\nG0 X24\nZ4\nX20\nG32 Z-20 F1.5";
+    assert_eq!(cuts(text), ["1.5@0 10,-20", "1.5@0 10,-20"]);
+    finds(
+        "S600 M3\nG0 X20 Z4\nG32 Z-20 F1.5\nU0.5 W-0.25",
+        "4:1 invalid-value",
+    );
+    finds(
+        "S600 M3\nG0 X20 Z4\nG32 Z-20 F1.5\nW-9 Q90000",
+        "4:1 not-supported",
     );
 }

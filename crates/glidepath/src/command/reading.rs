@@ -138,11 +138,14 @@ fn tool_table(path: &Path) -> Result<ToolTable, Failure> {
 
 /// The dialect that the beginning of a program is in, with the line that tells it, and what has to be asked about it.
 fn detected(program: &ProgramFile, config: &MachineConfig) -> Detection {
+    let machine = Machine::new(&config.axis_names());
+    if program.is_stream() {
+        return Detection::of_stream(&machine);
+    }
     let mut beginning = Vec::new();
     // A file that cannot be read is reported where it is opened to be executed.
     if let Ok(file) = File::open(program.path()) {
         file.take(BEGINNING).read_to_end(&mut beginning).ok();
     }
-    let machine = Machine::new(&config.axis_names());
     Dialect::detect(&beginning, &machine)
 }

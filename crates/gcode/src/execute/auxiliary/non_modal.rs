@@ -1,6 +1,6 @@
 //! Codes that act once (group 0): coordinate systems, offsets, reference positions.
 
-use glidepath_geometry::AxisVector;
+use glidepath_geometry::{AXES, AxisVector};
 use glidepath_program::Item;
 
 use crate::diagnostic::code::DiagnosticCode;
@@ -63,18 +63,25 @@ impl Interpreter {
             NonModal::LocalOffset => {
                 let values = self.axis_values(block)?;
                 require_axes(block, non_modal.span, "G52")?;
+                if block.dialect == Dialect::Fanuc {
+                    let fanuc = &mut self.offsets.fanuc;
+                    fanuc.local = overlay(fanuc.local, &values);
+                    return Ok(());
+                }
                 self.offsets.shift = overlay(self.offsets.shift, &values);
                 self.offsets.saved_shift = self.offsets.shift;
             }
             NonModal::LatheSetting => {
                 if block.has_axes() {
                     let values = self.axis_values(block)?;
+                    self.end_local_offset(&values);
                     self.offsets.set_shift(position, &values);
                 }
             }
             NonModal::SetOffset => {
                 let values = self.axis_values(block)?;
                 require_axes(block, non_modal.span, "G92")?;
+                self.end_local_offset(&values);
                 self.offsets.set_shift(position, &values);
             }
             NonModal::ClearOffset => {
@@ -85,6 +92,15 @@ impl Interpreter {
             NonModal::RestoreOffset => self.offsets.shift = self.offsets.saved_shift,
         }
         Ok(())
+    }
+
+    /// G92 ends the local offset (G52) of the axes that it names.
+    fn end_local_offset(&mut self, values: &[Option<f64>; AXES]) {
+        for (local, value) in self.offsets.fanuc.local.iter_mut().zip(values) {
+            if value.is_some() {
+                *local = 0.0;
+            }
+        }
     }
 
     /// Refuses to give places new names within a frame, whose coordinates they would not be.

@@ -32,6 +32,7 @@ pub(crate) mod tangent_arc;
 mod tap_pair;
 mod target;
 pub(crate) mod thread;
+mod thread_chain;
 pub(crate) mod tilted_plane;
 pub(crate) mod tip_map;
 pub(crate) mod tool_length;

@@ -162,6 +162,7 @@ impl Interpreter {
             && self.corner.is_none()
             && self.open_line.is_none()
             && self.open_tap.is_none()
+            && self.open_thread.is_none()
             && self.offsets.fanuc.dynamic.is_none()
             && !state.spindle.follows_tool()
             && !state.spindle.stands_for_tap();

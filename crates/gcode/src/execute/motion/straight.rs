@@ -3,11 +3,13 @@
 use glidepath_geometry::{AXES, Axis, AxisVector, Segment};
 use glidepath_program::{Item, ItemKind};
 
-use crate::diagnostic::fault::Outcome;
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::{Fault, Outcome};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::axis_words::homes_without_mesh;
 use crate::execute::motion::settled::settled;
 use crate::execute::motion::speed::{Pace, Speed};
+use crate::setup::fanuc::OffsetMemory;
 use crate::syntax::block::Block;
 use crate::syntax::dialect::Dialect;
 
@@ -69,6 +71,9 @@ impl Interpreter {
         let is_flag = homes_without_mesh(block) && !self.options.machine.has(Axis::W);
         let named = |axis: Axis| !(is_flag && axis == Axis::W);
         let all = !block.axes().any(|(axis, _)| named(axis));
+        if all && block.dialect == Dialect::Fanuc {
+            self.check_reference_of_all(block)?;
+        }
         // The letters of a printer's G28 say which axes go; their numbers mean nothing.
         if !all && block.dialect != Dialect::Marlin {
             let target = self.target(block)?;
@@ -96,6 +101,21 @@ impl Interpreter {
             self.follow_tip_again(block, out)?;
         }
         Ok(())
+    }
+
+    /// A Haas sends all axes home where G28 names none, a FANUC moves nothing.
+    fn check_reference_of_all(&self, block: &Block) -> Outcome<()> {
+        if self.options.fanuc.offset_memory == OffsetMemory::Haas {
+            return Ok(());
+        }
+        let span = block
+            .codes
+            .non_modal
+            .map_or_else(|| block.motion_span(), |coded| coded.span);
+        let message = "a way to the reference position without axes";
+        Err(Fault::new(DiagnosticCode::AmbiguousWord, span, message)
+            .because("a Haas sends all axes there, and a FANUC moves none")
+            .help("name the axes, as in G91 G28 X0 Y0 Z0; or set offset_memory = \"haas\" in [program]"))
     }
 
     /// R of a printer's G28: Z goes up to that coordinate first, and never down.

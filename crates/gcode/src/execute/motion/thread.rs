@@ -19,12 +19,14 @@ use crate::syntax::word_check::{missing, unused};
 
 /// A straight part of a pass: where it ends, in machine coordinates, and how far it goes with each
 /// revolution, mm.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Groove {
     pub(crate) end: AxisVector,
     pub(crate) pitch_mm: f64,
     /// By how much corners of the pass may be rounded, mm, > 0 where it has some.
     pub(crate) corner_mm: f64,
+    /// Its source line.
+    pub(crate) line: u32,
 }
 
 impl Interpreter {
@@ -38,7 +40,10 @@ impl Interpreter {
             Dialect::LinuxCnc | Dialect::Marlin => (b'K', b'F'),
         };
         let name = char::from(letter);
-        let Some(pitch) = block.get(letter) else {
+        // F of a FANUC stays from block to block of a thread.
+        let before = self.open_thread.as_ref().filter(|_| is_fanuc);
+        let pitch = block.get(letter).or(before.map(|open| open.pitch));
+        let Some(pitch) = pitch else {
             let meaning = "the way of a revolution along the thread";
             return Err(missing(span, "G33", &name.to_string(), meaning));
         };
@@ -66,15 +71,16 @@ impl Interpreter {
             );
         }
         let target = self.target(block)?;
-        if self.state.thread_end == Some(self.state.path_end) {
+        if self.open_thread.is_none() && self.state.thread_end == Some(self.state.path_end) {
             let message = "a thread that goes on from another one";
             return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
                 .because("a pass ends at rest, and what follows would begin at any angle")
                 .help("write the thread in one block, or retract between two"));
         }
         let phase = self.phase(block)?;
-        let end = settled(self.state.path_end, target, [None, None]);
-        let way = end - self.state.path_end;
+        let from = self.thread_from();
+        let end = settled(from, target, [None, None]);
+        let way = end - from;
         // The lead is that of the axis that goes further: to LinuxCNC it is along the thread.
         let of_axis = match letter {
             b'I' => Some(way[0]),
@@ -94,7 +100,13 @@ impl Interpreter {
             end,
             pitch_mm: pitch * self.state.modal.units.mm() * along,
             corner_mm: 0.0,
+            line: self.line,
         };
+        if self.thread_goes_on || self.open_thread.is_some() {
+            let open = self.open_thread.get_or_insert_default();
+            open.pitch = pitch;
+            return self.chain_thread(block, (groove, target), phase, out);
+        }
         self.pass(block, &[groove], phase, out)?;
         self.state.position = target;
         Ok(())
@@ -136,7 +148,9 @@ impl Interpreter {
         let span = block.motion_span();
         let threading = self.check_spindle(span)?;
         let first = out.len();
+        let line = self.line;
         for (index, groove) in grooves.iter().enumerate() {
+            self.line = groove.line;
             let segment = Segment::line(self.state.path_end, groove.end);
             if segment.length() <= MIN_MOVE {
                 let message = "a thread without a length";
@@ -172,6 +186,7 @@ impl Interpreter {
         if grooves.len() > 1 {
             self.push(out, ItemKind::Dwell(0.0));
         }
+        self.line = line;
         self.state.position = self.state.path_end;
         self.state.thread_end = Some(self.state.path_end);
         self.state.leaving_contour = false;

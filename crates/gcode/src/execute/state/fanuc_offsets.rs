@@ -23,6 +23,9 @@ pub(crate) struct Wear {
 pub(crate) struct FanucOffsets {
     /// Added to the origin of every coordinate system (G10 L2 P0, `#5201`).
     pub(crate) external: AxisVector,
+    /// The local offset (G52), beside that of G92.
+    #[serde(default = "AxisVector::zeros")]
+    pub(crate) local: AxisVector,
     /// G54.1 P1 and on, those that were set.
     pub(crate) extended: BTreeMap<u32, CoordinateSystem>,
     /// The one of them in force.
@@ -46,10 +49,8 @@ impl FanucOffsets {
 
     /// What is added to the origin of every coordinate system.
     pub(crate) fn added(&self) -> AxisVector {
-        match self.dynamic {
-            Some(dynamic) => self.external + dynamic,
-            None => self.external,
-        }
+        let dynamic = self.dynamic.unwrap_or_else(AxisVector::zeros);
+        self.external + self.local + dynamic
     }
 
     pub(crate) fn wear(&self, number: u32) -> Wear {

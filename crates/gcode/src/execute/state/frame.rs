@@ -124,6 +124,47 @@ impl Frame {
         }
     }
 
+    /// The frame that undoes it.
+    pub(crate) fn inverse(&self) -> Self {
+        let back = Self {
+            matrix: self.inverse,
+            inverse: self.matrix,
+            shift: AxisVector::zeros(),
+            is_turned: self.is_turned,
+        };
+        Self {
+            shift: -back.turn(self.shift),
+            ..back
+        }
+    }
+
+    /// The angles of [`Frame::turned`]; `None` where it mirrors or scales.
+    pub(crate) fn angles_deg(&self) -> Option<[f64; 3]> {
+        if !self.only_turns() {
+            return None;
+        }
+        let [row_x, row_y, row_z] = self.matrix;
+        let about_y = (-row_z[0]).clamp(-1.0, 1.0).asin();
+        // At a right angle about Y the other two are about one axis.
+        let (about_x, about_z) = if about_y.cos() > ROUNDING {
+            (row_z[1].atan2(row_z[2]), row_y[0].atan2(row_x[0]))
+        } else {
+            (0.0, (-row_x[1]).atan2(row_y[1]))
+        };
+        Some([about_x, about_y, about_z].map(f64::to_degrees))
+    }
+
+    /// The factors of [`Frame::scaled`]; `None` where it turns and scales.
+    pub(crate) fn factors(&self) -> Option<[f64; 3]> {
+        if self.only_turns() {
+            return Some([1.0; 3]);
+        }
+        let is_diagonal = (0..3).all(|row| {
+            (0..3).all(|column| row == column || self.matrix[row][column].abs() <= ROUNDING)
+        });
+        is_diagonal.then(|| [0, 1, 2].map(|axis| self.matrix[axis][axis]))
+    }
+
     /// True where it does more than shift.
     pub(crate) const fn is_turned(&self) -> bool {
         self.is_turned

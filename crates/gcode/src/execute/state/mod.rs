@@ -15,6 +15,7 @@ pub(crate) mod open_line;
 pub(crate) mod open_plane;
 pub(crate) mod open_spline;
 pub(crate) mod open_tap;
+pub(crate) mod open_thread;
 pub(crate) mod pole;
 pub(crate) mod printer;
 pub(crate) mod probe_result;

@@ -159,6 +159,7 @@ impl Offsets {
         self.shift[axis]
             + self.system().origin[axis]
             + self.fanuc.external[axis]
+            + self.fanuc.local[axis]
             + self.fanuc.dynamic.map_or(0.0, |dynamic| dynamic[axis])
             + self.tool[axis]
             + self.frame.shift[axis]

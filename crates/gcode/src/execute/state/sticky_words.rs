@@ -21,6 +21,9 @@ pub(crate) struct StickyWords {
     #[serde(default)]
     pub(crate) says_r: bool,
     pub(crate) depth: f64,
+    /// R and the bottom as coordinates: on a FANUC these stay where G90 and G91 change in between.
+    #[serde(default)]
+    pub(crate) levels_mm: Option<[f64; 2]>,
     pub(crate) dwell_s: f64,
     /// How deep to go at a time, by how much less each time (J of Haas), and the least (K).
     pub(crate) peck: f64,

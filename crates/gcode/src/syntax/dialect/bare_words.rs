@@ -57,6 +57,24 @@ pub(crate) fn has_code(words: &[(u8, &[u8])], letter: u8, number: f64) -> bool {
         .any(|(of, digits)| *of == letter && value(digits).is_some_and(is_it))
 }
 
+/// True if a line behind a thread is one, too: it has places, and no code but that of a thread.
+pub(crate) fn goes_on_with_thread(text: &[u8]) -> bool {
+    let bare: Vec<u8> = text
+        .iter()
+        .filter(|byte| !byte.is_ascii_whitespace())
+        .map(u8::to_ascii_uppercase)
+        .collect();
+    let code = without_comments(&bare);
+    let words = bare_words(&code);
+    let is_thread = |(letter, number): &(u8, &[u8])| match letter {
+        b'G' => value(number).is_some_and(|number| [32.0, 33.0].contains(&number)),
+        b'M' | b'T' | b'S' => false,
+        _ => true,
+    };
+    let has_place = b"XZUW".iter().any(|letter| has_letter(&words, *letter));
+    has_place && words.iter().all(is_thread)
+}
+
 /// True if one of the words has that letter.
 pub(crate) fn has_letter(words: &[(u8, &[u8])], letter: u8) -> bool {
     words.iter().any(|(of, _)| *of == letter)
@@ -65,6 +83,21 @@ pub(crate) fn has_letter(words: &[(u8, &[u8])], letter: u8) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn threads_go_on_with_places_alone() {
+        for text in [
+            "G32 Z-5. F1.5",
+            "n10 x=r1 z-4",
+            "U4. W-2. (OUT)",
+            "G33 Z-40 K1",
+        ] {
+            assert!(goes_on_with_thread(text.as_bytes()), "{text}");
+        }
+        for text in ["G0 X5.", "X5. M9", "M30", "(Z5)", "G32", "T0101 X1", ""] {
+            assert!(!goes_on_with_thread(text.as_bytes()), "{text}");
+        }
+    }
 
     #[test]
     fn words_are_letters_and_their_numbers() {

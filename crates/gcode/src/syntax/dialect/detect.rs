@@ -25,6 +25,21 @@ impl Detection {
             question: None,
         }
     }
+
+    /// The dialect of a program for a machine that is executed as it comes, so that nothing of it can be
+    /// looked at before: LinuxCNC, which a lathe's program has to be asked for.
+    #[must_use]
+    pub fn of_stream(machine: &Machine) -> Self {
+        let question = machine.is_lathe().then(|| DialectQuestion {
+            doubt: Doubt::Stream,
+            line: 1,
+            text: Box::default(),
+        });
+        Self {
+            question,
+            ..Self::of(Dialect::LinuxCnc, None)
+        }
+    }
 }
 
 impl Dialect {
@@ -168,6 +183,10 @@ mod tests {
         ] {
             assert_eq!(on_lathe(text), (Dialect::LinuxCnc, None), "{text}");
         }
+        // What comes through a pipe is not seen before it is executed.
+        let lathe = Machine::new(&[Axis::X, Axis::Z]);
+        assert!(Detection::of_stream(&lathe).question.is_some());
+        assert_eq!(Detection::of_stream(&Machine::unlimited()).question, None);
         // A mill's programs are what they were.
         let mill = Machine::new(&[Axis::X, Axis::Y, Axis::Z]);
         let found = Dialect::detect(b"%\nO1\nG99\nG90 X4 Z5 F200\n", &mill);

@@ -15,6 +15,8 @@ pub(super) enum Doubt {
     Cycle,
     /// G98 or G99.
     FeedMode,
+    /// A program that is executed as it comes.
+    Stream,
 }
 
 /// The question which dialect a program is in: a line that the controls it may be for read
@@ -42,6 +44,10 @@ impl DialectQuestion {
             Doubt::FeedMode => (
                 "this line says what F counts on one control, and where drilling ends on another",
                 "on FANUC's lathes G98 and G99 are the feed per minute and per revolution, and X counts diameters; in LinuxCNC's language they are no feed, and X counts radii",
+            ),
+            Doubt::Stream => (
+                "a lathe's program that cannot be looked at before it is executed",
+                "X counts diameters on FANUC's lathes, and radii in LinuxCNC's language, and G90, G92 and G98 mean other things there",
             ),
         };
         let start = self

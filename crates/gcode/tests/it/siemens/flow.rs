@@ -54,7 +54,7 @@ fn variables_hold_what_they_are_declared_for() {
     let text = "DEF REAL A_A=1.5, B_B\nDEF INT C_C=A_A\nDEF BOOL D_D=7\nB_B=C_C*100+D_D*10\n\
                 G0 X=A_A+B_B\nC_C=2.4\nX=C_C";
     assert_eq!(xs(text), [211.5, 2.0]);
-    finds("DEF STRING[5] A_A", &["1:5 not-supported"]);
+    finds("DEF CHAR A_A", &["1:5 not-supported"]);
     finds("DEF REAL A_A[3]", &[]);
     finds("DEF REAL X1=3", &["1:10 parameter"]);
     finds("DEF REAL A_A=1/0", &["1:15 arithmetic"]);

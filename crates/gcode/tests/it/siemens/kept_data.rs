@@ -77,6 +77,7 @@ fn zs(text: &str, options: Options) -> Vec<f64> {
 
 #[test]
 fn tools_have_names_and_their_first_edge() {
+    assert_eq!(zs("T=\"1\" M6\nD1\nG0 Z1", named_tools()), [11.0]);
     assert_eq!(zs("T=\"MILL_6\" M6\nD1\nG0 Z1", named_tools()), [11.0]);
     assert_eq!(zs("T=\"drill 10\"\nM6\nG0 Z1", named_tools()), [21.0]);
     // D1 is in force behind a change, and the length of the tool before is not.

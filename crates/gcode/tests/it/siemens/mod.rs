@@ -10,8 +10,10 @@ mod increments;
 mod kept_data;
 mod lathes;
 mod motion;
+mod program_frame;
 mod programs;
 mod subprograms;
+mod texts;
 
 use std::sync::Arc;
 

@@ -83,6 +83,16 @@ fn holes_are_drilled_along_patterns() {
         holes("G91\nCYCLE801(0,0,0,10,20,2,2)"),
         [[0.0, 0.0], [10.0, 0.0], [0.0, 20.0], [10.0, 20.0]]
     );
+    // The second position counts from the first one along X.
+    assert_eq!(
+        holes("CYCLE802(111111121,111111111,10,5,20,7,3,3,,,,,,,,,,,,,0,0,1)"),
+        [[10.0, 5.0], [30.0, 7.0], [3.0, 3.0]]
+    );
+    finds(
+        "MCALL CYCLE81(5,0,2,-4)\nCYCLE802(111,111,1,1,,,,,,,,,,,,,,,,,0,0,2)",
+        &["2:1 canned-cycle"],
+    );
+    finds("CYCLE802(111,111,1,1)", &["1:1 canned-cycle"]);
     finds("HOLES1(0,0,0,0,1,3)", &["1:1 canned-cycle"]);
     finds(
         "MCALL CYCLE81(5,0,2,-4)\nHOLES1(0,0,0,0,1,2.5)",
@@ -225,4 +235,11 @@ fn functions_of_the_plc_are_read_over_where_they_do_nothing() {
     let report = check(text.as_bytes(), options);
     assert!(report.is_accepted(), "{:?}", report.diagnostics);
     assert_eq!(report.final_position.as_slice()[..2], [1.0, 2.0]);
+}
+
+#[test]
+fn the_feed_is_that_of_x_y_and_z() {
+    assert_eq!(ends("FGROUP(X,Y,Z)\nFGROUP()\nG0 X1"), [[1.0, 0.0, 0.0]]);
+    finds("FGROUP(X,A)", &["1:1 not-supported"]);
+    finds("FGROUP(X,Y)", &["1:1 not-supported"]);
 }

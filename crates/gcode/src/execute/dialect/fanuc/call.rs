@@ -1,10 +1,8 @@
 //! FANUC's subprograms: G65, G66, M97, M98 and M99.
 //!
-//! A subprogram is looked for in the text of its caller, from its O number to M99 or M30, then in
-//! the program itself, then in a file: program 20 in `O0020`, `O20` or `20`, as it is or with `.nc`
-//! behind it, in capitals or not ([`file_names`] has the order). Of a file the lines from its
-//! O number on are executed, or all of them if it has none. Arguments of G65 are the parameters of
-//! their letters (A is #1, X is #24); M98 shares those of its caller.
+//! Where a program is looked for is in [`super::numbered_program`] and [`super::named_program`].
+//! Arguments of G65 are the parameters of their letters (A is #1, X is #24); M98 shares those of its
+//! caller.
 
 use std::io::BufRead;
 use std::sync::Arc;
@@ -16,52 +14,14 @@ use crate::execute::dialect::fanuc::arguments::CallWords;
 use crate::execute::dialect::macro_call::Arguments;
 use crate::execute::dialect::tape::{SubprogramCall, TapeLine, TapePlace};
 use crate::execute::flow::activation::MAX_CALLS;
-use crate::execute::flow::load::unusable;
 use crate::execute::line_origin::{LineOrigin, SourceLine};
 use crate::execute::program::{Program, is_percent};
-use crate::setup::subroutine_file::{NoSubroutineFile, NotTaken, SubroutineFile, Subroutines};
+use crate::setup::subroutine_file::SubroutineFile;
 use crate::syntax::cursor::Cursor;
 use crate::syntax::dialect::fanuc::{Call, CallCode, Statement, is_numbered, statement};
 use crate::syntax::expression::value::value;
 use crate::syntax::line_source::LineSource;
 use crate::syntax::word_check::missing;
-
-/// The files that program may be in, in the order in which they are looked for.
-fn file_names(program: u32) -> impl Iterator<Item = String> {
-    let stems = [
-        format!("O{program:04}"),
-        format!("O{program:05}"),
-        format!("O{program}"),
-        format!("o{program:04}"),
-        format!("o{program}"),
-        format!("{program:04}"),
-        format!("{program}"),
-    ];
-    let mut names = Vec::new();
-    for ending in ["", ".nc", ".NC"] {
-        for stem in &stems {
-            let name = format!("{stem}{ending}");
-            if !names.contains(&name) {
-                names.push(name);
-            }
-        }
-    }
-    names.into_iter()
-}
-
-/// The file of a program.
-fn find(subroutines: &Subroutines, program: u32) -> Result<SubroutineFile, NotTaken> {
-    let mut missing = NotTaken::None(NoSubroutineFile::Missing {
-        looked_in: Vec::new(),
-    });
-    for name in file_names(program) {
-        match subroutines.get(&name) {
-            Err(none @ NotTaken::None(NoSubroutineFile::Missing { .. })) => missing = none,
-            found => return found,
-        }
-    }
-    Err(missing)
-}
 
 impl<R: BufRead> Program<R> {
     /// The codes that call, and M99.
@@ -178,103 +138,6 @@ impl<R: BufRead> Program<R> {
         })
     }
 
-    /// Where a program begins, and how often it runs: of a number with more than four digits the
-    /// first ones count repetitions where there is no such program.
-    fn fanuc_program_and_turns(
-        &mut self,
-        program: u32,
-        words: &CallWords,
-        span: SourceSpan,
-    ) -> Outcome<(TapePlace, u32)> {
-        let found = self.fanuc_program(program, span);
-        let (turns, number) = (program / 10_000, program % 10_000);
-        if found.is_ok() || turns == 0 || number == 0 || words.says_turns || words.is_macro {
-            return found.map(|place| (place, words.turns));
-        }
-        match self.fanuc_program(number, span) {
-            Ok(place) => Ok((place, turns)),
-            Err(_) => found.map(|place| (place, words.turns)),
-        }
-    }
-
-    /// Where that program begins: its first line.
-    fn fanuc_program(&mut self, program: u32, span: SourceSpan) -> Outcome<TapePlace> {
-        let here = self.tape.place();
-        if let Some(place) = self.tape.known_program(program) {
-            return Ok(place);
-        }
-        let mut texts = vec![here.text, 0];
-        texts.dedup();
-        let mut found = None;
-        for text in texts {
-            self.tape.go_to(TapePlace { text, line: 0 });
-            let wanted = |line: &[u8]| statement(line).0 == Statement::Label(program);
-            let label = self.tape.search(0, &mut self.source, wanted, |_| false);
-            self.tape.go_to(here);
-            if let Some(label) = label? {
-                let line = label + 1;
-                found = Some(TapePlace { text, line });
-                break;
-            }
-        }
-        let place = match found {
-            Some(place) => place,
-            None => self.fanuc_file(program, span)?,
-        };
-        self.tape.remember_program(program, place);
-        Ok(place)
-    }
-
-    /// The program of that number in a file of its own.
-    fn fanuc_file(&mut self, program: u32, span: SourceSpan) -> Outcome<TapePlace> {
-        let Some(subroutines) = &self.interpreter.options.subroutines else {
-            return Err(unknown(program, span, &[]));
-        };
-        let file = find(subroutines, program).map_err(|why| match why {
-            NotTaken::None(NoSubroutineFile::Missing { looked_in }) => {
-                unknown(program, span, &looked_in)
-            }
-            why => unusable(&format!("program O{program}"), span, why),
-        })?;
-        let text = match self.tape.text_of(&file.name) {
-            Some(text) => text,
-            None => {
-                let lines = lines_of(&file).map_err(|(fault, line)| {
-                    self.origin = LineOrigin::Past(line);
-                    fault
-                })?;
-                self.tape.take_up(Arc::clone(&file.name), lines)
-            }
-        };
-        let here = self.tape.place();
-        self.tape.go_to(TapePlace { text, line: 0 });
-        let mut others = false;
-        let wanted = |line: &[u8]| match statement(line).0 {
-            Statement::Label(number) => {
-                others |= number != program;
-                number == program
-            }
-            _ => false,
-        };
-        let label = self.tape.search(0, &mut self.source, wanted, |_| false);
-        self.tape.go_to(here);
-        match label? {
-            Some(label) => Ok(TapePlace {
-                text,
-                line: label + 1,
-            }),
-            None if others => {
-                let message = format!("{} has other programs than O{program}", file.name);
-                Err(Fault::new(DiagnosticCode::UnknownSubroutine, span, message)
-                    .because("the O numbers in a file say which programs it has")
-                    .help(format!(
-                        "write O{program} at its beginning, or remove the O numbers"
-                    )))
-            }
-            None => Ok(TapePlace { text, line: 0 }),
-        }
-    }
-
     /// The end of the text: of the program, or of a file, which should have had M99 before.
     pub(super) fn fanuc_end(&mut self) -> Outcome<bool> {
         let Some(file) = self.tape.file() else {
@@ -372,32 +235,4 @@ pub(crate) fn lines_of(file: &SubroutineFile) -> Result<Vec<TapeLine>, (Box<Faul
             lines.push((source.number(), source.text().into()));
         }
     }
-}
-
-fn unknown(program: u32, span: SourceSpan, looked_in: &[String]) -> Box<Fault> {
-    let message = format!("there is no program O{program}");
-    let fault = Fault::new(DiagnosticCode::UnknownSubroutine, span, message);
-    let fault = if looked_in.is_empty() {
-        fault.because(
-            "it is not in the text of its caller, and there is no folder to look for it in",
-        )
-    } else {
-        fault.because(format!(
-            "it is not in the text of its caller, and there is no file O{program:04}, O{program} or \
-             {program}, with or without .nc, in {}",
-            looked_in.join(", ")
-        ))
-    };
-    if program > 9999 {
-        return fault.help(format!(
-            "if its first digits are repetitions, write M98 P{} L{}; else add the program or its \
-             folder",
-            program % 10_000,
-            program / 10_000
-        ));
-    }
-    fault.help(
-        "copy it behind the end of this program, or give the folder of its file: --subroutine-path, \
-         or `subroutine_path` of [program]",
-    )
 }

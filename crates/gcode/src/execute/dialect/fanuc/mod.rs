@@ -20,6 +20,7 @@ mod loops;
 mod modal_macro;
 mod modes;
 mod named_program;
+mod numbered_program;
 mod offsets;
 mod plane_of_blocks;
 mod polar;

@@ -168,6 +168,7 @@ impl Interpreter {
                     end: self.offsets.to_machine(*point),
                     pitch_mm: lead_mm * way[0].hypot(way[2]) / way[0].abs().max(way[2].abs()),
                     corner_mm: 0.25 * out_mm,
+                    line: self.line,
                 }
             })
             .collect();

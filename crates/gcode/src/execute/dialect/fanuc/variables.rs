@@ -7,7 +7,7 @@
 //! | `#100` … `#199`, `#500` … `#999` | common |
 //! | `#2001` … `#2999` | tool offsets, where the configuration says how their memory is divided ([`super::tool_variables`]) |
 //! | `#3000=n(TEXT)`, `#3006=n(TEXT)` | an alarm, a stop |
-//! | `#4001` … `#4022`, `#4107` `#4109` `#4111` `#4113` to `#4115` `#4119` `#4120` `#4130` | modes; D F H M N O S T, P of G54.1 |
+//! | `#4001` … `#4022`, `#4107` `#4109` `#4111` `#4113` to `#4115` `#4119` `#4120` `#4130`; the same by 200 higher | modes; D F H M N O S T, P of G54.1 |
 //! | `#5001` `#5021` `#5041` `#5061` `#5081` … | place in the program, of the machine, with the length of the tool; the same of a contact; length of the tool |
 //! | `#5201` …, `#5221` … `#5328`, `#7001` …, `#14001` … | external offset, G54 to G59, G54.1 P1 and on |
 //!
@@ -103,6 +103,8 @@ fn variable(number: u32) -> Variable {
         4119 => Variable::Address(b'S'),
         4120 => Variable::Address(b'T'),
         4130 => Variable::Address(b'P'),
+        // Those of the block that is executed: macros are read when it is the one before.
+        4201..=4330 => variable(number - 200),
         5001..=5020 => place(Place::Program, 5001),
         5021..=5040 => place(Place::Machine, 5021),
         5041..=5060 => place(Place::Present, 5041),

@@ -1,4 +1,4 @@
-//! DEF: variables of a program or a subprogram, and arrays of them.
+//! DEF: variables of a program or a subprogram, of numbers and of texts, and arrays of them.
 
 use std::io::BufRead;
 
@@ -9,6 +9,7 @@ use crate::execute::dialect::siemens::flow::check_end;
 use crate::execute::program::Program;
 use crate::execute::scope::ProgramScope;
 use crate::syntax::dialect::siemens::expression::Evaluator;
+use crate::syntax::dialect::siemens::text_variables::{MAX_TEXT, TextAssignment};
 use crate::syntax::dialect::siemens::variables::{Kind, MAX_DIMENSIONS};
 
 /// Most elements along one dimension of an array.
@@ -20,8 +21,14 @@ impl<R: BufRead> Program<R> {
         let (kind, mut at) = {
             let scope = self.scope();
             let mut input = self.evaluator(&scope, text, at);
-            let kind = kind_ahead(&mut input)?;
+            let kind = match input.eat_name(b"STRING") {
+                true => None,
+                false => Some(kind_ahead(&mut input)?),
+            };
             (kind, input.at)
+        };
+        let Some(kind) = kind else {
+            return self.siemens_define_texts(text, at);
         };
         loop {
             let scope = ProgramScope {
@@ -71,6 +78,108 @@ impl<R: BufRead> Program<R> {
     }
 }
 
+/// What DEF says of one variable of texts.
+struct DefinedText {
+    name: Vec<u8>,
+    sizes: Vec<usize>,
+    value: Option<Vec<u8>>,
+    span: SourceSpan,
+}
+
+/// How long texts may be: in brackets behind STRING.
+fn length_ahead(input: &mut Evaluator<'_>) -> Outcome<usize> {
+    if input.peek(0) != Some(b'[') {
+        return Ok(MAX_TEXT);
+    }
+    let start = input.at;
+    match sizes(input)?.as_slice() {
+        [length] if *length <= MAX_TEXT => Ok(*length),
+        _ => {
+            let span = SourceSpan::new(start, input.at);
+            let message = "the length of a text is not possible";
+            Err(Fault::new(DiagnosticCode::Parameter, span, message)
+                .because(format!("a text has 1 to {MAX_TEXT} bytes"))
+                .help("write one such number in the brackets"))
+        }
+    }
+}
+
+/// `NAME`, `NAME="A"`, `NAME[3]`.
+fn text_ahead(input: &mut Evaluator<'_>) -> Outcome<DefinedText> {
+    input.next_visible();
+    let start = input.at;
+    let name = input.name_ahead();
+    input.at += name.len();
+    let sizes = if input.peek(0) == Some(b'[') {
+        sizes(input)?
+    } else {
+        Vec::new()
+    };
+    let span = SourceSpan::new(start, input.at.max(start + 1));
+    let value = if input.eat(b'=') {
+        if !sizes.is_empty() || !input.is_text_next() {
+            let message = "a variable of texts that no text is given to";
+            return Err(Fault::new(DiagnosticCode::Parameter, span, message)
+                .because(
+                    "behind DEF STRING and the name of a single variable stands a text in quotes",
+                )
+                .help("write it, or assign the elements of the array one by one"));
+        }
+        Some(input.text_value()?)
+    } else {
+        None
+    };
+    Ok(DefinedText {
+        name,
+        sizes,
+        value,
+        span,
+    })
+}
+
+impl<R: BufRead> Program<R> {
+    /// `DEF STRING[20] NAME="X", OTHER, LIST[3]`.
+    fn siemens_define_texts(&mut self, text: &[u8], at: usize) -> Outcome<()> {
+        let (most, mut at) = {
+            let scope = self.scope();
+            let mut input = self.evaluator(&scope, text, at);
+            (length_ahead(&mut input)?, input.at)
+        };
+        loop {
+            let scope = ProgramScope {
+                parameters: &self.parameters,
+                interpreter: &self.interpreter,
+            };
+            let mut input = self.evaluator(&scope, text, at);
+            let defined = text_ahead(&mut input)?;
+            let goes_on = input.eat(b',');
+            if !goes_on {
+                check_end(&mut input)?;
+            }
+            at = input.at;
+            let DefinedText {
+                name,
+                sizes,
+                value,
+                span,
+            } = defined;
+            let variables = &mut self.siemens.variables;
+            variables.declare_text(&name, most, sizes, span)?;
+            if let Some(value) = value {
+                variables.check_text(&name, &value, span)?;
+                variables.set_text(TextAssignment {
+                    name,
+                    element: 0,
+                    value,
+                });
+            }
+            if !goes_on {
+                return Ok(());
+            }
+        }
+    }
+}
+
 /// REAL, INT or BOOL.
 fn kind_ahead(input: &mut Evaluator<'_>) -> Outcome<Kind> {
     input.next_visible();
@@ -81,9 +190,14 @@ fn kind_ahead(input: &mut Evaluator<'_>) -> Outcome<Kind> {
         let shown = String::from_utf8_lossy(&name).into_owned();
         let span = SourceSpan::new(start, input.at.max(start + 1));
         let message = format!("DEF {shown} is not supported");
+        let help = match name.as_slice() {
+            b"FRAME" => "write TRANS, ROT and the like, or set $P_UIFR or $P_PFRAME",
+            b"AXIS" => "write the letter of the axis itself",
+            _ => "use one of these",
+        };
         Fault::new(DiagnosticCode::NotSupported, span, message)
-            .because("variables are REAL, INT or BOOL, and of this program")
-            .help("use one of these")
+            .because("variables are REAL, INT, BOOL or STRING, and of this program")
+            .help(help)
     })
 }
 

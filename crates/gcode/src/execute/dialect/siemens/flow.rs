@@ -257,6 +257,12 @@ impl<R: BufRead> Program<R> {
         let mut input = self.evaluator(&scope, text, at);
         input.next_visible();
         let start = input.at;
+        if input.is_text_next() {
+            let target = input.text_value()?;
+            let span = SourceSpan::new(start, input.at);
+            check_end(&mut input)?;
+            return self.siemens_go_to_text(way, index, &target, span);
+        }
         let target = input.name_ahead();
         input.at += target.len();
         let is_name = target
@@ -273,6 +279,26 @@ impl<R: BufRead> Program<R> {
         }
         check_end(&mut input)?;
         self.siemens_jump(way, index, &target, (1, start))
+    }
+
+    /// Jumps to the label that a text names, which may be another one each time.
+    fn siemens_go_to_text(
+        &mut self,
+        way: Direction,
+        index: usize,
+        target: &[u8],
+        span: SourceSpan,
+    ) -> Outcome<()> {
+        match self.siemens_find(way, index, target)? {
+            Some(line) => self.tape.next = line,
+            None if way == Direction::IfAny => {}
+            None => {
+                let mut fault = no_target(target, span.start);
+                fault.span = span;
+                return Err(fault);
+            }
+        }
+        Ok(())
     }
 
     /// Jumps; `number` tells the jumps of a line apart, and `at` is where its target stands.

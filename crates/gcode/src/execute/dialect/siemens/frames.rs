@@ -13,6 +13,7 @@ use glidepath_geometry::{Axis, AxisVector};
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
+use crate::execute::interpreter::Interpreter;
 use crate::execute::program::Program;
 use crate::execute::state::frame::Frame;
 use crate::syntax::dialect::siemens::frame_word::{FrameKind, FrameWord};
@@ -37,14 +38,8 @@ pub(super) struct FrameValue {
 impl<R: BufRead> Program<R> {
     /// Executes a frame, whose words begin at `at`.
     pub(super) fn siemens_frame(&mut self, word: FrameWord, text: &[u8], at: usize) -> Outcome<()> {
-        let state = &self.interpreter.state;
         let name = SourceSpan::new(label(text).1, at);
-        if state.on_contour || state.leaving_contour {
-            let message = "a frame with cutter radius compensation on";
-            return Err(Fault::new(DiagnosticCode::CutterRadius, name, message)
-                .because("the tool stands beside the programmed point, at a place that depends on the next move")
-                .help("write G40 and a move before it"));
-        }
+        check_no_contour(&self.interpreter, name)?;
         let values = self.frame_values(text, at)?;
         if values.is_empty() && word.adds {
             return Err(missing(
@@ -82,15 +77,7 @@ impl<R: BufRead> Program<R> {
         } else {
             offsets.tilted.with(&frame)
         };
-        if frame.least_scale() * MAX_SCALE < 1.0 || frame.greatest_scale() > MAX_SCALE {
-            let message = "the scales together are beyond what is possible";
-            return Err(Fault::new(DiagnosticCode::InvalidValue, name, message)
-                .because(format!(
-                    "factors are from {} to {MAX_SCALE}",
-                    1.0 / MAX_SCALE
-                ))
-                .help("write SCALE alone before it, which ends the frame"));
-        }
+        check_scale(&frame, name)?;
         check_shift(&frame, name)?;
         let before = offsets.frame;
         offsets.frame = frame;
@@ -193,6 +180,34 @@ impl<R: BufRead> Program<R> {
             values => Ok(Frame::turned(of_axes(values, 0.0, |value| value)?)),
         }
     }
+}
+
+/// Refuses a frame where the place of the tool is beside the program's.
+pub(super) fn check_no_contour(interpreter: &Interpreter, span: SourceSpan) -> Outcome<()> {
+    let state = &interpreter.state;
+    if !state.on_contour && !state.leaving_contour {
+        return Ok(());
+    }
+    let message = "a frame with cutter radius compensation on";
+    Err(Fault::new(DiagnosticCode::CutterRadius, span, message)
+        .because(
+            "the tool stands beside the programmed point, at a place that depends on the next move",
+        )
+        .help("write G40 and a move before it"))
+}
+
+/// Refuses a frame that scales too much.
+pub(super) fn check_scale(frame: &Frame, name: SourceSpan) -> Outcome<()> {
+    if frame.least_scale() * MAX_SCALE >= 1.0 && frame.greatest_scale() <= MAX_SCALE {
+        return Ok(());
+    }
+    let message = "the scales together are beyond what is possible";
+    Err(Fault::new(DiagnosticCode::InvalidValue, name, message)
+        .because(format!(
+            "factors are from {} to {MAX_SCALE}",
+            1.0 / MAX_SCALE
+        ))
+        .help("write SCALE alone before it, which ends the frame"))
 }
 
 /// Refuses a frame that is shifted too far.

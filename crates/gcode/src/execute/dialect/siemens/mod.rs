@@ -5,8 +5,8 @@
 //! REPEAT … UNTIL · REPEAT A P=3 · REPEAT A B · REPEATB A · GOTO, GOTOF, GOTOB, GOTOC A · A: · N100
 //! CASE … OF … · L1 P2 · NAME(5) · PROC, EXTERN, RET, M17
 //! DEF REAL, INT, BOOL, arrays · TRANS, ROT, MIRROR, SCALE · ATRANS, AROT, AMIRROR, ASCALE
-//! G58, G59 · $P_UIFR[n]=CTRANS(X,10) · $TC_DP3[t,1]=50
-//! CYCLE81 to 89 · CYCLE840 · CYCLE71 · POCKET3, POCKET4 · MCALL · HOLES1, HOLES2, CYCLE801 · CYCLE800
+//! G58, G59 · $P_UIFR[n]=CTRANS(X,10) · $P_PFRAME=… · $TC_DP3[t,1]=50
+//! CYCLE81 to 89 · CYCLE840 · CYCLE71 · POCKET3, POCKET4 · MCALL · HOLES1, HOLES2, CYCLE801, CYCLE802 · CYCLE800
 //! ```
 //!
 //! A line of a cycle becomes several ones in RS274/NGC's words, which are executed one after the
@@ -30,9 +30,11 @@ mod newer_arguments;
 mod pocket;
 mod positions;
 mod procedure;
+mod program_frame;
 mod read_line;
 mod rectangular_pocket;
 mod repetition;
+mod single_positions;
 pub(crate) mod steps;
 pub(crate) mod subprogram;
 mod swivel;

@@ -149,7 +149,7 @@ impl Newer {
 }
 
 /// DMODE of a plane.
-const fn number_of(plane: Plane) -> Option<f64> {
+pub(super) const fn number_of(plane: Plane) -> Option<f64> {
     match plane {
         Plane::Xy => Some(1.0),
         Plane::Zx => Some(2.0),

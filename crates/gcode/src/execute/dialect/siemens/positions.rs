@@ -1,10 +1,11 @@
-//! HOLES1, HOLES2 and CYCLE801: positions at which the cycle of MCALL is made.
+//! HOLES1, HOLES2, CYCLE801 and CYCLE802: positions at which the cycle of MCALL is made.
 //!
 //! | | |
 //! |---|---|
 //! | `HOLES1(SPCA, SPCO, STA1, FDIS, DBH, NUM)` | a row from SPCA, SPCO at the angle STA1: FDIS to the first hole, DBH from hole to hole |
 //! | `HOLES2(CPA, CPO, RAD, STA1, INDA, NUM)` | a circle about CPA, CPO; INDA 0: all round |
 //! | `CYCLE801(SPCA, SPCO, STA, DIS1, DIS2, NUM1, NUM2)` | a grid: NUM1 holes DIS1 apart along the angle STA, NUM2 rows DIS2 apart |
+//! | `CYCLE802(XA, YA, X0, Y0, … X8, Y8, VARI, UMODE, DMODE)` | up to 9 positions ([`single_positions`](super::single_positions)) |
 
 use std::io::BufRead;
 
@@ -13,6 +14,7 @@ use glidepath_geometry::Axis;
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
+use crate::execute::dialect::siemens::single_positions::single_places;
 use crate::execute::dialect::siemens::steps::Step;
 use crate::execute::program::Program;
 
@@ -52,6 +54,14 @@ impl<R: BufRead> Program<R> {
                 "whether X is a diameter among its arguments, too, depends on the control",
                 "write DIAMOF before it, and radii",
             );
+        }
+        if name == b"CYCLE802" {
+            let plane = self.interpreter.state.modal.plane;
+            let places = single_places(&arguments, plane, span)?;
+            self.siemens
+                .steps
+                .extend(places.into_iter().map(Step::Position));
+            return Ok(());
         }
         let count = PATTERNS.iter().find(|(known, _)| *known == name);
         let count = count.map_or(0, |(_, count)| *count);

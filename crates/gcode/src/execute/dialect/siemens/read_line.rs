@@ -131,12 +131,15 @@ impl<R: BufRead> Program<R> {
             scope: &scope,
             in_subprogram: !self.tape.calls.is_empty(),
         };
-        let line = rewrite(&text, names)?;
+        let mut line = rewrite(&text, names)?;
         let parsed = self.block.parse(&line.text, &scope);
         let goes_on = self.execute_parsed(number, parsed).map_err(|mut fault| {
             fault.span = line.origin(fault.span);
             fault
         })?;
+        for assignment in line.texts.drain(..) {
+            self.siemens.variables.set_text(assignment);
+        }
         let moves = self.block.has_axes() && self.block.codes.non_modal.is_none();
         if moves && !self.ended && self.siemens.modal_call.is_some() {
             let span = SourceSpan::new(body(&text), text.len());

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! $P_UIFR[1]=CTRANS(X,10,Y,5):CROT(Z,30)   $P_UIFR[1,X,TR]=10   $P_UIFR[1,Z,RT]=30
+//! $P_PFRAME=CTRANS(X,10)                   the frame of the program ([`program_frame`](super::program_frame))
 //! $TC_DP3[2,1]=50                          the first length of edge D1 of tool 2
 //! ```
 //!
@@ -48,6 +49,9 @@ impl<R: BufRead> Program<R> {
             )
             .because("a line with the variable alone says nothing")
             .help("write `=` and its value"));
+        }
+        if name == b"$P_PFRAME" {
+            return self.set_program_frame(text, (input.at, &index), span);
         }
         if name == b"$P_UIFR" {
             let (number, system) = self.system_of(&mut input, &index, span)?;

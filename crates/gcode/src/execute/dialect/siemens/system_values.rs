@@ -4,7 +4,8 @@
 //! |---|---|
 //! | `$P_EP[X]`, `$AA_IW[X]` | where the program has gone to, in its coordinates |
 //! | `$AA_IM[X]` | the same in the machine's |
-//! | `$P_UIFR[1,X,TR]`, `[1,Z,RT]` | a coordinate system |
+//! | `$P_UIFR[1,X,TR]`, `[1,Z,RT]`; `$P_IFRAME[X,TR]`, `$P_UIFRNUM` | a coordinate system; the one in force |
+//! | `$P_PFRAME[X,TR]`, `[Z,RT]`, `[X,SC]`, `[X,MI]` | the frame of the program |
 //! | `$TC_DP3[1,1]` to `$TC_DP6[1,1]` | lengths and radius of a tool |
 //! | `$P_TOOLNO`, `$P_TOOL`, `$P_TOOLR`, `$P_TOOLL[1]` | tool in the spindle, its edge, radius, lengths |
 //! | `$P_F`, `$P_S` | feed, speed of the spindle |
@@ -34,6 +35,7 @@ impl Interpreter {
             (b"$AA_IM", _) => in_units(self, self.state.position, axis?.index()),
             // Asked for where a line is rewritten; no program can name these.
             (b"DIAM90", _) => f64::from(u8::from(self.state.diameter_by_distance)),
+            (b"LATHE", []) => f64::from(u8::from(self.options.is_lathe())),
             (b"H", []) => f64::from(u8::from(self.options.siemens.reads_over_h)),
             (b"COUNTED", [Index::Axis(axis)]) => self.counted_from(axis.index())?,
             (b"AP", _) => self.state.pole.degrees.unwrap_or(0.0),
@@ -67,6 +69,20 @@ impl Interpreter {
                 match part.as_slice() {
                     b"TR" => in_units(self, system.origin, axis.index()),
                     b"RT" if *axis == Axis::Z => system.rotation_deg,
+                    b"RT" | b"FI" | b"MI" => 0.0,
+                    _ => return None,
+                }
+            }
+            (b"$P_PFRAME", [Index::Axis(axis), Index::Word(part)]) => {
+                self.program_frame_value(*axis, part)?
+            }
+            (b"$P_UIFRNUM", []) => self.code_of_group(8.0)? - 1.0,
+            (b"$P_IFRAME", [Index::Axis(axis), Index::Word(part)]) => {
+                let system = self.offsets.system();
+                match part.as_slice() {
+                    b"TR" => in_units(self, system.origin, axis.index()),
+                    b"RT" if *axis == Axis::Z => system.rotation_deg,
+                    b"RT" | b"FI" | b"MI" => 0.0,
                     _ => return None,
                 }
             }

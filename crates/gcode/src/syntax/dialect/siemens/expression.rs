@@ -3,11 +3,12 @@
 //! ```text
 //! value    = term [ ( "==" | "<>" | "<" | "<=" | ">" | ">=" ) term ]
 //! term     = operand { operator operand }
-//! operand  = [ "+" | "-" | NOT ] ( number | "(" value ")" | R5 | R[value] | NAME | $PI | TRUE | FALSE
+//! operand  = [ "+" | "-" | NOT | B_NOT ] ( number | "(" value ")" | R5 | R[value] | NAME | $PI | TRUE | FALSE
 //!          | FUNCTION "(" value { "," value } ")" )
 //! ```
 //!
-//! Operators, strongest first: `*` `/` `DIV` `MOD`; `+` `-`; `AND`; `XOR`; `OR`. Comparisons bind
+//! Texts are compared as values are ([`text`](super::text)). Operators, strongest first: `*` `/` `DIV`
+//! `MOD`; `+` `-`; `B_AND`; `B_XOR`; `B_OR`; `AND`; `XOR`; `OR`. Comparisons bind
 //! weaker than all of them on this control, other than in most languages, so that `R1>5 AND R2<3`
 //! would not be what it looks like: beside a comparison these want parentheses here. Angles are in
 //! degrees. A comparison gives 1 or 0, and two values are equal if they differ by less than 1e-12 of
@@ -20,9 +21,10 @@ use crate::syntax::bad_byte::bad_byte;
 use crate::syntax::cursor::MAX_NUMBER;
 use crate::syntax::dialect::siemens::function::{FUNCTIONS, Function};
 use crate::syntax::dialect::siemens::operator::{
-    Compare, LOGIC, OPERATORS, apply, comparison, finite,
+    Compare, LOGIC, OPERATORS, Operator, apply, bits, comparison, finite,
 };
 use crate::syntax::dialect::siemens::system_index::not_known;
+use crate::syntax::dialect::siemens::text_variables::TextAssignment;
 use crate::syntax::dialect::siemens::variables::Variables;
 use crate::syntax::expression::scope::{Parameter, Scope};
 
@@ -42,11 +44,12 @@ pub(crate) struct Evaluator<'a> {
     pub(crate) text: &'a [u8],
     pub(crate) at: usize,
     pub(super) names: Names<'a>,
-    /// What the line has assigned so far: what it is from when on cannot be seen.
-    pub(crate) assigned: Vec<Parameter>,
+    /// What the line has assigned so far: words behind it read that.
+    pub(super) assigned: Vec<(Parameter, f64)>,
+    pub(super) assigned_texts: Vec<TextAssignment>,
     depth: u32,
     /// The last operator of truth values in these parentheses.
-    logic: Option<SourceSpan>,
+    pub(super) logic: Option<SourceSpan>,
 }
 
 impl<'a> Evaluator<'a> {
@@ -56,6 +59,7 @@ impl<'a> Evaluator<'a> {
             at,
             names,
             assigned: Vec::new(),
+            assigned_texts: Vec::new(),
             depth: 0,
             logic: None,
         }
@@ -161,21 +165,23 @@ impl<'a> Evaluator<'a> {
         self.deeper()?;
         let outer = self.logic.take();
         let start = self.at;
-        let mut value = self.level(1)?;
-        let mut compared = false;
+        let is_text = self.is_text_next();
+        let mut value = if is_text {
+            self.compared_texts()?
+        } else {
+            self.level(1)?
+        };
+        let mut compared = is_text;
+        if is_text && self.operator_ahead().is_some() {
+            return Err(beside_comparison(SourceSpan::new(start, self.at)));
+        }
         while let Some((compare, length)) = self.comparator() {
             let at = self.at;
             self.at += length;
             let right = self.level(1)?;
             if compared || self.logic.is_some() {
                 let span = self.logic.unwrap_or(SourceSpan::new(at, at + length));
-                let message = "a comparison beside another one, or beside AND, OR or XOR";
-                return Err(Fault::new(DiagnosticCode::Expression, span, message)
-                    .because(
-                        "on a SINUMERIK comparisons bind weakest, so that it does not mean what it \
-                         looks like",
-                    )
-                    .help("put each comparison into parentheses: (R1>5) AND (R2<3)"));
+                return Err(beside_comparison(span));
             }
             compared = true;
             value = f64::from(u8::from(compare(value, right)));
@@ -186,26 +192,31 @@ impl<'a> Evaluator<'a> {
     }
 
     /// The comparison that comes next, and how long it is.
-    fn comparator(&mut self) -> Option<(Compare, usize)> {
+    pub(super) fn comparator(&mut self) -> Option<(Compare, usize)> {
         let first = self.next_visible()?;
         comparison(first, self.peek(1))
     }
 
+    /// The operator that comes next, its strength, and how long it is.
+    fn operator_ahead(&mut self) -> Option<(Operator, u8, usize)> {
+        let name = match self.next_visible() {
+            Some(byte @ (b'*' | b'/' | b'+' | b'-')) => vec![byte],
+            _ => self.name_ahead(),
+        };
+        let found = OPERATORS.into_iter().find(|(known, ..)| *known == name);
+        found.map(|(known, operator, strength)| (operator, strength, known.len()))
+    }
+
     /// Operators of at least the given strength.
-    fn level(&mut self, strength: u8) -> Outcome<f64> {
+    pub(super) fn level(&mut self, strength: u8) -> Outcome<f64> {
         let mut left = self.operand()?;
         loop {
-            let first = self.next_visible();
+            let found = self.operator_ahead();
             let start = self.at;
-            let name = match first {
-                Some(byte @ (b'*' | b'/' | b'+' | b'-')) => vec![byte],
-                _ => self.name_ahead(),
-            };
-            let found = OPERATORS.into_iter().find(|(known, ..)| *known == name);
-            let Some((_, operator, own)) = found.filter(|(.., own)| *own >= strength) else {
+            let Some((operator, own, length)) = found.filter(|(_, own, _)| *own >= strength) else {
                 return Ok(left);
             };
-            self.at += name.len();
+            self.at += length;
             let span = SourceSpan::new(start, self.at);
             if own <= LOGIC {
                 self.logic = Some(span);
@@ -248,7 +259,7 @@ impl<'a> Evaluator<'a> {
                 let span = SourceSpan::new(self.at, self.text.len());
                 let fault = Fault::new(DiagnosticCode::NotSupported, span, "a text in quotes");
                 Err(fault
-                    .because("a text is read in MSG( ), and behind T= as the name of a tool")
+                    .because("a text stands in MSG( ), behind T=, GOTO and variables of DEF STRING, and is compared with texts")
                     .help("write a number, or a variable that has one"))
             }
             None | Some(b';' | b')' | b',' | b'=' | b'<' | b'>' | b'*' | b'/' | b']') => {
@@ -267,7 +278,7 @@ impl<'a> Evaluator<'a> {
         let start = self.at;
         let name = self.name_ahead();
         if let Some((_, parameter)) = self.assignable()? {
-            return self.read(&parameter, SourceSpan::new(start, self.at));
+            return Ok(self.read(&parameter));
         }
         self.at += name.len();
         match name.as_slice() {
@@ -281,6 +292,13 @@ impl<'a> Evaluator<'a> {
                 self.depth -= 1;
                 return Ok(f64::from(u8::from(value == 0.0)));
             }
+            b"B_NOT" => {
+                self.deeper()?;
+                let value = self.operand()?;
+                self.depth -= 1;
+                return Ok(f64::from(!bits(value, SourceSpan::new(start, self.at))?));
+            }
+            b"STRLEN" => return self.text_length(start),
             _ => {}
         }
         if name.first() == Some(&b'$') {
@@ -297,7 +315,7 @@ impl<'a> Evaluator<'a> {
             return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
                 .because(
                     "expressions have numbers, R parameters, variables of DEF REAL, INT and BOOL, \
-                     operators and functions",
+                     operators and functions; texts are compared with texts",
                 )
                 .help("declare it by DEF, or write the value"));
         };
@@ -321,20 +339,29 @@ impl<'a> Evaluator<'a> {
         finite(function.of(&given), span)
     }
 
-    fn read(&self, parameter: &Parameter, span: SourceSpan) -> Outcome<f64> {
-        if self.assigned.contains(parameter) {
-            let message = "a variable that the line assigns and reads";
-            return Err(Fault::new(DiagnosticCode::Parameter, span, message)
-                .because("it is not settled which of the two comes first")
-                .help("write two blocks"));
+    /// What a variable holds where it is read: words in front of it may have assigned it.
+    fn read(&self, parameter: &Parameter) -> f64 {
+        let own = self.assigned.iter().rev().find(|(it, _)| it == parameter);
+        if let Some((_, value)) = own {
+            return *value;
         }
         let scope = self.names.scope;
         let value = match parameter {
             Parameter::Numbered(number) => scope.numbered(*number),
             Parameter::Named(name) => scope.named(name),
         };
-        Ok(value.unwrap_or(0.0))
+        value.unwrap_or(0.0)
     }
+}
+
+#[cold]
+fn beside_comparison(span: SourceSpan) -> Box<Fault> {
+    let message = "a comparison beside another one, or beside AND, OR or XOR";
+    Fault::new(DiagnosticCode::Expression, span, message)
+        .because(
+            "on a SINUMERIK comparisons bind weakest, so that it does not mean what it looks like",
+        )
+        .help("put each comparison into parentheses: (R1>5) AND (R2<3)")
 }
 
 pub(super) fn unclosed(span: SourceSpan, with: &str) -> Box<Fault> {

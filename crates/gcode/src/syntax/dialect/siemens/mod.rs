@@ -21,6 +21,7 @@
 //! Structures, jumps, declarations, frames and cycles are [`statement`]s of their own.
 
 mod arguments;
+mod assignment;
 pub(crate) mod callee;
 mod codes_of_line;
 mod computed_words;
@@ -38,6 +39,8 @@ pub(crate) mod system_index;
 pub(crate) mod system_variable;
 #[cfg(test)]
 mod tests;
+mod text;
+pub(crate) mod text_variables;
 mod valued_word;
 mod variable_word;
 pub(crate) mod variables;

@@ -16,19 +16,25 @@ pub(super) enum Operator {
     Modulo,
     Plus,
     Minus,
+    BitAnd,
+    BitExclusiveOr,
+    BitOr,
     And,
     ExclusiveOr,
     Or,
 }
 
 /// Operators by name, with their strength.
-pub(super) const OPERATORS: [(&[u8], Operator, u8); 9] = [
-    (b"*", Operator::Times, 5),
-    (b"/", Operator::Over, 5),
-    (b"DIV", Operator::Divide, 5),
-    (b"MOD", Operator::Modulo, 5),
-    (b"+", Operator::Plus, 4),
-    (b"-", Operator::Minus, 4),
+pub(super) const OPERATORS: [(&[u8], Operator, u8); 12] = [
+    (b"*", Operator::Times, 8),
+    (b"/", Operator::Over, 8),
+    (b"DIV", Operator::Divide, 8),
+    (b"MOD", Operator::Modulo, 8),
+    (b"+", Operator::Plus, 7),
+    (b"-", Operator::Minus, 7),
+    (b"B_AND", Operator::BitAnd, 6),
+    (b"B_XOR", Operator::BitExclusiveOr, 5),
+    (b"B_OR", Operator::BitOr, 4),
     (b"AND", Operator::And, LOGIC),
     (b"XOR", Operator::ExclusiveOr, 2),
     (b"OR", Operator::Or, 1),
@@ -74,11 +80,27 @@ pub(super) fn apply(operator: Operator, left: f64, right: f64, span: SourceSpan)
         Operator::Modulo => left % right,
         Operator::Plus => left + right,
         Operator::Minus => left - right,
+        Operator::BitAnd => f64::from(bits(left, span)? & bits(right, span)?),
+        Operator::BitExclusiveOr => f64::from(bits(left, span)? ^ bits(right, span)?),
+        Operator::BitOr => f64::from(bits(left, span)? | bits(right, span)?),
         Operator::And => truth(a && b),
         Operator::ExclusiveOr => truth(a != b),
         Operator::Or => truth(a || b),
     };
     finite(value, span)
+}
+
+/// The bits of a whole number, as the control keeps it.
+pub(super) fn bits(value: f64, span: SourceSpan) -> Outcome<i32> {
+    let is_kept = (f64::from(i32::MIN)..=f64::from(i32::MAX)).contains(&value);
+    if value.fract() != 0.0 || !is_kept {
+        let message = format!("{value} has no bits");
+        return Err(Fault::new(DiagnosticCode::Arithmetic, span, message)
+            .because("B_AND, B_OR, B_XOR and B_NOT are of whole numbers of 32 bits")
+            .help("write TRUNC( ) or ROUND( ) around the value"));
+    }
+    #[expect(clippy::cast_possible_truncation, reason = "range checked")]
+    Ok(value as i32)
 }
 
 pub(super) fn finite(value: f64, span: SourceSpan) -> Outcome<f64> {

@@ -1,6 +1,7 @@
 //! A rewritten line that knows where its bytes came from.
 
 use crate::diagnostic::span::SourceSpan;
+use crate::syntax::dialect::siemens::text_variables::TextAssignment;
 
 /// A line in RS274/NGC words, and where each byte of it came from.
 #[derive(Debug, Clone, Default)]
@@ -9,6 +10,8 @@ pub(crate) struct Rewritten {
     origin: Vec<usize>,
     /// It ends the subprogram it is of.
     pub(crate) ends_subprogram: bool,
+    /// The texts that it assigns, in their order.
+    pub(crate) texts: Vec<TextAssignment>,
 }
 
 impl Rewritten {

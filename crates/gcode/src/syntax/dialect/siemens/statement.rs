@@ -51,11 +51,11 @@ pub(crate) enum Statement {
     Frame(FrameWord),
     /// G58 and G59: true for G59, the part that ATRANS adds.
     AxisOffset(bool),
-    /// `$P_UIFR[1]=…`, `$TC_DP3[1,1]=…`: what the control keeps of coordinate systems and tools.
+    /// `$P_UIFR[1]=…`, `$P_PFRAME=…`, `$TC_DP3[1,1]=…`: what the control keeps of coordinate systems and tools.
     SystemData,
     /// A call of a cycle by name.
     Cycle,
-    /// HOLES1, HOLES2, CYCLE801.
+    /// HOLES1, HOLES2, CYCLE801, CYCLE802.
     Positions,
     /// CYCLE800.
     Swivel,
@@ -103,7 +103,7 @@ const CYCLES: [&[u8]; 13] = [
 ];
 
 /// Beginnings of the names of what a program may set.
-const SYSTEM_DATA: [&[u8]; 2] = [b"$P_UIFR", b"$TC_DP"];
+const SYSTEM_DATA: [&[u8]; 3] = [b"$P_UIFR", b"$P_PFRAME", b"$TC_DP"];
 
 /// Letters, digits and underscores at the start of a text.
 pub(crate) fn name_at(text: &[u8], at: usize) -> &[u8] {
@@ -220,7 +220,7 @@ pub(crate) fn statement(text: &[u8]) -> (Statement, usize) {
     if CYCLES.contains(&name.as_slice()) {
         return (Statement::Cycle, at);
     }
-    if [&b"HOLES1"[..], b"HOLES2", b"CYCLE801"].contains(&name.as_slice()) {
+    if [&b"HOLES1"[..], b"HOLES2", b"CYCLE801", b"CYCLE802"].contains(&name.as_slice()) {
         return (Statement::Positions, at);
     }
     if name == b"CYCLE800" {

@@ -82,10 +82,14 @@ impl Evaluator<'_> {
                 );
             };
             self.at += 1;
-            if !self.eat(b',') {
+            // CMIRROR(X,Y) has axes alone.
+            if name == b"CMIRROR" {
+                values.push((axis, -1.0));
+            } else if self.eat(b',') {
+                values.push((axis, self.value()?));
+            } else {
                 return Err(missing(span, "a frame", ",", "the value behind each axis"));
             }
-            values.push((axis, self.value()?));
             if !self.eat(b',') && self.next_visible() != Some(b')') {
                 return Err(unclosed(SourceSpan::new(start, self.at), ")"));
             }

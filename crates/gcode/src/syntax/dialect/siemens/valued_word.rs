@@ -4,6 +4,7 @@
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
+use crate::syntax::dialect::siemens::statement::name_at;
 use crate::syntax::dialect::siemens::system_index::Index;
 use crate::syntax::dialect::siemens::writer::Writer;
 use crate::syntax::named_word::Named;
@@ -32,26 +33,25 @@ impl Writer<'_> {
         Ok(())
     }
 
-    /// True if a text in quotes stands behind the `=` of a letter.
+    /// True if a text stands behind the `=` of a letter.
     pub(super) fn is_text_assigned(&self) -> bool {
         let rest = self.input.text.get(self.input.at + 1..).unwrap_or_default();
         let behind = rest.trim_ascii_start().strip_prefix(b"=");
-        behind.is_some_and(|behind| behind.trim_ascii_start().starts_with(b"\""))
+        behind.is_some_and(|behind| {
+            let value = behind.trim_ascii_start();
+            let name = name_at(value, 0).to_ascii_uppercase();
+            value.starts_with(b"\"") || self.names.variables.text(&name).is_some()
+        })
     }
 
     /// `T="NAME"`: the tool of that name in the tool table.
     pub(super) fn tool_by_name(&mut self, start: usize) -> Outcome<()> {
-        let rest = self.input.text.get(start..).unwrap_or_default();
-        let quotes: Vec<usize> = (0..rest.len())
-            .filter(|at| rest[*at] == b'"')
-            .take(2)
-            .collect();
-        let [open, close] = quotes.as_slice() else {
-            let span = SourceSpan::new(start, self.input.text.len());
-            return Err(missing(span, "the name of a tool", "\"", "its end"));
-        };
-        let name = String::from_utf8_lossy(&rest[open + 1..*close]).into_owned();
-        let span = SourceSpan::new(start + open, start + close + 1);
+        self.input.at = start + 1;
+        self.input.eat(b'=');
+        self.input.next_visible();
+        let open = self.input.at;
+        let name = String::from_utf8_lossy(&self.input.text_value()?).into_owned();
+        let span = SourceSpan::new(open, self.input.at);
         let Some(number) = self.names.scope.tool_named(&name) else {
             let message = format!("the tool table has no tool \"{name}\", or several");
             return Err(Fault::new(DiagnosticCode::UnknownTool, span, message)
@@ -60,7 +60,7 @@ impl Writer<'_> {
                     "write `;{name}` behind its words there, or its number here"
                 )));
         };
-        self.replace(start, close + 1, format!("T{number} ").as_bytes());
+        self.out.push(format!("T{number} ").as_bytes(), start);
         Ok(())
     }
 
@@ -91,6 +91,38 @@ impl Writer<'_> {
             "SETMS",
             SourceSpan::new(start, self.input.at),
         ))
+    }
+
+    /// `FGROUP(X,Y,Z)`, `FGROUP()`: the axes that F counts for, where they are those that it counts for
+    /// anyway.
+    pub(super) fn feed_group(&mut self, start: usize, length: usize) -> Outcome<()> {
+        self.input.at = start + length;
+        let mut axes = Vec::new();
+        if !self.input.eat(b'(') {
+            let span = SourceSpan::new(start, start + length);
+            return Err(missing(span, "FGROUP", "( )", "the axes that F counts for"));
+        }
+        let mut is_known = true;
+        while is_known && !self.input.eat(b')') {
+            self.input.next_visible();
+            let name = self.input.name_ahead();
+            self.input.at += name.len();
+            let ends = matches!(self.input.next_visible(), Some(b',' | b')'));
+            is_known =
+                matches!(name.as_slice(), b"X" | b"Y" | b"Z") && ends && !axes.contains(&name);
+            axes.push(name);
+            self.input.eat(b',');
+        }
+        let is_lathe = self.names.scope.system_value(b"LATHE", &[]) == Some(1.0);
+        let all = if is_lathe { 2 } else { 3 };
+        if is_known && (axes.is_empty() || axes.len() == all) {
+            return Ok(());
+        }
+        let span = SourceSpan::new(start, self.input.at);
+        let message = "FGROUP of other axes than X, Y and Z is not supported";
+        Err(Fault::new(DiagnosticCode::NotSupported, span, message)
+            .because("F is the feed of X, Y and Z together")
+            .help("remove it, and write the feeds that these moves have for X, Y and Z"))
     }
 
     /// `CTOL=tolerance`, alone or beside G641 and the like; below zero it is the configured one.

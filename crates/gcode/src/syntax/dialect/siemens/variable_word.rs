@@ -112,7 +112,7 @@ impl<'a> Evaluator<'a> {
     }
 
     /// `[value]` or `[value, value]`, whose bracket comes next.
-    fn indices(&mut self) -> Outcome<Vec<f64>> {
+    pub(super) fn indices(&mut self) -> Outcome<Vec<f64>> {
         let start = self.at;
         self.at += 1;
         let mut indices = Vec::new();

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
+use crate::syntax::dialect::siemens::text_variables::{MAX_TEXT, TextAssignment, TextVariable};
 use crate::syntax::expression::scope::Parameter;
 
 /// Where R parameters begin.
@@ -80,6 +81,7 @@ impl Declared {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Variables {
     by_name: BTreeMap<Vec<u8>, Declared>,
+    texts: BTreeMap<Vec<u8>, TextVariable>,
     count: usize,
     /// How deep in calls the subprogram is whose variables they are.
     level: usize,
@@ -102,25 +104,38 @@ impl Variables {
         sizes: Vec<usize>,
         span: SourceSpan,
     ) -> Outcome<Declared> {
+        check_name(name, span)?;
         let shown = String::from_utf8_lossy(name).into_owned();
-        let letter =
-            |byte: Option<&u8>| byte.is_some_and(|b| b.is_ascii_alphabetic() || *b == b'_');
-        if !letter(name.first()) || !letter(name.get(1)) || name.len() > MAX_NAME {
-            let message = format!("`{shown}` is no name of a variable");
-            return Err(Fault::new(DiagnosticCode::Parameter, span, message)
-                .because(format!(
-                    "a name has two letters or `_` at its beginning and {MAX_NAME} bytes at most; \
-                     others are addresses"
-                ))
-                .help("use another name"));
-        }
         let place = match self.level {
             0 => format!("def.{}", shown.to_ascii_lowercase()),
             level => format!("def.{level}.{}", shown.to_ascii_lowercase()),
         };
         let declared = Declared { kind, sizes, place };
-        let before = self.by_name.get(name).map_or(0, Declared::count);
-        let count = (self.count - before).saturating_add(declared.count());
+        self.make_room(name, declared.count(), span)?;
+        self.by_name.insert(name.to_vec(), declared.clone());
+        Ok(declared)
+    }
+
+    /// Declares a variable of texts of at most so many bytes, or an array of that size.
+    pub(crate) fn declare_text(
+        &mut self,
+        name: &[u8],
+        most: usize,
+        sizes: Vec<usize>,
+        span: SourceSpan,
+    ) -> Outcome<()> {
+        check_name(name, span)?;
+        let text = TextVariable::new(most.min(MAX_TEXT), sizes);
+        self.make_room(name, text.count(), span)?;
+        self.texts.insert(name.to_vec(), text);
+        Ok(())
+    }
+
+    /// Makes room for the elements of a variable, in the place of one of the same name.
+    fn make_room(&mut self, name: &[u8], elements: usize, span: SourceSpan) -> Outcome<()> {
+        let numbers = self.by_name.get(name).map_or(0, Declared::count);
+        let texts = self.texts.get(name).map_or(0, TextVariable::count);
+        let count = (self.count - numbers - texts).saturating_add(elements);
         if count > MAX_VARIABLES {
             let message = format!("more than {MAX_VARIABLES} variables");
             return Err(Fault::new(DiagnosticCode::Parameter, span, message)
@@ -128,14 +143,49 @@ impl Variables {
                 .help("use R parameters, or a smaller array"));
         }
         self.count = count;
-        self.by_name.insert(name.to_vec(), declared.clone());
-        Ok(declared)
+        self.by_name.remove(name);
+        self.texts.remove(name);
+        Ok(())
+    }
+
+    /// A variable of texts by its name in capitals.
+    pub(crate) fn text(&self, name: &[u8]) -> Option<&TextVariable> {
+        self.texts.get(name)
+    }
+
+    /// Refuses a text that a variable has no room for.
+    pub(crate) fn check_text(&self, name: &[u8], value: &[u8], span: SourceSpan) -> Outcome<()> {
+        let text = self.texts.get(name);
+        text.map_or(Ok(()), |text| text.check(value, span))
+    }
+
+    /// Assigns a text.
+    pub(crate) fn set_text(&mut self, assignment: TextAssignment) {
+        if let Some(text) = self.texts.get_mut(&assignment.name) {
+            text.set(assignment.element, assignment.value);
+        }
     }
 
     /// A variable by its name in capitals.
     pub(crate) fn get(&self, name: &[u8]) -> Option<&Declared> {
         self.by_name.get(name)
     }
+}
+
+/// Refuses what is no name of a variable.
+fn check_name(name: &[u8], span: SourceSpan) -> Outcome<()> {
+    let letter = |byte: Option<&u8>| byte.is_some_and(|b| b.is_ascii_alphabetic() || *b == b'_');
+    if letter(name.first()) && letter(name.get(1)) && name.len() <= MAX_NAME {
+        return Ok(());
+    }
+    let shown = String::from_utf8_lossy(name).into_owned();
+    let message = format!("`{shown}` is no name of a variable");
+    Err(Fault::new(DiagnosticCode::Parameter, span, message)
+        .because(format!(
+            "a name has two letters or `_` at its beginning and {MAX_NAME} bytes at most; others are \
+             addresses"
+        ))
+        .help("use another name"))
 }
 
 /// Which element the indices of an array name, the last one fastest.

@@ -8,9 +8,7 @@ use crate::syntax::dialect::siemens::computed_words::check_computed;
 use crate::syntax::dialect::siemens::expression::{Evaluator, Names};
 use crate::syntax::dialect::siemens::refused_word::unknown;
 use crate::syntax::dialect::siemens::rewritten::Rewritten;
-use crate::syntax::dialect::siemens::variables::{Declared, Kind};
 use crate::syntax::dialect::words::{Meaning, refused, siemens_names};
-use crate::syntax::expression::scope::Parameter;
 use crate::syntax::named_word::Named;
 
 /// Rewrites a line; the values of its expressions take their place.
@@ -24,6 +22,7 @@ pub(crate) fn rewrite(text: &[u8], names: Names<'_>) -> Outcome<Rewritten> {
         return Ok(writer.out);
     }
     writer.line()?;
+    writer.out.texts = writer.input.assigned_texts;
     Ok(writer.out)
 }
 
@@ -63,6 +62,23 @@ const fn code_named(name: &[u8]) -> Option<&'static [u8]> {
         b"CFTCP" => b"G16.2",
         b"CFIN" => b"G16.3",
         b"SUPA" => b"G53",
+        _ => return None,
+    })
+}
+
+/// The letters that stand for the name of a value, and what is added to it.
+const fn letters_for(name: &[u8]) -> Option<(&'static [u8], f64)> {
+    Some(match name {
+        b"RND" => (b",R", 0.0),
+        b"RNDM" => (b",M", 0.0),
+        b"CHR" => (b",C", 0.0),
+        b"CHF" => (b",L", 0.0),
+        b"ADIS" => (b"P", 0.0),
+        b"CR" => (b"R", 0.0),
+        b"SF" => (b"Q", 0.0),
+        b"TURN" => (b"P", 1.0),
+        // The first spindle, which is the only one.
+        b"S1" => (b"S", 0.0),
         _ => return None,
     })
 }
@@ -165,6 +181,9 @@ impl Writer<'_> {
         if let Some(word) = Named::of_name(&name).filter(|_| is_assigned) {
             return self.value_of(start, length, &[b',', word.letter()], 0.0);
         }
+        if self.names.variables.text(&name).is_some() {
+            return self.text_assignment(start);
+        }
         if let Some((array, first)) = self.input.array_to_fill()? {
             return self.fill(start, array, first);
         }
@@ -193,26 +212,22 @@ impl Writer<'_> {
             }
             (b"CYCLE832", _) => self.tolerance_cycle(start, length),
             (b"TRAORI", false) => self.orientation(start, length),
+            (b"FGROUP", false) => self.feed_group(start, length),
             (b"RET", false) => self.return_to_caller(start, length),
-            (b"RND", true) => self.value_of(start, length, b",R", 0.0),
-            (b"RNDM", true) => self.value_of(start, length, b",M", 0.0),
-            (b"CHR", true) => self.value_of(start, length, b",C", 0.0),
-            (b"CHF", true) => self.value_of(start, length, b",L", 0.0),
-            (b"ADIS", true) => self.value_of(start, length, b"P", 0.0),
             (b"CTOL", true) => self.contour_tolerance(start, length),
-            (b"CR", true) => self.value_of(start, length, b"R", 0.0),
-            (b"SF", true) => self.value_of(start, length, b"Q", 0.0),
-            (b"TURN", true) => self.value_of(start, length, b"P", 1.0),
             // The first spindle, which is the only one.
             (b"S" | b"S1", true) if self.speed_range().is_some() => {
                 let limit = self.speed_range().unwrap_or_default();
                 self.value_of(start, length, limit, 0.0)
             }
-            (b"S1", true) => self.value_of(start, length, b"S", 0.0),
             (b"M" | b"M1", true) => self.computed_m_code(start, length),
             (b"SPOS", false) if self.input.peek(length) == Some(b'[') => self.spindle_angle(start),
             (b"SETMS", false) => self.master_spindle(start, length),
             (b"T", true) if self.is_text_assigned() => self.tool_by_name(start),
+            (name, true) if letters_for(name).is_some() => {
+                let (letters, plus) = letters_for(name).unwrap_or_default();
+                self.value_of(start, length, letters, plus)
+            }
             ([letter], true) => {
                 check_computed(*letter, SourceSpan::new(start, start + length))?;
                 self.coordinate(start, *letter)
@@ -271,33 +286,6 @@ impl Writer<'_> {
             behind += 1;
         }
         self.input.peek(behind) == Some(b'=') && self.input.peek(behind + 1) != Some(b'=')
-    }
-
-    /// An assignment to a variable, whose `=` comes next.
-    fn assignment(&mut self, start: usize, kind: Kind, parameter: Parameter) -> Outcome<()> {
-        self.input.eat(b'=');
-        let value = kind.of(self.input.value()?);
-        let name = match &parameter {
-            Parameter::Numbered(number) => format!("#{number}=["),
-            Parameter::Named(name) => format!("#<{name}>=["),
-        };
-        self.input.assigned.push(parameter);
-        self.put(start, name.as_bytes(), value);
-        Ok(())
-    }
-
-    /// `NAME=SET(…)` and `NAME=REP(…)`: one assignment for each element.
-    fn fill(&mut self, start: usize, array: &Declared, first: usize) -> Outcome<()> {
-        let values = self.input.filling(array.count() - first)?;
-        for (index, value) in values.into_iter().enumerate() {
-            let parameter = array.element(first + index);
-            if let Parameter::Named(name) = &parameter {
-                let head = format!("#<{name}>=[");
-                self.put(start, head.as_bytes(), array.kind.of(value));
-            }
-            self.input.assigned.push(parameter);
-        }
-        Ok(())
     }
 
     /// Writes what stands for a word that begins at `start` and ends here.

@@ -82,8 +82,9 @@ const READ_OVER: &[&str] = &[
 /// Names whose meaning is made.
 const MADE: &[&str] = &[
     "SUPA", "CIP", "CT", "DIAMON", "DIAMOF", "DIAM90", "CFC", "CFIN", "CFTCP", "TRAORI", "TRAFOOF",
-    "CYCLE800", "CYCLE832", "CTOL", "RET", "AP", "RP", "AR", "ANG", "CR", "TURN", "RND", "RNDM",
-    "CHR", "CHF", "FRC", "FRCM", "FB", "ADIS", "LIMS", "SPOS", "SETMS", "SF",
+    "CYCLE800", "CYCLE832", "CTOL", "RET", "AP", "RP", "AR", "ANG", "ANG1", "ANG2", "CR", "TURN",
+    "RND", "RNDM", "CHR", "CHF", "FRC", "FRCM", "FB", "ADIS", "LIMS", "SPOS", "SETMS", "SF",
+    "FGROUP",
 ];
 
 /// Names that are refused: what they are, and what to do instead.
@@ -124,11 +125,6 @@ const REFUSED: &[(&[&str], &str, &str)] = &[
         &["CYCLE98"],
         "a chain of threads",
         "write G33 for each pass",
-    ),
-    (
-        &["CYCLE802"],
-        "positions one by one",
-        "write each position as a block behind MCALL",
     ),
     (&["CYCLE899"], "an open slot", PLAIN),
     (&["CYCLE951"], "roughing of a corner", PLAIN),
@@ -193,9 +189,9 @@ const REFUSED: &[(&[&str], &str, &str)] = &[
         "write NORM",
     ),
     (
-        &["ANG1", "ANG2"],
-        "angles of two lines in a block",
-        "write ANG in a block each",
+        &["OVR", "OVRRAP", "OVRA"],
+        "a feed in per cent",
+        "write the feed itself as F",
     ),
     (
         &["SPOSA"],
@@ -226,11 +222,6 @@ const REFUSED: &[(&[&str], &str, &str)] = &[
         &["POS", "POSA"],
         "a move of an axis beside the path",
         "write the axis into the block",
-    ),
-    (
-        &["FGROUP"],
-        "other axes that the feed counts for",
-        "remove it where X, Y and Z are named",
     ),
     (&["LEAD", "TILT"], "an orientation against the path", VECTOR),
     (
