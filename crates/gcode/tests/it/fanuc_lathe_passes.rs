@@ -302,3 +302,27 @@ fn the_radius_of_the_tip_counts_in_g70() {
         &["6:1 canned-cycle"],
     );
 }
+
+#[test]
+fn g70_takes_the_profile_that_was_cut() {
+    // Two tools with the same numbers: down to Z-10 and to Z-20.
+    let tool = |depth: u32| {
+        format!(
+            "G0 X42 Z2\nG71 U5. R1.\nG71 P10 Q20 F300\nN10 G0 X20\nG1 Z-{depth}\nN20 X40\nG70 P10 Q20\n"
+        )
+    };
+    let text = format!("G98\n{}G0 Z90\n{}", tool(10), tool(20));
+    let all = ends(&text);
+    let between = all.iter().position(|[_, z]| *z == 90.0).expect("Z90");
+    let depths = |part: &[[f64; 2]]| part.iter().map(|[_, z]| *z).fold(0.0, f64::min);
+    assert_eq!(
+        [depths(&all[..between]), depths(&all[between..])],
+        [-10.0, -20.0]
+    );
+    // Without a cycle that has cut one of them it is not known which is meant.
+    let profile = "N10 G0 X20\nG1 Z-10 F300\nN20 X40\n";
+    finds(
+        &format!("G98\n{profile}G70 P10 Q20\n{profile}"),
+        &["5:5 ambiguous-word"],
+    );
+}

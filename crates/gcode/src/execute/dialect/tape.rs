@@ -115,6 +115,8 @@ pub(crate) struct Tape {
     programs: BTreeMap<(usize, u32), TapePlace>,
     /// The same of programs with names.
     named: BTreeMap<Vec<u8>, TapePlace>,
+    /// The first and the last line of profiles that a cycle has cut, by the text, P and Q.
+    profiles: BTreeMap<(usize, [u32; 2]), [usize; 2]>,
 }
 
 impl Default for Tape {
@@ -132,6 +134,7 @@ impl Default for Tape {
             jumps: BTreeMap::new(),
             programs: BTreeMap::new(),
             named: BTreeMap::new(),
+            profiles: BTreeMap::new(),
         }
     }
 }
@@ -201,6 +204,18 @@ impl Tape {
         self.named.insert(name, place);
     }
 
+    /// The lines of the profile of these numbers that was cut last.
+    pub(crate) fn known_profile(&self, numbers: [u32; 2]) -> Option<[usize; 2]> {
+        self.profiles.get(&(self.text, numbers)).copied()
+    }
+
+    pub(crate) fn remember_profile(&mut self, numbers: [u32; 2], lines: [usize; 2]) {
+        if self.profiles.len() >= MAX_JUMPS {
+            self.profiles.clear();
+        }
+        self.profiles.insert((self.text, numbers), lines);
+    }
+
     /// Makes sure that the line is kept, reading on if need be; false behind the end.
     pub(crate) fn reach<R: BufRead>(
         &mut self,
@@ -239,6 +254,7 @@ impl Tape {
             self.jumps.clear();
             self.programs.clear();
             self.named.clear();
+            self.profiles.clear();
             self.bytes = 0;
             self.next = 0;
             self.unseen = 0;

@@ -24,10 +24,19 @@ pub(crate) fn marks(bare: &[u8]) -> bool {
 }
 
 /// True if a word stands somewhere in the line that no other language has: coordinates that are polar,
-/// mirrored or turned, offsets of G54.1, Haas' codes, chamfers and roundings behind a comma.
+/// mirrored or turned, offsets of G54.1, Haas' codes, chamfers and roundings behind a comma, measuring moves,
+/// macros behind every move, holes that are repeated by K.
 fn has_own_word(text: &[u8]) -> bool {
-    // Messages of printers, and what FANUC prints.
-    if [&b"M117"[..], b"M118", b"DPRNT", b"BPRNT"]
+    // What FANUC prints, and names its variables.
+    if [&b"DPRNT["[..], b"BPRNT[", b"SETVN"]
+        .iter()
+        .any(|word| text.starts_with(word))
+        || [&b"POPEN"[..], b"PCLOS"].contains(&text)
+    {
+        return true;
+    }
+    // Messages of printers.
+    if [&b"M117"[..], b"M118"]
         .iter()
         .any(|word| text.starts_with(word))
     {
@@ -38,8 +47,8 @@ fn has_own_word(text: &[u8]) -> bool {
     let has = |number: f64| has_code(&words, b'G', number);
     let letter = |letter: u8| has_letter(&words, letter);
     let alone = [
-        15.0, 16.0, 43.4, 43.5, 50.1, 51.1, 53.1, 68.0, 68.2, 69.0, 154.0, 187.0, 234.0, 254.0,
-        255.0,
+        15.0, 16.0, 31.0, 44.0, 66.0, 67.0, 43.4, 43.5, 50.1, 51.1, 53.1, 68.0, 68.2, 69.0, 154.0,
+        187.0, 234.0, 254.0, 255.0,
     ];
     let behind_comma = code.windows(3).any(|part| {
         let [b',', b'C' | b'R' | b'A', next] = part else {
@@ -47,7 +56,11 @@ fn has_own_word(text: &[u8]) -> bool {
         };
         next.is_ascii_digit() || b".+-#[".contains(next)
     });
+    let drills = [73.0, 81.0, 82.0, 83.0, 84.0, 85.0].into_iter().any(has);
     alone.into_iter().any(has)
+        || has(30.0) && letter(b'P')
+        || has(4.0) && letter(b'X')
+        || drills && letter(b'K') && !letter(b'Q')
         || (has(12.0) || has(13.0)) && letter(b'I')
         || (has(54.1) || has(103.0)) && letter(b'P')
         || has_code(&words, b'M', 97.0) && letter(b'P')
@@ -105,6 +118,14 @@ mod tests {
             "G1X10.,R#1(ROUND)",
             "G103P1",
             "G43.4H1",
+            "G91G31Z-5.F100",
+            "G66P9100Z-3.",
+            "G44H1",
+            "G30P2Z0",
+            "G4X1.5",
+            "G91G81X5.K3",
+            "DPRNT[X#100[53]]",
+            "POPEN",
         ] {
             assert!(marks(line.as_bytes()), "{line}");
         }
@@ -122,6 +143,10 @@ mod tests {
             "#<SEG15>=2",
             "M97",
             "G17.1",
+            "G30Z0",
+            "G4P1",
+            "G87X1I2J3K4",
+            "M117G31",
         ] {
             assert!(!marks(line.as_bytes()), "{line}");
         }

@@ -44,6 +44,9 @@ fn parts_are_repeated() {
     assert_eq!(xs(text), [1.0, 11.0, 111.0, 112.0, 122.0, 0.0]);
     let text = "REPEAT C_C P=2\nG0 X=IC(5)\nM30\nC_C: G0 X=IC(1)\nENDLABEL:\nM30";
     assert_eq!(xs(text), [1.0, 2.0, 7.0]);
+    // The label in front counts, not the one behind.
+    let text = "A_A: G0 X=IC(1)\nREPEAT A_A\nM30\nA_A: G0 X=IC(10)\nENDLABEL:";
+    assert_eq!(xs(text), [1.0, 2.0]);
     finds("A_A: G0 X1\nREPEAT B_B", &["2:7 flow-structure"]);
     finds("REPEAT A_A\nA_A: G0 X1", &["1:1 flow-structure"]);
     finds("A_A: G0 X1\nREPEAT A_A P=-1", &["2:16 flow-structure"]);

@@ -30,7 +30,7 @@ use crate::execute::scope::ProgramScope;
 use crate::execute::state::fanuc_modal::Repeating;
 use crate::syntax::block::Block;
 use crate::syntax::codes::Codes;
-use crate::syntax::dialect::fanuc::{Statement, is_label, is_numbered, statement};
+use crate::syntax::dialect::fanuc::{Statement, statement};
 use crate::syntax::letters::Letters;
 use crate::syntax::modes::{LatheCycle, Motion, Units};
 use crate::syntax::named_word::Named;
@@ -53,7 +53,7 @@ impl<R: BufRead> Program<R> {
         let [first, last] = numbers;
         match (first?, last?) {
             (Some(first), Some(last)) => {
-                let lines = self.profile_lines(&block, first, last)?;
+                let lines = self.profile_lines(&block, cycle, [first, last])?;
                 self.interpreter.check_profile(&block, cycle)?;
                 let motion = Some(Motion::Lathe(cycle));
                 self.interpreter.feed(&block, motion)?;
@@ -92,34 +92,6 @@ impl<R: BufRead> Program<R> {
         let span = block.motion_span();
         self.interpreter
             .settle_corner_before(block, span, &mut self.items)
-    }
-
-    /// The first and the last line of the profile.
-    fn profile_lines(&mut self, block: &Block, first: u32, last: u32) -> Outcome<[usize; 2]> {
-        let index = self.tape.next.saturating_sub(1);
-        let begins = |line: &[u8]| is_numbered(line, first);
-        let ahead = self
-            .tape
-            .search(index + 1, &mut self.source, begins, is_label)?;
-        let begin = ahead.or_else(|| self.tape.search_back(index, begins, is_label));
-        let end = match begin {
-            Some(begin) => {
-                let ends = |line: &[u8]| is_numbered(line, last);
-                self.tape.search(begin, &mut self.source, ends, is_label)?
-            }
-            None => None,
-        };
-        match (begin, end) {
-            (Some(begin), Some(end)) if begin < end => Ok([begin, end]),
-            _ => {
-                let message = format!("there are no blocks N{first} to N{last} in the program");
-                Err(
-                    Fault::new(DiagnosticCode::FlowStructure, block.span(b'P'), message)
-                        .because("they are the profile of the cycle")
-                        .help("write N and the numbers of P and Q in front of its first and last block"),
-                )
-            }
-        }
     }
 
     /// G71, G72 and G73.

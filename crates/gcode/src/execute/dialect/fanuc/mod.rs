@@ -25,6 +25,7 @@ mod offsets;
 mod plane_of_blocks;
 mod polar;
 mod printing;
+mod profile_lines;
 mod statement;
 mod tilted_plane;
 mod tip;

@@ -210,7 +210,7 @@ impl<R: BufRead> Program<R> {
         Ok(())
     }
 
-    /// The line of a label or block number, from the next line on, then from the beginning;
+    /// The line of a label or block number of REPEAT: towards the beginning first, then towards the end;
     /// `number` tells the targets of a line apart.
     pub(super) fn siemens_target(
         &mut self,
@@ -222,7 +222,10 @@ impl<R: BufRead> Program<R> {
         if let Some(line) = self.tape.known_jump(index, number) {
             return Ok(line);
         }
-        let found = self.siemens_find(Direction::Any, index, target)?;
+        let found = match self.siemens_find(Direction::Back, index, target)? {
+            None => self.siemens_find(Direction::Forward, index, target)?,
+            found => found,
+        };
         let line = found.ok_or_else(|| no_target(target, at))?;
         self.tape.remember_jump(index, number, line);
         Ok(line)
