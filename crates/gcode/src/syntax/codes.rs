@@ -73,6 +73,8 @@ pub(crate) struct Codes {
     pub(crate) tool_change: Option<Coded<u32>>,
     pub(crate) spindle: Option<Coded<u32>>,
     pub(crate) coolant: Option<Coded<u32>>,
+    /// M7 and M8 in one block, of which `coolant` is the first.
+    pub(crate) both_coolants: bool,
     pub(crate) overrides: Option<Coded<u32>>,
     /// M70 to M73.
     pub(crate) saved_state: Option<Coded<u32>>,

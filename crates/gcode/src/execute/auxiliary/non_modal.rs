@@ -43,6 +43,9 @@ impl Interpreter {
                 return Err(dwell_with_axes(block.motion_span()));
             }
             NonModal::Dwell => {}
+            // A block of it alone moves nothing.
+            NonModal::MachineCoordinates
+                if block.dialect == Dialect::Siemens && !block.has_axes() => {}
             NonModal::MachineCoordinates => {
                 self.check_machine_coordinates(block, non_modal.span, motion)?;
             }

@@ -35,12 +35,18 @@ impl Interpreter {
                 8 => coolant.flood = true,
                 _ => *coolant = Coolant::default(),
             }
+            if codes.both_coolants {
+                (coolant.mist, coolant.flood) = (true, true);
+            }
         }
         if let Some(Coded { code, .. }) = codes.spindle {
             self.push(out, ItemKind::Event(Event::MCode(code)));
         }
         if let Some(Coded { code, .. }) = codes.coolant {
             self.push_passing_code(code, out);
+            if codes.both_coolants {
+                self.push_passing_code(if code == 7 { 8 } else { 7 }, out);
+            }
         }
         self.arm_rigid_tapping(block, out)?;
         self.overrides(block, out)?;

@@ -186,7 +186,7 @@ impl Codes {
             Some(Meaning::Refused(what, help)) => {
                 Err(refused(&format!("M{value}"), what, help, span))
             }
-            Some(_) => self.add_m(value, span, declared),
+            Some(_) => self.add_m_beside(value, span, declared),
             None => Err(no_m(Dialect::Fanuc, value, span)),
         }
     }
@@ -248,8 +248,18 @@ impl Codes {
     ) -> Outcome<()> {
         match code_number(value).filter(|number| declared.is_own(*number)) {
             Some(number) => set(&mut self.user, number, span),
-            None => self.add_m(value, span, declared),
+            None => self.add_m_beside(value, span, declared),
         }
+    }
+
+    /// Adds an M word that may stand beside another one of its group: M7 and M8 switch on a coolant each.
+    fn add_m_beside(&mut self, value: f64, span: SourceSpan, declared: &MCodes) -> Outcome<()> {
+        let pair = self.coolant.map(|first| (first.code, code_number(value)));
+        if !self.both_coolants && matches!(pair, Some((7, Some(8)) | (8, Some(7)))) {
+            self.both_coolants = true;
+            return Ok(());
+        }
+        self.add_m(value, span, declared)
     }
 
     /// Adds a G word of a printer's program.

@@ -243,3 +243,25 @@ fn the_feed_is_that_of_x_y_and_z() {
     finds("FGROUP(X,A)", &["1:1 not-supported"]);
     finds("FGROUP(X,Y)", &["1:1 not-supported"]);
 }
+
+#[test]
+fn both_coolants_are_switched_on_in_one_block() {
+    let codes = |text: &str| -> Vec<u32> {
+        super::items(text)
+            .into_iter()
+            .filter_map(|item| match item.kind {
+                glidepath_program::ItemKind::Event(
+                    glidepath_program::Event::PassingCode(code)
+                    | glidepath_program::Event::MCode(code),
+                ) => Some(code),
+                _ => None,
+            })
+            .collect()
+    };
+    assert_eq!(codes("S100 M3 M7 M8\nM9"), [3, 7, 8, 9]);
+    assert_eq!(codes("M8 M7"), [8, 7]);
+    finds("M8 M9", &["1:4 modal-group-conflict"]);
+    finds("M8 M7 M8", &["1:7 modal-group-conflict"]);
+    // Without an axis there is nothing that G153 and SUPA are of.
+    assert_eq!(ends("G153\nSUPA D0\nG0 X1"), [[1.0, 0.0, 0.0]]);
+}
