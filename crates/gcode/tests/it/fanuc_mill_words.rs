@@ -278,3 +278,29 @@ fn the_local_offset_stands_beside_that_of_g92() {
     // A place of the machine is one.
     assert_eq!(last("G52 X10.\nG0 G53 X1."), [1.0, 0.0, 0.0]);
 }
+
+#[test]
+fn compensation_begins_beside_the_second_move() {
+    // With 6 mm the tool is at X-3 beside a contour that goes up from X0, whichever way it comes.
+    for (text, entry) in [
+        (
+            "G0 X-10. Y-10.\nG1 G41 D1 X0 Y0 F500\nY20.",
+            [-3.0, 0.0, 0.0],
+        ),
+        (
+            "G0 X10. Y-10.\nG1 G41 D1 X0 Y0 F500\nY20.",
+            [-3.0, 0.0, 0.0],
+        ),
+        ("G0 X-20. Y0\nG1 G42 D1 X0 Y0 F500\nY20.", [3.0, 0.0, 0.0]),
+        (
+            "G0 X-20. Y0\nG1 G41 D1 X0 Y0 F500\nG3 X10. Y10. J10.",
+            [0.0, 3.0, 0.0],
+        ),
+        (
+            "G0 X0 Y-20.\nG1 G42 D1 X0 Y0 F500\nG2 X10. Y10. I10.",
+            [3.0, 0.0, 0.0],
+        ),
+    ] {
+        assert_eq!(ends(text)[1], entry, "{text}");
+    }
+}

@@ -57,9 +57,13 @@ impl Interpreter {
             span,
         }) = codes.non_modal
         {
-            let seconds = self
-                .dwell_seconds(block)
-                .ok_or_else(|| missing(span, "G4", "P", "how long"))?;
+            let seconds = self.dwell_seconds(block).ok_or_else(|| {
+                let word = match block.dialect {
+                    Dialect::Siemens => "F, or S of a spindle that turns",
+                    _ => "P",
+                };
+                missing(span, "G4", word, "how long")
+            })?;
             if seconds < 0.0 {
                 return Err(negative(block, b'P', "the dwell"));
             }

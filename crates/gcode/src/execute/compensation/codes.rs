@@ -134,7 +134,11 @@ impl Interpreter {
         self.state.on_contour = true;
         if radius != 0.0 {
             let tool = self.state.path_end;
-            self.compensation = Some(Compensation::new(plane, side, radius, orientation, tool));
+            let enters_beside_next = matches!(block.dialect, Dialect::Fanuc | Dialect::Siemens);
+            self.compensation = Some(
+                Compensation::new(plane, side, radius, orientation, tool)
+                    .entering_beside_next(enters_beside_next),
+            );
         }
         Ok(())
     }

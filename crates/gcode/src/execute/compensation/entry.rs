@@ -49,7 +49,11 @@ impl Compensation {
             path.start = along(path.end, tangent, -ENTRY_MM);
         }
         self.entered = true;
-        self.pending = Some(Pending { of: first, path });
+        self.pending = Some(Pending {
+            of: first,
+            path,
+            leads_to_next: self.enters_beside_next && contour.arc.is_none(),
+        });
         Ok(())
     }
 }

@@ -28,7 +28,9 @@
 //! goes straight to the place beside its end and must be longer than the tool radius; an entry arc
 //! keeps the tangent of the contour at its end. G40 gives out what was held back, and the next
 //! straight move leads from there to its programmed end. These rules are those of LinuxCNC, except
-//! that it joins corners below 0.05 rad without regard to the contour.
+//! that it joins corners below 0.05 rad without regard to the contour. On a FANUC (start-up of type A)
+//! and a SINUMERIK (NORM) the entry goes straight to the place beside the beginning of the second move,
+//! whichever way the contour turns there.
 //!
 //! In G18 a turning tool is programmed by its tip; its orientation says where the tip is, seen from
 //! the centre of the tool radius, and every point given out is shifted by that.

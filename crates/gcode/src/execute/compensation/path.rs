@@ -42,6 +42,8 @@ pub(crate) struct Pending {
     /// Path of the tool's centre, with the corners found so far. The first move goes straight from
     /// where the tool is to its end.
     pub(super) path: Element,
+    /// It is the first move, and leads straight to the beginning of the next one.
+    pub(super) leads_to_next: bool,
 }
 
 /// What comes after the move held back, and goes with it.
@@ -65,6 +67,8 @@ pub(crate) struct Compensation {
     pub(super) pending: Option<Pending>,
     held: Vec<Held>,
     pub(super) entered: bool,
+    /// The first move ends beside the beginning of the second one, and not beside its own end.
+    pub(super) enters_beside_next: bool,
 }
 
 impl Compensation {
@@ -103,7 +107,14 @@ impl Compensation {
             pending: None,
             held: Vec::new(),
             entered: false,
+            enters_beside_next: false,
         }
+    }
+
+    /// The same, of a control whose first move ends beside the beginning of the second one.
+    pub(crate) const fn entering_beside_next(mut self, is_so: bool) -> Self {
+        self.enters_beside_next = is_so;
+        self
     }
 
     /// The same compensation, as if it had been turned on where the tool is.
@@ -160,13 +171,20 @@ impl Compensation {
         let Some(path) = next.contour.offset(self.left) else {
             return Err(too_small(next.span, self.radius()));
         };
-        let mut next = Pending { of: next, path };
+        let mut next = Pending {
+            of: next,
+            path,
+            leads_to_next: false,
+        };
         let Some(mut last) = self.pending.take() else {
             self.pending = Some(next);
             return Ok(());
         };
         let gap = distance(last.path.end, next.path.start);
-        if gap <= SMOOTH_MM {
+        if last.leads_to_next {
+            last.path.end = next.path.start;
+            self.give(&last, out);
+        } else if gap <= SMOOTH_MM {
             next.path.start = last.path.end;
             self.give(&last, out);
         } else if self.is_concave(&last.of.contour, &next.of.contour) {

@@ -265,3 +265,12 @@ fn both_coolants_are_switched_on_in_one_block() {
     // Without an axis there is nothing that G153 and SUPA are of.
     assert_eq!(ends("G153\nSUPA D0\nG0 X1"), [[1.0, 0.0, 0.0]]);
 }
+
+#[test]
+fn compensation_begins_beside_the_second_move() {
+    // With 4 mm the tool is at X-2 beside a contour that goes up from X0 (NORM).
+    for from in ["X-10 Y-10", "X10 Y-10", "X-20 Y0"] {
+        let text = format!("T4 M6 D1 F500\nG0 {from}\nG1 G41 X0 Y0\nY20");
+        assert_eq!(ends(&text)[1], [-2.0, 0.0, 0.0], "{from}");
+    }
+}

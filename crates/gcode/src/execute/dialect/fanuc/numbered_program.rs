@@ -68,13 +68,10 @@ impl<R: BufRead> Program<R> {
     ) -> Outcome<(TapePlace, u32)> {
         let found = self.fanuc_program(program, span);
         let (turns, number) = (program / 10_000, program % 10_000);
-        let is_missing = |fault: &Box<Fault>| fault.code == DiagnosticCode::UnknownSubroutine;
-        if !found.as_ref().is_err_and(is_missing)
-            || turns == 0
-            || number == 0
-            || words.says_turns
-            || words.is_macro
-        {
+        let is_missing = found
+            .as_ref()
+            .is_err_and(|fault| fault.code == DiagnosticCode::UnknownSubroutine);
+        if !is_missing || turns == 0 || number == 0 || words.says_turns || words.is_macro {
             return found.map(|place| (place, words.turns));
         }
         match self.fanuc_program(number, span) {

@@ -36,11 +36,10 @@ fn way(digits: Option<f64>, position: usize) -> Option<Way> {
     for _ in 0..position {
         rest = (rest / 10.0).trunc();
     }
-    let digit = rest % 10.0;
-    match (digit == 2.0, digit == 1.0, position) {
-        (true, _, 1..) => Some(Way::Increment),
-        (_, true, _) => Some(Way::Absolute),
-        _ => None,
+    let is = |digit: f64| (rest % 10.0 - digit).abs() < 1e-6;
+    match position {
+        1.. if is(2.0) => Some(Way::Increment),
+        _ => is(1.0).then_some(Way::Absolute),
     }
 }
 
