@@ -303,4 +303,18 @@ fn compensation_begins_beside_the_second_move() {
     ] {
         assert_eq!(ends(text)[1], entry, "{text}");
     }
+    // Down first, and then to the contour.
+    assert_eq!(
+        ends("G0 X-20. Y0\nG41 D1\nG1 Z-1. F500\nX0\nX20."),
+        [
+            [-20.0, 0.0, 0.0],
+            [-20.0, 0.0, -1.0],
+            [0.0, 3.0, -1.0],
+            [20.0, 3.0, -1.0]
+        ]
+    );
+    finds(
+        "G0 X-20. Y0\nG41 D1\nG2 X0 Y20. I20. F500",
+        &["3:1 cutter-radius"],
+    );
 }

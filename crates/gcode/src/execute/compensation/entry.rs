@@ -20,6 +20,14 @@ impl Compensation {
     pub(super) fn enter(&mut self, first: ContourMove, out: &mut Vec<Item>) -> Outcome<()> {
         let radius = self.radius();
         let contour = first.contour;
+        if contour.arc.is_some() && self.enters_beside_next {
+            let message = "cutter radius compensation that begins with an arc";
+            return Err(
+                Fault::new(DiagnosticCode::CutterRadius, first.span, message)
+                    .because("this control begins it with a straight move alone")
+                    .help("write G41 or G42 into the straight move before the arc"),
+            );
+        }
         if distance(contour.start, contour.end) <= radius {
             let message = format!(
                 "the first move with cutter radius compensation is not longer than the tool radius, {radius} mm"

@@ -76,7 +76,9 @@ impl Interpreter {
         };
         let from = out.len();
         let still = arc.is_none() && distance(next.contour.start, next.contour.end) <= MIN_MOVE;
-        if !compensation.entered {
+        if still && !compensation.entered && compensation.enters_beside_next {
+            compensation.move_before_entry(&next, out);
+        } else if !compensation.entered {
             compensation.enter(next, out)?;
         } else if still {
             compensation.push_still(next);

@@ -166,6 +166,17 @@ impl Compensation {
         self.held.push(Held::Still(still));
     }
 
+    /// A move outside the plane in front of the first one.
+    pub(super) fn move_before_entry(&mut self, still: &ContourMove, out: &mut Vec<Item>) {
+        let here = self.place();
+        let path = Element {
+            start: here,
+            end: here,
+            arc: None,
+        };
+        self.emit(still, &path, still.to, out);
+    }
+
     /// A move along the contour.
     pub(crate) fn push_move(&mut self, next: ContourMove, out: &mut Vec<Item>) -> Outcome<()> {
         let Some(path) = next.contour.offset(self.left) else {
