@@ -313,6 +313,20 @@ fn compensation_begins_beside_the_second_move() {
             [20.0, 3.0, -1.0]
         ]
     );
+    // And up again beside it, before the next move leads away.
+    assert_eq!(
+        ends("G0 X-20. Y0\nG1 G41 D1 X0 F500\nX20.\nG40 G0 Z10.\nG91 Z5.\nX5.")[2..],
+        [
+            [20.0, 3.0, 0.0],
+            [20.0, 3.0, 10.0],
+            [20.0, 3.0, 15.0],
+            [25.0, 0.0, 15.0]
+        ]
+    );
+    assert_eq!(
+        last("G0 X-20. Y0\nG1 G41 D1 X0 F500\nX20.\nG40 X20."),
+        [20.0, 0.0, 0.0]
+    );
     finds(
         "G0 X-20. Y0\nG41 D1\nG2 X0 Y20. I20. F500",
         &["3:1 cutter-radius"],

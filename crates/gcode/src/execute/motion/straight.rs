@@ -7,7 +7,7 @@ use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::axis_words::homes_without_mesh;
-use crate::execute::motion::settled::settled;
+use crate::execute::motion::settled::{MIN_MOVE, settled};
 use crate::execute::motion::speed::{Pace, Speed};
 use crate::setup::fanuc::OffsetMemory;
 use crate::syntax::block::Block;
@@ -22,12 +22,13 @@ impl Interpreter {
         pace: Pace,
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
-        self.state.leaving_contour = false;
+        let goal = self.beside_contour(block, &target);
+        self.state.leaving_contour = goal.is_some();
         if self.compensation.is_some() {
             return self.compensated_straight(block, target, pace, out);
         }
         let start = self.state.path_end;
-        let end = settled(start, target, [None, None]);
+        let end = settled(start, goal.unwrap_or(target), [None, None]);
         self.state.position = target;
         if end == start {
             self.count_zero_length(pace);
@@ -41,6 +42,28 @@ impl Interpreter {
         let speed = self.speed(block, &segment, pace)?;
         self.push_move(segment, speed, out);
         Ok(())
+    }
+
+    /// Behind G40 a move outside the plane stays beside the contour, on a FANUC and a SINUMERIK: the next
+    /// one in the plane leads away from there. `None`: it goes to its target.
+    fn beside_contour(&self, block: &Block, target: &AxisVector) -> Option<AxisVector> {
+        let keeps_beside = matches!(block.dialect, Dialect::Fanuc | Dialect::Siemens);
+        let state = &self.state;
+        if !keeps_beside || !state.leaving_contour || state.contour_plane.is_some() {
+            return None;
+        }
+        let (first, second) = state.modal.plane.axes();
+        let axes = [first.index(), second.index()];
+        let is_still = |axis: &usize| (target[*axis] - state.position[*axis]).abs() <= MIN_MOVE;
+        let is_named = block.axes().any(|(axis, _)| axes.contains(&axis.index()));
+        if is_named || !axes.iter().all(is_still) {
+            return None;
+        }
+        let mut goal = *target;
+        for axis in axes {
+            goal[axis] = state.path_end[axis];
+        }
+        Some(goal)
     }
 
     pub(crate) fn push_move(&mut self, segment: Segment, speed: Speed, out: &mut Vec<Item>) {

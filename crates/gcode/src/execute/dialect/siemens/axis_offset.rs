@@ -64,7 +64,7 @@ impl<R: BufRead> Program<R> {
         let name = SourceSpan::new(at - 3, at);
         let state = &self.interpreter.state;
         let code = if is_fine { "G59" } else { "G58" };
-        if state.on_contour || state.leaving_contour {
+        if state.on_contour {
             let message = format!("{code} with cutter radius compensation on");
             return Err(Fault::new(DiagnosticCode::CutterRadius, name, message)
                 .because("the tool stands beside the programmed point, at a place that depends on the next move")

@@ -184,8 +184,8 @@ impl<R: BufRead> Program<R> {
 
 /// Refuses a frame where the place of the tool is beside the program's.
 pub(super) fn check_no_contour(interpreter: &Interpreter, span: SourceSpan) -> Outcome<()> {
-    let state = &interpreter.state;
-    if !state.on_contour && !state.leaving_contour {
+    // Behind G40 the tool is beside the contour, and the next move has a place of its own.
+    if !interpreter.state.on_contour {
         return Ok(());
     }
     let message = "a frame with cutter radius compensation on";
