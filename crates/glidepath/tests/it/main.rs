@@ -25,6 +25,7 @@ mod reference;
 mod spindle_axis;
 mod subroutines;
 #[path = "../support/mod.rs"]
+mod straight;
 mod support;
 mod told_commands;
 mod travel;
