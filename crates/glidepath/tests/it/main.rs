@@ -23,9 +23,9 @@ mod plot;
 mod preview;
 mod reference;
 mod spindle_axis;
+mod straight;
 mod subroutines;
 #[path = "../support/mod.rs"]
-mod straight;
 mod support;
 mod told_commands;
 mod travel;

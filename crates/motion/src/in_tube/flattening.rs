@@ -27,6 +27,8 @@ const FLATTENING_R: f64 = 0.05;
 const RULED_MM: f64 = 5.0;
 /// How far the motion may be beside it there, mm: a tolerance is for corners and curves.
 const BESIDE_MM: f64 = 1e-3;
+/// Share of that which a straight move may turn by when it is drawn together with others.
+const DRAWN_TOGETHER_R: f64 = 0.4;
 /// Share of the tolerance that a merged piece may be away from the chords it replaces.
 const MERGING_R: f64 = 0.1;
 /// Distance up to which a vertex counts as being on a line.
@@ -231,6 +233,8 @@ impl OpenChord {
         let longest_mm = self.longest_mm.max(next.length_mm());
         let allowed_mm = if chord.rate.is_rapid() {
             STRAIGHT_MM
+        } else if longest_mm >= RULED_MM {
+            (TURNED_R * chord.tolerance_mm).min(DRAWN_TOGETHER_R * BESIDE_MM)
         } else if longest_mm >= LONG_R * chord.tolerance_mm {
             TURNED_R * chord.tolerance_mm
         } else {
