@@ -9,7 +9,7 @@
 
 use std::sync::Arc;
 
-use glidepath_geometry::{AXES, AxisVector};
+use glidepath_geometry::AXES;
 use glidepath_program::{Event, Item, ItemKind, PathMode};
 
 use crate::diagnostic::fault::Outcome;
@@ -17,8 +17,6 @@ use crate::execute::block_words::{check_named_words, check_words, path_mode};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::corner::CornerMove;
 use crate::execute::motion::speed::Pace;
-use crate::execute::state::fanuc_offsets::FanucFrames;
-use crate::execute::state::frame::Frame;
 use crate::execute::state::open_spline::{OpenSpline, goes_on, interrupted};
 use crate::execute::state::sticky_words::CycleSeries;
 use crate::syntax::block::Block;
@@ -211,20 +209,6 @@ impl Interpreter {
         }
         self.state.modal.path_mode = mode;
         Ok(())
-    }
-
-    /// The end of a program: as LinuxCNC does, the next one begins in G54.
-    fn end_offsets(&mut self) {
-        for (index, system) in core::mem::take(&mut self.offsets.fanuc.pending) {
-            self.offsets.keep_system(index, system);
-        }
-        self.offsets.active = 0;
-        self.offsets.frame = Frame::default();
-        self.offsets.tilted = Frame::default();
-        self.offsets.fanuc.dynamic = None;
-        self.offsets.fanuc.local = AxisVector::zeros();
-        self.offsets.fanuc.active = None;
-        self.offsets.fanuc.frames = FanucFrames::default();
     }
 
     /// Codes of other dialects that act once, and move by themselves.

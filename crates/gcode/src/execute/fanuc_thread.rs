@@ -28,7 +28,7 @@ use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
-use crate::execute::motion::thread::Groove;
+use crate::execute::state::open_thread::Groove;
 use crate::execute::state::thread_setup::ThreadSetup;
 use crate::execute::thread_cycle::MAX_PASSES;
 use crate::setup::fanuc::PointInput;

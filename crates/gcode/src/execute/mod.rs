@@ -34,6 +34,7 @@ pub(crate) mod motion;
 pub(crate) mod parameters;
 mod probing;
 pub(crate) mod program;
+mod program_end;
 mod program_view;
 mod reading;
 mod refused_block;

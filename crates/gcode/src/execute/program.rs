@@ -337,18 +337,7 @@ impl<R: BufRead> Program<R> {
         self.ran_out = !is_percent(self.source.text());
         match self.flow.recorder.take() {
             None => {
-                self.interpreter.check_spline_complete()?;
-                self.interpreter.check_line_complete()?;
-                self.interpreter.check_tap_complete()?;
-                self.interpreter
-                    .check_plane_complete(SourceSpan::default())?;
-                self.interpreter.make_thread(
-                    &self.block,
-                    SourceSpan::default(),
-                    &mut self.items,
-                )?;
-                self.interpreter.end_corner(&self.block, &mut self.items)?;
-                self.interpreter.end_compensation(&mut self.items)?;
+                self.interpreter.end_open(&self.block, &mut self.items)?;
                 self.count();
                 Ok(false)
             }

@@ -21,7 +21,7 @@ use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::speed::Pace;
-use crate::execute::motion::thread::Groove;
+use crate::execute::state::open_thread::Groove;
 use crate::syntax::block::Block;
 use crate::syntax::dialect::Dialect;
 use crate::syntax::word_check::{missing, none_wrong, whole};

@@ -4,7 +4,7 @@
 //! each revolution of the spindle, and at which angle the pass begins. Its moves are planned for a
 //! spindle that turns a little faster than programmed; whoever executes them follows the spindle.
 
-use glidepath_geometry::{AxisVector, Segment};
+use glidepath_geometry::Segment;
 use glidepath_program::{Event, Item, ItemKind, PHASE_STEPS, PathMode, Rate};
 
 use crate::diagnostic::code::DiagnosticCode;
@@ -12,22 +12,11 @@ use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::settled::{MIN_MOVE, settled};
+use crate::execute::state::open_thread::Groove;
 use crate::setup::threading::{SPEED_RESERVE, Threading};
 use crate::syntax::block::Block;
 use crate::syntax::dialect::Dialect;
 use crate::syntax::word_check::{missing, unused};
-
-/// A straight part of a pass: where it ends, in machine coordinates, and how far it goes with each
-/// revolution, mm.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Groove {
-    pub(crate) end: AxisVector,
-    pub(crate) pitch_mm: f64,
-    /// By how much corners of the pass may be rounded, mm, > 0 where it has some.
-    pub(crate) corner_mm: f64,
-    /// Its source line.
-    pub(crate) line: u32,
-}
 
 impl Interpreter {
     /// G33: a pass to the point of the block.

@@ -12,7 +12,7 @@ use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
-use crate::execute::motion::thread::Groove;
+use crate::execute::state::open_thread::Groove;
 use crate::execute::state::open_thread::OpenThread;
 use crate::setup::threading::{SPEED_RESERVE, Threading};
 use crate::syntax::block::Block;

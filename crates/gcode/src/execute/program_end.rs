@@ -1,0 +1,38 @@
+//! The end of a program: what its blocks have left open, and the offsets that end with it.
+
+use glidepath_geometry::AxisVector;
+use glidepath_program::Item;
+
+use crate::diagnostic::fault::Outcome;
+use crate::diagnostic::span::SourceSpan;
+use crate::execute::interpreter::Interpreter;
+use crate::execute::state::fanuc_offsets::FanucFrames;
+use crate::execute::state::frame::Frame;
+use crate::syntax::block::Block;
+
+impl Interpreter {
+    /// Makes what was held back for a next block, and refuses what needs one.
+    pub(crate) fn end_open(&mut self, block: &Block, out: &mut Vec<Item>) -> Outcome<()> {
+        self.check_spline_complete()?;
+        self.check_line_complete()?;
+        self.check_tap_complete()?;
+        self.check_plane_complete(SourceSpan::default())?;
+        self.make_thread(block, SourceSpan::default(), out)?;
+        self.end_corner(block, out)?;
+        self.end_compensation(out)
+    }
+
+    /// The end of a program: as LinuxCNC does, the next one begins in G54.
+    pub(crate) fn end_offsets(&mut self) {
+        for (index, system) in core::mem::take(&mut self.offsets.fanuc.pending) {
+            self.offsets.keep_system(index, system);
+        }
+        self.offsets.active = 0;
+        self.offsets.frame = Frame::default();
+        self.offsets.tilted = Frame::default();
+        self.offsets.fanuc.dynamic = None;
+        self.offsets.fanuc.local = AxisVector::zeros();
+        self.offsets.fanuc.active = None;
+        self.offsets.fanuc.frames = FanucFrames::default();
+    }
+}
