@@ -9,9 +9,12 @@ use crate::execute::program::Program;
 use crate::execute::scope::ProgramScope;
 use crate::syntax::block::{Assignment, LineKind};
 use crate::syntax::dialect::Dialect;
-use crate::syntax::dialect::bare_words::goes_on_with_thread;
+use crate::syntax::dialect::bare_words::{goes_on_with_thread, says_nothing};
 use crate::syntax::expression::scope::Parameter;
 use crate::syntax::modes::Motion;
+
+/// Most lines of comments between two blocks of a thread.
+const MOST_SILENT: usize = 100;
 
 impl<R: BufRead> Program<R> {
     /// Whether the block goes on with a thread in the next line: what cannot be read there is refused
@@ -23,12 +26,22 @@ impl<R: BufRead> Program<R> {
         };
         let is_thread = motion == Some(Motion::Thread) && self.block.has_axes();
         let has_tape = matches!(self.block.dialect, Dialect::Fanuc | Dialect::Siemens);
-        self.interpreter.thread_goes_on = is_thread && has_tape && !self.is_typed && {
-            let next = self.tape.next;
+        self.interpreter.thread_goes_on =
+            is_thread && has_tape && !self.is_typed && self.is_thread_next();
+    }
+
+    /// Whether the next line that says anything goes on with a thread.
+    fn is_thread_next(&mut self) -> bool {
+        for next in self.tape.next..self.tape.next + MOST_SILENT {
             let is_there = self.tape.reach(next, &mut self.source).unwrap_or(false);
-            let line = self.tape.get(next).filter(|_| is_there);
-            line.is_some_and(|(_, text)| goes_on_with_thread(text))
-        };
+            let Some((_, text)) = self.tape.get(next).filter(|_| is_there) else {
+                return false;
+            };
+            if !says_nothing(text) {
+                return goes_on_with_thread(text);
+            }
+        }
+        false
     }
 
     /// Executes a text as a block.

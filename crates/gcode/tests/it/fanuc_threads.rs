@@ -156,7 +156,7 @@ fn blocks_of_a_thread_are_one_pass() {
     // Along Z, and out at 45 degrees.
     let text = "S600 M3\nG0 X20 Z4\nG32 Z-20 F1.5\nU8 W-4\nG0 X40";
     assert_eq!(cuts(text), ["1.5@0 10,-20 14,-24"]);
-    let text = "S600 M3\nG0 X20 Z4\nG32 Z-20 F1.5 Q90000\nG32 Z-30 X24 F1.5\nZ-40\nM30";
+    let text = "S600 M3\nG0 X20 Z4\nG32 Z-20 F1.5 Q90000\nG32 Z-30 X24 F1.5\n(ON)\n\nZ-40\nM30";
     let phase = PHASE_STEPS / 4;
     assert_eq!(
         cuts(text),

@@ -57,14 +57,24 @@ pub(crate) fn has_code(words: &[(u8, &[u8])], letter: u8, number: f64) -> bool {
         .any(|(of, digits)| *of == letter && value(digits).is_some_and(is_it))
 }
 
-/// True if a line behind a thread is one, too: it has places, and no code but that of a thread.
-pub(crate) fn goes_on_with_thread(text: &[u8]) -> bool {
+/// A line without blanks and comments, in upper case.
+fn code_of(text: &[u8]) -> Vec<u8> {
     let bare: Vec<u8> = text
         .iter()
         .filter(|byte| !byte.is_ascii_whitespace())
         .map(u8::to_ascii_uppercase)
         .collect();
-    let code = without_comments(&bare);
+    without_comments(&bare)
+}
+
+/// True for a line of a comment alone, and an empty one.
+pub(crate) fn says_nothing(text: &[u8]) -> bool {
+    code_of(text).is_empty()
+}
+
+/// True if a line behind a thread is one, too: it has places, and no code but that of a thread.
+pub(crate) fn goes_on_with_thread(text: &[u8]) -> bool {
+    let code = code_of(text);
     let words = bare_words(&code);
     let is_thread = |(letter, number): &(u8, &[u8])| match letter {
         b'G' => value(number).is_some_and(|number| [32.0, 33.0].contains(&number)),
