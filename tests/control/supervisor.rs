@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use glidepath_audit::{Audit, AuditSettings, Passed, Report, Sample};
+use glidepath_audit::{Audit, AuditReport, AuditSettings, Passed, Sample};
 use glidepath_gcode::Options;
 use glidepath_geometry::AxisVector;
 use glidepath_interpolator::{Config, Stepped, stepped};
@@ -263,7 +263,7 @@ impl Supervisor<'_, '_, '_> {
     }
 
     /// The auditor's report of everything since the beginning.
-    pub(crate) fn audit(&self, settings: &Settings, largest_override: f64) -> Report {
+    pub(crate) fn audit(&self, settings: &Settings, largest_override: f64) -> AuditReport {
         let mut audit = Audit::new(&AuditSettings::from(settings)).with_override(largest_override);
         for item in &self.items {
             audit.program(item);
@@ -288,7 +288,7 @@ impl Supervisor<'_, '_, '_> {
 }
 
 /// Nothing may be broken, neither limits nor tolerance, whatever time has done meanwhile.
-pub(crate) fn assert_limits(report: &Report) {
+pub(crate) fn assert_limits(report: &AuditReport) {
     for worst in [
         report.max_velocity_ratio,
         report.max_acceleration_ratio,

@@ -170,7 +170,7 @@ fn keys_move_while_they_repeat_and_a_killed_client_stops_the_jog() {
             client.signal(Signal::KILL);
         }
         let rest = services.wait_for(MachineState::Idle);
-        // A quarter of 50 mm/s, for as long as a press lasts, then the dead-man, and what the host
+        // A quarter of 50 mm/s, for as long as a press lasts, then the jog time-out, and what the host
         // adds to both.
         let way = rest.position[0] - moving.position[0];
         let held_up_t = pulse.worst().as_secs_f64();

@@ -9,7 +9,7 @@ use std::time::Duration;
 use glidepath_link::{
     EndOfEpoch, EventKind, EventRecord, FaultCause, MachineState, Power, Setpoint,
 };
-use glidepath_plant::{HomeSettings, JointSettings, SwitchSettings, Upset};
+use glidepath_plant::{HomeSettings, InjectedFault, JointSettings, SwitchSettings};
 use glidepath_program::CodeWord;
 use glidepath_tests::{Instance, Operated, Process, ServoStack, Tape, Watchdog};
 use rustix::process::Signal;
@@ -163,7 +163,7 @@ impl<'a> Life<'a> {
         let _asks = machine.wait(|status| (status.awaited_value - 66.0).abs() < 1e-9);
         machine.refused(&["acknowledge", "--event", &event(0)], 5, "");
         self.still(100);
-        stack.upset(Upset::Input(3, true));
+        stack.inject(InjectedFault::Input(3, true));
         let status = machine.wait(|status| (status.awaited_value - 101.0).abs() < 1e-9);
         assert_eq!(status.message.as_str(), "input 1.000000");
         assert_eq!(status.awaited_words.get(CodeWord::Q), Some(-2.5));
@@ -211,20 +211,20 @@ impl<'a> Life<'a> {
     /// An input slows a program down, and holds it.
     fn slowed(&self, way: &str) {
         let (machine, stack) = (&self.operated, &self.stack);
-        stack.upset(Upset::Analog(2, 0.5));
+        stack.inject(InjectedFault::Analog(2, 0.5));
         self.operate(&["mdi", "M52 P1"]);
         let running = machine.process(&["run-file", way]);
         let _half = machine.wait(|s| s.line > 1 && (s.effective_override - 0.5).abs() < 1e-3);
-        stack.upset(Upset::Analog(2, 0.0));
+        stack.inject(InjectedFault::Analog(2, 0.0));
         let status = machine.wait_for(MachineState::Held);
         assert!(status.adaptive_feed <= 0.0 && status.feed_override >= 1.0);
         self.still(100);
         let told = machine.operate(&["status"]).stdout;
         assert!(told.contains("lets through 0 %"), "{told}");
-        stack.upset(Upset::Analog(2, 1.0));
+        stack.inject(InjectedFault::Analog(2, 1.0));
         let _done = running.wait().expect(0);
         self.operate(&["mdi", "M52 P0"]);
-        stack.upset(Upset::Analog(2, 0.0));
+        stack.inject(InjectedFault::Analog(2, 0.0));
     }
 
     /// The power goes while something moves, or is about to; nothing does afterwards, until
@@ -235,11 +235,11 @@ impl<'a> Life<'a> {
         let moves: [&[&str]; 4] = [&["run-file", way], &["run-file", way], &jog, &["home"]];
         let moving = machine.process(moves[chance.below(4)]);
         std::thread::sleep(chance.millis(0, 900));
-        self.stack.upset(Upset::EmergencyStop(true));
+        self.stack.inject(InjectedFault::EmergencyStop(true));
         let _off = machine.wait(|status| status.power() == Ok(Power::Off));
         let stands = self.stands();
         self.still(60);
-        self.stack.upset(Upset::EmergencyStop(false));
+        self.stack.inject(InjectedFault::EmergencyStop(false));
         // What was asked for ends, as it may; its process does in any case.
         let _ended = moving.wait();
         self.still(60);

@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use glidepath_audit::{Audit, AuditSettings, Report, Sample};
+use glidepath_audit::{Audit, AuditReport, AuditSettings, Sample};
 use glidepath_gcode::Options;
 use glidepath_geometry::AxisVector;
 use glidepath_interpolator::Config;
@@ -11,7 +11,7 @@ use glidepath_link::{
     Command, CommandRequest, Ipc, LinkConfig, MachineState, Setpoint, Status, Subscriber, Transport,
 };
 use glidepath_planner::{
-    Control, ItemSource, Pace, Pipeline, ProgramSource, Publisher, RunError, Statistics,
+    Control, FramePublisher, ItemSource, Pace, Pipeline, ProgramSource, RunError, Statistics,
 };
 use glidepath_program::{Effort, Frame, Item, Limits, Settings, Smoothing};
 
@@ -90,14 +90,14 @@ impl Recording {
     /// What the auditor says about an epoch. Missed ticks are no gaps: the path goes on where it
     /// was.
     #[must_use]
-    pub fn audit(&self, epoch: u64, items: &[Item]) -> Report {
+    pub fn audit(&self, epoch: u64, items: &[Item]) -> AuditReport {
         let place = |setpoint: &Setpoint| AxisVector::from(setpoint.position);
         audit(items, self.epoch(epoch).map(place))
     }
 }
 
 /// What the auditor says about a motion.
-pub fn audit(items: &[Item], positions: impl Iterator<Item = AxisVector>) -> Report {
+pub fn audit(items: &[Item], positions: impl Iterator<Item = AxisVector>) -> AuditReport {
     let settings = settings();
     let mut audit = Audit::new(&AuditSettings::from(&settings));
     for item in items {
@@ -169,7 +169,7 @@ impl Machine<'_> {
             pause: &mut pause,
             notify: &mut |_| {},
         };
-        let mut publisher = Publisher::connect(&transport, Pace::new(PERIOD_NS, 0.5))?;
+        let mut publisher = FramePublisher::connect(&transport, Pace::new(PERIOD_NS, 0.5))?;
         let start = publisher.wait_until_ready(("part", 0), &mut control)?;
         let mut pipeline = Pipeline::new(make_source(start), settings(), start);
         publisher.publish(&mut pipeline, &mut control)

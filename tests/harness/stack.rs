@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use glidepath_link::servo::{Servo, ServoSettings};
 use glidepath_link::{Feedback, Ipc, LinkConfig, Transport};
-use glidepath_plant::{JointSettings, Plant, Upset};
+use glidepath_plant::{InjectedFault, JointSettings, Plant};
 use glidepath_realtime::{Clock as _, Monotonic};
 
 use crate::Instance;
@@ -44,8 +44,8 @@ impl ServoStack {
     }
 
     /// Something goes wrong with the machine, or right again.
-    pub fn upset(&self, upset: Upset) {
-        self.plant.lock().unwrap().upset(upset);
+    pub fn inject(&self, upset: InjectedFault) {
+        self.plant.lock().unwrap().inject(upset);
     }
 
     /// What the machine measures of itself.

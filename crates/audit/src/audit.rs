@@ -6,7 +6,7 @@ use crate::event_places::EventPlaces;
 use crate::joints::{JointAudit, JointBounds};
 use crate::limits::LimitAudit;
 use crate::matching::Matching;
-use crate::report::Report;
+use crate::report::AuditReport;
 use crate::sample::{Sample, Seen};
 use crate::settings::AuditSettings;
 use crate::travel::TravelAudit;
@@ -122,24 +122,24 @@ impl Audit {
     /// The verdict, after the last sample: the machine rests there from now on, at the end of the
     /// program.
     #[must_use]
-    pub fn finish(self) -> Report {
+    pub fn finish(self) -> AuditReport {
         self.finish_at(End::OfProgram)
     }
 
     /// The verdict on a motion that was ended before its program, or was not seen to the end: it is
     /// judged as far as it went, wherever that is.
     #[must_use]
-    pub fn finish_early(self) -> Report {
+    pub fn finish_early(self) -> AuditReport {
         self.finish_at(End::Anywhere)
     }
 
-    fn finish_at(mut self, end: End) -> Report {
+    fn finish_at(mut self, end: End) -> AuditReport {
         self.matching.finish(end);
         self.limits.finish();
         if let Some(joints) = &mut self.joints {
             joints.finish();
         }
-        Report::new(
+        AuditReport::new(
             (&self.limits, self.joints.as_ref(), &self.travel),
             &self.along,
             &self.matching,

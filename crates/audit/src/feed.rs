@@ -11,7 +11,7 @@
 use crate::column::{Column, Level, Passage, Reach};
 use crate::free_space::Chord;
 use crate::matching::Matching;
-use crate::trouble::Goal;
+use crate::out_of_tolerance::Goal;
 use glidepath_geometry::{AxisVector, feed_length};
 
 /// The programmed feed counts as kept up to this factor.

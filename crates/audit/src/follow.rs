@@ -80,12 +80,12 @@ const LEAST_NOTED_S: f64 = 1e-3;
 
 /// A place on the program: moves before it, and path position on its move.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
-pub(crate) struct Place(u64, f64);
+pub(crate) struct ProgramPlace(u64, f64);
 
 /// A point of the program.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ProgramPoint {
-    pub(crate) place: Place,
+    pub(crate) place: ProgramPlace,
     pub(crate) position: AxisVector,
 }
 
@@ -174,7 +174,7 @@ impl Follow {
                 passed.length_s
             };
             let point = |s: f64| ProgramPoint {
-                place: Place(passed.number, s),
+                place: ProgramPlace(passed.number, s),
                 position: passed.segment.position(s),
             };
             let noted_s = Some(self.noted.1).filter(|_| self.noted.0 == passed.number);
@@ -262,9 +262,9 @@ impl Follow {
     }
 
     /// The earliest place at which the motion may be.
-    pub(crate) fn earliest(&self) -> Place {
+    pub(crate) fn earliest(&self) -> ProgramPlace {
         let first = self.moves.front();
-        Place(
+        ProgramPlace(
             first.map_or(self.count, |first| first.number),
             self.earliest_s,
         )

@@ -5,9 +5,9 @@ use crate::end::End;
 use crate::feed::FEED_SLACK;
 use crate::free_space::Interval;
 use crate::matching::{Matching, Spot};
+use crate::out_of_tolerance::Goal;
 use crate::program::Presence;
-use crate::tremor::Place;
-use crate::trouble::Goal;
+use crate::tremor::MatchedSample;
 use crate::violation::{ViolationKind, Worst};
 use glidepath_geometry::AxisVector;
 use glidepath_program::tolerance_norm;
@@ -49,13 +49,14 @@ impl Matching {
             .history
             .back()
             .map_or((0, 0), |column| (column.tick, column.line));
-        let is_reached = self.trouble.is_none() && self.includes_end(&self.reach.clone(), &at);
+        let is_reached =
+            self.out_of_tolerance.is_none() && self.includes_end(&self.reach.clone(), &at);
         // Where the motion ends at the right place it is a question of deviation. One that was ended may
         // be at that place before the program's end: where it began, say.
         let is_there = tolerance_norm(&(at - end)) <= EXACT_MM;
         self.is_complete =
             is_reached || (must && is_there && self.widen(Goal::End) == Passage::Passed);
-        if self.trouble.is_some() {
+        if self.out_of_tolerance.is_some() {
             self.settle(if self.is_complete {
                 Goal::End
             } else {
@@ -131,13 +132,13 @@ impl Matching {
         let (Some(&row), Some(column)) = (rows.peek().copied(), self.history.back()) else {
             return;
         };
-        if self.trouble.is_some() {
+        if self.out_of_tolerance.is_some() {
             self.still.lose(spot.tick);
             self.cruise.lose();
             return;
         }
         let speed_v = self.speed_v(&column.chord, ticks);
-        let mut place = Place {
+        let mut place = MatchedSample {
             tick: spot.tick,
             line: spot.line,
             position: spot.position,

@@ -26,11 +26,11 @@
 use crate::column::{Column, Level, Passage, Reach, step};
 use crate::end::End;
 use crate::free_space::{Chord, Interval};
+use crate::out_of_tolerance::{Goal, OutOfTolerance};
 use crate::program::{DiagramRows, Presence, SMALLEST_TOLERANCE_MM};
 use crate::sample::Seen;
 use crate::settings::AuditSettings;
 use crate::tremor::{Cruise, StillAxes};
-use crate::trouble::{Goal, Trouble};
 use crate::violation::{ViolationKind, ViolationList, Worst};
 use glidepath_geometry::AxisVector;
 use glidepath_program::Item;
@@ -96,7 +96,7 @@ pub(crate) struct Matching {
     pub(crate) lambda_mm: f64,
     /// The level up to which the full history has been searched for something better, in vain.
     pub(crate) searched_mm: f64,
-    pub(crate) trouble: Option<Trouble>,
+    pub(crate) out_of_tolerance: Option<OutOfTolerance>,
     /// Cells looked at for a motion out of tolerance.
     pub(crate) trouble_cells: usize,
     /// The history must not be gone back to.
@@ -135,7 +135,7 @@ impl Matching {
             travel_mm: 0.0,
             lambda_mm: SMALLEST_TOLERANCE_MM,
             searched_mm: 0.0,
-            trouble: None,
+            out_of_tolerance: None,
             trouble_cells: 0,
             is_history_void: false,
             is_lost: false,
@@ -220,7 +220,7 @@ impl Matching {
         }
         let chord = Chord::new(self.at.unwrap_or(spot.position), spot.position);
         let first = self.reach.low;
-        let passage = match self.trouble {
+        let passage = match self.out_of_tolerance {
             None => {
                 let [next, _] = &mut self.scratch;
                 let level = Level::up_to(self.lambda_mm);
@@ -252,7 +252,7 @@ impl Matching {
         };
         match passage {
             Passage::Passed => {
-                let is_followed = self.trouble.is_none();
+                let is_followed = self.out_of_tolerance.is_none();
                 let feed_v = is_followed.then(|| self.feed_v(waiting.ticks, first));
                 // Behind an exact stop that was missed nothing is gone back to.
                 if feed_v == Some(None) && !self.is_history_void {
@@ -281,7 +281,7 @@ impl Matching {
     /// The last column does not pass at the present level, or the motion is out of tolerance. What
     /// can be reached is left in the scratch.
     fn pass_somehow(&mut self) -> Passage {
-        if let Some(Trouble { floor_mm, .. }) = self.trouble {
+        if let Some(OutOfTolerance { floor_mm, .. }) = self.out_of_tolerance {
             let level = Level {
                 floor_mm,
                 ..Level::up_to(self.cap())
@@ -305,7 +305,7 @@ impl Matching {
         self.judge_dwells(first, spot);
         let rested_at = from.filter(|_| waiting.rest_ticks > 0);
         self.judge_tremor(spot, waiting.ticks, rested_at, first);
-        if self.trouble.is_some() {
+        if self.out_of_tolerance.is_some() {
             if self.count_within_tolerance(&self.reach, &spot.position) > 0 {
                 self.settle(Goal::WithinTolerance);
             }
@@ -382,7 +382,7 @@ impl Matching {
     fn forget(&mut self) {
         let keep_mm = HISTORY_TOLERANCES * self.cap();
         while self.history.len() > SHORT {
-            let is_far = self.trouble.is_none() && self.travel_mm > keep_mm;
+            let is_far = self.out_of_tolerance.is_none() && self.travel_mm > keep_mm;
             if !is_far && self.history.len() <= MAX_HISTORY {
                 break;
             }

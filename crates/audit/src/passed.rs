@@ -8,13 +8,13 @@ const KEPT: u64 = 1 << 17;
 
 /// A place that was passed: program time, and where that was.
 #[derive(Debug, Clone, Copy)]
-struct Place {
+struct PassedPlace {
     sequence: u64,
     fraction: f64,
     position: AxisVector,
 }
 
-impl Place {
+impl PassedPlace {
     fn is_before(&self, other: &Self) -> bool {
         (self.sequence, self.fraction) < (other.sequence, other.fraction)
     }
@@ -22,7 +22,7 @@ impl Place {
 
 /// The places that a motion has passed, two a frame at most.
 #[derive(Debug, Clone, Default)]
-pub struct Passed(VecDeque<Place>);
+pub struct Passed(VecDeque<PassedPlace>);
 
 impl Passed {
     /// The next place of the motion, at a program time: a frame, and the part of a period past it.
@@ -34,7 +34,7 @@ impl Passed {
         (sequence, fraction): (u64, f64),
         position: &AxisVector,
     ) -> Option<f64> {
-        let now = Place {
+        let now = PassedPlace {
             sequence,
             fraction,
             position: *position,
@@ -42,7 +42,7 @@ impl Passed {
         if self.0.back().is_some_and(|last| now.is_before(last)) {
             return Some(self.off_chord_mm(&now));
         }
-        let same = |place: Option<&Place>| place.is_some_and(|p| p.sequence == now.sequence);
+        let same = |place: Option<&PassedPlace>| place.is_some_and(|p| p.sequence == now.sequence);
         let nth_last = |n: usize| self.0.len().checked_sub(n).and_then(|k| self.0.get(k));
         if same(nth_last(1)) && same(nth_last(2)) {
             self.0.pop_back();
@@ -55,7 +55,7 @@ impl Passed {
     }
 
     /// From the chord between the places before and after it.
-    fn off_chord_mm(&self, now: &Place) -> f64 {
+    fn off_chord_mm(&self, now: &PassedPlace) -> f64 {
         let after = self.0.partition_point(|place| place.is_before(now));
         let (Some(to), from) = (self.0.get(after), after.checked_sub(1)) else {
             return f64::INFINITY;

@@ -12,7 +12,7 @@
 //! all those up to where the motion cannot be on what is before the point any more, for where the path comes back on
 //! itself its place may be ahead.
 
-use crate::follow::{Place, ProgramPoint};
+use crate::follow::{ProgramPlace, ProgramPoint};
 use crate::free_space::Chord;
 use glidepath_geometry::AxisVector;
 use std::collections::VecDeque;
@@ -43,7 +43,7 @@ impl PassedPoints {
         &mut self,
         position: &AxisVector,
         passed: &[ProgramPoint],
-        earliest: Place,
+        earliest: ProgramPlace,
     ) -> f64 {
         let chord = Chord::new(self.last.unwrap_or(*position), *position);
         for open in &mut self.open {

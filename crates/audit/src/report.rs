@@ -12,7 +12,7 @@ use glidepath_geometry::AxisVector;
 
 /// The verdict on a motion.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Report {
+pub struct AuditReport {
     /// Samples seen.
     pub samples: u64,
     /// Largest velocity over limit, of any axis.
@@ -85,7 +85,7 @@ pub struct Report {
     pub tremor_count: u64,
 }
 
-impl Report {
+impl AuditReport {
     /// True if nothing was found.
     #[must_use]
     pub const fn is_clean(&self) -> bool {

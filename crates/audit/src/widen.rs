@@ -3,7 +3,7 @@
 
 use crate::column::{EXACT_MM, Level, Passage, step};
 use crate::matching::{Matching, SHORT};
-use crate::trouble::{Goal, Trouble};
+use crate::out_of_tolerance::{Goal, OutOfTolerance};
 use crate::violation::ViolationKind;
 
 /// Most chords the motion may be near to while it is out of tolerance.
@@ -77,8 +77,8 @@ impl Matching {
     /// The last column is blocked: finds what it takes to pass. On success the new state is in
     /// `scratch[0]`.
     pub(crate) fn widen(&mut self, goal: Goal) -> Passage {
-        if let Some(trouble) = self.trouble {
-            return self.widen_floor(trouble.floor_mm, goal);
+        if let Some(out_of_tolerance) = self.out_of_tolerance {
+            return self.widen_floor(out_of_tolerance.floor_mm, goal);
         }
         match self.widen_lambda(goal) {
             Found::At(lambda_mm) => {
@@ -158,12 +158,12 @@ impl Matching {
                 Passage::Passed => {
                     let last = self.history.back();
                     let (tick, line) = last.map_or((0, 0), |column| (column.tick, column.line));
-                    let begun = self.trouble.unwrap_or(Trouble {
+                    let begun = self.out_of_tolerance.unwrap_or(OutOfTolerance {
                         floor_mm,
                         tick,
                         line,
                     });
-                    self.trouble = Some(Trouble { floor_mm, ..begun });
+                    self.out_of_tolerance = Some(OutOfTolerance { floor_mm, ..begun });
                     return Passage::Passed;
                 }
                 Passage::Blocked => {}
@@ -207,11 +207,11 @@ impl Matching {
 
     /// The motion is back within tolerance, or at its end: reports how far off it was.
     pub(crate) fn settle(&mut self, goal: Goal) {
-        let Some(Trouble {
+        let Some(OutOfTolerance {
             floor_mm,
             tick,
             line,
-        }) = self.trouble.take()
+        }) = self.out_of_tolerance.take()
         else {
             return;
         };

@@ -7,9 +7,9 @@ use crate::dictionary::{
     AxisObjects, FOLLOWING_TIMEOUT, FOLLOWING_WINDOW, HOME_OFFSET, HOMING_METHOD, HOMING_SPEED,
     MOST_TORQUE, QUICK_STOP,
 };
+use crate::injected_fault::InjectedFault;
 use crate::power::Power;
 use crate::settings::{DriveSettings, HomeSwitch};
-use crate::upset::Upset;
 
 const CYCLIC_POSITION: i8 = 8;
 const HOMING: i8 = 6;
@@ -100,18 +100,18 @@ impl Drive {
         }
     }
 
-    pub(crate) const fn upset(&mut self, upset: Upset) {
+    pub(crate) const fn inject(&mut self, upset: InjectedFault) {
         match upset {
-            Upset::Fault(code) => self.fail(code),
-            Upset::RefusesPower(refuses) => self.refuses_power = refuses,
-            Upset::NoVoltage(is_away) => {
+            InjectedFault::Fault(code) => self.fail(code),
+            InjectedFault::RefusesPower(refuses) => self.refuses_power = refuses,
+            InjectedFault::NoVoltage(is_away) => {
                 self.has_voltage = !is_away;
                 if is_away && self.power.drives() {
                     self.power = Power::SwitchOnDisabled;
                 }
             }
-            Upset::Stuck(is_stuck) => self.is_stuck = is_stuck,
-            Upset::Emergency(_) | Upset::Drop(_) | Upset::Reboot => {}
+            InjectedFault::Stuck(is_stuck) => self.is_stuck = is_stuck,
+            InjectedFault::Emergency(_) | InjectedFault::Drop(_) | InjectedFault::Reboot => {}
         }
     }
 

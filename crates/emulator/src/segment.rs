@@ -3,9 +3,9 @@
 use crate::cable::{Cable, passages};
 use crate::device::Device;
 use crate::frame::{Datagram, datagrams};
+use crate::injected_fault::InjectedFault;
 use crate::pins::OutputRecord;
 use crate::settings::DriveSettings;
-use crate::upset::Upset;
 use core::ops::Range;
 
 pub use crate::device::SyncRecord;
@@ -78,19 +78,19 @@ impl Segment {
     }
 
     /// Something goes wrong with a device and all drives of it, or right again.
-    pub fn upset(&mut self, drive: usize, upset: Upset, now_ns: u64) {
+    pub fn inject(&mut self, drive: usize, upset: InjectedFault, now_ns: u64) {
         self.advance(now_ns);
         if let Some(device) = self.devices.get_mut(drive) {
-            device.upset(upset, now_ns);
+            device.inject(upset, now_ns);
         }
     }
 
     /// Something goes wrong with one of the drives of a device, or right again.
-    pub fn upset_axis(&mut self, device: usize, axis: usize, upset: Upset, now_ns: u64) {
+    pub fn upset_axis(&mut self, device: usize, axis: usize, upset: InjectedFault, now_ns: u64) {
         self.advance(now_ns);
         let device = self.devices.get_mut(device);
         if let Some(drive) = device.and_then(|device| device.drives.get_mut(axis)) {
-            drive.upset(upset);
+            drive.inject(upset);
         }
     }
 

@@ -1,6 +1,6 @@
 //! The events on the bus, for the log.
 
-use crate::trouble::Trouble;
+use crate::bus_fault::BusFault;
 use crate::{al_status, fault_text};
 use core::fmt;
 
@@ -36,7 +36,7 @@ pub enum Event {
     /// It has found it.
     Home(usize),
     /// Something is wrong that the drives do not see.
-    Trouble(Trouble),
+    Trouble(BusFault),
     /// A frame was lost, or too few drives took part.
     FrameLost,
     /// Too many frames were lost in a row.

@@ -41,6 +41,7 @@ mod axis;
 mod bridge;
 mod bus;
 mod bus_clock;
+mod bus_fault;
 mod coe;
 mod counts;
 mod cycle;
@@ -61,7 +62,6 @@ mod run;
 mod settings;
 mod state;
 mod terminal;
-mod trouble;
 mod wire;
 
 pub use abort_text::text as abort_text;
@@ -69,6 +69,7 @@ pub use al_status::text as al_status_text;
 pub use bridge::Bridge;
 pub use bus::{Init, Op, OutputWatchdog, PreOp, Reception, SafeOp};
 pub use bus_clock::{Beat, BusClock, FrameTimes};
+pub use bus_fault::BusFault;
 pub use coe::{Object, object};
 pub use counts::Counts;
 pub use cycle::{Ends, drive_bus};
@@ -87,5 +88,4 @@ pub use terminal::{
     ANALOG_INPUTS, AnalogInput, AnalogOutput, At, DIGITAL_INPUTS, DigitalInput, DigitalOutput,
     Parameter, Quantity, Signal, TerminalSettings,
 };
-pub use trouble::Trouble;
 pub use wire::{MAX_FRAME, PacketWire, Wire, WireError};

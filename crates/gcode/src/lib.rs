@@ -79,7 +79,7 @@ pub use setup::fanuc::{
 pub use setup::firmware::Firmware;
 pub use setup::kept_variables::{KEPT_VARIABLES, KeptVariables};
 pub use setup::m_codes::{MCodes, WaitsAt};
-pub use setup::machine::{Machine, Travel};
+pub use setup::machine::{AxisTravel, Machine};
 pub use setup::options::{AdaptiveFeed, Connections, LoopLimits, Options};
 pub use setup::reading_watch::ReadingWatch;
 pub use setup::siemens::{SiemensParameters, ToolChangeBy};

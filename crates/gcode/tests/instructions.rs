@@ -16,7 +16,7 @@
 mod counted;
 
 use counted::{cannot_count, counted, number};
-use glidepath_gcode::{Machine, Options, Program, Travel, check, diagnostics};
+use glidepath_gcode::{AxisTravel, Machine, Options, Program, check, diagnostics};
 use glidepath_geometry::Axis;
 use std::hint::black_box;
 
@@ -101,7 +101,7 @@ fn commented(k: u32) -> String {
 
 /// A mill with soft limits.
 fn options() -> Options {
-    let travel = Travel {
+    let travel = AxisTravel {
         min: -500.0,
         max: 500.0,
     };

@@ -7,13 +7,13 @@
 //! motion begins.
 
 use crate::config::{self, ConfigError, MachineConfig};
-use crate::kept::convert::{begun_variables, left_variables};
 use crate::output;
+use crate::persistence::convert::{begun_variables, left_variables};
 use crate::text_file;
 use glidepath_gcode::{
     Dialect, InForce, NoSubroutineFile, SubroutineFile, Subroutines, ToolTable, WorkOffsets,
 };
-use glidepath_kept::Variable;
+use glidepath_persistence::Variable;
 use glidepath_program::Effort;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;

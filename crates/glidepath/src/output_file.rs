@@ -58,7 +58,7 @@ impl OutputKind {
 
 /// The files that may not be overwritten.
 #[derive(Debug, Clone, Default)]
-pub struct Guard {
+pub struct OverwriteGuard {
     /// What the command reads.
     pub inputs: Vec<PathBuf>,
     /// Whether a file of another kind may be overwritten; never one that is read.
@@ -88,7 +88,11 @@ impl OutputFile {
     ///
     /// # Errors
     /// It may not be written, or cannot be.
-    pub fn create(path: &Path, kind: OutputKind, guard: &Guard) -> Result<Self, FileError> {
+    pub fn create(
+        path: &Path,
+        kind: OutputKind,
+        guard: &OverwriteGuard,
+    ) -> Result<Self, FileError> {
         let path = if path == Path::new("-") {
             take_stdout(kind)?
         } else {
@@ -213,7 +217,12 @@ impl Write for OutputFile {
 ///
 /// # Errors
 /// As [`OutputFile::create`] and [`OutputFile::finish`].
-pub fn write(path: &Path, kind: OutputKind, guard: &Guard, text: &str) -> Result<(), FileError> {
+pub fn write(
+    path: &Path,
+    kind: OutputKind,
+    guard: &OverwriteGuard,
+    text: &str,
+) -> Result<(), FileError> {
     let mut file = OutputFile::create(path, kind, guard)?;
     let written = file.write_all(text.as_bytes());
     written.map_err(FileError::file("write", path))?;

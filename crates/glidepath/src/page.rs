@@ -3,7 +3,7 @@
 use crate::chords::chords;
 use crate::config::MachineConfig;
 use crate::report::DiagnosisReport;
-use crate::sample::Sample;
+use crate::sample::TickSample;
 use glidepath_audit::diagnosis::Binding;
 use glidepath_live::{AxisScale, LimitKind, Motion, MotionSample};
 use glidepath_program::Item;
@@ -29,7 +29,7 @@ pub fn motion(config: &MachineConfig) -> Motion {
 }
 
 /// Takes the next sample of a motion.
-pub fn push(motion: &mut Motion, sample: &Sample) {
+pub fn push(motion: &mut Motion, sample: &TickSample) {
     let (limit, limit_axis) = limit_of(sample.binding);
     let deviation = sample.deviation.unwrap_or_default();
     motion.push(&MotionSample {

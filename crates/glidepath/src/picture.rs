@@ -5,7 +5,7 @@ use crate::output_file::OutputKind;
 use crate::page;
 use crate::plot::Plot;
 use crate::report::MotionReport;
-use crate::sample::Sample;
+use crate::sample::TickSample;
 use crate::work_zero;
 use glidepath_live::Motion;
 use glidepath_program::Item;
@@ -75,7 +75,7 @@ impl Picture {
     }
 
     /// Takes the next sample; their ticks ascend.
-    pub fn push(&mut self, sample: &Sample) {
+    pub fn push(&mut self, sample: &TickSample) {
         match self {
             Self::Svg(plot, _) => plot.push(sample),
             Self::Page(page) => page::push(&mut page.motion, sample),

@@ -14,13 +14,13 @@ const TELL_EVERY: Duration = Duration::from_secs(60);
 
 /// A bar, and what stands beside it.
 #[derive(Debug)]
-pub struct Progress {
+pub struct ProgressDisplay {
     bar: ProgressBar,
     /// Where there is no terminal: when a line was told last, and all of the motion, s.
     told: Option<(Mutex<Instant>, f64)>,
 }
 
-impl Progress {
+impl ProgressDisplay {
     /// A bar that counts the lines of a program, with the time to go; none with `--json`.
     #[must_use]
     pub fn lines(total: u64, json: bool) -> Self {

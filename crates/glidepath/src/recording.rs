@@ -2,10 +2,10 @@
 
 use crate::config::MachineConfig;
 use crate::file_error::FileError;
-use crate::output_file::{Guard, OutputFile, OutputKind};
+use crate::output_file::{OutputFile, OutputKind, OverwriteGuard};
 use crate::picture::Picture;
 use crate::report::MotionReport;
-use crate::sample::Sample;
+use crate::sample::TickSample;
 use crate::setpoints::CsvWriter;
 use glidepath_link::MachineState;
 use glidepath_program::Item;
@@ -29,7 +29,7 @@ impl Recording {
         config: &MachineConfig,
         csv: Option<&Path>,
         plot: Option<&Path>,
-        guard: &Guard,
+        guard: &OverwriteGuard,
     ) -> Result<Self, FileError> {
         let axes = config.axis_names();
         let csv_path = csv.unwrap_or(Path::new("")).to_owned();
@@ -85,7 +85,7 @@ impl Recording {
     ///
     /// # Errors
     /// The CSV cannot be written.
-    pub fn push(&mut self, sample: &Sample) -> Result<(), FileError> {
+    pub fn push(&mut self, sample: &TickSample) -> Result<(), FileError> {
         if let Some(csv) = &mut self.csv {
             let written = csv.row(sample);
             written.map_err(FileError::file("write", &self.csv_path))?;

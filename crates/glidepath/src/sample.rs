@@ -8,7 +8,7 @@ use glidepath_program::{Frame, FrameFlags};
 
 /// The machine at one tick.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sample {
+pub struct TickSample {
     /// Index on the period grid.
     pub tick: u64,
     /// Seconds since tick 0.
@@ -39,7 +39,7 @@ pub struct Sample {
     pub joints: JointVector,
 }
 
-impl Sample {
+impl TickSample {
     /// The sample of a planned frame, whose joints are `joints`.
     #[must_use]
     pub fn planned(frame: &Frame, period_t: f64, joints: JointVector) -> Self {

@@ -5,7 +5,7 @@
 //! Numbers are decimal fractions without exponent, with as many significant digits (at most 17) as
 //! it takes to read back exactly the same double.
 
-use crate::sample::Sample;
+use crate::sample::TickSample;
 use glidepath_geometry::Axis;
 use std::io::{self, Write};
 
@@ -42,8 +42,8 @@ impl<W: Write> CsvWriter<W> {
     ///
     /// # Errors
     /// The output does not take it.
-    pub fn row(&mut self, sample: &Sample) -> io::Result<()> {
-        let Sample {
+    pub fn row(&mut self, sample: &TickSample) -> io::Result<()> {
+        let TickSample {
             tick,
             time_t,
             line,
@@ -85,8 +85,8 @@ mod tests {
     use glidepath_kinematics::JointVector;
     use proptest::prelude::*;
 
-    fn sample(value: f64) -> Sample {
-        Sample {
+    fn sample(value: f64) -> TickSample {
+        TickSample {
             tick: 7,
             time_t: 0.028,
             line: 3,
@@ -104,7 +104,7 @@ mod tests {
         }
     }
 
-    fn text(axes: &[Axis], joints: usize, sample: &Sample) -> String {
+    fn text(axes: &[Axis], joints: usize, sample: &TickSample) -> String {
         let mut bytes = Vec::new();
         let mut csv = CsvWriter::new(&mut bytes, axes, joints).unwrap();
         csv.row(sample).unwrap();

@@ -3,14 +3,14 @@
 //! ```text
 //!  bytes of the sender ──► Session ──► bytes for the sender
 //!                           ▲   │
-//!     Machine, Told ────────┘   └────► Act, Request
+//!     MachineView, Told ────────┘   └────► Act, Request
 //!   (what is known of the      (what is to be done by the machine,
 //!    machine and the job)       and lines for the planner's service)
 //! ```
 //!
 //! * [`Session`] is one connection. It takes bytes, and what is known of the machine, and says what is to be
 //!   done. It does no I/O, reads no clock (times are given to it), and knows neither processes nor programs.
-//! * [`Machine`] is what the interpolator tells, [`Told`] what the planner's service tells of lines.
+//! * [`MachineView`] is what the interpolator tells, [`Told`] what the planner's service tells of lines.
 //! * [`Act`] is what the machine is to do at once; [`Request`] are lines that are to be executed.
 //!
 //! What always holds:
@@ -22,10 +22,10 @@
 //!
 //! ```
 //! use core::time::Duration;
-//! use glidepath_grbl::{Doing, Machine, MachineSettings, Session};
+//! use glidepath_grbl::{Doing, MachineView, MachineSettings, Session};
 //!
 //! let mut session = Session::new(MachineSettings::default());
-//! session.see(&Machine { doing: Doing::Idle, ..Machine::default() }, Duration::ZERO);
+//! session.see(&MachineView { doing: Doing::Idle, ..MachineView::default() }, Duration::ZERO);
 //! session.connected(Duration::ZERO);
 //! session.hear(b"$\n?", Duration::ZERO);
 //! let said = String::from_utf8(session.take_output()).unwrap();
@@ -53,10 +53,10 @@ mod stream;
 pub use act::Act;
 pub use alarm::Alarm;
 pub use facts::Facts;
-pub use machine::{Doing, Machine, Spindle};
+pub use machine::{Doing, MachineView, Spindle};
 pub use session::Session;
 pub use settings::MachineSettings;
-pub use stream::{End, Refused, Request, Stage, Told, Wish};
+pub use stream::{End, JobIntent, Refused, Request, Stage, Told};
 
 /// Axes, in the order of [`LETTERS`]: mm, degrees where they are rotary.
 pub const AXES: usize = 9;

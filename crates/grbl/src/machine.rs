@@ -74,7 +74,7 @@ pub enum Spindle {
 
 /// The state of the machine.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Machine {
+pub struct MachineView {
     /// What it does.
     pub doing: Doing,
     /// Where the axes were commanded to be last, mm or degrees.
@@ -107,7 +107,7 @@ pub struct Machine {
     pub fault: Option<(Alarm, String)>,
 }
 
-impl Default for Machine {
+impl Default for MachineView {
     fn default() -> Self {
         Self {
             doing: Doing::Unknown,

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use crate::real_time::Change;
-use crate::{Act, Machine};
+use crate::{Act, MachineView};
 
 const LEAST: i32 = 10;
 const MOST: i32 = 200;
@@ -65,7 +65,7 @@ impl Overrides {
         spindle: 100,
     };
 
-    pub(crate) fn follow(&mut self, machine: &Machine, now: Duration) {
+    pub(crate) fn follow(&mut self, machine: &MachineView, now: Duration) {
         self.feed.follow(machine.feed_r, now);
         self.rapid.follow(machine.rapid_r, now);
     }
@@ -113,7 +113,7 @@ mod tests {
     #[test]
     fn steps_add_up_before_the_machine_has_answered() {
         let mut overrides = Overrides::WHOLE;
-        let (machine, mut acts) = (Machine::default(), Vec::new());
+        let (machine, mut acts) = (MachineView::default(), Vec::new());
         let at = Duration::from_millis;
         overrides.change_feed(Change::By(10), at(0), &mut acts);
         overrides.follow(&machine, at(1));

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use crate::numbers::{Units, plain};
 use crate::state::State;
-use crate::{AXES, Machine, Spindle};
+use crate::{AXES, MachineView, Spindle};
 
 /// Blocks of the planner that senders are told of.
 pub(crate) const BLOCKS: u32 = 15;
@@ -46,7 +46,7 @@ impl Reporter {
         *self = Self::default();
     }
 
-    pub(crate) fn report(&mut self, machine: &Machine, beside: &Beside<'_>) -> String {
+    pub(crate) fn report(&mut self, machine: &MachineView, beside: &Beside<'_>) -> String {
         let units = beside.units;
         let mut text = format!("<{}", beside.state);
         let shown = if beside.mask & MACHINE_POSITION == 0 {
@@ -89,7 +89,7 @@ impl Reporter {
         text
     }
 
-    fn zero_is_due(&mut self, machine: &Machine, state: State) -> bool {
+    fn zero_is_due(&mut self, machine: &MachineView, state: State) -> bool {
         let is_new = self.told_zero != Some(machine.zero);
         if !is_new && self.zero_in > 0 {
             self.zero_in -= 1;
@@ -100,7 +100,7 @@ impl Reporter {
         true
     }
 
-    fn overrides_are_due(&mut self, machine: &Machine, beside: &Beside<'_>) -> bool {
+    fn overrides_are_due(&mut self, machine: &MachineView, beside: &Beside<'_>) -> bool {
         let now = (
             beside.overrides,
             machine.spindle,
@@ -122,7 +122,7 @@ fn write_field(text: &mut String, name: &str, value: &str) {
     let _written = write!(text, "|{name}:{value}");
 }
 
-fn accessories(machine: &Machine) -> String {
+fn accessories(machine: &MachineView) -> String {
     let turning = match machine.spindle {
         Spindle::Off => "",
         Spindle::Clockwise => "S",
@@ -152,7 +152,7 @@ mod tests {
     #[test]
     fn the_zero_comes_first_and_when_it_changes_and_overrides_never_beside_it() {
         let mut reporter = Reporter::default();
-        let mut machine = Machine::default();
+        let mut machine = MachineView::default();
         let first = reporter.report(&machine, &BESIDE);
         assert_eq!(
             first,
@@ -184,7 +184,7 @@ mod tests {
 
     #[test]
     fn work_positions_are_those_of_the_machine_less_the_zero() {
-        let mut machine = Machine::default();
+        let mut machine = MachineView::default();
         (machine.position[0], machine.zero[0]) = (25.4, 50.8);
         let inches = Beside {
             units: Units::Inch,

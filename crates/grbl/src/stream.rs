@@ -18,7 +18,7 @@ const MOST_TEXT: usize = 1000;
 
 /// A wish about a job.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Wish {
+pub enum JobIntent {
     /// The lines are to be executed; the first of them begins the job.
     Execute,
     /// How it stands.
@@ -35,7 +35,7 @@ pub struct Request {
     /// Counts the jobs of this endpoint; 0 to ask how the machine is set up.
     pub job: u64,
     /// What is wanted of it.
-    pub wish: Wish,
+    pub wish: JobIntent,
     /// The number of the first of the lines, from 1.
     pub first: u64,
     /// Lines of the job.
@@ -224,30 +224,30 @@ impl Stream {
             Phase::None => {
                 return Request {
                     job: 0,
-                    wish: Wish::Ask,
+                    wish: JobIntent::Ask,
                     first: 1,
                     lines: Vec::new(),
                     asked_ns: 0,
                 };
             }
-            Phase::Open => Wish::Execute,
-            Phase::Closing => Wish::Close,
-            Phase::Cancelling => Wish::Cancel,
+            Phase::Open => JobIntent::Execute,
+            Phase::Closing => JobIntent::Close,
+            Phase::Cancelling => JobIntent::Cancel,
         };
         let given = usize::try_from(self.taken - self.read).unwrap_or(usize::MAX);
         let mut lines = Vec::new();
         let mut bytes = 0;
         for line in self.unread.iter().skip(given) {
             bytes += line.text.len() + 1;
-            if wish != Wish::Execute || bytes > MOST_TEXT {
+            if wish != JobIntent::Execute || bytes > MOST_TEXT {
                 break;
             }
             lines.push(line.text.clone());
         }
         Request {
             job: self.job,
-            wish: if lines.is_empty() && wish == Wish::Execute && self.taken > 0 {
-                Wish::Ask
+            wish: if lines.is_empty() && wish == JobIntent::Execute && self.taken > 0 {
+                JobIntent::Ask
             } else {
                 wish
             },
@@ -345,7 +345,7 @@ mod tests {
         assert_eq!(stream.hear(&told(1, Stage::Open, 1, 1)), []);
         let all = stream.hear(&told(1, Stage::Open, 3, 3));
         assert_eq!(all, [Outcome::Read, Outcome::Read]);
-        assert_eq!(stream.request(true).wish, Wish::Ask);
+        assert_eq!(stream.request(true).wish, JobIntent::Ask);
         stream.hear(&told(1, Stage::Over(End::Done), 3, 3));
         assert!(!stream.is_open());
         assert_eq!(stream.request(true).job, 0);
@@ -397,7 +397,7 @@ mod tests {
         let outcomes = stream.hear(&answer);
         assert_eq!(outcomes, [Outcome::Read, Outcome::Refused(refused)]);
         assert_eq!(stream.hear(&answer), []);
-        assert_eq!(stream.request(true).wish, Wish::Close);
+        assert_eq!(stream.request(true).wish, JobIntent::Close);
         answer.stage = Stage::Over(End::Done);
         assert_eq!(stream.hear(&answer), []);
         assert_eq!(stream.request(true).lines, ["G1 X2"]);
@@ -409,7 +409,7 @@ mod tests {
         stream.push("G1 X1", 7);
         stream.request(true);
         stream.cancel();
-        assert_eq!(stream.request(true).wish, Wish::Cancel);
+        assert_eq!(stream.request(true).wish, JobIntent::Cancel);
         stream.push("G55", 7);
         let failed = Stage::Over(End::Failed("aborted".to_owned()));
         assert_eq!(stream.hear(&told(1, failed, 1, 0)), []);

@@ -1,11 +1,11 @@
 //! The acknowledgements of events: which may be answered now, the one that is awaited or those that
 //! were told and are waited for later.
 
-use crate::gates::{Answer, Gates};
-use crate::message::Report;
-use glidepath_link::{EndOfEpoch, EventId, Objection};
+use crate::m_code_waits::{AnswerSource, MCodeWaits};
+use crate::message::TickReport;
+use glidepath_link::{EndOfEpoch, EventId, UnmetPrecondition};
 
-/// Most events that are told and not yet awaited. Of more the oldest is answered at its gate alone.
+/// Most events that are told and not yet awaited. Of more the oldest is answered at its wait alone.
 pub(crate) const MOST_TOLD: usize = 4;
 
 /// An event that was told, and its M code.
@@ -21,25 +21,25 @@ struct Told {
 #[derive(Debug)]
 pub(crate) struct Acknowledgements {
     boot_id: u64,
-    gates: Gates,
+    m_code_waits: MCodeWaits,
     told: [Option<Told>; MOST_TOLD],
     answered: [Option<EventId>; MOST_TOLD],
 }
 
 impl Acknowledgements {
-    pub(crate) const fn new(boot_id: u64, gates: Gates) -> Self {
+    pub(crate) const fn new(boot_id: u64, m_code_waits: MCodeWaits) -> Self {
         Self {
             boot_id,
-            gates,
+            m_code_waits,
             told: [None; MOST_TOLD],
             answered: [None; MOST_TOLD],
         }
     }
 
     /// Takes note of the event at rest of a setpoint.
-    pub(crate) fn note(&mut self, report: &Report) {
+    pub(crate) fn note(&mut self, report: &TickReport) {
         let setpoint = &report.setpoint;
-        let Some(gate) = self.gates.late(setpoint) else {
+        let Some(m_code_wait) = self.m_code_waits.late(setpoint) else {
             return;
         };
         self.tell(Told {
@@ -49,7 +49,7 @@ impl Acknowledgements {
                 sequence: setpoint.sequence,
             },
             code: setpoint.rest_event().map_or(0.0, |event| event.value),
-            by_feedback: gate.answer != Answer::Acknowledgement,
+            by_feedback: m_code_wait.answer != AnswerSource::Acknowledgement,
         });
     }
 
@@ -76,13 +76,13 @@ impl Acknowledgements {
         &self,
         event: EventId,
         done: bool,
-        report: &Report,
-    ) -> Result<(), Objection> {
+        report: &TickReport,
+    ) -> Result<(), UnmetPrecondition> {
         if event.boot_id != self.boot_id {
-            return Err(Objection::OtherLife);
+            return Err(UnmetPrecondition::OtherLife);
         }
         if self.answered.contains(&Some(event)) {
-            return Err(Objection::Answered);
+            return Err(UnmetPrecondition::Answered);
         }
         let is_open =
             event.epoch == report.setpoint.epoch && report.end_of_epoch == EndOfEpoch::Open;
@@ -94,18 +94,20 @@ impl Acknowledgements {
             .or(told.map(|told| told.by_feedback));
         match by_feedback {
             Some(true) if done => {
-                return Err(Objection::ByFeedback);
+                return Err(UnmetPrecondition::ByFeedback);
             }
             Some(_) => return Ok(()),
             None => {}
         }
         Err(match report.awaited {
-            None if is_open && event.sequence > report.setpoint.sequence => Objection::TooEarly,
-            None => Objection::NoEvent,
-            Some(awaited) if (event.epoch, event.sequence) > (awaited.epoch, awaited.sequence) => {
-                Objection::EarlierEvent
+            None if is_open && event.sequence > report.setpoint.sequence => {
+                UnmetPrecondition::TooEarly
             }
-            Some(_) => Objection::AnotherEvent,
+            None => UnmetPrecondition::NoEvent,
+            Some(awaited) if (event.epoch, event.sequence) > (awaited.epoch, awaited.sequence) => {
+                UnmetPrecondition::EarlierEvent
+            }
+            Some(_) => UnmetPrecondition::AnotherEvent,
         })
     }
 }

@@ -2,8 +2,8 @@
 //! setpoints have come to.
 
 use crate::code_words::CodeWordsBook;
-use crate::gates::Gates;
-use crate::message::{Awaited, Report};
+use crate::m_code_waits::MCodeWaits;
+use crate::message::{Awaited, TickReport};
 use crate::stops::{StopCause, StopSettings};
 use crate::tool_change::ToolChange;
 use glidepath_link::{Auxiliary, CodeWords, EventId, EventRecord};
@@ -17,7 +17,7 @@ const CHANGE: Event = Event::MCode(6);
 pub(crate) struct AuxiliaryBook {
     record: Auxiliary,
     published: Option<Auxiliary>,
-    gates: Gates,
+    m_code_waits: MCodeWaits,
     words: CodeWordsBook,
     /// The tool change that is not answered yet.
     tool_change: Option<ToolChange>,
@@ -25,14 +25,14 @@ pub(crate) struct AuxiliaryBook {
 }
 
 impl AuxiliaryBook {
-    pub(crate) fn new(boot_id: u64, gates: Gates, stops: StopSettings) -> Self {
+    pub(crate) fn new(boot_id: u64, m_code_waits: MCodeWaits, stops: StopSettings) -> Self {
         Self {
             record: Auxiliary {
                 boot_id,
                 ..bytemuck::Zeroable::zeroed()
             },
             published: None,
-            gates,
+            m_code_waits,
             words: CodeWordsBook::default(),
             tool_change: None,
             stops,
@@ -48,10 +48,10 @@ impl AuxiliaryBook {
     }
 
     /// Takes up what happens with a setpoint.
-    pub(crate) fn note(&mut self, report: &Report) {
+    pub(crate) fn note(&mut self, report: &TickReport) {
         let setpoint = &report.setpoint;
         for event in setpoint.events().iter().flat_map(EventRecord::event) {
-            if event == CHANGE && self.gates.of(6).is_some() {
+            if event == CHANGE && self.m_code_waits.of(6).is_some() {
                 let change = ToolChange::new(&self.record, self.tool_change.as_ref());
                 self.tool_change = Some(change);
             }
@@ -79,7 +79,7 @@ impl AuxiliaryBook {
         (record.awaited_kind, record.awaited_value) = (awaited.event_kind, awaited.event_value);
         record.awaited_words = self.words.of(&awaited);
         record.awaited_since_ns = awaited.since_ns;
-        record.awaited_until_ns = self.gates.deadline_ns(record, awaited.since_ns);
+        record.awaited_until_ns = self.m_code_waits.deadline_ns(record, awaited.since_ns);
     }
 
     /// The words of the M code that is awaited.

@@ -115,7 +115,7 @@ mod tests {
         let mut track = Track::new(
             0.004,
             (&mill(), None),
-            crate::gates::Gates::NONE,
+            crate::m_code_waits::MCodeWaits::NONE,
             crate::track::TRACK_CAPACITY,
         );
         for (sequence, &(block, line)) in (0..).zip(blocks) {

@@ -4,33 +4,33 @@
 //! they are, is refused then; what is to end a motion ends the job; a hold counts for its beginning.
 
 use crate::acknowledgements::Acknowledgements;
-use crate::admission::Admission;
-use crate::feedback::DriveBook;
+use crate::feedback::DriveMonitor;
+use crate::frame_validation::FrameValidator;
 use crate::job::{JobBook, Told, unfit};
-use crate::message::{Order, PortsEnds, Report};
+use crate::message::{Order, PortsEnds, TickReport};
 use glidepath_link::{
     Command, CommandOutcome, CommandRefusal, CommandReply, CommandRequest, EndOfEpoch, JobPhase,
-    JobStage, MachineState, Objection, SWITCHED_OFF,
+    JobStage, MachineState, SWITCHED_OFF, UnmetPrecondition,
 };
 
 /// Orders that one command comes to, at most.
 const ORDERS_PER_COMMAND: usize = 3;
 
 /// The state that commands are judged by, and that they change.
-pub(crate) struct Desk<'d, 'a> {
-    pub(crate) report: Report,
+pub(crate) struct CommandContext<'d, 'a> {
+    pub(crate) report: TickReport,
     pub(crate) boot_id: u64,
     pub(crate) now_ns: u64,
-    pub(crate) drives: Option<&'d mut DriveBook>,
+    pub(crate) drives: Option<&'d mut DriveMonitor>,
     pub(crate) acknowledgements: &'d mut Acknowledgements,
     pub(crate) jobs: &'d mut JobBook,
-    pub(crate) admission: &'d mut Admission,
+    pub(crate) frame_validator: &'d mut FrameValidator,
     pub(crate) ends: &'d mut PortsEnds<'a>,
     /// Something was passed on that may change what the machine does: the next report tells.
     pub(crate) is_ordered: bool,
 }
 
-impl Desk<'_, '_> {
+impl CommandContext<'_, '_> {
     /// Answers a command: passes it on to the real-time thread, or says why not.
     ///
     /// Acceptance means that the command is on its way. It is carried out at the next tick if the
@@ -87,7 +87,7 @@ impl Desk<'_, '_> {
             Ok(command) => command,
         };
         if command.sets_out() && self.jobs.was_stopped_after(request.asked_ns) {
-            return wrong(Objection::StoppedSince.text().to_owned());
+            return wrong(UnmetPrecondition::StoppedSince.text().to_owned());
         }
         match self.judge(command) {
             Err(why) => return wrong(why.text().to_owned()),
@@ -115,7 +115,10 @@ impl Desk<'_, '_> {
         job: (u64, JobPhase, u64),
         request: &CommandRequest,
     ) -> Result<(), String> {
-        let is_homing = self.drives.as_ref().is_some_and(|book| book.is_homing());
+        let is_homing = self
+            .drives
+            .as_ref()
+            .is_some_and(|monitor| monitor.is_homing());
         let free = if is_homing || self.is_ordered {
             Err("the machine was given another order")
         } else {
@@ -155,8 +158,8 @@ impl Desk<'_, '_> {
             return;
         };
         let had_machine = self.jobs.end(stage, why);
-        if let Some(epoch) = self.admission.opening(self.report.setpoint.epoch) {
-            self.admission.bar(epoch);
+        if let Some(epoch) = self.frame_validator.opening(self.report.setpoint.epoch) {
+            self.frame_validator.bar(epoch);
             self.order(Order::Bar(epoch));
             self.jobs.does_not_begin(stage, why);
         } else if had_machine {
@@ -166,8 +169,8 @@ impl Desk<'_, '_> {
 
     /// The machine is not a job's any more, and the epoch that would have come does not begin.
     fn bar(&mut self) {
-        let epoch = self.admission.next_epoch(self.report.setpoint.epoch);
-        self.admission.bar(epoch);
+        let epoch = self.frame_validator.next_epoch(self.report.setpoint.epoch);
+        self.frame_validator.bar(epoch);
         self.order(Order::Bar(epoch));
         self.order(Order::Prepare(false));
     }
@@ -181,21 +184,25 @@ impl Desk<'_, '_> {
     ///
     /// # Errors
     /// Why it is not possible.
-    fn judge(&mut self, command: Command) -> Result<bool, Objection> {
+    fn judge(&mut self, command: Command) -> Result<bool, UnmetPrecondition> {
         let report = &self.report;
         let is_for_job = command == Command::Resume && self.jobs.is_held();
-        if !is_for_job && let Some(why) = objection(command, report, self.drives.is_some()) {
+        if !is_for_job && let Some(why) = precondition(command, report, self.drives.is_some()) {
             return Err(why);
         }
         match &mut self.drives {
-            Some(book) => book.command(command, report, self.now_ns),
+            Some(monitor) => monitor.command(command, report, self.now_ns),
             None => Ok(true),
         }
     }
 }
 
 /// Why a command is not possible as things are, if it is not.
-fn objection(command: Command, report: &Report, has_drives: bool) -> Option<Objection> {
+fn precondition(
+    command: Command,
+    report: &TickReport,
+    has_drives: bool,
+) -> Option<UnmetPrecondition> {
     use MachineState::{
         Awaiting, Faulted, Held, Holding, Homing, Idle, Jogging, NotHomed, Off, Preparing,
         ProgramStop, Stopping,
@@ -212,44 +219,44 @@ fn objection(command: Command, report: &Report, has_drives: bool) -> Option<Obje
         Command::FeedOverride(ratio) if ratio >= 0.0 => return None,
         Command::FeedOverride(_) | Command::Reverse => (
             !matches!(state, Idle | Preparing | Faulted | Off | NotHomed | Homing),
-            Objection::NoPathBack,
+            UnmetPrecondition::NoPathBack,
         ),
         // At rest it is held already.
-        Command::Hold => (state != Homing, Objection::HomingNotHeld),
-        Command::Resume | Command::Step if is_away => (false, Objection::Away),
+        Command::Hold => (state != Homing, UnmetPrecondition::HomingNotHeld),
+        Command::Resume | Command::Step if is_away => (false, UnmetPrecondition::Away),
         Command::Resume | Command::Step if rests_by_override(report) => {
             (false, no_override(report))
         }
         Command::Resume => (
             matches!(state, Holding | Held | ProgramStop),
-            Objection::NothingHeld,
+            UnmetPrecondition::NothingHeld,
         ),
-        Command::Reset => (state == Faulted, Objection::NoFault),
+        Command::Reset => (state == Faulted, UnmetPrecondition::NoFault),
         Command::StopAtEndOfBlock => (
             !matches!(
                 state,
                 Idle | Preparing | Faulted | Stopping | Jogging | Off | NotHomed | Homing
             ),
-            Objection::NoBlock,
+            UnmetPrecondition::NoBlock,
         ),
         Command::Step => (
             matches!(state, Holding | Held | ProgramStop),
-            Objection::NoStep,
+            UnmetPrecondition::NoStep,
         ),
         Command::SetPosition { .. } | Command::Home(_) | Command::Unhome(_)
             if state == Preparing =>
         {
-            (false, Objection::JobHasMachine)
+            (false, UnmetPrecondition::JobHasMachine)
         }
         Command::Enable
         | Command::Disable
         | Command::SetPosition { .. }
         | Command::Home(_)
-        | Command::Unhome(_) => (has_drives, Objection::Simulated),
-        Command::Return if !is_away => (false, Objection::OnPath),
+        | Command::Unhome(_) => (has_drives, UnmetPrecondition::Simulated),
+        Command::Return if !is_away => (false, UnmetPrecondition::OnPath),
         Command::Return => (
             matches!(state, Held | ProgramStop | Awaiting),
-            Objection::Moving,
+            UnmetPrecondition::Moving,
         ),
         // They are judged by themselves.
         Command::Acknowledge { .. } | Command::Job { .. } => return None,
@@ -259,7 +266,7 @@ fn objection(command: Command, report: &Report, has_drives: bool) -> Option<Obje
 
 /// Whether an override of 0 keeps the machine at rest, and nothing that a resume ends. On the way back
 /// along the path the feed override is below 0, or -0.
-fn rests_by_override(report: &Report) -> bool {
+fn rests_by_override(report: &TickReport) -> bool {
     let rests = matches!(report.state, MachineState::Held | MachineState::Holding);
     let is_onward = report.feed_override.is_sign_positive();
     let is_zero = report.feed_override <= 0.0 || report.rapid_override <= 0.0;
@@ -267,11 +274,11 @@ fn rests_by_override(report: &Report) -> bool {
 }
 
 /// Which override that is.
-fn no_override(report: &Report) -> Objection {
+fn no_override(report: &TickReport) -> UnmetPrecondition {
     if report.feed_override <= 0.0 {
-        Objection::NoFeed
+        UnmetPrecondition::NoFeed
     } else {
-        Objection::NoRapid
+        UnmetPrecondition::NoRapid
     }
 }
 

@@ -1,9 +1,9 @@
 //! The configuration that an interpolator is started with.
 
 use crate::feedback::FeedbackSettings;
-use crate::gates::Gates;
 use crate::homing::JointBounds;
 use crate::limited_joints::LimitedJoints;
+use crate::m_code_waits::MCodeWaits;
 use crate::stops::StopSettings;
 use core::time::Duration;
 use glidepath_geometry::{Axis, AxisVector};
@@ -66,7 +66,7 @@ pub struct JogSettings {
     /// Top speed of the way back to the path, mm/s.
     pub return_v: f64,
     /// A jog that goes on as long as it is demanded stops when the last demand is so old.
-    pub dead_man: Duration,
+    pub time_out: Duration,
     /// A wheel that gives a velocity stands when it counted nothing for so long.
     pub wheel_quiet: Duration,
     /// The axis that goes last on the way back to the path.
@@ -81,7 +81,7 @@ impl JogSettings {
             velocity: limits.velocity,
             unhomed_velocity: limits.velocity * 0.1,
             return_v: Limits::UNLIMITED,
-            dead_man: Duration::from_millis(150),
+            time_out: Duration::from_millis(150),
             wheel_quiet: Duration::from_millis(100),
             tool_axis: Axis::Z,
         }
@@ -143,7 +143,7 @@ pub struct Config {
     /// what the setpoints say, and always to be on and homed.
     pub feedback: Option<FeedbackSettings>,
     /// The M codes that are to be answered before the motion goes on.
-    pub gates: Gates,
+    pub m_code_waits: MCodeWaits,
     /// What stops spindle and coolant together with the motion.
     pub stops: StopSettings,
     /// Revolutions for which a tap goes on at most from where the spindle is told to turn back, > 0.
@@ -177,7 +177,7 @@ impl Config {
             missed_ticks_allowed: None,
             planner_lost_after: Some(Duration::from_secs(2)),
             feedback: None,
-            gates: Gates::NONE,
+            m_code_waits: MCodeWaits::NONE,
             stops: StopSettings::default(),
             tap_overtravel: TAP_OVERTRAVEL,
             forbid_system_calls: false,

@@ -1,7 +1,7 @@
 //! The counters of the real-time thread: how well the host kept time, and what that cost.
 
 use crate::config::Config;
-use crate::message::{Report, Timing};
+use crate::message::{TickReport, Timing};
 use glidepath_link::SetpointMarks;
 use glidepath_realtime::Wake;
 
@@ -60,7 +60,7 @@ impl Counters {
     }
 
     /// Writes into a report when it was, and how the host kept time so far.
-    pub(crate) const fn stamp(&self, report: &mut Report, wake: &Wake) {
+    pub(crate) const fn stamp(&self, report: &mut TickReport, wake: &Wake) {
         let setpoint = &mut report.setpoint;
         setpoint.tick = wake.tick;
         setpoint.scheduled_ns = wake.scheduled_ns;

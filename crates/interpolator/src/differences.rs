@@ -112,7 +112,7 @@ const INSIDE: Pair = [1.0; 2];
 
 /// Where the axes are, and the joints that are not these; zero without such joints.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Place {
+pub(crate) struct MachinePosition {
     pub(crate) axes: AxisVector,
     pub(crate) joints: JointVector,
 }
@@ -140,7 +140,7 @@ impl Differences {
     };
 
     /// At rest for ever.
-    pub(crate) fn at_rest(place: &Place) -> Self {
+    pub(crate) fn at_rest(place: &MachinePosition) -> Self {
         let mut still = Self::NONE;
         let all = [
             (&mut still.axes, &place.axes),
@@ -158,8 +158,8 @@ impl Differences {
         pairs::axes(&self.axes.map(|past| past.position))
     }
 
-    pub(crate) fn place(&self) -> Place {
-        Place {
+    pub(crate) fn place(&self) -> MachinePosition {
+        MachinePosition {
             axes: self.position(),
             joints: pairs::axes(&self.joints.map(|past| past.position)),
         }

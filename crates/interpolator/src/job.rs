@@ -5,7 +5,7 @@
 //! it is settled here, where every operator's command arrives and where every frame has to pass, and
 //! not in the planner, which may be stopped, busy or dead when the command is given:
 //!
-//! * **An abort uses up the number of the next epoch** ([`crate::admission::Admission::bar`]). The
+//! * **An abort uses up the number of the next epoch** ([`crate::frame_validation::FrameValidator::bar`]). The
 //!   planner was given that number when its job took the machine, and has no other. Frames that
 //!   carry it are refused from then on, also by the real-time thread, where they may be under way;
 //!   there is no moment at which an abort comes between two looks of the planner.
@@ -18,7 +18,7 @@
 //!
 //! While a job has the machine, nothing else moves it.
 
-use crate::message::Report;
+use crate::message::TickReport;
 use glidepath_link::{EndOfEpoch, JobPhase, JobStage, MachineState, Status, Text};
 
 /// A planner that has not told of its job for so long is taken for dead, ns.
@@ -84,7 +84,7 @@ impl JobBook {
     }
 
     /// What the machine does, with the job taken into account.
-    pub(crate) fn state(&self, report: &Report) -> MachineState {
+    pub(crate) fn state(&self, report: &TickReport) -> MachineState {
         if self.has_machine() && report.state == MachineState::Idle {
             MachineState::Preparing
         } else {
@@ -208,7 +208,7 @@ impl JobBook {
 
     /// Looks whether the job may still begin. Returns why not, if it may not any more, and whether it
     /// had the machine.
-    pub(crate) fn watch(&mut self, report: &Report, is_opening: bool, now_ns: u64) -> bool {
+    pub(crate) fn watch(&mut self, report: &TickReport, is_opening: bool, now_ns: u64) -> bool {
         if self.is_to_come() && now_ns > self.heard_ns.saturating_add(SILENCE_NS) {
             return self.end(JobStage::Refused, "its planner has fallen silent");
         }
@@ -226,7 +226,7 @@ impl JobBook {
     }
 
     /// Whether the job rests under way, and its planner has fallen silent. In motion that is found by the frames.
-    pub(crate) fn is_orphaned(&self, report: &Report, now_ns: u64) -> bool {
+    pub(crate) fn is_orphaned(&self, report: &TickReport, now_ns: u64) -> bool {
         use MachineState::{Awaiting, Held, ProgramStop};
         self.stage == JobStage::Begun
             && report.end_of_epoch == EndOfEpoch::Open

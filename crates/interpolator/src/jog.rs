@@ -13,7 +13,7 @@
 //!
 //! * [`holder`]: whose demand counts, and for how long. Nothing sets out because of a demand that is
 //!   old, or was there before jogging was possible.
-//! * [`course`]: how the axes get to what is wanted, inside the limits, straight where they can.
+//! * [`jog_motion`]: how the axes get to what is wanted, inside the limits, straight where they can.
 //! * [`clearance`]: whether the next step may be done: only if the stop from its end was played
 //!   through, and stays in travel, within reach, and inside the limits of the joints.
 //!
@@ -22,9 +22,9 @@
 //! jog began, to the bit.
 
 mod clearance;
-mod course;
 mod demand;
 mod holder;
+mod jog_motion;
 mod line;
 mod travel;
 mod way_back;
@@ -36,13 +36,13 @@ pub(crate) use line::AxesMotion;
 use crate::config::{Config, JogSettings, SoftLimits};
 use crate::tracker::{Bounds, Motion, Profile};
 use clearance::Clearance;
-use course::{Course, Goal, JogLimits};
 use glidepath_geometry::{AXES, Axis, AxisVector};
 use glidepath_kinematics::JOINTS;
 use glidepath_link::JogMode;
 use glidepath_program::Limits;
 pub(crate) use holder::Jogged;
 use holder::{Heard, Holder};
+use jog_motion::{Goal, JogLimits, JogMotion};
 use travel::Travel;
 use way_back::WayBack;
 use wheel::Wheel;
@@ -53,7 +53,7 @@ const FASTER_R: f64 = 1.05;
 
 /// What the tick knows.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Surroundings {
+pub(crate) struct JogContext {
     /// When the tick is due.
     pub(crate) now_ns: u64,
     /// Where the axes were published last.
@@ -83,7 +83,7 @@ pub(crate) struct Jog {
     /// What is followed.
     demand: Option<Demand>,
     goal: Goal,
-    course: Course,
+    jog_motion: JogMotion,
     /// A step was not allowed: nothing moves before something else is wanted.
     blocked: bool,
     /// The speed that the joints can do, as it was looked up last.
@@ -115,12 +115,12 @@ impl Jog {
             period_t: config.period_t(),
             ahead: stopping_distances(&limits),
             clearance: Clearance::new(config),
-            holder: Holder::new(ns(settings.dead_man), config.period_ns),
+            holder: Holder::new(ns(settings.time_out), config.period_ns),
             stops: 0,
             wheel: Wheel::new(ns(settings.wheel_quiet)),
             demand: None,
             goal: Goal::Stop,
-            course: Course::at_rest(config.start_position),
+            jog_motion: JogMotion::at_rest(config.start_position),
             blocked: false,
             joint_v: f64::INFINITY,
             override_ratio: 1.0,
@@ -140,7 +140,7 @@ impl Jog {
 
     /// True while something is followed or comes to rest.
     pub(crate) const fn is_active(&self) -> bool {
-        self.demand.is_some() || self.is_returning() || !self.course.is_resting()
+        self.demand.is_some() || self.is_returning() || !self.jog_motion.is_resting()
     }
 
     /// True on the way back to the path.
@@ -151,7 +151,7 @@ impl Jog {
     /// How far the axes are from where the program is held.
     pub(crate) fn away(&self) -> AxisVector {
         self.path.map_or_else(AxisVector::zeros, |path| {
-            self.course.motion().position - path
+            self.jog_motion.motion().position - path
         })
     }
 
@@ -170,7 +170,7 @@ impl Jog {
     }
 
     /// Takes a demand. Returns whether a jog begins with it.
-    pub(crate) fn hear(&mut self, demand: &Demand, around: &Surroundings) -> bool {
+    pub(crate) fn hear(&mut self, demand: &Demand, around: &JogContext) -> bool {
         let turned = self.wheel.turn(demand, around.now_ns);
         let is_wheel = matches!(demand.mode, JogMode::Wheel | JogMode::WheelVelocity);
         if is_wheel && turned.amax() <= 0.0 {
@@ -199,8 +199,8 @@ impl Jog {
         !was_active
     }
 
-    fn begin(&mut self, around: &Surroundings) {
-        self.course = Course::at_rest(around.position);
+    fn begin(&mut self, around: &JogContext) {
+        self.jog_motion = JogMotion::at_rest(around.position);
         self.clearance.begin();
         self.clearance.follow(&around.position);
         self.began_at = around.position;
@@ -238,7 +238,7 @@ impl Jog {
                 let target = match self.goal {
                     Goal::Place(place) if before == Some(JogMode::Incremental) => place,
                     _ => {
-                        let rest = self.course.stop().end();
+                        let rest = self.jog_motion.stop().end();
                         rest.zip_zip_map(published, &demand.value, |rest, now, step| {
                             if step == 0.0 { rest } else { now }
                         })
@@ -251,7 +251,7 @@ impl Jog {
             JogMode::Wheel => {
                 let from = match self.goal {
                     Goal::Place(place) if before == Some(JogMode::Wheel) => place,
-                    _ => self.course.stop().end(),
+                    _ => self.jog_motion.stop().end(),
                 };
                 let place = (from + turned).sup(&(published - self.ahead));
                 let travel = self.travel(published);
@@ -280,7 +280,7 @@ impl Jog {
     }
 
     /// Begins the way back to the path, the tool axis last. Returns whether there is one.
-    pub(crate) fn go_back(&mut self, around: &Surroundings) -> bool {
+    pub(crate) fn go_back(&mut self, around: &JogContext) -> bool {
         let Some(path) = self.path.filter(|_| !self.is_active()) else {
             return false;
         };
@@ -297,7 +297,7 @@ impl Jog {
         self.demand = None;
         self.way_back = WayBack::NONE;
         self.path = None;
-        self.course = Course::at_rest(self.course.motion().position);
+        self.jog_motion = JogMotion::at_rest(self.jog_motion.motion().position);
     }
 
     /// The epoch has ended: there is no path to be away from.
@@ -308,29 +308,29 @@ impl Jog {
     /// One period of the motion. To be called while the axes are the jog's.
     pub(crate) fn step(&mut self, now_ns: u64) -> AxesMotion {
         self.watch_demand(now_ns);
-        let position = self.course.motion().position;
+        let position = self.jog_motion.motion().position;
         let travel = self.travel(&position);
-        let mut next = self.course;
+        let mut next = self.jog_motion;
         if self.blocked || self.goal == Goal::Stop {
             next.brake();
             next.advance(self.period_t);
-            self.course = next;
+            self.jog_motion = next;
         } else {
             self.look_up_joint_speed(&position);
             next.aim(&self.goal, &travel, &self.jog_limits());
             next.advance(self.period_t);
             if self.clearance.admits(&next, &travel) {
-                self.course = next;
+                self.jog_motion = next;
             } else {
                 // The stop from here was played through before.
                 self.blocked = true;
-                self.course.brake();
-                self.course.advance(self.period_t);
+                self.jog_motion.brake();
+                self.jog_motion.advance(self.period_t);
             }
         }
-        let motion = self.course.motion();
+        let motion = self.jog_motion.motion();
         self.clearance.follow(&motion.position);
-        if self.course.is_resting() {
+        if self.jog_motion.is_resting() {
             self.come_to_rest(&motion.position);
         }
         motion
@@ -382,13 +382,13 @@ impl Jog {
         if self.clearance.is_of_travel_alone() {
             return;
         }
-        let direction = match (self.course.direction(), &self.goal) {
+        let direction = match (self.jog_motion.direction(), &self.goal) {
             (Some(direction), _) => *direction,
             (None, Goal::Speeds(speeds)) => speeds.normalize(),
             (None, Goal::Place(place)) => (place - position).normalize(),
             (None, Goal::Stop) => return,
         };
-        let end = self.course.stop().end();
+        let end = self.jog_motion.stop().end();
         let here = self.clearance.speed(position, &direction);
         let v = here.min(self.clearance.speed(&end, &direction));
         if v < self.joint_v || v > self.joint_v * FASTER_R {

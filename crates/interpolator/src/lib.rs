@@ -7,7 +7,7 @@
 //! overrides below the planned one, and to come to rest before the frames run out.
 //!
 //! ```text
-//! planner ─ frames ─► ports thread ─ admission ─► ring ─► real-time thread
+//! planner ─ frames ─► ports thread ─ validation ─► ring ─► real-time thread
 //! servo  ◄ setpoints ─┘   ▲ commands                       │ tick: one setpoint a period
 //! anybody ◄ status ───────┴───────────── ring ◄────────────┘
 //! ```
@@ -23,15 +23,15 @@
 //!
 //! * `tick` is one period of the real-time thread, done just before the deadline but for the time
 //!   stamp. It owns a `track` (the frames ahead), a `rate` (of program time: the essay on hold,
-//!   resume and override is there, and the diagram of its states), a `supply` (are there frames
-//!   enough?), `stop_requests` (what stops the motion), a `block_stop` (the end of a block to
+//!   resume and override is there, and the diagram of its states), a `queue_level` (are there frames
+//!   enough?), `stop_requests` (what stops the motion), a `single_block_stop` (the end of a block to
 //!   rest at) and a `wait` (for the answer to an event);
 //! * `spindle` is what a pass of a thread follows instead of the clock;
 //! * `jog` moves the axes by hand, and away from a path that is held and back to it, with a `tracker`
 //!   for what follows no program;
 //! * `setpoint` writes what is published, and `joints` turns its axes into those of the mechanism;
 //!   `limited_joints` are these along the frames ahead, as limits of the rate;
-//! * `admission` judges every frame before the real-time thread sees it, and `commands` every
+//! * `frame_validation` judges every frame before the real-time thread sees it, and `commands` every
 //!   command;
 //! * `ports` is one turn of the ports thread, `loops` are the two threads on their common grid.
 //!
@@ -98,13 +98,10 @@
 
 #![cfg_attr(glidepath_rtsan, feature(sanitize))]
 
-mod account;
 mod acknowledgements;
-mod admission;
 mod auxiliary;
 mod block_end;
 mod block_starts;
-mod block_stop;
 mod code_words;
 mod commands;
 mod compensated;
@@ -116,19 +113,21 @@ mod events_told;
 mod fault;
 mod feedback;
 mod frame_summary;
-mod gates;
+mod frame_validation;
 mod homing;
 mod job;
 mod jog;
 mod joints;
 mod limited_joints;
 mod loops;
+mod m_code_waits;
 mod message;
 mod output;
 mod pairs;
 mod ports;
 mod probing;
 mod program_time;
+mod queue_level;
 mod quintic;
 mod ramp;
 mod rate;
@@ -137,16 +136,17 @@ mod retrace;
 mod run;
 mod served;
 mod setpoint;
+mod single_block_stop;
 mod spindle;
 mod status;
 mod stepped;
 mod stop_requests;
 mod stop_time;
 mod stops;
-mod supply;
 #[cfg(test)]
 mod testing;
 mod tick;
+mod tick_statistics;
 mod told_by_hand;
 mod tool_change;
 mod track;
@@ -160,9 +160,9 @@ static ALLOCATOR: glidepath_realtime::CountingAllocator = glidepath_realtime::Co
 
 pub use config::{Config, Gantry, JogSettings, RealTime, SoftLimits};
 pub use feedback::{AdaptiveFeed, FeedbackSettings, JointFeedback, ProbeInput};
-pub use gates::{Answer, Gate, Gates, MAX_GATES};
 pub use homing::{HomingError, JointBounds, JointHoming};
 pub use loops::{RunError, lead_ns};
+pub use m_code_waits::{AnswerSource, MAX_M_CODE_WAITS, MCodeWait, MCodeWaits};
 pub use run::run;
 pub use served::{Served, served};
 pub use stepped::{Stepped, stepped};

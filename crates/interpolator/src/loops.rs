@@ -13,7 +13,7 @@
 //! and drives have said where they are.
 
 use crate::config::Config;
-use crate::message::{Inputs, Report, Timing};
+use crate::message::{Inputs, TickReport, Timing};
 use crate::tick::Interpolator;
 use core::sync::atomic::{AtomicBool, Ordering};
 use glidepath_link::LinkError;
@@ -121,11 +121,11 @@ pub(crate) fn ports_request(request: &Request) -> Request {
 pub(crate) fn real_time<C: Clock>(
     interpolator: &mut Interpolator<'_>,
     inputs: &mut Inputs<'_>,
-    reports: &mut Producer<'_, Report>,
+    reports: &mut Producer<'_, TickReport>,
     timer: &mut DeadlineTimer<C>,
     stop: &AtomicBool,
 ) {
-    let mut report = Report::blank();
+    let mut report = TickReport::blank();
     while !stop.load(Ordering::Relaxed) {
         let rise = timer.rise();
         interpolator.prepare(&timer.next(), inputs, &mut report);

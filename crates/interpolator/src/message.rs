@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!  ports thread ── SetpointFrame, Order, Demand ──►  real-time thread
-//!               ◄──────── Report, Happening ──────
+//!               ◄──────── TickReport, LogEvent ──────
 //! ```
 
 use crate::fault::Fault;
@@ -27,7 +27,7 @@ pub(crate) const DEMANDS: usize = 32;
 /// Reports under way, one less: a second at 4 ms.
 pub(crate) const REPORTS: usize = 256;
 /// Happenings under way, one less.
-pub(crate) const HAPPENINGS: usize = 128;
+pub(crate) const LOG_EVENTS: usize = 128;
 
 /// The rings between the threads. Large: to be kept on the heap.
 #[derive(Default)]
@@ -36,7 +36,7 @@ pub(crate) struct Rings {
     pub(crate) orders: Queue<Order, ORDERS>,
     pub(crate) demands: Queue<Demand, DEMANDS>,
     pub(crate) observations: Queue<Observation, OBSERVATIONS>,
-    pub(crate) reports: Queue<Report, REPORTS>,
+    pub(crate) reports: Queue<TickReport, REPORTS>,
 }
 
 /// The ends of the rings that the real-time thread reads.
@@ -53,7 +53,7 @@ pub(crate) struct PortsEnds<'a> {
     orders: Producer<'a, Order>,
     demands: Producer<'a, Demand>,
     pub(crate) observations: Producer<'a, Observation>,
-    pub(crate) reports: Consumer<'a, Report>,
+    pub(crate) reports: Consumer<'a, TickReport>,
     /// Stops that were ordered so far: holds, aborts, the power taken.
     stops: u64,
 }
@@ -89,7 +89,7 @@ impl PortsEnds<'_> {
 
 impl Rings {
     /// The ends for the real-time thread and for the ports thread.
-    pub(crate) fn split(&mut self) -> ((Inputs<'_>, Producer<'_, Report>), PortsEnds<'_>) {
+    pub(crate) fn split(&mut self) -> ((Inputs<'_>, Producer<'_, TickReport>), PortsEnds<'_>) {
         let (frames_in, frames) = self.frames.split();
         let (orders_in, orders) = self.orders.split();
         let (demands_in, demands) = self.demands.split();
@@ -173,7 +173,7 @@ pub(crate) struct Timing {
 
 /// Real-time thread to ports thread, every tick.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Report {
+pub(crate) struct TickReport {
     pub(crate) setpoint: Setpoint,
     pub(crate) state: MachineState,
     pub(crate) end_of_epoch: EndOfEpoch,
@@ -211,7 +211,7 @@ pub(crate) struct Report {
     pub(crate) sides: JointVector,
 }
 
-impl Report {
+impl TickReport {
     /// The report before the first tick.
     pub(crate) fn blank() -> Self {
         Self {
@@ -246,7 +246,7 @@ impl Report {
 
 /// Something for the log.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Happening {
+pub(crate) enum LogEvent {
     State {
         tick: u64,
         from: MachineState,
@@ -272,7 +272,7 @@ pub(crate) enum Happening {
     },
 }
 
-impl fmt::Display for Happening {
+impl fmt::Display for LogEvent {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::State {

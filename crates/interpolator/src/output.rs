@@ -1,7 +1,7 @@
 //! The output of every tick: its setpoint, held against the limits of the axes.
 
 use crate::config::Config;
-use crate::differences::{Allowed, Differences, Place};
+use crate::differences::{Allowed, Differences, MachinePosition};
 use crate::feedback::Observation;
 use crate::frame_summary::FrameSummary;
 use crate::jog::AxesMotion;
@@ -231,7 +231,7 @@ impl Output {
 
 /// Axes at rest for ever, and the joints that are not these.
 fn at_rest(limited: Option<&LimitedJoints>, axes: &AxisVector) -> Differences {
-    Differences::at_rest(&Place {
+    Differences::at_rest(&MachinePosition {
         axes: *axes,
         joints: limited.map_or_else(JointVector::zeros, |joints| joints.at(axes)),
     })

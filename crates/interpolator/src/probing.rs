@@ -8,7 +8,7 @@ use glidepath_link::EndOfEpoch;
 
 /// How a search stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-enum Search {
+enum ProbeSearch {
     /// There is none.
     #[default]
     None,
@@ -22,50 +22,50 @@ enum Search {
 
 /// A search for a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) struct Probing(Search);
+pub(crate) struct Probing(ProbeSearch);
 
 impl Probing {
     pub(crate) const fn begin(&mut self) {
-        self.0 = Search::Looking;
+        self.0 = ProbeSearch::Looking;
     }
 
     /// What was looked for was found.
     pub(crate) const fn find(&mut self) {
         if self.is_looking() {
-            self.0 = Search::Tripped;
+            self.0 = ProbeSearch::Tripped;
         }
     }
 
     pub(crate) const fn is_looking(self) -> bool {
-        matches!(self.0, Search::Looking)
+        matches!(self.0, ProbeSearch::Looking)
     }
 
     /// Whether the motion is to come to rest.
     pub(crate) const fn is_tripped(self) -> bool {
-        matches!(self.0, Search::Tripped)
+        matches!(self.0, ProbeSearch::Tripped)
     }
 
     /// Whether the machine waits for the rest of the program.
     pub(crate) const fn goes_on(self) -> bool {
-        matches!(self.0, Search::Over)
+        matches!(self.0, ProbeSearch::Over)
     }
 
     /// The epoch has ended.
     pub(crate) const fn close(&mut self, end: EndOfEpoch) {
         let ends_well = matches!(end, EndOfEpoch::Completed | EndOfEpoch::Tripped);
         self.0 = match self.0 {
-            Search::Looking | Search::Tripped if ends_well => Search::Over,
-            _ => Search::None,
+            ProbeSearch::Looking | ProbeSearch::Tripped if ends_well => ProbeSearch::Over,
+            _ => ProbeSearch::None,
         };
     }
 
     /// The program does not go on.
     pub(crate) const fn abort(&mut self) {
-        self.0 = Search::None;
+        self.0 = ProbeSearch::None;
     }
 
     /// An epoch begins.
     pub(crate) const fn open(&mut self) {
-        self.0 = Search::None;
+        self.0 = ProbeSearch::None;
     }
 }

@@ -66,7 +66,7 @@
 //! | [`progress`], [`situation`] | what a choice depends on: program time; frames and limits |
 //! | [`play`] | a ramp is played through |
 //! | [`steady_rate`], [`kept_stop`], [`reserve`] | where a stop sets out from; a stop as it is kept |
-//! | [`greedy_descent`], [`stop_search`] | a stop is found |
+//! | [`greedy_slow_down`], [`stop_search`] | a stop is found |
 //! | [`reserve_search`], [`arrival_search`] | when it begins: late, or to end at a frame |
 //! | [`candidate`], [`ramp_trial`] | a ramp is shaped, and tried together with a stop after it |
 //! | [`state`] | the states of the rate: **the diagram is there** |
@@ -76,7 +76,7 @@
 mod arrival_search;
 mod candidate;
 mod following;
-mod greedy_descent;
+mod greedy_slow_down;
 mod kept_stop;
 mod play;
 mod progress;

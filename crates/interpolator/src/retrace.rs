@@ -25,8 +25,8 @@
 //! on all is as if it had never turned. In particular the setpoints of a steady rate of 1 are the
 //! frames, bit for bit, on all three ways.
 
-use crate::gates::Gates;
 use crate::limited_joints::LimitedJoints;
+use crate::m_code_waits::MCodeWaits;
 use crate::program_time::ProgramTime;
 use crate::track::{TRACK_CAPACITY, Track};
 use glidepath_link::SetpointFrame;
@@ -86,7 +86,7 @@ pub(crate) struct Retrace {
 impl Retrace {
     pub(crate) fn new(period_t: f64, limits: (&Limits, Option<LimitedJoints>)) -> Self {
         Self {
-            other: Track::new(period_t, limits, Gates::NONE, TRACK_CAPACITY),
+            other: Track::new(period_t, limits, MCodeWaits::NONE, TRACK_CAPACITY),
             floor: 0,
             taken: 0,
             happened: 0,
@@ -115,7 +115,7 @@ impl Retrace {
         let first = now.sequence + u64::from(now.fraction > 0.0);
         let ends_here = |track: &Track| {
             let frame = track.kept_frame(now.sequence);
-            frame.is_none_or(|frame| is_barrier(frame, track.gates()))
+            frame.is_none_or(|frame| is_barrier(frame, track.m_code_waits()))
         };
         if now.fraction <= 0.0 && (now.sequence <= self.floor || ends_here(track)) {
             return None;
@@ -153,7 +153,7 @@ impl Retrace {
             };
             let frame = self.other.kept_frame(next);
             let is_end = next <= self.floor
-                || frame.is_none_or(|frame| is_barrier(frame, self.other.gates()));
+                || frame.is_none_or(|frame| is_barrier(frame, self.other.m_code_waits()));
             if is_end {
                 self.floor = next;
             }
@@ -210,12 +210,12 @@ fn back(frame: &SetpointFrame) -> SetpointFrame {
 
 /// Whether the motion does not go back past a frame, because what happened there cannot be done
 /// again, or taken back.
-fn is_barrier(frame: &SetpointFrame, gates: &Gates) -> bool {
+fn is_barrier(frame: &SetpointFrame, m_code_waits: &MCodeWaits) -> bool {
     if frame.has(FrameFlags::FIRST) || frame.has(FrameFlags::SYNC) {
         return true;
     }
     match frame.event() {
-        Ok(Some(Event::MCode(code))) => !is_plain(code) || gates.of(code).is_some(),
+        Ok(Some(Event::MCode(code))) => !is_plain(code) || m_code_waits.of(code).is_some(),
         Ok(Some(
             Event::Probe { .. } | Event::Synchronise { .. } | Event::Tap { .. } | Event::Await(_),
         ))

@@ -4,9 +4,9 @@ use crate::config::Config;
 use crate::loops::{
     RunError, enter_ports, enter_real_time, first_look_ns, guard, hand_over, lead_ns, real_time,
 };
-use crate::message::{HAPPENINGS, Happening, Inputs, Report, Rings};
+use crate::message::{Inputs, LOG_EVENTS, LogEvent, Rings, TickReport};
 use crate::ports::Ports;
-use crate::supply::least_horizon;
+use crate::queue_level::least_horizon;
 use crate::tick::Interpolator;
 use core::sync::atomic::{AtomicBool, Ordering};
 use glidepath_link::{LinkError, MachineState, PERIOD_NS_MAX, Status, Transport};
@@ -38,7 +38,7 @@ pub fn run(
     validate(config)?;
     let boot_id = boot_id();
     let mut rings = Box::<Rings>::default();
-    let mut events = Box::<Events<Happening, HAPPENINGS>>::default();
+    let mut events = Box::<Events<LogEvent, LOG_EVENTS>>::default();
     let ((mut inputs, mut reports), ends) = rings.split();
     let (writer, reader) = event_ring(&mut events);
     let interpolator = Interpolator::new(config, boot_id, writer);
@@ -89,7 +89,7 @@ fn real_time_thread(
     config: &Config,
     mut interpolator: Interpolator<'_>,
     inputs: &mut Inputs<'_>,
-    reports: &mut Producer<'_, Report>,
+    reports: &mut Producer<'_, TickReport>,
     tell: &mpsc::Sender<(u64, Grants)>,
     ended: &AtomicBool,
 ) -> Result<(), RunError> {
@@ -218,13 +218,13 @@ mod tests {
         } = Rig::mill();
         let transport = InProcess::new(Capacity::default());
         let mut seen = transport.status_source().unwrap();
-        let events = Box::leak(Box::<Events<Happening, HAPPENINGS>>::default());
+        let events = Box::leak(Box::<Events<LogEvent, LOG_EVENTS>>::default());
         let (_writer, reader) = event_ring(events);
         let mut lines = Vec::new();
         let mut log = |line: &str| lines.push(line.to_owned());
         let mut ports =
             Ports::new(&config, 1, Box::new(transport), ends, reader, &mut log).unwrap();
-        let mut report = Report::blank();
+        let mut report = TickReport::blank();
         let due = glidepath_realtime::Wake {
             tick: 1,
             scheduled_ns: config.period_ns,
@@ -255,7 +255,7 @@ mod tests {
         } = Rig::mill();
         let transport = InProcess::new(Capacity::default());
         let mut setpoints = transport.setpoint_source().unwrap();
-        let events = Box::leak(Box::<Events<Happening, HAPPENINGS>>::default());
+        let events = Box::leak(Box::<Events<LogEvent, LOG_EVENTS>>::default());
         let (_writer, reader) = event_ring(events);
         let mut log = |_: &str| {};
         let mut ports =
@@ -267,7 +267,7 @@ mod tests {
             woke_ns: tick_ns,
             missed: 0,
         };
-        let mut report = Report::blank();
+        let mut report = TickReport::blank();
         interpolator.prepare(&due, &mut inputs, &mut report);
         interpolator.stamp(&mut report, &due);
         assert!(!ports.hand_over(&|| tick_ns + 50_000), "there is none yet");

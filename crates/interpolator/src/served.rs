@@ -1,7 +1,7 @@
 //! An interpolator with its ports, without threads and clock, that is driven by hand.
 
 use crate::config::Config;
-use crate::message::{HAPPENINGS, Happening, Inputs, Report, Rings};
+use crate::message::{Inputs, LOG_EVENTS, LogEvent, Rings, TickReport};
 use crate::ports::Ports;
 use crate::tick::Interpolator;
 use glidepath_link::{LinkError, Setpoint, Transport};
@@ -16,7 +16,7 @@ const PHASE_NS: u64 = 200_000;
 pub struct Served<'a> {
     interpolator: Interpolator<'a>,
     inputs: Inputs<'a>,
-    reports: Producer<'a, Report>,
+    reports: Producer<'a, TickReport>,
     ports: Ports<'a>,
     period_ns: u64,
     tick: u64,
@@ -42,7 +42,7 @@ pub fn served<R>(
     drive: impl FnOnce(&mut Served<'_>) -> R,
 ) -> Result<R, LinkError> {
     let mut rings = Box::<Rings>::default();
-    let mut events = Box::<Events<Happening, HAPPENINGS>>::default();
+    let mut events = Box::<Events<LogEvent, LOG_EVENTS>>::default();
     let ((inputs, reports), ends) = rings.split();
     let (writer, reader) = event_ring(&mut events);
     let interpolator = Interpolator::new(config, boot_id, writer);
@@ -69,7 +69,7 @@ impl Served<'_> {
             woke_ns: scheduled_ns,
             missed: 0,
         };
-        let mut report = Report::blank();
+        let mut report = TickReport::blank();
         self.interpolator
             .prepare(&wake, &mut self.inputs, &mut report);
         self.interpolator.stamp(&mut report, &wake);

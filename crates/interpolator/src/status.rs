@@ -1,9 +1,9 @@
 //! The status record, and what it is worked out from.
 
-use crate::admission::Admission;
 use crate::block_starts::BlockStarts;
 use crate::config::Config;
-use crate::message::{FRAMES, Report};
+use crate::frame_validation::FrameValidator;
+use crate::message::{FRAMES, TickReport};
 use crate::retrace::frames_kept;
 use crate::track::TRACK_CAPACITY;
 use glidepath_geometry::AXES;
@@ -60,7 +60,7 @@ impl StatusBook {
     }
 
     /// Counts a tick.
-    pub(crate) fn count(&mut self, report: &Report) {
+    pub(crate) fn count(&mut self, report: &TickReport) {
         if let Some(frame) = self
             .entering
             .take_if(|frame| frame.epoch <= report.setpoint.epoch)
@@ -143,20 +143,20 @@ impl StatusBook {
     /// Brings the status up to date. `waiting` frames are between the threads.
     pub(crate) fn write(
         &mut self,
-        report: &Report,
-        admission: &Admission,
+        report: &TickReport,
+        frame_validator: &FrameValidator,
         waiting: u64,
         now_ns: u64,
     ) {
         let setpoint = &report.setpoint;
-        let opening = admission.entering(setpoint.epoch);
+        let opening = frame_validator.entering(setpoint.epoch);
         let is_newer = opening.is_some();
         let status = &mut self.status;
         status.updated_ns = now_ns;
         status.tick = setpoint.tick;
         status.epoch = opening.unwrap_or(setpoint.epoch);
-        status.next_epoch = admission.next_epoch(setpoint.epoch);
-        status.frames_received = admission.received();
+        status.next_epoch = frame_validator.next_epoch(setpoint.epoch);
+        status.frames_received = frame_validator.received();
         status.frames_executed = if is_newer { 0 } else { report.frames_executed };
         status.queue_depth = u32::try_from(report.queue_depth + waiting).unwrap_or(u32::MAX);
         status.state = report.state.code();
@@ -208,7 +208,7 @@ impl StatusBook {
         self.write_fault(report);
     }
 
-    fn write_fault(&mut self, report: &Report) {
+    fn write_fault(&mut self, report: &TickReport) {
         let status = &mut self.status;
         let fault = report.fault;
         status.fault = fault.map_or(0, |fault| fault.cause.code());
@@ -226,7 +226,7 @@ impl StatusBook {
 }
 
 /// What moves the axes.
-fn mode(report: &Report) -> MotionMode {
+fn mode(report: &TickReport) -> MotionMode {
     match report.state {
         MachineState::Jogging if report.is_returning => MotionMode::Return,
         MachineState::Jogging => MotionMode::Jog,

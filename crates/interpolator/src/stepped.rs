@@ -2,7 +2,7 @@
 
 use crate::config::Config;
 use crate::jog::DemandReader;
-use crate::message::{HAPPENINGS, Happening, Inputs, Order, PortsEnds, Report, Rings};
+use crate::message::{Inputs, LOG_EVENTS, LogEvent, Order, PortsEnds, Rings, TickReport};
 use crate::tick::Interpolator;
 use glidepath_link::{Command, JogDemand, Setpoint, SetpointFrame};
 use glidepath_realtime::{Events, Wake, event_ring};
@@ -14,7 +14,7 @@ pub struct Stepped<'a> {
     inputs: Inputs<'a>,
     ends: PortsEnds<'a>,
     reader: DemandReader,
-    report: Report,
+    report: TickReport,
     period_ns: u64,
     tick: u64,
 }
@@ -30,7 +30,7 @@ impl core::fmt::Debug for Stepped<'_> {
 /// Calls `drive` with an interpolator at rest.
 pub fn stepped<R>(config: &Config, drive: impl FnOnce(&mut Stepped<'_>) -> R) -> R {
     let mut rings = Box::<Rings>::default();
-    let mut events = Box::<Events<Happening, HAPPENINGS>>::default();
+    let mut events = Box::<Events<LogEvent, LOG_EVENTS>>::default();
     let ((inputs, _reports), ends) = rings.split();
     let (writer, _happenings) = event_ring(&mut events);
     let interpolator = Interpolator::new(config, 1, writer);
@@ -40,7 +40,7 @@ pub fn stepped<R>(config: &Config, drive: impl FnOnce(&mut Stepped<'_>) -> R) ->
         inputs,
         ends,
         reader: DemandReader::new(config),
-        report: Report::blank(),
+        report: TickReport::blank(),
         period_ns,
         tick: 0,
     })

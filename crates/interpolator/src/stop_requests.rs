@@ -20,7 +20,7 @@
 
 use crate::fault::Fault;
 use crate::message::Order;
-use crate::supply::Supply;
+use crate::queue_level::QueueLevel;
 use glidepath_link::{Command, MachineState};
 
 /// Reasons to stop, and overrides.
@@ -349,7 +349,7 @@ impl StopRequests {
         is_open: bool,
         standing: bool,
         is_rapid: bool,
-        supply: &Supply,
+        queue_level: &QueueLevel,
     ) -> MachineState {
         use MachineState::{
             Faulted, Held, Holding, Idle, ProgramStop, Running, Starved, Starving, Stopping,
@@ -362,9 +362,9 @@ impl StopRequests {
             (true, _) if self.is_stopping() => Stopping,
             (true, _) if self.program_stop || self.block_end => ProgramStop,
             (true, _) if self.holds(is_rapid) => choose(Held, Holding),
-            (true, _) if supply.is_short() => choose(Starved, Starving),
-            (true, _) if standing && supply.is_out() => Waiting,
-            (true, _) if standing && supply.is_barred() => Starved,
+            (true, _) if queue_level.is_short() => choose(Starved, Starving),
+            (true, _) if standing && queue_level.is_out() => Waiting,
+            (true, _) if standing && queue_level.is_barred() => Starved,
             (true, _) => Running,
         }
     }

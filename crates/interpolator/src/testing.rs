@@ -85,7 +85,7 @@ pub(crate) fn planned(
 
 use crate::config::Config;
 use crate::jog::DemandReader;
-use crate::message::{HAPPENINGS, Happening, Inputs, Order, PortsEnds, Report, Rings};
+use crate::message::{Inputs, LOG_EVENTS, LogEvent, Order, PortsEnds, Rings, TickReport};
 use crate::tick::Interpolator;
 use glidepath_geometry::AxisVector;
 use glidepath_link::{Command, EventRecord, JogDemand, MachineState, Setpoint};
@@ -108,13 +108,13 @@ pub(crate) struct Rig {
     pub(crate) interpolator: Interpolator<'static>,
     pub(crate) inputs: Inputs<'static>,
     pub(crate) ends: PortsEnds<'static>,
-    pub(crate) reports: Producer<'static, Report>,
+    pub(crate) reports: Producer<'static, TickReport>,
     pub(crate) config: Config,
     /// Frames that have not yet been published.
     pub(crate) feed: VecDeque<SetpointFrame>,
     pub(crate) setpoints: Vec<Setpoint>,
-    pub(crate) last: Option<Report>,
-    pub(crate) log: EventReader<'static, Happening>,
+    pub(crate) last: Option<TickReport>,
+    pub(crate) log: EventReader<'static, LogEvent>,
     tick: u64,
     /// Frames published.
     sent: u64,
@@ -123,7 +123,7 @@ pub(crate) struct Rig {
 impl Rig {
     pub(crate) fn new(config: Config) -> Self {
         let rings = Box::leak(Box::<Rings>::default());
-        let events = Box::leak(Box::<Events<Happening, HAPPENINGS>>::default());
+        let events = Box::leak(Box::<Events<LogEvent, LOG_EVENTS>>::default());
         let ((inputs, reports), ends) = rings.split();
         let (writer, log) = event_ring(events);
         let interpolator = Interpolator::new(&config, 77, writer);
@@ -217,7 +217,7 @@ impl Rig {
             woke_ns,
             missed,
         };
-        let mut report = Report::blank();
+        let mut report = TickReport::blank();
         self.interpolator
             .prepare(&wake, &mut self.inputs, &mut report);
         self.interpolator.stamp(&mut report, &wake);

@@ -4,7 +4,7 @@
 //! ```text
 //! demands ─► jog ───────────────────────────────────────────────► setpoint, while it owns the axes
 //! orders ─► stop requests ─┐
-//! frames ─► track ─────────┴► supply ─► rate ─► program time ─► setpoint ─► joints ─┐
+//! frames ─► track ─────────┴► level ──► rate ─► program time ─► setpoint ─► joints ─┐
 //!                             enough    chosen  advanced        written,            │
 //!                             to go on?                         checked             │
 //!        ┌───────────────────────────────────────────────────────────────────────◄──┘
@@ -27,7 +27,7 @@ mod waiting;
 
 pub(crate) use state::Interpolator;
 
-use crate::message::{Inputs, Report, Timing};
+use crate::message::{Inputs, TickReport, Timing};
 use glidepath_link::{FaultCause, MachineState, Setpoint};
 use glidepath_program::FrameFlags;
 use glidepath_realtime::Wake;
@@ -38,7 +38,7 @@ impl Interpolator<'_> {
     /// report but the stamp, in its place: every copy of it would be a dozen more cache lines to
     /// wait for.
     #[cfg_attr(glidepath_rtsan, sanitize(realtime = "nonblocking"))]
-    pub(crate) fn prepare(&mut self, due: &Wake, inputs: &mut Inputs<'_>, report: &mut Report) {
+    pub(crate) fn prepare(&mut self, due: &Wake, inputs: &mut Inputs<'_>, report: &mut TickReport) {
         let tick = due.tick;
         self.carry_out_orders(inputs);
         if !self.drives.are_simulated() {
@@ -49,7 +49,7 @@ impl Interpolator<'_> {
         self.take_frames(inputs);
         self.watch_supply();
         self.watch_wait();
-        if self.mover.is_active() {
+        if self.joint_mover.is_active() {
             self.follow_mover(tick, &mut report.setpoint);
         } else if self.jog.owns_axes() {
             self.follow_jog(due, &mut report.setpoint);
@@ -72,15 +72,15 @@ impl Interpolator<'_> {
             self.tell_stops(&mut report.setpoint);
         }
         self.end_epoch_or_wait();
-        self.stand_at_gate(due.scheduled_ns, report.setpoint.number);
+        self.stand_at_m_code_wait(due.scheduled_ns, report.setpoint.number);
         self.update_state(tick);
         self.fill(report);
     }
 
     /// What is left to do at the deadline: the time it really was.
     #[cfg_attr(glidepath_rtsan, sanitize(realtime = "nonblocking"))]
-    pub(crate) fn stamp(&mut self, report: &mut Report, wake: &Wake) {
-        if let Some((missed, allowed)) = self.account.stamp(report, wake) {
+    pub(crate) fn stamp(&mut self, report: &mut TickReport, wake: &Wake) {
+        if let Some((missed, allowed)) = self.statistics.stamp(report, wake) {
             self.fail_by_missed(missed, allowed);
         }
     }
@@ -88,13 +88,13 @@ impl Interpolator<'_> {
     /// A report found no room in its ring: nobody has taken one for a second, and the drives get
     /// nothing either.
     pub(crate) fn lose_report(&mut self) {
-        self.account.lose_report();
+        self.statistics.lose_report();
         self.fail(FaultCause::Ports);
     }
 
     /// Keeps how long the tick took, for the next report.
     pub(crate) const fn keep_timing(&mut self, timing: Timing) {
-        self.account.keep_timing(timing);
+        self.statistics.keep_timing(timing);
     }
 
     pub(super) fn write_joints(&mut self, tick: u64, setpoint: &mut Setpoint) {
@@ -109,12 +109,14 @@ impl Interpolator<'_> {
         let (is_open, stands) = (self.is_open(), self.is_standing());
         // What is passed is the present frame, or the last one of an epoch that has ended.
         let is_rapid = self.passed.has(FrameFlags::RAPID);
-        let of_program = self.requests.state(is_open, stands, is_rapid, &self.supply);
+        let of_program = self
+            .requests
+            .state(is_open, stands, is_rapid, &self.queue_level);
         let state = match of_program {
             MachineState::Stopping => MachineState::Stopping,
             _ if self.moves_by_hand() && self.requests.is_stopping() => MachineState::Stopping,
             _ if self.jog.is_active() => MachineState::Jogging,
-            _ if self.mover.is_active() => MachineState::Homing,
+            _ if self.joint_mover.is_active() => MachineState::Homing,
             MachineState::Idle if self.probing.goes_on() => MachineState::Waiting,
             MachineState::Idle => self.drives.state_at_rest(),
             MachineState::Running | MachineState::Waiting | MachineState::Starved
@@ -146,17 +148,17 @@ impl Interpolator<'_> {
         self.has_moved = is_open && (self.has_moved || !stands);
         // Before the motion begins, frames are few by nature, and rests that the program begins with
         // are not its motion.
-        self.account
+        self.statistics
             .enter(state, tick, self.passed.line, self.has_moved);
     }
 
     /// Whether something moves, or may, without a program.
     pub(super) const fn moves_by_hand(&self) -> bool {
-        self.jog.is_active() || self.mover.is_active()
+        self.jog.is_active() || self.joint_mover.is_active()
     }
 
     /// Writes the state after this tick, and what the ports thread must know.
-    fn fill(&self, report: &mut Report) {
+    fn fill(&self, report: &mut TickReport) {
         let now = self.rate.now().time.sequence;
         let (feed_override, rapid_override) = self.requests.overrides();
         report.end_of_epoch = self.end_of_epoch;
@@ -180,11 +182,11 @@ impl Interpolator<'_> {
         report.jog_override = self.jog.override_ratio();
         report.jogged = self.jog.jogged();
         report.power = self.drives.power();
-        report.moved = self.mover.moved();
+        report.moved = self.joint_mover.moved();
         report.barred = self.barred;
         self.output.write_sides(&mut report.sides);
         report.single_block = self.requests.is_single_block();
-        self.account.fill(report);
+        self.statistics.fill(report);
     }
 }
 

@@ -2,7 +2,7 @@
 //! ended, and nothing that was told before it began.
 
 use crate::jog::Demand;
-use crate::message::Report;
+use crate::message::TickReport;
 use glidepath_link::{Command, JogMode, MachineState, SWITCHED_OFF};
 
 /// What a command says of the motion that it ends, once it is accepted; an empty text where
@@ -31,7 +31,7 @@ pub(crate) const fn of_command(
 
 /// Whether a jog may begin with a demand. A wheel that stands demands, too, so what it says of
 /// begins is not known here.
-pub(crate) fn may_begin(report: &Report, demand: &Demand) -> bool {
+pub(crate) fn may_begin(report: &TickReport, demand: &Demand) -> bool {
     use MachineState::{Awaiting, Held, Idle, NotHomed, ProgramStop};
     let wants = matches!(demand.mode, JogMode::Continuous | JogMode::Incremental);
     let may = matches!(

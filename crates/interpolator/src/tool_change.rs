@@ -1,6 +1,6 @@
 //! A tool change that waits for its answer: until then the tool before is the one to go back to.
 
-use crate::message::Report;
+use crate::message::TickReport;
 use glidepath_link::{Auxiliary, EndOfEpoch};
 use glidepath_program::Event;
 
@@ -27,7 +27,7 @@ impl ToolChange {
 
     /// Follows the motion. Returns the change while it is open. Where the motion ends before it is
     /// answered, the record has the tool before again.
-    pub(crate) fn follow(self, report: &Report, record: &mut Auxiliary) -> Option<Self> {
+    pub(crate) fn follow(self, report: &TickReport, record: &mut Auxiliary) -> Option<Self> {
         let awaits = matches!(
             record.awaited_event(),
             Ok(Some(Event::MCode(6) | Event::Await(6)))

@@ -10,13 +10,13 @@
 //! Frames that were given back are kept as long as there is room: the motion may come back to them.
 //!
 //! Four kinds of frames hold the motion: the next program stop, and the end of a block where the
-//! plan rests, until the operator lets it pass, the next *gate*, whose event is to be answered
+//! plan rests, until the operator lets it pass, the next *M-code wait*, whose event is to be answered
 //! first, and the *barrier*, the latest frame at rest, until it is known how to stop after it.
 //! Program time stands there: everything later is evaluated as that frame.
 
-use crate::differences::{Allowed, Differences, Place};
-use crate::gates::{Gate, Gates};
+use crate::differences::{Allowed, Differences, MachinePosition};
 use crate::limited_joints::{JointTrack, LimitedJoints};
+use crate::m_code_waits::{MCodeWait, MCodeWaits};
 use crate::pairs::{larger, smaller};
 use crate::program_time::ProgramTime;
 use crate::quintic::{Kinematic, Quintic};
@@ -50,7 +50,7 @@ pub(crate) struct Track {
     /// The first program stop not yet passed.
     program_stop: Option<u64>,
     /// The first frame not yet passed whose event is to be answered before the motion goes on.
-    gate: Option<u64>,
+    m_code_wait: Option<u64>,
     /// A frame at rest that motion may not pass.
     barrier: Option<u64>,
     /// The end of a block, at rest, at which the operator wants to stand.
@@ -59,7 +59,7 @@ pub(crate) struct Track {
     limits: StopLimits,
     /// Where joints are not the axes, these along the frames, and what limits their stops.
     joints: Option<(JointTrack, StopLimits)>,
-    gates: Gates,
+    m_code_waits: MCodeWaits,
 }
 
 impl Track {
@@ -67,7 +67,7 @@ impl Track {
     pub(crate) fn new(
         period_t: f64,
         (limits, joints): (&Limits, Option<LimitedJoints>),
-        gates: Gates,
+        m_code_waits: MCodeWaits,
         kept: usize,
     ) -> Self {
         let kept = kept.max(TRACK_CAPACITY).next_power_of_two();
@@ -80,7 +80,7 @@ impl Track {
             oldest: 0,
             len: 0,
             program_stop: None,
-            gate: None,
+            m_code_wait: None,
             barrier: None,
             block_end: None,
             period_t,
@@ -89,7 +89,7 @@ impl Track {
                 let limits = StopLimits::new(&joints.limits);
                 (JointTrack::new(joints, TRACK_CAPACITY), limits)
             }),
-            gates,
+            m_code_waits,
         }
     }
 
@@ -113,7 +113,7 @@ impl Track {
     pub(crate) const fn clear(&mut self) {
         self.len = 0;
         self.program_stop = None;
-        self.gate = None;
+        self.m_code_wait = None;
         self.barrier = None;
         self.block_end = None;
     }
@@ -182,8 +182,8 @@ impl Track {
         if self.program_stop.is_none() && frame.has(FrameFlags::PROGRAM_STOP) {
             self.program_stop = Some(sequence);
         }
-        if self.gate.is_none() && self.gates.of_frame(frame).is_some() {
-            self.gate = Some(sequence);
+        if self.m_code_wait.is_none() && self.m_code_waits.of_frame(frame).is_some() {
+            self.m_code_wait = Some(sequence);
         }
     }
 
@@ -234,7 +234,10 @@ impl Track {
 
     /// Where the motion is to wait next, for the operator or for an answer.
     pub(crate) fn waits_at(&self) -> Option<u64> {
-        [self.program_stop, self.gate].into_iter().flatten().min()
+        [self.program_stop, self.m_code_wait]
+            .into_iter()
+            .flatten()
+            .min()
     }
 
     /// The frame at rest that motion may not pass.
@@ -254,10 +257,15 @@ impl Track {
 
     /// The first frame that holds the motion: program time stands there by itself.
     pub(crate) fn holding_frame(&self) -> Option<u64> {
-        [self.program_stop, self.gate, self.barrier, self.block_end]
-            .into_iter()
-            .flatten()
-            .min()
+        [
+            self.program_stop,
+            self.m_code_wait,
+            self.barrier,
+            self.block_end,
+        ]
+        .into_iter()
+        .flatten()
+        .min()
     }
 
     /// Holds the motion at a frame at rest because a block ends there, or nowhere for that.
@@ -272,7 +280,9 @@ impl Track {
 
     /// True if the motion comes to rest by itself on the frames at hand.
     pub(crate) fn ends_at_rest(&self) -> bool {
-        self.program_stop.is_some() || self.gate.is_some() || self.newest().is_some_and(is_at_rest)
+        self.program_stop.is_some()
+            || self.m_code_wait.is_some()
+            || self.newest().is_some_and(is_at_rest)
     }
 
     /// True if the last frame of the program is here.
@@ -301,37 +311,37 @@ impl Track {
     }
 
     /// What is waited for.
-    pub(crate) const fn gates(&self) -> &Gates {
-        &self.gates
+    pub(crate) const fn m_code_waits(&self) -> &MCodeWaits {
+        &self.m_code_waits
     }
 
     /// Whether there is a frame whose event is to be answered. Every tick asks.
-    pub(crate) const fn has_gate(&self) -> bool {
-        self.gate.is_some()
+    pub(crate) const fn has_m_code_wait(&self) -> bool {
+        self.m_code_wait.is_some()
     }
 
     /// The first frame whose event is to be answered, and by what.
-    pub(crate) fn gate(&self) -> Option<(&SetpointFrame, Gate)> {
-        let frame = self.frame(self.gate?)?;
-        Some((frame, self.gates.of_frame(frame)?))
+    pub(crate) fn m_code_wait(&self) -> Option<(&SetpointFrame, MCodeWait)> {
+        let frame = self.frame(self.m_code_wait?)?;
+        Some((frame, self.m_code_waits.of_frame(frame)?))
     }
 
-    /// Lets motion pass the gate it stands at, once it is known how to stop after it.
-    pub(crate) fn pass_gate(&mut self) {
-        let Some(passed) = self.gate else {
+    /// Lets motion pass the M-code wait it stands at, once it is known how to stop after it.
+    pub(crate) fn pass_m_code_wait(&mut self) {
+        let Some(passed) = self.m_code_wait else {
             return;
         };
         let waits = |s: &u64| {
             self.frame(*s)
-                .is_some_and(|f| self.gates.of_frame(f).is_some())
+                .is_some_and(|f| self.m_code_waits.of_frame(f).is_some())
         };
-        self.gate = (passed + 1..self.end()).find(waits);
+        self.m_code_wait = (passed + 1..self.end()).find(waits);
         self.bar_from(passed);
     }
 
-    /// The motion does not pass the gate that it stands at, after all.
-    pub(crate) fn take_gate_back(&mut self, sequence: u64) {
-        self.gate = Some(sequence);
+    /// The motion does not pass the M-code wait that it stands at, after all.
+    pub(crate) fn take_m_code_wait_back(&mut self, sequence: u64) {
+        self.m_code_wait = Some(sequence);
         self.bar_from(sequence);
     }
 
@@ -358,14 +368,14 @@ impl Track {
 
     /// Planned position at a time with that of joints that are not the axes; `None` outside the owned
     /// frames.
-    pub(crate) fn whereabouts(&self, time: ProgramTime) -> Option<Place> {
+    pub(crate) fn whereabouts(&self, time: ProgramTime) -> Option<MachinePosition> {
         let axes = self.position(time)?;
         let joints = match (&self.joints, time.fraction <= 0.0) {
             (None, _) => JointVector::zeros(),
             (Some((joints, _)), true) => *joints.position(Self::slot(time.sequence))?,
             (Some(_), false) => self.joint_quintic(time.sequence)?.position(time.fraction),
         };
-        Some(Place { axes, joints })
+        Some(MachinePosition { axes, joints })
     }
 
     /// The motion from a frame to the next; `None` outside the owned frames.

@@ -1,16 +1,16 @@
-//! The wait at a gate: for what, how long, and what came of it.
+//! The wait for an M code: for what, how long, and what came of it.
 //!
 //! ```text
 //!  motion ──► rest at the frame of the event ──► answered ──► on, when a stop after it is known
 //!                                           └──► failed, or nothing in time ──► fault
 //! ```
 //!
-//! Some events are told, and the motion comes to their gate later: what was answered meanwhile is
+//! Some events are told, and the motion comes to their wait later: what was answered meanwhile is
 //! kept ([`Told`]).
 
 use crate::acknowledgements::MOST_TOLD;
 use crate::drives::Drives;
-use crate::gates::{Answer, Gate};
+use crate::m_code_waits::{AnswerSource, MCodeWait};
 use crate::message::Awaited;
 use glidepath_link::{EventId, EventKind, EventRecord, FaultCause, Setpoint};
 
@@ -34,13 +34,13 @@ pub(crate) struct Wait {
 
 #[derive(Debug, Clone, Copy)]
 struct Standing {
-    gate: Gate,
+    m_code_wait: MCodeWait,
     awaited: Awaited,
     ticks: u64,
     outcome: Option<bool>,
 }
 
-/// An event whose gate comes later.
+/// An event whose wait comes later.
 #[derive(Debug, Clone, Copy)]
 struct Told {
     awaited: Awaited,
@@ -48,10 +48,10 @@ struct Told {
 }
 
 impl Wait {
-    /// The motion stands at a gate.
+    /// The motion stands at an M-code wait.
     #[cold]
     #[inline(never)]
-    pub(crate) fn begin(&mut self, gate: Gate, awaited: Awaited) {
+    pub(crate) fn begin(&mut self, m_code_wait: MCodeWait, awaited: Awaited) {
         if self.standing.is_some() {
             return;
         }
@@ -73,7 +73,7 @@ impl Wait {
             None => (awaited, None),
         };
         self.standing = Some(Standing {
-            gate,
+            m_code_wait,
             awaited,
             ticks: 0,
             outcome,
@@ -101,7 +101,7 @@ impl Wait {
             awaited,
             outcome: None,
         };
-        // The newest is the first, and the last one the oldest: that is answered at its gate.
+        // The newest is the first, and the last one the oldest: that is answered at its wait.
         let place = self.told.iter().position(Option::is_none);
         let place = place.unwrap_or(MOST_TOLD - 1);
         self.told[..=place].rotate_right(1);
@@ -165,10 +165,10 @@ impl Wait {
             return Outcome::Open;
         };
         standing.ticks += 1;
-        let (answer, seen) = (standing.gate.answer, drives.seen());
+        let (answer, seen) = (standing.m_code_wait.answer, drives.seen());
         let waited_ns = u128::from(standing.ticks) * u128::from(drives.period_ns());
         // What drives say before they have heard of the event is not about it.
-        let is_given = if answer == Answer::Planner {
+        let is_given = if answer == AnswerSource::Planner {
             has_more
         } else if drives.are_simulated() {
             answer.needs_feedback()
@@ -177,7 +177,7 @@ impl Wait {
             has_heard && answer.is_given(seen.digital_in, seen.spindle)
         };
         let is_late = standing
-            .gate
+            .m_code_wait
             .within
             .is_some_and(|within| waited_ns > within.as_nanos());
         match standing.outcome {

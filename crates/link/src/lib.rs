@@ -23,7 +23,7 @@
 //! * [`servo`] is what a drive does with setpoints;
 //! * [`mirror`] publishes setpoints and status as ordinary services of iceoryx2, for looking on;
 //! * what people are told of states, faults and refusals: [`Status::state_text`], [`FaultReport`],
-//!   [`Objection`], [`refused`]; [`printable`] makes text of others safe to show.
+//!   [`UnmetPrecondition`], [`refused`]; [`printable`] makes text of others safe to show.
 //!
 //! Invariants:
 //!
@@ -83,6 +83,6 @@ pub use record::{
 pub use service::Capacity;
 pub use stall::STALL;
 pub use wording::{
-    AtRest, FaultReport, Objection, SWITCHED_OFF, StateChange, TOLD_TO_END, is_printable,
+    AtRest, FaultReport, SWITCHED_OFF, StateChange, TOLD_TO_END, UnmetPrecondition, is_printable,
     printable, refused,
 };

@@ -1,6 +1,6 @@
 //! The files of the page, which are part of the program.
 
-use crate::response::{Answer, ContentType};
+use crate::response::{ContentType, Response};
 
 /// The page.
 pub(crate) const INDEX: &str = include_str!("../page/index.html");
@@ -72,8 +72,8 @@ pub(crate) const FONTS: [(&str, &[u8]); 4] = [
 pub(crate) const FONT_LICENCE: &str = include_str!("../fonts/LICENSE-OFL.txt");
 
 /// The file at a path.
-pub(crate) fn find(path: &str) -> Option<Answer> {
-    let text = |content, text: &str| Some(Answer::new(content, text.as_bytes()));
+pub(crate) fn find(path: &str) -> Option<Response> {
+    let text = |content, text: &str| Some(Response::new(content, text.as_bytes()));
     match path {
         "/" => text(ContentType::Html, INDEX),
         "/style.css" => text(ContentType::Css, STYLE),
@@ -85,7 +85,7 @@ pub(crate) fn find(path: &str) -> Option<Answer> {
                 return text(ContentType::Script, script);
             }
             let font = FONTS.iter().find(|(at, _)| *at == path);
-            font.map(|(_, font)| Answer::new(ContentType::Font, *font))
+            font.map(|(_, font)| Response::new(ContentType::Font, *font))
         }
     }
 }

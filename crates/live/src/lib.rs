@@ -31,7 +31,7 @@ mod token;
 pub use feed::{Feed, Message};
 pub use motion::{AxisScale, LimitKind, Motion, MotionSample};
 pub use request::{Head, MOST_PIECE, Request};
-pub use response::{Answer, ContentType, Status};
+pub use response::{ContentType, Response, Status};
 pub use role::{Caller, Role};
 pub use seat::{SILENCE, Seat};
 pub use server::{Running, Server, ServerError, Site};

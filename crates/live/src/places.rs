@@ -36,9 +36,9 @@ struct Stranger {
 
 /// The place of one who has shown the token, until it is dropped.
 #[derive(Debug)]
-pub(crate) struct Place<'a>(&'a AtomicUsize);
+pub(crate) struct Permit<'a>(&'a AtomicUsize);
 
-impl Drop for Place<'_> {
+impl Drop for Permit<'_> {
     fn drop(&mut self) {
         self.0.fetch_sub(1, Ordering::Relaxed);
     }
@@ -76,12 +76,12 @@ impl Places {
     }
 
     /// A place for a page that stays; `None` if all are taken.
-    pub(crate) fn page(&self) -> Option<Place<'_>> {
+    pub(crate) fn page(&self) -> Option<Permit<'_>> {
         take(&self.pages, PAGES)
     }
 
     /// A place for any other request; `None` if all are taken.
-    pub(crate) fn request(&self) -> Option<Place<'_>> {
+    pub(crate) fn request(&self) -> Option<Permit<'_>> {
         take(&self.requests, REQUESTS)
     }
 
@@ -93,9 +93,9 @@ impl Places {
     }
 }
 
-fn take(taken: &AtomicUsize, most: usize) -> Option<Place<'_>> {
+fn take(taken: &AtomicUsize, most: usize) -> Option<Permit<'_>> {
     // Given back where there was none.
-    let place = Place(taken);
+    let place = Permit(taken);
     (taken.fetch_add(1, Ordering::Relaxed) < most).then_some(place)
 }
 

@@ -71,7 +71,7 @@ impl ContentType {
 
 /// An answer.
 #[derive(Debug, Clone)]
-pub struct Answer {
+pub struct Response {
     /// How it went.
     pub status: Status,
     /// What the body is.
@@ -80,7 +80,7 @@ pub struct Answer {
     pub body: Arc<[u8]>,
 }
 
-impl Answer {
+impl Response {
     /// A body of this type.
     pub fn new(content: ContentType, body: impl Into<Arc<[u8]>>) -> Self {
         let body = body.into();

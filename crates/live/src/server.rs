@@ -5,7 +5,7 @@ use crate::feed::{Feed, Message};
 use crate::guard::{Guard, UPLOAD};
 use crate::places::Places;
 use crate::request::{Head, MOST_BODY, MOST_PIECE, Request};
-use crate::response::{Answer, ContentType, Status, begin_stream};
+use crate::response::{ContentType, Response, Status, begin_stream};
 use crate::role::{Caller, Role};
 use crate::token::Token;
 use core::time::Duration;
@@ -36,11 +36,11 @@ const MAY: &str = "/api/may";
 /// judged.
 pub trait Site: Send + Sync {
     /// What is at a path below `/api/`, with its query; `None` if there is nothing.
-    fn document(&self, path: &str, query: &str) -> Option<Answer>;
+    fn document(&self, path: &str, query: &str) -> Option<Response>;
     /// Does what the body asks for, if the caller may.
-    fn command(&self, caller: Caller, body: &[u8]) -> Answer;
+    fn command(&self, caller: Caller, body: &[u8]) -> Response;
     /// Takes a piece of a program, which the query tells more about, if the caller may.
-    fn upload(&self, caller: Caller, query: &str, piece: &[u8]) -> Answer;
+    fn upload(&self, caller: Caller, query: &str, piece: &[u8]) -> Response;
 }
 
 /// The reason why there is no server.
@@ -292,7 +292,7 @@ fn answer_page(
     };
     let answer = match (request.method.as_str(), path) {
         ("GET", STREAM) => return tell(stream, work),
-        ("GET", MAY) => Answer::new(ContentType::Text, caller.role.name().as_bytes()),
+        ("GET", MAY) => Response::new(ContentType::Text, caller.role.name().as_bytes()),
         ("POST", COMMAND) => work.site.command(caller, &request.body),
         ("POST", UPLOAD) => work.site.upload(caller, query, &request.body),
         ("GET", path) => {
@@ -322,10 +322,10 @@ fn tell(mut stream: &TcpStream, work: &Work) -> io::Result<()> {
     Ok(())
 }
 
-fn not_found() -> Answer {
+fn not_found() -> Response {
     text(Status::NotFound, "there is nothing here")
 }
 
-fn text(status: Status, words: &str) -> Answer {
-    Answer::new(ContentType::Text, words.as_bytes()).with(status)
+fn text(status: Status, words: &str) -> Response {
+    Response::new(ContentType::Text, words.as_bytes()).with(status)
 }

@@ -3,7 +3,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that fails may panic")]
 
-use glidepath_live::{Answer, Caller, Feed, Role, Server, Site};
+use glidepath_live::{Caller, Feed, Response, Role, Server, Site};
 use rustix::process::{Resource, Rlimit, getrlimit, setrlimit};
 use std::fs::File;
 use std::io::{Read as _, Write as _};
@@ -14,15 +14,15 @@ use std::time::Duration;
 struct Nothing;
 
 impl Site for Nothing {
-    fn document(&self, _path: &str, _query: &str) -> Option<Answer> {
+    fn document(&self, _path: &str, _query: &str) -> Option<Response> {
         None
     }
 
-    fn command(&self, _caller: Caller, _body: &[u8]) -> Answer {
+    fn command(&self, _caller: Caller, _body: &[u8]) -> Response {
         unreachable!()
     }
 
-    fn upload(&self, _caller: Caller, _query: &str, _piece: &[u8]) -> Answer {
+    fn upload(&self, _caller: Caller, _query: &str, _piece: &[u8]) -> Response {
         unreachable!()
     }
 }

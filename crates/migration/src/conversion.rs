@@ -4,7 +4,7 @@ use serde::Serialize;
 
 /// The verdict on a key of the input.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct Verdict {
+pub struct KeyVerdict {
     /// The key, as the other control writes it.
     pub key: String,
     /// Where it stands: a line, with its file if it is not the first one.
@@ -30,11 +30,11 @@ pub struct Conversion {
     /// The configuration, with comments, and the lists behind it.
     pub configuration: String,
     /// Keys that mean the same here.
-    pub converted: Vec<Verdict>,
+    pub converted: Vec<KeyVerdict>,
     /// Keys that mean something else here.
-    pub changed: Vec<Verdict>,
+    pub changed: Vec<KeyVerdict>,
     /// Keys that nothing here corresponds to.
-    pub no_counterpart: Vec<Verdict>,
+    pub no_counterpart: Vec<KeyVerdict>,
     /// Keys of ours that have to be written before the configuration loads.
     pub asked: Vec<Asked>,
 }

@@ -1,6 +1,6 @@
 //! The draft of a configuration: tables of keys that are known, or asked for.
 
-use crate::conversion::{Asked, Conversion, Verdict};
+use crate::conversion::{Asked, Conversion, KeyVerdict};
 use crate::inputs::{Fate, Inputs};
 use core::fmt::Write as _;
 
@@ -190,13 +190,13 @@ impl Line {
     }
 }
 
-fn list(text: &mut String, title: &str, verdicts: &[Verdict]) {
+fn list(text: &mut String, title: &str, verdicts: &[KeyVerdict]) {
     if verdicts.is_empty() {
         return;
     }
     let _ = write!(text, "\n# {title}:\n");
     for verdict in verdicts {
-        let Verdict {
+        let KeyVerdict {
             key,
             place,
             value,

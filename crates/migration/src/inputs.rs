@@ -1,6 +1,6 @@
 //! The keys of a foreign configuration, each with what becomes of it.
 
-use crate::conversion::Verdict;
+use crate::conversion::KeyVerdict;
 
 /// Where a key belongs among the lists.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -109,10 +109,10 @@ impl Inputs {
     }
 
     /// The keys whose fate is this one.
-    pub(crate) fn of(&self, wanted: Fate) -> Vec<Verdict> {
+    pub(crate) fn of(&self, wanted: Fate) -> Vec<KeyVerdict> {
         let all = self.keys.iter().enumerate();
         let these = all.filter_map(|(at, input)| match &input.fate {
-            Some((fate, note)) if *fate == wanted => Some(Verdict {
+            Some((fate, note)) if *fate == wanted => Some(KeyVerdict {
                 key: self.name(at),
                 place: input.place.clone(),
                 value: input.value.clone(),

@@ -26,7 +26,7 @@ mod klipper;
 mod linuxcnc;
 mod screw;
 
-pub use conversion::{Asked, Conversion, Verdict};
+pub use conversion::{Asked, Conversion, KeyVerdict};
 pub use grbl::from_grbl;
 pub use ini::{Include, ReadError};
 pub use klipper::from_klipper;

@@ -15,17 +15,17 @@
 //! the length of the program. Every frame keeps the limits of every axis and the tolerance of the
 //! path; where no such frame is found, none is given out, and [`PlanError::NoMotion`] says so.
 //!
-//! **Two wings**, each a principle, chosen by [`glidepath_program::Effort`]:
+//! **Two engines**, each a principle, chosen by [`glidepath_program::Effort`]:
 //!
-//! | wing | what is given | what is planned |
+//! | engine | what is given | what is planned |
 //! |---|---|---|
 //! | `on_path` | the path, from program and tolerance alone | the time along it |
 //! | `in_tube` | the program and its tolerance, as a tube | geometry and time together |
 //!
 //! Beside them stands what both use: `intake` (the checks of items), `programmed_rate` and
 //! `feed_axes`, `rest`, `grid` (the frames of one period each), [`scurve`]; and above them
-//! `stretches`, which plans from rest to rest with the wing that is faster, and `planner`, with
-//! `guard`, the last look at a frame; `wing` says which of the two plans at least. `on_path` knows
+//! `stretches`, which plans from rest to rest with the engine that is faster, and `planner`, with
+//! `guard`, the last look at a frame; `engine_kind` says which of the two plans at least. `on_path` knows
 //! nothing of `in_tube`. [`parts`] plans a program in parts that begin and end at rest, for whoever
 //! has several cores.
 //!
@@ -82,6 +82,7 @@
 //! | `_u` | a curve's own parameter, 0…1 |
 //! | `_k` | curvature, 1/mm |
 
+mod engine_kind;
 mod error;
 mod event_pace;
 mod feed_axes;
@@ -98,7 +99,6 @@ mod programmed_rate;
 mod rest;
 pub mod scurve;
 mod stretches;
-mod wing;
 
 pub use error::PlanError;
 pub use joints::{Joints, JointsOnCurve};

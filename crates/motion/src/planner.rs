@@ -4,7 +4,7 @@ use super::event_pace::{EventPace, Paced};
 use super::guard::GuardedFrames;
 use super::on_path::OnPathEngine;
 use super::stretches::StretchEngine;
-use crate::wing::Wing;
+use crate::engine_kind::EngineKind;
 use crate::{Joints, PlanError};
 use glidepath_geometry::AxisVector;
 use glidepath_program::{Frame, Item, Override, Settings};
@@ -33,9 +33,9 @@ enum Engine {
 
 impl Engine {
     fn new(settings: Settings, start: AxisVector) -> Self {
-        match Wing::of(&settings) {
-            Wing::InTube => Self::Stretches(Box::new(StretchEngine::new(settings, start))),
-            Wing::OnPath => {
+        match EngineKind::of(&settings) {
+            EngineKind::InTube => Self::Stretches(Box::new(StretchEngine::new(settings, start))),
+            EngineKind::OnPath => {
                 Self::OnPath(Box::new(OnPathEngine::new(settings, start, Override::NONE)))
             }
         }

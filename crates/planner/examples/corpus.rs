@@ -19,7 +19,7 @@ use std::time::Duration;
 
 use glidepath_audit::diagnosis::Diagnosis;
 use glidepath_audit::smoothness::Figures;
-use glidepath_audit::{Audit, AuditSettings, Report};
+use glidepath_audit::{Audit, AuditReport, AuditSettings};
 use glidepath_gcode::{Dialect, Machine, Options, Program, ToolTable};
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_motion::{PlanError, Planner};
@@ -36,7 +36,7 @@ const PERIOD_T: f64 = 0.004;
 
 /// A plan of a program, or of its beginning.
 struct Plan {
-    report: Report,
+    report: AuditReport,
     smooth: Figures,
     segments: usize,
     /// The time at the programmed feed everywhere, rapids at the speed of the axes, s.

@@ -18,13 +18,13 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use glidepath_gcode::{Machine, Options, Travel};
+use glidepath_gcode::{AxisTravel, Machine, Options};
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_link::{
     Command, CommandReply, CommandRequest, InProcess, JobStage, MachineState, Status,
     Transport as _,
 };
-use glidepath_planner::{Control, Notice, Pace, Pipeline, ProgramSource, Publisher, RunError};
+use glidepath_planner::{Control, FramePublisher, Notice, Pace, Pipeline, ProgramSource, RunError};
 use glidepath_program::Effort;
 use mill::mill;
 
@@ -34,7 +34,7 @@ const TURNS: usize = 9;
 
 /// A mill with soft limits.
 fn options() -> Options {
-    let travel = Travel {
+    let travel = AxisTravel {
         min: -500.0,
         max: 500.0,
     };
@@ -104,7 +104,7 @@ fn publish(path: &Path, effort: Effort) -> Result<Duration, Box<dyn Error>> {
         }
     };
     let mut published = None;
-    let mut publisher = Publisher::connect(&transport, Pace::new(PERIOD_NS, 0.6))?;
+    let mut publisher = FramePublisher::connect(&transport, Pace::new(PERIOD_NS, 0.6))?;
     let mut none = |_: &Notice<'_>| {};
     let position = publisher.wait_until_ready(
         ("part", 0),

@@ -87,7 +87,7 @@ impl<T> BlockLog<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Attending, ItemSource as _, ProgramSource, Supply};
+    use crate::{ItemSource as _, ProgramSource, RunChannels, Supply};
     use glidepath_gcode::Options;
 
     #[test]
@@ -95,9 +95,9 @@ mod tests {
         let text = "G0 X1\nG0 X2\nG10 L2 P2 X5\nG10 L2 P2 X6\nG0 X3\nT7 M6\nG0 X4\nM2\n";
         let log = ChangeLog::default();
         let mut source =
-            ProgramSource::new(text.as_bytes(), Options::default()).attended(Attending {
+            ProgramSource::new(text.as_bytes(), Options::default()).attended(RunChannels {
                 changes: Some(log.clone()),
-                ..Attending::default()
+                ..RunChannels::default()
             });
         let mut items = 0;
         while let Supply::Item(_) = source.next_item() {
@@ -120,9 +120,9 @@ mod tests {
         let text = "G0 Z1\nG43.1 Z2\nG0 Z2\nS9 T7 M6 G43.1 Z5\nG0 Z3\nG49\nM2\n";
         let log = ToolLengthLog::default();
         let mut source =
-            ProgramSource::new(text.as_bytes(), Options::default()).attended(Attending {
+            ProgramSource::new(text.as_bytes(), Options::default()).attended(RunChannels {
                 lengths: Some(log.clone()),
-                ..Attending::default()
+                ..RunChannels::default()
             });
         while let Supply::Item(_) = source.next_item() {}
         let of = |length: Option<ToolLength>| length.map(|length| length.offset[2]);

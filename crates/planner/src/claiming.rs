@@ -10,10 +10,10 @@ use glidepath_link::{JobPhase, JobStage, Status};
 use crate::attend::{Attend, Attended};
 use crate::claim::Claim;
 use crate::machine::POLL;
-use crate::publish::Publisher;
+use crate::publish::FramePublisher;
 use crate::{Control, RunError};
 
-impl Publisher<'_> {
+impl FramePublisher<'_> {
     /// Tells the interpolator of a job that was asked for at `asked_ns` (of the host's steady clock; 0 if that is not
     /// known). From now on it can be aborted and held there, whatever it is at; so it could before, by who had
     /// asked for it by then.
@@ -70,11 +70,11 @@ impl Publisher<'_> {
         Ok(None)
     }
 
-    /// Takes the machine, which is known to be ready, for what was asked for at a time (as [`Publisher::claim`] has it), and
+    /// Takes the machine, which is known to be ready, for what was asked for at a time (as [`FramePublisher::claim`] has it), and
     /// waits a moment for it.
     ///
     /// # Errors
-    /// As [`Publisher::take`].
+    /// As [`FramePublisher::take`].
     pub(crate) fn take_now(
         &mut self,
         name: &str,
@@ -136,7 +136,7 @@ impl Publisher<'_> {
     }
 
     /// Has something done in a thread of its own that takes long, while others are attended to. What
-    /// reads a program is to have its [`Publisher::watch`]: by that it is ended.
+    /// reads a program is to have its [`FramePublisher::watch`]: by that it is ended.
     ///
     /// # Errors
     /// The job was ended meanwhile, or no thread is to be had. What was done is dropped.

@@ -13,10 +13,10 @@ use glidepath_link::{Command, LinkError, MachineState};
 
 use crate::attend::Attend;
 use crate::machine::POLL;
-use crate::{Control, ItemSource, Pipeline, Publisher, RunError, Statistics};
+use crate::{Control, FramePublisher, ItemSource, Pipeline, RunError, Statistics};
 
-impl Publisher<'_> {
-    /// Publishes all frames of a pipeline that starts where [`Publisher::wait_until_ready`] said,
+impl FramePublisher<'_> {
+    /// Publishes all frames of a pipeline that starts where [`FramePublisher::wait_until_ready`] said,
     /// and waits until they are executed. They are planned in a thread of its own.
     ///
     /// # Errors
@@ -30,10 +30,10 @@ impl Publisher<'_> {
         self.publish_and_attend(pipeline, &mut |_: Duration| {}, control)
     }
 
-    /// As [`Publisher::publish`], for a source that has others to answer to.
+    /// As [`FramePublisher::publish`], for a source that has others to answer to.
     ///
     /// # Errors
-    /// As [`Publisher::publish`].
+    /// As [`FramePublisher::publish`].
     pub fn publish_and_attend<S: ItemSource + Send>(
         &mut self,
         pipeline: &mut Pipeline<S>,

@@ -34,7 +34,7 @@ pub enum RunError {
     #[error(
         "the machine stopped by a fault: {0}; {remedy}", remedy = .0.cause.remedy()
     )]
-    Fault(Fault),
+    Fault(LatchedFault),
     /// The interpolator stopped by a fault, and somebody has reset it before its cause was read.
     #[error("the machine stopped by a fault that was reset meanwhile{}", after_colon(.message))]
     FaultReset {
@@ -91,7 +91,7 @@ pub enum RunError {
 
 /// A fault the interpolator has latched.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Fault {
+pub struct LatchedFault {
     /// What kind.
     pub cause: FaultCause,
     /// Source line, 0 if it has none.
@@ -102,7 +102,7 @@ pub struct Fault {
     pub text: String,
 }
 
-impl std::fmt::Display for Fault {
+impl std::fmt::Display for LatchedFault {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(&self.text)
     }
@@ -126,7 +126,7 @@ impl RunError {
     /// The fault a status tells of.
     pub(crate) fn fault(status: &Status) -> Self {
         match status.fault() {
-            Ok(Some(cause)) => Self::Fault(Fault {
+            Ok(Some(cause)) => Self::Fault(LatchedFault {
                 cause,
                 line: status.fault_line,
                 axis: status.fault_axis(),

@@ -10,8 +10,8 @@ use glidepath_program::Settings;
 
 use crate::unchanged_file::UnchangedFile;
 use crate::{
-    Answer, Attending, CurveSource, ItemSource, NurbsSource, ProgramSource, Refusal, Settled,
-    Supply,
+    CurveSource, InputResult, ItemSource, NurbsSource, ProgramSource, Refusal, RunChannels,
+    Settled, Supply,
 };
 
 /// Bytes read from a file at a time.
@@ -102,9 +102,9 @@ impl FileSource {
 
     /// The same source, which shares what it comes to with whoever attends to its run.
     #[must_use]
-    pub fn attended(self, attending: Attending) -> Self {
+    pub fn attended(self, channels: RunChannels) -> Self {
         match self {
-            Self::Program(source) => Self::Program(Box::new(source.attended(attending))),
+            Self::Program(source) => Self::Program(Box::new(source.attended(channels))),
             // Curves change, say and ask nothing.
             curve @ (Self::Curve(_) | Self::Nurbs(_)) => curve,
         }
@@ -248,7 +248,7 @@ impl ItemSource for FileSource {
         }
     }
 
-    fn settle(&mut self, known: Option<Answer>) -> Result<Settled, Refusal> {
+    fn settle(&mut self, known: Option<InputResult>) -> Result<Settled, Refusal> {
         match self {
             Self::Program(source) => source.settle(known),
             Self::Curve(_) | Self::Nurbs(_) => Ok(Settled::Nothing),

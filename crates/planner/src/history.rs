@@ -16,7 +16,7 @@ use std::collections::VecDeque;
 use glidepath_motion::MOST_MOVES_AT_ONCE;
 use glidepath_program::Override;
 
-use crate::planning::{Kept, Planning};
+use crate::planning::{Planning, TakenItem};
 
 /// Motion between two checkpoints, s: what is planned once more, at most, when an override
 /// changes. Planning it takes less time than the horizon even on a host that is busy otherwise; more
@@ -48,7 +48,7 @@ pub(crate) struct History {
     /// In the order of their frames.
     later: VecDeque<Checkpoint>,
     /// Taken since the first checkpoint.
-    items: VecDeque<Kept>,
+    items: VecDeque<TakenItem>,
     checkpoint_frames: u64,
 }
 
@@ -73,13 +73,13 @@ impl History {
     }
 
     /// The item that comes after so many, if it was taken before.
-    pub(crate) fn item_after(&self, items: u64) -> Option<Kept> {
+    pub(crate) fn item_after(&self, items: u64) -> Option<TakenItem> {
         let index = items.checked_sub(self.first.planning.items())?;
         self.items.get(usize::try_from(index).ok()?).copied()
     }
 
     /// Keeps the next item, as it is given to the planning.
-    pub(crate) fn keep(&mut self, kept: Kept) {
+    pub(crate) fn keep(&mut self, kept: TakenItem) {
         self.items.push_back(kept);
     }
 
@@ -196,7 +196,7 @@ mod tests {
         for number in 0..3 * MOST_ITEMS + 7 {
             assert_eq!(planning.make_frame(), Ok(false));
             planning.take(nothing(number)).unwrap();
-            history.keep(Kept {
+            history.keep(TakenItem {
                 item: nothing(number),
                 is_aside: false,
             });

@@ -1,4 +1,4 @@
-//! The input watch, which answers a desk: it looks at the inputs of feedback for the M66 that asks.
+//! The input watch, which answers the input arbiter: it looks at the inputs of feedback for the M66 that asks.
 //!
 //! The source gives nothing out before it has its answer, so that the machine rests at the M66; only
 //! then the input is looked at, and the time runs. A probing move ends an epoch, and what that came
@@ -10,7 +10,7 @@ use std::time::Duration;
 use glidepath_gcode::{Input, InputWait, Probed, WaitFor};
 use glidepath_link::{Feedback, Record as _, Subscriber};
 
-use crate::desk::{Answer, InputDesk};
+use crate::input_arbiter::{InputArbiter, InputResult};
 use crate::{Refusal, RunError};
 
 /// What `#5399` is where an input did not do in time what was waited for.
@@ -18,9 +18,9 @@ const TOO_LATE: f64 = -1.0;
 /// Feedback of a stack that is so much older than the newest is not used.
 const STALE_NS: u64 = 1_000_000_000;
 
-/// Looks at inputs for a desk.
+/// Looks at inputs for the input arbiter.
 pub(crate) struct InputWatch {
-    desk: InputDesk,
+    arbiter: InputArbiter,
     source: Box<dyn Subscriber<Feedback>>,
     /// The last record of each stack.
     stacks: BTreeMap<u64, Feedback>,
@@ -31,9 +31,9 @@ pub(crate) struct InputWatch {
 }
 
 impl InputWatch {
-    pub(crate) fn new(desk: InputDesk, source: Box<dyn Subscriber<Feedback>>) -> Self {
+    pub(crate) fn new(arbiter: InputArbiter, source: Box<dyn Subscriber<Feedback>>) -> Self {
         Self {
-            desk,
+            arbiter,
             source,
             stacks: BTreeMap::new(),
             waited: Duration::ZERO,
@@ -54,13 +54,13 @@ impl InputWatch {
         let newest = self.stacks.values().map(|f| f.sample_ns).max().unwrap_or(0);
         self.stacks
             .retain(|_, f| newest.saturating_sub(f.sample_ns) < STALE_NS);
-        let Some(wait) = self.desk.asked().filter(|_| rests) else {
+        let Some(wait) = self.arbiter.asked().filter(|_| rests) else {
             (self.waited, self.before) = (Duration::ZERO, None);
             return Ok(());
         };
         self.waited = self.waited.saturating_add(passed);
         if let Some(value) = self.value_of(&wait) {
-            self.answer(Answer::Input(value))?;
+            self.answer(InputResult::Input(value))?;
         }
         Ok(())
     }
@@ -70,11 +70,11 @@ impl InputWatch {
     /// # Errors
     /// That cannot be kept.
     pub(crate) fn answer_probe(&self, probed: Probed) -> Result<(), RunError> {
-        self.answer(Answer::Probe(probed))
+        self.answer(InputResult::Probe(probed))
     }
 
-    fn answer(&self, answer: Answer) -> Result<(), RunError> {
-        let answered = self.desk.answer(answer);
+    fn answer(&self, answer: InputResult) -> Result<(), RunError> {
+        let answered = self.arbiter.answer(answer);
         answered.map_err(|error| Refusal::NotKept(error).into())
     }
 
@@ -118,7 +118,7 @@ impl InputWatch {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Attending, ItemSource as _, PipeSource, ProgramSource, Supply};
+    use crate::{ItemSource as _, PipeSource, ProgramSource, RunChannels, Supply};
     use bytemuck::Zeroable as _;
     use glidepath_gcode::{Connections, Options};
     use glidepath_geometry::AxisVector;
@@ -127,15 +127,15 @@ mod tests {
 
     const TURN: Duration = Duration::from_millis(100);
 
-    fn source(text: &'static str, desk: &InputDesk) -> ProgramSource<&'static [u8]> {
+    fn source(text: &'static str, arbiter: &InputArbiter) -> ProgramSource<&'static [u8]> {
         let options = Options {
             connections: Connections::Real,
             default_feed_mm_min: Some(600.0),
             ..Options::default()
         };
-        ProgramSource::new(text.as_bytes(), options).attended(Attending {
-            inputs: Some(desk.clone()),
-            ..Attending::default()
+        ProgramSource::new(text.as_bytes(), options).attended(RunChannels {
+            inputs: Some(arbiter.clone()),
+            ..RunChannels::default()
         })
     }
 
@@ -153,9 +153,9 @@ mod tests {
     fn answer(text: &'static str, levels: &[u64]) -> Option<f64> {
         let link = InProcess::default();
         let mut sink = link.feedback_sink().unwrap();
-        let desk = InputDesk::default();
-        let mut watch = InputWatch::new(desk.clone(), link.feedback_source().unwrap());
-        let mut source = source(text, &desk);
+        let arbiter = InputArbiter::default();
+        let mut watch = InputWatch::new(arbiter.clone(), link.feedback_source().unwrap());
+        let mut source = source(text, &arbiter);
         assert!(asks(source.next_item()));
         assert!(matches!(source.next_item(), Supply::Pending));
         // The machine is not there yet: whatever the input is does not count.
@@ -206,15 +206,15 @@ mod tests {
 
     #[test]
     fn behind_a_probing_move_a_pipe_waits_for_what_it_came_to() {
-        let desk = InputDesk::default();
+        let arbiter = InputArbiter::default();
         let options = Options {
             connections: Connections::Real,
             probing_v: Some(10.0),
             ..Options::default()
         };
-        let attending = Attending {
-            inputs: Some(desk.clone()),
-            ..Attending::default()
+        let channels = RunChannels {
+            inputs: Some(arbiter.clone()),
+            ..RunChannels::default()
         };
         let text = "G38.2 Z-5 F60\nG0 X#5063\n";
         let mut ends = Vec::new();
@@ -229,16 +229,17 @@ mod tests {
                 other => return (other, ends.clone()),
             }
         };
-        let mut pipe = PipeSource::spawn(text.as_bytes(), options, attending).unwrap();
+        let mut pipe = PipeSource::spawn(text.as_bytes(), options, channels).unwrap();
         assert!(matches!(read(&mut pipe).0, Supply::Probe));
         std::thread::sleep(Duration::from_millis(20));
         assert!(matches!(pipe.next_item(), Supply::Pending));
-        desk.answer(Answer::Probe(Probed {
-            contact: Some(AxisVector::z() * -2.0),
-            was_so: false,
-            stands: AxisVector::z() * -2.1,
-        }))
-        .unwrap();
+        arbiter
+            .answer(InputResult::Probe(Probed {
+                contact: Some(AxisVector::z() * -2.0),
+                was_so: false,
+                stands: AxisVector::z() * -2.1,
+            }))
+            .unwrap();
         let (end, ends) = read(&mut pipe);
         assert!(matches!(end, Supply::End));
         assert_eq!(ends.last(), Some(&(-2.1, -2.0)));

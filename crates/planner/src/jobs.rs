@@ -1,4 +1,4 @@
-//! The job desk of the planner's service: lines and files that operators want executed, one at a
+//! The job queue of the planner's service: lines and files that operators want executed, one at a
 //! time.
 //!
 //! A request that is sent again asks how its job stands, and answers are remembered, so nothing is
@@ -23,8 +23,8 @@ use glidepath_link::{
 
 use crate::attend::{Attend, Attended};
 use crate::client_watch::ClientWatch;
-use crate::sent::{Begun, Counter, LinesEnd};
-use crate::{Control, Followed, LineFacts, LineInbox, Publisher, StartLine};
+use crate::sent::{LineServer, LinesEnd, SentJob};
+use crate::{Control, Followed, FramePublisher, LineFacts, LineInbox, StartLine};
 
 /// Requests served between two looks at the motion.
 const REQUESTS_PER_TURN: u32 = 32;
@@ -114,12 +114,12 @@ pub enum JobEnd {
 /// The executor of jobs.
 pub trait JobRunner {
     /// Executes a job that has the machine, which stands at a position. Whatever takes long is to be
-    /// done by [`Publisher::work`], so that `attend` is called every few milliseconds.
+    /// done by [`FramePublisher::work`], so that `attend` is called every few milliseconds.
     fn run(
         &mut self,
         job: &Job,
         start: AxisVector,
-        publisher: &mut Publisher<'_>,
+        publisher: &mut FramePublisher<'_>,
         attend: &mut dyn Attend,
         control: &mut Control<'_>,
     ) -> JobEnd;
@@ -174,10 +174,10 @@ impl Current {
     }
 }
 
-/// The desk at which jobs are handed in.
-pub(crate) struct JobDesk {
+/// The queue at which jobs are handed in.
+pub(crate) struct JobQueue {
     server: Box<dyn Server<JobRequest, JobReply>>,
-    lines: Counter,
+    lines: LineServer,
     current: Option<Current>,
     /// That job, and how long it has waited for the machine to be ready.
     waiting: Option<(Job, Duration)>,
@@ -185,11 +185,11 @@ pub(crate) struct JobDesk {
     past: VecDeque<JobReply>,
 }
 
-impl JobDesk {
+impl JobQueue {
     pub(crate) fn open(transport: &dyn Transport) -> Result<Self, LinkError> {
         Ok(Self {
             server: transport.job_server()?,
-            lines: Counter::open(transport)?,
+            lines: LineServer::open(transport)?,
             current: None,
             waiting: None,
             past: VecDeque::new(),
@@ -228,7 +228,7 @@ impl JobDesk {
             return Ok(());
         }
         if let Some(begun) = self.lines.take()? {
-            let Begun {
+            let SentJob {
                 client,
                 name,
                 asked_ns,
@@ -392,9 +392,9 @@ fn unknown(request: &JobRequest) -> JobReply {
     JobReply::new(request, JobState::Unknown, WHY)
 }
 
-/// Attends to the client of a job, and tells others that the planner is busy.
-pub(crate) struct JobAttendant<'a> {
-    pub(crate) jobs: &'a mut JobDesk,
+/// The handler of the client of a job, which tells others that the planner is busy.
+pub(crate) struct JobClientHandler<'a> {
+    pub(crate) jobs: &'a mut JobQueue,
     /// Serves whoever wants to stream segments.
     pub(crate) refuse: &'a mut dyn FnMut(&str) -> Result<(), LinkError>,
     pub(crate) failed: Result<(), LinkError>,
@@ -404,7 +404,7 @@ pub(crate) struct JobAttendant<'a> {
 pub(crate) const BUSY: &str =
     "the planner executes a line or a file; wait for its end, or abort it";
 
-impl Attend for JobAttendant<'_> {
+impl Attend for JobClientHandler<'_> {
     fn attend(&mut self, waited: Duration, doing: &str) -> Attended {
         let served = (self.refuse)(BUSY).and_then(|()| self.jobs.serve_busy(waited, (doing, BUSY)));
         match served {

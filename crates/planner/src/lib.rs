@@ -3,7 +3,7 @@
 //!
 //! ```text
 //!  file ─┐
-//!  pipe ─┼─ ItemSource ─▶ Pipeline ─▶ queue ─▶ Publisher ─▶ FrameSink
+//!  pipe ─┼─ ItemSource ─▶ Pipeline ─▶ queue ─▶ FramePublisher ─▶ FrameSink
 //!  feed ─┘   (items)      (frames,             (pace)  ◀─ Status
 //!                          a thread)
 //! ```
@@ -17,7 +17,7 @@
 //! * [`Pipeline`] turns a source into frames, one after the other; [`LimitedMechanism`] keep the joints of
 //!   a mechanism inside their limits on the way.
 //! * [`ParallelPipeline`] does the same ahead of time, on all cores.
-//! * [`Publisher`] hands frames on, no further ahead of the machine than its [`Pace`] says. They are
+//! * [`FramePublisher`] hands frames on, no further ahead of the machine than its [`Pace`] says. They are
 //!   planned further ahead than that, in a thread of their own.
 //! * [`SentLines`] are the lines that a sender gives to the planner's service as they come.
 //! * [`listen()`] and [`feed()`] are the two ends of a stream of segments from another process.
@@ -65,7 +65,6 @@
 
 mod ahead;
 mod attend;
-mod attending;
 mod blocks;
 mod changes;
 mod claim;
@@ -73,7 +72,6 @@ mod claiming;
 mod client_watch;
 mod control;
 mod curve;
-mod desk;
 mod epoch;
 mod epochs;
 mod error;
@@ -82,6 +80,7 @@ mod file;
 mod file_moves;
 mod fingerprint;
 mod history;
+mod input_arbiter;
 mod inputs;
 mod interval;
 mod jobs;
@@ -100,6 +99,7 @@ mod refusal;
 mod remarks;
 mod restoring;
 mod resume;
+mod run_channels;
 mod sent;
 mod source;
 mod start_line;
@@ -108,16 +108,15 @@ mod stream;
 mod unchanged_file;
 
 pub use attend::{Attend, Attended};
-pub use attending::Attending;
 pub use changes::{BlockLog, ChangeLog, SetUp, ToolLengthLog};
 pub use client_watch::CLIENT_SILENCE;
 pub use control::{Control, Notice, Progress};
 pub use curve::CurveSource;
-pub use desk::{Answer, AnswerJournal, Answered, InputDesk};
 pub use epoch::Pace;
-pub use error::{Fault, RunError};
+pub use error::{LatchedFault, RunError};
 pub use feed::{Fed, FeedError, Feeding, feed};
 pub use file::{FileSource, LookedAt, check_file, find_in_file};
+pub use input_arbiter::{AnsweredInput, InputArbiter, InputJournal, InputResult};
 pub use jobs::{Job, JobEnd, JobRunner};
 pub use listen::{Listening, listen, serve};
 pub use nurbs::NurbsSource;
@@ -125,10 +124,11 @@ pub use parallel::ParallelPipeline;
 pub use pipe::PipeSource;
 pub use pipeline::Pipeline;
 pub use program::ProgramSource;
-pub use publish::Publisher;
+pub use publish::FramePublisher;
 pub use refusal::Refusal;
 pub use remarks::RemarkLog;
 pub use resume::{Remainder, ResumeError, ResumePoint};
+pub use run_channels::RunChannels;
 pub use sent::{Followed, LineFacts, LineInbox, SentLines};
 pub use source::{ItemSource, SILENCE, Settled, Supply};
 pub use start_line::{Approach, LineStart, StartLine, StartLineError};

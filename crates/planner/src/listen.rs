@@ -21,12 +21,12 @@ use glidepath_program::Settings;
 
 use crate::attend::{Attend, Attended};
 use crate::client_watch::ClientWatch;
-use crate::jobs::{BUSY, Job, JobAttendant, JobDesk, JobEnd, JobRunner, NEWS};
+use crate::jobs::{BUSY, Job, JobClientHandler, JobEnd, JobQueue, JobRunner, NEWS};
 use crate::machine::POLL;
 use crate::stream::refuse;
 use crate::{
-    Control, ItemSource, Notice, Pace, Pipeline, Publisher, Refusal, RunError, SILENCE, SoftLimits,
-    Statistics, Stream, Supply,
+    Control, FramePublisher, ItemSource, Notice, Pace, Pipeline, Refusal, RunError, SILENCE,
+    SoftLimits, Statistics, Stream, Supply,
 };
 
 /// Requests served between two looks at the motion.
@@ -88,11 +88,11 @@ fn serve_all(
     mut runner: Option<&mut dyn JobRunner>,
     control: &mut Control<'_>,
 ) -> Result<(), RunError> {
-    let jobs = runner.is_some().then(|| JobDesk::open(transport));
+    let jobs = runner.is_some().then(|| JobQueue::open(transport));
     let mut listener = Listener {
         server: transport.segment_server()?,
         jobs: jobs.transpose()?,
-        publisher: Publisher::connect(transport, listening.pace)?,
+        publisher: FramePublisher::connect(transport, listening.pace)?,
         last: None,
     };
     loop {
@@ -139,8 +139,8 @@ enum Accepted {
 
 struct Listener<'t> {
     server: Box<Segments>,
-    jobs: Option<JobDesk>,
-    publisher: Publisher<'t>,
+    jobs: Option<JobQueue>,
+    publisher: FramePublisher<'t>,
     /// The stream before, whose client may still ask how it ended.
     last: Option<Stream>,
 }
@@ -166,7 +166,7 @@ impl Listener<'_> {
             if let Some(accepted) = self.serve_jobs(control)? {
                 return Ok(accepted);
             }
-            let has_waiting = self.jobs.as_ref().is_some_and(JobDesk::has_waiting);
+            let has_waiting = self.jobs.as_ref().is_some_and(JobQueue::has_waiting);
             if !has_waiting
                 && let Some((stream, position)) =
                     self.serve_waiting(&ready, listening.limits, control)?
@@ -292,7 +292,7 @@ impl Listener<'_> {
             ..
         } = self;
         let Some(jobs) = jobs else { return Ok(()) };
-        let mut attendant = JobAttendant {
+        let mut handler = JobClientHandler {
             jobs,
             refuse: &mut |why| {
                 let refused = (SegmentRefusal::Busy, why.to_owned());
@@ -302,8 +302,8 @@ impl Listener<'_> {
             },
             failed: Ok(()),
         };
-        let end = runner.run(job, start, publisher, &mut attendant, control);
-        let failed = attendant.failed;
+        let end = runner.run(job, start, publisher, &mut handler, control);
+        let failed = handler.failed;
         publisher.release(control);
         jobs.finish(&end);
         failed.map_err(Into::into)
@@ -322,7 +322,7 @@ impl Listener<'_> {
             broken: None,
             idle: Duration::ZERO,
         });
-        let mut attendant = Attendant {
+        let mut handler = StreamClientHandler {
             server: self.server.as_mut(),
             received: &received,
             client: ClientWatch::new(),
@@ -333,7 +333,7 @@ impl Listener<'_> {
             .of_stream();
         let outcome = self
             .publisher
-            .publish_and_attend(&mut pipeline, &mut attendant, control);
+            .publish_and_attend(&mut pipeline, &mut handler, control);
         let received = received.into_inner();
         let mut stream = received.unwrap_or_else(PoisonError::into_inner).stream;
         match &outcome {
@@ -374,16 +374,16 @@ fn lock(received: &Mutex<Received>) -> MutexGuard<'_, Received> {
     received.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// The side to which items come in.
-struct Attendant<'s> {
+/// The handler of the client of a stream: the side to which items come in.
+struct StreamClientHandler<'s> {
     server: &'s mut Segments,
     received: &'s Mutex<Received>,
     client: ClientWatch,
     /// Where others ask for lines and files.
-    jobs: Option<&'s mut JobDesk>,
+    jobs: Option<&'s mut JobQueue>,
 }
 
-impl Attend for Attendant<'_> {
+impl Attend for StreamClientHandler<'_> {
     /// Answers the client, and notices when it is gone.
     fn attend(&mut self, waited: Duration, _doing: &str) -> Attended {
         self.client.wait(waited);
@@ -425,7 +425,7 @@ impl Attend for Attendant<'_> {
     }
 }
 
-impl Attendant<'_> {
+impl StreamClientHandler<'_> {
     /// Answers what came in.
     fn serve(&mut self) -> Result<(), LinkError> {
         let Self {

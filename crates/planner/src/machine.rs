@@ -48,7 +48,7 @@ pub(crate) enum Standing {
 }
 
 /// Status and command ports, and what was last heard.
-pub(crate) struct Machine {
+pub(crate) struct MachinePorts {
     status: Box<dyn Subscriber<Status>>,
     commands: Box<dyn Client<CommandRequest, CommandReply>>,
     latest: Option<Status>,
@@ -61,16 +61,16 @@ pub(crate) struct Machine {
     commands_sent: u64,
 }
 
-impl std::fmt::Debug for Machine {
+impl std::fmt::Debug for MachinePorts {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Machine")
+        f.debug_struct("MachinePorts")
             .field("latest", &self.latest)
             .field("alive", &self.alive)
             .finish_non_exhaustive()
     }
 }
 
-impl Machine {
+impl MachinePorts {
     pub(crate) fn connect(transport: &dyn Transport) -> Result<Self, LinkError> {
         Ok(Self {
             status: transport.status_source()?,

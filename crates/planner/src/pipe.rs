@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use glidepath_gcode::Options;
 
 use crate::program::{BUFFER, ProgramSource};
-use crate::{Attending, ItemSource, Refusal, SILENCE, Supply};
+use crate::{ItemSource, Refusal, RunChannels, SILENCE, Supply};
 
 /// Items read ahead from a pipe.
 const READ_AHEAD: usize = 1024;
@@ -79,7 +79,7 @@ impl PipeSource {
     pub fn spawn<R: Read + Send + 'static>(
         input: R,
         options: Options,
-        attending: Attending,
+        channels: RunChannels,
     ) -> Result<Self, Refusal> {
         let (sender, pieces) = sync_channel(READ_AHEAD);
         let lines = Arc::new(AtomicU64::new(0));
@@ -93,7 +93,7 @@ impl PipeSource {
             .name("program reader".to_owned())
             .spawn(move || {
                 let source = ProgramSource::new(BufReader::with_capacity(BUFFER, input), options)
-                    .attended(attending);
+                    .attended(channels);
                 read_all(source, &sender, &counter);
             })?;
         Ok(Self {

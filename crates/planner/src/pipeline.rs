@@ -23,7 +23,7 @@ use glidepath_program::{Event, Frame, Item, ItemKind, Override, Settings};
 use crate::blocks::Blocks;
 use crate::history::History;
 use crate::joint_bounds::JointBounds;
-use crate::planning::{Kept, Planning, Stage};
+use crate::planning::{Planning, Stage, TakenItem};
 use crate::step::{Output, Statistics, Step};
 use crate::{ItemSource, Refusal, Remainder, Supply};
 
@@ -406,7 +406,7 @@ impl<S: ItemSource> Pipeline<S> {
 
     fn keep(&mut self, item: Item, is_aside: bool) {
         if let Some(history) = &mut self.history {
-            history.keep(Kept { item, is_aside });
+            history.keep(TakenItem { item, is_aside });
         }
         self.remember();
     }

@@ -20,7 +20,7 @@ pub(crate) enum Stage {
 
 /// An item that was taken.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Kept {
+pub(crate) struct TakenItem {
     pub(crate) item: Item,
     /// It is not of the program.
     pub(crate) is_aside: bool,
@@ -135,7 +135,7 @@ impl Planning {
     }
 
     /// Takes an item once more.
-    pub(crate) fn take_again(&mut self, kept: Kept) -> Result<Item, PlanError> {
+    pub(crate) fn take_again(&mut self, kept: TakenItem) -> Result<Item, PlanError> {
         if kept.is_aside {
             self.take_aside(kept.item)
         } else {

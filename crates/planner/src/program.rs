@@ -9,11 +9,11 @@ use glidepath_gcode::{
 };
 use glidepath_program::{Event, Item, ItemKind};
 
-use crate::desk::{Answer, Answered, InputDesk, Question};
 use crate::fingerprint::Fingerprinting;
+use crate::input_arbiter::{AnsweredInput, InputArbiter, InputRequest, InputResult};
 use crate::unchanged_file::UnchangedFile;
 use crate::{
-    Attending, ChangeLog, ItemSource, Refusal, RemarkLog, SetUp, Settled, Supply, ToolLengthLog,
+    ChangeLog, ItemSource, Refusal, RemarkLog, RunChannels, SetUp, Settled, Supply, ToolLengthLog,
 };
 
 /// Bytes read from a file or pipe at a time.
@@ -32,7 +32,7 @@ pub struct ProgramSource<R> {
     lengths: Option<(ToolLengthLog, Option<ToolLength>)>,
     remarks: Option<RemarkLog>,
     /// Where inputs are asked.
-    inputs: Option<InputDesk>,
+    inputs: Option<InputArbiter>,
     /// What the M66 given out last asks, with its line.
     wait: Option<(u32, InputWait)>,
     /// The desk was asked, and has not answered.
@@ -84,13 +84,13 @@ impl<R: BufRead> ProgramSource<R> {
 
     /// The same source, which shares what it comes to with whoever attends to its run.
     #[must_use]
-    pub fn attended(self, attending: Attending) -> Self {
-        let Attending {
+    pub fn attended(self, channels: RunChannels) -> Self {
+        let RunChannels {
             changes,
             lengths,
             remarks,
             inputs,
-        } = attending;
+        } = channels;
         let program = if remarks.is_some() {
             self.program.with_remarks()
         } else {
@@ -114,24 +114,26 @@ impl<R: BufRead> ProgramSource<R> {
 
     /// What is asked behind the item given out last. Whoever only looks at a program asks nothing,
     /// and goes on as if probing moves went to their ends.
-    fn question(&self) -> Option<(u32, Question)> {
-        let wait = self.wait.map(|(line, wait)| (line, Question::Input(wait)));
+    fn request(&self) -> Option<(u32, InputRequest)> {
+        let wait = self
+            .wait
+            .map(|(line, wait)| (line, InputRequest::Input(wait)));
         let probe = || {
             let is_at_probe = self.program.is_at_probe();
-            is_at_probe.then(|| (self.program.line_of_last(), Question::Probe))
+            is_at_probe.then(|| (self.program.line_of_last(), InputRequest::Probe))
         };
         self.inputs.as_ref().and_then(|_| wait.or_else(probe))
     }
 
     /// What is asked, as it was answered when the program came here before.
     fn recall(&mut self) -> Result<Settled, Refusal> {
-        let (Some(desk), Some((line, question))) = (&self.inputs, self.question()) else {
+        let (Some(arbiter), Some((line, request))) = (&self.inputs, self.request()) else {
             return Ok(Settled::Nothing);
         };
-        let Some(Answered { line: of, answer }) = desk.recall() else {
+        let Some(AnsweredInput { line: of, answer }) = arbiter.recall() else {
             return Ok(Settled::Open);
         };
-        let fits = matches!(answer, Answer::Probe(_)) == (question == Question::Probe);
+        let fits = matches!(answer, InputResult::Probe(_)) == (request == InputRequest::Probe);
         if of != line || !fits {
             return Err(Refusal::AnswerUnknown { line });
         }
@@ -142,7 +144,7 @@ impl<R: BufRead> ProgramSource<R> {
     /// Asks what is to be asked, and takes what was answered. `None` if all is known.
     fn ask(&mut self) -> Result<Option<Supply>, Refusal> {
         if self.asking {
-            let Some(answer) = self.inputs.as_ref().and_then(InputDesk::take_answer) else {
+            let Some(answer) = self.inputs.as_ref().and_then(InputArbiter::take_answer) else {
                 return Ok(Some(Supply::Pending));
             };
             self.tell(answer)?;
@@ -151,22 +153,22 @@ impl<R: BufRead> ProgramSource<R> {
         if self.recall()? != Settled::Open {
             return Ok(None);
         }
-        let (Some(desk), Some((line, question))) = (&self.inputs, self.question()) else {
+        let (Some(arbiter), Some((line, request))) = (&self.inputs, self.request()) else {
             return Ok(None);
         };
-        desk.ask(line, question);
+        arbiter.ask(line, request);
         self.asking = true;
-        Ok(Some(match question {
-            Question::Input(_) => Supply::Pending,
-            Question::Probe => Supply::Probe,
+        Ok(Some(match request {
+            InputRequest::Input(_) => Supply::Pending,
+            InputRequest::Probe => Supply::Probe,
         }))
     }
 
-    fn tell(&mut self, answer: Answer) -> Result<(), Refusal> {
+    fn tell(&mut self, answer: InputResult) -> Result<(), Refusal> {
         (self.asking, self.wait) = (false, None);
         match answer {
-            Answer::Input(value) => self.program.answer_input(value),
-            Answer::Probe(probed) => {
+            InputResult::Input(value) => self.program.answer_input(value),
+            InputResult::Probe(probed) => {
                 self.probed = Some(probed);
                 let ended = self.program.answer_probe(&probed);
                 ended.map_err(|diagnostic| refused(*diagnostic))?;
@@ -313,15 +315,15 @@ impl<R: BufRead> ItemSource for ProgramSource<R> {
         }
     }
 
-    fn settle(&mut self, known: Option<Answer>) -> Result<Settled, Refusal> {
+    fn settle(&mut self, known: Option<InputResult>) -> Result<Settled, Refusal> {
         let settled = self.recall()?;
         let (Settled::Open, Some(answer)) = (settled, known) else {
             return Ok(settled);
         };
-        if let (Some(desk), Some((line, question))) = (&self.inputs, self.question()) {
-            desk.ask(line, question);
-            desk.answer(answer).map_err(Refusal::NotKept)?;
-            desk.take_answer();
+        if let (Some(arbiter), Some((line, request))) = (&self.inputs, self.request()) {
+            arbiter.ask(line, request);
+            arbiter.answer(answer).map_err(Refusal::NotKept)?;
+            arbiter.take_answer();
         }
         self.tell(answer)?;
         Ok(Settled::Answered(answer))

@@ -43,9 +43,9 @@ use crate::attend::{Attend, Attended};
 use crate::claim::Claim;
 use crate::epoch::Epoch;
 use crate::inputs::InputWatch;
-use crate::machine::{HUNGRY_POLL, Machine, POLL, SILENCE, Standing};
+use crate::machine::{HUNGRY_POLL, MachinePorts, POLL, SILENCE, Standing};
 use crate::{
-    Control, Followed, InputDesk, ItemSource, Notice, Pace, Pipeline, RemarkLog, RunError,
+    Control, Followed, InputArbiter, ItemSource, Notice, Pace, Pipeline, RemarkLog, RunError,
 };
 
 /// Frames offered between two looks at status and stop flag.
@@ -55,10 +55,10 @@ const FRAMES_PER_TURN: u32 = 512;
 const PROGRESS_INTERVAL: Duration = Duration::from_millis(100);
 
 /// The planner's ports to one interpolator.
-pub struct Publisher<'t> {
+pub struct FramePublisher<'t> {
     pub(crate) transport: &'t dyn Transport,
     sink: Box<dyn FrameSink>,
-    pub(crate) machine: Machine,
+    pub(crate) machine: MachinePorts,
     pub(crate) pace: Pace,
     /// Time waited without an epoch.
     pub(crate) idle_t: Duration,
@@ -68,9 +68,9 @@ pub struct Publisher<'t> {
     pub(crate) claim: Option<Claim>,
 }
 
-impl std::fmt::Debug for Publisher<'_> {
+impl std::fmt::Debug for FramePublisher<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Publisher")
+        f.debug_struct("FramePublisher")
             .field("machine", &self.machine)
             .field("pace", &self.pace)
             .finish_non_exhaustive()
@@ -99,13 +99,13 @@ struct Plan<'q> {
     wanted: Override,
 }
 
-impl<'t> Publisher<'t> {
+impl<'t> FramePublisher<'t> {
     /// Opens the ports.
     ///
     /// # Errors
     /// A port that cannot be opened; [`LinkError::Taken`] if another planner runs.
     pub fn connect(transport: &'t dyn Transport, pace: Pace) -> Result<Self, LinkError> {
-        let (sink, machine) = (transport.frame_sink()?, Machine::connect(transport)?);
+        let (sink, machine) = (transport.frame_sink()?, MachinePorts::connect(transport)?);
         Ok(Self {
             transport,
             sink,
@@ -122,11 +122,11 @@ impl<'t> Publisher<'t> {
     ///
     /// # Errors
     /// Feedback cannot be received.
-    pub fn attend_inputs(&mut self, desk: InputDesk) -> Result<(), LinkError> {
+    pub fn attend_inputs(&mut self, arbiter: InputArbiter) -> Result<(), LinkError> {
         // The ports of the desk before are given back first.
         self.inputs = None;
         let source = self.transport.feedback_source()?;
-        self.inputs = Some(InputWatch::new(desk, source));
+        self.inputs = Some(InputWatch::new(arbiter, source));
         Ok(())
     }
 

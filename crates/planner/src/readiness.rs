@@ -6,7 +6,7 @@ use glidepath_geometry::AxisVector;
 use glidepath_link::{LinkError, MachineState};
 
 use crate::machine::POLL;
-use crate::publish::Publisher;
+use crate::publish::FramePublisher;
 use crate::{Control, Notice, ResumePoint, RunError};
 
 /// Without news for so long, the caller is told what is waited for.
@@ -15,8 +15,8 @@ const NOTICE_AFTER: Duration = Duration::from_secs(1);
 /// Between two clean-ups of what dead processes hold, while waiting.
 const CLEAN_UP_INTERVAL: Duration = Duration::from_secs(1);
 
-impl Publisher<'_> {
-    /// Tells the interpolator of a job by its name and when it was asked for (as [`Publisher::claim`] has it), and waits
+impl FramePublisher<'_> {
+    /// Tells the interpolator of a job by its name and when it was asked for (as [`FramePublisher::claim`] has it), and waits
     /// until that has the machine; returns where the machine stands. No fault is reset: that is for whoever has looked at its cause.
     ///
     /// # Errors

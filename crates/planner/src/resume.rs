@@ -48,7 +48,7 @@ use glidepath_link::Auxiliary;
 use glidepath_motion::PlanError;
 use glidepath_program::{Event, Item, ItemKind, PathMode};
 
-use crate::{Answer, ItemSource, Refusal, RunError, Settled, Supply};
+use crate::{InputResult, ItemSource, Refusal, RunError, Settled, Supply};
 use nearness::{ROUNDING_MM, distance};
 use outputs::SaidOutputs;
 use search::{MachineSearch, Standpoint};
@@ -345,9 +345,9 @@ impl<S: ItemSource> Remainder<S> {
             was_so: false,
             stands,
         });
-        let known = self.point.found.or(nothing).map(Answer::Probe);
+        let known = self.point.found.or(nothing).map(InputResult::Probe);
         match self.source.settle(known)? {
-            Settled::Answered(Answer::Probe(Probed { stands: then, .. })) => {
+            Settled::Answered(InputResult::Probe(Probed { stands: then, .. })) => {
                 let away = stands - then;
                 let away_mm = distance(&away);
                 if away_mm > tolerance_mm + ROUNDING_MM {
@@ -436,7 +436,7 @@ impl<S: ItemSource> ItemSource for Remainder<S> {
         supply
     }
 
-    fn settle(&mut self, known: Option<Answer>) -> Result<Settled, Refusal> {
+    fn settle(&mut self, known: Option<InputResult>) -> Result<Settled, Refusal> {
         self.source.settle(known)
     }
 

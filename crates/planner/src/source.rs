@@ -14,7 +14,7 @@ use std::time::Duration;
 use glidepath_motion::PlanError;
 use glidepath_program::Item;
 
-use crate::{Answer, Refusal};
+use crate::{InputResult, Refusal};
 
 /// How long nothing comes of a program before the motion rests at the end of what has come, if there
 /// is no more of it to publish.
@@ -44,7 +44,7 @@ pub enum Settled {
     /// It asks nothing.
     Nothing,
     /// It was answered.
-    Answered(Answer),
+    Answered(InputResult),
     /// It is asked when the next item is wanted.
     Open,
 }
@@ -70,7 +70,7 @@ pub trait ItemSource {
     ///
     /// # Errors
     /// Something else was answered before, the answer ends the program, or it cannot be kept.
-    fn settle(&mut self, known: Option<Answer>) -> Result<Settled, Refusal> {
+    fn settle(&mut self, known: Option<InputResult>) -> Result<Settled, Refusal> {
         let _ = known;
         Ok(Settled::Nothing)
     }

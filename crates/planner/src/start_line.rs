@@ -16,7 +16,7 @@ use glidepath_program::{CodeWord, Event, Item, ItemKind, PathMode, Rate};
 use thiserror::Error;
 
 use crate::restoring::restoring;
-use crate::{Answer, ItemSource, Refusal, Remainder, ResumePoint, Settled, Supply};
+use crate::{InputResult, ItemSource, Refusal, Remainder, ResumePoint, Settled, Supply};
 
 /// What is no way, mm or degrees.
 const NO_WAY: f64 = 1e-6;
@@ -163,7 +163,7 @@ impl<S: ItemSource> LineStart<S> {
             }
             if let Settled::Answered(answer) = source.settle(None)? {
                 told += 1;
-                if let Answer::Probe(probed) = answer {
+                if let InputResult::Probe(probed) = answer {
                     begins_at = probed.stands;
                 }
             }

@@ -3,7 +3,7 @@
 //!
 //! ```text
 //! setpoints ─► (servo library) ─► demand ─► Plant: joints, spindle ─► Feedback
-//!                                             ▲ upsets: a drive fails, power goes, feedback stays away
+//!                                             ▲ injected faults: a drive fails, power goes, feedback stays away
 //! ```
 //!
 //! It is the other side of the interpolator in tests, and what `glidepath servo` plays setpoints on.
@@ -21,7 +21,7 @@
 //! for ms in 0..1000 {
 //!     plant.step(ms * 1_000_000, Some(&setpoint), Some(&demand));
 //! }
-//! let feedback = plant.feedback().expect("nothing is upset");
+//! let feedback = plant.feedback().expect("no fault is injected");
 //! assert_eq!(feedback.enabled, 0b111);
 //! assert!((feedback.position[0] - 5.0).abs() < 1e-6);
 //! ```
@@ -31,5 +31,5 @@ mod machine;
 mod spindle;
 
 pub use joint::{HomeSettings, JointSettings, SwitchSettings};
-pub use machine::{INDEX_INPUT, Plant, Upset};
+pub use machine::{INDEX_INPUT, InjectedFault, Plant};
 pub use spindle::SpindleSettings;

@@ -13,7 +13,7 @@ pub const INDEX_INPUT: u32 = 16;
 
 /// A fault of the machine, or the end of one.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Upset {
+pub enum InjectedFault {
     /// The emergency stop takes the power from all drives, or is released.
     EmergencyStop(bool),
     /// A joint has lost its power, or may have it again.
@@ -138,30 +138,36 @@ impl Plant {
     }
 
     /// Injects a fault, or ends one.
-    pub fn upset(&mut self, upset: Upset) {
+    pub fn inject(&mut self, upset: InjectedFault) {
         match upset {
-            Upset::EmergencyStop(pressed) => self.has_emergency = pressed,
-            Upset::Dropout(silent) => self.is_silent = silent,
-            Upset::PowerLost(joint, lost) => {
+            InjectedFault::EmergencyStop(pressed) => self.has_emergency = pressed,
+            InjectedFault::Dropout(silent) => self.is_silent = silent,
+            InjectedFault::PowerLost(joint, lost) => {
                 self.joint(joint, |joint| joint.has_power_source = !lost);
             }
-            Upset::DriveFault(joint, code) => self.joint(joint, |joint| joint.fault_code = code),
-            Upset::Stuck(joint, stuck) => self.joint(joint, |joint| joint.is_stuck = stuck),
-            Upset::Contact(joint, contact) => self.joint(joint, |joint| joint.contact = contact),
-            Upset::Input(number, is_high) => {
+            InjectedFault::DriveFault(joint, code) => {
+                self.joint(joint, |joint| joint.fault_code = code);
+            }
+            InjectedFault::Stuck(joint, stuck) => self.joint(joint, |joint| joint.is_stuck = stuck),
+            InjectedFault::Contact(joint, contact) => {
+                self.joint(joint, |joint| joint.contact = contact);
+            }
+            InjectedFault::Input(number, is_high) => {
                 let bit = 1 << (number & 63) & !1;
                 self.inputs = (self.inputs & !bit) | if is_high { bit } else { 0 };
             }
-            Upset::Analog(number, value) => {
+            InjectedFault::Analog(number, value) => {
                 if let Some(input) = self.analog.get_mut(number) {
                     *input = value;
                 }
             }
-            Upset::Pushed(joint, distance) => self.joint(joint, |joint| joint.push(distance)),
-            Upset::SpindlePart(part) => self.spindle.part = part,
-            Upset::SpindleStuck(stuck) => self.spindle.is_stuck = stuck,
-            Upset::IndexLost(lost) => self.spindle.is_index_lost = lost,
-            Upset::EncoderLost(lost) => self.spindle.is_encoder_lost = lost,
+            InjectedFault::Pushed(joint, distance) => {
+                self.joint(joint, |joint| joint.push(distance));
+            }
+            InjectedFault::SpindlePart(part) => self.spindle.part = part,
+            InjectedFault::SpindleStuck(stuck) => self.spindle.is_stuck = stuck,
+            InjectedFault::IndexLost(lost) => self.spindle.is_index_lost = lost,
+            InjectedFault::EncoderLost(lost) => self.spindle.is_encoder_lost = lost,
         }
     }
 

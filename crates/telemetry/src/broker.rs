@@ -111,7 +111,7 @@ impl Broker {
             (online, ONLINE.to_owned()),
             (format!("{}/info", settings.topic), settings.info.clone()),
         ];
-        let keeper = Keeper {
+        let connection_thread = ConnectionThread {
             client: client.clone(),
             shared: Arc::clone(&shared),
             greetings,
@@ -121,7 +121,7 @@ impl Broker {
             client,
             topic: settings.topic.clone(),
             shared,
-            thread: std::thread::spawn(move || keeper.keep(connection)),
+            thread: std::thread::spawn(move || connection_thread.keep(connection)),
         }
     }
 
@@ -190,7 +190,7 @@ impl Broker {
 }
 
 /// The thread that keeps the connection.
-struct Keeper {
+struct ConnectionThread {
     client: Client,
     shared: Arc<Shared>,
     greetings: [(String, String); 2],
@@ -198,7 +198,7 @@ struct Keeper {
     greeted: usize,
 }
 
-impl Keeper {
+impl ConnectionThread {
     fn keep(mut self, mut connection: Connection) {
         for event in connection.iter() {
             match event {

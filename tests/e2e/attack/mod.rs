@@ -15,7 +15,7 @@ mod travel;
 use std::time::{Duration, Instant};
 
 use glidepath_link::{JobStage, MachineState, Power, Setpoint, Status};
-use glidepath_plant::{JointSettings, SwitchSettings, Upset};
+use glidepath_plant::{InjectedFault, JointSettings, SwitchSettings};
 use glidepath_testing::is_crowded;
 use glidepath_tests::{Instance, Operated, Output, Process, ServoStack, Tape, Watchdog};
 use met::Met;
@@ -271,17 +271,17 @@ impl<'a> Attack<'a> {
     /// For longer than feedback may be old, or for less.
     fn lose_feedback(&mut self) {
         self.note("the feedback stays away");
-        self.stack.upset(Upset::Dropout(true));
+        self.stack.inject(InjectedFault::Dropout(true));
         std::thread::sleep(self.chance.millis(50, 1400));
-        self.stack.upset(Upset::Dropout(false));
+        self.stack.inject(InjectedFault::Dropout(false));
     }
 
     fn lose_power(&mut self) {
         self.note("a joint has no power");
         let joint = self.chance.below(3);
-        self.stack.upset(Upset::PowerLost(joint, true));
+        self.stack.inject(InjectedFault::PowerLost(joint, true));
         std::thread::sleep(self.chance.millis(10, 300));
-        self.stack.upset(Upset::PowerLost(joint, false));
+        self.stack.inject(InjectedFault::PowerLost(joint, false));
     }
 
     fn step(&mut self) {

@@ -1,6 +1,8 @@
 //! The verdict of the auditor on what subscribers got.
 
-use glidepath_audit::{Audit, AuditSettings, Passed, Report, Sample, Violation, ViolationKind};
+use glidepath_audit::{
+    Audit, AuditReport, AuditSettings, Passed, Sample, Violation, ViolationKind,
+};
 use glidepath_geometry::AxisVector;
 use glidepath_link::Setpoint;
 use glidepath_program::Item;
@@ -26,7 +28,7 @@ pub(super) struct Verdict {
 }
 
 impl Verdict {
-    fn new(report: &Report, last_tick: u64) -> Self {
+    fn new(report: &AuditReport, last_tick: u64) -> Self {
         Self {
             ratios: [
                 report.max_velocity_ratio.ratio,
@@ -72,7 +74,7 @@ impl Verdict {
     }
 }
 
-fn has_gap(report: &Report) -> bool {
+fn has_gap(report: &AuditReport) -> bool {
     let is_gap = |violation: &Violation| matches!(violation.kind, ViolationKind::Gap { .. });
     report.violations.iter().any(is_gap)
 }

@@ -124,7 +124,7 @@ houses! {
     glidepath: "glidepath",
     hal: "hal",
     interpolator: "interpolator",
-    kept: "kept",
+    persistence: "persistence",
     kinematics: "kinematics",
     link: "link",
     live: "live",

@@ -14,7 +14,7 @@ const WAY_TOLERANCES: f64 = 1.0;
 
 /// What an axis does along a move.
 #[derive(Clone, Copy, PartialEq)]
-enum Course {
+enum AxisMotion {
     Rests,
     /// The sign of its motion.
     Moves(f64),
@@ -22,7 +22,7 @@ enum Course {
     Other,
 }
 
-impl Course {
+impl AxisMotion {
     fn along(of: &Move, axis: usize) -> Self {
         let (start, end) = (of.programmed.start()[axis], of.programmed.end()[axis]);
         let is_straight = match &of.programmed {
@@ -62,10 +62,10 @@ impl Stops {
             return None;
         }
         let signs = core::array::from_fn(|axis| {
-            match [before, behind].map(|side| Course::along(side, axis)) {
-                [Course::Moves(way), Course::Rests] => -way,
-                [Course::Rests, Course::Moves(way)] => way,
-                [Course::Moves(way), Course::Moves(then)] if way * then < 0.0 => then,
+            match [before, behind].map(|side| AxisMotion::along(side, axis)) {
+                [AxisMotion::Moves(way), AxisMotion::Rests] => -way,
+                [AxisMotion::Rests, AxisMotion::Moves(way)] => way,
+                [AxisMotion::Moves(way), AxisMotion::Moves(then)] if way * then < 0.0 => then,
                 _ => 0.0,
             }
         });

@@ -1,7 +1,7 @@
 //! The rule of the cruise: at constant feed on a line or an arc, there is no jerk but that of the
 //! piece.
 
-use super::place::Place;
+use super::matched_sample::MatchedSample;
 use super::settling::settling_ticks;
 use crate::piece::{Piece, Shape};
 use crate::settings::AuditSettings;
@@ -53,7 +53,7 @@ impl Cruise {
     }
 
     /// The next sample.
-    pub(crate) fn next(&mut self, place: &Place, found: &mut ViolationList) {
+    pub(crate) fn next(&mut self, place: &MatchedSample, found: &mut ViolationList) {
         let Some(piece) = place.piece.filter(|_| is_cruising(place)) else {
             self.run = None;
             return;
@@ -89,7 +89,7 @@ impl Cruise {
         self.run = None;
     }
 
-    fn begin(&self, place: &Place, piece: Piece) -> Run {
+    fn begin(&self, place: &MatchedSample, piece: Piece) -> Run {
         // From the edge of the band the feed is reached with the acceleration and the jerk of the
         // slowest axis; twice that time is left to a motion that uses less of them.
         let limits = &self.settings.limits;
@@ -113,14 +113,14 @@ impl Cruise {
 }
 
 /// True if the speed is the programmed feed.
-fn is_cruising(place: &Place) -> bool {
+fn is_cruising(place: &MatchedSample) -> bool {
     // A rapid has no feed, and what jumps may be infinitely fast.
     place.feed_v.is_finite() && (place.speed_v - place.feed_v).abs() <= FEED_R * place.feed_v
 }
 
 /// Keeps what there is too much of jerk at a sample: of the pair of axes of an arc together, of any
 /// other axis by itself.
-fn judge(run: &mut Run, place: &Place, jerk: &AxisVector, settings: &AuditSettings) {
+fn judge(run: &mut Run, place: &MatchedSample, jerk: &AxisVector, settings: &AuditSettings) {
     let limit_j = &settings.limits.jerk;
     let mut round = None;
     if let Shape::Arc { plane, center } = run.piece.shape {
@@ -155,7 +155,7 @@ fn judge(run: &mut Run, place: &Place, jerk: &AxisVector, settings: &AuditSettin
 }
 
 impl Run {
-    fn keep(&mut self, place: &Place, axis: Axis, over_j: f64, allowed_j: f64) {
+    fn keep(&mut self, place: &MatchedSample, axis: Axis, over_j: f64, allowed_j: f64) {
         if over_j > allowed_j {
             let kind = ViolationKind::Unsteady {
                 axis,

@@ -15,16 +15,16 @@
 //!    a hundredth of the limit of the axis. What an arc asks for is v³/R² against its direction,
 //!    with the radius and the speed at which it is run: it may be cut within its tolerance.
 //!
-//! What breaks them is told as [`Report::tremors`](crate::Report::tremors), and is no violation as
+//! What breaks them is told as [`AuditReport::tremors`](crate::AuditReport::tremors), and is no violation as
 //! long as [`TREMORS_ARE_VIOLATIONS`] is false.
 
 mod cruise;
-mod place;
+mod matched_sample;
 mod settling;
 mod still;
 
 pub(crate) use cruise::Cruise;
-pub(crate) use place::Place;
+pub(crate) use matched_sample::MatchedSample;
 pub use settling::{SETTLING_PERIODS, SETTLING_T};
 pub use still::STILL_MM;
 pub(crate) use still::StillAxes;

@@ -1,6 +1,6 @@
 //! The rule of the still axis: an axis that the program leaves alone does not move.
 
-use super::place::Place;
+use super::matched_sample::MatchedSample;
 use super::settling::settling_ticks;
 use crate::violation::{ViolationKind, ViolationList};
 use glidepath_geometry::{AXES, Axis};
@@ -68,7 +68,7 @@ impl StillAxes {
     }
 
     /// The next sample.
-    pub(crate) fn next(&mut self, place: &Place, found: &mut ViolationList) {
+    pub(crate) fn next(&mut self, place: &MatchedSample, found: &mut ViolationList) {
         let settled = place.tick.saturating_sub(self.settling_ticks);
         for axis in Axis::ALL {
             let i = axis.index();

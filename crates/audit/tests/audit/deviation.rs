@@ -1,10 +1,10 @@
 //! The matching of motion and program.
 
 use crate::{TOLERANCE, audit, audited, kinds, point, polygon, walk};
-use glidepath_audit::{Report, ViolationKind};
+use glidepath_audit::{AuditReport, ViolationKind};
 use glidepath_geometry::AxisVector;
 
-fn clean(report: &Report) {
+fn clean(report: &AuditReport) {
     assert!(report.is_clean(), "{:?}", report.violations);
     assert!(report.is_complete);
 }

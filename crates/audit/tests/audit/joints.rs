@@ -1,14 +1,14 @@
 //! Tests of the check of joints that are not the axes.
 
 use glidepath_audit::{
-    Audit, AuditSettings, JointBounds, JointRate, Report, Violation, ViolationKind,
+    Audit, AuditReport, AuditSettings, JointBounds, JointRate, Violation, ViolationKind,
 };
 use glidepath_program::Limits;
 
 const PERIOD_T: f64 = 0.004;
 
 /// The verdict on positions of two joints, a pair a tick, of which the second can do half.
-fn judged(positions: &[[f64; 2]]) -> Report {
+fn judged(positions: &[[f64; 2]]) -> AuditReport {
     let bounds = |share: f64| JointBounds {
         range: [-1.0, 50.0],
         rates: [100.0, 1000.0, 20_000.0].map(|limit| share * limit),
@@ -44,7 +44,7 @@ fn there(jerk_j: f64) -> Vec<f64> {
     positions
 }
 
-fn joints_of(report: &Report) -> Vec<(usize, JointRate)> {
+fn joints_of(report: &AuditReport) -> Vec<(usize, JointRate)> {
     let of = |found: &Violation| match found.kind {
         ViolationKind::Joint { joint, rate, .. } => Some((joint, rate)),
         _ => None,
@@ -93,7 +93,7 @@ fn a_motion_begins_and_ends_at_rest() {
 fn a_joint_stays_in_its_range() {
     let inside = judged(&[[50.0, -1.0]; 3]);
     let outside = judged(&[[50.0, -1.001]; 3]);
-    let ranges = |report: &Report| {
+    let ranges = |report: &AuditReport| {
         let is_range =
             |found: &&Violation| matches!(found.kind, ViolationKind::JointRange { joint: 1, .. });
         report.violations.iter().filter(is_range).count()

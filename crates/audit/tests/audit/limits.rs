@@ -1,7 +1,7 @@
 //! Tests of limits, reports, gaps and times.
 
 use crate::{PERIOD, TOLERANCE, point, polygon, sample, settings};
-use glidepath_audit::{Audit, AuditSettings, Inconsistency, Report, Sample, ViolationKind};
+use glidepath_audit::{Audit, AuditReport, AuditSettings, Inconsistency, Sample, ViolationKind};
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_program::Limits;
 
@@ -43,7 +43,7 @@ fn peaks() -> (f64, f64) {
     (JERK * phase_t, JERK * phase_t * phase_t)
 }
 
-fn judge(limits: Limits, samples: &[Sample]) -> Report {
+fn judge(limits: Limits, samples: &[Sample]) -> AuditReport {
     let settings = AuditSettings {
         limits,
         period_t: PERIOD,

@@ -12,7 +12,7 @@ mod timing;
 mod travel;
 mod tremor;
 
-use glidepath_audit::{Audit, AuditSettings, Report, Sample, ViolationKind};
+use glidepath_audit::{Audit, AuditReport, AuditSettings, Sample, ViolationKind};
 use glidepath_geometry::{AxisVector, Segment};
 use glidepath_program::{Item, ItemKind, Limits, PathMode, Rate};
 
@@ -67,7 +67,7 @@ fn sample(tick: u64, position: AxisVector) -> Sample {
 }
 
 /// Audits a motion through some positions, without limits.
-fn audit(program: &[Item], positions: &[AxisVector]) -> Report {
+fn audit(program: &[Item], positions: &[AxisVector]) -> AuditReport {
     audit_within(TOLERANCE, program, positions)
 }
 
@@ -86,7 +86,7 @@ fn walk(points: &[AxisVector], step: f64) -> Vec<AxisVector> {
 }
 
 /// Audits a motion with a tolerance of its own.
-fn audit_within(tolerance_mm: f64, program: &[Item], positions: &[AxisVector]) -> Report {
+fn audit_within(tolerance_mm: f64, program: &[Item], positions: &[AxisVector]) -> AuditReport {
     audited(tolerance_mm, program, positions).finish()
 }
 
@@ -106,7 +106,7 @@ fn audited(tolerance_mm: f64, program: &[Item], positions: &[AxisVector]) -> Aud
     audit
 }
 
-fn kinds(report: &Report) -> Vec<ViolationKind> {
+fn kinds(report: &AuditReport) -> Vec<ViolationKind> {
     report
         .violations
         .iter()

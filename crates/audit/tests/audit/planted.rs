@@ -1,7 +1,7 @@
 //! Tests with planted faults: those at random places of good motions are found.
 
 use crate::{PERIOD, TOLERANCE, audit, item, point, polygon, sample, settings, walk};
-use glidepath_audit::{Audit, AuditSettings, Report, ViolationKind};
+use glidepath_audit::{Audit, AuditReport, AuditSettings, ViolationKind};
 use glidepath_geometry::{Arc, AxisVector, Plane, Segment};
 use glidepath_program::{Item, Limits};
 use proptest::prelude::*;
@@ -21,7 +21,7 @@ fn staircase() -> impl Strategy<Value = Vec<AxisVector>> {
     })
 }
 
-fn is_off(report: &Report) -> bool {
+fn is_off(report: &AuditReport) -> bool {
     report.violations.iter().any(|violation| {
         matches!(
             violation.kind,

@@ -1,11 +1,11 @@
 //! Tests of feed and dwells.
 
 use crate::{PERIOD, audit, kinds, point, polygon, sample, settings, walk};
-use glidepath_audit::{Audit, Report, ViolationKind};
+use glidepath_audit::{Audit, AuditReport, ViolationKind};
 use glidepath_geometry::{AxisVector, Segment};
 use glidepath_program::{Item, ItemKind, Limits, PathMode, Rate};
 
-fn at_speed(program: &[Item], v: f64) -> Report {
+fn at_speed(program: &[Item], v: f64) -> AuditReport {
     let mut audit = Audit::new(&settings(Limits::UNLIMITED));
     for item in program {
         audit.program(item);
@@ -177,7 +177,7 @@ fn within_tolerance_of_a_vertex_the_last_feed_holds() {
 }
 
 /// A move of a tenth of a millimetre a period, with items before and behind it.
-fn with_rests(before: &[Item], behind: &[Item]) -> Report {
+fn with_rests(before: &[Item], behind: &[Item]) -> AuditReport {
     let mut audit = Audit::new(&settings(Limits::UNLIMITED));
     let moves = polygon(&[point(0.0, 0.0), point(1.0, 0.0)]);
     for item in before.iter().chain(&moves).chain(behind) {
@@ -314,7 +314,7 @@ fn a_corner_between_two_rates_changes_the_rate_half_way() {
 }
 
 /// The verdicts where the program comes before the motion, with it, and behind it.
-fn fed_in_every_way(program: &[Item], motion: &[AxisVector]) -> [(&'static str, Report); 3] {
+fn fed_in_every_way(program: &[Item], motion: &[AxisVector]) -> [(&'static str, AuditReport); 3] {
     let verdict = |wait: usize| {
         let mut audit = Audit::new(&settings(Limits::UNLIMITED));
         let mut items = program.iter();

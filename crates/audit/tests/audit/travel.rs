@@ -1,7 +1,7 @@
 //! Tests of the ends of travel, at samples and between them.
 
 use super::{PERIOD, TOLERANCE, kinds, point, polygon, sample};
-use glidepath_audit::{Audit, AuditSettings, Report, Sample, ViolationKind};
+use glidepath_audit::{Audit, AuditReport, AuditSettings, Sample, ViolationKind};
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_program::Limits;
 
@@ -21,7 +21,7 @@ fn settings() -> AuditSettings {
 }
 
 /// Audits states of X: position, velocity, acceleration; what is found of travel.
-fn beyond(states: &[[f64; 3]]) -> (Vec<ViolationKind>, Report) {
+fn beyond(states: &[[f64; 3]]) -> (Vec<ViolationKind>, AuditReport) {
     let mut audit = Audit::new(&settings());
     for (tick, [x, v, a]) in (0..).zip(states) {
         audit.sample(&Sample {

@@ -3,7 +3,7 @@
 use crate::{PERIOD, TOLERANCE, item, point, sample};
 use core::f64::consts::TAU;
 use glidepath_audit::tremor::SETTLING_T;
-use glidepath_audit::{Audit, AuditSettings, Report, ViolationKind};
+use glidepath_audit::{Audit, AuditReport, AuditSettings, ViolationKind};
 use glidepath_geometry::{Arc, Axis, AxisVector, Plane, Segment};
 use glidepath_program::{Item, ItemKind, Limits, Rate};
 
@@ -64,7 +64,7 @@ fn audit(
     program: &[Item],
     length_mm: f64,
     at: impl Fn(u32, f64) -> AxisVector,
-) -> (Report, Vec<ViolationKind>) {
+) -> (AuditReport, Vec<ViolationKind>) {
     let mut audit = Audit::new(&settings(limits));
     for item in program {
         audit.program(item);
@@ -86,7 +86,7 @@ fn audit(
 }
 
 /// A line of 100 mm along X at Z −3.1, and a motion beside it in Y, with Z moved by something.
-fn line(off: impl Fn(u32, f64) -> [f64; 3]) -> (Report, Vec<ViolationKind>) {
+fn line(off: impl Fn(u32, f64) -> [f64; 3]) -> (AuditReport, Vec<ViolationKind>) {
     let place = |s: f64| {
         let mut at = point(s, 0.7);
         at[2] = -3.1;
@@ -226,7 +226,7 @@ fn an_arc_has_the_jerk_that_it_has() {
 }
 
 /// 60 mm along X, and on in X and Z; the motion is beside the path in Z by something.
-fn before_a_climb(off_mm: impl Fn(f64) -> f64) -> Report {
+fn before_a_climb(off_mm: impl Fn(f64) -> f64) -> AuditReport {
     let corner = point(60.0, 0.0);
     let mut end = point(100.0, 0.0);
     end[2] = 4.0;

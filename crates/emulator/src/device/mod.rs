@@ -13,6 +13,7 @@ use crate::dictionary::{
 };
 use crate::drive::Drive;
 use crate::eeprom::{self, MAILBOX, MAILBOX_OUT};
+use crate::injected_fault::InjectedFault;
 use crate::memory::{
     AL_CODE, AL_CONTROL, AL_STATUS, CLOCK, EEPROM_CONTROL, Memory, PORT_TIMES, SPEED_START,
     STATION_ADDRESS, SYNC_ACTIVATION, SYNC_MANAGER, SYSTEM_TIME, WATCHDOG_DIVIDER,
@@ -22,7 +23,6 @@ use crate::pins::Pins;
 use crate::process;
 use crate::settings::{DriveSettings, ImageAccess, Maps, OutputWatchdog, SyncType};
 use crate::states::{self, ERROR, INIT, OP, PRE_OP, SAFE_OP};
-use crate::upset::Upset;
 
 /// The record of what a drive did at one SYNC0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -139,15 +139,15 @@ impl Device {
     }
 
     /// Something goes wrong, or right again.
-    pub(crate) fn upset(&mut self, upset: Upset, now_ns: u64) {
+    pub(crate) fn inject(&mut self, upset: InjectedFault, now_ns: u64) {
         match upset {
-            Upset::Emergency(code) => self.mailbox.emergency(&mut self.memory, code),
-            Upset::Drop(code) if self.state() == OP => {
+            InjectedFault::Emergency(code) => self.mailbox.emergency(&mut self.memory, code),
+            InjectedFault::Drop(code) if self.state() == OP => {
                 self.set_state(SAFE_OP | ERROR, code);
                 self.lose_bus();
                 self.settle_pins(now_ns);
             }
-            Upset::Reboot => {
+            InjectedFault::Reboot => {
                 let (records, pins) = (self.records.take(), core::mem::take(&mut self.pins));
                 let drives = self
                     .drives
@@ -158,7 +158,7 @@ impl Device {
                 (self.drives, self.records, self.pins) = (drives, records, pins);
                 self.settle_pins(now_ns);
             }
-            upset => self.drives.iter_mut().for_each(|drive| drive.upset(upset)),
+            upset => self.drives.iter_mut().for_each(|drive| drive.inject(upset)),
         }
     }
 

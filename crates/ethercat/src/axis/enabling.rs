@@ -2,9 +2,9 @@
 //! when all drives are ready for it: all of them, or none.
 
 use super::step::{DISABLE_VOLTAGE, ENABLE_OPERATION, Next, SHUTDOWN, SWITCH_ON, Step};
+use crate::bus_fault::BusFault;
 use crate::image::CYCLIC_POSITION;
 use crate::state::{FOLLOWS, REMOTE};
-use crate::trouble::Trouble;
 use glidepath_link::DriveState;
 
 /// How long all of it may take: a contactor, a charging DC link, a brake.
@@ -21,27 +21,27 @@ impl Enabling {
     }
 
     pub(super) fn step(&self, step: &mut Step<'_>) -> Next {
-        let (sight, joint) = (step.sight, step.settings.joint);
-        let state = sight.state();
+        let (drive_inputs, joint) = (step.drive_inputs, step.settings.joint);
+        let state = drive_inputs.state();
         step.stand(match state {
             DriveState::SwitchOnDisabled => SHUTDOWN,
             DriveState::Ready => SWITCH_ON,
-            DriveState::SwitchedOn if !step.wish.are_all_ready => SWITCH_ON,
+            DriveState::SwitchedOn if !step.drive_command.are_all_ready => SWITCH_ON,
             DriveState::SwitchedOn | DriveState::OperationEnabled => ENABLE_OPERATION,
             _ => DISABLE_VOLTAGE,
         });
-        if !step.wish.enable || !sight.is_present {
+        if !step.drive_command.enable || !drive_inputs.is_present {
             return Next::Stop(None);
         }
         let is_on = state == DriveState::OperationEnabled;
-        if is_on && sight.inputs.mode == CYCLIC_POSITION && sight.has(FOLLOWS) {
+        if is_on && drive_inputs.inputs.mode == CYCLIC_POSITION && drive_inputs.has(FOLLOWS) {
             return Next::Follow;
         }
-        if sight.now_ns.saturating_sub(self.since_ns) > PATIENCE_NS {
-            return Next::Stop(Some(if sight.has(REMOTE) {
-                Trouble::NotEnabled(joint, state)
+        if drive_inputs.now_ns.saturating_sub(self.since_ns) > PATIENCE_NS {
+            return Next::Stop(Some(if drive_inputs.has(REMOTE) {
+                BusFault::NotEnabled(joint, state)
             } else {
-                Trouble::NotRemote(joint)
+                BusFault::NotRemote(joint)
             }));
         }
         Next::Stay

@@ -22,11 +22,11 @@ impl Faulted {
 
     pub(super) const fn step(&mut self, step: &mut Step<'_>) -> Next {
         rest(step);
-        self.is_asked |= step.wish.reset;
-        if !step.sight.is_faulted() {
+        self.is_asked |= step.drive_command.reset;
+        if !step.drive_inputs.is_faulted() {
             return Next::Off;
         }
-        if self.is_asked && matches!(step.sight.state(), DriveState::Fault) {
+        if self.is_asked && matches!(step.drive_inputs.state(), DriveState::Fault) {
             self.is_asked = false;
             step.outputs.control = RESET_FAULT;
         }

@@ -1,9 +1,9 @@
 //! The state of a drive with power: the target is the demand, and never far from the one before.
 
 use super::step::{ENABLE_OPERATION, Next, Step};
+use crate::bus_fault::BusFault;
 use crate::image::CYCLIC_POSITION;
 use crate::state::FOLLOWS;
-use crate::trouble::Trouble;
 use glidepath_link::DriveState;
 
 /// Cycles that a drive may say that it does not follow, after a change of mode.
@@ -27,34 +27,35 @@ impl Following {
     }
 
     pub(super) fn step(&mut self, step: &mut Step<'_>) -> Next {
-        let (settings, sight, wish) = (step.settings, step.sight, step.wish);
+        let (settings, drive_inputs, drive_command) =
+            (step.settings, step.drive_inputs, step.drive_command);
         let joint = settings.joint;
         step.outputs.control = ENABLE_OPERATION;
         step.outputs.mode = CYCLIC_POSITION;
         step.outputs.target = self.target;
-        let state = sight.state();
-        if !sight.is_present {
+        let state = drive_inputs.state();
+        if !drive_inputs.is_present {
             return Next::Stop(None);
         }
         if state != DriveState::OperationEnabled {
-            return Next::Stop(Some(Trouble::PowerLost(joint, state)));
+            return Next::Stop(Some(BusFault::PowerLost(joint, state)));
         }
-        let follows = sight.has(FOLLOWS) && sight.inputs.mode == CYCLIC_POSITION;
+        let follows = drive_inputs.has(FOLLOWS) && drive_inputs.inputs.mode == CYCLIC_POSITION;
         self.strayed = if follows { 0 } else { self.strayed + 1 };
         if self.strayed > GRACE {
-            return Next::Stop(Some(Trouble::PowerLost(joint, state)));
+            return Next::Stop(Some(BusFault::PowerLost(joint, state)));
         }
-        if !wish.enable {
+        if !drive_command.enable {
             return Next::Stop(None);
         }
-        if wish.home && settings.homing.is_some() {
-            return if wish.may_home {
+        if drive_command.home && settings.homing.is_some() {
+            return if drive_command.may_home {
                 Next::Home
             } else {
                 Next::Stay
             };
         }
-        let Some(demand) = wish.demand else {
+        let Some(demand) = drive_command.demand else {
             // Nobody leads: the joint stays where it was told to be.
             self.is_led = false;
             return Next::Stay;
@@ -62,7 +63,7 @@ impl Following {
         if !self.is_led {
             let apart = demand - settings.place(self.target);
             if apart.abs() > settings.enable_window {
-                return Next::Stop(Some(Trouble::Apart(joint, apart)));
+                return Next::Stop(Some(BusFault::Apart(joint, apart)));
             }
             self.is_led = true;
         }
@@ -75,13 +76,13 @@ impl Following {
         }
     }
 
-    fn judge(&self, step: &Step<'_>, demand: f64) -> Result<i32, Trouble> {
+    fn judge(&self, step: &Step<'_>, demand: f64) -> Result<i32, BusFault> {
         let (settings, joint) = (step.settings, step.settings.joint);
-        let target = settings.counts(demand).ok_or(Trouble::Range(joint))?;
+        let target = settings.counts(demand).ok_or(BusFault::Range(joint))?;
         let stepped = f64::from(target) - f64::from(self.target);
-        let most = settings.guard_counts(step.sight.since_ns);
+        let most = settings.guard_counts(step.drive_inputs.since_ns);
         if stepped.abs() > most {
-            return Err(Trouble::Step(joint, stepped, most));
+            return Err(BusFault::Step(joint, stepped, most));
         }
         Ok(target)
     }

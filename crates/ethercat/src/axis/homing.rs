@@ -5,9 +5,9 @@
 //! long it may look is the interpolator's to say.
 
 use super::step::{ENABLE_OPERATION, Next, START_HOMING, Step};
+use crate::bus_fault::BusFault;
 use crate::image::{CYCLIC_POSITION, HOMING};
 use crate::state::{FOLLOWS, HOMING_ERROR, REACHED};
-use crate::trouble::Trouble;
 use glidepath_link::DriveState;
 
 /// How long the drive may take to change its mode.
@@ -48,23 +48,23 @@ impl Homing {
     }
 
     pub(super) fn step(&mut self, step: &mut Step<'_>) -> Next {
-        let (sight, joint) = (step.sight, step.settings.joint);
-        let state = sight.state();
-        if !sight.is_present || !step.wish.enable {
+        let (drive_inputs, joint) = (step.drive_inputs, step.settings.joint);
+        let state = drive_inputs.state();
+        if !drive_inputs.is_present || !step.drive_command.enable {
             return Next::Stop(None);
         }
         if state != DriveState::OperationEnabled {
-            return Next::Stop(Some(Trouble::PowerLost(joint, state)));
+            return Next::Stop(Some(BusFault::PowerLost(joint, state)));
         }
-        let waited_ns = sight.now_ns.saturating_sub(self.since_ns);
-        let actual = sight.inputs.actual;
+        let waited_ns = drive_inputs.now_ns.saturating_sub(self.since_ns);
+        let actual = drive_inputs.inputs.actual;
         step.outputs.target = actual;
-        let give_up = Next::Stop(Some(Trouble::NoHome(joint)));
+        let give_up = Next::Stop(Some(BusFault::NoHome(joint)));
         match self.part {
             Part::Entering => {
                 (step.outputs.control, step.outputs.mode) = (ENABLE_OPERATION, HOMING);
-                if sight.inputs.mode == HOMING {
-                    (self.part, self.since_ns) = (Part::Under(0), sight.now_ns);
+                if drive_inputs.inputs.mode == HOMING {
+                    (self.part, self.since_ns) = (Part::Under(0), drive_inputs.now_ns);
                 } else if waited_ns > MODE_NS {
                     return give_up;
                 }
@@ -72,19 +72,19 @@ impl Homing {
             Part::Under(cycles) => {
                 (step.outputs.control, step.outputs.mode) = (START_HOMING, HOMING);
                 self.part = Part::Under(cycles.saturating_add(1));
-                let says = |bits| cycles > GRACE && sight.has(bits);
+                let says = |bits| cycles > GRACE && drive_inputs.has(bits);
                 if says(HOMING_ERROR) {
                     return give_up;
                 }
                 let is_found = says(REACHED | FOLLOWS);
-                if is_found || !step.wish.home {
-                    (self.part, self.since_ns) = (Part::Leaving(is_found), sight.now_ns);
+                if is_found || !step.drive_command.home {
+                    (self.part, self.since_ns) = (Part::Leaving(is_found), drive_inputs.now_ns);
                 }
             }
             Part::Leaving(is_found) => {
                 (step.outputs.control, step.outputs.mode) = (ENABLE_OPERATION, CYCLIC_POSITION);
                 self.target = actual;
-                if sight.inputs.mode == CYCLIC_POSITION && sight.has(FOLLOWS) {
+                if drive_inputs.inputs.mode == CYCLIC_POSITION && drive_inputs.has(FOLLOWS) {
                     self.part = Part::There;
                     return if is_found { Next::Found } else { Next::Follow };
                 }
@@ -94,7 +94,7 @@ impl Homing {
             }
             Part::There => {
                 step.outputs.target = self.target;
-                if !step.wish.home {
+                if !step.drive_command.home {
                     return Next::Follow;
                 }
             }

@@ -8,22 +8,22 @@
 //!   └── Faulted ◄── from anywhere, when the drive says so; left by a reset
 //! ```
 
+mod drive_io;
 mod enabling;
 mod faulted;
 mod following;
 mod homing;
 mod off;
-mod sight;
 mod step;
 mod stopping;
 
-pub(crate) use sight::{Sight, Wish};
+pub(crate) use drive_io::{DriveCommand, DriveInputs};
 
+use crate::bus_fault::BusFault;
 use crate::event::Event;
 use crate::image::{Inputs, Outputs};
 use crate::settings::DriveSettings;
 use crate::state;
-use crate::trouble::Trouble;
 use enabling::Enabling;
 use faulted::Faulted;
 use following::Following;
@@ -103,24 +103,24 @@ impl Axis {
     /// A cycle: what the drive is to be told, from what it told last and what is wanted.
     pub(crate) fn step(
         &mut self,
-        sight: &Sight,
-        wish: &Wish,
+        drive_inputs: &DriveInputs,
+        drive_command: &DriveCommand,
         tell: &mut dyn FnMut(Event),
     ) -> Outputs {
         let joint = self.settings.joint;
-        self.is_latched &= wish.enable;
-        let wish = Wish {
-            enable: wish.enable && !self.is_latched,
-            ..*wish
+        self.is_latched &= drive_command.enable;
+        let drive_command = DriveCommand {
+            enable: drive_command.enable && !self.is_latched,
+            ..*drive_command
         };
         let mut step = Step {
             settings: &self.settings,
-            sight,
-            wish: &wish,
+            drive_inputs,
+            drive_command: &drive_command,
             outputs: self.outputs,
         };
         let is_faulted = matches!(self.phase, Phase::Faulted(_));
-        let next = if sight.is_faulted() && !is_faulted {
+        let next = if drive_inputs.is_faulted() && !is_faulted {
             faulted::rest(&mut step);
             Next::Fault
         } else {
@@ -134,18 +134,24 @@ impl Axis {
             }
         };
         self.outputs = step.outputs;
-        self.enter(next, sight, wish.reset, tell);
-        if sight.fault != self.told {
-            self.told = sight.fault;
-            if sight.fault != 0 {
-                tell(Event::Fault(joint, sight.fault));
+        self.enter(next, drive_inputs, drive_command.reset, tell);
+        if drive_inputs.fault != self.told {
+            self.told = drive_inputs.fault;
+            if drive_inputs.fault != 0 {
+                tell(Event::Fault(joint, drive_inputs.fault));
             }
         }
         self.outputs
     }
 
-    fn enter(&mut self, next: Next, sight: &Sight, resets: bool, tell: &mut dyn FnMut(Event)) {
-        let (now_ns, joint) = (sight.now_ns, self.settings.joint);
+    fn enter(
+        &mut self,
+        next: Next,
+        drive_inputs: &DriveInputs,
+        resets: bool,
+        tell: &mut dyn FnMut(Event),
+    ) {
+        let (now_ns, joint) = (drive_inputs.now_ns, self.settings.joint);
         self.phase = match next {
             Next::Stay => return,
             Next::Off => {
@@ -187,5 +193,5 @@ impl Axis {
 
 /// Whether a trouble takes the power from all.
 pub(crate) const fn is_common(event: &Event) -> bool {
-    matches!(event, Event::Trouble(trouble) if Trouble::is_common(*trouble))
+    matches!(event, Event::Trouble(trouble) if BusFault::is_common(*trouble))
 }

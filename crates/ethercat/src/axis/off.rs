@@ -4,7 +4,7 @@ use super::step::{DISABLE_VOLTAGE, Next, Step};
 
 pub(super) const fn step(step: &mut Step<'_>) -> Next {
     step.stand(DISABLE_VOLTAGE);
-    if step.wish.enable && step.sight.is_present {
+    if step.drive_command.enable && step.drive_inputs.is_present {
         Next::Enable
     } else {
         Next::Stay

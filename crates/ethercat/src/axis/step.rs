@@ -1,16 +1,16 @@
 //! One cycle of a drive, as each state sees it.
 
-use super::sight::{Sight, Wish};
+use super::drive_io::{DriveCommand, DriveInputs};
+use crate::bus_fault::BusFault;
 use crate::image::{CYCLIC_POSITION, Outputs};
 use crate::settings::DriveSettings;
-use crate::trouble::Trouble;
 
 /// One cycle of a drive: its inputs and the command to it, and the outputs that it is to get.
 #[derive(Debug)]
 pub(super) struct Step<'a> {
     pub(super) settings: &'a DriveSettings,
-    pub(super) sight: &'a Sight,
-    pub(super) wish: &'a Wish,
+    pub(super) drive_inputs: &'a DriveInputs,
+    pub(super) drive_command: &'a DriveCommand,
     /// As they were told last.
     pub(super) outputs: Outputs,
 }
@@ -20,7 +20,7 @@ impl Step<'_> {
     pub(super) const fn stand(&mut self, control: u16) {
         self.outputs = Outputs {
             control,
-            target: self.sight.inputs.actual,
+            target: self.drive_inputs.inputs.actual,
             mode: CYCLIC_POSITION,
         };
     }
@@ -37,7 +37,7 @@ pub(super) enum Next {
     /// Home was found, and is stayed at.
     Found,
     /// To rest by its own ramp, then without power; with the trouble that is the reason.
-    Stop(Option<Trouble>),
+    Stop(Option<BusFault>),
     Fault,
 }
 

@@ -25,9 +25,9 @@ impl Stopping {
     }
 
     pub(super) fn step(&mut self, step: &mut Step<'_>) -> Next {
-        let sight = step.sight;
+        let drive_inputs = step.drive_inputs;
         step.stand(QUICK_STOP);
-        let place = Some(sight.inputs.actual);
+        let place = Some(drive_inputs.inputs.actual);
         self.still = if self.place == place {
             self.still + 1
         } else {
@@ -35,11 +35,11 @@ impl Stopping {
         };
         self.place = place;
         let drives = matches!(
-            sight.state(),
+            drive_inputs.state(),
             DriveState::OperationEnabled | DriveState::QuickStop
         );
-        let is_late = sight.now_ns.saturating_sub(self.since_ns) > PATIENCE_NS;
-        if drives && sight.is_present && self.still < STILL && !is_late {
+        let is_late = drive_inputs.now_ns.saturating_sub(self.since_ns) > PATIENCE_NS;
+        if drives && drive_inputs.is_present && self.still < STILL && !is_late {
             return Next::Stay;
         }
         step.stand(DISABLE_VOLTAGE);

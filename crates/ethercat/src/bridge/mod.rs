@@ -4,7 +4,7 @@
 mod outputs;
 mod report;
 
-use crate::axis::{self, Axis, Sight, Wish};
+use crate::axis::{self, Axis, DriveCommand, DriveInputs};
 use crate::device_state::DeviceState;
 use crate::event::Event;
 use crate::image::{Inputs, Outputs};
@@ -249,7 +249,7 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
         let mut latches = false;
         for (drive, output) in self.drives.iter_mut().zip(&mut self.outputs) {
             let bit = 1 << drive.axis.settings.joint;
-            let sight = Sight {
+            let drive_inputs = DriveInputs {
                 now_ns,
                 since_ns: since_ns.max(self.period_ns),
                 inputs: drive.inputs,
@@ -261,7 +261,7 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
                 },
             };
             let homing = drive.axis.settings.homing;
-            let wish = Wish {
+            let drive_command = DriveCommand {
                 enable: !self.is_latched && enable & bit != 0,
                 home: home & bit != 0,
                 may_home: homing.is_none_or(|homing| Some(homing.sequence) <= looks),
@@ -270,10 +270,12 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
                     .map(|joints| joints[drive.axis.settings.joint.min(AXES - 1)].position),
                 reset: resets,
             };
-            *output = drive.axis.step(&sight, &wish, &mut |event| {
-                latches |= axis::is_common(&event);
-                tell(event);
-            });
+            *output = drive
+                .axis
+                .step(&drive_inputs, &drive_command, &mut |event| {
+                    latches |= axis::is_common(&event);
+                    tell(event);
+                });
         }
         if latches {
             self.is_latched = true;

@@ -2,7 +2,7 @@
 
 use crate::life::{Day, assert_clean};
 use crate::machine::{Case, Hands, Setup, run};
-use glidepath_emulator::{DriveSettings as Emulated, ImageAccess, Maps, Segment, Upset};
+use glidepath_emulator::{DriveSettings as Emulated, ImageAccess, InjectedFault, Maps, Segment};
 use glidepath_ethercat::{Event, Mapping};
 
 /// J0 and J2 are of the first device, J1 is the second one; or all of them are one device.
@@ -88,7 +88,7 @@ impl Case for Failing {
         let moves = hands.last.is_some_and(|s| s.velocity[0].abs() > 20.0);
         match self.failed {
             None if moves => {
-                segment.upset_axis(0, 1, Upset::Fault(0x7380), hands.now_ns);
+                segment.upset_axis(0, 1, InjectedFault::Fault(0x7380), hands.now_ns);
                 self.failed = Some(hands.tick);
             }
             None => self.day.tick(hands, segment),

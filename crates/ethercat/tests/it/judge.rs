@@ -1,12 +1,12 @@
 //! The judge of what the drives themselves have recorded.
 
 use crate::machine::{Outcome, Setup, limits};
-use glidepath_audit::{Audit, AuditSettings, Report, Sample};
+use glidepath_audit::{Audit, AuditReport, AuditSettings, Sample};
 use glidepath_emulator::SyncRecord;
 use glidepath_geometry::AxisVector;
 
 /// The auditor's report on the targets that the drives took over, at the period of the bus.
-pub(crate) fn audited(setup: &Setup, records: &[Vec<SyncRecord>]) -> Report {
+pub(crate) fn audited(setup: &Setup, records: &[Vec<SyncRecord>]) -> AuditReport {
     let mut audit = Audit::new(&AuditSettings {
         limits: limits(),
         period_t: setup.bus.period_ns as f64 * 1e-9,

@@ -5,8 +5,8 @@
 
 use crate::machine::{Case, Hands, Outcome, Setup, run, run_on};
 use crate::wire::Fate;
-use glidepath_emulator::{Segment, SyncRecord, Upset};
-use glidepath_ethercat::{DriveSettings, Event, Trouble};
+use glidepath_emulator::{InjectedFault, Segment, SyncRecord};
+use glidepath_ethercat::{BusFault, DriveSettings, Event};
 use glidepath_link::{Command, FaultCause, MachineState};
 use std::collections::BTreeMap;
 
@@ -160,14 +160,14 @@ impl Trial {
     }
 
     fn happen(&mut self, hands: &mut Hands<'_>, segment: &mut Segment) {
-        let mut upset = |upset| segment.upset(self.joint, upset, hands.now_ns);
+        let mut upset = |upset| segment.inject(self.joint, upset, hands.now_ns);
         match self.kind {
-            Kind::Emergency => upset(Upset::Emergency(0x8611)),
-            Kind::DriveFault => upset(Upset::Fault(0x3210)),
-            Kind::LeftOp => upset(Upset::Drop(0x1a)),
-            Kind::NoVoltage => upset(Upset::NoVoltage(true)),
-            Kind::Stuck => upset(Upset::Stuck(true)),
-            Kind::Reboot => upset(Upset::Reboot),
+            Kind::Emergency => upset(InjectedFault::Emergency(0x8611)),
+            Kind::DriveFault => upset(InjectedFault::Fault(0x3210)),
+            Kind::LeftOp => upset(InjectedFault::Drop(0x1a)),
+            Kind::NoVoltage => upset(InjectedFault::NoVoltage(true)),
+            Kind::Stuck => upset(InjectedFault::Stuck(true)),
+            Kind::Reboot => upset(InjectedFault::Reboot),
             Kind::BridgeKilled => hands.wants.killed = true,
             Kind::InterpolatorKilled => hands.wants.interpolator = Some(false),
             Kind::Drift | Kind::RefusedEnable => {}
@@ -178,11 +178,11 @@ impl Trial {
     fn mend(&mut self, hands: &mut Hands<'_>, segment: &mut Segment) {
         self.left_frames = 0;
         for mended in [
-            Upset::NoVoltage(false),
-            Upset::Stuck(false),
-            Upset::RefusesPower(false),
+            InjectedFault::NoVoltage(false),
+            InjectedFault::Stuck(false),
+            InjectedFault::RefusesPower(false),
         ] {
-            segment.upset(self.joint, mended, hands.now_ns);
+            segment.inject(self.joint, mended, hands.now_ns);
         }
         if self.kind == Kind::InterpolatorKilled {
             hands.wants.interpolator = Some(true);
@@ -213,7 +213,7 @@ impl Trial {
                     "{seen:?}"
                 );
                 assert!(!self.has_power, "{self:?} {seen:?}");
-                let is_told = |event: &Event| matches!(event, Event::Trouble(Trouble::NotEnabled(joint, _)) if *joint == self.joint);
+                let is_told = |event: &Event| matches!(event, Event::Trouble(BusFault::NotEnabled(joint, _)) if *joint == self.joint);
                 assert!(hands.events.iter().any(is_told), "{self:?} {seen:?}");
             }
             Expected::Rest => assert!(
@@ -262,7 +262,7 @@ impl Case for Trial {
         match self.part {
             Part::Before => {
                 if self.kind == Kind::RefusedEnable && hands.tick == 1 {
-                    segment.upset(self.joint, Upset::RefusesPower(true), hands.now_ns);
+                    segment.inject(self.joint, InjectedFault::RefusesPower(true), hands.now_ns);
                 }
                 self.operate(hands);
                 if self.kind == Kind::RefusedEnable && hands.tick > 2000 {

@@ -5,7 +5,7 @@
 use std::sync::Arc;
 
 use glidepath_gcode::{
-    Connections, Dialect, LoopLimits, Machine, Options, Program, Tool, ToolTable, Travel, check,
+    Connections, Dialect, LoopLimits, Machine, Options, Program, Tool, ToolTable, AxisTravel, check,
 };
 use glidepath_geometry::Axis;
 use glidepath_program::{ItemKind, Rate};
@@ -22,7 +22,7 @@ fn options() -> Options {
         tool.offset[2] = 10.0 * f64::from(number);
         tools.set(number.into(), tool);
     }
-    let travel = Travel {
+    let travel = AxisTravel {
         min: -500.0,
         max: 500.0,
     };

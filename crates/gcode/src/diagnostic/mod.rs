@@ -1,8 +1,8 @@
 //! Diagnostics about a program: where, what, why, and how to mend it.
 
+pub(crate) mod block_diagnostic;
 pub(crate) mod code;
 pub(crate) mod excerpt;
-pub(crate) mod fault;
 pub(crate) mod span;
 
 use std::sync::Arc;

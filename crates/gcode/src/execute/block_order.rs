@@ -12,7 +12,7 @@ use std::sync::Arc;
 use glidepath_geometry::AXES;
 use glidepath_program::{Event, Item, ItemKind, PathMode};
 
-use crate::diagnostic::fault::Outcome;
+use crate::diagnostic::block_diagnostic::Outcome;
 use crate::execute::block_words::{check_named_words, check_words, path_mode};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::corner::CornerMove;

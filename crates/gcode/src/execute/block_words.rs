@@ -2,8 +2,8 @@
 
 use glidepath_program::PathMode;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::block::Block;
 use crate::syntax::codes::{FrameCode, TiltCode};
@@ -264,11 +264,13 @@ pub(crate) fn check_words(block: &Block, motion: Option<Motion>) -> Outcome<()> 
         if wants > 1 {
             let letter_name = char::from(letter);
             let message = format!("it is not clear which code the {letter_name} word belongs to");
-            return Err(
-                Fault::new(DiagnosticCode::AmbiguousWord, block.span(letter), message)
-                    .because(format!("two codes of the block take {letter_name}"))
-                    .help("write two blocks"),
-            );
+            return Err(BlockDiagnostic::new(
+                DiagnosticCode::AmbiguousWord,
+                block.span(letter),
+                message,
+            )
+            .because(format!("two codes of the block take {letter_name}"))
+            .help("write two blocks"));
         }
     }
     Ok(())

@@ -34,8 +34,8 @@
 use glidepath_geometry::{AXES, Axis, AxisVector, Plane};
 use glidepath_program::{Event, Item, ItemKind, PathMode};
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::speed::Pace;
@@ -102,11 +102,13 @@ impl Interpreter {
             Some(0) if block.dialect == Dialect::Fanuc => 0,
             Some(0) => {
                 let message = "a cycle without holes";
-                return Err(
-                    Fault::new(DiagnosticCode::CannedCycle, block.span(b'L'), message)
-                        .because("L0 asks for no repetition at all")
-                        .help("write L1 or more, or leave L out"),
-                );
+                return Err(BlockDiagnostic::new(
+                    DiagnosticCode::CannedCycle,
+                    block.span(b'L'),
+                    message,
+                )
+                .because("L0 asks for no repetition at all")
+                .help("write L1 or more, or leave L out"));
             }
             holes => holes.unwrap_or(1),
         };
@@ -128,14 +130,16 @@ impl Interpreter {
         sticky.levels_mm = Some([r, bottom]);
         if r < bottom {
             let message = "the R plane is below the bottom of the hole";
-            return Err(
-                Fault::new(DiagnosticCode::CannedCycle, block.span(b'R'), message)
-                    .because(format!(
-                        "the cycle goes from R down to {}; with G91 the depth counts from R",
-                        normal.letter()
-                    ))
-                    .help("check both words, and G90 or G91"),
-            );
+            return Err(BlockDiagnostic::new(
+                DiagnosticCode::CannedCycle,
+                block.span(b'R'),
+                message,
+            )
+            .because(format!(
+                "the cycle goes from R down to {}; with G91 the depth counts from R",
+                normal.letter()
+            ))
+            .help("check both words, and G90 or G91"));
         }
         self.state.cycles = CycleSeries {
             initial: Some(initial),
@@ -199,9 +203,11 @@ impl Interpreter {
     fn check_cycle(&self, block: &Block, sticky: &StickyWords) -> Outcome<()> {
         let (span, cycle) = (block.motion_span(), sticky.cycle);
         let refuse = |span: SourceSpan, message: String, reason: &str, help: &str| {
-            Err(Fault::new(DiagnosticCode::CannedCycle, span, message)
-                .because(reason)
-                .help(help))
+            Err(
+                BlockDiagnostic::new(DiagnosticCode::CannedCycle, span, message)
+                    .because(reason)
+                    .help(help),
+            )
         };
         if self.state.modal.feed_mode == FeedMode::InverseTime {
             return refuse(
@@ -238,7 +244,7 @@ impl Interpreter {
                 CannedCycle::TapRight => "write M3 before G84",
                 _ => "write M3 or M4 before the cycle",
             };
-            return Err(Fault::new(DiagnosticCode::Spindle, span, message)
+            return Err(BlockDiagnostic::new(DiagnosticCode::Spindle, span, message)
                 .because("the cycle stops or reverses the spindle at the bottom")
                 .help(help));
         }
@@ -255,11 +261,13 @@ impl Interpreter {
             let pecks = (hole.r - hole.bottom) / least * f64::from(holes);
             if pecks > MAX_PECKS {
                 let message = format!("the block asks for {pecks:.0} pecks");
-                return Err(
-                    Fault::new(DiagnosticCode::CannedCycle, block.span(b'Q'), message)
-                        .because(format!("one block makes at most {MAX_PECKS}"))
-                        .help("write a larger Q"),
-                );
+                return Err(BlockDiagnostic::new(
+                    DiagnosticCode::CannedCycle,
+                    block.span(b'Q'),
+                    message,
+                )
+                .because(format!("one block makes at most {MAX_PECKS}"))
+                .help("write a larger Q"));
             }
         }
         let plane = self.state.modal.plane;

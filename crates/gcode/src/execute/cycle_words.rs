@@ -1,7 +1,7 @@
 //! The words of canned cycles, and those of them that are kept from block to block.
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::execute::auxiliary::order::fanuc_dwell;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::state::sticky_words::StickyWords;
@@ -122,7 +122,7 @@ impl Interpreter {
         }
         let message = format!("{name} goes no deeper");
         Err(
-            Fault::new(DiagnosticCode::CannedCycle, block.span(b'Q'), message)
+            BlockDiagnostic::new(DiagnosticCode::CannedCycle, block.span(b'Q'), message)
                 .because("Q is how deep it goes at a time, and must be above zero")
                 .help("write a Q above zero"),
         )
@@ -144,7 +144,7 @@ impl Interpreter {
         }
         let message = "depths that are not possible";
         Err(
-            Fault::new(DiagnosticCode::CannedCycle, block.span(b'I'), message)
+            BlockDiagnostic::new(DiagnosticCode::CannedCycle, block.span(b'I'), message)
                 .because(
                     "I is the first depth, J by how much each one is less, K the least of them",
                 )
@@ -169,7 +169,7 @@ impl Interpreter {
             PointInput::Unsaid if peck > MOST_PECK => {
                 let message = format!("Q{peck} has no decimal point");
                 Err(
-                    Fault::new(DiagnosticCode::AmbiguousWord, block.span(b'Q'), message)
+                    BlockDiagnostic::new(DiagnosticCode::AmbiguousWord, block.span(b'Q'), message)
                         .because(
                             "it is millimetres on one control, and least increments on another",
                         )

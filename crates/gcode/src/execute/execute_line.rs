@@ -3,7 +3,7 @@
 
 use std::io::BufRead;
 
-use crate::diagnostic::fault::Outcome;
+use crate::diagnostic::block_diagnostic::Outcome;
 use crate::execute::block_order::AfterBlock;
 use crate::execute::program::Program;
 use crate::execute::scope::ProgramScope;

@@ -24,8 +24,8 @@
 use glidepath_geometry::AxisVector;
 use glidepath_program::Item;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::state::open_thread::Groove;
@@ -182,13 +182,15 @@ impl Interpreter {
         let letter_name = char::from(letter);
         if count.fract() != 0.0 || count < 0.0 {
             let message = format!("{letter_name}{count} in G76 is no whole number");
-            return Err(
-                Fault::new(DiagnosticCode::NotAnInteger, block.span(letter), message)
-                    .because(format!(
-                        "{letter_name} counts {name} there, without a point"
-                    ))
-                    .help(format!("write 200 for {}", 200.0 * of_one)),
-            );
+            return Err(BlockDiagnostic::new(
+                DiagnosticCode::NotAnInteger,
+                block.span(letter),
+                message,
+            )
+            .because(format!(
+                "{letter_name} counts {name} there, without a point"
+            ))
+            .help(format!("write 200 for {}", 200.0 * of_one)));
         }
         Ok(Some(count * of_one))
     }
@@ -297,9 +299,11 @@ impl FanucThread {
             depths.push(depth_mm);
         }
         let message = format!("a thread of more than {MAX_PASSES} passes");
-        Err(Fault::new(DiagnosticCode::CannedCycle, span, message)
-            .because("the first pass is small beside the height")
-            .help("write a deeper first pass, or a least depth (Q of the first block)"))
+        Err(
+            BlockDiagnostic::new(DiagnosticCode::CannedCycle, span, message)
+                .because("the first pass is small beside the height")
+                .help("write a deeper first pass, or a least depth (Q of the first block)"),
+        )
     }
 }
 
@@ -310,7 +314,7 @@ fn tangent(block: &Block, letter: u8, angle: f64) -> Outcome<f64> {
     }
     let message = format!("a tool with an angle of {angle} degrees");
     Err(
-        Fault::new(DiagnosticCode::InvalidValue, block.span(letter), message)
+        BlockDiagnostic::new(DiagnosticCode::InvalidValue, block.span(letter), message)
             .help("write 0 to 120 degrees"),
     )
 }
@@ -332,7 +336,7 @@ fn check_others(block: &Block, is_one_block: bool) -> Outcome<()> {
     if let Some(letter) = others.iter().copied().find(is_written).or(twice) {
         let message = format!("G76 with {}", char::from(letter));
         return Err(
-            Fault::new(DiagnosticCode::UnusedWord, block.span(letter), message)
+            BlockDiagnostic::new(DiagnosticCode::UnusedWord, block.span(letter), message)
                 .because("a thread is given by X, Z, F and the words of one of its two forms")
                 .help("remove the word; U and W stand for X and Z"),
         );
@@ -343,7 +347,7 @@ fn check_others(block: &Block, is_one_block: bool) -> Outcome<()> {
         Some(way) => {
             let message = format!("G76 with P{way}: flanks in turn");
             Err(
-                Fault::new(DiagnosticCode::NotSupported, block.span(b'P'), message)
+                BlockDiagnostic::new(DiagnosticCode::NotSupported, block.span(b'P'), message)
                     .because("passes are shifted to one side")
                     .help("write P1 (areas alike) or P3 (depths alike)"),
             )
@@ -351,9 +355,9 @@ fn check_others(block: &Block, is_one_block: bool) -> Outcome<()> {
     }
 }
 
-fn no_setup(span: SourceSpan) -> Box<Fault> {
+fn no_setup(span: SourceSpan) -> Box<BlockDiagnostic> {
     let message = "G76 without the block that belongs before it";
-    Fault::new(DiagnosticCode::NotSupported, span, message)
+    BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
         .because(
             "a thread in two blocks needs the first one, `G76 P Q R`; fine boring is G76 of mills",
         )

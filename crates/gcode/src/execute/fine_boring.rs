@@ -10,8 +10,8 @@
 use glidepath_geometry::Plane;
 use glidepath_program::{Event, Item, ItemKind};
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::speed::Pace;
 use crate::execute::state::sticky_words::StickyWords;
@@ -25,13 +25,15 @@ impl Interpreter {
         let span = block.motion_span();
         if self.state.modal.plane != Plane::Xy {
             let message = "G76 outside G17";
-            return Err(Fault::new(DiagnosticCode::CannedCycle, span, message)
-                .because("the tool goes aside along X and Y")
-                .help("write G17 before it"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::CannedCycle, span, message)
+                    .because("the tool goes aside along X and Y")
+                    .help("write G17 before it"),
+            );
         }
         if self.offsets.is_turned() {
             let message = "G76 in coordinates that are turned, mirrored or scaled";
-            return Err(Fault::new(DiagnosticCode::CannedCycle, span, message)
+            return Err(BlockDiagnostic::new(DiagnosticCode::CannedCycle, span, message)
                 .because("the spindle stops at an angle of the machine: turned with the coordinates, the way aside would lead the tip into the wall")
                 .help("end what is in force before it (G69, G50, G50.1), or write G86"));
         }
@@ -52,7 +54,7 @@ impl Interpreter {
             return Ok(shift);
         }
         Err(
-            Fault::new(DiagnosticCode::CannedCycle, span, "G76 goes nowhere aside")
+            BlockDiagnostic::new(DiagnosticCode::CannedCycle, span, "G76 goes nowhere aside")
                 .because("the tip would scratch the wall on the way out")
                 .help("write Q above zero, or G86"),
         )
@@ -62,9 +64,11 @@ impl Interpreter {
     fn shift_of_q(&self, block: &Block) -> Outcome<[f64; 2]> {
         let span = block.span(b'Q');
         let refuse = |message: &str, reason: &str, help: &str| {
-            Err(Fault::new(DiagnosticCode::AmbiguousWord, span, message)
-                .because(reason)
-                .help(help))
+            Err(
+                BlockDiagnostic::new(DiagnosticCode::AmbiguousWord, span, message)
+                    .because(reason)
+                    .help(help),
+            )
         };
         let Some(direction) = self.options.fanuc.bore_shift.direction() else {
             return refuse(

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::fault::Fault;
+use crate::diagnostic::block_diagnostic::BlockDiagnostic;
 use crate::execute::flow::kept_lines::KeptLines;
 
 /// A line that is kept for diagnostics.
@@ -25,7 +25,7 @@ impl SourceLine {
         }
     }
 
-    pub(crate) fn diagnostic(&self, fault: Fault) -> Diagnostic {
+    pub(crate) fn diagnostic(&self, fault: BlockDiagnostic) -> Diagnostic {
         Diagnostic {
             file: self.file.clone(),
             ..fault.at(self.number, &self.text)

@@ -27,8 +27,8 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::setup::kept_variables::{KEPT_VARIABLES, KeptVariables};
 use crate::syntax::expression::scope::{LOCALS, Parameter, no_parameter};
@@ -218,9 +218,11 @@ impl Parameters {
             Parameter::Named(name) if READ_ONLY.contains(&name.as_str()) => Err(read_only(span)),
             Parameter::Named(_) if self.names >= MAX_NAMES => {
                 let message = format!("more than {MAX_NAMES} named parameters");
-                Err(Fault::new(DiagnosticCode::Parameter, span, message)
-                    .because("the memory of a program is bounded")
-                    .help("use numbered parameters"))
+                Err(
+                    BlockDiagnostic::new(DiagnosticCode::Parameter, span, message)
+                        .because("the memory of a program is bounded")
+                        .help("use numbered parameters"),
+                )
             }
             _ => Ok(()),
         }
@@ -284,8 +286,8 @@ impl Parameters {
     }
 }
 
-fn read_only(span: SourceSpan) -> Box<Fault> {
-    Fault::new(
+fn read_only(span: SourceSpan) -> Box<BlockDiagnostic> {
+    BlockDiagnostic::new(
         DiagnosticCode::Parameter,
         span,
         "the parameter cannot be assigned",

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use glidepath_geometry::Plane;
 use glidepath_program::Item;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::auxiliary::input_wait::InputWait;
 use crate::execute::awaited_codes::AwaitedCodes;
@@ -385,9 +385,9 @@ pub(crate) fn is_percent(text: &[u8]) -> bool {
     Cursor::new(text).next_visible() == Some(b'%')
 }
 
-fn endless(lines: u32) -> Box<Fault> {
+fn endless(lines: u32) -> Box<BlockDiagnostic> {
     let message = format!("{lines} lines of a loop without a move");
-    Fault::new(DiagnosticCode::EndlessLoop, SourceSpan::default(), message)
+    BlockDiagnostic::new(DiagnosticCode::EndlessLoop, SourceSpan::default(), message)
         .because("a loop that moves nothing for so long would hold up the machine for ever")
         .help("check the condition that should end it")
 }

@@ -3,7 +3,7 @@
 use glidepath_geometry::AxisVector;
 use glidepath_program::Item;
 
-use crate::diagnostic::fault::Outcome;
+use crate::diagnostic::block_diagnostic::Outcome;
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::state::fanuc_offsets::FanucFrames;

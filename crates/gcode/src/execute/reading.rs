@@ -6,8 +6,8 @@ use std::mem;
 use glidepath_program::Item;
 
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::line_origin::LineOrigin;
 use crate::execute::motion::tangent_arc::direction_behind;
@@ -85,9 +85,9 @@ impl<R: BufRead> Program<R> {
 }
 
 /// Whoever watches has ended the reading.
-fn ended() -> Fault {
+fn ended() -> BlockDiagnostic {
     let message = "the reading was ended".to_owned();
-    let fault = Fault::new(DiagnosticCode::ReadFailed, SourceSpan::default(), message);
+    let fault = BlockDiagnostic::new(DiagnosticCode::ReadFailed, SourceSpan::default(), message);
     *fault
         .because("whoever wanted the program does not want it any more")
         .help("read it again")

@@ -7,8 +7,8 @@
 
 use glidepath_program::{Event, Item, ItemKind};
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::planned_tap::TappedHole;
 use crate::execute::motion::rigid_tap::needs_axis;
@@ -63,11 +63,13 @@ impl Interpreter {
         let has_pecks = sticky.peck > 0.0;
         if !sticky.is_rigid && has_pecks {
             let message = "tapping in several depths (Q) with a tap in a holder is not supported";
-            return Err(
-                Fault::new(DiagnosticCode::NotSupported, block.span(b'Q'), message)
-                    .because("a tap that gives way does not find back into its thread")
-                    .help("leave Q out, or tap rigidly by a spindle that is an axis"),
-            );
+            return Err(BlockDiagnostic::new(
+                DiagnosticCode::NotSupported,
+                block.span(b'Q'),
+                message,
+            )
+            .because("a tap that gives way does not find back into its thread")
+            .help("leave Q out, or tap rigidly by a spindle that is an axis"));
         }
         if !sticky.is_rigid || self.options.spindle_axis.is_some() {
             Ok(())
@@ -151,16 +153,18 @@ impl Interpreter {
         let speed = self.state.spindle.speed;
         let Some(feed) = modal.feed else {
             let message = "rigid tapping without a feedrate";
-            return Err(Fault::new(DiagnosticCode::MissingFeed, span, message)
-                .because("F over S is the way of a revolution of the tap, in G95 F alone")
-                .help("write an F word"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::MissingFeed, span, message)
+                    .because("F over S is the way of a revolution of the tap, in G95 F alone")
+                    .help("write an F word"),
+            );
         };
         if modal.feed_mode == FeedMode::PerRevolution {
             return Ok(feed.linear_v);
         }
         if speed <= 0.0 {
             let message = "rigid tapping with a spindle without a speed";
-            return Err(Fault::new(DiagnosticCode::Spindle, span, message)
+            return Err(BlockDiagnostic::new(DiagnosticCode::Spindle, span, message)
                 .because("F over S is the way of a revolution of the tap")
                 .help("write an S word"));
         }

@@ -16,8 +16,8 @@
 use glidepath_geometry::AxisVector;
 use glidepath_program::Item;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::speed::Pace;
@@ -75,9 +75,11 @@ impl Interpreter {
         let span = block.motion_span();
         if block.dialect != Dialect::LinuxCnc {
             let message = "G76 in this dialect is not supported";
-            return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
-                .because("its words mean something else than LinuxCNC's, or another cycle")
-                .help("write the passes out with G33"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
+                    .because("its words mean something else than LinuxCNC's, or another cycle")
+                    .help("write the passes out with G33"),
+            );
         }
         let is_written = |letter: &u8| block.get(*letter).is_some();
         let Some(letter) = b"XYABCUVW".iter().copied().find(is_written) else {
@@ -85,7 +87,7 @@ impl Interpreter {
         };
         let message = format!("G76 with {}", char::from(letter));
         Err(
-            Fault::new(DiagnosticCode::UnusedWord, block.span(letter), message)
+            BlockDiagnostic::new(DiagnosticCode::UnusedWord, block.span(letter), message)
                 .because("the thread begins at the X where the tool is, and ends at Z")
                 .help("remove the word; go to the drive line before the cycle"),
         )
@@ -236,8 +238,10 @@ impl ThreadCycle {
             depths.push(depth_mm);
         }
         let message = format!("a thread of more than {MAX_PASSES} passes");
-        Err(Fault::new(DiagnosticCode::CannedCycle, span, message)
-            .because("the first pass (J) is small beside the depth (K), or R is high")
-            .help("write a greater J or a smaller R"))
+        Err(
+            BlockDiagnostic::new(DiagnosticCode::CannedCycle, span, message)
+                .because("the first pass (J) is small beside the depth (K), or R is high")
+                .help("write a greater J or a smaller R"),
+        )
     }
 }

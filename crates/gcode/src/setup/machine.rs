@@ -4,7 +4,7 @@ use glidepath_geometry::{AXES, Axis};
 
 /// The travel of an axis, in machine coordinates: mm, or degrees for a rotary axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Travel {
+pub struct AxisTravel {
     /// Smallest coordinate.
     pub min: f64,
     /// Largest coordinate, ≥ `min`.
@@ -15,7 +15,7 @@ pub struct Travel {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Machine {
     configured: [bool; AXES],
-    travel: [Option<Travel>; AXES],
+    travel: [Option<AxisTravel>; AXES],
 }
 
 impl Machine {
@@ -40,7 +40,7 @@ impl Machine {
 
     /// The same machine with the travel of one axis limited; the axis is added if it was missing.
     #[must_use]
-    pub const fn with_travel(mut self, axis: Axis, travel: Travel) -> Self {
+    pub const fn with_travel(mut self, axis: Axis, travel: AxisTravel) -> Self {
         self.configured[axis.index()] = true;
         self.travel[axis.index()] = Some(travel);
         self
@@ -60,7 +60,7 @@ impl Machine {
 
     /// Soft limits of an axis; `None`: not checked.
     #[must_use]
-    pub const fn travel(&self, axis: Axis) -> Option<Travel> {
+    pub const fn travel(&self, axis: Axis) -> Option<AxisTravel> {
         self.travel[axis.index()]
     }
 }

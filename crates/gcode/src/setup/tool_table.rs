@@ -22,8 +22,8 @@ use std::collections::BTreeMap;
 use glidepath_geometry::AxisVector;
 use serde::{Deserialize, Serialize};
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::diagnostic::{Diagnostic, MAX_DIAGNOSTICS};
 use crate::syntax::bad_byte::bad_byte;
@@ -159,25 +159,29 @@ impl ToolTable {
         let Some((number, span)) = line.number else {
             return match line.first {
                 None => Ok(()),
-                Some(span) => {
-                    Err(
-                        Fault::new(DiagnosticCode::ToolTable, span, "a tool without a number")
-                            .because("T says which tool the line is about")
-                            .help("add a T word"),
-                    )
-                }
+                Some(span) => Err(BlockDiagnostic::new(
+                    DiagnosticCode::ToolTable,
+                    span,
+                    "a tool without a number",
+                )
+                .because("T says which tool the line is about")
+                .help("add a T word")),
             };
         };
         if self.tools.contains_key(&number) {
             let message = format!("a second line about tool {number}");
-            return Err(Fault::new(DiagnosticCode::ToolTable, span, message)
-                .because("it is not clear which of them holds")
-                .help("remove one of them"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::ToolTable, span, message)
+                    .because("it is not clear which of them holds")
+                    .help("remove one of them"),
+            );
         }
         if self.tools.len() >= MAX_TOOLS {
             let message = format!("more than {MAX_TOOLS} tools");
-            return Err(Fault::new(DiagnosticCode::ToolTable, span, message)
-                .because("the size of a tool table is bounded"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::ToolTable, span, message)
+                    .because("the size of a tool table is bounded"),
+            );
         }
         self.tools.insert(number, line.tool);
         let comment = text.iter().position(|byte| *byte == b';');
@@ -221,9 +225,11 @@ impl ToolLine {
             b'I' | b'J' => {}
             _ => {
                 let message = format!("a tool table has no {} word", char::from(letter));
-                return Err(Fault::new(DiagnosticCode::ToolTable, span, message)
-                    .because("its words are T P X Y Z A B C U V W D I J Q")
-                    .help("remove it, or put it behind `;`"));
+                return Err(
+                    BlockDiagnostic::new(DiagnosticCode::ToolTable, span, message)
+                        .because("its words are T P X Y Z A B C U V W D I J Q")
+                        .help("remove it, or put it behind `;`"),
+                );
             }
         }
         Ok(())
@@ -241,8 +247,10 @@ fn whole(value: f64, max: u32, span: SourceSpan) -> Outcome<u32> {
         return Ok(value as u32);
     }
     let message = format!("{value} is no whole number from 0 to {max}");
-    Err(Fault::new(DiagnosticCode::ToolTable, span, message)
-        .because("tools, pockets and orientations are numbered"))
+    Err(
+        BlockDiagnostic::new(DiagnosticCode::ToolTable, span, message)
+            .because("tools, pockets and orientations are numbered"),
+    )
 }
 
 #[cfg(test)]

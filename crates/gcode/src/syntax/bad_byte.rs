@@ -1,12 +1,12 @@
 //! The diagnostic for a byte that has no place in a block.
 
+use crate::diagnostic::block_diagnostic::BlockDiagnostic;
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::Fault;
 use crate::diagnostic::span::SourceSpan;
 
 /// A byte that can start nothing, at `at`.
 #[cold]
-pub(crate) fn bad_byte(text: &[u8], at: usize) -> Box<Fault> {
+pub(crate) fn bad_byte(text: &[u8], at: usize) -> Box<BlockDiagnostic> {
     let rest = text.get(at..).unwrap_or_default();
     match rest.first() {
         Some(0) => {
@@ -17,7 +17,7 @@ pub(crate) fn bad_byte(text: &[u8], at: usize) -> Box<Fault> {
             } else {
                 format!("{run} NUL bytes")
             };
-            Fault::new(
+            BlockDiagnostic::new(
                 DiagnosticCode::NulByte,
                 span,
                 format!("{bytes} in the text"),
@@ -29,7 +29,7 @@ pub(crate) fn bad_byte(text: &[u8], at: usize) -> Box<Fault> {
         Some(&byte) => {
             let shown = char::from(byte).escape_default().to_string();
             let message = format!("`{shown}` has no meaning here");
-            Fault::new(
+            BlockDiagnostic::new(
                 DiagnosticCode::BadCharacter,
                 SourceSpan::new(at, at + 1),
                 message,
@@ -37,7 +37,7 @@ pub(crate) fn bad_byte(text: &[u8], at: usize) -> Box<Fault> {
             .because("a block is made of words: a letter and a number each")
             .help("remove it, or put it into a comment")
         }
-        None => Fault::new(
+        None => BlockDiagnostic::new(
             DiagnosticCode::BadCharacter,
             SourceSpan::new(at, at + 1),
             "the line ends too early",
@@ -45,7 +45,7 @@ pub(crate) fn bad_byte(text: &[u8], at: usize) -> Box<Fault> {
     }
 }
 
-fn non_ascii(rest: &[u8], at: usize) -> Box<Fault> {
+fn non_ascii(rest: &[u8], at: usize) -> Box<BlockDiagnostic> {
     let head = rest.get(..rest.len().min(4)).unwrap_or_default();
     let valid = match core::str::from_utf8(head) {
         Ok(text) => text,
@@ -55,7 +55,7 @@ fn non_ascii(rest: &[u8], at: usize) -> Box<Fault> {
     let Some(c) = valid.chars().next() else {
         let byte = rest.first().copied().unwrap_or_default();
         let message = format!("byte 0x{byte:02X} is not text");
-        return Fault::new(
+        return BlockDiagnostic::new(
             DiagnosticCode::NonAsciiCharacter,
             SourceSpan::new(at, at + 1),
             message,
@@ -73,7 +73,7 @@ fn non_ascii(rest: &[u8], at: usize) -> Box<Fault> {
     };
     let span = SourceSpan::new(at, at + c.len_utf8());
     let message = format!("`{c}` (U+{:04X}) is not ASCII", u32::from(c));
-    Fault::new(DiagnosticCode::NonAsciiCharacter, span, message)
+    BlockDiagnostic::new(DiagnosticCode::NonAsciiCharacter, span, message)
         .because("outside comments a program is ASCII")
         .help(help)
 }

@@ -1,7 +1,7 @@
 //! The reader of a line's text into a block, word by word.
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::bad_byte::bad_byte;
 use crate::syntax::block::{Assignment, Block, LineKind, PolarWord};
@@ -134,9 +134,11 @@ impl Block {
             return Ok(span);
         }
         let message = format!("there is no spindle {number}");
-        Err(Fault::new(DiagnosticCode::NotSupported, span, message)
-            .because("the machine has one spindle, number 0")
-            .help("remove the word, or write $0"))
+        Err(
+            BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
+                .because("the machine has one spindle, number 0")
+                .help("remove the word, or write $0"),
+        )
     }
 
     fn percent(&mut self, mut cursor: Cursor<'_>) -> Outcome<()> {
@@ -146,7 +148,7 @@ impl Block {
             None => Ok(()),
             Some(_) => {
                 let span = SourceSpan::new(cursor.at(), cursor.at() + 1);
-                Err(Fault::new(
+                Err(BlockDiagnostic::new(
                     DiagnosticCode::StrayPercent,
                     span,
                     "text behind a percent sign",
@@ -162,7 +164,7 @@ impl Block {
         let parameter = parameter(cursor, scope)?;
         let span = SourceSpan::new(start, cursor.end_of_word());
         if cursor.next_visible() != Some(b'=') {
-            return Err(Fault::new(
+            return Err(BlockDiagnostic::new(
                 DiagnosticCode::Expression,
                 span,
                 "a parameter that nothing uses",
@@ -214,7 +216,7 @@ impl Block {
         match letter {
             b'N' => return block_number(cursor, start, first),
             b'O' if !(self.dialect == Dialect::Marlin && self.names_an_axis(*cursor, letter)) => {
-                return Err(Fault::new(
+                return Err(BlockDiagnostic::new(
                     DiagnosticCode::FlowStructure,
                     SourceSpan::new(start, start + 1),
                     "an O word inside a block",
@@ -275,9 +277,9 @@ fn has_value(mut cursor: Cursor<'_>) -> bool {
 }
 
 #[cold]
-fn unused_spindle(span: SourceSpan) -> Box<Fault> {
+fn unused_spindle(span: SourceSpan) -> Box<BlockDiagnostic> {
     let message = "nothing in the block uses the spindle's number";
-    Fault::new(DiagnosticCode::UnusedWord, span, message)
+    BlockDiagnostic::new(DiagnosticCode::UnusedWord, span, message)
         .because("it belongs to S, M3, M4, M5, M19, G96 and G97")
         .help("remove it, or add the code it belongs to")
 }
@@ -288,7 +290,7 @@ fn block_number(cursor: &mut Cursor<'_>, start: usize, first: bool) -> Outcome<(
     if !first {
         let message = "a block number that is not at the start of the line";
         return Err(
-            Fault::new(DiagnosticCode::MisplacedBlockNumber, span, message)
+            BlockDiagnostic::new(DiagnosticCode::MisplacedBlockNumber, span, message)
                 .because("N numbers the block it starts")
                 .help("put it first, or remove it"),
         );
@@ -296,31 +298,33 @@ fn block_number(cursor: &mut Cursor<'_>, start: usize, first: bool) -> Outcome<(
     // LinuxCNC takes parts of numbers, too: blocks that were put in between.
     if value < 0.0 {
         let message = "the block number is negative";
-        return Err(Fault::new(DiagnosticCode::InvalidValue, span, message)
-            .because("N numbers the block it starts")
-            .help("write a number of zero or more, or remove it"));
+        return Err(
+            BlockDiagnostic::new(DiagnosticCode::InvalidValue, span, message)
+                .because("N numbers the block it starts")
+                .help("write a number of zero or more, or remove it"),
+        );
     }
     Ok(())
 }
 
 #[cold]
-fn odd_character(text: &[u8], at: usize, byte: u8) -> Box<Fault> {
+fn odd_character(text: &[u8], at: usize, byte: u8) -> Box<BlockDiagnostic> {
     let span = SourceSpan::new(at, at + 1);
     match byte {
-        b')' => Fault::new(DiagnosticCode::BadCharacter, span, "`)` closes no comment")
+        b')' => BlockDiagnostic::new(DiagnosticCode::BadCharacter, span, "`)` closes no comment")
             .because("no comment is open here")
             .help("remove it"),
-        b'/' => Fault::new(DiagnosticCode::BadCharacter, span, "`/` inside a block")
+        b'/' => BlockDiagnostic::new(DiagnosticCode::BadCharacter, span, "`/` inside a block")
             .because("block delete marks a whole line")
             .help("move it to the start of the line"),
-        b'%' => Fault::new(
+        b'%' => BlockDiagnostic::new(
             DiagnosticCode::StrayPercent,
             span,
             "a percent sign inside a line",
         )
         .because("a percent sign by itself marks the start or the end of the program")
         .help("give the percent sign a line of its own"),
-        b'$' => Fault::new(DiagnosticCode::NotSupported, span, "`$` (spindle number)")
+        b'$' => BlockDiagnostic::new(DiagnosticCode::NotSupported, span, "`$` (spindle number)")
             .because("there is one spindle; commands of a controller are no part of a program")
             .help("remove it"),
         _ => bad_byte(text, at),

@@ -1,8 +1,8 @@
 //! The parts of the block reader that only the other dialects need: what their blocks have and
 //! LinuxCNC's have not.
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::setup::fanuc::PointInput;
 use crate::syntax::block::{Assignment, Block, CornerKind, CornerWord};
@@ -259,9 +259,9 @@ pub(super) fn skip_brackets(cursor: &mut Cursor<'_>) -> Outcome<()> {
 const MOST_WITHOUT_POINT: f64 = 999.0;
 
 #[cold]
-fn bad_bracket(at: usize) -> Box<Fault> {
+fn bad_bracket(at: usize) -> Box<BlockDiagnostic> {
     let span = SourceSpan::new(at, at + 1);
-    Fault::new(
+    BlockDiagnostic::new(
         DiagnosticCode::BadCharacter,
         span,
         "`[` has no meaning here",
@@ -271,9 +271,9 @@ fn bad_bracket(at: usize) -> Box<Fault> {
 }
 
 #[cold]
-fn without_point(letter: char, value: f64, span: SourceSpan) -> Box<Fault> {
+fn without_point(letter: char, value: f64, span: SourceSpan) -> Box<BlockDiagnostic> {
     let message = format!("{letter}{value} has no decimal point");
-    Fault::new(DiagnosticCode::AmbiguousWord, span, message)
+    BlockDiagnostic::new(DiagnosticCode::AmbiguousWord, span, message)
         .because("it is millimetres on one control, and least increments (0.001 mm) on another")
         .help("write the point, or say which it is: `point` of [program] in the configuration")
 }

@@ -5,8 +5,8 @@
 use glidepath_geometry::Plane;
 use glidepath_program::PathMode;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::setup::m_codes::MCodes;
 use crate::syntax::modes::{
@@ -367,7 +367,7 @@ pub(super) fn set<T>(slot: &mut Option<Coded<T>>, code: T, span: SourceSpan) -> 
         let column = first.span.start + 1;
         let message = format!("a second code of the modal group of the one at column {column}");
         return Err(
-            Fault::new(DiagnosticCode::ModalGroupConflict, span, message)
+            BlockDiagnostic::new(DiagnosticCode::ModalGroupConflict, span, message)
                 .because("codes of one modal group exclude each other, so a block has one at most")
                 .help("remove one of them, or write two blocks"),
         );

@@ -3,8 +3,8 @@
 //! RS274/NGC lets blanks stand anywhere outside comments, inside numbers too: `X 1 0 . 5` is
 //! X10.5.
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 
 /// Largest magnitude of a number in a program. Far beyond any machine, and small enough for sums
@@ -109,7 +109,7 @@ impl<'a> Cursor<'a> {
                 }
                 b'(' => {
                     let span = SourceSpan::new(offset, offset + 1);
-                    return Err(Fault::new(
+                    return Err(BlockDiagnostic::new(
                         DiagnosticCode::NestedComment,
                         span,
                         "a comment in a comment",
@@ -121,7 +121,7 @@ impl<'a> Cursor<'a> {
             }
         }
         let span = SourceSpan::new(start, self.text.len());
-        Err(Fault::new(
+        Err(BlockDiagnostic::new(
             DiagnosticCode::UnclosedComment,
             span,
             "the comment is not closed",

@@ -1,12 +1,12 @@
 //! The diagnostic for a word that a block has twice.
 
+use crate::diagnostic::block_diagnostic::BlockDiagnostic;
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::Fault;
 use crate::diagnostic::span::SourceSpan;
 
 #[cold]
-pub(crate) fn duplicate(letter: char, span: SourceSpan) -> Box<Fault> {
-    Fault::new(
+pub(crate) fn duplicate(letter: char, span: SourceSpan) -> Box<BlockDiagnostic> {
+    BlockDiagnostic::new(
         DiagnosticCode::DuplicateWord,
         span,
         format!("a second {letter} in the block"),

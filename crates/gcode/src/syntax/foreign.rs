@@ -1,8 +1,8 @@
 //! The detection of texts that are no programs, by their beginning: one diagnostic for all of the
 //! text, and not one for every line.
 
+use crate::diagnostic::block_diagnostic::BlockDiagnostic;
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::Fault;
 use crate::diagnostic::span::SourceSpan;
 
 /// Lines of a beginning that are looked at.
@@ -13,7 +13,7 @@ const PROSE: usize = 3;
 /// What the beginning of a text is, if it is no program of a language that is read; `text` is the
 /// first line, `ahead` what follows it.
 #[cold]
-pub(crate) fn foreign(text: &[u8], ahead: &[u8]) -> Option<Box<Fault>> {
+pub(crate) fn foreign(text: &[u8], ahead: &[u8]) -> Option<Box<BlockDiagnostic>> {
     let first = text.trim_ascii();
     let lines = || {
         core::iter::once(first)
@@ -49,7 +49,7 @@ pub(crate) fn foreign(text: &[u8], ahead: &[u8]) -> Option<Box<Fault>> {
     let span = SourceSpan::new(0, text.len());
     let message = format!("this is {what}");
     Some(
-        Fault::new(DiagnosticCode::ForeignLanguage, span, message)
+        BlockDiagnostic::new(DiagnosticCode::ForeignLanguage, span, message)
             .because("its lines mean nothing in the languages that are read here")
             .help(help),
     )

@@ -14,8 +14,8 @@ use std::ops::Range;
 
 use memchr::memchr2;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::foreign::foreign;
 
@@ -208,7 +208,7 @@ impl<R: BufRead> LineSource<R> {
         let head = text.get(..2).unwrap_or_default();
         let unmarked = head.contains(&0) && head.iter().any(u8::is_ascii_graphic);
         if marked || unmarked {
-            return Err(Fault::new(
+            return Err(BlockDiagnostic::new(
                 DiagnosticCode::WrongEncoding,
                 SourceSpan::new(0, 2),
                 "the file is UTF-16 text",
@@ -223,24 +223,24 @@ impl<R: BufRead> LineSource<R> {
     }
 }
 
-fn too_long() -> Box<Fault> {
+fn too_long() -> Box<BlockDiagnostic> {
     let span = SourceSpan::new(MAX_LINE_BYTES, MAX_LINE_BYTES + 1);
     let message = format!("the line is longer than {MAX_LINE_BYTES} bytes");
-    Fault::new(DiagnosticCode::LineTooLong, span, message)
+    BlockDiagnostic::new(DiagnosticCode::LineTooLong, span, message)
         .because("a line is one block, and a block has each word once")
         .help("split the line into blocks, or check that the file is a program")
 }
 
-fn endless() -> Box<Fault> {
+fn endless() -> Box<BlockDiagnostic> {
     let message = format!("no line end within {MOST_SKIPPED} bytes");
     let span = SourceSpan::new(0, 1);
-    Fault::new(DiagnosticCode::EndlessLine, span, message)
+    BlockDiagnostic::new(DiagnosticCode::EndlessLine, span, message)
         .because("a program is lines of text; nothing behind this place is read")
         .help("check that the file is a program")
 }
 
-fn read_failed(error: &std::io::Error) -> Box<Fault> {
-    Fault::new(
+fn read_failed(error: &std::io::Error) -> Box<BlockDiagnostic> {
+    BlockDiagnostic::new(
         DiagnosticCode::ReadFailed,
         SourceSpan::default(),
         format!("cannot read the program: {error}"),

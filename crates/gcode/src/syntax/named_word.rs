@@ -3,8 +3,8 @@
 //!
 //! SINUMERIK's are rewritten to a letter behind a comma, which no program of that control has.
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::duplicate_word::duplicate;
 
@@ -214,7 +214,7 @@ impl NamedWords {
 
 /// A word that nothing in its block takes.
 #[cold]
-pub(crate) fn no_use(word: NamedValue) -> Box<Fault> {
+pub(crate) fn no_use(word: NamedValue) -> Box<BlockDiagnostic> {
     let (why, help) = match word.word {
         Named::PolarRadius | Named::PolarAngle => (
             "polar coordinates are the end of G0, G1, G2 and G3, or a pole",
@@ -246,7 +246,7 @@ pub(crate) fn no_use(word: NamedValue) -> Box<Fault> {
         ),
     };
     let message = format!("nothing in the block uses {}", word.word.name());
-    Fault::new(DiagnosticCode::UnusedWord, word.span, message)
+    BlockDiagnostic::new(DiagnosticCode::UnusedWord, word.span, message)
         .because(why)
         .help(help)
 }

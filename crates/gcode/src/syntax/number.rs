@@ -6,8 +6,8 @@
 //! A number of up to 53 bits of digits and 22 decimals is a quotient of two exact
 //! doubles, so one division rounds it correctly. Longer ones go through the standard library's parser.
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::bad_byte::bad_byte;
 use crate::syntax::cursor::{Cursor, MAX_NUMBER};
@@ -73,7 +73,7 @@ impl Cursor<'_> {
         };
         if value > MAX_NUMBER {
             let span = SourceSpan::new(start, end);
-            return Err(Fault::new(
+            return Err(BlockDiagnostic::new(
                 DiagnosticCode::NumberOutOfRange,
                 span,
                 "the number is too large",
@@ -110,7 +110,7 @@ impl Cursor<'_> {
 
     /// Explains why no number starts at `start`.
     #[cold]
-    fn no_number(&self, word: usize, start: usize) -> Box<Fault> {
+    fn no_number(&self, word: usize, start: usize) -> Box<BlockDiagnostic> {
         let letter = self
             .quote(SourceSpan::new(word, word + 1))
             .to_ascii_uppercase();
@@ -127,7 +127,7 @@ impl Cursor<'_> {
                 let end = start + rest.len() - unsigned.len() + 3;
                 let shown = self.quote(SourceSpan::new(start, end));
                 let message = format!("`{shown}` is not a number");
-                return Fault::new(
+                return BlockDiagnostic::new(
                     DiagnosticCode::MalformedNumber,
                     SourceSpan::new(start, end),
                     message,
@@ -143,7 +143,7 @@ impl Cursor<'_> {
         if end > start {
             let span = SourceSpan::new(start, end);
             let message = format!("`{}` is not a number", self.quote(span));
-            return Fault::new(DiagnosticCode::MalformedNumber, span, message).because(
+            return BlockDiagnostic::new(DiagnosticCode::MalformedNumber, span, message).because(
                 "a number is an optional sign, digits, and at most one decimal point among them",
             )
             .help("write one number");
@@ -151,7 +151,7 @@ impl Cursor<'_> {
         let is_word = |c: char| c.is_ascii_alphabetic() || matches!(c, '@' | '^');
         if !letter.starts_with(is_word) {
             let span = SourceSpan::new(word, word + 1);
-            return Fault::new(
+            return BlockDiagnostic::new(
                 DiagnosticCode::Expression,
                 span,
                 format!("no value behind `{letter}`"),
@@ -159,7 +159,7 @@ impl Cursor<'_> {
             .because("a number, a parameter, a function or a bracket is needed there")
             .help("write the value");
         }
-        Fault::new(
+        BlockDiagnostic::new(
             DiagnosticCode::MissingNumber,
             SourceSpan::new(word, word + 1),
             format!("{letter} has no number"),
@@ -169,7 +169,7 @@ impl Cursor<'_> {
     }
 
     /// A byte that is no text at all, where a number should start.
-    fn odd_byte(&self, start: usize, rest: &[u8]) -> Option<Box<Fault>> {
+    fn odd_byte(&self, start: usize, rest: &[u8]) -> Option<Box<BlockDiagnostic>> {
         match rest.first() {
             Some(0 | 0x80..) => Some(bad_byte(self.text, start)),
             _ => None,
@@ -202,9 +202,11 @@ impl Cursor<'_> {
         }
         let span = SourceSpan::new(start, self.at + length);
         let message = format!("`{}` is not a number", self.quote(span));
-        Err(Fault::new(DiagnosticCode::MalformedNumber, span, message)
-            .because(reason)
-            .help(help))
+        Err(
+            BlockDiagnostic::new(DiagnosticCode::MalformedNumber, span, message)
+                .because(reason)
+                .help(help),
+        )
     }
 
     /// Bytes of number-like text at the start of `rest`.

@@ -5,8 +5,8 @@
 //! label   = number | "<" name ">" | computed value (calls only)
 //! ```
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::bad_byte::bad_byte;
 use crate::syntax::cursor::Cursor;
@@ -135,7 +135,7 @@ pub(crate) fn o_word(text: &[u8]) -> Outcome<Option<OWord>> {
     }
     if label == Label::Computed && keyword != Some(Keyword::Call) {
         return Err(
-            Fault::new(DiagnosticCode::FlowStructure, span, "a computed label")
+            BlockDiagnostic::new(DiagnosticCode::FlowStructure, span, "a computed label")
                 .because("only a call may compute which subroutine it means")
                 .help("write the number or the name"),
         );
@@ -154,8 +154,10 @@ fn label_number(value: f64, span: SourceSpan) -> Outcome<u32> {
     let nearest = value.round();
     if (value - nearest).abs() > 1e-4 || !(0.0..=f64::from(u32::MAX)).contains(&nearest) {
         let message = format!("{value} is no label");
-        return Err(Fault::new(DiagnosticCode::FlowStructure, span, message)
-            .because("the label of an O word is a whole number, or a name in < >"));
+        return Err(
+            BlockDiagnostic::new(DiagnosticCode::FlowStructure, span, message)
+                .because("the label of an O word is a whole number, or a name in < >"),
+        );
     }
     #[expect(
         clippy::cast_possible_truncation,
@@ -196,7 +198,7 @@ fn end_of_line(mut cursor: Cursor<'_>, text: &[u8]) -> Outcome<()> {
             Some(b'(') => cursor.skip_comment()?,
             Some(byte) if byte.is_ascii_graphic() => {
                 let span = SourceSpan::new(cursor.at(), text.len());
-                return Err(Fault::new(
+                return Err(BlockDiagnostic::new(
                     DiagnosticCode::FlowStructure,
                     span,
                     "text behind an O word",
@@ -215,7 +217,7 @@ impl OWord {
         let mut cursor = Cursor::new(text);
         cursor.seek(self.values_at);
         if !matches!(cursor.next_visible(), Some(b'[' | b'#')) {
-            return Err(Fault::new(
+            return Err(BlockDiagnostic::new(
                 DiagnosticCode::FlowStructure,
                 self.span,
                 "no value behind the keyword",
@@ -254,8 +256,10 @@ impl OWord {
             if all.len() == MAX_ARGUMENTS {
                 let message = format!("more than {MAX_ARGUMENTS} arguments");
                 let span = SourceSpan::new(cursor.at(), cursor.at() + 1);
-                return Err(Fault::new(DiagnosticCode::FlowStructure, span, message)
-                    .because("the arguments become the parameters #1 to #30"));
+                return Err(
+                    BlockDiagnostic::new(DiagnosticCode::FlowStructure, span, message)
+                        .because("the arguments become the parameters #1 to #30"),
+                );
             }
             all.push(value(&mut cursor, self.values_at, scope)?);
         }

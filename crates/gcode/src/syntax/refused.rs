@@ -1,12 +1,12 @@
 //! Codes that are refused: those that do not exist, and those that are not supported.
 
+use crate::diagnostic::block_diagnostic::BlockDiagnostic;
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::Fault;
 use crate::diagnostic::span::SourceSpan;
 
 #[cold]
-pub(crate) fn unknown_g(value: f64, span: SourceSpan) -> Box<Fault> {
-    Fault::new(
+pub(crate) fn unknown_g(value: f64, span: SourceSpan) -> Box<BlockDiagnostic> {
+    BlockDiagnostic::new(
         DiagnosticCode::UnknownGCode,
         span,
         format!("there is no G{value}"),
@@ -16,8 +16,8 @@ pub(crate) fn unknown_g(value: f64, span: SourceSpan) -> Box<Fault> {
 }
 
 #[cold]
-pub(crate) fn unknown_m(value: f64, span: SourceSpan) -> Box<Fault> {
-    Fault::new(
+pub(crate) fn unknown_m(value: f64, span: SourceSpan) -> Box<BlockDiagnostic> {
+    BlockDiagnostic::new(
         DiagnosticCode::UnknownMCode,
         span,
         format!("there is no M{value}"),
@@ -28,7 +28,7 @@ pub(crate) fn unknown_m(value: f64, span: SourceSpan) -> Box<Fault> {
 
 /// G codes that exist and are not supported, each with what it is.
 #[cold]
-pub(crate) fn refused_g(tenths: u32, value: f64, span: SourceSpan) -> Box<Fault> {
+pub(crate) fn refused_g(tenths: u32, value: f64, span: SourceSpan) -> Box<BlockDiagnostic> {
     let (what, help) = match tenths {
         870 => (
             "back boring",
@@ -40,7 +40,7 @@ pub(crate) fn refused_g(tenths: u32, value: f64, span: SourceSpan) -> Box<Fault>
         ),
         _ => return unknown_g(value, span),
     };
-    Fault::new(
+    BlockDiagnostic::new(
         DiagnosticCode::NotSupported,
         span,
         format!("G{value} ({what}) is not supported"),
@@ -51,7 +51,7 @@ pub(crate) fn refused_g(tenths: u32, value: f64, span: SourceSpan) -> Box<Fault>
 
 /// M codes that exist and are not supported, each with what it is.
 #[cold]
-pub(crate) fn refused_m(number: u32, value: f64, span: SourceSpan) -> Box<Fault> {
+pub(crate) fn refused_m(number: u32, value: f64, span: SourceSpan) -> Box<BlockDiagnostic> {
     let what = match number {
         50..=53 => "overrides switched by the program",
         70..=73 => "saved modal state",
@@ -63,7 +63,7 @@ pub(crate) fn refused_m(number: u32, value: f64, span: SourceSpan) -> Box<Fault>
         98 | 99 => "write O words (sub, call), or select the dialect it is from",
         _ => "set the modes again by their codes",
     };
-    Fault::new(
+    BlockDiagnostic::new(
         DiagnosticCode::NotSupported,
         span,
         format!("M{number} ({what}) is not supported"),

@@ -1,14 +1,14 @@
 //! The checks of a block's words: used by one of its codes, whole, not negative.
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::block::Block;
 
 #[cold]
-pub(crate) fn unused(letter: char, span: SourceSpan) -> Box<Fault> {
+pub(crate) fn unused(letter: char, span: SourceSpan) -> Box<BlockDiagnostic> {
     if letter == 'E' {
-        return Fault::new(
+        return BlockDiagnostic::new(
             DiagnosticCode::UnknownWord,
             span,
             "nothing in the block uses E",
@@ -16,7 +16,7 @@ pub(crate) fn unused(letter: char, span: SourceSpan) -> Box<Fault> {
         .because("E is a word of G70, M66, M67 and M68 here; printers have it for their extruder")
         .help("remove it; read programs of printers with the dialect `marlin`");
     }
-    Fault::new(
+    BlockDiagnostic::new(
         DiagnosticCode::UnusedWord,
         span,
         format!("nothing in the block uses {letter}"),
@@ -26,8 +26,13 @@ pub(crate) fn unused(letter: char, span: SourceSpan) -> Box<Fault> {
 }
 
 #[cold]
-pub(crate) fn missing(span: SourceSpan, code: &str, word: &str, meaning: &str) -> Box<Fault> {
-    Fault::new(
+pub(crate) fn missing(
+    span: SourceSpan,
+    code: &str,
+    word: &str,
+    meaning: &str,
+) -> Box<BlockDiagnostic> {
+    BlockDiagnostic::new(
         DiagnosticCode::MissingWord,
         span,
         format!("{code} without {word}"),
@@ -37,8 +42,8 @@ pub(crate) fn missing(span: SourceSpan, code: &str, word: &str, meaning: &str) -
 }
 
 #[cold]
-pub(crate) fn negative(block: &Block, letter: u8, what: &str) -> Box<Fault> {
-    Fault::new(
+pub(crate) fn negative(block: &Block, letter: u8, what: &str) -> Box<BlockDiagnostic> {
+    BlockDiagnostic::new(
         DiagnosticCode::InvalidValue,
         block.span(letter),
         format!("{what} is negative"),
@@ -58,7 +63,7 @@ pub(crate) fn none_wrong<'a>(
     };
     let message = format!("{} of {code} is out of range", char::from(letter));
     Err(
-        Fault::new(DiagnosticCode::InvalidValue, block.span(letter), message)
+        BlockDiagnostic::new(DiagnosticCode::InvalidValue, block.span(letter), message)
             .help(format!("write {rule}")),
     )
 }
@@ -72,17 +77,21 @@ pub(crate) fn whole(block: &Block, letter: u8, max: u32) -> Outcome<Option<u32>>
     let name = char::from(letter);
     if (value - nearest).abs() > 1e-4 {
         let message = format!("{name}{value} is not a whole number");
-        return Err(
-            Fault::new(DiagnosticCode::NotAnInteger, block.span(letter), message)
-                .because(format!("{name} counts or numbers something here")),
-        );
+        return Err(BlockDiagnostic::new(
+            DiagnosticCode::NotAnInteger,
+            block.span(letter),
+            message,
+        )
+        .because(format!("{name} counts or numbers something here")));
     }
     if !(0.0..=f64::from(max)).contains(&nearest) {
         let message = format!("{name}{value} is out of range");
-        return Err(
-            Fault::new(DiagnosticCode::InvalidValue, block.span(letter), message)
-                .help(format!("write a number from 0 to {max}")),
-        );
+        return Err(BlockDiagnostic::new(
+            DiagnosticCode::InvalidValue,
+            block.span(letter),
+            message,
+        )
+        .help(format!("write a number from 0 to {max}")));
     }
     #[expect(
         clippy::cast_possible_truncation,

@@ -1,7 +1,7 @@
 //! Tests of what is refused: kind, line and column of the diagnostic for each.
 
 use crate::support::listed;
-use glidepath_gcode::{Machine, Options, Program, Report, Travel, check};
+use glidepath_gcode::{AxisTravel, Machine, Options, Program, Report, check};
 use glidepath_geometry::Axis;
 use glidepath_program::{Item, ItemKind, Rate};
 use proptest::prelude::*;
@@ -129,7 +129,7 @@ fn arcs() {
 }
 
 fn mill() -> Options {
-    let travel = Travel {
+    let travel = AxisTravel {
         min: -50.0,
         max: 100.0,
     };

@@ -5,7 +5,7 @@
 use std::fmt::Write;
 
 use crate::support::listed;
-use glidepath_gcode::{Machine, Options, Program, Travel, check};
+use glidepath_gcode::{AxisTravel, Machine, Options, Program, check};
 use glidepath_geometry::{Axis, Segment};
 use glidepath_program::{ItemKind, Rate};
 
@@ -267,7 +267,7 @@ fn what_cannot_be_cut_is_refused_with_its_place() {
 fn the_passes_keep_to_the_travel_of_the_axes() {
     let machine = Machine::unlimited().with_travel(
         Axis::Z,
-        Travel {
+        AxisTravel {
             min: -9.0,
             max: 100.0,
         },

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use crate::support::listed;
 use glidepath_gcode::{
-    Connections, Machine, Options, Program, Threading, ToolTable, Travel, WorkOffsets, check,
+    AxisTravel, Connections, Machine, Options, Program, Threading, ToolTable, WorkOffsets, check,
 };
 use glidepath_geometry::{Axis, Segment};
 use glidepath_program::{Event, ItemKind, Limits, Rate};
@@ -169,7 +169,7 @@ fn a_tool_that_does_not_fit_is_refused() {
 
 #[test]
 fn soft_limits_hold_for_the_compensated_path() {
-    let travel = Travel {
+    let travel = AxisTravel {
         min: -5.0,
         max: 10.5,
     };

@@ -5,7 +5,7 @@ use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
 use glidepath_gcode::{
-    Connections, Diagnostic, LoopLimits, Machine, Options, Program, Report, Travel, check,
+    AxisTravel, Connections, Diagnostic, LoopLimits, Machine, Options, Program, Report, check,
     diagnostics,
 };
 use glidepath_geometry::Axis;
@@ -15,7 +15,7 @@ use proptest::prelude::*;
 
 /// A machine with some axes, some of them limited.
 fn options() -> Options {
-    let travel = Travel {
+    let travel = AxisTravel {
         min: -100.0,
         max: 100.0,
     };

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::support::listed;
 use glidepath_gcode::{
-    Dialect, MCodes, Machine, Options, Program, SpindleAxis, Threading, Travel, check,
+    AxisTravel, Dialect, MCodes, Machine, Options, Program, SpindleAxis, Threading, check,
 };
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_program::{Event, ItemKind, Limits, PathMode, Rate};
@@ -112,7 +112,7 @@ fn the_deepest_that_a_tap_may_go_is_inside_the_travel() {
         });
         options.machine = Machine::unlimited().with_travel(
             Axis::Z,
-            Travel {
+            AxisTravel {
                 min: lowest,
                 max: 50.0,
             },

@@ -180,7 +180,7 @@ fn texts_of_another_kind_are_one_finding() {
 #[test]
 fn a_diagnostic_does_not_breed_others() {
     let found = |dialect, text: &str| {
-        let travel = glidepath_gcode::Travel {
+        let travel = glidepath_gcode::AxisTravel {
             min: -100.0,
             max: 100.0,
         };

@@ -39,12 +39,12 @@ pub enum CatalogueError {
 #[derive(Debug, Deserialize)]
 pub struct Catalogue {
     /// In the order of the table.
-    pub bench: Vec<Entry>,
+    pub bench: Vec<CatalogueEntry>,
 }
 
 /// A benchmark program, and what is known of it.
 #[derive(Debug, Deserialize)]
-pub struct Entry {
+pub struct CatalogueEntry {
     /// Its file, in the folder of the catalogue.
     pub file: PathBuf,
     /// The machine it is for: the name of a configuration without `.toml`.
@@ -124,7 +124,7 @@ fn is_same(a: f64, b: f64) -> bool {
     (a - b).abs() <= 1e-9 * b.abs()
 }
 
-impl Entry {
+impl CatalogueEntry {
     /// What is known for a jerk limit (mm/s³) and a tolerance (mm).
     #[must_use]
     pub fn anchors(&self, jerk_j: f64, tolerance_mm: f64) -> Anchors {

@@ -4,5 +4,5 @@
 mod anchors;
 mod report;
 
-pub use anchors::{Anchors, Catalogue, CatalogueError, Entry, OtherControl};
+pub use anchors::{Anchors, Catalogue, CatalogueEntry, CatalogueError, OtherControl};
 pub use report::{BenchReport, BenchRow};

@@ -26,7 +26,7 @@ use clap::Subcommand;
 
 /// The subcommands.
 #[derive(Debug, Subcommand)]
-pub enum Command {
+pub enum CliCommand {
     /// Plan a program, play it with a mock servo, and report
     #[command(after_help = "Example: glidepath run part.ngc --best-effort --plot part.svg")]
     Run(RunArgs),
@@ -202,7 +202,7 @@ pub enum Command {
     Jitter(JitterArgs),
 }
 
-impl Command {
+impl CliCommand {
     /// Whether one JSON object is printed instead of text.
     #[must_use]
     pub const fn json(&self) -> bool {

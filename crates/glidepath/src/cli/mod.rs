@@ -21,7 +21,7 @@ mod telemetry;
 mod time;
 
 pub use basic::{BasicArgs, InstanceArgs, OverwriteArgs, RunInstanceArgs};
-pub use command::Command;
+pub use command::CliCommand;
 pub use config::{
     ConfigAction, ConfigArgs, ConfigSource, ConvertArgs, ScrewArgs, ScrewUnit, Values,
 };
@@ -30,7 +30,7 @@ pub use ethercat::{EthercatAction, EthercatArgs, ScanArgs};
 pub use grbl::GrblArgs;
 pub use groups::grouped;
 pub use host::{BenchArgs, DoctorArgs, JitterArgs};
-pub use jog::{JogArgs, Step};
+pub use jog::{JogArgs, JogStep};
 pub use live::{LiveArgs, May};
 pub use mirror::MirrorArgs;
 pub use motion::{
@@ -58,7 +58,7 @@ use clap::Parser;
 pub struct Cli {
     /// What to do.
     #[command(subcommand)]
-    pub command: Command,
+    pub command: CliCommand,
 }
 
 const EXIT_CODES: &str = "Exit codes: 0 done, 1 program rejected, 2 usage, 3 configuration, \

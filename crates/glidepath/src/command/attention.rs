@@ -5,7 +5,7 @@ use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::output;
 use crate::report::awaited_code;
-use glidepath_interpolator::{Answer, Gates};
+use glidepath_interpolator::{AnswerSource, MCodeWaits};
 use glidepath_link::{
     Auxiliary, Ipc, LinkError, MachineState, Record as _, Status, Subscriber, Transport as _,
 };
@@ -29,7 +29,7 @@ struct Attention {
     told: Option<Auxiliary>,
     names: ToolNames,
     /// Who answers the M codes that are waited for.
-    gates: Gates,
+    m_code_waits: MCodeWaits,
     /// Whether anything was heard of an interpolator.
     is_heard: bool,
     /// Where something was asked, since when, and whether that was told: the epoch, the frames
@@ -94,7 +94,7 @@ impl Attention {
             records: transport.auxiliary_source()?,
             told: None,
             names: ToolNames::new(config),
-            gates: config.gates(),
+            m_code_waits: config.m_code_waits(),
             is_heard: false,
             asked: None,
         })
@@ -167,7 +167,10 @@ impl Attention {
             // The spindle answers that.
             return None;
         };
-        let answer = self.gates.of(code).map(|gate| gate.answer);
+        let answer = self
+            .m_code_waits
+            .of(code)
+            .map(|m_code_wait| m_code_wait.answer);
         let done = how_done(answer)?;
         let asked = match self.names.asked_tool(status, self.told.as_ref()) {
             Some(tool) => format!("change to {tool}"),
@@ -190,20 +193,20 @@ const fn not_ready(state: MachineState) -> bool {
 }
 
 /// How it is known that what was asked is done; `None`: the spindle says so, and nobody has to do anything.
-fn how_done(answer: Option<Answer>) -> Option<String> {
+fn how_done(answer: Option<AnswerSource>) -> Option<String> {
     match answer {
-        None | Some(Answer::Nobody | Answer::Acknowledgement) => {
+        None | Some(AnswerSource::Nobody | AnswerSource::Acknowledgement) => {
             Some("when that is done: `glidepath acknowledge`".to_owned())
         }
-        Some(Answer::Input { number, .. }) => {
+        Some(AnswerSource::Input { number, .. }) => {
             Some(format!("input {number} says when that is done"))
         }
-        Some(Answer::Planner) => Some("the input says when that is done".to_owned()),
+        Some(AnswerSource::Planner) => Some("the input says when that is done".to_owned()),
         Some(
-            Answer::SpindleAtSpeed
-            | Answer::SpindleStopped
-            | Answer::SpindleOriented
-            | Answer::SpindleAngle,
+            AnswerSource::SpindleAtSpeed
+            | AnswerSource::SpindleStopped
+            | AnswerSource::SpindleOriented
+            | AnswerSource::SpindleAngle,
         ) => None,
     }
 }

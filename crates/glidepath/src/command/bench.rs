@@ -2,16 +2,16 @@
 
 use super::check;
 use super::plan::{Pass, title};
-use crate::bench::{BenchReport, BenchRow, Catalogue, Entry};
+use crate::bench::{BenchReport, BenchRow, Catalogue, CatalogueEntry};
 use crate::cli::BenchArgs;
 use crate::command::failure::Failure;
 use crate::config::{self, MachineConfig};
 use crate::exit::Exit;
 use crate::interrupt::Interrupt;
 use crate::output;
-use crate::output_file::Guard;
+use crate::output_file::OverwriteGuard;
 use crate::program_file::ProgramFile;
-use crate::progress::Progress;
+use crate::progress::ProgressDisplay;
 use crate::recording::Recording;
 
 /// Plans every program of a catalogue, each for its machine, and prints the table.
@@ -21,7 +21,7 @@ use crate::recording::Recording;
 pub(super) fn bench(args: &BenchArgs, given: &MachineConfig) -> Result<Exit, Failure> {
     let catalogue = Catalogue::read(&args.folder)?;
     let interrupt = Interrupt::install().map_err(Failure::Signals)?;
-    let progress = Progress::lines(catalogue.bench.len() as u64, args.basic.json);
+    let progress = ProgressDisplay::lines(catalogue.bench.len() as u64, args.basic.json);
     let mut report = BenchReport::default();
     for (done, entry) in (0..).zip(&catalogue.bench) {
         progress.at(done);
@@ -39,7 +39,7 @@ pub(super) fn bench(args: &BenchArgs, given: &MachineConfig) -> Result<Exit, Fai
 
 fn row(
     args: &BenchArgs,
-    entry: &Entry,
+    entry: &CatalogueEntry,
     given: &MachineConfig,
     interrupt: &Interrupt,
 ) -> Result<BenchRow, Failure> {
@@ -52,7 +52,7 @@ fn row(
     };
     let path = args.folder.join(&entry.file);
     check::accepted(&ProgramFile::named(&path), config, true)?;
-    let mut recording = Recording::create(config, None, None, &Guard::default())?;
+    let mut recording = Recording::create(config, None, None, &OverwriteGuard::default())?;
     let mut pass = Pass::on_one_core(&path, config)?;
     while pass.turn(&mut recording)? {
         if interrupt.is_set() {

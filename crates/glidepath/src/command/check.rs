@@ -11,7 +11,7 @@ use crate::file_error::FileError;
 use crate::joints;
 use crate::output;
 use crate::program_file::ProgramFile;
-use crate::progress::Progress;
+use crate::progress::ProgressDisplay;
 use crate::report::{counted, diagnostic_object};
 use glidepath_gcode::{Diagnostic, Diagnostics, Report};
 use glidepath_geometry::{Axis, AxisVector};
@@ -149,7 +149,7 @@ fn along_joints(
     lines: u32,
     json: bool,
 ) -> Result<Vec<Diagnostic>, Failure> {
-    let progress = Progress::lines(lines.into(), json);
+    let progress = ProgressDisplay::lines(lines.into(), json);
     progress.doing("judging");
     let found = joints::check_path(file.path(), config, &mut |lines| progress.at(lines));
     progress.finish();
@@ -157,9 +157,9 @@ fn along_joints(
 }
 
 /// A bar for the check of a file.
-fn progress(file: &ProgramFile, json: bool) -> Progress {
+fn progress(file: &ProgramFile, json: bool) -> ProgressDisplay {
     let bytes = std::fs::metadata(file.path()).map_or(0, |metadata| metadata.len());
-    let progress = Progress::bytes(bytes, json);
+    let progress = ProgressDisplay::bytes(bytes, json);
     progress.doing("checking");
     progress
 }

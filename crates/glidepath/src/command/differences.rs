@@ -6,7 +6,7 @@ use crate::report::{coolant_words, decimals, spindle_words};
 use core::fmt::Write as _;
 use glidepath_geometry::AxisVector;
 use glidepath_link::Auxiliary;
-use glidepath_planner::{Approach, Control, LineStart, Publisher, StartLine};
+use glidepath_planner::{Approach, Control, FramePublisher, LineStart, StartLine};
 
 /// How the machine goes to where the program is to begin.
 ///
@@ -15,7 +15,7 @@ use glidepath_planner::{Approach, Control, LineStart, Publisher, StartLine};
 pub(super) fn approach(
     config: &MachineConfig,
     position: AxisVector,
-    publisher: &Publisher<'_>,
+    publisher: &FramePublisher<'_>,
     control: &mut Control<'_>,
 ) -> Result<Approach, Failure> {
     let tool_axis = config.jog.tool_axis;

@@ -6,13 +6,13 @@ use crate::exit::Exit;
 use crate::output;
 use core::fmt::Write as _;
 use glidepath_realtime::Host;
-use glidepath_realtime::doctor::{Check, Demand, Verdict, examine, examine_interface};
+use glidepath_realtime::doctor::{Check, CheckVerdict, RealTimeDemand, examine, examine_interface};
 use serde_json::{Value, json};
 
 /// Examines the host for the processor and priority of the configuration. The exit code says
 /// whether anything required is missing.
 pub(super) fn doctor(args: &DoctorArgs, config: &MachineConfig) -> Exit {
-    let demand = Demand {
+    let demand = RealTimeDemand {
         cpu: config.interpolator.cpu,
         priority: i32::from(config.interpolator.priority),
     };
@@ -38,10 +38,12 @@ pub(super) fn doctor(args: &DoctorArgs, config: &MachineConfig) -> Exit {
 }
 
 fn is_fit(checks: &[Check]) -> bool {
-    checks.iter().all(|check| check.verdict != Verdict::Missing)
+    checks
+        .iter()
+        .all(|check| check.verdict != CheckVerdict::Missing)
 }
 
-fn count(checks: &[Check], verdict: Verdict) -> usize {
+fn count(checks: &[Check], verdict: CheckVerdict) -> usize {
     checks.iter().filter(|c| c.verdict == verdict).count()
 }
 
@@ -56,8 +58,8 @@ fn text(checks: &[Check]) -> String {
         }
         text.push('\n');
     }
-    let missing = count(checks, Verdict::Missing);
-    let warnings = count(checks, Verdict::Warning);
+    let missing = count(checks, CheckVerdict::Missing);
+    let warnings = count(checks, CheckVerdict::Warning);
     let _ = if missing > 0 {
         writeln!(
             text,
@@ -78,7 +80,7 @@ fn text(checks: &[Check]) -> String {
     text
 }
 
-fn object(checks: &[Check], demand: Demand) -> Value {
+fn object(checks: &[Check], demand: RealTimeDemand) -> Value {
     let list: Vec<Value> = checks
         .iter()
         .map(|check| {
@@ -92,8 +94,8 @@ fn object(checks: &[Check], demand: Demand) -> Value {
         .collect();
     json!({
         "fit": is_fit(checks),
-        "missing": count(checks, Verdict::Missing),
-        "warnings": count(checks, Verdict::Warning),
+        "missing": count(checks, CheckVerdict::Missing),
+        "warnings": count(checks, CheckVerdict::Warning),
         "cpu": demand.cpu,
         "priority": demand.priority,
         "checks": list,
@@ -104,7 +106,7 @@ fn object(checks: &[Check], demand: Demand) -> Value {
 mod tests {
     use super::*;
 
-    fn check(verdict: Verdict, remedy: Option<&str>) -> Check {
+    fn check(verdict: CheckVerdict, remedy: Option<&str>) -> Check {
         Check {
             name: "kernel",
             verdict,
@@ -116,8 +118,8 @@ mod tests {
     #[test]
     fn a_line_has_verdict_finding_and_remedy() {
         let checks = [
-            check(Verdict::Ok, None),
-            check(Verdict::Missing, Some("install it")),
+            check(CheckVerdict::Ok, None),
+            check(CheckVerdict::Missing, Some("install it")),
         ];
         let text = text(&checks);
         let lines: Vec<&str> = text.lines().collect();
@@ -128,8 +130,8 @@ mod tests {
 
     #[test]
     fn warnings_do_not_make_a_host_unfit() {
-        let checks = [check(Verdict::Warning, Some("isolate it"))];
-        let demand = Demand {
+        let checks = [check(CheckVerdict::Warning, Some("isolate it"))];
+        let demand = RealTimeDemand {
             cpu: Some(1),
             priority: 80,
         };

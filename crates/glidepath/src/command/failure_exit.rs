@@ -4,7 +4,7 @@ use super::failure::Failure;
 use crate::exit::Exit;
 use crate::file_error::FileError;
 use crate::jitter::{CyclictestError, JitterError};
-use crate::kept::error::StateError;
+use crate::persistence::error::StateError;
 use glidepath_ethercat as ethercat;
 use glidepath_hal::HalError;
 use glidepath_interpolator as interpolator;

@@ -2,7 +2,7 @@
 
 use super::failure::Failure;
 use super::program_diagnostics::print_diagnostics;
-use crate::cli::Command;
+use crate::cli::CliCommand;
 use crate::config::ConfigError;
 use crate::exit::Exit;
 use crate::machine_options::complete;
@@ -14,7 +14,7 @@ use serde_json::{Value, json};
 
 /// Reports a failure in the form asked for and gives the exit code.
 #[must_use]
-pub(super) fn report(failure: &Failure, command: &Command) -> Exit {
+pub(super) fn report(failure: &Failure, command: &CliCommand) -> Exit {
     if command.json() && command.goes_on() {
         output::object_line(&failure_object(failure));
     } else if command.json() {

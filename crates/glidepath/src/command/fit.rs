@@ -17,7 +17,7 @@ use crate::output;
 use crate::output_file::{self, OutputKind};
 use crate::plot::curve::{CurvePlot, Mark};
 use crate::program_text::ProgramText;
-use crate::progress::Progress;
+use crate::progress::ProgressDisplay;
 use crate::report::{FitReport, FittedRun};
 use glidepath_fit::{Fit, FitError, Method, Settings, fit as fit_points};
 use glidepath_gcode::Program;
@@ -149,7 +149,7 @@ fn fit_runs(runs: &[&Run], settings: &Settings) -> Vec<Result<Fit, FitError>> {
         reason = "steps of a bar"
     )]
     let steps = |done: f64| (done * STEPS) as u64;
-    let progress = Progress::share(steps(runs.len() as f64));
+    let progress = ProgressDisplay::share(steps(runs.len() as f64));
     progress.doing("fitting");
     let fit_run = |(index, run): (usize, &&Run)| {
         fit_points(&run.points(), settings, &mut |done| {

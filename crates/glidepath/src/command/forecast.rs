@@ -8,10 +8,10 @@ use super::text_lines::TextLines;
 use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::file_error::FileError;
-use crate::kept::read::{read, set_up, set_up_as_begun};
+use crate::persistence::read::{read, set_up, set_up_as_begun};
 use crate::plan_steps::PlanSteps;
 use crate::program_file::ProgramFile;
-use crate::report::Place;
+use crate::report::ProgramPlace;
 use glidepath_gcode::ReadingWatch;
 use glidepath_link::Status;
 use glidepath_planner::{FileSource, Refusal, Step};
@@ -182,7 +182,7 @@ impl Forecast {
     }
 
     /// Where a machine is in the program; `None` if it executes another one.
-    pub(super) fn place(&self, status: &Status) -> Option<Place> {
+    pub(super) fn place(&self, status: &Status) -> Option<ProgramPlace> {
         let line = usize::try_from(status.line).ok()?.checked_sub(1);
         let text = line.and_then(|line| self.lines.get(line));
         let plan = self.plan.lock().unwrap_or_else(PoisonError::into_inner);
@@ -192,7 +192,7 @@ impl Forecast {
         let now = plan.sequence(status);
         let whole = plan.is_whole.then_some(plan.frames);
         let time = |frames: u64| self.time(frames);
-        Some(Place {
+        Some(ProgramPlace {
             program: self.name.clone(),
             text: text.unwrap_or_default().to_owned(),
             planned_t: whole.map(time),

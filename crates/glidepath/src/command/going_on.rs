@@ -2,14 +2,14 @@
 
 use crate::machine_options::resume;
 use glidepath_link::TOLD_TO_END;
-use glidepath_planner::{Publisher, RunError};
+use glidepath_planner::{FramePublisher, RunError};
 use std::path::Path;
 
 /// Where a program was left, and the command that goes on with it; `None` where nothing of it was executed,
 /// or the interpolator that knows is no more.
 pub(super) fn told(
     error: &RunError,
-    publisher: &Publisher<'_>,
+    publisher: &FramePublisher<'_>,
     (command, file): (&str, &Path),
 ) -> Option<String> {
     let is_known = match error {

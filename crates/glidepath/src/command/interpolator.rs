@@ -182,7 +182,7 @@ pub(super) fn settings(config: &MachineConfig, best_effort: bool) -> Config {
         feedback: feedback(config),
         gantries: gantries(config),
         compensation: config.compensation.joints(),
-        gates: config.gates(),
+        m_code_waits: config.m_code_waits(),
         stops: config.stops,
         tap_overtravel: config
             .spindle
@@ -192,7 +192,7 @@ pub(super) fn settings(config: &MachineConfig, best_effort: bool) -> Config {
             velocity: config.jog.velocity,
             unhomed_velocity: AxisVector::repeat(config.jog.unhomed_velocity),
             return_v: config.jog.return_velocity,
-            dead_man: Duration::from_millis(config.jog.dead_man_ms.into()),
+            time_out: Duration::from_millis(config.jog.dead_man_ms.into()),
             tool_axis: config.jog.tool_axis,
             ..JogSettings::new(&config.limits())
         },

@@ -6,10 +6,10 @@ use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::exit::Exit;
 use crate::interrupt::Interrupt;
-use crate::jitter::{JitterReport, Motion, Setup, measure};
+use crate::jitter::{JitterReport, LoadMotion, Setup, measure};
 use crate::output;
 use crate::output_file::{self, OutputKind};
-use crate::progress::Progress;
+use crate::progress::ProgressDisplay;
 use glidepath_realtime::{Item, Mode};
 
 /// Measures, reports and draws. An interrupted measurement is reported as far as it went.
@@ -19,7 +19,7 @@ use glidepath_realtime::{Item, Mode};
 pub(super) fn jitter(args: &JitterArgs, config: &MachineConfig) -> Result<Exit, Failure> {
     let interrupt = Interrupt::install().map_err(Failure::Signals)?;
     let setup = setup(args, config)?;
-    let progress = Progress::seconds(setup.seconds.into());
+    let progress = ProgressDisplay::seconds(setup.seconds.into());
     progress.doing("measuring");
     let measured = measure(&setup, &progress, interrupt.flag())?;
     progress.finish();
@@ -55,7 +55,7 @@ fn setup(args: &JitterArgs, config: &MachineConfig) -> Result<Setup, Failure> {
     let settings = interpolator::settings(&config, true);
     let motion = args
         .full_tick
-        .then(|| Motion::plan(&config, settings))
+        .then(|| LoadMotion::plan(&config, settings))
         .transpose()?;
     let mode = if args.best_effort {
         Mode::BestEffort

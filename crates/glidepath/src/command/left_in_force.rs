@@ -1,7 +1,7 @@
 //! What a job that ended before its end has left in force.
 
 use glidepath_gcode::InForce;
-use glidepath_planner::{Control, ItemSource as _, ProgramSource, Publisher, Refusal, Supply};
+use glidepath_planner::{Control, FramePublisher, ItemSource as _, ProgramSource, Refusal, Supply};
 use glidepath_program::{Event, ItemKind};
 use std::io::BufRead;
 
@@ -18,7 +18,7 @@ pub(super) struct JobLeft {
 
 impl JobLeft {
     /// Asks the interpolator.
-    pub(super) fn of(publisher: &Publisher<'_>, control: &mut Control<'_>) -> Self {
+    pub(super) fn of(publisher: &FramePublisher<'_>, control: &mut Control<'_>) -> Self {
         let lives = publisher.position().is_some();
         let record = lives.then(|| publisher.auxiliary(control).ok()).flatten();
         Self {

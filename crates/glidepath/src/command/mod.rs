@@ -2,7 +2,6 @@
 
 mod acknowledge;
 mod active_program;
-mod attendant;
 mod attention;
 mod audit;
 mod bench;
@@ -13,6 +12,7 @@ mod doctor;
 mod ending;
 mod ethercat;
 mod evidence;
+mod executor;
 mod failure;
 mod failure_exit;
 mod failure_report;
@@ -27,13 +27,13 @@ mod interpolator;
 mod jitter;
 mod jobs;
 mod jog;
-mod kept_offsets;
 mod left_in_force;
 mod live;
 mod mirror;
 mod offsets;
 mod operator;
 mod other_users;
+mod persistent_offsets;
 mod plan;
 mod planner;
 mod preview;
@@ -44,6 +44,7 @@ mod record;
 mod replay;
 mod rest;
 mod run;
+mod run_supervisor;
 mod servo;
 mod session;
 mod subroutines;
@@ -51,9 +52,8 @@ mod telemetry;
 mod text_lines;
 mod tool_names;
 mod watch;
-mod workshop;
 
-use crate::cli::{Cli, Command, Switch};
+use crate::cli::{Cli, CliCommand, Switch};
 use crate::clock;
 use crate::config::{self, MachineConfig};
 use crate::exit::Exit;
@@ -104,78 +104,80 @@ pub fn usage(error: &clap::Error) -> Exit {
     }
 }
 
-fn dispatch(command: &Command) -> Result<Exit, Failure> {
+fn dispatch(command: &CliCommand) -> Result<Exit, Failure> {
     let config = || machine(command);
     // However long the configuration, the tool table or the program takes to be read.
     let asked_ns = clock::started_ns();
     match command {
-        Command::Offsets(command) => offsets::offsets(command, &config()?),
-        Command::Config(args) => configuration::configuration(args),
-        Command::Run(args) => run::run(args, &config()?),
-        Command::Plan(args) => plan::plan(args, &config()?),
-        Command::Check(args) => check::check(args, &config()?),
-        Command::Interpolator(args) => interpolator::interpolator(args, &config()?),
-        Command::Planner(args) => planner::planner(args, &config()?, asked_ns),
-        Command::RunFile(args) => jobs::run_file(args, &config()?, asked_ns),
-        Command::Mdi(args) => jobs::mdi(args, &config()?, asked_ns),
-        Command::Ethercat(args) => ethercat::ethercat(args, &config()?),
-        Command::Servo(args) => servo::servo(args, &config()?),
-        Command::Feed(args) => feed::feed(args, &config()?, asked_ns),
-        Command::Status(args) if args.watch => watch::watch(args, &config()?),
-        Command::Status(args) => operator::status(&args.operator, &config()?),
-        Command::Live(args) => live::live(args, &config()?),
-        Command::Grbl(args) => grbl::grbl(args, &config()?),
-        Command::Record(args) => record::record(args, &config()?),
-        Command::Replay(args) => replay::replay(args, &config()?),
-        Command::Telemetry(args) => telemetry::telemetry(args, &config()?),
-        Command::Mirror(args) => mirror::mirror(args, &config()?),
-        Command::Audit(args) => audit::audit(args, &config()?),
-        Command::Hold(args) => rest::hold(args, &config()?),
-        Command::Resume(args) => {
+        CliCommand::Offsets(command) => offsets::offsets(command, &config()?),
+        CliCommand::Config(args) => configuration::configuration(args),
+        CliCommand::Run(args) => run::run(args, &config()?),
+        CliCommand::Plan(args) => plan::plan(args, &config()?),
+        CliCommand::Check(args) => check::check(args, &config()?),
+        CliCommand::Interpolator(args) => interpolator::interpolator(args, &config()?),
+        CliCommand::Planner(args) => planner::planner(args, &config()?, asked_ns),
+        CliCommand::RunFile(args) => jobs::run_file(args, &config()?, asked_ns),
+        CliCommand::Mdi(args) => jobs::mdi(args, &config()?, asked_ns),
+        CliCommand::Ethercat(args) => ethercat::ethercat(args, &config()?),
+        CliCommand::Servo(args) => servo::servo(args, &config()?),
+        CliCommand::Feed(args) => feed::feed(args, &config()?, asked_ns),
+        CliCommand::Status(args) if args.watch => watch::watch(args, &config()?),
+        CliCommand::Status(args) => operator::status(&args.operator, &config()?),
+        CliCommand::Live(args) => live::live(args, &config()?),
+        CliCommand::Grbl(args) => grbl::grbl(args, &config()?),
+        CliCommand::Record(args) => record::record(args, &config()?),
+        CliCommand::Replay(args) => replay::replay(args, &config()?),
+        CliCommand::Telemetry(args) => telemetry::telemetry(args, &config()?),
+        CliCommand::Mirror(args) => mirror::mirror(args, &config()?),
+        CliCommand::Audit(args) => audit::audit(args, &config()?),
+        CliCommand::Hold(args) => rest::hold(args, &config()?),
+        CliCommand::Resume(args) => {
             operator::command(args, &config()?, "resume", link::Command::Resume)
         }
-        Command::Step(args) => operator::command(args, &config()?, "step", link::Command::Step),
-        Command::StopAtBlockEnd(args) => {
+        CliCommand::Step(args) => operator::command(args, &config()?, "step", link::Command::Step),
+        CliCommand::StopAtBlockEnd(args) => {
             let command = link::Command::StopAtEndOfBlock;
             operator::command(args, &config()?, "stop-at-block-end", command)
         }
-        Command::Reverse(args) => {
+        CliCommand::Reverse(args) => {
             operator::command(args, &config()?, "reverse", link::Command::Reverse)
         }
-        Command::Forward(args) => {
+        CliCommand::Forward(args) => {
             operator::command(args, &config()?, "forward", link::Command::Forward)
         }
-        Command::Fit(args) => fit::fit(args, &config()?),
-        Command::Preview(args) => preview::preview(args, &config()?),
-        Command::SingleBlock(args) => {
+        CliCommand::Fit(args) => fit::fit(args, &config()?),
+        CliCommand::Preview(args) => preview::preview(args, &config()?),
+        CliCommand::SingleBlock(args) => {
             let command = link::Command::SingleBlock(args.switch == Switch::On);
             operator::command(&args.operator, &config()?, "single-block", command)
         }
-        Command::Acknowledge(args) => acknowledge::acknowledge(args, &config()?),
-        Command::Abort(args) => rest::abort(args, &config()?),
-        Command::Reset(args) => operator::command(args, &config()?, "reset", link::Command::Reset),
-        Command::Enable(args) => operator::enable(args, &config()?),
-        Command::Disable(args) => rest::disable(args, &config()?),
-        Command::Home(args) => home::home(args, &config()?),
-        Command::Unhome(args) => {
+        CliCommand::Acknowledge(args) => acknowledge::acknowledge(args, &config()?),
+        CliCommand::Abort(args) => rest::abort(args, &config()?),
+        CliCommand::Reset(args) => {
+            operator::command(args, &config()?, "reset", link::Command::Reset)
+        }
+        CliCommand::Enable(args) => operator::enable(args, &config()?),
+        CliCommand::Disable(args) => rest::disable(args, &config()?),
+        CliCommand::Home(args) => home::home(args, &config()?),
+        CliCommand::Unhome(args) => {
             operator::joints(args, &config()?, "unhome", link::Command::Unhome)
         }
-        Command::SetPosition(args) => {
+        CliCommand::SetPosition(args) => {
             let (joint, position) = (args.joint, args.position);
             let command = link::Command::SetPosition { joint, position };
             operator::command(&args.operator, &config()?, "set-position", command)
         }
-        Command::Override(args) => operator::overrides(args, &config()?),
-        Command::Jog(args) => jog::jog(args, &config()?),
-        Command::Return(args) => rest::return_to_path(args, &config()?),
-        Command::Bench(args) => bench::bench(args, &config()?),
-        Command::Doctor(args) => Ok(doctor::doctor(args, &config()?)),
-        Command::Jitter(args) => jitter::jitter(args, &config()?),
+        CliCommand::Override(args) => operator::overrides(args, &config()?),
+        CliCommand::Jog(args) => jog::jog(args, &config()?),
+        CliCommand::Return(args) => rest::return_to_path(args, &config()?),
+        CliCommand::Bench(args) => bench::bench(args, &config()?),
+        CliCommand::Doctor(args) => Ok(doctor::doctor(args, &config()?)),
+        CliCommand::Jitter(args) => jitter::jitter(args, &config()?),
     }
 }
 
 /// The machine a command works for: its configuration, with what the command line overrides.
-fn machine(command: &Command) -> Result<MachineConfig, Failure> {
+fn machine(command: &CliCommand) -> Result<MachineConfig, Failure> {
     let file = command.basic().and_then(|basic| basic.config.as_ref());
     let mut config = match file {
         Some(file) => {

@@ -5,14 +5,14 @@ use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::exit::Exit;
 use crate::file_error::FileError;
-use crate::kept::convert::{axis_words, system_name};
-use crate::kept::error::StateError;
-use crate::kept::machine::fingerprint;
-use crate::kept::read::of_machine;
 use crate::output;
+use crate::persistence::convert::{axis_words, system_name};
+use crate::persistence::error::StateError;
+use crate::persistence::machine::fingerprint;
+use crate::persistence::read::of_machine;
 use crate::text_file;
-use glidepath_kept::var::{self, Units};
-use glidepath_kept::{AXES, Directory, Kept, KeptError, Offsets, Store};
+use glidepath_persistence::var::{self, Units};
+use glidepath_persistence::{AXES, Directory, Offsets, PersistentState, Store, StoreError};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -83,7 +83,7 @@ pub(super) fn offsets(command: &OffsetsCommand, config: &MachineConfig) -> Resul
         OffsetsCommand::Recover(_) => {
             let (mut store, _lock) = locked(folder)?;
             let (generation, kept) = store.recover().map_err(|error| match error {
-                source @ KeptError::Damaged { .. } => StateError::Lost {
+                source @ StoreError::Damaged { .. } => StateError::Lost {
                     folder: folder.display().to_string(),
                     source,
                 },
@@ -96,19 +96,21 @@ pub(super) fn offsets(command: &OffsetsCommand, config: &MachineConfig) -> Resul
 }
 
 /// A folder that nobody else writes in.
-fn locked(folder: &Path) -> Result<(Store<Directory>, glidepath_kept::DirectoryLock), StateError> {
+fn locked(
+    folder: &Path,
+) -> Result<(Store<Directory>, glidepath_persistence::DirectoryLock), StateError> {
     let directory = Directory::open(folder)?;
     let lock = directory.lock()?;
     Ok((Store::new(directory), lock))
 }
 
-fn kept_for(config: &MachineConfig, folder: &Path) -> Result<Kept, StateError> {
+fn kept_for(config: &MachineConfig, folder: &Path) -> Result<PersistentState, StateError> {
     match Store::new(Directory::at(folder)).read()? {
         Some((_, kept)) => {
             of_machine(config, folder, &kept)?;
             Ok(kept)
         }
-        None => Ok(Kept::default()),
+        None => Ok(PersistentState::default()),
     }
 }
 
@@ -117,7 +119,7 @@ fn change(
     config: &MachineConfig,
     folder: &Path,
     as_json: bool,
-    change: impl FnOnce(&mut Kept) -> Result<(), Failure>,
+    change: impl FnOnce(&mut PersistentState) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
     let (mut store, _lock) = locked(folder)?;
     let mut kept = match store.read().map_err(StateError::from)? {
@@ -125,9 +127,9 @@ fn change(
             of_machine(config, folder, &kept)?;
             kept
         }
-        None => Kept {
+        None => PersistentState {
             configuration: fingerprint(config),
-            ..Kept::default()
+            ..PersistentState::default()
         },
     };
     change(&mut kept)?;
@@ -136,7 +138,7 @@ fn change(
     Ok(())
 }
 
-fn set(kept: &mut Kept, args: &SetArgs) -> Result<(), Failure> {
+fn set(kept: &mut PersistentState, args: &SetArgs) -> Result<(), Failure> {
     let offsets = &mut kept.offsets;
     let mut rotation_deg = None;
     let vector = match args.what.to_ascii_uppercase().as_str() {
@@ -201,7 +203,7 @@ fn units(args: UnitArgs) -> Units {
     }
 }
 
-fn show(folder: &Path, generation: u64, kept: &Kept, as_json: bool) {
+fn show(folder: &Path, generation: u64, kept: &PersistentState, as_json: bool) {
     if as_json {
         output::object(&object(folder, generation, kept));
     } else {
@@ -222,7 +224,7 @@ fn vectors(offsets: &Offsets) -> Vec<(String, [f64; AXES], f64)> {
     systems.chain(others).collect()
 }
 
-fn text(folder: &Path, generation: u64, kept: &Kept) -> String {
+fn text(folder: &Path, generation: u64, kept: &PersistentState) -> String {
     let mut text = match generation {
         0 => format!("{}: nothing is kept yet\n", folder.display()),
         _ => format!(
@@ -279,7 +281,7 @@ fn text(folder: &Path, generation: u64, kept: &Kept) -> String {
     text
 }
 
-fn object(folder: &Path, generation: u64, kept: &Kept) -> Value {
+fn object(folder: &Path, generation: u64, kept: &PersistentState) -> Value {
     let mut named = serde_json::Map::new();
     for (name, vector, rotation_deg) in vectors(&kept.offsets) {
         named.insert(

@@ -3,8 +3,8 @@
 //! by its panel.
 
 use super::active_program::active_program;
-use super::kept_offsets::KeptOffsets;
 use super::other_users::OtherUsers;
+use super::persistent_offsets::PersistentOffsets;
 use super::session;
 use super::tool_names::ToolNames;
 use crate::cli::{JointsArgs, OperatorArgs, OverrideArgs};
@@ -238,7 +238,7 @@ pub(super) fn status(args: &OperatorArgs, config: &MachineConfig) -> Result<Exit
     let active = active_program(&link, &status);
     let beside = Beside {
         asked: asked(&link, config, &status),
-        offset: KeptOffsets::new(config, &link).look(),
+        offset: PersistentOffsets::new(config, &link).look(),
         not_homed: config.axes_not_homed(&status),
     };
     if args.basic.json {

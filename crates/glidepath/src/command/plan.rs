@@ -12,10 +12,10 @@ use crate::interrupt::Interrupt;
 use crate::joints::PlanWatch;
 use crate::output;
 use crate::plan_steps::PlanSteps;
-use crate::progress::Progress;
+use crate::progress::ProgressDisplay;
 use crate::recording::Recording;
 use crate::report::{DiagnosisReport, MotionReport, Planning, peak_rss_bytes, rough_time};
-use crate::sample::Sample;
+use crate::sample::TickSample;
 use glidepath_audit::diagnosis::Diagnosis;
 use glidepath_audit::{Audit, AuditSettings};
 use glidepath_kinematics::{Kinematics as _, Mechanism};
@@ -57,9 +57,9 @@ pub(super) fn plan(args: &PlanArgs, config: &MachineConfig) -> Result<Exit, Fail
     let (csv, plot) = (args.setpoints.as_deref(), args.plot.as_deref());
     let mut recording = Recording::create(config, csv, plot, &guard)?;
     let progress = if least_time_s < LONG_S {
-        Progress::lines(lines.into(), args.basic.json)
+        ProgressDisplay::lines(lines.into(), args.basic.json)
     } else {
-        Progress::motion(least_time_s, args.basic.json)
+        ProgressDisplay::motion(least_time_s, args.basic.json)
     };
     progress.doing("planning");
     let mut pass = Pass::on_all_cores(args.file.path(), config)?;
@@ -195,7 +195,7 @@ impl Pass {
                 if recording.is_wanted() {
                     // Out of reach is told by the watch; machines without one reach everything.
                     let joints = self.mechanism.inverse(&frame.position).unwrap_or_default();
-                    let sample = Sample::planned(frame, self.period_t, joints);
+                    let sample = TickSample::planned(frame, self.period_t, joints);
                     recording.push(&sample.diagnosed(binding, &self.diagnosis))?;
                 }
             }

@@ -1,11 +1,11 @@
 //! `glidepath planner`: programs, or segments of other processes, to frames.
 
-use super::attendant::{Attendant, tell};
 use super::attention::Waiting;
+use super::executor::JobExecutor;
 use super::going_on;
 use super::program_note::ProgramNote;
+use super::run_supervisor::{RunSupervisor, tell};
 use super::session;
-use super::workshop::Workshop;
 use crate::begun::{Board, Part};
 use crate::cli::PlannerArgs;
 use crate::clock;
@@ -15,16 +15,16 @@ use crate::exit::Exit;
 use crate::file_error::FileError;
 use crate::interrupt::{Interrupt, end_with};
 use crate::joints;
-use crate::kept::read::{read, set_up};
 use crate::output;
+use crate::persistence::read::{read, set_up};
 use crate::program_file::ProgramFile;
 use crate::report::{counted, peak_rss_bytes, seconds};
 use crate::tool_length_note::ToolLengthNote;
 use glidepath_geometry::AxisVector;
 use glidepath_link::{Ipc, LinkConfig, Operator, Transport};
 use glidepath_planner::{
-    Control, FileSource, ItemSource, Listening, Notice, PipeSource, Pipeline, Publisher, Remainder,
-    RunError, SoftLimits, Statistics, serve as serve_jobs,
+    Control, FileSource, FramePublisher, ItemSource, Listening, Notice, PipeSource, Pipeline,
+    Remainder, RunError, SoftLimits, Statistics, serve as serve_jobs,
 };
 use serde_json::{Value, json};
 use std::time::Duration;
@@ -76,9 +76,9 @@ pub(super) fn planner(
     if args.end_with.is_some() {
         only_read(&mut config)?;
     }
-    let attendant = Attendant::new(&mut config, link.directory(), quiet)?;
+    let supervisor = RunSupervisor::new(&mut config, link.directory(), quiet)?;
     let mut notify = |notice: &Notice<'_>| {
-        attendant.notice(notice, &config);
+        supervisor.notice(notice, &config);
         tell(notice, quiet);
     };
     let watched = (!quiet).then_some((&transport, &config));
@@ -89,12 +89,12 @@ pub(super) fn planner(
         pause: &mut pause,
         notify: &mut notify,
     };
-    let mut publisher = Publisher::connect(&transport, session::pace(&config))?;
-    attendant.engage(&mut publisher, &config)?;
+    let mut publisher = FramePublisher::connect(&transport, session::pace(&config))?;
+    supervisor.attach(&mut publisher, &config)?;
     let mut job = Job {
         publisher,
         config: &config,
-        attendant: &attendant,
+        supervisor: &supervisor,
         board: &board,
         file,
         asked_ns,
@@ -129,9 +129,9 @@ fn only_read(config: &mut MachineConfig) -> Result<(), Failure> {
 
 /// A program, and what it is run with.
 struct Job<'a> {
-    publisher: Publisher<'a>,
+    publisher: FramePublisher<'a>,
     config: &'a MachineConfig,
-    attendant: &'a Attendant,
+    supervisor: &'a RunSupervisor,
     board: &'a Board,
     file: &'a ProgramFile,
     /// When it was asked for, ns of the host's steady clock.
@@ -182,7 +182,7 @@ impl Job<'_> {
         };
         let opened = self.work("checking", control, open)?;
         let source = opened.map_err(|refusal| Failure::refused(&self.name(), refusal, false))?;
-        Ok(source.attended(self.attendant.attending()))
+        Ok(source.attended(self.supervisor.channels()))
     }
 
     /// Has something done that takes long, while the job can be ended.
@@ -198,7 +198,7 @@ impl Job<'_> {
 
     /// A program that comes through standard input.
     fn pipe(&mut self, control: &mut Control<'_>) -> Result<Statistics, Failure> {
-        if !self.attendant.is_quiet() {
+        if !self.supervisor.is_quiet() {
             output::note(
                 "planner: reading standard input; the machine waits on the path where no more has come",
             );
@@ -206,7 +206,7 @@ impl Job<'_> {
         self.board.clear();
         let start = self.wait_until_ready(control)?;
         let options = self.watched().program_options(start);
-        let source = PipeSource::spawn(std::io::stdin(), options, self.attendant.attending())
+        let source = PipeSource::spawn(std::io::stdin(), options, self.supervisor.channels())
             .map_err(|refusal| Failure::refused(&self.name(), refusal, true))?;
         let pipeline = Pipeline::new(source, self.config.settings(), start).of_stream();
         self.publish(pipeline, start, true, control)
@@ -239,10 +239,12 @@ impl Job<'_> {
             .with_joints(self.config.limited_mechanism())
             .with_clock(clock::elapsed);
         let fingerprint = pipeline.source().fingerprint();
-        self.attendant.begin(fingerprint, &start)?;
+        self.supervisor.begin(fingerprint, &start)?;
         self.note.leave(fingerprint);
         let published = self.publisher.publish(&mut pipeline, control);
-        let kept = self.attendant.end(&published, &self.publisher, self.config);
+        let kept = self
+            .supervisor
+            .end(&published, &self.publisher, self.config);
         let statistics = published.map_err(|error| match error {
             RunError::Refused(refusal) => Failure::refused(&self.name(), refusal, is_pipe),
             error => self.ended_early(error, is_pipe),
@@ -254,8 +256,8 @@ impl Job<'_> {
     /// Why the motion ended before the program, with what goes on with it, if that is a file. Whoever
     /// started this one has a way of its own.
     fn ended_early(&self, error: RunError, is_pipe: bool) -> Failure {
-        let has_begun = self.attendant.has_begun(&self.publisher);
-        let may_go_on = !is_pipe && !self.attendant.is_quiet() && has_begun;
+        let has_begun = self.supervisor.has_begun(&self.publisher);
+        let may_go_on = !is_pipe && !self.supervisor.is_quiet() && has_begun;
         let how = ("planner", self.file.path());
         let left = may_go_on.then(|| going_on::told(&error, &self.publisher, how));
         match left.flatten() {
@@ -273,7 +275,7 @@ impl Job<'_> {
         let point = self.publisher.resume_point()?;
         // What it began with, not what it has made of that meanwhile.
         let mut config = self.watched();
-        self.attendant.resume(point.program, &mut config)?;
+        self.supervisor.resume(point.program, &mut config)?;
         let source = self.open(point.program_start, &config, control)?;
         self.tell_begun(&config, source.fingerprint(), Part::Rest);
         let settings = config.settings();
@@ -282,7 +284,7 @@ impl Job<'_> {
         // What an abort or a fault has stopped turns before anything moves.
         let now = self.publisher.auxiliary(control)?;
         let restoring = remainder.restoring(&now).map_err(RunError::from)?;
-        self.attendant.begin_here()?;
+        self.supervisor.begin_here()?;
         let line = remainder.line();
         let pipeline = Pipeline::resuming(remainder, settings).beginning_with(restoring, line);
         self.publish(pipeline, start, false, control)
@@ -314,8 +316,8 @@ fn serve(
     }
     // The first job begins without one.
     ToolLengthNote::new(link.directory()).clear();
-    let mut workshop = Workshop::new(config, link.clone(), board);
-    match serve_jobs(transport, &listening, Some(&mut workshop), control) {
+    let mut executor = JobExecutor::new(config, link.clone(), board);
+    match serve_jobs(transport, &listening, Some(&mut executor), control) {
         Ok(()) | Err(RunError::Interrupted) => Ok(interrupt.exit()),
         Err(error) => Err(error.into()),
     }

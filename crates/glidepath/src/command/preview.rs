@@ -7,7 +7,7 @@ use crate::config::MachineConfig;
 use crate::curve_file;
 use crate::exit::Exit;
 use crate::output;
-use crate::output_file::{self, Guard, OutputKind};
+use crate::output_file::{self, OutputKind, OverwriteGuard};
 use crate::plot::curve::{CurvePlot, Mark};
 use crate::report::seconds;
 use core::fmt::Write as _;
@@ -48,7 +48,7 @@ pub(super) fn preview(args: &PreviewArgs, config: &MachineConfig) -> Result<Exit
         wall_s,
     };
     if let Some(plot) = &args.plot {
-        let guard = Guard {
+        let guard = OverwriteGuard {
             inputs: [Some(&args.file), args.basic.config.as_ref()]
                 .into_iter()
                 .flatten()

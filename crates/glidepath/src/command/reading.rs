@@ -2,12 +2,12 @@
 //! dialect.
 
 use super::subroutines::subroutines;
-use crate::cli::Command;
+use crate::cli::CliCommand;
 use crate::command::failure::Failure;
 use crate::config::{MachineConfig, ProgramConfig};
 use crate::file_error::FileError;
-use crate::kept::read::{MOST_TABLE_BYTES, read, set_up};
 use crate::output;
+use crate::persistence::read::{MOST_TABLE_BYTES, read, set_up};
 use crate::program_file::ProgramFile;
 use crate::text_file;
 use glidepath_gcode::{Detection, Dialect, Machine, ToolTable};
@@ -24,7 +24,7 @@ const BEGINNING: u64 = 64 * 1024;
 ///
 /// # Errors
 /// The tool table cannot be read, or has something to mend.
-pub(super) fn settle(command: &Command, config: &mut MachineConfig) -> Result<(), Failure> {
+pub(super) fn settle(command: &CliCommand, config: &mut MachineConfig) -> Result<(), Failure> {
     let Some((file, args)) = command.program() else {
         return Ok(());
     };
@@ -46,7 +46,7 @@ pub(super) fn settle(command: &Command, config: &mut MachineConfig) -> Result<()
         config.program.tools = Some(Arc::new(tool_table(path)?));
     }
     // `run` says so, and the planner it starts need not say it again.
-    if !matches!(command, Command::Planner(_)) {
+    if !matches!(command, CliCommand::Planner(_)) {
         tell_share(&config.axis_share);
         // The planner reads it when nobody else can write any more.
         if let Some(kept) = read(config)? {
@@ -57,11 +57,11 @@ pub(super) fn settle(command: &Command, config: &mut MachineConfig) -> Result<()
     }
     if let Some(file) = file {
         // `planner -` begins to move before its input ends.
-        if !(matches!(command, Command::Planner(_)) && file.is_standard_input()) {
+        if !(matches!(command, CliCommand::Planner(_)) && file.is_standard_input()) {
             file.open()?;
         }
         // A page shows one program after the other, each read as its own.
-        if !matches!(command, Command::Live(_)) {
+        if !matches!(command, CliCommand::Live(_)) {
             *config = for_program(file, config);
         }
     }

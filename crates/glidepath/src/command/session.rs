@@ -4,7 +4,7 @@ use crate::cli::{BasicArgs, InstanceArgs, OverwriteArgs};
 use crate::command::failure::Failure;
 use crate::config::{self, EMBEDDED, MAX_FRAMES_AHEAD, MachineConfig};
 use crate::file_error::FileError;
-use crate::output_file::Guard;
+use crate::output_file::OverwriteGuard;
 use crate::program_file::ProgramFile;
 use crate::text_file;
 use glidepath_gcode::Subroutines;
@@ -34,7 +34,7 @@ pub(super) fn guard(
     basic: &BasicArgs,
     config: &MachineConfig,
     overwrite: OverwriteArgs,
-) -> Guard {
+) -> OverwriteGuard {
     let named = program.map(|program| {
         if program.is_standard_input() {
             PathBuf::from("/dev/stdin")
@@ -50,7 +50,7 @@ pub(super) fn guard(
         .iter()
         .map(|(_, file)| PathBuf::from(&*file.name));
     let inputs = named.into_iter().chain(config_file).chain(subroutines);
-    Guard {
+    OverwriteGuard {
         inputs: inputs.chain(config.program.tool_table.clone()).collect(),
         force: overwrite.force,
     }

@@ -1,7 +1,7 @@
 //! The names of tools for people: the comments of the tool table's lines.
 
 use crate::config::MachineConfig;
-use crate::kept::read::MOST_TABLE_BYTES;
+use crate::persistence::read::MOST_TABLE_BYTES;
 use crate::report::{AskedTool, AwaitedEvent};
 use crate::text_file;
 use glidepath_link::{Auxiliary, MachineState, Status};
@@ -53,12 +53,12 @@ impl ToolNames {
         told: Option<&Auxiliary>,
     ) -> AwaitedEvent {
         let answer = match status.awaited_event() {
-            Ok(Some(Event::MCode(code) | Event::Await(code))) => config.gates().of(code),
+            Ok(Some(Event::MCode(code) | Event::Await(code))) => config.m_code_waits().of(code),
             _ => None,
         };
         AwaitedEvent {
             tool: self.asked_tool(status, told),
-            answer: answer.map(|gate| gate.answer),
+            answer: answer.map(|m_code_wait| m_code_wait.answer),
         }
     }
 

@@ -6,10 +6,12 @@ use super::program::ProgramConfig;
 use super::spindle::SpindleConfig;
 use glidepath_audit::{AuditSettings, JointBounds};
 use glidepath_gcode::{
-    Connections, LoopLimits, MCodes, Machine, Options, SpindleAxis, Threading, Travel, WaitsAt,
+    AxisTravel, Connections, LoopLimits, MCodes, Machine, Options, SpindleAxis, Threading, WaitsAt,
 };
 use glidepath_geometry::{Axis, AxisVector};
-use glidepath_interpolator::{AdaptiveFeed, Answer, Gate, Gates, JointHoming, StopSettings};
+use glidepath_interpolator::{
+    AdaptiveFeed, AnswerSource, JointHoming, MCodeWait, MCodeWaits, StopSettings,
+};
 use glidepath_kinematics::{
     AxisShare, FiveAxis, JOINTS, JointLimit, JointLimits, JointWatch, Kinematics as _,
     LimitedMechanism, Mechanism,
@@ -121,10 +123,10 @@ pub struct FeedbackConfig {
 }
 
 /// A tool is changed by hand. Who goes on by himself cuts with the wrong one.
-const BY_HAND: Gate = Gate {
+const BY_HAND: MCodeWait = MCodeWait {
     first: 6,
     last: 6,
-    answer: Answer::Acknowledgement,
+    answer: AnswerSource::Acknowledgement,
     within: None,
     is_late: false,
 };
@@ -133,7 +135,7 @@ const BY_HAND: Gate = Gate {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct MCodeRule {
     /// The codes, and what answers them.
-    pub gate: Gate,
+    pub m_code_wait: MCodeWait,
     /// Where the motion waits.
     pub at: WaitsAt,
 }
@@ -394,15 +396,15 @@ impl MachineConfig {
             .fold(
                 Machine::new(&self.axis_names()),
                 |machine, axis| match axis.travel {
-                    Some((min, max)) => machine.with_travel(axis.axis, Travel { min, max }),
+                    Some((min, max)) => machine.with_travel(axis.axis, AxisTravel { min, max }),
                     None => machine,
                 },
             );
         let default_feed_mm_min = self.path.default_feed;
         let mut m_codes = MCodes::default();
         for rule in &self.m_codes {
-            let MCodeRule { gate, at } = rule;
-            m_codes.declare_waiting(gate.first, gate.last, *at);
+            let MCodeRule { m_code_wait, at } = rule;
+            m_codes.declare_waiting(m_code_wait.first, m_code_wait.last, *at);
         }
         Options {
             machine,
@@ -466,34 +468,36 @@ impl MachineConfig {
 
     /// The M codes that are to be answered before the motion goes on.
     #[must_use]
-    pub fn gates(&self) -> Gates {
-        let input = (self.program.connections == Connections::Real).then_some(Gate {
+    pub fn m_code_waits(&self) -> MCodeWaits {
+        let input = (self.program.connections == Connections::Real).then_some(MCodeWait {
             first: 66,
             last: 66,
-            answer: Answer::Planner,
+            answer: AnswerSource::Planner,
             within: None,
             is_late: false,
         });
-        let rules: Vec<Gate> = input
+        let rules: Vec<MCodeWait> = input
             .into_iter()
-            .chain(self.m_codes.iter().map(|rule| rule.gate))
+            .chain(self.m_codes.iter().map(|rule| rule.m_code_wait))
             .chain(self.asks_for_tools().then_some(BY_HAND))
             .collect();
-        Gates::new(&rules).unwrap_or_default()
+        MCodeWaits::new(&rules).unwrap_or_default()
     }
 
     /// Whether nobody is named who changes tools: a person does then, and says so.
     #[must_use]
     pub fn asks_for_tools(&self) -> bool {
-        let is_of = |rule: &MCodeRule| (rule.gate.first..=rule.gate.last).contains(&BY_HAND.first);
+        let is_of = |rule: &MCodeRule| {
+            (rule.m_code_wait.first..=rule.m_code_wait.last).contains(&BY_HAND.first)
+        };
         !self.m_codes.iter().any(is_of)
     }
 
     /// Whether programs wait for the spindle to turn as fast as it was told to.
     fn waits_for_speed(&self) -> bool {
         let is_speed = |rule: &MCodeRule| {
-            let codes = rule.gate.first..=rule.gate.last;
-            rule.gate.answer == Answer::SpindleAtSpeed
+            let codes = rule.m_code_wait.first..=rule.m_code_wait.last;
+            rule.m_code_wait.answer == AnswerSource::SpindleAtSpeed
                 && [3, 4].iter().any(|code| codes.contains(code))
         };
         self.m_codes.iter().any(is_speed)

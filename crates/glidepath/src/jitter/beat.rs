@@ -5,7 +5,7 @@ use glidepath_realtime::{Clock, DeadlineTimer, EventWriter};
 
 /// A beat: the record of one period.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Beat {
+pub struct LoopBeat {
     /// From the time the thread was to wake at, a lead before the deadline, to its waking.
     pub latency_ns: u64,
     /// From the deadline to the tick.
@@ -42,7 +42,7 @@ impl Load for Idle {
 /// Waits, works and writes a beat, until `stop` is set. Makes no system call but the sleep.
 pub(super) fn beat<C: Clock>(
     timer: &mut DeadlineTimer<C>,
-    beats: &mut EventWriter<'_, Beat>,
+    beats: &mut EventWriter<'_, LoopBeat>,
     stop: &AtomicBool,
     load: &mut dyn Load,
 ) {
@@ -52,7 +52,7 @@ pub(super) fn beat<C: Clock>(
         let is_moving = load.work();
         let work_ns = timer.clock().now_ns().saturating_sub(rise.woke_ns);
         let wake = timer.wait();
-        beats.write(Beat {
+        beats.write(LoopBeat {
             latency_ns: rise.latency_ns(),
             lateness_ns: wake.lateness_ns() + wake.missed * timer.period_ns(),
             missed: wake.missed,
@@ -112,7 +112,7 @@ mod tests {
             delays_ns: vec![30, 250, 0].into_iter(),
         };
         let mut timer = DeadlineTimer::new(clock, 1_000, 100).with_lead(20);
-        let mut events = Events::<Beat, 8>::default();
+        let mut events = Events::<LoopBeat, 8>::default();
         let (mut writer, mut reader) = event_ring(&mut events);
         let stop = AtomicBool::new(false);
         let mut steps = Steps {

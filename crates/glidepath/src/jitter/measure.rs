@@ -1,12 +1,12 @@
 //! The measurement itself: the real-time thread beats, the calling thread collects.
 
-use super::beat::{Beat, Idle, Load, beat};
+use super::beat::{Idle, Load, LoopBeat, beat};
 use super::cyclictest::{Cyclictest, Latencies};
 use super::error::JitterError;
 use super::section::{Section, sections};
 use super::setup::Setup;
 use super::windows::Windows;
-use crate::progress::Progress;
+use crate::progress::ProgressDisplay;
 use core::sync::atomic::{AtomicBool, Ordering};
 use glidepath_interpolator::{lead_ns, stepped};
 use glidepath_realtime::{
@@ -44,7 +44,7 @@ pub struct Measurement {
 /// The host refuses real time, the thread cannot be started, or cyclictest does not run.
 pub fn measure(
     setup: &Setup,
-    progress: &Progress,
+    progress: &ProgressDisplay,
     interrupt: &AtomicBool,
 ) -> Result<Measurement, JitterError> {
     let mut measured = Measurement {
@@ -74,13 +74,13 @@ pub fn measure(
 struct SectionRun<'a> {
     setup: &'a Setup,
     section: Section,
-    progress: &'a Progress,
+    progress: &'a ProgressDisplay,
     interrupt: &'a AtomicBool,
 }
 
 impl SectionRun<'_> {
     fn measure(&self, measured: &mut Measurement) -> Result<(), JitterError> {
-        let mut events = Box::<Events<Beat, BEATS>>::default();
+        let mut events = Box::<Events<LoopBeat, BEATS>>::default();
         let (writer, mut reader) = event_ring(&mut events);
         let stop = AtomicBool::new(false);
         thread::scope(|scope| {
@@ -110,7 +110,7 @@ impl SectionRun<'_> {
     fn observe(
         &self,
         measured: &mut Measurement,
-        reader: &mut EventReader<'_, Beat>,
+        reader: &mut EventReader<'_, LoopBeat>,
     ) -> Result<(), JitterError> {
         let (setup, grants) = (self.setup, measured.grants);
         let host = Host::here();
@@ -168,7 +168,7 @@ fn sleep_until(time_ns: u64) {
 fn real_time(
     setup: &Setup,
     section: &Section,
-    mut writer: EventWriter<'_, Beat>,
+    mut writer: EventWriter<'_, LoopBeat>,
     tell: &mpsc::Sender<Result<Grants, NotRealTime>>,
     stop: &AtomicBool,
 ) {

@@ -29,12 +29,12 @@ mod section;
 mod setup;
 mod windows;
 
-pub use beat::Beat;
+pub use beat::LoopBeat;
 pub use bins::{Bin, COARSE, FINE, rebin};
 pub use cyclictest::{CyclictestError, Latencies};
 pub use error::JitterError;
 pub use measure::{Measurement, measure};
-pub use motion::Motion;
+pub use motion::LoadMotion;
 pub use report::JitterReport;
 pub use setup::Setup;
 pub use windows::Windows;

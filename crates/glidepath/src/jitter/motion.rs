@@ -21,12 +21,12 @@ const FRAMES_PER_TICK: usize = 4;
 
 /// A planned motion from rest to rest at the same place.
 #[derive(Debug)]
-pub struct Motion {
+pub struct LoadMotion {
     frames: Vec<SetpointFrame>,
     config: Config,
 }
 
-impl Motion {
+impl LoadMotion {
     /// Plans it for a machine; `interpolator` is what its interpolator is started with.
     ///
     /// # Errors
@@ -150,7 +150,7 @@ mod tests {
             start_position: machine.home(),
             ..Config::new(machine.limits(), machine.period_ns())
         };
-        let motion = Motion::plan(&machine, interpolator).unwrap();
+        let motion = LoadMotion::plan(&machine, interpolator).unwrap();
         let once = motion.frames.len();
         assert!(once > 250, "{once} frames: less than a second");
         stepped(motion.config(), |interpolator| {

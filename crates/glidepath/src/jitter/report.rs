@@ -4,7 +4,7 @@ use super::bins::{Bin, COARSE, FINE, rebin};
 use super::cyclictest::Latencies;
 use super::measure::Measurement;
 use super::setup::Setup;
-use crate::plot::{Series, lateness};
+use crate::plot::{LatenessSeries, lateness};
 use crate::report::grouped;
 use core::fmt::Write as _;
 use glidepath_realtime::{Grants, Histogram, Item, Outcome, Quantiles};
@@ -229,12 +229,12 @@ impl<'a> JitterReport<'a> {
     #[must_use]
     pub fn plot(&self) -> String {
         let windows = &self.measured.windows;
-        let mut series = vec![Series {
+        let mut series = vec![LatenessSeries {
             name: "glidepath",
             bins: rebin(times(&windows.all), FINE),
         }];
         if let Some(latencies) = &self.measured.cyclictest {
-            series.push(Series {
+            series.push(LatenessSeries {
                 name: "cyclictest",
                 bins: rebin(cyclictest_times(latencies), FINE),
             });

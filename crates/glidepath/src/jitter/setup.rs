@@ -1,6 +1,6 @@
 //! The set-up of a measurement.
 
-use super::motion::Motion;
+use super::motion::LoadMotion;
 use glidepath_realtime::{Mode, Request};
 
 /// The set-up of a measurement: what to measure.
@@ -15,7 +15,7 @@ pub struct Setup {
     /// Whether it measures without what it is not granted.
     pub mode: Mode,
     /// The motion whose ticks are the work of each period; nothing without.
-    pub motion: Option<Motion>,
+    pub motion: Option<LoadMotion>,
     /// Run cyclictest beside.
     pub against_cyclictest: bool,
 }

@@ -1,6 +1,6 @@
 //! The windows of a measurement: its beats, gathered second by second.
 
-use super::beat::Beat;
+use super::beat::LoopBeat;
 use glidepath_realtime::Histogram;
 
 /// The windows of a measurement, and what they held.
@@ -54,7 +54,7 @@ impl Windows {
     }
 
     /// Counts a beat in the open window.
-    pub fn record(&mut self, beat: &Beat) {
+    pub fn record(&mut self, beat: &LoopBeat) {
         self.open.record(beat.latency_ns);
         self.lateness.record(beat.lateness_ns);
         self.open_missed += beat.missed;
@@ -97,8 +97,8 @@ impl Windows {
 mod tests {
     use super::*;
 
-    fn beat(latency_ns: u64, missed: u64) -> Beat {
-        Beat {
+    fn beat(latency_ns: u64, missed: u64) -> LoopBeat {
+        LoopBeat {
             latency_ns,
             lateness_ns: latency_ns / 2,
             missed,

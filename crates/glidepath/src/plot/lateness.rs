@@ -17,7 +17,7 @@ const AREA: Area = Area {
 
 /// One histogram.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Series {
+pub struct LatenessSeries {
     /// Its name in the legend.
     pub name: &'static str,
     /// Its bins, ascending and without gaps.
@@ -33,7 +33,7 @@ struct Scale {
 
 impl Scale {
     #[allow(clippy::cast_precision_loss, reason = "for display")]
-    fn of(series: &[Series]) -> Self {
+    fn of(series: &[LatenessSeries]) -> Self {
         let bins = || series.iter().flat_map(|series| &series.bins);
         let ends = bins().map(|bin| bin.high_us).filter(|us| us.is_finite());
         let lows = bins().map(|bin| bin.low_us.max(1.0));
@@ -66,7 +66,7 @@ impl Scale {
 
 /// The plot as an SVG document.
 #[must_use]
-pub fn lateness(title: &str, subtitle: &str, series: &[Series]) -> String {
+pub fn lateness(title: &str, subtitle: &str, series: &[LatenessSeries]) -> String {
     let scale = Scale::of(series);
     let mut svg = Svg::new(WIDTH, HEIGHT);
     let large = format!("fill=\"{INK}\" font-size=\"19\" font-weight=\"600\"");
@@ -145,7 +145,7 @@ mod tests {
             bin(20.0, 50.0, 0),
             bin(50.0, 100.0, 1),
         ];
-        let series = [Series { name: "loop", bins }];
+        let series = [LatenessSeries { name: "loop", bins }];
         let scale = Scale::of(&series);
         assert!((scale.x(10.0) - AREA.x).abs() < 1e-9);
         assert!((scale.x(100.0) - AREA.right()).abs() < 1e-9);

@@ -25,14 +25,14 @@ mod track;
 mod view;
 
 use crate::report::DiagnosisReport;
-use crate::sample::Sample;
+use crate::sample::TickSample;
 use bound::Bound;
 use colour::{DEVIATION, INK, QUIET};
 use envelope::Envelope;
 use glidepath_geometry::Axis;
 use glidepath_kinematics::JointLimits;
 use glidepath_program::{Item, Limits};
-pub use lateness::{Series, lateness};
+pub use lateness::{LatenessSeries, lateness};
 use program_trace::ProgramTrace;
 use quantities::{PositionCurves, Quantities};
 use strip::{Band, Strip, TimeAxis};
@@ -136,7 +136,7 @@ impl Plot {
     }
 
     /// Takes the next sample; their ticks ascend.
-    pub fn push(&mut self, sample: &Sample) {
+    pub fn push(&mut self, sample: &TickSample) {
         let at = [sample.position[0], sample.position[1], sample.position[2]];
         self.track.push(TrackPoint {
             at,

@@ -4,7 +4,7 @@ use super::quantity::microseconds;
 use crate::machine_options::complete;
 use core::fmt::{self, Write as _};
 use glidepath_geometry::{AXES, Axis};
-use glidepath_interpolator::Answer;
+use glidepath_interpolator::AnswerSource;
 use glidepath_link::{MotionMode, Power, Status};
 use glidepath_program::{CodeWord, Event};
 use serde_json::{Map, Value, json};
@@ -60,7 +60,7 @@ pub struct AwaitedEvent {
     /// The tool that is asked for.
     pub tool: Option<AskedTool>,
     /// Who answers; `None` for a person.
-    pub answer: Option<Answer>,
+    pub answer: Option<AnswerSource>,
 }
 
 impl AwaitedEvent {
@@ -68,18 +68,20 @@ impl AwaitedEvent {
     const fn by_hand(&self) -> bool {
         matches!(
             self.answer,
-            None | Some(Answer::Nobody | Answer::Acknowledgement)
+            None | Some(AnswerSource::Nobody | AnswerSource::Acknowledgement)
         )
     }
 
     /// How it is known that it is done.
     fn done_by(&self) -> String {
         match self.answer {
-            None | Some(Answer::Nobody | Answer::Acknowledgement) => {
+            None | Some(AnswerSource::Nobody | AnswerSource::Acknowledgement) => {
                 complete("`glidepath acknowledge`")
             }
-            Some(Answer::Input { number, .. }) => format!("input {number} says when it is done"),
-            Some(Answer::Planner) => "the input says when it is done".to_owned(),
+            Some(AnswerSource::Input { number, .. }) => {
+                format!("input {number} says when it is done")
+            }
+            Some(AnswerSource::Planner) => "the input says when it is done".to_owned(),
             Some(_) => "the spindle says when it is done".to_owned(),
         }
     }

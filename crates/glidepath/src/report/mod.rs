@@ -28,11 +28,11 @@ pub use memory::peak_rss_bytes;
 pub use motion::{MotionReport, Planning};
 pub use quantity::{counted, decimals, grouped, rough_time, seconds};
 pub use run::RunReport;
-pub use shape::{AxisShape, Distance, ShapeFigures};
+pub use shape::{AxisShape, ShapeDistance, ShapeFigures};
 pub use smoothness::{AxisFigures, SmoothnessFigures};
 pub use status::{
     quantiles_object, quantiles_text, realtime_object, realtime_text, status_object, status_text,
     timing_text,
 };
-pub use view::{Place, View, view_object, view_text};
+pub use view::{ProgramPlace, View, view_object, view_text};
 pub use work_offset::WorkOffset;

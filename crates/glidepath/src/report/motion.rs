@@ -5,7 +5,7 @@ use super::quantity::{counted, decimals, grouped, seconds};
 use crate::config::{AxisConfig, MachineConfig};
 use crate::exit::Exit;
 use core::fmt::Write as _;
-use glidepath_audit::{Report, Violation};
+use glidepath_audit::{AuditReport, Violation};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -119,7 +119,7 @@ pub struct MotionReport {
 impl MotionReport {
     /// The report of a motion, without the names of files.
     #[must_use]
-    pub fn new(planning: &Planning, audit: &Report, config: &MachineConfig) -> Self {
+    pub fn new(planning: &Planning, audit: &AuditReport, config: &MachineConfig) -> Self {
         #[allow(clippy::cast_precision_loss, reason = "a rate, for display")]
         let segments = planning.segments as f64;
         let position = |axis: &AxisConfig| {

@@ -5,7 +5,7 @@ use super::status::{quantiles_object, realtime_object, timing_text};
 use crate::config::MachineConfig;
 use crate::exit::Exit;
 use crate::play_time::PlayedTime;
-use glidepath_audit::{Report, ViolationKind};
+use glidepath_audit::{AuditReport, ViolationKind};
 use glidepath_link::Status;
 use glidepath_link::servo::ServoCounts;
 use serde::Serialize;
@@ -58,7 +58,7 @@ impl RunReport {
     #[must_use]
     pub fn new(
         planning: &Planning,
-        (audit, played): (&Report, PlayedTime),
+        (audit, played): (&AuditReport, PlayedTime),
         servo: &ServoCounts,
         status: &Status,
         config: &MachineConfig,

@@ -16,12 +16,12 @@ pub struct ShapeFigures {
     /// By axis letter.
     pub axes: BTreeMap<String, AxisShape>,
     /// How far Z goes below the programmed depth and comes back, at most; none without a Z.
-    pub below_depth: Option<Distance>,
+    pub below_depth: Option<ShapeDistance>,
     /// How far the motion is on the outer side of a corner between straight feed moves, at most.
-    pub outside_corners: Distance,
+    pub outside_corners: ShapeDistance,
     /// How far the motion is beside a straight feed move of 5 mm and more, in its middle half, at
     /// most.
-    pub beside_straight: Distance,
+    pub beside_straight: ShapeDistance,
     /// Straight feed moves that long.
     pub straight_moves: u64,
     /// Places at which the motion is beside a straight feed move in its middle half by more than 1 µm, or on the
@@ -39,9 +39,9 @@ pub struct AxisShape {
     #[serde(skip)]
     pub unit: &'static str,
     /// How far it goes below what the program asks for there and comes back, at most.
-    pub overshoot_below: Distance,
+    pub overshoot_below: ShapeDistance,
     /// How far above likewise.
-    pub overshoot_above: Distance,
+    pub overshoot_above: ShapeDistance,
     /// How often it turns round by more than 2 µm.
     pub reversals: u64,
     /// How often the program asks it to.
@@ -50,14 +50,14 @@ pub struct AxisShape {
 
 /// A distance and the source line of the motion where it is met, 0 where there is none.
 #[derive(Debug, Clone, Copy, Serialize)]
-pub struct Distance {
+pub struct ShapeDistance {
     /// mm, or degrees of a rotary axis.
     pub mm: f64,
     /// Source line.
     pub line: u32,
 }
 
-impl From<Met> for Distance {
+impl From<Met> for ShapeDistance {
     fn from(met: Met) -> Self {
         Self {
             mm: met.distance_mm,
@@ -114,7 +114,7 @@ impl ShapeFigures {
     /// What there is to say, each with what it is about.
     #[must_use]
     pub fn lines(&self) -> Vec<(&'static str, String)> {
-        let at = |met: &Distance| format!("{:.4} mm (line {})", met.mm, met.line);
+        let at = |met: &ShapeDistance| format!("{:.4} mm (line {})", met.mm, met.line);
         let mut overshoot = Vec::new();
         let mut reversals = Vec::new();
         for (name, axis) in &self.axes {

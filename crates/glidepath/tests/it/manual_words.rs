@@ -4,7 +4,7 @@
 #![allow(clippy::expect_used, reason = "a test that fails may panic")]
 
 use clap::Parser as _;
-use glidepath::cli::{Cli, Command};
+use glidepath::cli::{Cli, CliCommand};
 use std::path::{Path, PathBuf};
 
 fn pages() -> Vec<PathBuf> {
@@ -111,7 +111,7 @@ fn words_are_those_of_a_shell() {
     assert_eq!(codes, ["b", "d e", "h |", "i"].map(str::to_owned));
     assert!(matches!(
         Cli::try_parse_from(["glidepath", "hold"]).map(|cli| cli.command),
-        Ok(Command::Hold(_))
+        Ok(CliCommand::Hold(_))
     ));
     assert!(is_known("glidepath hold --softly").is_err());
 }

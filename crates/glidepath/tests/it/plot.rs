@@ -1,7 +1,7 @@
 //! The picture of a motion: well-formed, complete, and bounded in size.
 
 use glidepath::report::{AxisFigures, DiagnosisReport, ShapeFigures, SmoothnessFigures};
-use glidepath::{plot::Plot, sample::Sample};
+use glidepath::{plot::Plot, sample::TickSample};
 use glidepath_audit::diagnosis::Deviation;
 use glidepath_audit::shape::ShapeReport;
 use glidepath_geometry::{Axis, AxisVector, Segment};
@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 const PERIOD_T: f64 = 0.004;
 
 /// A motion that is nowhere straight.
-fn wander(tick: u32) -> Sample {
+fn wander(tick: u32) -> TickSample {
     // Away from rest without a jump of acceleration.
     let t = f64::from(tick) * PERIOD_T;
     let t = t.powi(4) / (1.0 + t.powi(3));
@@ -19,7 +19,7 @@ fn wander(tick: u32) -> Sample {
     position[0] = 80.0 * (0.9 * t).sin() + 8.0 * (7.1 * t).cos();
     position[1] = 50.0 * (0.7 * t).cos() + 8.0 * (6.3 * t).sin();
     position[2] = 5.0 * (1.3 * t).sin();
-    Sample {
+    TickSample {
         tick: u64::from(tick),
         time_t: t,
         line: 1,
@@ -37,7 +37,7 @@ fn wander(tick: u32) -> Sample {
     }
 }
 
-fn plot(axes: &[Axis], samples: impl Iterator<Item = Sample>) -> String {
+fn plot(axes: &[Axis], samples: impl Iterator<Item = TickSample>) -> String {
     let mut plot = Plot::new(axes, Limits::uniform(200.0, 2000.0, 40000.0), PERIOD_T);
     samples.for_each(|sample| plot.push(&sample));
     plot.render("part <1> & \"two\".ngc", "cycle time 8.000 s")

@@ -8,7 +8,7 @@ use clap::{Arg, Command, CommandFactory as _};
 use clap_complete::Shell;
 use glidepath::cli::Cli;
 use glidepath::config::{self, keys};
-use glidepath_link::{AtRest, CommandRefusal, FaultCause, MachineState, Objection};
+use glidepath_link::{AtRest, CommandRefusal, FaultCause, MachineState, UnmetPrecondition};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -306,12 +306,14 @@ fn states_faults_and_refusals_are_told_as_the_manual_has_them() {
         columns("\n## The machine stopped\n", &[0, 2]),
         faults.collect()
     );
-    let objections = Objection::ALL.iter().map(|why| vec![why.text().to_owned()]);
+    let preconditions = UnmetPrecondition::ALL
+        .iter()
+        .map(|why| vec![why.text().to_owned()]);
     assert_eq!(
         columns("\n## What is refused\n", &[0]),
-        objections.collect()
+        preconditions.collect()
     );
-    // The one that is no objection.
+    // The one that is no precondition.
     assert!(page.contains(CommandRefusal::Busy.text()));
 }
 
@@ -333,9 +335,18 @@ fn the_installed_configuration_keeps_its_state_and_waits_for_tools() {
         machine.state_directory.as_deref(),
         Some(Path::new("/var/lib/glidepath"))
     );
-    assert!(machine.gates().of(6).is_some(), "a person changes the tool");
+    assert!(
+        machine.m_code_waits().of(6).is_some(),
+        "a person changes the tool"
+    );
     let by_itself = config::parse("m", &(ours + "\n[m_codes.M6]\ndone = \"nothing\"\n"));
-    assert!(by_itself.expect("it is read").gates().of(6).is_none());
+    assert!(
+        by_itself
+            .expect("it is read")
+            .m_code_waits()
+            .of(6)
+            .is_none()
+    );
     let unit = read("deploy/systemd/glidepath-planner.service");
     assert!(unit.contains("\nStateDirectory=glidepath\n"));
     let package = read("crates/glidepath/Cargo.toml");

@@ -19,7 +19,7 @@ use crate::overrides::Overrides;
 use crate::report::{BLOCKS, BUFFER, Beside, MACHINE_POSITION, Reporter};
 use crate::state::State;
 use crate::stream::{Request, Stream, Told};
-use crate::{Act, Alarm, Doing, Facts, Machine, MachineSettings};
+use crate::{Act, Alarm, Doing, Facts, MachineSettings, MachineView};
 use awaited::{Reset, Waiting};
 
 /// Bytes that are kept of what a sender sends without being answered, whatever it was told: it is read no
@@ -44,7 +44,7 @@ enum Latch {
 #[derive(Debug)]
 pub struct Session {
     settings: MachineSettings,
-    machine: Machine,
+    machine: MachineView,
     facts: Facts,
     ahead_t: f64,
     intake: Intake,
@@ -84,7 +84,7 @@ impl Session {
     pub fn new(settings: MachineSettings) -> Self {
         Self {
             settings,
-            machine: Machine::default(),
+            machine: MachineView::default(),
             facts: Facts::default(),
             ahead_t: 0.0,
             intake: Intake::default(),
@@ -199,7 +199,7 @@ impl Session {
     }
 
     /// What is known of the machine now. To be called every few milliseconds.
-    pub fn see(&mut self, machine: &Machine, now: Duration) {
+    pub fn see(&mut self, machine: &MachineView, now: Duration) {
         let before = core::mem::replace(&mut self.machine, machine.clone());
         self.overrides.follow(&self.machine, now);
         self.tell_of_changes(&before);
@@ -327,7 +327,7 @@ impl Session {
     }
 
     /// What senders have to know of what has changed.
-    fn tell_of_changes(&mut self, before: &Machine) {
+    fn tell_of_changes(&mut self, before: &MachineView) {
         let (was, is) = (before.doing, self.machine.doing);
         if !self.machine.message.is_empty() && self.machine.message != before.message {
             let message = self.machine.message.clone();

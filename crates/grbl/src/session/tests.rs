@@ -1,13 +1,13 @@
 //! A session with a machine and a service that are not there.
 
 use super::*;
-use crate::{AXES, End, Refused, Stage, Wish};
+use crate::{AXES, End, JobIntent, Refused, Stage};
 use std::collections::VecDeque;
 
 /// A machine that moves by hand in no time, and a service that reads a line at each look.
 struct Desk {
     session: Session,
-    machine: Machine,
+    machine: MachineView,
     now: Duration,
     job: u64,
     lines: VecDeque<String>,
@@ -33,9 +33,9 @@ impl Desk {
                 has_homing: true,
                 ..MachineSettings::default()
             }),
-            machine: Machine {
+            machine: MachineView {
                 doing: Doing::Idle,
-                ..Machine::default()
+                ..MachineView::default()
             },
             now: Duration::ZERO,
             job: 0,
@@ -110,11 +110,11 @@ impl Desk {
                     self.taken += 1;
                 }
             }
-            if request.wish == Wish::Cancel {
+            if request.wish == JobIntent::Cancel {
                 self.over = Some(End::Failed("ended by its client".to_owned()));
-            } else if self.refused.is_none() && !self.is_full && request.wish != Wish::Close {
+            } else if self.refused.is_none() && !self.is_full && request.wish != JobIntent::Close {
                 self.read_a_line();
-            } else if request.wish == Wish::Close {
+            } else if request.wish == JobIntent::Close {
                 self.over = Some(End::Done);
             }
         }

@@ -8,12 +8,12 @@ use glidepath_link::{Command, MachineState, SetpointFrame, decode};
 use glidepath_program::Limits;
 use libfuzzer_sys::fuzz_target;
 
-use crate::admission::{Admission, Machine, Verdict};
+use crate::frame_validation::{FrameValidator, MachineSnapshot, FrameVerdict};
 
 // The judge is not public: it is compiled in here, with those of its neighbours that it uses.
 #[allow(dead_code, reason = "only the judge is used")]
-#[path = "../../src/admission.rs"]
-mod admission;
+#[path = "../../src/frame_validation.rs"]
+mod frame_validation;
 #[allow(dead_code, reason = "only the judge is used")]
 #[path = "../../src/fault.rs"]
 mod fault;
@@ -23,8 +23,8 @@ mod rest;
 #[path = "../../tests/synthetic/mod.rs"]
 mod synthetic;
 
-mod gates {
-    pub(crate) use glidepath_interpolator::Gates;
+mod m_code_waits {
+    pub(crate) use glidepath_interpolator::MCodeWaits;
 }
 mod config {
     pub(crate) use glidepath_interpolator::{Config, SoftLimits};
@@ -89,11 +89,11 @@ fuzz_target!(|input: (u8, Vec<Change>, Turns)| {
         lowest: AxisVector::repeat(-REACH_MM),
         highest: AxisVector::repeat(REACH_MM),
     };
-    let mut judge = Admission::new(&config);
+    let mut judge = FrameValidator::new(&config);
     let (mut passed, mut published) = (Vec::new(), Vec::new());
     stepped(&config, |machine| {
         let mut waiting = frames(seed, changes).into_iter().peekable();
-        let mut known = Machine {
+        let mut known = MachineSnapshot {
             state: MachineState::Idle,
             position: AxisVector::zeros(),
             epoch: 0,
@@ -120,8 +120,8 @@ fuzz_target!(|input: (u8, Vec<Change>, Turns)| {
                     continue;
                 };
                 match judge.judge(&frame, &known) {
-                    Verdict::Later => break,
-                    Verdict::Pass => {
+                    FrameVerdict::Later => break,
+                    FrameVerdict::Pass => {
                         assert!(!is_broken || frame.sequence == 0, "a frame after a fault");
                         is_broken = false;
                         if frame.sequence == 0 {
@@ -133,13 +133,13 @@ fuzz_target!(|input: (u8, Vec<Change>, Turns)| {
                         assert!(machine.offer(&frame), "room for all of them");
                         room -= 1;
                     }
-                    Verdict::Fault(_) => is_broken = true,
-                    Verdict::Known | Verdict::Late | Verdict::Refused(_) => {}
+                    FrameVerdict::Fault(_) => is_broken = true,
+                    FrameVerdict::Known | FrameVerdict::Late | FrameVerdict::Refused(_) => {}
                 }
                 waiting.next();
             }
             let setpoint = machine.tick();
-            known = Machine {
+            known = MachineSnapshot {
                 state: setpoint.state().expect("its own"),
                 position: setpoint.position.into(),
                 epoch: setpoint.epoch,

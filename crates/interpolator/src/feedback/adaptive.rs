@@ -6,7 +6,7 @@
 //! send zero. If nothing new comes from it, the factor is zero, and another such stack takes its place.
 
 use super::settings::AdaptiveFeed;
-use crate::message::Report;
+use crate::message::TickReport;
 use glidepath_link::{Feedback, MotionMode};
 use glidepath_program::{CodeWord, Event};
 
@@ -53,7 +53,7 @@ impl AdaptiveWatch {
     }
 
     /// Takes note of a setpoint: its event may be the switch.
-    pub(super) fn note(&mut self, report: &Report) {
+    pub(super) fn note(&mut self, report: &TickReport) {
         let setpoint = &report.setpoint;
         let Some(settings) = self.settings else {
             return;

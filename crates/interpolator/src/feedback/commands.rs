@@ -1,15 +1,15 @@
 //! The commands about drives and joints: whether they are possible, and what concerns the count.
 
-use super::book::DriveBook;
-use super::claims::Joints;
-use crate::message::Report;
+use super::drive_monitor::DriveMonitor;
+use super::joint_ownership::Joints;
+use crate::message::TickReport;
 use glidepath_kinematics::JOINTS;
-use glidepath_link::{Command, MachineState, Objection, Power};
+use glidepath_link::{Command, MachineState, Power, UnmetPrecondition};
 
 /// How far from zero a joint may be said to be, mm or degrees: as far as the ends of a travel may be.
 const FARTHEST_SAID: f64 = 1e6;
 
-impl DriveBook {
+impl DriveMonitor {
     /// Judges a command about drives and joints, and carries out what concerns their count. Returns
     /// whether the real-time thread has to know of it.
     ///
@@ -18,9 +18,9 @@ impl DriveBook {
     pub(crate) fn command(
         &mut self,
         command: Command,
-        report: &Report,
+        report: &TickReport,
         now_ns: u64,
-    ) -> Result<bool, Objection> {
+    ) -> Result<bool, UnmetPrecondition> {
         match command {
             Command::Enable => self.enable(report, now_ns).map(|()| true),
             Command::SetPosition { joint, position } => self
@@ -29,14 +29,14 @@ impl DriveBook {
             Command::Home(mask) => self.home(mask, report, now_ns),
             Command::Unhome(mask) => {
                 refuse_at_fault(report)?;
-                refuse(rests(report), Objection::NotAtRest)?;
+                refuse(rests(report), UnmetPrecondition::NotAtRest)?;
                 self.unhomed |= mask & self.all;
                 self.search.give_up(mask);
                 self.found &= !mask;
                 Ok(false)
             }
             Command::Abort if report.state != MachineState::Faulted => {
-                self.conductor.drop_job();
+                self.sequencer.drop_job();
                 self.search.give_up(self.all);
                 Ok(true)
             }
@@ -61,7 +61,7 @@ impl DriveBook {
             | Command::Tell => Ok(true),
             // Without a program, what is left to abort is a latched fault.
             Command::Reset | Command::Abort => {
-                self.conductor.drop_job();
+                self.sequencer.drop_job();
                 self.reset(report, now_ns).map(|()| true)
             }
         }
@@ -69,36 +69,42 @@ impl DriveBook {
 
     /// Whether a fault would not come again at once: a joint that does not stand where it was told
     /// to be is not led from there, nor one whose drive is silent or reports a fault. Without power nobody is led.
-    fn reset(&self, report: &Report, now_ns: u64) -> Result<(), Objection> {
+    fn reset(&self, report: &TickReport, now_ns: u64) -> Result<(), UnmetPrecondition> {
         if report.power != Power::On {
             return Ok(());
         }
-        let joints = self.claims.joints();
-        refuse(self.is_fresh(&joints, now_ns), Objection::NoPosition)?;
-        refuse(joints.fault == 0, Objection::DriveFault)?;
+        let joints = self.ownership.joints();
+        refuse(
+            self.is_fresh(&joints, now_ns),
+            UnmetPrecondition::NoPosition,
+        )?;
+        refuse(joints.fault == 0, UnmetPrecondition::DriveFault)?;
         let mut pairs = self.pairs.iter();
         let are_apart = pairs.any(|pair| {
             let apart = self.apart(&joints, pair);
             apart.is_some_and(|apart| apart > pair.difference)
         });
         let stays_apart = self.following.is_beyond() || are_apart;
-        refuse(!stays_apart, Objection::StaysApart)
+        refuse(!stays_apart, UnmetPrecondition::StaysApart)
     }
 
     /// Whether joints are on their way home by the controller, or about to be.
     pub(crate) const fn is_homing(&self) -> bool {
-        self.conductor.is_busy()
+        self.sequencer.is_busy()
     }
 
-    fn enable(&self, report: &Report, now_ns: u64) -> Result<(), Objection> {
-        let joints = self.claims.joints();
+    fn enable(&self, report: &TickReport, now_ns: u64) -> Result<(), UnmetPrecondition> {
+        let joints = self.ownership.joints();
         let is_clear = report.state != MachineState::Faulted;
-        refuse(is_clear, Objection::FaultLatched)?;
+        refuse(is_clear, UnmetPrecondition::FaultLatched)?;
         let is_off = report.state == MachineState::Off && report.power == Power::Off;
-        refuse(is_off, Objection::PowerAsked)?;
-        refuse(self.is_fresh(&joints, now_ns), Objection::NoPosition)?;
-        refuse(self.has_pose, Objection::NoPose)?;
-        refuse(joints.fault == 0, Objection::DriveFault)
+        refuse(is_off, UnmetPrecondition::PowerAsked)?;
+        refuse(
+            self.is_fresh(&joints, now_ns),
+            UnmetPrecondition::NoPosition,
+        )?;
+        refuse(self.has_pose, UnmetPrecondition::NoPose)?;
+        refuse(joints.fault == 0, UnmetPrecondition::DriveFault)
     }
 
     /// Whether the drives say where they are.
@@ -111,20 +117,26 @@ impl DriveBook {
         &mut self,
         joint: usize,
         position: f64,
-        report: &Report,
-    ) -> Result<(), Objection> {
+        report: &TickReport,
+    ) -> Result<(), UnmetPrecondition> {
         refuse_at_fault(report)?;
-        refuse(rests(report), Objection::NotAtRest)?;
-        refuse(position.abs() <= FARTHEST_SAID, Objection::NoSuchPosition)?;
+        refuse(rests(report), UnmetPrecondition::NotAtRest)?;
+        refuse(
+            position.abs() <= FARTHEST_SAID,
+            UnmetPrecondition::NoSuchPosition,
+        )?;
         let is_own = joint < JOINTS && self.all & (1 << joint) != 0;
-        refuse(is_own, Objection::NoSuchJoint)?;
+        refuse(is_own, UnmetPrecondition::NoSuchJoint)?;
         let is_second = self.pairs.iter().any(|pair| pair.joints.1 == joint);
-        refuse(!is_second, Objection::SecondJoint)?;
+        refuse(!is_second, UnmetPrecondition::SecondJoint)?;
         let counted = if report.power == Power::On {
             report.setpoint.joint_position[joint]
         } else {
-            let joints = self.claims.joints();
-            refuse(joints.claimed & (1 << joint) != 0, Objection::Unreported)?;
+            let joints = self.ownership.joints();
+            refuse(
+                joints.claimed & (1 << joint) != 0,
+                UnmetPrecondition::Unreported,
+            )?;
             joints.position[joint]
         };
         let offset = position + self.added(joint, position) - counted;
@@ -141,19 +153,27 @@ impl DriveBook {
         Ok(())
     }
 
-    fn home(&mut self, mask: u32, report: &Report, now_ns: u64) -> Result<bool, Objection> {
+    fn home(
+        &mut self,
+        mask: u32,
+        report: &TickReport,
+        now_ns: u64,
+    ) -> Result<bool, UnmetPrecondition> {
         refuse_at_fault(report)?;
         let is_homing = report.state == MachineState::Homing;
-        refuse(!is_homing, Objection::HomingAlready)?;
-        refuse(report.state != MachineState::Off, Objection::NeedsPower)?;
-        refuse(rests(report), Objection::NotAtRest)?;
+        refuse(!is_homing, UnmetPrecondition::HomingAlready)?;
+        refuse(
+            report.state != MachineState::Off,
+            UnmetPrecondition::NeedsPower,
+        )?;
+        refuse(rests(report), UnmetPrecondition::NotAtRest)?;
         let can = mask != 0 && mask & !self.homes == 0;
-        refuse(can, Objection::NoHome)?;
-        let here = mask & self.conductor.joints();
+        refuse(can, UnmetPrecondition::NoHome)?;
+        let here = mask & self.sequencer.joints();
         if here != 0 {
-            let is_free = report.power == Power::On && !self.conductor.is_busy();
-            refuse(is_free, Objection::HomingAlready)?;
-            let begun = self.conductor.begin(here, now_ns);
+            let is_free = report.power == Power::On && !self.sequencer.is_busy();
+            refuse(is_free, UnmetPrecondition::HomingAlready)?;
+            let begun = self.sequencer.begin(here, now_ns);
             self.found &= !begun;
             return Ok(false);
         }
@@ -166,16 +186,16 @@ impl DriveBook {
     }
 }
 
-fn refuse_at_fault(report: &Report) -> Result<(), Objection> {
+fn refuse_at_fault(report: &TickReport) -> Result<(), UnmetPrecondition> {
     let is_clear = report.state != MachineState::Faulted;
-    refuse(is_clear, Objection::FaultLatched)
+    refuse(is_clear, UnmetPrecondition::FaultLatched)
 }
 
-const fn refuse(is_possible: bool, why: Objection) -> Result<(), Objection> {
+const fn refuse(is_possible: bool, why: UnmetPrecondition) -> Result<(), UnmetPrecondition> {
     if is_possible { Ok(()) } else { Err(why) }
 }
 
-fn rests(report: &Report) -> bool {
+fn rests(report: &TickReport) -> bool {
     use MachineState::{Idle, NotHomed, Off};
     matches!(report.state, Off | NotHomed | Idle)
 }

@@ -4,7 +4,7 @@
 //! word of an earlier home until they have found it anew, or for good where the search was aborted.
 //! So that word counts again only once this way home has ended well.
 
-use crate::message::Report;
+use crate::message::TickReport;
 use glidepath_link::Power;
 
 /// How long the real-time thread may take to begin, ns.
@@ -41,7 +41,7 @@ impl DriveSearch {
     }
 
     /// Takes note of a setpoint that was published. Returns the joints that have come home by it.
-    pub(super) fn note(&mut self, report: &Report) -> u32 {
+    pub(super) fn note(&mut self, report: &TickReport) -> u32 {
         if self.joints == 0 {
             return 0;
         }

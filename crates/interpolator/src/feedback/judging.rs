@@ -1,12 +1,12 @@
 //! The judgement of what the drives say: following errors, joints that are apart, and joints on
 //! their way home.
 
-use super::book::DriveBook;
-use super::claims::Joints;
+use super::drive_monitor::DriveMonitor;
 use super::following::Finding;
+use super::joint_ownership::Joints;
 use crate::fault::Fault;
-use crate::homing::{Outcome, Seen, Surroundings};
-use crate::message::{Order, Report};
+use crate::homing::{HomingInputs, Outcome, Seen};
+use crate::message::{Order, TickReport};
 use glidepath_kinematics::JOINTS;
 use glidepath_link::{EndOfEpoch, FaultCause, Power, Setpoint};
 
@@ -17,7 +17,7 @@ const SETTLING_NS: u64 = 100_000_000;
 const APART_CUT_R: f64 = 2.0;
 
 /// Line and sequence of what is executed; none without a program.
-const fn place(report: &Report) -> (u32, u64) {
+const fn place(report: &TickReport) -> (u32, u64) {
     let Setpoint { line, sequence, .. } = report.setpoint;
     if matches!(report.end_of_epoch, EndOfEpoch::Open) {
         (line, sequence)
@@ -27,7 +27,7 @@ const fn place(report: &Report) -> (u32, u64) {
 }
 
 /// Two joints of an axis are apart.
-fn apart_fault(joint: usize, difference: f64, allowed: f64, report: &Report) -> Fault {
+fn apart_fault(joint: usize, difference: f64, allowed: f64, report: &TickReport) -> Fault {
     let (line, sequence) = place(report);
     Fault {
         joint: Some(joint),
@@ -37,11 +37,11 @@ fn apart_fault(joint: usize, difference: f64, allowed: f64, report: &Report) -> 
     }
 }
 
-impl DriveBook {
+impl DriveMonitor {
     /// Compares the joints with their demands. Returns what is to be ordered for it, and what is to
     /// be told.
-    pub(crate) fn judge(&mut self, report: &Report) -> (Option<Order>, Option<String>) {
-        let joints = self.claims.joints();
+    pub(crate) fn judge(&mut self, report: &TickReport) -> (Option<Order>, Option<String>) {
+        let joints = self.ownership.joints();
         if report.power != Power::On {
             self.following.rest();
             return (None, None);
@@ -81,7 +81,7 @@ impl DriveBook {
                 Some(Finding::Cut(error, limit)) => order = Some(Order::Cut(fault(error, limit))),
             }
         }
-        if order.is_none() && !self.conductor.is_busy() {
+        if order.is_none() && !self.sequencer.is_busy() {
             order = self.judge_pairs(&joints, report);
         }
         let contact = self.judge_contact(report);
@@ -91,14 +91,14 @@ impl DriveBook {
     }
 
     /// Whether the probe touched something that nobody looked for.
-    fn judge_contact(&mut self, report: &Report) -> Option<Order> {
+    fn judge_contact(&mut self, report: &TickReport) -> Option<Order> {
         let is_touched = self.probe.take_touched() && report.fault.is_none();
         let (line, sequence) = place(report);
         is_touched.then(|| Order::Fault(Fault::new(FaultCause::ProbeContact, line, sequence)))
     }
 
     /// Whether the two joints of an axis are apart.
-    fn judge_pairs(&self, joints: &Joints, report: &Report) -> Option<Order> {
+    fn judge_pairs(&self, joints: &Joints, report: &TickReport) -> Option<Order> {
         self.pairs.iter().find_map(|pair| {
             let apart = self.apart(joints, pair)?;
             let fault = apart_fault(pair.joints.1, apart, pair.difference, report);
@@ -116,11 +116,11 @@ impl DriveBook {
     }
 
     /// Sees to joints on their way home. Returns what is to be ordered for it.
-    pub(crate) fn conduct(&mut self, report: &Report, now_ns: u64) -> Option<Order> {
-        if !self.conductor.is_busy() {
+    pub(crate) fn advance_homing(&mut self, report: &TickReport, now_ns: u64) -> Option<Order> {
+        if !self.sequencer.is_busy() {
             return None;
         }
-        let joints = self.claims.joints();
+        let joints = self.ownership.joints();
         let mut seen = [Seen::default(); JOINTS];
         for (joint, seen) in seen.iter_mut().enumerate() {
             let homing = self.settings.joints[joint].homing;
@@ -133,15 +133,15 @@ impl DriveBook {
                 is_closed: joints.home_switch & (1 << joint) != 0,
                 rising: joints.edges[joint].rising,
                 falling: joints.edges[joint].falling,
-                index: input.and_then(|input| self.claims.latched(joint, input)),
+                index: input.and_then(|input| self.ownership.latched(joint, input)),
             };
         }
-        let (order, outcome) = self.conductor.turn(&Surroundings {
+        let (order, outcome) = self.sequencer.turn(&HomingInputs {
             now_ns,
             moved: report.moved,
             seen: &seen,
         });
-        self.claims.forget_edges(self.conductor.take_forgotten());
+        self.ownership.forget_edges(self.sequencer.take_forgotten());
         let order = order.map(Order::Joints);
         match outcome {
             Outcome::Pending => order,

@@ -1,7 +1,7 @@
 //! The feedback of the drives: gathered, judged, and handed to the real-time thread.
 //!
 //! ```text
-//! servo stacks ── Feedback ─► claims ─► book ─┬─ Observation ─► real-time thread: power, hand-over
+//! servo stacks ─ Feedback ─► ownership ─► monitor ─┬─ Observation ─► real-time thread: power, hand-over
 //!                                 ▲           ├─ Order ───────► faults of following
 //!                   demands ──────┴ following ┘
 //!            (setpoints published)
@@ -11,12 +11,12 @@
 //! which the joints are already axes.
 
 mod adaptive;
-mod book;
-mod claims;
 mod commands;
 mod demands;
+mod drive_monitor;
 mod drive_search;
 mod following;
+mod joint_ownership;
 mod judging;
 mod observation;
 mod probe;
@@ -24,7 +24,7 @@ mod revolutions;
 mod settings;
 mod spindle;
 
-pub(crate) use book::DriveBook;
+pub(crate) use drive_monitor::DriveMonitor;
 pub(crate) use observation::{Observation, Turn};
 pub use settings::{AdaptiveFeed, FeedbackSettings, JointFeedback, ProbeInput};
 

@@ -6,9 +6,9 @@
 //! that it is off by half of the way between them at most. What follows the first contact, bounces
 //! above all, changes nothing.
 
-use super::claims::Joints;
+use super::joint_ownership::Joints;
 use super::settings::ProbeInput;
-use crate::message::Report;
+use crate::message::TickReport;
 use glidepath_kinematics::{JOINTS, JointVector};
 use glidepath_link::{ContactKind, EndOfEpoch, Feedback};
 use glidepath_program::Event;
@@ -22,7 +22,7 @@ pub(crate) struct Contact {
 }
 
 #[derive(Debug, Clone, Copy)]
-struct Search {
+struct ContactSearch {
     epoch: u64,
     release: bool,
     /// When it began, ns.
@@ -36,7 +36,7 @@ struct Search {
 #[derive(Debug)]
 pub(super) struct ProbeWatch {
     input: Option<ProbeInput>,
-    search: Option<Search>,
+    search: Option<ContactSearch>,
     is_open: bool,
     guard: Guard,
 }
@@ -66,14 +66,14 @@ impl ProbeWatch {
     }
 
     /// Takes note of a setpoint: it may begin a search, or belong to an epoch after it.
-    pub(super) fn note(&mut self, report: &Report) {
+    pub(super) fn note(&mut self, report: &TickReport) {
         let setpoint = &report.setpoint;
         self.guard.moves = setpoint.velocity.iter().any(|v| v.abs() > 0.0);
         self.is_open = report.end_of_epoch == EndOfEpoch::Open;
         if let Ok(Some(Event::Probe { release })) = setpoint.event()
             && self.is_open
         {
-            self.search = Some(Search {
+            self.search = Some(ContactSearch {
                 epoch: setpoint.epoch,
                 release,
                 since_ns: setpoint.scheduled_ns,
@@ -109,7 +109,7 @@ impl ProbeWatch {
 
     /// Whether there is anything to look for.
     pub(super) fn is_searching(&self) -> bool {
-        let is_open = |search: Search| search.found.is_none() && self.is_open;
+        let is_open = |search: ContactSearch| search.found.is_none() && self.is_open;
         self.input.is_some() && self.search.is_some_and(is_open)
     }
 
@@ -158,7 +158,7 @@ fn touches(input: ProbeInput, joints: &Joints) -> bool {
 }
 
 /// What the hardware of a stack with all joints has latched since the search began.
-fn latched(feedback: &Feedback, input: ProbeInput, search: &Search) -> Option<JointVector> {
+fn latched(feedback: &Feedback, input: ProbeInput, search: &ContactSearch) -> Option<JointVector> {
     let is_it = |latch: &&glidepath_link::Latch| {
         let rising = (latch.rising == 1) == (input.high != search.release);
         let is_new = latch.count > 0 && latch.latch_ns >= search.since_ns;

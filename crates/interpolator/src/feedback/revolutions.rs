@@ -6,7 +6,7 @@
 //! ramp would never come to rest.
 
 use super::observation::Turn;
-use crate::message::Report;
+use crate::message::TickReport;
 use glidepath_link::EventRecord;
 use glidepath_program::{Event, FrameFlags};
 
@@ -43,7 +43,7 @@ impl RevolutionWatch {
     }
 
     /// Takes note of a setpoint: what it tells the spindle, and whether it is of such a move.
-    pub(super) fn note(&mut self, report: &Report) {
+    pub(super) fn note(&mut self, report: &TickReport) {
         let setpoint = &report.setpoint;
         for event in setpoint.events().iter().flat_map(EventRecord::event) {
             if let Event::SpindleSpeed(per_min) = event {
@@ -101,12 +101,12 @@ mod tests {
 
     fn watch(per_min: f64) -> RevolutionWatch {
         let mut watch = RevolutionWatch::new(12 * MS);
-        let mut report = Report::blank();
+        let mut report = TickReport::blank();
         report.setpoint.silence();
         let speed = EventRecord::new(Event::SpindleSpeed(per_min), 0);
         assert!(report.setpoint.tell(speed));
         watch.note(&report);
-        report = Report::blank();
+        report = TickReport::blank();
         report.setpoint.flags = FrameFlags::PER_REV.0;
         watch.note(&report);
         watch
@@ -165,7 +165,7 @@ mod tests {
         assert!(watch.take_news().is_none());
         // Nor does the way back wait for it.
         assert!((watch.factor(&turning(0.0), true, 101 * MS) - 1.0).abs() < 1e-12);
-        watch.note(&Report::blank());
+        watch.note(&TickReport::blank());
         assert!((watch.factor(&turning(1.0), false, 101 * MS) - 1.0).abs() < 1e-12);
     }
 }

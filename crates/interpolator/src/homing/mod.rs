@@ -3,7 +3,7 @@
 //!
 //! ```text
 //!  ports thread                                                   real-time thread
-//!  Home ─► conductor: groups ─► search: one joint, phase by phase ── JointsOrder ─► mover: trackers
+//!  Home ─► sequencer: groups ─► search: one joint, phase by phase ─ JointsOrder ─► mover: trackers
 //!             ▲                    ▲ edges by their time stamps                        │
 //!             └────────────────────┴──────────── report: which joints rest ◄──────────┘
 //! ```
@@ -15,14 +15,14 @@
 //! All of it is done in what the drives count. What a joint's position is called changes once, when
 //! its whole group is at rest at its home.
 
-mod conductor;
-mod mover;
+mod joint_mover;
 mod order;
 mod search;
+mod sequencer;
 mod settings;
 
-pub(crate) use conductor::{Conductor, Outcome, Pair, Surroundings};
-pub(crate) use mover::Mover;
+pub(crate) use joint_mover::JointMover;
 pub(crate) use order::{JointsOrder, Moved};
 pub(crate) use search::Seen;
+pub(crate) use sequencer::{HomingInputs, HomingSequencer, Outcome, Pair};
 pub use settings::{HomingError, JointBounds, JointHoming};

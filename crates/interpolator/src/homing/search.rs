@@ -89,7 +89,7 @@ enum Stage {
 
 /// The search of a joint.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Search {
+pub(crate) struct HomeSearch {
     settings: JointHoming,
     kind: Kind,
     phase: Phase,
@@ -99,7 +99,7 @@ pub(crate) struct Search {
     latched: f64,
 }
 
-impl Search {
+impl HomeSearch {
     /// `None` if the joint cannot be homed so, which the configuration refuses.
     pub(crate) fn new(settings: &JointHoming) -> Option<Self> {
         Some(Self {

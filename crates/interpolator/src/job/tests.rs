@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::fault::Fault;
-use crate::message::Report;
+use crate::message::TickReport;
 use glidepath_link::FaultCause;
 
 const FREE: Result<(), &str> = Ok(());
@@ -16,10 +16,10 @@ fn told(jobs: &mut JobBook, number: u64, phase: JobPhase, now_ns: u64) -> Result
     )
 }
 
-fn in_state(state: MachineState) -> Report {
-    Report {
+fn in_state(state: MachineState) -> TickReport {
+    TickReport {
         state,
-        ..Report::blank()
+        ..TickReport::blank()
     }
 }
 
@@ -176,7 +176,7 @@ fn a_job_that_rests_under_way_is_an_orphan_when_its_planner_falls_silent() {
     told(&mut jobs, 7, JobPhase::Waiting, 0).unwrap();
     told(&mut jobs, 7, JobPhase::Preparing, 0).unwrap();
     jobs.begin();
-    let resting = |state| Report {
+    let resting = |state| TickReport {
         end_of_epoch: EndOfEpoch::Open,
         ..in_state(state)
     };

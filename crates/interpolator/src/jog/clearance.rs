@@ -4,7 +4,7 @@
 //! that stays in travel and within reach, and keeps every joint inside its limits, and it is the
 //! very stop that is made if the next step is not allowed.
 
-use super::course::{Course, Stop};
+use super::jog_motion::{JogMotion, Stop};
 use super::travel::Travel;
 use crate::config::Config;
 use glidepath_geometry::AxisVector;
@@ -65,15 +65,15 @@ impl Clearance {
     }
 
     /// Whether a course may be followed to where it is now.
-    pub(crate) fn admits(&self, course: &Course, travel: &Travel) -> bool {
-        let stop = course.stop();
+    pub(crate) fn admits(&self, jog_motion: &JogMotion, travel: &Travel) -> bool {
+        let stop = jog_motion.stop();
         let (low, high) = stop.extent();
         if !travel.holds(&(low, high)) {
             return false;
         }
         self.joints
             .as_ref()
-            .is_none_or(|joints| joints.admits(&course.motion().position, &stop, self.period_t))
+            .is_none_or(|joints| joints.admits(&jog_motion.motion().position, &stop, self.period_t))
     }
 
     /// Whether joints are axes, so that only travel is judged.

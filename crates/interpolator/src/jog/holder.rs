@@ -2,7 +2,7 @@
 //!
 //! | heard | counts |
 //! |---|---|
-//! | sent longer ago than the dead-man allows, or from the future | never: a late demand starts no motion |
+//! | sent longer ago than the jog time-out allows, or from the future | never: a late demand starts no motion |
 //! | from another client than the one that jogs | not before the motion has come to rest |
 //! | an older number than the last | never |
 //! | the same number again | as a sign of life |

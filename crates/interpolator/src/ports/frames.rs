@@ -1,8 +1,8 @@
 //! The way of frames to the real-time thread, and the job that they are of.
 
 use super::Ports;
-use crate::admission::{Machine, Verdict};
 use crate::fault::Fault;
+use crate::frame_validation::{FrameVerdict, MachineSnapshot};
 use crate::job::unfit;
 use crate::message::Order;
 use glidepath_geometry::AxisVector;
@@ -17,13 +17,13 @@ impl Ports<'_> {
         let Some(report) = self.report else {
             return Ok(());
         };
-        let machine = Machine {
+        let machine = MachineSnapshot {
             state: report.state,
             position: AxisVector::from(report.setpoint.position),
             epoch: report.setpoint.epoch,
             is_open: report.end_of_epoch == EndOfEpoch::Open,
         };
-        self.admission.note(&machine);
+        self.frame_validator.note(&machine);
         for _ in 0..FRAMES_PER_TURN {
             if !self.ends.frames.ready() {
                 return Ok(());
@@ -40,24 +40,24 @@ impl Ports<'_> {
                 self.pending = Some(frame);
                 return Ok(());
             }
-            match self.admission.judge(&frame, &machine) {
-                Verdict::Pass => {
+            match self.frame_validator.judge(&frame, &machine) {
+                FrameVerdict::Pass => {
                     if frame.sequence == 0 {
                         self.jobs.begin();
                     }
                     self.book.passed(&frame);
                     self.ends.frames.enqueue(frame).ok(); // There is room: it was ready.
                 }
-                Verdict::Known => {
+                FrameVerdict::Known => {
                     self.ends.order(Order::PlannerLives);
                 }
-                Verdict::Later => {
+                FrameVerdict::Later => {
                     self.pending = Some(frame);
                     return Ok(());
                 }
                 // Nothing is wrong with it, and nobody has to hear of it.
-                Verdict::Late => {}
-                Verdict::Refused(refusal) => {
+                FrameVerdict::Late => {}
+                FrameVerdict::Refused(refusal) => {
                     let cause = FaultCause::Frame(refusal);
                     let text = Fault::new(cause, frame.line, frame.sequence).to_string();
                     if self.jobs.end(JobStage::Refused, &text) {
@@ -67,8 +67,8 @@ impl Ports<'_> {
                         self.tell(&format!("epoch {}: {text}", frame.epoch));
                     }
                 }
-                Verdict::Fault(fault) => {
-                    if self.admission.entering(machine.epoch).is_some() {
+                FrameVerdict::Fault(fault) => {
+                    if self.frame_validator.entering(machine.epoch).is_some() {
                         let text = fault.to_string();
                         self.jobs.does_not_begin(JobStage::Refused, &text);
                     }
@@ -89,7 +89,7 @@ impl Ports<'_> {
         };
         let machine_epoch = report.setpoint.epoch;
         // One that broke on its way begins no more than one that came too late.
-        if let Some(epoch) = self.admission.entering(machine_epoch)
+        if let Some(epoch) = self.frame_validator.entering(machine_epoch)
             && epoch <= report.barred
         {
             let fault = report.fault.map(|fault| fault.to_string());
@@ -97,8 +97,8 @@ impl Ports<'_> {
             let why = fault.as_deref().unwrap_or(unfit);
             self.jobs.does_not_begin(JobStage::Refused, why);
         }
-        self.admission.bar(report.barred);
-        let is_opening = self.admission.entering(machine_epoch).is_some();
+        self.frame_validator.bar(report.barred);
+        let is_opening = self.frame_validator.entering(machine_epoch).is_some();
         if self.jobs.watch(&report, is_opening, now_ns) {
             self.give_machine_back();
         }
@@ -113,8 +113,8 @@ impl Ports<'_> {
     /// No job has the machine any more, and the epoch that would have come does not begin.
     fn give_machine_back(&mut self) {
         let machine_epoch = self.report.map_or(0, |report| report.setpoint.epoch);
-        let epoch = self.admission.next_epoch(machine_epoch);
-        self.admission.bar(epoch);
+        let epoch = self.frame_validator.next_epoch(machine_epoch);
+        self.frame_validator.bar(epoch);
         // The ring has room for many more orders than there are commands in a turn.
         self.ends.order(Order::Bar(epoch));
         self.ends.order(Order::Prepare(false));

@@ -9,21 +9,21 @@ mod frames;
 mod links;
 
 use crate::acknowledgements::Acknowledgements;
-use crate::admission::Admission;
 use crate::auxiliary::AuxiliaryBook;
-use crate::commands::{Desk, is_refusal};
+use crate::commands::{CommandContext, is_refusal};
 use crate::config::Config;
 use crate::fault::Fault;
-use crate::feedback::DriveBook;
+use crate::feedback::DriveMonitor;
+use crate::frame_validation::FrameValidator;
 use crate::job::JobBook;
 use crate::jog::DemandReader;
-use crate::message::{Happening, Order, PortsEnds, Report};
+use crate::message::{LogEvent, Order, PortsEnds, TickReport};
 use crate::status::{StatusBook, grants_of};
 use crate::stops::StopCause;
 use crate::told_by_hand;
 use glidepath_link::{
-    Command, EndOfEpoch, FaultCause, LinkError, MachineState, Objection, Setpoint, SetpointFrame,
-    Status, TOLD_TO_END, Transport,
+    Command, EndOfEpoch, FaultCause, LinkError, MachineState, Setpoint, SetpointFrame, Status,
+    TOLD_TO_END, Transport, UnmetPrecondition,
 };
 use glidepath_realtime::{EventReader, Grants, Mode};
 use links::Links;
@@ -44,9 +44,9 @@ const CLEAN_UP_NS: u64 = 200_000_000;
 pub(crate) struct Ports<'a> {
     links: Links,
     ends: PortsEnds<'a>,
-    happenings: EventReader<'a, Happening>,
+    log_events: EventReader<'a, LogEvent>,
     log: &'a mut dyn FnMut(&str),
-    admission: Admission,
+    frame_validator: FrameValidator,
     reader: DemandReader,
     /// The client whose demand was passed on last, and its number.
     demanded_by: Option<(u64, u64)>,
@@ -54,14 +54,14 @@ pub(crate) struct Ports<'a> {
     demanded_after: Option<u64>,
     /// The client whose demand was refused last, so that the log names it once.
     refused_jogger: Option<u64>,
-    drives: Option<DriveBook>,
+    drives: Option<DriveMonitor>,
     /// A frame that is to be judged again.
     pending: Option<SetpointFrame>,
     /// Reports whose setpoints were handed over, to be taken note of in the next turn.
-    handed_over: VecDeque<Report>,
+    handed_over: VecDeque<TickReport>,
     /// How handing over went since the last turn.
     handing_over: Result<(), LinkError>,
-    report: Option<Report>,
+    report: Option<TickReport>,
     book: StatusBook,
     auxiliary: AuxiliaryBook,
     acknowledgements: Acknowledgements,
@@ -85,29 +85,29 @@ impl<'a> Ports<'a> {
         boot_id: u64,
         transport: Box<dyn Transport>,
         ends: PortsEnds<'a>,
-        happenings: EventReader<'a, Happening>,
+        log_events: EventReader<'a, LogEvent>,
         log: &'a mut dyn FnMut(&str),
     ) -> Result<Self, LinkError> {
         Ok(Self {
             links: Links::new(transport, config.feedback.is_some())?,
             ends,
-            happenings,
+            log_events,
             log,
-            admission: Admission::new(config),
+            frame_validator: FrameValidator::new(config),
             reader: DemandReader::new(config),
             demanded_by: None,
             demanded_after: None,
             refused_jogger: None,
             drives: config
                 .feedback
-                .map(|settings| DriveBook::new(config, settings)),
+                .map(|settings| DriveMonitor::new(config, settings)),
             pending: None,
             handed_over: VecDeque::new(),
             handing_over: Ok(()),
             report: None,
             book: StatusBook::new(config, boot_id),
-            auxiliary: AuxiliaryBook::new(boot_id, config.gates, config.stops),
-            acknowledgements: Acknowledgements::new(boot_id, config.gates),
+            auxiliary: AuxiliaryBook::new(boot_id, config.m_code_waits, config.stops),
+            acknowledgements: Acknowledgements::new(boot_id, config.m_code_waits),
             failure_is_explained: false,
             jobs: JobBook::new(),
             ordered_after: None,
@@ -273,7 +273,7 @@ impl<'a> Ports<'a> {
         self.ends.observations.enqueue(observation).ok();
         let news = drives.take_news();
         let (order, told) = drives.judge(report);
-        for order in [order, drives.conduct(report, now_ns)]
+        for order in [order, drives.advance_homing(report, now_ns)]
             .into_iter()
             .flatten()
         {
@@ -294,14 +294,14 @@ impl<'a> Ports<'a> {
         };
         let number = Some(report.setpoint.number);
         let is_ordered = self.ordered_after == number || self.demanded_after == number;
-        let mut desk = Desk {
+        let mut desk = CommandContext {
             report,
             boot_id: self.boot_id,
             now_ns,
             drives: self.drives.as_mut(),
             acknowledgements: &mut self.acknowledgements,
             jobs: &mut self.jobs,
-            admission: &mut self.admission,
+            frame_validator: &mut self.frame_validator,
             ends: &mut self.ends,
             is_ordered,
         };
@@ -357,7 +357,7 @@ impl<'a> Ports<'a> {
                     if demand.is_outdated && demand.wants_motion() {
                         // What was followed before the stop is told to have ended by it.
                         if is_new {
-                            self.tell(Objection::StoppedSince.text());
+                            self.tell(UnmetPrecondition::StoppedSince.text());
                         }
                     } else if told_by_hand::may_begin(&report, &demand) {
                         self.book.last_error("");
@@ -386,7 +386,8 @@ impl<'a> Ports<'a> {
             return Ok(());
         };
         let waiting = self.ends.frames.len() as u64;
-        self.book.write(&report, &self.admission, waiting, now_ns);
+        self.book
+            .write(&report, &self.frame_validator, waiting, now_ns);
         self.book.status.awaited_words = self.auxiliary.awaited_words();
         self.book.status.state = self.jobs.state(&report).code();
         self.jobs.write(&mut self.book.status);
@@ -454,12 +455,12 @@ impl<'a> Ports<'a> {
     }
 
     fn write_log(&mut self) {
-        while let Some(happening) = self.happenings.read() {
-            let text = happening.to_string();
+        while let Some(log_event) = self.log_events.read() {
+            let text = log_event.to_string();
             (self.log)(&text);
             self.book.last_event(&text);
         }
-        let dropped = self.happenings.newly_dropped();
+        let dropped = self.log_events.newly_dropped();
         if dropped > 0 {
             (self.log)(&format!("{dropped} log lines lost"));
         }

@@ -229,7 +229,7 @@ impl ArrivalSearch {
 
     fn begin(&self, schedule: &Schedule, track: &Track) -> Option<Attempt> {
         let playthrough = match schedule.first {
-            Some(ramp) => Playthrough::new(ramp, self.from.cue(schedule.begins, track)?),
+            Some(ramp) => Playthrough::new(ramp, self.from.playback(schedule.begins, track)?),
             None => self.last_ramp(self.from, schedule.begins, track)?,
         };
         Some(Attempt {
@@ -242,12 +242,12 @@ impl ArrivalSearch {
 
     /// The ramp that rests at the frame, so many ticks after a steady rate began.
     fn last_ramp(&self, steady: SteadyRate, begins: f64, track: &Track) -> Option<Playthrough> {
-        let cue = steady.cue(begins, track)?;
+        let playback = steady.playback(begins, track)?;
         let fastest = Ramp::plan(steady.rate, 0.0, 0.0, self.bounds)?;
         let fastest_takes = fastest.elapsed_at(fastest.duration());
-        let pace = (fastest_takes / periods(cue.time, self.frame)).min(1.0);
+        let pace = (fastest_takes / periods(playback.time, self.frame)).min(1.0);
         let ramp = Ramp::plan(steady.rate, 0.0, 0.0, self.bounds.paced(pace))?;
-        Some(Playthrough::new(ramp, cue))
+        Some(Playthrough::new(ramp, playback))
     }
 
     /// Plays an approach on.

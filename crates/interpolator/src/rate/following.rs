@@ -3,7 +3,7 @@
 //! Between two ticks it is as good as steady: a rate is taken only if going on with it keeps the
 //! limits and there is a stop after it. So whatever comes next, what was taken may be kept.
 
-use super::play::Cue;
+use super::play::PlaybackPosition;
 use super::progress::Progress;
 use super::ramp_trial::{RampTrial, TrialOutcome};
 use super::situation::Situation;
@@ -53,13 +53,13 @@ impl Rate {
         let Some(steady) = Ramp::plan(rate, 0.0, rate, AT_ONCE) else {
             return false;
         };
-        let cue = Cue {
+        let playback = PlaybackPosition {
             time,
             published,
             is_held: true,
         };
         let mut budget = situation.budget(BUDGET);
-        let mut trial = RampTrial::new(&steady, cue, 0, situation);
+        let mut trial = RampTrial::new(&steady, playback, 0, situation);
         let TrialOutcome::Passed(reserve) = trial.go_on(situation, &mut budget) else {
             return false;
         };

@@ -1,4 +1,4 @@
-//! A kept stop: perhaps a greedy descent, then ramps; mostly there is no descent.
+//! A kept stop: perhaps a greedy slow-down, then ramps; mostly there is no slow-down.
 
 use crate::ramp::Ramp;
 use crate::track::TRACK_CAPACITY;
@@ -6,7 +6,7 @@ use crate::track::TRACK_CAPACITY;
 /// Most ramps of a stop. A search that would need more counts as lost; with room for more a stop takes more
 /// cache lines of a tick.
 const RAMPS: usize = 8;
-/// Most ticks of a greedy descent: the frames at hand.
+/// Most ticks of a greedy slow-down: the frames at hand.
 pub(super) const TICKS: usize = TRACK_CAPACITY;
 
 /// A ramp that begins some ticks from now, or from the end of the one before.
@@ -16,18 +16,18 @@ pub(super) struct DelayedRamp {
     pub(super) ramp: Ramp,
 }
 
-/// A greedy descent (see [`super::greedy_descent`]) that begins some ticks from now: where its slopes
+/// A greedy slow-down (see [`super::greedy_slow_down`]) that begins some ticks from now: where its slopes
 /// are.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct KeptDescent {
+pub(super) struct KeptSlowDown {
     in_ticks: u32,
     taken: u16,
     len: u16,
-    /// Which of the two in [`DescentSlopes`].
+    /// Which of the two in [`SlowDownSlopes`].
     side: u8,
 }
 
-impl KeptDescent {
+impl KeptSlowDown {
     const NONE: Self = Self {
         in_ticks: 0,
         taken: 0,
@@ -40,17 +40,17 @@ impl KeptDescent {
     }
 }
 
-/// The slopes after each of their ticks of two greedy descents: of the stop in reserve, and of one that
+/// The slopes after each of their ticks of two greedy slow-downs: of the stop in reserve, and of one that
 /// may replace it. They stay where they are, so that a stop is small. In single precision; what is tried
 /// is what is kept.
 #[derive(Debug)]
-pub(super) struct DescentSlopes {
+pub(super) struct SlowDownSlopes {
     sides: Box<[[f32; TICKS]; 2]>,
     /// The side that is not that of the stop in reserve.
     spare: u8,
 }
 
-impl DescentSlopes {
+impl SlowDownSlopes {
     /// Room for both. Allocates all it will ever use.
     pub(super) fn new() -> Self {
         Self {
@@ -59,13 +59,13 @@ impl DescentSlopes {
         }
     }
 
-    /// Writes a descent of so many ticks down, the last one first, that begins some ticks from now.
+    /// Writes a slow-down of so many ticks down, the last one first, that begins some ticks from now.
     pub(super) fn write_back(
         &mut self,
         in_ticks: u32,
         len: u16,
         slopes: impl Iterator<Item = f32>,
-    ) -> KeptDescent {
+    ) -> KeptSlowDown {
         let side = self.spare;
         if let Some(values) = self.sides.get_mut(usize::from(side)) {
             let values = values.iter_mut().take(usize::from(len)).rev();
@@ -73,7 +73,7 @@ impl DescentSlopes {
                 *value = slope;
             }
         }
-        KeptDescent {
+        KeptSlowDown {
             in_ticks,
             taken: 0,
             len,
@@ -81,21 +81,21 @@ impl DescentSlopes {
         }
     }
 
-    /// The descent that was written last is that of the stop in reserve from now on.
+    /// The slow-down that was written last is that of the stop in reserve from now on.
     pub(super) const fn keep(&mut self) {
         self.spare ^= 1;
     }
 
-    fn slope(&self, descent: &KeptDescent) -> Option<f32> {
-        let values = self.sides.get(usize::from(descent.side))?;
-        values.get(usize::from(descent.taken)).copied()
+    fn slope(&self, slow_down: &KeptSlowDown) -> Option<f32> {
+        let values = self.sides.get(usize::from(slow_down.side))?;
+        values.get(usize::from(slow_down.taken)).copied()
     }
 }
 
 /// A stop: how the rate gets to 0, played through and within the limits.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct KeptStop {
-    descent: KeptDescent,
+    slow_down: KeptSlowDown,
     ramps: [DelayedRamp; RAMPS],
     /// How many of the ramps have begun, and how many there are.
     begun: usize,
@@ -105,17 +105,17 @@ pub(super) struct KeptStop {
 impl KeptStop {
     /// A stop with nothing in it.
     pub(super) const fn new() -> Self {
-        Self::after(KeptDescent::NONE)
+        Self::after(KeptSlowDown::NONE)
     }
 
-    /// A stop that begins with a descent, without ramps so far.
-    pub(super) const fn after(descent: KeptDescent) -> Self {
+    /// A stop that begins with a slow-down, without ramps so far.
+    pub(super) const fn after(slow_down: KeptSlowDown) -> Self {
         let none = DelayedRamp {
             in_ticks: 0,
             ramp: Ramp::NONE,
         };
         Self {
-            descent,
+            slow_down,
             ramps: [none; RAMPS],
             begun: 0,
             len: 0,
@@ -124,13 +124,13 @@ impl KeptStop {
 
     /// Leaves nothing in it.
     pub(super) const fn clear(&mut self) {
-        self.descent = KeptDescent::NONE;
+        self.slow_down = KeptSlowDown::NONE;
         (self.begun, self.len) = (0, 0);
     }
 
     /// Becomes another stop. Copies what there is of it, mostly a small part of its room.
     pub(super) fn copy(&mut self, other: &Self) {
-        self.descent = other.descent;
+        self.slow_down = other.slow_down;
         (self.begun, self.len) = (other.begun, other.len);
         for (slot, delayed) in self.ramps.iter_mut().zip(&other.ramps).take(other.len) {
             *slot = *delayed;
@@ -147,14 +147,14 @@ impl KeptStop {
         true
     }
 
-    /// Whether a descent is left of it.
+    /// Whether a slow-down is left of it.
     pub(super) const fn descends(&self) -> bool {
-        self.descent.is_left()
+        self.slow_down.is_left()
     }
 
     /// Whether there is nothing in it.
     pub(super) const fn is_empty(&self) -> bool {
-        self.begun == self.len && !self.descent.is_left()
+        self.begun == self.len && !self.slow_down.is_left()
     }
 
     /// The ramp that begins next.
@@ -165,8 +165,8 @@ impl KeptStop {
 
     /// Ticks until the stop begins, or goes on; `None` at its end.
     pub(super) fn in_ticks(&self) -> Option<u32> {
-        if self.descent.is_left() {
-            return Some(self.descent.in_ticks);
+        if self.slow_down.is_left() {
+            return Some(self.slow_down.in_ticks);
         }
         let left = self.ramps.get(self.begun..self.len)?;
         left.first().map(|delayed| delayed.in_ticks)
@@ -174,8 +174,8 @@ impl KeptStop {
 
     /// Puts the whole stop off by so many ticks.
     pub(super) fn delay(&mut self, ticks: u32) {
-        if self.descent.is_left() {
-            self.descent.in_ticks += ticks;
+        if self.slow_down.is_left() {
+            self.slow_down.in_ticks += ticks;
         } else if let Some(first) = self.next() {
             first.in_ticks += ticks;
         }
@@ -186,15 +186,15 @@ impl KeptStop {
         &mut self,
         rate: f64,
         slope: f64,
-        slopes: &DescentSlopes,
+        slopes: &SlowDownSlopes,
     ) -> Option<Ramp> {
-        if self.descent.is_left() {
-            if self.descent.in_ticks > 0 {
-                self.descent.in_ticks -= 1;
+        if self.slow_down.is_left() {
+            if self.slow_down.in_ticks > 0 {
+                self.slow_down.in_ticks -= 1;
                 return None;
             }
-            let to = slopes.slope(&self.descent)?;
-            self.descent.taken += 1;
+            let to = slopes.slope(&self.slow_down)?;
+            self.slow_down.taken += 1;
             return Ramp::tick_to(rate, slope, f64::from(to));
         }
         let next = self.next()?;

@@ -13,7 +13,7 @@ use crate::track::Track;
 )]
 pub(super) enum PlaythroughOutcome {
     /// The ramp keeps the limits. It ends here, at a whole tick.
-    Passed(Cue),
+    Passed(PlaybackPosition),
     /// A limit would be broken, or a frame is missing.
     Barred,
     /// There was no time to play it to its end.
@@ -22,7 +22,7 @@ pub(super) enum PlaythroughOutcome {
 
 /// What a ramp is played from.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Cue {
+pub(super) struct PlaybackPosition {
     pub(super) time: ProgramTime,
     /// The positions published before it.
     pub(super) published: Differences,
@@ -31,8 +31,8 @@ pub(super) struct Cue {
     pub(super) is_held: bool,
 }
 
-impl Cue {
-    /// The cue of a search that has not begun.
+impl PlaybackPosition {
+    /// The position of a search that has not begun.
     pub(super) const NONE: Self = Self {
         time: ProgramTime::at(0),
         published: Differences::NONE,
@@ -58,18 +58,18 @@ pub(super) struct Playthrough {
     t: f64,
     published: Differences,
     /// The end of the ramp, once it was played so far.
-    after: Cue,
+    after: PlaybackPosition,
 }
 
 impl Playthrough {
-    pub(super) const fn new(ramp: Ramp, cue: Cue) -> Self {
+    pub(super) const fn new(ramp: Ramp, playback: PlaybackPosition) -> Self {
         Self {
             ramp,
-            from: cue.time,
-            is_held: cue.is_held,
+            from: playback.time,
+            is_held: playback.is_held,
             t: 0.0,
-            published: cue.published,
-            after: cue,
+            published: playback.published,
+            after: playback,
         }
     }
 

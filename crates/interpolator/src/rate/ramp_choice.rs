@@ -1,7 +1,7 @@
 //! The choice of a ramp to a goal: the candidates one after the other, within the budget of a tick.
 
 use super::candidate::{CANDIDATES, Candidate, PACES, partial_target, ramp_to};
-use super::play::Cue;
+use super::play::PlaybackPosition;
 use super::ramp_trial::{RampTrial, TrialOutcome};
 use super::situation::Situation;
 use super::state::Rate;
@@ -150,12 +150,12 @@ impl Rate {
         first_approach: usize,
         budget: &mut u32,
     ) -> TrialOutcome {
-        let cue = Cue {
+        let playback = PlaybackPosition {
             time: self.now.time,
             published: *situation.published,
             is_held: true,
         };
-        let mut trial = RampTrial::new(ramp, cue, first_approach, situation);
+        let mut trial = RampTrial::new(ramp, playback, first_approach, situation);
         let outcome = trial.go_on(situation, budget);
         if matches!(outcome, TrialOutcome::OutOfBudget { .. }) {
             if self.now.rate <= 0.0 && situation.published.is_at_rest() {

@@ -4,7 +4,7 @@
 //! the budget of a tick is kept, and goes on. Where it moves, the next tick finds something else.
 
 use super::arrival_search::{ArrivalOutcome, ArrivalSearch};
-use super::play::{Cue, Playthrough, PlaythroughOutcome};
+use super::play::{PlaybackPosition, Playthrough, PlaythroughOutcome};
 use super::reserve::Reserve;
 use super::situation::Situation;
 use super::steady_rate::SteadyRate;
@@ -67,14 +67,14 @@ enum Stage {
 impl RampTrial {
     pub(super) fn new(
         ramp: &Ramp,
-        cue: Cue,
+        playback: PlaybackPosition,
         first_approach: usize,
         situation: &Situation<'_>,
     ) -> Self {
         Self {
             ramp: *ramp,
             first_approach,
-            stage: Stage::Ramp(Playthrough::new(*ramp, cue)),
+            stage: Stage::Ramp(Playthrough::new(*ramp, playback)),
             goes_on: 0,
             holding_frame: situation.track.holding_frame(),
             block_end: situation.block_end,
@@ -131,9 +131,9 @@ impl RampTrial {
                 return TrialOutcome::Passed(None);
             } else {
                 let later = situation.is_fully_supplied.then_some(AFTERWARDS);
-                let at = later.and_then(|ticks| steady.cue(f64::from(ticks), situation.track));
+                let at = later.and_then(|ticks| steady.playback(f64::from(ticks), situation.track));
                 self.goes_on = later.filter(|_| at.is_some()).unwrap_or(0);
-                let at = at.unwrap_or(Cue {
+                let at = at.unwrap_or(PlaybackPosition {
                     is_held: false,
                     ..end
                 });

@@ -16,7 +16,7 @@
 //! [`Track`](crate::track::Track)). An epoch begins at such a frame, so it begins to move with a
 //! reserve, and always has one.
 //!
-//! How a stop is found is told in [`super::stop_search`] and [`super::greedy_descent`]. The first
+//! How a stop is found is told in [`super::stop_search`] and [`super::greedy_slow_down`]. The first
 //! costs less, the second finds more: it is begun when no start is left for the first, or when
 //! there is little time. A plan can be at its limits on so many axes, for so long, that no later
 //! stop is found, or that there is none. Then the motion goes a little slower, where there is more
@@ -25,9 +25,9 @@
 //! is found from the full rate, it sets out at a lower one. With a horizon of 0.6 s this is rare,
 //! with near-optimal plans too.
 
-use super::greedy_descent::{DescentOutcome, GreedyDescent};
-use super::kept_stop::{DelayedRamp, DescentSlopes, KeptStop};
-use super::play::Cue;
+use super::greedy_slow_down::{GreedySlowDown, SlowDownOutcome};
+use super::kept_stop::{DelayedRamp, KeptStop, SlowDownSlopes};
+use super::play::PlaybackPosition;
 use super::situation::Situation;
 use super::steady_rate::{SteadyRate, whole};
 use super::stop_search::{StopOutcome, StopSearch};
@@ -39,11 +39,11 @@ use crate::ramp::Ramp;
 /// to be found. There is nothing to bisect, for a plan has room here and none there: that one start fails
 /// says nothing of an earlier one. So a few are tried that are far apart; of where, no measurement is kept.
 const STARTS: [f64; 6] = [0.0, 0.2, 0.4, 0.8, 0.95, 1.0];
-/// From this one on with a greedy descent, which finds later starts, too: the steady rate is one of its
+/// From this one on with a greedy slow-down, which finds later starts, too: the steady rate is one of its
 /// branches, so it may go down from any tick behind its start.
-const DESCENTS: usize = 3;
+const SLOW_DOWNS: usize = 3;
 /// Ticks before a stop begins, at least: it is played from three positions at the steady rate before it
-/// ([`SteadyRate::cue`]), because limits are of third differences.
+/// ([`SteadyRate::playback`]), because limits are of third differences.
 const LEAST_TICKS: u32 = 3;
 
 /// What a search for a later stop has come to.
@@ -69,8 +69,8 @@ pub(super) struct ReserveSearch {
     /// The index of that start in [`STARTS`].
     turn: usize,
     stop: StopSearch,
-    descent: GreedyDescent,
-    slopes: DescentSlopes,
+    slow_down: GreedySlowDown,
+    slopes: SlowDownSlopes,
     found: KeptStop,
 }
 
@@ -85,9 +85,9 @@ impl ReserveSearch {
             },
             begins: 0,
             turn: 0,
-            stop: StopSearch::new(Cue::NONE, 0.0),
-            descent: GreedyDescent::new(),
-            slopes: DescentSlopes::new(),
+            stop: StopSearch::new(PlaybackPosition::NONE, 0.0),
+            slow_down: GreedySlowDown::new(),
+            slopes: SlowDownSlopes::new(),
             found: KeptStop::new(),
         }
     }
@@ -107,12 +107,12 @@ impl ReserveSearch {
     }
 
     /// The slopes of the stop in reserve.
-    pub(super) const fn slopes(&self) -> &DescentSlopes {
+    pub(super) const fn slopes(&self) -> &SlowDownSlopes {
         &self.slopes
     }
 
     /// Goes on with the search for a stop that begins `at_least` so many ticks from now, or begins
-    /// it anew if the motion went another way. Where time `is_short`, only greedy descents are left
+    /// it anew if the motion went another way. Where time `is_short`, only greedy slow-downs are left
     /// to try. Not in line, like all that looks for a ramp or a stop: what most ticks do not do is
     /// not to spread their code and their stack.
     #[inline(never)]
@@ -124,7 +124,7 @@ impl ReserveSearch {
         situation: &Situation<'_>,
         budget: &mut u32,
     ) -> ReserveOutcome {
-        let first = if is_short { DESCENTS } else { 0 };
+        let first = if is_short { SLOW_DOWNS } else { 0 };
         let goes_on = self.is_under_way && self.follow(now) && self.turn >= first;
         if !goes_on {
             self.begin(first, now, at_least, situation);
@@ -143,21 +143,21 @@ impl ReserveSearch {
     }
 
     fn go_on_from_start(&mut self, situation: &Situation<'_>, budget: &mut u32) -> StopOutcome {
-        if self.turn < DESCENTS {
+        if self.turn < SLOW_DOWNS {
             let outcome = self.stop.go_on(situation, budget);
             if matches!(outcome, StopOutcome::Rest) {
                 self.found.copy(self.stop.stop());
             }
             return outcome;
         }
-        match self.descent.go_on(situation, budget) {
-            DescentOutcome::Rest(ramp) => {
-                self.found = KeptStop::after(self.descent.write(&mut self.slopes));
+        match self.slow_down.go_on(situation, budget) {
+            SlowDownOutcome::Rest(ramp) => {
+                self.found = KeptStop::after(self.slow_down.write(&mut self.slopes));
                 self.found.push(DelayedRamp { in_ticks: 0, ramp });
                 StopOutcome::Rest
             }
-            DescentOutcome::Open => StopOutcome::Open,
-            DescentOutcome::Lost => StopOutcome::Lost,
+            SlowDownOutcome::Open => StopOutcome::Open,
+            SlowDownOutcome::Lost => StopOutcome::Lost,
         }
     }
 
@@ -179,11 +179,11 @@ impl ReserveSearch {
         if begins < earliest {
             return None;
         }
-        let cue = from.cue(begins, situation.track)?;
-        if turn < DESCENTS {
-            self.stop.begin(cue, from.rate);
+        let playback = from.playback(begins, situation.track)?;
+        if turn < SLOW_DOWNS {
+            self.stop.begin(playback, from.rate);
         } else {
-            self.descent.begin(cue, from.rate);
+            self.slow_down.begin(playback, from.rate);
         }
         (self.from, self.begins, self.turn) = (from, whole(begins), turn);
         Some(())

@@ -21,7 +21,7 @@
 //!
 //! * While the rate is **steady**, it has a stop in reserve unless the frames hold the motion, and
 //!   a later one is searched ([`LaterStops`]). A stop may be several ramps; between two of them the
-//!   rate is steady, too, the rest of the stop is the reserve, and the [`Course`] stays.
+//!   rate is steady, too, the rest of the stop is the reserve, and the [`RateReason`] stays.
 //! * On a **ramp** ([`FollowedRamp`]) the reserve is the stop after the ramp. None other is
 //!   searched, but better ramps are.
 //! * **Held**, by a frame at rest: program time stands at whatever rate, and both searches that
@@ -46,7 +46,7 @@ pub(crate) struct Rate {
     /// The ramp that is followed; none while the rate is steady.
     pub(super) ramp: Option<FollowedRamp>,
     /// Why the rate goes where it goes, on the ramp and at the steady rate after it.
-    pub(super) course: Course,
+    pub(super) reason: RateReason,
     pub(super) reserve: LaterStops,
     pub(super) candidates: CandidateSearch,
     pub(super) arrival: ArrivalAttempts,
@@ -69,7 +69,7 @@ pub(super) struct FollowedRamp {
 
 /// Why the rate goes where it goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Course {
+pub(super) enum RateReason {
     /// It goes to the goal or part of the way, or stays.
     Chosen,
     /// The stop in reserve was begun: the frames ran low, or no later stop was found.
@@ -138,7 +138,7 @@ impl Rate {
                 slope: 0.0,
             },
             ramp: None,
-            course: Course::Chosen,
+            reason: RateReason::Chosen,
             reserve: LaterStops {
                 kept: None,
                 search: ReserveSearch::new(),
@@ -159,7 +159,7 @@ impl Rate {
 
     /// True if the stop in reserve was begun: the frames ran low, or no later stop was found.
     pub(crate) fn has_taken_reserve(&self) -> bool {
-        self.course == Course::ReserveStop
+        self.reason == RateReason::ReserveStop
     }
 
     /// Whether it is settled how to come to rest at a frame.
@@ -171,9 +171,9 @@ impl Rate {
 
     /// The frame, the end of a block, at which the present course comes to rest.
     pub(super) const fn arrives_at(&self) -> Option<u64> {
-        match self.course {
-            Course::Arrival(frame) => Some(frame),
-            Course::Chosen | Course::ReserveStop => None,
+        match self.reason {
+            RateReason::Arrival(frame) => Some(frame),
+            RateReason::Chosen | RateReason::ReserveStop => None,
         }
     }
 
@@ -223,7 +223,7 @@ impl Rate {
         if t >= followed.ramp.duration() {
             (self.now.rate, self.now.slope) = (followed.ramp.target(), followed.ramp.end_slope());
             self.end_ramp();
-            // In the middle of a greedy descent what follows begins at once.
+            // In the middle of a greedy slow-down what follows begins at once.
             if self.now.slope != 0.0 && self.count_down() {
                 held_at = None;
             }
@@ -239,11 +239,11 @@ impl Rate {
         if self.now.rate >= 1.0 {
             self.now.time = self.now.time.snapped();
         } else if self.now.rate <= 0.0
-            && let Course::Arrival(frame) = self.course
+            && let RateReason::Arrival(frame) = self.reason
         {
             // But for rounding it is there.
             self.now.time = ProgramTime::at(frame);
-            self.course = Course::Chosen;
+            self.reason = RateReason::Chosen;
         }
         self.ramp = None;
     }
@@ -256,7 +256,7 @@ impl Rate {
             rate,
             slope: 0.0,
         };
-        (self.ramp, self.course) = (None, Course::Chosen);
+        (self.ramp, self.reason) = (None, RateReason::Chosen);
         (self.reserve.kept, self.reserve.slower_tried) = (None, 0);
         self.candidates.clear();
     }
@@ -282,8 +282,8 @@ impl Rate {
 
     /// Nobody wants to rest at the end of the block any more.
     pub(crate) const fn forget_arrival(&mut self) {
-        if let Course::Arrival(_) = self.course {
-            self.course = Course::Chosen;
+        if let RateReason::Arrival(_) = self.reason {
+            self.reason = RateReason::Chosen;
         }
         if let Some(reserve) = &mut self.reserve.kept {
             reserve.arrives_at = None;
@@ -311,7 +311,7 @@ impl Rate {
         if self.ramp.is_none() {
             (self.now.rate, self.now.slope) = (ramp.target(), 0.0);
         }
-        self.course = Course::Chosen;
+        self.reason = RateReason::Chosen;
         self.reserve.kept = reserve;
         self.candidates.clear();
         self.arrival.search = None;
@@ -336,11 +336,11 @@ impl Rate {
             return false;
         };
         let rest = Some(*reserve).filter(|rest| !rest.stop.is_empty());
-        let course = reserve
+        let reason = reserve
             .arrives_at
-            .map_or(Course::ReserveStop, Course::Arrival);
+            .map_or(RateReason::ReserveStop, RateReason::Arrival);
         self.commit(ramp, 0.0, None, rest);
-        self.course = course;
+        self.reason = reason;
         true
     }
 }

@@ -1,7 +1,7 @@
 //! A steady rate from some program time on: where stops and ramps to rest set out from.
 
-use super::play::Cue;
-use crate::differences::{Differences, Place};
+use super::play::PlaybackPosition;
+use crate::differences::{Differences, MachinePosition};
 use crate::program_time::ProgramTime;
 use crate::track::Track;
 
@@ -29,18 +29,18 @@ impl SteadyRate {
 
     /// A tick at this rate, the third or later, with the positions published before it. `None` if
     /// it is outside the frames at hand.
-    pub(super) fn cue(self, tick: f64, track: &Track) -> Option<Cue> {
+    pub(super) fn playback(self, tick: f64, track: &Track) -> Option<PlaybackPosition> {
         let time = |back: f64| self.time.after(self.rate * (tick - back));
         let at = |back: f64| track.whereabouts(time(back));
         let mut published = Differences::at_rest(&at(3.0)?);
         for back in [2.0, 1.0, 0.0] {
-            let Place { axes, joints } = at(back)?;
+            let MachinePosition { axes, joints } = at(back)?;
             published.go_to(&axes);
             if track.has_joints() {
                 published.joints_go_to(&joints);
             }
         }
-        Some(Cue {
+        Some(PlaybackPosition {
             time: time(0.0),
             published,
             is_held: false,

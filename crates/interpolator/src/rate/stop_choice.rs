@@ -23,7 +23,7 @@ const GAIN: u32 = 3;
 /// spend [`URGENT_BUDGET`]. With fewer the reserve is taken before one is found; with twice as many the
 /// dearest tick of an ordinary plan took 78 000 instructions instead of 25 000.
 const URGENT: u32 = 14;
-/// With so many left, and no more than two stops take, only greedy descents are tried: while ramps are
+/// With so many left, and no more than two stops take, only greedy slow-downs are tried: while ramps are
 /// tried in vain it becomes too late, as it did where frames came in bursts of a tenth of a second.
 const SHORT: u32 = 2 * URGENT;
 

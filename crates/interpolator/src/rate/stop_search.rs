@@ -14,14 +14,14 @@
 //!                   ╰───────  0
 //! ```
 //!
-//! Where none passes for too long there is another way: see [`super::greedy_descent`].
+//! Where none passes for too long there is another way: see [`super::greedy_slow_down`].
 //!
 //! Every step is played through from the very positions that the ones before it end with, so what
 //! is found keeps the limits as it stands. The search can pause between any two samples, and go on
 //! in the next tick: it depends on the position along the path, not on when that is looked at.
 
 use super::kept_stop::{DelayedRamp, KeptStop};
-use super::play::{Cue, Playthrough, PlaythroughOutcome};
+use super::play::{PlaybackPosition, Playthrough, PlaythroughOutcome};
 use super::situation::{SET_UP, Situation};
 use crate::ramp::{Bounds, Ramp};
 
@@ -74,7 +74,7 @@ pub(super) enum StopOutcome {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct StopSearch {
     /// The end of what is known so far, where the rate is steady.
-    at: Cue,
+    at: PlaybackPosition,
     rate: f64,
     /// Ticks since the last step.
     waited: u32,
@@ -92,7 +92,7 @@ pub(super) struct StopSearch {
 
 impl StopSearch {
     /// A search that begins where the rate is steady.
-    pub(super) const fn new(at: Cue, rate: f64) -> Self {
+    pub(super) const fn new(at: PlaybackPosition, rate: f64) -> Self {
         Self {
             at,
             rate,
@@ -106,7 +106,7 @@ impl StopSearch {
     }
 
     /// Begins anew. What is not in use is not written.
-    pub(super) const fn begin(&mut self, at: Cue, rate: f64) {
+    pub(super) const fn begin(&mut self, at: PlaybackPosition, rate: f64) {
         (self.at, self.rate) = (at, rate);
         (self.playthrough, self.bounds) = (None, None);
         (self.waited, self.turn, self.tries_all) = (0, 0, true);

@@ -11,11 +11,11 @@
     reason = "a test: numbers are small, bits are compared on purpose, failures are panics"
 )]
 
-use super::greedy_descent::{DescentOutcome, GreedyDescent};
-use super::kept_stop::{DelayedRamp, DescentSlopes, KeptStop};
+use super::greedy_slow_down::{GreedySlowDown, SlowDownOutcome};
+use super::kept_stop::{DelayedRamp, KeptStop, SlowDownSlopes};
 use super::steady_rate::SteadyRate;
 use super::*;
-use crate::differences::{Allowed, Differences, Place};
+use crate::differences::{Allowed, Differences, MachinePosition};
 use crate::program_time::ProgramTime;
 use crate::rest::is_at_rest;
 use crate::testing::{audit, mill, plan, records};
@@ -45,7 +45,7 @@ impl Player {
         let mut track = Track::new(
             PERIOD_T,
             (&limits, None),
-            crate::gates::Gates::NONE,
+            crate::m_code_waits::MCodeWaits::NONE,
             TRACK_CAPACITY,
         );
         for frame in frames.iter().take(TRACK_CAPACITY) {
@@ -55,7 +55,7 @@ impl Player {
             frames,
             track,
             rate: Rate::new(ProgramTime::at(0), 1.0),
-            published: Differences::at_rest(&Place {
+            published: Differences::at_rest(&MachinePosition {
                 axes: start,
                 joints: AxisVector::zeros(),
             }),
@@ -150,10 +150,10 @@ proptest! {
     }
 }
 
-/// From anywhere on a plan that is at its limits on two axes all the time, a greedy descent leads to
+/// From anywhere on a plan that is at its limits on two axes all the time, a greedy slow-down leads to
 /// rest, and what it is kept as repeats it within the limits.
 #[test]
-fn a_greedy_descent_leads_to_rest_within_the_limits() {
+fn a_greedy_slow_down_leads_to_rest_within_the_limits() {
     let (p, mut found) = (player(5, 2, 400), 0);
     let situation = Situation {
         track: &p.track,
@@ -163,15 +163,15 @@ fn a_greedy_descent_leads_to_rest_within_the_limits() {
         is_fully_supplied: true,
         block_end: None,
     };
-    let (mut search, mut slopes) = (GreedyDescent::new(), DescentSlopes::new());
+    let (mut search, mut slopes) = (GreedySlowDown::new(), SlowDownSlopes::new());
     for sequence in (5..250).step_by(7) {
         let steady = SteadyRate {
             time: ProgramTime::at(sequence),
             rate: 1.0,
         };
-        let mut at = steady.cue(3.0, &p.track).unwrap();
+        let mut at = steady.playback(3.0, &p.track).unwrap();
         search.begin(at, 1.0);
-        let DescentOutcome::Rest(last) = search.go_on(&situation, &mut 100_000) else {
+        let SlowDownOutcome::Rest(last) = search.go_on(&situation, &mut 100_000) else {
             continue;
         };
         found += 1;

@@ -2,7 +2,7 @@
 //! orders, jogs, and what the drives say.
 
 use super::state::Interpolator;
-use crate::jog::Surroundings;
+use crate::jog::JogContext;
 use crate::message::{Inputs, Order};
 use crate::output::Written;
 use crate::stops::StopCause;
@@ -19,13 +19,13 @@ impl Interpolator<'_> {
                 return;
             };
             match order {
-                Order::PlannerLives => self.supply.planner_lives(),
+                Order::PlannerLives => self.queue_level.planner_lives(),
                 Order::Command(command) => self.drives.carry_out(command, self.is_open()),
                 Order::Cut(_) => self.lose_power(),
                 Order::Bar(epoch) => self.bar(epoch),
                 Order::Joints(order) => {
                     let stands = self.may_move_joints().then(|| *self.output.joints());
-                    self.mover.take(&order, stands.as_ref());
+                    self.joint_mover.take(&order, stands.as_ref());
                 }
                 Order::Fault(_) | Order::Prepare(_) => {}
             }
@@ -39,7 +39,7 @@ impl Interpolator<'_> {
                 self.track.pass_stop();
             }
             if released.block_end {
-                self.block_stop.skip();
+                self.single_block_stop.skip();
                 self.track.hold_at_block_end(None);
             }
         }
@@ -51,13 +51,13 @@ impl Interpolator<'_> {
             Command::Hold => self.jog.stop(),
             Command::Abort | Command::Disable => {
                 self.jog.stop();
-                self.mover.cancel();
+                self.joint_mover.cancel();
                 if command == Command::Abort && !self.has_program() {
                     self.stops.ask(StopCause::Abort);
                 }
             }
             Command::Return => {
-                let around = self.surroundings(0, false);
+                let around = self.jog_context(0, false);
                 self.jog.go_back(&around);
             }
             Command::JogOverride(ratio) => self.jog.set_override(ratio),
@@ -92,23 +92,23 @@ impl Interpolator<'_> {
             self.jog.cancel();
         }
         let is_free = if self.is_open() {
-            let state = self.account.state();
+            let state = self.statistics.state();
             let is_held = matches!(
                 state,
                 MachineState::Held | MachineState::ProgramStop | MachineState::Awaiting
             );
             is_held && self.is_standing()
         } else {
-            let state = self.account.state();
+            let state = self.statistics.state();
             matches!(state, MachineState::Idle | MachineState::NotHomed)
                 && self.drives.following() == 0
-                && !self.mover.is_active()
+                && !self.joint_mover.is_active()
                 && !self.requests.is_prepared()
                 && inputs.frames.peek().is_none()
         };
         let may_start = is_free && !self.requests.is_stopping();
         while let Some(demand) = inputs.demands.dequeue() {
-            let around = self.surroundings(now_ns, may_start);
+            let around = self.jog_context(now_ns, may_start);
             if self.jog.hear(&demand, &around) && self.is_open() {
                 // Whatever it is held for may end: it goes on when the operator says so.
                 self.requests.hold();
@@ -127,9 +127,9 @@ impl Interpolator<'_> {
     /// Writes the setpoint of joints that are moved each for itself.
     pub(super) fn follow_mover(&mut self, tick: u64, setpoint: &mut Setpoint) {
         if self.requests.fault().is_some() {
-            self.mover.cancel();
+            self.joint_mover.cancel();
         }
-        let motion = self.mover.step();
+        let motion = self.joint_mover.step();
         let output = &mut self.output;
         let written = output.write_by_joints(self.epoch, &self.passed, &motion, setpoint);
         self.judge(written, tick);
@@ -137,17 +137,17 @@ impl Interpolator<'_> {
             // Joints are axes wherever they are moved so, so this cannot be; if it were, standing
             // still is all that is left.
             self.fail(FaultCause::Output);
-            self.mover.end();
+            self.joint_mover.end();
             self.write_standing(setpoint);
             self.write_joints(tick, setpoint);
         }
-        if !self.mover.is_active() {
+        if !self.joint_mover.is_active() {
             self.output.keep_joints();
         }
     }
 
-    fn surroundings(&self, now_ns: u64, may_start: bool) -> Surroundings {
-        Surroundings {
+    fn jog_context(&self, now_ns: u64, may_start: bool) -> JogContext {
+        JogContext {
             now_ns,
             position: self.output.published().position(),
             may_start,
@@ -187,7 +187,7 @@ impl Interpolator<'_> {
     fn end_motion(&mut self) {
         self.stops.ask(StopCause::Disable);
         self.jog.end();
-        self.mover.end();
+        self.joint_mover.end();
         if self.has_program() {
             self.close(EndOfEpoch::Faulted);
         }

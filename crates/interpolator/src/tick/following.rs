@@ -74,7 +74,7 @@ impl Interpolator<'_> {
 
     /// The event that the motion stands at.
     fn awaited_event(&self) -> Option<Event> {
-        let (frame, _) = self.track.gate()?;
+        let (frame, _) = self.track.m_code_wait()?;
         frame.event().ok().flatten()
     }
 
@@ -135,7 +135,7 @@ impl Interpolator<'_> {
                 LeadOutcome::None => self.lose_pass(FaultCause::ThreadLost),
             }
         }
-        if self.is_kept() || self.supply.is_short() {
+        if self.is_kept() || self.queue_level.is_short() {
             return false;
         }
         let period_ns = self.drives.period_ns();
@@ -157,7 +157,7 @@ impl Interpolator<'_> {
 
     /// Sets out with the spindle, if there is a stop to keep in reserve.
     fn set_out(&mut self, follow: &Follow) -> bool {
-        self.track.pass_gate();
+        self.track.pass_m_code_wait();
         if self.track.barrier().is_some_and(|at| at <= follow.start) {
             self.track.unbar();
         }
@@ -165,14 +165,15 @@ impl Interpolator<'_> {
             track: &self.track,
             published: self.output.published(),
             allowed: self.output.allowed(),
-            reach: self.supply.reach(),
-            is_fully_supplied: self.supply.is_fully_supplied(),
+            reach: self.queue_level.reach(),
+            is_fully_supplied: self.queue_level.is_fully_supplied(),
             block_end: None,
         };
         let time = ProgramTime::at(follow.start).after(follow.elapsed);
         let sets_out = self.rate.set_out_at(time, follow.step, &situation);
         if !sets_out {
-            self.track.take_gate_back(self.rate.now().time.sequence);
+            self.track
+                .take_m_code_wait_back(self.rate.now().time.sequence);
         }
         sets_out
     }
@@ -192,8 +193,8 @@ impl Interpolator<'_> {
             track: &self.track,
             published: self.output.published(),
             allowed: self.output.allowed(),
-            reach: self.supply.reach(),
-            is_fully_supplied: self.supply.is_fully_supplied(),
+            reach: self.queue_level.reach(),
+            is_fully_supplied: self.queue_level.is_fully_supplied(),
             block_end: None,
         };
         let most = self.rate.most_change(&situation);
@@ -312,7 +313,7 @@ impl Interpolator<'_> {
         if step.is_done && !tap.is_stopping() {
             self.tap = None;
             self.pass.end();
-            self.track.pass_gate();
+            self.track.pass_m_code_wait();
         }
     }
 }

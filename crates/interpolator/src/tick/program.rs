@@ -1,13 +1,13 @@
 //! The part of a tick for the program: it takes frames, advances program time, and ends the epoch.
 
 use super::state::Interpolator;
-use crate::block_stop::BlockStop;
 use crate::fault::Fault;
 use crate::message::Inputs;
 use crate::output::Written;
 use crate::program_time::ProgramTime;
 use crate::rate::{Situation, beside_full};
 use crate::rest::SAME_POSITION;
+use crate::single_block_stop::SingleBlockStop;
 use crate::stops::StopCause;
 use glidepath_geometry::AxisVector;
 use glidepath_link::{EndOfEpoch, FaultCause, FrameRefusal, Setpoint, SetpointFrame};
@@ -58,7 +58,7 @@ impl Interpolator<'_> {
 
     /// Whether a program may begin.
     const fn may_begin(&self) -> bool {
-        self.drives.are_ready() && !self.mover.is_active()
+        self.drives.are_ready() && !self.joint_mover.is_active()
     }
 
     /// Starts an epoch, instead of one that stands in the middle of its way.
@@ -80,8 +80,8 @@ impl Interpolator<'_> {
         self.end_of_epoch = EndOfEpoch::Open;
         self.is_unanswered = false;
         self.output.begin_epoch();
-        self.block_stop = BlockStop::none();
-        self.supply.begin_epoch();
+        self.single_block_stop = SingleBlockStop::none();
+        self.queue_level.begin_epoch();
         if !self.probing.goes_on() {
             self.wait.forget();
         }
@@ -103,7 +103,7 @@ impl Interpolator<'_> {
         let is_awaiting = self.wait.is_standing();
         let holds = self.requests.holds(self.is_rapid()) || is_awaiting;
         let (track, rate, published) = (&self.track, &self.rate, self.output.published());
-        if self.is_open() && self.supply.watch(track, rate, published, holds) {
+        if self.is_open() && self.queue_level.watch(track, rate, published, holds) {
             // Behind the motion there is no planner to be lost.
             if !self.requests.heading().is_back() {
                 self.fail(FaultCause::PlannerLost);
@@ -114,7 +114,7 @@ impl Interpolator<'_> {
     /// Keeps in mind where the present block ends, if the motion is to rest there.
     pub(super) fn look_for_block_end(&mut self) {
         let (track, rate) = (&mut self.track, &mut self.rate);
-        self.block_stop
+        self.single_block_stop
             .look_ahead(&self.requests, rate, track, self.output.published());
     }
 
@@ -127,9 +127,9 @@ impl Interpolator<'_> {
         let rests = self.output.published().is_at_rest() && self.plan_rests();
         if rests {
             if self.rate.take_found_no_stop() {
-                self.block_stop.set_out_slower();
+                self.single_block_stop.set_out_slower();
             }
-            goal = goal.min(self.block_stop.sets_out_at());
+            goal = goal.min(self.single_block_stop.sets_out_at());
         }
         if rests && now.rate != goal {
             self.track.bar(now.time.sequence);
@@ -140,10 +140,10 @@ impl Interpolator<'_> {
             track: &self.track,
             published: self.output.published(),
             allowed: self.output.allowed(),
-            reach: self.supply.reach(),
-            is_fully_supplied: self.supply.is_fully_supplied(),
+            reach: self.queue_level.reach(),
+            is_fully_supplied: self.queue_level.is_fully_supplied(),
             block_end: self
-                .block_stop
+                .single_block_stop
                 .in_motion()
                 .filter(|end| stop.is_none_or(|stop| *end < stop)),
         };
@@ -161,7 +161,7 @@ impl Interpolator<'_> {
 
     /// The rate that is wanted: the commanded override over the planned one, if nothing stops.
     fn goal(&self) -> f64 {
-        if self.supply.is_short() || self.probing.is_tripped() {
+        if self.queue_level.is_short() || self.probing.is_tripped() {
             return 0.0;
         }
         let planned_override = self.present().planned_override;
@@ -178,7 +178,7 @@ impl Interpolator<'_> {
         let before = self.rate.has_taken_reserve();
         let time = self.rate.advance().time;
         if self.rate.has_taken_reserve() && !before {
-            self.account.begin_reserve_stop(tick);
+            self.statistics.begin_reserve_stop(tick);
         }
         let held = time.held_at(self.track.holding_frame());
         if held != time {
@@ -214,7 +214,7 @@ impl Interpolator<'_> {
         if matches!(setpoint.event(), Ok(Some(Event::Probe { .. }))) {
             self.probing.begin();
         }
-        if self.track.gates().late(setpoint).is_some() {
+        if self.track.m_code_waits().late(setpoint).is_some() {
             self.wait.hear(setpoint);
         }
         self.tell_spindle(setpoint);
@@ -256,7 +256,7 @@ impl Interpolator<'_> {
             }
             let stands = self.rate.now().rate <= 0.0 || self.plan_rests();
             // What is awaited there comes first: a resume does not go on from it.
-            if self.block_stop.is_at(now) && stands && !self.is_at_gate() {
+            if self.single_block_stop.is_at(now) && stands && !self.is_at_m_code_wait() {
                 self.requests.stand_at_block_end();
             }
         }

@@ -1,9 +1,9 @@
 //! The part of a tick while the motion goes back along the path, or onward again.
 
 use super::state::Interpolator;
-use crate::block_stop::BlockStop;
 use crate::frame_summary::FrameSummary;
 use crate::retrace::mirrored;
+use crate::single_block_stop::SingleBlockStop;
 use crate::stop_requests::Heading;
 use glidepath_link::Setpoint;
 
@@ -30,7 +30,7 @@ impl Interpolator<'_> {
             Heading::Back => {
                 let is_all = self.retrace.go_back(&mut self.track);
                 let ahead = self.track.end() - self.rate.now().time.sequence;
-                if is_all && self.is_standing() && (ahead <= 1 || self.supply.is_at_end()) {
+                if is_all && self.is_standing() && (ahead <= 1 || self.queue_level.is_at_end()) {
                     self.end_way_back();
                 }
                 false
@@ -59,20 +59,20 @@ impl Interpolator<'_> {
         };
         let Some(time) = time else {
             if self.requests.refuse_to_turn() {
-                self.account.end_way_back(self.passed.line);
+                self.statistics.end_way_back(self.passed.line);
             }
             return;
         };
         self.rate.begin_at(time);
-        self.block_stop = BlockStop::none();
-        self.supply.begin_epoch();
+        self.single_block_stop = SingleBlockStop::none();
+        self.queue_level.begin_epoch();
         self.requests.turn(heading);
     }
 
     /// There is no way back beyond where the motion stands.
     fn end_way_back(&mut self) {
         self.requests.go(Heading::BackAtEnd);
-        self.account.end_way_back(self.passed.line);
+        self.statistics.end_way_back(self.passed.line);
     }
 
     /// The epoch ends while the motion goes back.

@@ -1,23 +1,23 @@
 //! The state of the real-time thread, and what every part of a tick asks of it.
 
-use crate::account::Account;
-use crate::block_stop::BlockStop;
 use crate::config::Config;
 use crate::drives::Drives;
 use crate::fault::Fault;
 use crate::frame_summary::FrameSummary;
-use crate::homing::Mover;
+use crate::homing::JointMover;
 use crate::jog::Jog;
-use crate::message::Happening;
+use crate::message::LogEvent;
 use crate::output::{Output, Written};
 use crate::probing::Probing;
 use crate::program_time::ProgramTime;
+use crate::queue_level::QueueLevel;
 use crate::rate::Rate;
 use crate::retrace::{Retrace, frames_kept};
+use crate::single_block_stop::SingleBlockStop;
 use crate::spindle::{Pass, SimulatedSpindle, Tap};
 use crate::stop_requests::StopRequests;
 use crate::stops::{StopCause, Stops};
-use crate::supply::Supply;
+use crate::tick_statistics::TickStatistics;
 use crate::track::Track;
 use crate::wait::Wait;
 use glidepath_link::{EndOfEpoch, FaultCause, Setpoint};
@@ -33,8 +33,8 @@ pub(crate) struct Interpolator<'a> {
     pub(super) retrace: Retrace,
     pub(super) rate: Rate,
     pub(super) requests: StopRequests,
-    pub(super) supply: Supply,
-    pub(super) block_stop: BlockStop,
+    pub(super) queue_level: QueueLevel,
+    pub(super) single_block_stop: SingleBlockStop,
     pub(super) wait: Wait,
     pub(super) probing: Probing,
     /// What program time follows instead of the clock, if it does.
@@ -48,7 +48,7 @@ pub(crate) struct Interpolator<'a> {
     pub(super) stops: Stops,
     pub(super) limits: Limits,
     pub(super) jog: Jog,
-    pub(super) mover: Mover,
+    pub(super) joint_mover: JointMover,
     pub(super) drives: Drives,
     pub(super) output: Output,
     /// The open or last epoch, 0 before the first.
@@ -62,24 +62,24 @@ pub(crate) struct Interpolator<'a> {
     pub(super) passed: FrameSummary,
     /// The machine has moved in the present epoch.
     pub(super) has_moved: bool,
-    pub(super) account: Account<'a>,
+    pub(super) statistics: TickStatistics<'a>,
 }
 
 impl<'a> Interpolator<'a> {
     pub(crate) fn new(
         config: &Config,
         boot_id: u64,
-        happenings: EventWriter<'a, Happening>,
+        log_events: EventWriter<'a, LogEvent>,
     ) -> Self {
         let period_t = config.period_t();
         let limits = (&config.limits, config.limited_joints());
         Self {
-            track: Track::new(period_t, limits, config.gates, frames_kept(period_t)),
+            track: Track::new(period_t, limits, config.m_code_waits, frames_kept(period_t)),
             retrace: Retrace::new(period_t, limits),
             rate: Rate::new(ProgramTime::at(0), 0.0),
             requests: StopRequests::default(),
-            supply: Supply::new(config),
-            block_stop: BlockStop::none(),
+            queue_level: QueueLevel::new(config),
+            single_block_stop: SingleBlockStop::none(),
             wait: Wait::default(),
             probing: Probing::default(),
             pass: Pass::default(),
@@ -89,7 +89,7 @@ impl<'a> Interpolator<'a> {
             stops: Stops::new(config.stops),
             limits: config.hand_limits,
             jog: Jog::new(config),
-            mover: Mover::new(config),
+            joint_mover: JointMover::new(config),
             drives: Drives::new(config),
             output: Output::new(config, boot_id),
             epoch: 0,
@@ -98,7 +98,7 @@ impl<'a> Interpolator<'a> {
             is_unanswered: false,
             passed: FrameSummary::NONE,
             has_moved: false,
-            account: Account::new(config, happenings),
+            statistics: TickStatistics::new(config, log_events),
         }
     }
 
@@ -155,7 +155,7 @@ impl<'a> Interpolator<'a> {
     /// Tells of a setpoint that exceeds a limit, and stops the motion for one that is far above.
     pub(super) fn judge(&mut self, written: Written, tick: u64) {
         if let Written::Excess(part) = written {
-            self.account.exceed(tick, part);
+            self.statistics.exceed(tick, part);
             if part.is_nan() || part > EXCESS_FAULT {
                 self.fail(FaultCause::Output);
             }
@@ -185,7 +185,7 @@ impl<'a> Interpolator<'a> {
         self.tap = None;
         self.output.rest();
         self.end_of_epoch = end;
-        self.supply.end_epoch();
+        self.queue_level.end_epoch();
         self.requests.forget_epoch(self.probing.goes_on());
     }
 

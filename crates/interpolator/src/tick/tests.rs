@@ -18,8 +18,8 @@ mod jog;
 mod jog_in_a_hold;
 mod jog_random;
 mod planned;
+mod queue_level;
 mod retracing;
-mod supply;
 mod tap_by_axis;
 
 use super::*;

@@ -1,7 +1,7 @@
 //! The part of a tick for events that are to be answered before the motion goes on.
 
 use super::state::Interpolator;
-use crate::gates::Answer;
+use crate::m_code_waits::AnswerSource;
 use crate::message::Awaited;
 use crate::program_time::ProgramTime;
 use crate::wait::{Outcome, kind_and_value};
@@ -17,27 +17,27 @@ impl Interpolator<'_> {
             Outcome::Open => {}
             Outcome::Answered => {
                 self.wait.end();
-                self.track.pass_gate();
+                self.track.pass_m_code_wait();
             }
             Outcome::Failed(cause) => self.fail(cause),
         }
     }
 
     /// Whether the motion is where an event is to be answered.
-    pub(super) fn is_at_gate(&self) -> bool {
+    pub(super) fn is_at_m_code_wait(&self) -> bool {
         let now = self.rate.now().time;
         self.track
-            .gate()
+            .m_code_wait()
             .is_some_and(|(frame, _)| ProgramTime::at(frame.sequence) == now)
     }
 
     /// Begins to wait where the motion stands at an event that is to be answered.
-    pub(super) fn stand_at_gate(&mut self, scheduled_ns: u64, number: u64) {
-        if !self.track.has_gate() {
+    pub(super) fn stand_at_m_code_wait(&mut self, scheduled_ns: u64, number: u64) {
+        if !self.track.has_m_code_wait() {
             return;
         }
-        if let Some((frame, gate)) = self.track.gate()
-            && self.is_at_gate()
+        if let Some((frame, m_code_wait)) = self.track.m_code_wait()
+            && self.is_at_m_code_wait()
             && !self.requests.is_stopping()
             && self.tap.is_none()
         {
@@ -50,12 +50,12 @@ impl Interpolator<'_> {
                 event_value,
                 since_ns: scheduled_ns,
                 told_by: number,
-                by_feedback: gate.answer != Answer::Acknowledgement,
+                by_feedback: m_code_wait.answer != AnswerSource::Acknowledgement,
             };
-            if gate.answer == Answer::SpindleAngle && self.wait.awaited().is_none() {
+            if m_code_wait.answer == AnswerSource::SpindleAngle && self.wait.awaited().is_none() {
                 self.pass.wait();
             }
-            self.wait.begin(gate, awaited);
+            self.wait.begin(m_code_wait, awaited);
         }
     }
 }

@@ -10,7 +10,7 @@ fn a_quintic_is_reproduced() {
     let p = |x: f64| 3.0 + x * (20.0 + x * (-500.0 + x * (8e3 + x * (1e5 - x * 7e6))));
     let v = |x: f64| 20.0 + x * (-1e3 + x * (24e3 + x * (4e5 - x * 35e6)));
     let a = |x: f64| -1e3 + x * (48e3 + x * (12e5 - x * 140e6));
-    let mut track = Track::new(0.004, (&mill(), None), Gates::NONE, TRACK_CAPACITY);
+    let mut track = Track::new(0.004, (&mill(), None), MCodeWaits::NONE, TRACK_CAPACITY);
     for (k, x) in [(0, 0.0), (1, t)] {
         track.push(&frame_of(k, [p(x)], [v(x)], [a(x)]));
     }
@@ -29,7 +29,7 @@ fn a_quintic_is_reproduced() {
 
 #[test]
 fn the_ring_owns_consecutive_frames() {
-    let mut track = Track::new(0.004, (&mill(), None), Gates::NONE, TRACK_CAPACITY);
+    let mut track = Track::new(0.004, (&mill(), None), MCodeWaits::NONE, TRACK_CAPACITY);
     for k in 0..TRACK_CAPACITY as u64 {
         track.push(&frame_of(k, [0.1], [1.0], [0.0]));
     }

@@ -11,7 +11,7 @@
 
 use super::config::LinkConfig;
 use super::directory;
-use super::stamped::{Place, reserve};
+use super::stamped::{RecordPlace, reserve};
 use crate::{Command, CommandReply, CommandRequest, LinkError, Status};
 use std::fs::{File, TryLockError};
 use std::io;
@@ -21,12 +21,12 @@ use std::path::PathBuf;
 pub(super) const PLACES: usize = 8;
 
 /// Of the command in its file.
-pub(super) const REQUEST: Place<CommandRequest> = Place::at(0);
+pub(super) const REQUEST: RecordPlace<CommandRequest> = RecordPlace::at(0);
 /// Of the answer, behind it.
-pub(super) const REPLY: Place<CommandReply> = Place::at(512);
-const _ROOM_FOR_REQUEST: () = assert!(Place::<CommandRequest>::SIZE <= 512);
+pub(super) const REPLY: RecordPlace<CommandReply> = RecordPlace::at(512);
+const _ROOM_FOR_REQUEST: () = assert!(RecordPlace::<CommandRequest>::SIZE <= 512);
 /// Of the status in a file of its own.
-pub(super) const STATUS: Place<Status> = Place::at(0);
+pub(super) const STATUS: RecordPlace<Status> = RecordPlace::at(0);
 
 /// The path of a place for commands.
 pub(super) fn place_path(config: &LinkConfig, place: usize) -> PathBuf {
@@ -63,7 +63,7 @@ impl Panel {
     pub(super) fn make(config: &LinkConfig) -> Result<Self, LinkError> {
         let make = |place| {
             let path = place_path(config, place);
-            let file = make_file(&path, 512 + Place::<CommandReply>::SIZE)?;
+            let file = make_file(&path, 512 + RecordPlace::<CommandReply>::SIZE)?;
             // What was asked of one that is dead is not done by the next.
             let seen = REQUEST
                 .number(&file)
@@ -128,7 +128,7 @@ impl StatusBoard {
     /// It cannot be made, or has no room.
     pub(super) fn make(config: &LinkConfig) -> Result<Self, LinkError> {
         let path = status_path(config);
-        let file = make_file(&path, Place::<Status>::SIZE)?;
+        let file = make_file(&path, RecordPlace::<Status>::SIZE)?;
         Ok(Self { file, path })
     }
 

@@ -16,12 +16,12 @@ use std::os::unix::fs::FileExt as _;
 use std::path::Path;
 
 /// A place for one record, at a fixed offset of a file.
-pub(super) struct Place<R> {
+pub(super) struct RecordPlace<R> {
     offset: u64,
     record: PhantomData<R>,
 }
 
-impl<R: Record> Place<R> {
+impl<R: Record> RecordPlace<R> {
     const NUMBER: usize = size_of::<u64>();
     /// Bytes of a place.
     pub(super) const SIZE: usize = Self::NUMBER + size_of::<R>() + size_of::<u64>();

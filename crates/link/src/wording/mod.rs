@@ -8,14 +8,14 @@
 mod amount;
 mod at_rest;
 mod fault;
-mod objection;
+mod precondition;
 mod printable;
 mod refusal;
 mod state;
 
 pub use at_rest::AtRest;
 pub use fault::FaultReport;
-pub use objection::Objection;
+pub use precondition::UnmetPrecondition;
 pub(crate) use printable::in_one_line;
 pub use printable::{is_printable, printable};
 pub use refusal::refused;

@@ -94,7 +94,7 @@ impl SegmentRefusal {
 mod tests {
     use super::*;
     use crate::record::MachineState;
-    use crate::wording::Objection;
+    use crate::wording::UnmetPrecondition;
 
     fn reply(refusal: CommandRefusal, message: &str) -> CommandReply {
         CommandReply::new(1, 1, Err(refusal), MachineState::Idle, message)
@@ -102,7 +102,7 @@ mod tests {
 
     #[test]
     fn a_refusal_is_one_sentence() {
-        let why = Objection::NoPathBack.text();
+        let why = UnmetPrecondition::NoPathBack.text();
         let reply = reply(CommandRefusal::WrongState, why);
         let told = refused(
             CommandKind::Reverse.name(),

@@ -11,7 +11,7 @@
 mod flood;
 
 use flood::Flood;
-use glidepath_live::{Answer, Caller, ContentType, Feed, Message, Role, Running, Server, Site};
+use glidepath_live::{Caller, ContentType, Feed, Message, Response, Role, Running, Server, Site};
 use std::io::{Read as _, Write as _};
 use std::net::TcpStream;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -29,23 +29,23 @@ struct Counted {
 struct Shared(Arc<Counted>);
 
 impl Site for Shared {
-    fn document(&self, path: &str, query: &str) -> Option<Answer> {
+    fn document(&self, path: &str, query: &str) -> Option<Response> {
         self.0.documents.fetch_add(1, Ordering::Relaxed);
         let text = format!("{path} {query}").into_bytes();
-        (path == "/api/plan").then(|| Answer::new(ContentType::Json, text))
+        (path == "/api/plan").then(|| Response::new(ContentType::Json, text))
     }
 
-    fn command(&self, caller: Caller, body: &[u8]) -> Answer {
+    fn command(&self, caller: Caller, body: &[u8]) -> Response {
         self.0.commands.fetch_add(1, Ordering::Relaxed);
         self.0.callers.lock().unwrap().push(caller);
-        Answer::new(ContentType::Json, body)
+        Response::new(ContentType::Json, body)
     }
 
-    fn upload(&self, caller: Caller, query: &str, piece: &[u8]) -> Answer {
+    fn upload(&self, caller: Caller, query: &str, piece: &[u8]) -> Response {
         self.0.commands.fetch_add(1, Ordering::Relaxed);
         self.0.callers.lock().unwrap().push(caller);
         let text = format!("{query} {}", piece.len()).into_bytes();
-        Answer::new(ContentType::Text, text)
+        Response::new(ContentType::Text, text)
     }
 }
 

@@ -6,7 +6,7 @@ use super::path::Reference;
 use super::period::Period;
 use super::planner::TubePlanner;
 use super::window::SearchBias;
-use super::works::Works;
+use super::work_queue::WorkQueue;
 use crate::PlanError;
 use crate::grid::{FrameGrid, Moving};
 use crate::joints::SharedJoints;
@@ -22,7 +22,7 @@ pub(crate) struct InTubeEngine {
     joints: SharedJoints,
     wanted: Override,
     bias: SearchBias,
-    works: Works,
+    work_queue: WorkQueue,
     flattener: Flattener,
     grid: FrameGrid,
     drive: Drive,
@@ -87,7 +87,7 @@ impl InTubeEngine {
             joints: None,
             wanted,
             bias,
-            works: Works::new(settings, start),
+            work_queue: WorkQueue::new(settings, start),
             flattener: Flattener::new(settings),
             grid: FrameGrid::new(settings.period_t, start),
             drive: Drive::None,
@@ -104,12 +104,12 @@ impl InTubeEngine {
 
     /// Takes the next item of the stretch: a move, or an event that does not stop the motion.
     pub(crate) fn push(&mut self, item: &Item) -> Result<(), PlanError> {
-        self.works.push(item)
+        self.work_queue.push(item)
     }
 
     /// The stretch ends with what has been pushed.
     pub(crate) fn finish(&mut self) {
-        self.works.finish();
+        self.work_queue.finish();
     }
 
     /// Multiplications of the solvers so far.
@@ -163,7 +163,7 @@ impl InTubeEngine {
     /// Gives the drive at hand its next piece, or sets up a rest; false if the program is not known
     /// further.
     fn supply(&mut self) -> Result<bool, PlanError> {
-        let Some(product) = self.flattener.next(&mut self.works) else {
+        let Some(product) = self.flattener.next(&mut self.work_queue) else {
             return Ok(false);
         };
         match product {

@@ -13,7 +13,7 @@
 use super::ledger::LedgerEntry;
 use super::merging::Dropped;
 use super::path::Reference;
-use super::works::{Move, Work, Works};
+use super::work_queue::{Move, WorkItem, WorkQueue};
 use crate::intake::SHORTEST_MOVE_MM;
 use crate::programmed_rate::{ProgrammedRate, axes_speed};
 use crate::rest::Rest;
@@ -81,7 +81,7 @@ struct FlatChord {
     /// Distance from the program, mm.
     error_mm: f64,
     /// From the middle of the chord to the program.
-    bow: AxisVector,
+    sagitta_vector: AxisVector,
     line: ProgramLine,
     events: Vec<Event>,
 }
@@ -113,7 +113,7 @@ impl Flattener {
     }
 
     /// The next product, as far as the program is known.
-    pub(crate) fn next(&mut self, works: &mut Works) -> Option<Product> {
+    pub(crate) fn next(&mut self, work_queue: &mut WorkQueue) -> Option<Product> {
         loop {
             if let Some(product) = self.ready.pop_front() {
                 return Some(product);
@@ -123,11 +123,11 @@ impl Flattener {
                 continue;
             }
             self.flattening = None;
-            match works.next()? {
-                Work::Move(of) => self.flattening = Some(CutMove::new(of)),
-                Work::Exact(item) => self.put(Product::Exact(item)),
-                Work::ExactEnd => self.put(Product::ExactEnd),
-                Work::Rest(rest) => self.put(Product::Rest(rest)),
+            match work_queue.next()? {
+                WorkItem::Move(of) => self.flattening = Some(CutMove::new(of)),
+                WorkItem::Exact(item) => self.put(Product::Exact(item)),
+                WorkItem::ExactEnd => self.put(Product::ExactEnd),
+                WorkItem::Rest(rest) => self.put(Product::Rest(rest)),
             }
         }
     }
@@ -171,7 +171,7 @@ impl Flattener {
             top_v: rate.axes_v,
             tolerance_mm: left_mm,
             tolerance_deg: left_mm,
-            bow: chord.bow,
+            sagitta_vector: chord.sagitta_vector,
             straight_mm: straight_mm(&chord),
             is_rapid: chord.rate.is_rapid(),
             tag: 0,
@@ -192,7 +192,7 @@ fn straight_mm(chord: &FlatChord) -> Option<f64> {
     let displacement = chord.end - chord.start;
     let others = displacement.iter().skip(LINEAR_XYZ.end);
     let is_in_space = others.fold(0.0, |sum: f64, part| sum + part.abs()) <= 0.0;
-    let is_cut = !chord.rate.is_rapid() && chord.bow.amax() <= 0.0;
+    let is_cut = !chord.rate.is_rapid() && chord.sagitta_vector.amax() <= 0.0;
     (is_cut && is_in_space && displacement.norm() >= RULED_MM).then_some(BESIDE_MM)
 }
 
@@ -252,7 +252,7 @@ impl OpenChord {
         let chord = &mut self.chord;
         chord.end = next.end;
         chord.error_mm = base_mm + self.dropped.error_mm;
-        chord.bow = self.dropped.bow;
+        chord.sagitta_vector = self.dropped.sagitta_vector;
         self.longest_mm = longest_mm;
         true
     }
@@ -295,7 +295,7 @@ impl CutMove {
         } else {
             at(f64::from(self.done + 1))
         };
-        let bow = if matches!(segment, Segment::Line(_)) {
+        let sagitta_vector = if matches!(segment, Segment::Line(_)) {
             AxisVector::zeros()
         } else {
             at(f64::from(self.done) + 0.5) - (start + end) * 0.5
@@ -305,7 +305,7 @@ impl CutMove {
         Some(FlatChord {
             start,
             end,
-            bow,
+            sagitta_vector,
             rate: self.of.rate,
             tolerance_mm: self.of.tolerance_mm,
             error_mm: self.error_mm,

@@ -23,7 +23,7 @@ use glidepath_program::tolerance_norm;
 const MOST_DROPPED: usize = 64;
 /// How far off the vertices the parabola may be that fits them best, in distances of the furthest of
 /// them. A vertex next to an end of the line says nothing of its middle.
-const MOST_BOW_R: f64 = 2.0;
+const MOST_SAGITTA_VECTOR_R: f64 = 2.0;
 
 /// The vertices a line has drawn together.
 #[derive(Debug, Clone, Default)]
@@ -32,7 +32,7 @@ pub(crate) struct Dropped {
     /// Largest distance of one of them from the line, mm.
     pub error_mm: f64,
     /// Offset of the parabola over the line that fits them best, in its middle.
-    pub bow: AxisVector,
+    pub sagitta_vector: AxisVector,
 }
 
 impl Dropped {
@@ -72,16 +72,19 @@ impl Dropped {
         }
         self.vertices.push(*through);
         self.error_mm = error_mm;
-        let bow = if squares > 0.0 {
+        let sagitta_vector = if squares > 0.0 {
             offsets / squares
         } else {
             AxisVector::zeros()
         };
-        let (size_mm, most_mm) = (tolerance_norm(&bow), MOST_BOW_R * error_mm);
-        self.bow = if size_mm > most_mm {
-            bow * (most_mm / size_mm)
+        let (size_mm, most_mm) = (
+            tolerance_norm(&sagitta_vector),
+            MOST_SAGITTA_VECTOR_R * error_mm,
+        );
+        self.sagitta_vector = if size_mm > most_mm {
+            sagitta_vector * (most_mm / size_mm)
         } else {
-            bow
+            sagitta_vector
         };
         true
     }
@@ -101,9 +104,17 @@ mod tests {
         let (start, end) = (at(0.0, 0.0), at(20.0, 0.0));
         let mut dropped = Dropped::default();
         assert!(dropped.extend(&start, &at(0.02, 0.001), &end, 0.002));
-        assert!(tolerance_norm(&dropped.bow) <= 0.0021, "{}", dropped.bow);
+        assert!(
+            tolerance_norm(&dropped.sagitta_vector) <= 0.0021,
+            "{}",
+            dropped.sagitta_vector
+        );
         let mut middle = Dropped::default();
         assert!(middle.extend(&start, &at(10.0, 0.001), &end, 0.002));
-        assert!((middle.bow[1] - 0.001).abs() < 1e-12, "{}", middle.bow);
+        assert!(
+            (middle.sagitta_vector[1] - 0.001).abs() < 1e-12,
+            "{}",
+            middle.sagitta_vector
+        );
     }
 }

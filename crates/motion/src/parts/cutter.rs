@@ -1,8 +1,8 @@
 //! The cutter of a program into parts.
 
 use crate::PlanError;
+use crate::engine_kind::EngineKind;
 use crate::intake::{Intake, check_dwell};
-use crate::wing::Wing;
 use glidepath_geometry::{AxisVector, LINEAR_XYZ, Segment};
 use glidepath_program::{Item, ItemKind, PathMode, Settings};
 
@@ -15,7 +15,7 @@ const MOST_HELD: usize = 16;
 /// Cuts a program into parts.
 #[derive(Debug)]
 pub struct Cutter {
-    wing: Wing,
+    engine: EngineKind,
     intake: Intake,
     /// Items of the part at hand.
     items: usize,
@@ -45,7 +45,7 @@ impl Cutter {
     #[must_use]
     pub fn new(settings: &Settings, start: AxisVector) -> Self {
         Self {
-            wing: Wing::of(settings),
+            engine: EngineKind::of(settings),
             intake: Intake::new(start),
             items: 0,
             rests: false,
@@ -100,9 +100,9 @@ impl Cutter {
     }
 
     fn may_cut(&self) -> bool {
-        let is_fresh = match self.wing {
-            Wing::OnPath => !self.has_curve && !self.has_others,
-            Wing::InTube => true,
+        let is_fresh = match self.engine {
+            EngineKind::OnPath => !self.has_curve && !self.has_others,
+            EngineKind::InTube => true,
         };
         self.rests && is_fresh && self.items >= LEAST_ITEMS
     }
@@ -125,15 +125,15 @@ impl Cutter {
     /// What a move leaves behind.
     fn pass(&mut self, segment: &Segment, is_feed: bool, mode: PathMode, is_made: bool) {
         self.has_curve |= matches!(segment, Segment::Curve(_));
-        match self.wing {
-            Wing::OnPath => {
+        match self.engine {
+            EngineKind::OnPath => {
                 let moved = segment.end() - segment.start();
                 let others = moved.iter().skip(LINEAR_XYZ.end).any(|x| *x != 0.0);
                 self.has_others |= others && is_feed;
                 self.is_whole = is_made;
                 self.rests = false;
             }
-            Wing::InTube => {
+            EngineKind::InTube => {
                 // Where the program is followed exactly, the frames end where the path is evaluated.
                 self.is_whole = is_made && !self.has_curve && mode != PathMode::ExactPath;
                 self.rests = self.is_whole && mode == PathMode::ExactStop;
@@ -146,7 +146,7 @@ impl Cutter {
         self.give(None, out);
         self.put(item, None, out);
         self.rests = self.is_whole;
-        if self.wing == Wing::InTube {
+        if self.engine == EngineKind::InTube {
             self.has_curve = false;
         }
     }

@@ -2,9 +2,9 @@
 
 use super::part_step::{PartStep, StepKind};
 use crate::PlanError;
+use crate::engine_kind::EngineKind;
 use crate::guard::GuardedFrames;
 use crate::on_path::OnPathEngine;
-use crate::wing::Wing;
 use glidepath_geometry::AxisVector;
 use glidepath_program::{Frame, Override, Settings};
 use std::collections::VecDeque;
@@ -33,11 +33,11 @@ impl Joiner {
     #[must_use]
     pub fn new(settings: Settings, start: AxisVector) -> Self {
         Self {
-            joint: match Wing::of(&settings) {
-                Wing::OnPath => {
+            joint: match EngineKind::of(&settings) {
+                EngineKind::OnPath => {
                     Joint::OnPath(Box::new(OnPathEngine::new(settings, start, Override::NONE)))
                 }
-                Wing::InTube => Joint::InTube {
+                EngineKind::InTube => Joint::InTube {
                     waiting: VecDeque::new(),
                     sequence: 0,
                     origin_s: 0.0,

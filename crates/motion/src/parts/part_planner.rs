@@ -1,9 +1,9 @@
 //! The planner of one part.
 
 use super::part_step::{PartStep, StepKind};
+use crate::engine_kind::EngineKind;
 use crate::on_path::OnPathEngine;
 use crate::stretches::StretchEngine;
-use crate::wing::Wing;
 use crate::{Joints, PlanError};
 use glidepath_geometry::AxisVector;
 use glidepath_program::{FrameFlags, Item, Override, Settings};
@@ -40,11 +40,11 @@ impl PartPlanner {
     #[must_use]
     pub fn new(settings: Settings, start: AxisVector, is_first: bool) -> Self {
         Self {
-            engine: match Wing::of(&settings) {
-                Wing::OnPath => {
+            engine: match EngineKind::of(&settings) {
+                EngineKind::OnPath => {
                     PartEngine::OnPath(Box::new(OnPathEngine::new(settings, start, Override::NONE)))
                 }
-                Wing::InTube => {
+                EngineKind::InTube => {
                     PartEngine::Stretches(Box::new(StretchEngine::new(settings, start)))
                 }
             },

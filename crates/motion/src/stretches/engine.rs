@@ -1,9 +1,9 @@
 //! The stretch engine: stretches and rests one after the other, on one grid of frames.
 
-use super::contest::Planned;
+use super::candidate_selection::PlannedStretch;
+use super::engine_run::{EngineRun, InitialState, Strategy};
 use super::entry::Entry;
 use super::gathering::{Gathering, Task};
-use super::way::{Manner, Outset, Way};
 use crate::grid::FrameGrid;
 use crate::in_tube::SearchBias;
 use crate::joints::SharedJoints;
@@ -14,7 +14,7 @@ use std::sync::Arc;
 
 /// How a stretch is driven that is planned as it comes: there is nothing to hold its windows against. Of twelve programs
 /// for machines whose joints are not axes, repeated to 20 s, windows in a row took 4 to 25 % less than the way along the path.
-const ALONE: Manner = Manner::InTube(SearchBias::USUAL);
+const ALONE: Strategy = Strategy::InTube(SearchBias::USUAL);
 
 /// Plans stretch by stretch, as [`crate::Planner`] uses it.
 #[derive(Debug, Clone)]
@@ -38,9 +38,9 @@ enum Drive {
     /// At rest.
     None,
     /// A short stretch, planned to its end.
-    Planned(Box<Planned>),
+    Planned(Box<PlannedStretch>),
     /// A stretch that is planned as it comes, or whose override was changed.
-    Live(Way),
+    Live(EngineRun),
 }
 
 impl StretchEngine {
@@ -85,8 +85,8 @@ impl StretchEngine {
         if let Drive::Planned(planned) = &self.drive {
             self.drive = Drive::Live(planned.resumed()?);
         }
-        if let Drive::Live(way) = &mut self.drive {
-            way.set_override(wanted);
+        if let Drive::Live(run) = &mut self.drive {
+            run.set_override(wanted);
         }
         Ok(())
     }
@@ -100,7 +100,7 @@ impl StretchEngine {
             let (moved, length_s) = match &mut self.drive {
                 Drive::None => (None, None),
                 Drive::Planned(planned) => (planned.pop_frame(), planned.length_s()),
-                Drive::Live(way) => (way.pop_frame()?, way.length_s()),
+                Drive::Live(run) => (run.pop_frame()?, run.length_s()),
             };
             if let Some(mut frame) = moved {
                 frame.path_s += self.path_s;
@@ -108,7 +108,7 @@ impl StretchEngine {
             }
             if let Some(length_s) = length_s {
                 self.arrive(length_s);
-            } else if matches!(&self.drive, Drive::Live(way) if way.is_finished()) {
+            } else if matches!(&self.drive, Drive::Live(run) if run.is_finished()) {
                 let line = self.grid.line().number;
                 return Err(PlanError::NoMotion { line });
             } else if !self.supply()? {
@@ -118,8 +118,8 @@ impl StretchEngine {
     }
 
     /// What the next stretch begins with.
-    fn outset(&self) -> Outset {
-        Outset {
+    fn initial_state(&self) -> InitialState {
+        InitialState {
             settings: self.settings,
             joints: self.joints.clone(),
             start: self.position,
@@ -147,28 +147,28 @@ impl StretchEngine {
             } => {
                 self.end = end;
                 let entry = Entry {
-                    outset: self.outset(),
+                    initial_state: self.initial_state(),
                     items: items.into(),
                     at_rates_t,
                 };
-                self.drive = match Planned::new(entry.clone())? {
+                self.drive = match PlannedStretch::new(entry.clone())? {
                     Some(planned) => Drive::Planned(Box::new(planned)),
-                    None => Drive::Live(entry.way(ALONE)?),
+                    None => Drive::Live(entry.run(ALONE)?),
                 };
             }
             Task::Part(item) => {
                 if matches!(self.drive, Drive::None) {
-                    let way = Way::new(ALONE, self.outset());
-                    self.drive = Drive::Live(way);
+                    let run = EngineRun::new(ALONE, self.initial_state());
+                    self.drive = Drive::Live(run);
                 }
-                if let Drive::Live(way) = &mut self.drive {
-                    way.push(&item)?;
+                if let Drive::Live(run) = &mut self.drive {
+                    run.push(&item)?;
                 }
             }
             Task::End(end) => {
                 self.end = end;
-                if let Drive::Live(way) = &mut self.drive {
-                    way.finish();
+                if let Drive::Live(run) = &mut self.drive {
+                    run.finish();
                 }
             }
             Task::Rest(rest) => {

@@ -1,6 +1,6 @@
-//! The entry of a stretch: what it is planned with, and a way that is given its items one by one.
+//! The entry of a stretch: what it is planned with, and a run that is given its items one by one.
 
-use super::way::{Manner, Outset, Way};
+use super::engine_run::{EngineRun, InitialState, Strategy};
 use crate::PlanError;
 use glidepath_program::{Frame, Item};
 use std::sync::Arc;
@@ -8,32 +8,32 @@ use std::sync::Arc;
 /// What a stretch is planned with, from its first item on.
 #[derive(Debug, Clone)]
 pub(crate) struct Entry {
-    pub(crate) outset: Outset,
+    pub(crate) initial_state: InitialState,
     pub(crate) items: Arc<[Item]>,
     /// Time of its moves at their rates, s.
     pub(crate) at_rates_t: f64,
 }
 
 impl Entry {
-    /// The whole stretch, to be driven in some manner.
-    pub(crate) fn way(self, manner: Manner) -> Result<Way, PlanError> {
-        SuppliedWay::new(manner, self).whole()
+    /// The whole stretch, to be driven by some strategy.
+    pub(crate) fn run(self, strategy: Strategy) -> Result<EngineRun, PlanError> {
+        SuppliedRun::new(strategy, self).whole()
     }
 }
 
-/// A way along a stretch that is given its items as it needs them, so that it holds no more of them
+/// A run along a stretch that is given its items as it needs them, so that it holds no more of them
 /// than it looks ahead.
 #[derive(Debug, Clone)]
-pub(crate) struct SuppliedWay {
-    way: Way,
+pub(crate) struct SuppliedRun {
+    run: EngineRun,
     items: Arc<[Item]>,
     pushed: usize,
 }
 
-impl SuppliedWay {
-    pub(crate) fn new(manner: Manner, entry: Entry) -> Self {
+impl SuppliedRun {
+    pub(crate) fn new(strategy: Strategy, entry: Entry) -> Self {
         Self {
-            way: Way::new(manner, entry.outset),
+            run: EngineRun::new(strategy, entry.initial_state),
             items: entry.items,
             pushed: 0,
         }
@@ -42,8 +42,8 @@ impl SuppliedWay {
     /// The next frame; `None` behind the last one.
     pub(crate) fn pop_frame(&mut self) -> Result<Option<Frame>, PlanError> {
         loop {
-            let frame = self.way.pop_frame()?;
-            if frame.is_some() || self.way.is_finished() {
+            let frame = self.run.pop_frame()?;
+            if frame.is_some() || self.run.is_finished() {
                 return Ok(frame);
             }
             self.push_next()?;
@@ -53,28 +53,28 @@ impl SuppliedWay {
     /// How long it is, mm, once all frames are taken.
     pub(crate) fn length_s(&self) -> Result<f64, PlanError> {
         let line = self.items.last().map_or(0, |item| item.line);
-        self.way.length_s().ok_or(PlanError::NoMotion { line })
+        self.run.length_s().ok_or(PlanError::NoMotion { line })
     }
 
     /// Multiplications of the solvers so far.
     pub(crate) fn work(&self) -> usize {
-        self.way.work()
+        self.run.work()
     }
 
-    /// The way, given all the rest.
-    pub(crate) fn whole(mut self) -> Result<Way, PlanError> {
-        while !self.way.is_finished() {
+    /// The run, given all the rest.
+    pub(crate) fn whole(mut self) -> Result<EngineRun, PlanError> {
+        while !self.run.is_finished() {
             self.push_next()?;
         }
-        Ok(self.way)
+        Ok(self.run)
     }
 
     fn push_next(&mut self) -> Result<(), PlanError> {
         if let Some(item) = self.items.get(self.pushed) {
             self.pushed += 1;
-            self.way.push(item)
+            self.run.push(item)
         } else {
-            self.way.finish();
+            self.run.finish();
             Ok(())
         }
     }

@@ -11,14 +11,14 @@
 //! The motion rests where the program asks for it: exact stops, dwells, events of the machine, the
 //! end. What lies between two rests is a stretch: it begins and ends at rest and on the period
 //! grid, so how it is driven is nobody else's concern. A short one is planned as a whole by both
-//! wings before its first frame is given out ([`contest`]). One that is longer than may be kept is
+//! engines before its first frame is given out ([`candidate_selection`]). One that is longer than may be kept is
 //! planned in the tube as it comes. Which of them it is depends on its items alone.
 
-mod contest;
+mod candidate_selection;
 mod engine;
+mod engine_run;
 mod entry;
 mod gathering;
-mod way;
 
 pub(crate) use engine::StretchEngine;
 pub use gathering::MOST_MOVES_AT_ONCE;

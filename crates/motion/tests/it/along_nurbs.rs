@@ -9,7 +9,7 @@
 use crate::preview::curves;
 use crate::support;
 
-use glidepath_audit::{Audit, AuditSettings, Report};
+use glidepath_audit::{Audit, AuditReport, AuditSettings};
 use glidepath_geometry::{Nurbs, NurbsPath, Segment};
 use glidepath_motion::Planner;
 use glidepath_program::{
@@ -44,7 +44,7 @@ fn audit(settings: &Settings) -> Audit {
     Audit::new(&AuditSettings::from(settings))
 }
 
-fn plan(items: &[Item], settings: Settings) -> (Vec<Frame>, Report) {
+fn plan(items: &[Item], settings: Settings) -> (Vec<Frame>, AuditReport) {
     let ItemKind::Move { segment, .. } = items[0].kind else {
         panic!("a move");
     };
@@ -68,7 +68,7 @@ fn plan(items: &[Item], settings: Settings) -> (Vec<Frame>, Report) {
 }
 
 #[track_caller]
-fn assert_clean(report: &Report) {
+fn assert_clean(report: &AuditReport) {
     assert!(
         report.is_clean() && report.is_complete,
         "{:?} {:?}",

@@ -9,7 +9,7 @@
 )]
 
 use crate::support::{FREE, at, cases, mill};
-use glidepath_audit::{Audit, AuditSettings, Report, Sample};
+use glidepath_audit::{Audit, AuditReport, AuditSettings, Sample};
 use glidepath_geometry::{AxisVector, Segment};
 use glidepath_motion::Planner;
 use glidepath_program::{Item, ItemKind, Rate, Settings, Smoothing};
@@ -33,7 +33,7 @@ fn items(points: &[AxisVector], feed_v: impl Fn(usize) -> f64) -> Vec<Item> {
         .collect()
 }
 
-fn audited(items: &[Item], settings: Settings) -> Report {
+fn audited(items: &[Item], settings: Settings) -> AuditReport {
     let mut audit = Audit::new(&AuditSettings::from(&settings));
     let mut planner = Planner::new(settings, AxisVector::zeros());
     for item in items {

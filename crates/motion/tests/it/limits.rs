@@ -8,7 +8,7 @@
 )]
 
 use crate::support::cases;
-use glidepath_audit::{Audit, AuditSettings, Report, Sample};
+use glidepath_audit::{Audit, AuditReport, AuditSettings, Sample};
 use glidepath_geometry::{AXES, Arc, AxisVector, Plane, Segment};
 use glidepath_motion::Planner;
 use glidepath_program::{
@@ -160,7 +160,7 @@ fn plan(items: &[Item], settings: Settings) -> Vec<Frame> {
 }
 
 /// What the auditor finds in the frames.
-fn audit(items: &[Item], frames: &[Frame], settings: &Settings) -> Report {
+fn audit(items: &[Item], frames: &[Frame], settings: &Settings) -> AuditReport {
     let mut audit = Audit::new(&AuditSettings::from(settings));
     for item in items {
         audit.program(item);

@@ -5,7 +5,7 @@
 
 use crate::planned::{numbered, plan};
 use crate::support::cases;
-use glidepath_audit::{Audit, AuditSettings, Report};
+use glidepath_audit::{Audit, AuditReport, AuditSettings};
 use glidepath_geometry::{Arc, AxisVector, Plane, Segment};
 use glidepath_program::{
     Effort, Frame, Item, ItemKind, Limits, PathMode, Rate, Settings, Smoothing,
@@ -76,7 +76,7 @@ fn settings([velocity, acceleration, jerk]: [f64; 3], effort: Effort) -> Setting
 }
 
 /// What the auditor finds, fed with the program as the planner is, and the motion.
-fn driven(steps: &[Step], settings: Settings) -> (Report, Vec<Frame>) {
+fn driven(steps: &[Step], settings: Settings) -> (AuditReport, Vec<Frame>) {
     let items = program(steps);
     let frames = plan(&items, settings, usize::MAX);
     let mut audit = Audit::new(&AuditSettings::from(&settings));
@@ -86,7 +86,7 @@ fn driven(steps: &[Step], settings: Settings) -> (Report, Vec<Frame>) {
 }
 
 /// The reports on both machines, with either effort.
-fn reports(steps: &[Step]) -> impl Iterator<Item = (String, Report)> {
+fn reports(steps: &[Step]) -> impl Iterator<Item = (String, AuditReport)> {
     let all =
         MACHINES.map(|machine| [Effort::Fast, Effort::Optimal].map(|effort| (machine, effort)));
     all.into_iter().flatten().map(move |(machine, effort)| {

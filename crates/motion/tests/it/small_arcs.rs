@@ -5,12 +5,12 @@
 use crate::planned::{numbered, plan};
 use crate::support::{FREE, at, optimal};
 use core::f64::consts::PI;
-use glidepath_audit::{Audit, AuditSettings, Report, ViolationKind};
+use glidepath_audit::{Audit, AuditReport, AuditSettings, ViolationKind};
 use glidepath_geometry::{Arc, AxisVector, Plane, Segment};
 use glidepath_program::{ItemKind, Rate};
 
 /// A line along X, an arc about a centre further along, and a line along X again.
-fn driven(radius_mm: f64, sweep_rad: f64, feed_v: f64) -> (Report, Vec<AxisVector>) {
+fn driven(radius_mm: f64, sweep_rad: f64, feed_v: f64) -> (AuditReport, Vec<AxisVector>) {
     let center = at(10.0 + radius_mm, 0.0);
     let end = center + at(sweep_rad.cos(), sweep_rad.sin()) * -radius_mm;
     let arc = Arc {

@@ -3,13 +3,13 @@
 #![allow(clippy::expect_used, reason = "a test that fails may panic")]
 
 use crate::support::{FREE, at, mill};
-use glidepath_audit::{Audit, AuditSettings, Report};
+use glidepath_audit::{Audit, AuditReport, AuditSettings};
 use glidepath_geometry::{Arc, AxisVector, Plane, Segment};
 use glidepath_motion::Planner;
 use glidepath_program::{Item, ItemKind, Rate};
 
 /// The report, and the motion.
-fn driven(segments: &[Segment], feed_v: f64) -> (Report, Vec<AxisVector>) {
+fn driven(segments: &[Segment], feed_v: f64) -> (AuditReport, Vec<AxisVector>) {
     let settings = mill();
     let mut audit = Audit::new(&AuditSettings::from(&settings));
     let mut planner = Planner::new(settings, segments[0].start());

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use glidepath_audit::diagnosis::Diagnosis;
 use glidepath_audit::smoothness::{Figures, SmoothnessReport};
-use glidepath_audit::{Audit, AuditSettings, Report};
+use glidepath_audit::{Audit, AuditReport, AuditSettings};
 use glidepath_gcode::{Options, Program};
 use glidepath_geometry::AxisVector;
 use glidepath_motion::{PlanError, Planner};
@@ -41,7 +41,7 @@ impl Way {
 /// What became of a program.
 #[derive(Debug, Clone)]
 pub(crate) struct Plan {
-    pub(crate) report: Report,
+    pub(crate) report: AuditReport,
     pub(crate) smoothness: SmoothnessReport,
     /// Processor time of planning alone.
     pub(crate) spent: Duration,

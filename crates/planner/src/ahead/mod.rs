@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!  planning thread                          publishing thread
-//!  Pipeline ──frames──▶ FrameQueue ──frames──▶ Publisher ──▶ interpolator
+//!  Pipeline ──frames──▶ FrameQueue ──frames──▶ FramePublisher ──▶ interpolator
 //!     ▲                  (bounded)                │
 //!     └── go back to the frame given out last ◀── override changed
 //! ```

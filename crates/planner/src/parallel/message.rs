@@ -13,7 +13,7 @@ pub(super) struct Part {
     pub(super) number: u64,
     pub(super) start: AxisVector,
     pub(super) items: Receiver<Batch>,
-    pub(super) plan: Sender<Planned>,
+    pub(super) plan: Sender<PlanPiece>,
 }
 
 /// Items of a part.
@@ -30,7 +30,7 @@ pub(super) enum Batch {
 
 /// A piece of the plan of a part.
 #[derive(Debug)]
-pub(super) enum Planned {
+pub(super) enum PlanPiece {
     Steps {
         steps: Vec<PlanStep>,
         weight: usize,

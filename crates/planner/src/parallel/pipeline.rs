@@ -11,7 +11,7 @@ use glidepath_motion::parts::Joiner;
 use glidepath_program::{Frame, Item, ItemKind, Settings};
 
 use super::bounds::Bounds;
-use super::message::{PlanStep, Planned};
+use super::message::{PlanPiece, PlanStep};
 use super::threads::Threads;
 use crate::blocks::Blocks;
 use crate::{ItemSource, Refusal, Statistics, Step};
@@ -25,9 +25,9 @@ pub struct ParallelPipeline {
     joiner: Joiner,
     blocks: Blocks,
     /// The plans of the parts to come, in order; `None` when all were taken.
-    parts: Option<Receiver<Receiver<Planned>>>,
+    parts: Option<Receiver<Receiver<PlanPiece>>>,
     /// The plan of the part at hand.
-    part: Option<Receiver<Planned>>,
+    part: Option<Receiver<PlanPiece>>,
     /// What was taken of it last.
     steps: std::vec::IntoIter<PlanStep>,
     /// The item taken last.
@@ -156,7 +156,7 @@ impl ParallelPipeline {
             return;
         };
         match part.recv() {
-            Ok(Planned::Steps {
+            Ok(PlanPiece::Steps {
                 steps,
                 weight,
                 lines,
@@ -165,7 +165,7 @@ impl ParallelPipeline {
                 self.statistics.lines = lines;
                 self.steps = steps.into_iter();
             }
-            Ok(Planned::End) => {
+            Ok(PlanPiece::End) => {
                 self.part = None;
                 self.bounds.plans.go_on();
             }

@@ -8,7 +8,7 @@ use glidepath_motion::parts::{Cutter, Placed};
 use glidepath_program::{Item, Settings};
 
 use super::bounds::Bounds;
-use super::message::{Batch, Gone, Part, Planned};
+use super::message::{Batch, Gone, Part, PlanPiece};
 use crate::blocks::Blocks;
 use crate::{ItemSource, Refusal, Supply};
 
@@ -30,7 +30,7 @@ pub(super) struct Outlets {
     /// To whoever has time.
     pub(super) workers: Sender<Part>,
     /// To the caller, in order.
-    pub(super) plans: SyncSender<Receiver<Planned>>,
+    pub(super) plans: SyncSender<Receiver<PlanPiece>>,
     pub(super) bounds: Arc<Bounds>,
 }
 

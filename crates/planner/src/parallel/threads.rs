@@ -11,7 +11,7 @@ use glidepath_kinematics::LimitedMechanism;
 use glidepath_program::Settings;
 
 use super::bounds::Bounds;
-use super::message::Planned;
+use super::message::PlanPiece;
 use super::reader::{Outlets, ReadEnd, read};
 use super::worker::work;
 use crate::ItemSource;
@@ -37,7 +37,7 @@ impl Threads {
         joints: Option<LimitedMechanism>,
         workers: NonZeroUsize,
         bounds: &Arc<Bounds>,
-    ) -> io::Result<(Self, Receiver<Receiver<Planned>>)> {
+    ) -> io::Result<(Self, Receiver<Receiver<PlanPiece>>)> {
         let (parts, waiting) = channel();
         let (plans, planned) = sync_channel(PARTS_PER_WORKER * workers.get());
         let waiting = Arc::new(Mutex::new(waiting));

@@ -8,17 +8,17 @@ use glidepath_motion::parts::PartPlanner;
 use glidepath_program::Settings;
 
 use super::bounds::Bounds;
-use super::message::{Batch, Gone, Part, PlanStep, Planned};
+use super::message::{Batch, Gone, Part, PlanPiece, PlanStep};
 use crate::joint_bounds::JointBounds;
 
 /// What parts are planned for: settings, and joints that are not the axes.
-type Machine = (Settings, Option<LimitedMechanism>);
+type PartSetUp = (Settings, Option<LimitedMechanism>);
 
 /// Bytes of a plan that are handed over together.
 const CHUNK: usize = 64 << 10;
 
 /// Plans parts as they come, until there are no more or nobody wants them.
-pub(super) fn work(parts: &Mutex<Receiver<Part>>, machine: Machine, bounds: &Bounds) {
+pub(super) fn work(parts: &Mutex<Receiver<Part>>, machine: PartSetUp, bounds: &Bounds) {
     loop {
         let part = parts.lock().unwrap_or_else(PoisonError::into_inner).recv();
         let Ok(part) = part else { return };
@@ -31,7 +31,7 @@ pub(super) fn work(parts: &Mutex<Receiver<Part>>, machine: Machine, bounds: &Bou
 /// The plan of a part on its way to the caller.
 struct Outlet<'a> {
     part: u64,
-    plan: Sender<Planned>,
+    plan: Sender<PlanPiece>,
     bounds: &'a Bounds,
     steps: Vec<PlanStep>,
     /// Memory that the steps keep beside their own, bytes.
@@ -69,19 +69,19 @@ impl Outlet<'_> {
         }
         let steps = std::mem::take(&mut self.steps);
         let lines = self.lines;
-        self.send(Planned::Steps {
+        self.send(PlanPiece::Steps {
             steps,
             weight,
             lines,
         })
     }
 
-    fn send(&self, planned: Planned) -> Result<(), Gone> {
+    fn send(&self, planned: PlanPiece) -> Result<(), Gone> {
         self.plan.send(planned).map_err(|_| Gone)
     }
 }
 
-fn plan(part: Part, (settings, joints): Machine, bounds: &Bounds) -> Result<(), Gone> {
+fn plan(part: Part, (settings, joints): PartSetUp, bounds: &Bounds) -> Result<(), Gone> {
     let mut planner = PartPlanner::new(settings, part.start, part.number == 0);
     if let Some(caps) = joints {
         planner = planner.with_joints(JointBounds::shared(caps));
@@ -112,7 +112,7 @@ fn plan(part: Part, (settings, joints): Machine, bounds: &Bounds) -> Result<(), 
                     put_motion(&mut planner, &mut outlet)?;
                 }
                 outlet.hand_over()?;
-                return outlet.send(Planned::End);
+                return outlet.send(PlanPiece::End);
             }
             Err(_) => return Err(Gone),
         }

@@ -9,8 +9,9 @@ use glidepath_program::{Effort, Event, Frame, FrameFlags, Limits, Settings, Smoo
 
 use super::{Remainder, ResumeError, ResumePoint};
 use crate::{
-    Answer, AnswerJournal, Answered, Approach, Attending, InputDesk, ItemSource, LineStart,
-    Pipeline, ProgramSource, Refusal, RunError, Settled, StartLine, StartLineError, Step, Supply,
+    AnsweredInput, Approach, InputArbiter, InputJournal, InputResult, ItemSource, LineStart,
+    Pipeline, ProgramSource, Refusal, RunChannels, RunError, Settled, StartLine, StartLineError,
+    Step, Supply,
 };
 
 /// Where the part begins, and where the machine comes to rest behind a contact, mm.
@@ -38,25 +39,25 @@ M2
 /// A journal in memory.
 #[derive(Debug, Clone, Default)]
 struct Journal {
-    kept: Arc<Mutex<Vec<Answered>>>,
+    kept: Arc<Mutex<Vec<AnsweredInput>>>,
     recalled: usize,
 }
 
 impl Journal {
-    fn of(answers: &[Answered]) -> Self {
+    fn of(answers: &[AnsweredInput]) -> Self {
         Self {
             kept: Arc::new(Mutex::new(answers.to_vec())),
             recalled: 0,
         }
     }
 
-    fn answers(&self) -> Vec<Answered> {
+    fn answers(&self) -> Vec<AnsweredInput> {
         self.kept.lock().unwrap().clone()
     }
 }
 
-impl AnswerJournal for Journal {
-    fn recall(&mut self) -> Option<Answered> {
+impl InputJournal for Journal {
+    fn recall(&mut self) -> Option<AnsweredInput> {
         let next = self.kept.lock().unwrap().get(self.recalled).copied();
         self.recalled += usize::from(next.is_some());
         next
@@ -67,7 +68,7 @@ impl AnswerJournal for Journal {
         Ok(())
     }
 
-    fn keep(&mut self, answered: &Answered) -> io::Result<()> {
+    fn keep(&mut self, answered: &AnsweredInput) -> io::Result<()> {
         self.kept.lock().unwrap().push(*answered);
         Ok(())
     }
@@ -78,7 +79,7 @@ impl AnswerJournal for Journal {
 struct Text(ProgramSource<&'static [u8]>);
 
 impl Text {
-    fn new(start: AxisVector, desk: &InputDesk) -> Self {
+    fn new(start: AxisVector, arbiter: &InputArbiter) -> Self {
         let options = Options {
             start,
             connections: Connections::Real,
@@ -86,9 +87,9 @@ impl Text {
             ..Options::default()
         };
         let source = ProgramSource::new(PROGRAM.as_bytes(), options);
-        Self(source.attended(Attending {
-            inputs: Some(desk.clone()),
-            ..Attending::default()
+        Self(source.attended(RunChannels {
+            inputs: Some(arbiter.clone()),
+            ..RunChannels::default()
         }))
     }
 }
@@ -98,7 +99,7 @@ impl ItemSource for Text {
         self.0.next_item()
     }
 
-    fn settle(&mut self, known: Option<Answer>) -> Result<Settled, Refusal> {
+    fn settle(&mut self, known: Option<InputResult>) -> Result<Settled, Refusal> {
         self.0.settle(known)
     }
 
@@ -115,21 +116,21 @@ impl ItemSource for Text {
 #[derive(Debug, Clone)]
 struct Stand {
     point: ResumePoint,
-    answers: Vec<Answered>,
+    answers: Vec<AnsweredInput>,
 }
 
 /// A machine with a part under its probe.
 struct Machine {
-    desk: InputDesk,
+    arbiter: InputArbiter,
     journal: Journal,
     stands: Vec<Stand>,
     block_path_s: f64,
 }
 
 impl Machine {
-    fn new(desk: InputDesk, journal: Journal) -> Self {
+    fn new(arbiter: InputArbiter, journal: Journal) -> Self {
         Self {
-            desk,
+            arbiter,
             journal,
             stands: Vec::new(),
             block_path_s: 0.0,
@@ -172,7 +173,7 @@ impl Machine {
             let at = (last.block, last.path_s);
             self.stand(probed.stands, at, probed.contact.and(Some(probed)));
             pipeline.go_on_from(probed.stands, last.path_s);
-            self.desk.answer(Answer::Probe(probed)).unwrap();
+            self.arbiter.answer(InputResult::Probe(probed)).unwrap();
             self.stand(probed.stands, at, probed.contact.and(Some(probed)));
         }
     }
@@ -184,7 +185,7 @@ impl Machine {
             match pipeline.step().unwrap() {
                 Step::Item => {}
                 Step::End => return None,
-                Step::Pending => self.desk.answer(Answer::Input(2.5)).unwrap(),
+                Step::Pending => self.arbiter.answer(InputResult::Input(2.5)).unwrap(),
                 Step::Frame => {
                     let frame = *pipeline.frame();
                     looks |= matches!(frame.events.at_rest(), Some(Event::Probe { .. }));
@@ -224,11 +225,11 @@ fn settings() -> Settings {
 
 /// The program from its beginning to its end.
 fn whole() -> Machine {
-    let (desk, journal) = (InputDesk::default(), Journal::default());
-    desk.keep_in(Box::new(journal.clone()), false);
+    let (arbiter, journal) = (InputArbiter::default(), Journal::default());
+    arbiter.keep_in(Box::new(journal.clone()), false);
     let start = AxisVector::zeros();
-    let mut pipeline = Pipeline::new(Text::new(start, &desk), settings(), start);
-    let mut machine = Machine::new(desk, journal);
+    let mut pipeline = Pipeline::new(Text::new(start, &arbiter), settings(), start);
+    let mut machine = Machine::new(arbiter, journal);
     machine.execute(&mut pipeline);
     machine
 }
@@ -267,14 +268,14 @@ fn a_program_that_asks_goes_on_from_wherever_it_was_left() {
             continue;
         }
         let left = (number, &stand.point, stand.answers.len());
-        let desk = InputDesk::default();
+        let arbiter = InputArbiter::default();
         let journal = Journal::of(&stand.answers);
-        desk.keep_in(Box::new(journal.clone()), true);
-        let source = Text::new(AxisVector::zeros(), &desk);
+        arbiter.keep_in(Box::new(journal.clone()), true);
+        let source = Text::new(AxisVector::zeros(), &arbiter);
         let rest = Remainder::find(source, stand.point, settings().tolerance_mm)
             .unwrap_or_else(|error| panic!("{left:?}: {error}"));
-        desk.begin_here().unwrap();
-        let mut machine = Machine::new(desk, journal.clone());
+        arbiter.begin_here().unwrap();
+        let mut machine = Machine::new(arbiter, journal.clone());
         let mut pipeline = Pipeline::resuming(rest, settings());
         machine.execute(&mut pipeline);
         let last = machine.stands.last().unwrap();
@@ -293,9 +294,9 @@ fn what_was_answered_and_is_not_known_any_more_is_refused() {
     let all = whole();
     let end = all.stands.last().unwrap();
     for known in 0..4 {
-        let desk = InputDesk::default();
-        desk.keep_in(Box::new(Journal::of(&end.answers[..known])), true);
-        let source = Text::new(AxisVector::zeros(), &desk);
+        let arbiter = InputArbiter::default();
+        arbiter.keep_in(Box::new(Journal::of(&end.answers[..known])), true);
+        let source = Text::new(AxisVector::zeros(), &arbiter);
         let refused = Remainder::find(source, end.point, 0.02).unwrap_err();
         let line = [3, 5, 7, 11][known];
         assert!(
@@ -306,9 +307,9 @@ fn what_was_answered_and_is_not_known_any_more_is_refused() {
     // Answers of another run, in which other lines asked.
     let mut others = end.answers.clone();
     others[1].line = 6;
-    let desk = InputDesk::default();
-    desk.keep_in(Box::new(Journal::of(&others)), true);
-    let refused = Remainder::find(Text::new(AxisVector::zeros(), &desk), end.point, 0.02);
+    let arbiter = InputArbiter::default();
+    arbiter.keep_in(Box::new(Journal::of(&others)), true);
+    let refused = Remainder::find(Text::new(AxisVector::zeros(), &arbiter), end.point, 0.02);
     assert!(matches!(
         refused.unwrap_err(),
         RunError::Refused(Refusal::AnswerUnknown { line: 5 })
@@ -328,26 +329,26 @@ fn from_a_line_on_it_is_told_what_it_was_told_before_and_asks_anew_behind() {
     };
     // Line, answers in front of it, and where it begins.
     for (line, told, z) in [(3, 0, 0.0), (5, 1, 10.0), (6, 2, STANDS_Z), (12, 4, -4.25)] {
-        let (desk, journal) = (InputDesk::default(), Journal::of(&answers));
-        desk.keep_in(Box::new(journal.clone()), true);
+        let (arbiter, journal) = (InputArbiter::default(), Journal::of(&answers));
+        arbiter.keep_in(Box::new(journal.clone()), true);
         let start = StartLine { line, pass: 1 };
-        let found = LineStart::find(Text::new(stands, &desk), start, &approach).unwrap();
+        let found = LineStart::find(Text::new(stands, &arbiter), start, &approach).unwrap();
         if line > 3 {
             assert!((found.begins_at()[2] - z).abs() < 1e-9, "line {line}");
         }
-        desk.begin_here().unwrap();
+        arbiter.begin_here().unwrap();
         assert_eq!(journal.answers().len(), told, "line {line}");
-        let mut machine = Machine::new(desk, journal.clone());
+        let mut machine = Machine::new(arbiter, journal.clone());
         let mut pipeline = Pipeline::resuming(found.approached(&approach), settings());
         machine.execute(&mut pipeline);
         let again = journal.answers();
         assert_eq!(again.len(), answers.len(), "line {line}");
         assert!(again.iter().zip(&answers).all(|(a, b)| a.line == b.line));
     }
-    let (desk, journal) = (InputDesk::default(), Journal::of(&answers[..2]));
-    desk.keep_in(Box::new(journal), true);
+    let (arbiter, journal) = (InputArbiter::default(), Journal::of(&answers[..2]));
+    arbiter.keep_in(Box::new(journal), true);
     let start = StartLine { line: 10, pass: 1 };
-    let refused = LineStart::find(Text::new(stands, &desk), start, &approach).unwrap_err();
+    let refused = LineStart::find(Text::new(stands, &arbiter), start, &approach).unwrap_err();
     assert!(matches!(
         refused,
         StartLineError::Refused(Refusal::AnswerUnknown { line: 7 })
@@ -527,9 +528,9 @@ fn it_asks_again_from_beside_the_path() {
     assert!(stand.answers.is_empty(), "{stand:?}");
     for (away, is_near) in [(0.004, true), (1.0, false)] {
         stand.point.position[2] = away;
-        let (desk, journal) = (InputDesk::default(), Journal::of(&[]));
-        desk.keep_in(Box::new(journal.clone()), true);
-        let source = Text::new(AxisVector::zeros(), &desk);
+        let (arbiter, journal) = (InputArbiter::default(), Journal::of(&[]));
+        arbiter.keep_in(Box::new(journal.clone()), true);
+        let source = Text::new(AxisVector::zeros(), &arbiter);
         let rest = Remainder::find(source, stand.point, settings().tolerance_mm);
         if !is_near {
             let refused = rest.map(drop).unwrap_err();
@@ -539,8 +540,8 @@ fn it_asks_again_from_beside_the_path() {
             ));
             continue;
         }
-        desk.begin_here().unwrap();
-        let mut machine = Machine::new(desk, journal.clone());
+        arbiter.begin_here().unwrap();
+        let mut machine = Machine::new(arbiter, journal.clone());
         machine.execute(&mut Pipeline::resuming(rest.unwrap(), settings()));
         assert_eq!(machine.stands[0].point.position, stand.point.position);
         let last = machine.stands.last().unwrap();

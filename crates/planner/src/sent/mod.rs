@@ -2,7 +2,7 @@
 //! come.
 //!
 //! ```text
-//!  LinesRequest ──► LineInbox ──► SentLines ──► Pipeline ──► …        Publisher
+//!  LinesRequest ──► LineInbox ──► SentLines ──► Pipeline ──► …        FramePublisher
 //!  LinesReply ◄──── (what came    (what is read:                          │
 //!                    of them)      items, and what is in force)           │
 //!                        ▲                                                │
@@ -21,17 +21,17 @@
 //! * **What is in force is known at every block**, so that a job that is aborted leaves what its executed part has
 //!   left.
 
-mod counter;
 mod facts;
 mod followed;
 mod inbox;
+mod line_server;
 mod source;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use counter::{Begun, Counter};
 pub use facts::LineFacts;
 pub use followed::Followed;
 pub use inbox::LineInbox;
 pub(crate) use inbox::LinesEnd;
+pub(crate) use line_server::{LineServer, SentJob};
 pub use source::SentLines;

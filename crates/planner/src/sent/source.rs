@@ -8,7 +8,7 @@ use glidepath_program::{Event, ItemKind};
 
 use super::facts::{Found, LineFacts};
 use super::inbox::{LineInbox, Refused};
-use crate::{Attending, ItemSource, ProgramSource, Refusal, Supply};
+use crate::{ItemSource, ProgramSource, Refusal, RunChannels, Supply};
 
 /// The items of the lines of an inbox. What is read is told there.
 #[derive(Debug)]
@@ -31,13 +31,13 @@ impl SentLines {
     /// A source of what comes into an inbox, read with these options. It shares what it comes to
     /// with whoever attends to its run.
     #[must_use]
-    pub fn new(inbox: LineInbox, options: Options, attending: Attending) -> Self {
+    pub fn new(inbox: LineInbox, options: Options, channels: RunChannels) -> Self {
         let reader = InboxReader {
             inbox: inbox.clone(),
             line: Vec::new(),
             passed: 0,
         };
-        let source = ProgramSource::typed(reader, options).attended(attending);
+        let source = ProgramSource::typed(reader, options).attended(channels);
         let (facts, found) = (LineFacts::of(source.program()), inbox.found());
         let (words, zero) = (facts.words.clone(), facts.zero);
         inbox.know(facts, found);

@@ -11,7 +11,7 @@ use super::facts::{Found, LineFacts};
 use super::followed::Followed;
 use super::inbox::{LineInbox, LinesEnd};
 use super::source::SentLines;
-use crate::{Attending, ItemSource as _, Supply};
+use crate::{ItemSource as _, RunChannels, Supply};
 
 fn request(first: u64, text: &str) -> LinesRequest {
     LinesRequest {
@@ -39,7 +39,7 @@ impl Desk {
             connections: Connections::Simulated,
             ..Options::default()
         };
-        let source = SentLines::new(inbox.clone(), options, Attending::default());
+        let source = SentLines::new(inbox.clone(), options, RunChannels::default());
         Self { inbox, source }
     }
 

@@ -10,7 +10,7 @@
 use crate::support::items::settings;
 use glidepath_audit::{Audit, AuditSettings};
 use glidepath_curve::{ImplicitCurve, ParametricCurve};
-use glidepath_gcode::{Diagnostic, DiagnosticCode, Machine, Options, Travel};
+use glidepath_gcode::{AxisTravel, Diagnostic, DiagnosticCode, Machine, Options};
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_planner::{CurveSource, Output, Pipeline};
 use glidepath_program::Frame;
@@ -179,7 +179,7 @@ fn findings_have_line_and_column() {
     assert!(flat.message.contains("no axis Z"), "{}", flat.message);
     let machine = Machine::unlimited().with_travel(
         Axis::Y,
-        Travel {
+        AxisTravel {
             min: -10.0,
             max: 100.0,
         },

@@ -8,7 +8,7 @@
 
 use crate::support::items::settings;
 use glidepath_audit::{Audit, AuditSettings};
-use glidepath_gcode::{Diagnostic, DiagnosticCode, Machine, Options, Program, Travel};
+use glidepath_gcode::{AxisTravel, Diagnostic, DiagnosticCode, Machine, Options, Program};
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_motion::Planner;
 use glidepath_planner::{ItemSource, NurbsSource, Output, Pipeline, Supply};
@@ -173,7 +173,7 @@ fn findings_have_a_place_and_a_remedy() {
 fn the_machine_must_have_the_axes_and_the_travel() {
     let narrow = Machine::new(&[Axis::X, Axis::Y, Axis::Z]).with_travel(
         Axis::Y,
-        Travel {
+        AxisTravel {
             min: -1.0,
             max: 10.0,
         },

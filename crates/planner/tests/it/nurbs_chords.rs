@@ -7,7 +7,7 @@
     reason = "test code, which clippy does not see as such"
 )]
 
-use glidepath_audit::{Audit, AuditSettings, Report};
+use glidepath_audit::{Audit, AuditReport, AuditSettings};
 use glidepath_gcode::Options;
 use glidepath_planner::{NurbsSource, Output, Pipeline};
 use glidepath_program::{Effort, Limits, Settings, Smoothing};
@@ -17,7 +17,7 @@ const CURVES: [&str; 5] = ["butterfly", "trident_like", "needle", "star", "infin
 const TOLERANCES_MM: [f64; 5] = [0.001, 0.003, 0.01, 0.02, 0.05];
 const PERIODS_T: [f64; 4] = [0.001, 0.002, 0.004, 0.008];
 
-fn judged(text: &str, settings: Settings) -> Report {
+fn judged(text: &str, settings: Settings) -> AuditReport {
     let options = Options {
         default_feed_mm_min: Some(6000.0),
         ..Options::default()

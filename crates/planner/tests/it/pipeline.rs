@@ -14,7 +14,7 @@ use glidepath_gcode::{DiagnosticCode, Options};
 use glidepath_geometry::AxisVector;
 use glidepath_motion::PlanError;
 use glidepath_planner::{
-    Attending, FileSource, ItemSource, Output, PipeSource, Pipeline, Refusal, Statistics,
+    FileSource, ItemSource, Output, PipeSource, Pipeline, Refusal, RunChannels, Statistics,
 };
 use glidepath_program::{Frame, FrameFlags, Item};
 use proptest::prelude::*;
@@ -79,7 +79,7 @@ fn a_file_and_a_pipe_give_the_same_frames() {
         }
     });
     let (from_pipe, piped, refusal) =
-        drain(PipeSource::spawn(reader, Options::default(), Attending::default()).unwrap());
+        drain(PipeSource::spawn(reader, Options::default(), RunChannels::default()).unwrap());
     typist.join().unwrap();
     assert!(refusal.is_none(), "{refusal:?}");
     assert_eq!(piped, statistics);
@@ -137,7 +137,7 @@ fn a_pipe_with_an_error_is_planned_to_a_stop_before_it() {
     let bad = format!("{good}G1 X\nG1 X0 Y0\n");
     let read = |text: &str| {
         let input = std::io::Cursor::new(text.to_owned());
-        drain(PipeSource::spawn(input, Options::default(), Attending::default()).unwrap())
+        drain(PipeSource::spawn(input, Options::default(), RunChannels::default()).unwrap())
     };
     let (frames, _, refusal) = read(&bad);
     match refusal {

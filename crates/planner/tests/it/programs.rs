@@ -14,7 +14,7 @@ use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
 use glidepath_audit::diagnosis::Diagnosis;
-use glidepath_audit::{Audit, AuditSettings, Report, Sample};
+use glidepath_audit::{Audit, AuditReport, AuditSettings, Sample};
 use glidepath_gcode::{Options, Program};
 use glidepath_geometry::AxisVector;
 use glidepath_motion::Planner;
@@ -87,7 +87,7 @@ fn plan(
     settings: Settings,
     options: Options,
     mut each: impl FnMut(&Frame),
-) -> Result<Report, String> {
+) -> Result<AuditReport, String> {
     let file = File::open(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
     let mut audit = Audit::new(&AuditSettings::from(&settings));
     let mut diagnosis = Diagnosis::new(&AuditSettings::from(&settings));

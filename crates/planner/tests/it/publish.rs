@@ -13,8 +13,8 @@ use glidepath_link::{
     Capacity, EndOfEpoch, FaultCause, InProcess, JobStage, MachineState, Transport,
 };
 use glidepath_planner::{
-    Attending, Control, ItemSource, Pace, Pipeline, ProgramSource, Publisher, Refusal, RemarkLog,
-    RunError, Statistics, Supply,
+    Control, FramePublisher, ItemSource, Pace, Pipeline, ProgramSource, Refusal, RemarkLog,
+    RunChannels, RunError, Statistics, Supply,
 };
 
 const HORIZON: u64 = 50;
@@ -33,7 +33,7 @@ fn run(
     pace: Pace,
     control: &mut Control<'_>,
 ) -> Result<Statistics, RunError> {
-    let mut publisher = Publisher::connect(transport, pace)?;
+    let mut publisher = FramePublisher::connect(transport, pace)?;
     let start = publisher.wait_until_ready(("part", 0), control)?;
     publisher.publish(&mut Pipeline::new(source, settings(), start), control)
 }
@@ -80,14 +80,14 @@ fn what_a_program_says_is_told_when_the_machine_comes_to_it() {
             }
         },
         |control| {
-            let mut publisher = Publisher::connect(&transport, pace())?;
+            let mut publisher = FramePublisher::connect(&transport, pace())?;
             let start = publisher.wait_until_ready(("part", 0), control)?;
             let log = RemarkLog::default();
             publisher.attend_remarks(log.clone());
             let source = ProgramSource::new(TEXT.as_bytes(), Options::default());
-            let source = source.attended(Attending {
+            let source = source.attended(RunChannels {
                 remarks: Some(log),
-                ..Attending::default()
+                ..RunChannels::default()
             });
             publisher.publish(&mut Pipeline::new(source, settings(), start), control)
         },
@@ -407,7 +407,7 @@ fn interfered(
             interpolator.borrow_mut().pass(waited);
         },
         |control| {
-            let mut publisher = Publisher::connect(&transport, pace())?;
+            let mut publisher = FramePublisher::connect(&transport, pace())?;
             let start = publisher.wait_until_ready(("part", 0), control)?;
             let watch = publisher.watch();
             let check = || {

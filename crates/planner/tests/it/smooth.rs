@@ -12,7 +12,7 @@ use core::f64::consts::TAU;
 use std::fmt::Write as _;
 
 use crate::support::family::{audited, family};
-use glidepath_audit::Report;
+use glidepath_audit::AuditReport;
 use glidepath_geometry::AxisVector;
 use glidepath_program::{Corners, Effort, Limits, Settings, Smoothing};
 
@@ -64,11 +64,11 @@ fn settings() -> Settings {
     }
 }
 
-fn planned(text: &str) -> (Vec<Place>, Report) {
+fn planned(text: &str) -> (Vec<Place>, AuditReport) {
     planned_with(text, settings())
 }
 
-fn planned_with(text: &str, settings: Settings) -> (Vec<Place>, Report) {
+fn planned_with(text: &str, settings: Settings) -> (Vec<Place>, AuditReport) {
     let mut places = Vec::new();
     let report = audited("smooth", text, settings, |frame| {
         places.push((frame.line, frame.position));

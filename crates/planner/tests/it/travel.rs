@@ -13,8 +13,8 @@ use core::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::io::Cursor;
 
-use glidepath_audit::{Audit, AuditSettings, Report};
-use glidepath_gcode::{Machine, Options, Program, Travel as AxisTravel};
+use glidepath_audit::{Audit, AuditReport, AuditSettings};
+use glidepath_gcode::{AxisTravel, Machine, Options, Program};
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_motion::{PlanError, Planner};
 use glidepath_program::{Effort, Frame, Limits, Override, Settings, Smoothing};
@@ -255,7 +255,7 @@ fn planned(
     (of, settings): (&Box3, Settings),
     overrides: &[(usize, f64)],
     mut each: impl FnMut(&Frame),
-) -> Report {
+) -> AuditReport {
     let most = overrides.iter().fold(1.0_f64, |most, (_, r)| most.max(*r));
     let mut audit = Audit::new(&AuditSettings::from(&settings)).with_override(most);
     let mut planner = Planner::new(settings, of.start());

@@ -2,7 +2,7 @@
 
 /// The verdict of a check.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Verdict {
+pub enum CheckVerdict {
     /// As it should be, or of no effect here.
     Ok,
     /// Real time works, but later or less surely than it could.
@@ -11,7 +11,7 @@ pub enum Verdict {
     Missing,
 }
 
-impl Verdict {
+impl CheckVerdict {
     /// The verdict in one word.
     #[must_use]
     pub const fn name(self) -> &'static str {
@@ -29,10 +29,10 @@ pub struct Check {
     /// What was looked at, in a word or two.
     pub name: &'static str,
     /// How good it is.
-    pub verdict: Verdict,
+    pub verdict: CheckVerdict,
     /// What was found.
     pub found: String,
-    /// How to mend it; `None` if it is [`Verdict::Ok`].
+    /// How to mend it; `None` if it is [`CheckVerdict::Ok`].
     pub remedy: Option<String>,
 }
 
@@ -40,7 +40,7 @@ impl Check {
     pub(super) fn ok(name: &'static str, found: impl Into<String>) -> Self {
         Self {
             name,
-            verdict: Verdict::Ok,
+            verdict: CheckVerdict::Ok,
             found: found.into(),
             remedy: None,
         }
@@ -53,7 +53,7 @@ impl Check {
     ) -> Self {
         Self {
             name,
-            verdict: Verdict::Warning,
+            verdict: CheckVerdict::Warning,
             found: found.into(),
             remedy: Some(remedy.into()),
         }
@@ -65,7 +65,7 @@ impl Check {
         remedy: impl Into<String>,
     ) -> Self {
         Self {
-            verdict: Verdict::Missing,
+            verdict: CheckVerdict::Missing,
             ..Self::warning(name, found, remedy)
         }
     }

@@ -13,13 +13,13 @@ mod processor;
 #[cfg(test)]
 mod tests;
 
-pub use check::{Check, Verdict};
+pub use check::{Check, CheckVerdict};
 
 use crate::Host;
 
 /// The demand of the real-time thread: what it is going to ask for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Demand {
+pub struct RealTimeDemand {
     /// The processor it is pinned to.
     pub cpu: Option<usize>,
     /// `SCHED_FIFO` priority, 1 to 99.
@@ -30,7 +30,7 @@ pub struct Demand {
 #[must_use]
 pub fn examine_interface(host: &Host, name: &str) -> Vec<Check> {
     let exists = network::exists(host, name);
-    if exists.verdict == Verdict::Missing {
+    if exists.verdict == CheckVerdict::Missing {
         return vec![exists];
     }
     vec![
@@ -44,7 +44,7 @@ pub fn examine_interface(host: &Host, name: &str) -> Vec<Check> {
 
 /// Makes every check. Privileges are those of the calling process.
 #[must_use]
-pub fn examine(host: &Host, demand: Demand) -> Vec<Check> {
+pub fn examine(host: &Host, demand: RealTimeDemand) -> Vec<Check> {
     let mut checks = vec![
         kernel::preemption(host),
         privileges::scheduling(host, demand.priority),

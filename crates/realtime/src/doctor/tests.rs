@@ -54,7 +54,7 @@ const GOOD: &[(&str, &str)] = &[
     ),
 ];
 
-const DEMAND: Demand = Demand {
+const DEMAND: RealTimeDemand = RealTimeDemand {
     cpu: Some(3),
     priority: 80,
 };
@@ -78,7 +78,7 @@ fn a_good_host_has_nothing_to_mend() {
     for check in checks {
         assert_eq!(
             (check.verdict, check.remedy),
-            (Verdict::Ok, None),
+            (CheckVerdict::Ok, None),
             "{}",
             check.found
         );
@@ -86,124 +86,124 @@ fn a_good_host_has_nothing_to_mend() {
 }
 
 /// Check, file, its text, verdict, part of the remedy.
-const DEFECTS: &[(&str, &str, &str, Verdict, &str)] = &[
+const DEFECTS: &[(&str, &str, &str, CheckVerdict, &str)] = &[
     (
         "kernel",
         "proc/sys/kernel/version",
         "#1 SMP PREEMPT_DYNAMIC",
-        Verdict::Warning,
+        CheckVerdict::Warning,
         "PREEMPT_RT",
     ),
     (
         "throttling",
         "proc/sys/kernel/sched_rt_runtime_us",
         "-1",
-        Verdict::Warning,
+        CheckVerdict::Warning,
         "950000",
     ),
     (
         "throttling",
         "proc/sys/kernel/sched_rt_runtime_us",
         "0",
-        Verdict::Missing,
+        CheckVerdict::Missing,
         "950000",
     ),
     (
         "throttling",
         "proc/sys/kernel/sched_rt_runtime_us",
         "100000",
-        Verdict::Warning,
+        CheckVerdict::Warning,
         "950000",
     ),
     (
         "scheduling",
         "proc/self/status",
         "CapEff:\t0000000000000000\n",
-        Verdict::Missing,
+        CheckVerdict::Missing,
         "CAP_SYS_NICE",
     ),
     (
         "planning",
         "proc/self/status",
         "CapEff:\t0000000000000000\n",
-        Verdict::Warning,
+        CheckVerdict::Warning,
         "Nice=-15",
     ),
     (
         "memory lock",
         "proc/self/status",
         "VmSize:\t8000 kB\n",
-        Verdict::Warning,
+        CheckVerdict::Warning,
         "CAP_IPC_LOCK",
     ),
     (
         "memory lock",
         "proc/self/status",
         "VmSize:\t9000 kB\n",
-        Verdict::Missing,
+        CheckVerdict::Missing,
         "CAP_IPC_LOCK",
     ),
     (
         "steal time",
         "proc/stat",
         "cpu  30 2 10 200 5 0 3 50 0 0\n",
-        Verdict::Warning,
+        CheckVerdict::Warning,
         "dedicated",
     ),
     (
         "processor",
         "sys/devices/system/cpu/online",
         "0-2",
-        Verdict::Missing,
+        CheckVerdict::Missing,
         "interpolator.cpu",
     ),
     (
         "processor",
         "proc/self/status",
         "Cpus_allowed_list:\t0-1\n",
-        Verdict::Warning,
+        CheckVerdict::Warning,
         "cpuset",
     ),
     (
         "isolation",
         "sys/devices/system/cpu/isolated",
         "",
-        Verdict::Warning,
+        CheckVerdict::Warning,
         "isolcpus=managed_irq,domain,3",
     ),
     (
         "kernel tick",
         "sys/devices/system/cpu/nohz_full",
         "(null)",
-        Verdict::Warning,
+        CheckVerdict::Warning,
         "nohz_full=3",
     ),
     (
         "interrupts",
         "proc/irq/10/smp_affinity_list",
         "2-3",
-        Verdict::Warning,
+        CheckVerdict::Warning,
         "irqaffinity=",
     ),
     (
         "hardware threads",
         "sys/devices/system/cpu/cpu3/topology/thread_siblings_list",
         "1,3",
-        Verdict::Warning,
+        CheckVerdict::Warning,
         "nosmt",
     ),
     (
         "frequency",
         "sys/devices/system/cpu/cpu3/cpufreq/scaling_governor",
         "powersave",
-        Verdict::Warning,
+        CheckVerdict::Warning,
         "cpupower -c 3",
     ),
     (
         "temperature",
         "sys/devices/system/cpu/cpu3/thermal_throttle/package_throttle_count",
         "7",
-        Verdict::Warning,
+        CheckVerdict::Warning,
         "cooling",
     ),
 ];
@@ -229,12 +229,15 @@ fn limits_stand_in_for_capabilities() {
         ])
     };
     let (_folder, host) = with_limit(limits);
-    assert_eq!(privileges::scheduling(&host, 80).verdict, Verdict::Ok);
-    assert_eq!(privileges::scheduling(&host, 96).verdict, Verdict::Missing);
-    assert_eq!(privileges::memory_lock(&host).verdict, Verdict::Ok);
-    assert_eq!(privileges::precedence(&host).verdict, Verdict::Ok);
+    assert_eq!(privileges::scheduling(&host, 80).verdict, CheckVerdict::Ok);
+    assert_eq!(
+        privileges::scheduling(&host, 96).verdict,
+        CheckVerdict::Missing
+    );
+    assert_eq!(privileges::memory_lock(&host).verdict, CheckVerdict::Ok);
+    assert_eq!(privileges::precedence(&host).verdict, CheckVerdict::Ok);
     let (_folder, host) = with_limit("Max nice priority         34          34\n");
-    assert_eq!(privileges::precedence(&host).verdict, Verdict::Warning);
+    assert_eq!(privileges::precedence(&host).verdict, CheckVerdict::Warning);
 }
 
 #[test]
@@ -250,14 +253,14 @@ fn a_group_without_real_time_budget_is_named() {
         privileges::group_budget(&host)
     };
     let none = budget(Some("0\n"));
-    assert_eq!(none.verdict, Verdict::Missing);
+    assert_eq!(none.verdict, CheckVerdict::Missing);
     assert!(
         none.remedy
             .unwrap()
             .contains("/sys/fs/cgroup/cpu,cpuacct/a/b/cpu.rt_runtime_us")
     );
-    assert_eq!(budget(Some("100000\n")).verdict, Verdict::Ok);
-    assert_eq!(budget(None).verdict, Verdict::Ok);
+    assert_eq!(budget(Some("100000\n")).verdict, CheckVerdict::Ok);
+    assert_eq!(budget(None).verdict, CheckVerdict::Ok);
 }
 
 #[test]
@@ -267,7 +270,7 @@ fn a_slow_clock_names_a_quicker_one() {
     let available = (&*format!("{folder}/available_clocksource"), "hpet tsc\n");
     let (_folder, host) = host(&[current, available]);
     let check = kernel::clock_source(&host);
-    assert_eq!(check.verdict, Verdict::Warning);
+    assert_eq!(check.verdict, CheckVerdict::Warning);
     assert!(check.remedy.unwrap().contains("clocksource=tsc"));
 }
 
@@ -276,7 +279,7 @@ fn a_host_that_tells_nothing_is_not_fit() {
     let (_folder, host) = host(&[]);
     let missing: Vec<_> = examine(&host, DEMAND)
         .into_iter()
-        .filter(|check| check.verdict == Verdict::Missing)
+        .filter(|check| check.verdict == CheckVerdict::Missing)
         .map(|check| check.name)
         .collect();
     assert_eq!(missing, ["scheduling", "memory lock", "idle states"]);
@@ -285,7 +288,7 @@ fn a_host_that_tells_nothing_is_not_fit() {
 #[test]
 fn without_a_processor_that_is_the_finding() {
     let (_folder, host) = host(GOOD);
-    let demand = Demand {
+    let demand = RealTimeDemand {
         cpu: None,
         ..DEMAND
     };
@@ -293,7 +296,7 @@ fn without_a_processor_that_is_the_finding() {
     assert!(
         checks
             .iter()
-            .any(|c| c.name == "processor" && c.verdict == Verdict::Warning)
+            .any(|c| c.name == "processor" && c.verdict == CheckVerdict::Warning)
     );
 }
 
@@ -316,16 +319,16 @@ fn an_interface_for_drives_is_one_of_a_card_with_a_cable_and_nobody_else() {
             .collect::<Vec<_>>()
     };
     let good = [
-        ("interface", Verdict::Ok),
-        ("link", Verdict::Ok),
-        ("raw frames", Verdict::Ok),
-        ("sole use", Verdict::Ok),
-        ("coalescing", Verdict::Warning),
+        ("interface", CheckVerdict::Ok),
+        ("link", CheckVerdict::Ok),
+        ("raw frames", CheckVerdict::Ok),
+        ("sole use", CheckVerdict::Ok),
+        ("coalescing", CheckVerdict::Warning),
     ];
     assert_eq!(verdicts(&files, "enp3s0"), good);
     assert_eq!(
         verdicts(&files, "enp4s0"),
-        [("interface", Verdict::Missing)]
+        [("interface", CheckVerdict::Missing)]
     );
     files[1].1 = "0\n";
     files[4].1 = "0\n";
@@ -334,12 +337,12 @@ fn an_interface_for_drives_is_one_of_a_card_with_a_cable_and_nobody_else() {
     let of = |name: &str| bad.iter().find(|(n, _)| *n == name).unwrap().1;
     assert_eq!(
         (of("link"), of("raw frames")),
-        (Verdict::Missing, Verdict::Missing)
+        (CheckVerdict::Missing, CheckVerdict::Missing)
     );
-    assert_eq!(of("sole use"), Verdict::Warning);
+    assert_eq!(of("sole use"), CheckVerdict::Warning);
     files[0].1 = "0x9\n";
     assert_eq!(
         verdicts(&files, "enp3s0")[0],
-        ("interface", Verdict::Missing)
+        ("interface", CheckVerdict::Missing)
     );
 }

@@ -1,7 +1,7 @@
 //! G54 to G59.3, and SINUMERIK's G500 and G505 to G599: which coordinate system is in force.
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::state::fanuc_offsets::system_key;
@@ -36,10 +36,10 @@ impl Interpreter {
 }
 
 #[cold]
-fn system_not_set(index: usize, span: SourceSpan) -> Box<Fault> {
+fn system_not_set(index: usize, span: SourceSpan) -> Box<BlockDiagnostic> {
     let code = index + 501;
     let message = format!("the coordinate system of G{code} was not set");
-    Fault::new(DiagnosticCode::NotSupported, span, message)
+    BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
         .because(
             "the machine keeps G54 to G57 and G505 to G509; a program has the others that it sets",
         )

@@ -1,7 +1,7 @@
 //! The feed of a block: feed mode and F, and the feed of corners.
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::state::modal::Feed;
 use crate::syntax::block::Block;
@@ -48,7 +48,7 @@ impl Interpreter {
         if feed <= 0.0 {
             let message = format!("the feedrate F{feed} is not above zero");
             return Err(
-                Fault::new(DiagnosticCode::BadFeed, block.span(b'F'), message)
+                BlockDiagnostic::new(DiagnosticCode::BadFeed, block.span(b'F'), message)
                     .because("a move at that feedrate would never end")
                     .help("write a positive feedrate; use M0 to stop"),
             );
@@ -92,9 +92,11 @@ impl Interpreter {
             Some(feed) if found.value > 0.0 => Ok(Some(feed)),
             _ => {
                 let message = format!("the feedrate {}={}", word.name(), found.value);
-                Err(Fault::new(DiagnosticCode::BadFeed, found.span, message)
-                    .because("it is a feed per minute or per revolution, above zero")
-                    .help("write a positive feedrate, with G94 or G95 in force"))
+                Err(
+                    BlockDiagnostic::new(DiagnosticCode::BadFeed, found.span, message)
+                        .because("it is a feed per minute or per revolution, above zero")
+                        .help("write a positive feedrate, with G94 or G95 in force"),
+                )
             }
         }
     }
@@ -139,9 +141,9 @@ fn feed_mode_of_speed(block: &Block) -> Option<FeedMode> {
 }
 
 #[cold]
-fn unsaid(block: &Block) -> Box<Fault> {
+fn unsaid(block: &Block) -> Box<BlockDiagnostic> {
     let message = "F before G98 or G99";
-    Fault::new(DiagnosticCode::AmbiguousWord, block.span(b'F'), message)
+    BlockDiagnostic::new(DiagnosticCode::AmbiguousWord, block.span(b'F'), message)
         .because("lathes begin with a feed per revolution or per minute, as a parameter of theirs says (3402#4)")
         .help("write G99 (per revolution) or G98 (per minute) in front of it")
 }

@@ -14,8 +14,8 @@
 
 use glidepath_program::{CodeWord, Event, Item, ItemKind};
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::auxiliary::input_wait::{Input, InputWait, WaitFor};
 use crate::execute::interpreter::Interpreter;
@@ -84,11 +84,13 @@ impl Interpreter {
     fn stop_at_angle(&mut self, word: NamedValue) -> Outcome<()> {
         if self.options.threading.is_none() && self.options.spindle_axis.is_none() {
             let message = "SPOS of a spindle whose angle nobody knows";
-            return Err(Fault::new(DiagnosticCode::NotConnected, word.span, message)
-                .because(
-                    "the spindle has to stop at an angle, and the machine has no encoder on it",
-                )
-                .help("set `encoder = true` in [spindle] if it has one, or write M19"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::NotConnected, word.span, message)
+                    .because(
+                        "the spindle has to stop at an angle, and the machine has no encoder on it",
+                    )
+                    .help("set `encoder = true` in [spindle] if it has one, or write M19"),
+            );
         }
         self.require_connection(word.span, "spindle that stops in a known position")?;
         self.turn_spindle(None);
@@ -110,10 +112,12 @@ impl Interpreter {
         let mode = whole(block, b'L', 4)?.unwrap_or(0);
         if mode != 0 && analog.is_some() {
             let message = "M66 waits for no edge or level of an analog input";
-            return Err(
-                Fault::new(DiagnosticCode::InvalidValue, block.span(b'L'), message)
-                    .help("write L0, which reads it at once"),
-            );
+            return Err(BlockDiagnostic::new(
+                DiagnosticCode::InvalidValue,
+                block.span(b'L'),
+                message,
+            )
+            .help("write L0, which reads it at once"));
         }
         if mode != 0 && block.get(b'Q').is_none_or(|limit| limit <= 0.0) {
             return Err(missing(
@@ -145,8 +149,10 @@ impl Interpreter {
             return Ok(());
         }
         let message = format!("no {what} is connected");
-        Err(Fault::new(DiagnosticCode::NotConnected, span, message)
-            .because("the motion alone is made here; going on without it could break something")
-            .help("remove the block, or read the program with simulated inputs and outputs"))
+        Err(
+            BlockDiagnostic::new(DiagnosticCode::NotConnected, span, message)
+                .because("the motion alone is made here; going on without it could break something")
+                .help("remove the block, or read the program with simulated inputs and outputs"),
+        )
     }
 }

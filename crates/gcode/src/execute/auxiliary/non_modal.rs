@@ -3,8 +3,8 @@
 use glidepath_geometry::{AXES, AxisVector};
 use glidepath_program::Item;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::block_words::require_axes;
 use crate::execute::interpreter::Interpreter;
@@ -17,9 +17,9 @@ use crate::syntax::modes::{Distance, Motion, NonModal};
 use crate::syntax::word_check::{missing, unused, whole};
 
 #[cold]
-fn dwell_with_axes(span: SourceSpan) -> Box<Fault> {
+fn dwell_with_axes(span: SourceSpan) -> Box<BlockDiagnostic> {
     let message = "G4 beside words of axes";
-    Fault::new(DiagnosticCode::UnusedWord, span, message)
+    BlockDiagnostic::new(DiagnosticCode::UnusedWord, span, message)
         .because("on a SINUMERIK a dwell has a block of its own")
         .help("write two blocks")
 }
@@ -123,7 +123,7 @@ impl Interpreter {
         }
         let message = "an offset that is set within a frame";
         Err(
-            Fault::new(DiagnosticCode::NotSupported, non_modal.span, message)
+            BlockDiagnostic::new(DiagnosticCode::NotSupported, non_modal.span, message)
                 .because("its words would count in coordinates that are turned, mirrored or scaled")
                 .help(
                     "end the frame in a line before it: by TRANS alone, or by G69, G50 and G50.1",
@@ -137,7 +137,8 @@ impl Interpreter {
         span: SourceSpan,
         motion: Option<Motion>,
     ) -> Outcome<()> {
-        let fault = |message: &str| Fault::new(DiagnosticCode::MachineCoordinates, span, message);
+        let fault =
+            |message: &str| BlockDiagnostic::new(DiagnosticCode::MachineCoordinates, span, message);
         match motion {
             Some(Motion::Rapid | Motion::Linear) => {}
             _ => {
@@ -171,11 +172,12 @@ impl Interpreter {
             1 | 10 | 11 => return self.set_tool(block, kind, span),
             _ => {
                 let message = format!("G10 L{kind} is not supported");
-                return Err(
-                    Fault::new(DiagnosticCode::NotSupported, block.span(b'L'), message).because(
-                        "coordinate systems (L2, L20) and tools (L1, L10, L11) can be set",
-                    ),
-                );
+                return Err(BlockDiagnostic::new(
+                    DiagnosticCode::NotSupported,
+                    block.span(b'L'),
+                    message,
+                )
+                .because("coordinate systems (L2, L20) and tools (L1, L10, L11) can be set"));
             }
         }
         let system = whole(block, b'P', 9)?
@@ -207,7 +209,7 @@ fn check_second_reference(block: &Block, index: usize) -> Outcome<()> {
     }
     let message = format!("G30 P{which} is not supported");
     Err(
-        Fault::new(DiagnosticCode::NotSupported, block.span(b'P'), message)
+        BlockDiagnostic::new(DiagnosticCode::NotSupported, block.span(b'P'), message)
             .because("the machine has two reference positions, that of G28 and that of G30")
             .help("write G30, or G53 and the place"),
     )

@@ -2,7 +2,7 @@
 
 use glidepath_program::{Event, Item, ItemKind};
 
-use crate::diagnostic::fault::Outcome;
+use crate::diagnostic::block_diagnostic::Outcome;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::state::coolant::Coolant;
 use crate::execute::state::spindle::SpindleDirection;

@@ -2,8 +2,8 @@
 
 use glidepath_program::{CodeWord, Event, Item, ItemKind};
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::setup::options::AdaptiveFeed;
@@ -15,7 +15,7 @@ use crate::syntax::word_check::whole;
 
 /// Refuses a code that switches one override: M50 to M53.
 #[cold]
-fn override_refused(code: u32, block: &Block, span: SourceSpan) -> Box<Fault> {
+fn override_refused(code: u32, block: &Block, span: SourceSpan) -> Box<BlockDiagnostic> {
     let (what, help) = match code {
         50 => ("the feed override", "remove it, or write M48 after an M49"),
         51 => (
@@ -41,7 +41,7 @@ fn override_refused(code: u32, block: &Block, span: SourceSpan) -> Box<Fault> {
         "on"
     };
     let message = format!("M{code} that switches {what} {switch} is not supported");
-    Fault::new(DiagnosticCode::NotSupported, span, message)
+    BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
         .because(
             "nothing here switches it alone, and skipping it could change what the machine does",
         )

@@ -17,8 +17,8 @@
 
 use glidepath_program::{Event, Item, ItemKind};
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::state::coolant::Coolant;
@@ -45,7 +45,7 @@ impl Interpreter {
             72 => {
                 let Some(saved) = self.saved_states.present().saved else {
                     let message = "there is no saved state to restore";
-                    return Err(Fault::new(DiagnosticCode::SavedState, span, message)
+                    return Err(BlockDiagnostic::new(DiagnosticCode::SavedState, span, message)
                         .because(
                             "a subroutine restores what it saved itself, the program what it saved \
                              outside of subroutines",
@@ -163,7 +163,7 @@ impl Interpreter {
             return Ok(());
         }
         let message = "the saved state has another cutter radius compensation than there is now";
-        Err(Fault::new(DiagnosticCode::CutterRadius, span, message)
+        Err(BlockDiagnostic::new(DiagnosticCode::CutterRadius, span, message)
             .because("where the tool is when it begins or changes depends on a move of its own")
             .help(
                 "write G40 before the state is saved, or the same G41 or G42 before it is restored",

@@ -10,8 +10,8 @@ use core::f64::consts::TAU;
 use glidepath_geometry::AxisVector;
 use glidepath_program::{Event, Item, ItemKind};
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::state::spindle::{Spindle, Surface};
 use crate::syntax::block::Block;
@@ -48,10 +48,12 @@ impl Interpreter {
             let most = word.unwrap_or(f64::INFINITY);
             if most <= 0.0 {
                 let message = "the largest spindle speed is not above zero";
-                return Err(
-                    Fault::new(DiagnosticCode::InvalidValue, block.span(b'D'), message)
-                        .help("write a D above zero, or leave it out"),
-                );
+                return Err(BlockDiagnostic::new(
+                    DiagnosticCode::InvalidValue,
+                    block.span(b'D'),
+                    message,
+                )
+                .help("write a D above zero, or leave it out"));
             }
             let spindle = &mut self.state.spindle;
             if spindle.surface.is_some() {
@@ -124,11 +126,13 @@ impl Interpreter {
             };
             if limit.value < 0.0 || limit.value <= 0.0 && word == Named::UpperSpeed {
                 let message = format!("{} is {}", word.name(), limit.value);
-                return Err(
-                    Fault::new(DiagnosticCode::InvalidValue, limit.span, message)
-                        .because("it is a limit of the spindle's speed")
-                        .help("write revolutions a minute"),
-                );
+                return Err(BlockDiagnostic::new(
+                    DiagnosticCode::InvalidValue,
+                    limit.span,
+                    message,
+                )
+                .because("it is a limit of the spindle's speed")
+                .help("write revolutions a minute"));
             }
             let spindle = &mut self.state.spindle;
             match word {
@@ -145,7 +149,7 @@ impl Interpreter {
         }
         let message = format!("LIMS={} is not above zero", limit.value);
         Err(
-            Fault::new(DiagnosticCode::InvalidValue, limit.span, message)
+            BlockDiagnostic::new(DiagnosticCode::InvalidValue, limit.span, message)
                 .because("it is the highest speed of the spindle under G96 and G97")
                 .help("write revolutions a minute"),
         )

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use glidepath_geometry::AxisVector;
 use glidepath_program::{Event, Item, ItemKind};
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::state::offsets::overlay;
@@ -70,12 +70,14 @@ impl Interpreter {
         }
         let Some(tools) = &self.tools else {
             let message = format!("there is no tool table to look tool {number} up in");
-            return Err(Fault::new(DiagnosticCode::NoToolTable, span, message)
-                .because("lengths and diameters of tools come from a tool table")
-                .help("give the tool table: --tool-table FILE, or `tool_table` of [program]"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::NoToolTable, span, message)
+                    .because("lengths and diameters of tools come from a tool table")
+                    .help("give the tool table: --tool-table FILE, or `tool_table` of [program]"),
+            );
         };
         tools.get(number).copied().ok_or_else(|| {
-            Fault::new(
+            BlockDiagnostic::new(
                 DiagnosticCode::UnknownTool,
                 span,
                 format!("tool {number} is not in the tool table"),

@@ -4,8 +4,8 @@
 use glidepath_geometry::Plane;
 use glidepath_program::Item;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::block_words::radius_word;
 use crate::execute::compensation::path::{Compensated, Compensation, MAX_HELD};
@@ -83,37 +83,47 @@ impl Interpreter {
     ) -> Outcome<()> {
         if self.state.on_contour {
             let message = "cutter radius compensation is on already";
-            return Err(Fault::new(DiagnosticCode::CutterRadius, span, message)
-                .because("where the tool is would not be clear if its side or radius changed")
-                .help("write G40 and a move in between"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::CutterRadius, span, message)
+                    .because("where the tool is would not be clear if its side or radius changed")
+                    .help("write G40 and a move in between"),
+            );
         }
         let follows = self.options.five_axis.is_some() && self.state.tip.follows();
         if block.dialect == Dialect::Fanuc && follows && self.state.tilted.is_none() {
             let message = "cutter radius compensation while the tip of the tool is followed";
-            return Err(Fault::new(DiagnosticCode::CutterRadius, span, message)
-                .because("the side of the cutter would turn with the rotary axes")
-                .help("write G49 before it, or a tilted plane: G68.2 and G53.1"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::CutterRadius, span, message)
+                    .because("the side of the cutter would turn with the rotary axes")
+                    .help("write G49 before it, or a tilted plane: G68.2 and G53.1"),
+            );
         }
         let plane = self.state.modal.plane;
         if !matches!(plane, Plane::Xy | Plane::Zx) {
             let message = "cutter radius compensation outside G17 and G18";
-            return Err(Fault::new(DiagnosticCode::CutterRadius, span, message)
-                .because("it is made in the XY and the ZX plane")
-                .help("write G17 or G18"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::CutterRadius, span, message)
+                    .because("it is made in the XY and the ZX plane")
+                    .help("write G17 or G18"),
+            );
         }
         if plane != Plane::Zx && block.get(b'L').is_some_and(|l| l != 0.0) {
             let message = "a tool orientation outside G18";
-            return Err(
-                Fault::new(DiagnosticCode::CutterRadius, block.span(b'L'), message)
-                    .because("only turning tools have one")
-                    .help("remove L, or write G18"),
-            );
+            return Err(BlockDiagnostic::new(
+                DiagnosticCode::CutterRadius,
+                block.span(b'L'),
+                message,
+            )
+            .because("only turning tools have one")
+            .help("remove L, or write G18"));
         }
         if plane == Plane::Zx && self.offsets.is_rotated() {
             let message = "cutter radius compensation in G18 in a rotated coordinate system";
-            return Err(Fault::new(DiagnosticCode::CutterRadius, span, message)
-                .because("the plane of the contour would be no plane of the machine")
-                .help("set the rotation to zero (G10 L2 R0)"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::CutterRadius, span, message)
+                    .because("the plane of the contour would be no plane of the machine")
+                    .help("set the rotation to zero (G10 L2 R0)"),
+            );
         }
         self.state.contour_side = side;
         if self.is_in_tilted_plane(plane) {
@@ -122,9 +132,11 @@ impl Interpreter {
         let image = self.offsets.plane(plane);
         let Some(image) = image.filter(|image| image.plane == plane) else {
             let message = "cutter radius compensation in a frame that tilts its plane";
-            return Err(Fault::new(DiagnosticCode::CutterRadius, span, message)
-                .because("it is made in the XY and the ZX plane of the machine")
-                .help("turn the coordinates about the axis normal to the plane only"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::CutterRadius, span, message)
+                    .because("it is made in the XY and the ZX plane of the machine")
+                    .help("turn the coordinates about the axis normal to the plane only"),
+            );
         };
         let side = match side {
             Side::Left if image.is_mirrored => Side::Right,
@@ -214,7 +226,7 @@ impl Interpreter {
         ];
         if let Some((span, what)) = refused.into_iter().flatten().next() {
             let message = format!("{what} with cutter radius compensation on");
-            return Err(Fault::new(DiagnosticCode::CutterRadius, span, message)
+            return Err(BlockDiagnostic::new(DiagnosticCode::CutterRadius, span, message)
                 .because("the tool stands beside the programmed point, at a place that depends on the next move")
                 .help("write G40 and a move before it"));
         }
@@ -224,11 +236,13 @@ impl Interpreter {
             .is_some_and(Compensation::is_overfull)
         {
             let message = format!("more than {} blocks without a move in the plane", MAX_HELD);
-            return Err(Fault::new(DiagnosticCode::CutterRadius, SourceSpan::default(), message)
-                .because(
-                    "with cutter radius compensation on they wait for the next move in the plane",
-                )
-                .help("write G40 before them"));
+            return Err(BlockDiagnostic::new(
+                DiagnosticCode::CutterRadius,
+                SourceSpan::default(),
+                message,
+            )
+            .because("with cutter radius compensation on they wait for the next move in the plane")
+            .help("write G40 before them"));
         }
         Ok(())
     }

@@ -4,8 +4,8 @@ use core::f64::consts::TAU;
 
 use glidepath_program::Item;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::execute::compensation::element::{
     self, Element, along, direction, distance, dot, minus,
 };
@@ -23,7 +23,7 @@ impl Compensation {
         if contour.arc.is_some() && self.enters_beside_next {
             let message = "cutter radius compensation that begins with an arc";
             return Err(
-                Fault::new(DiagnosticCode::CutterRadius, first.span, message)
+                BlockDiagnostic::new(DiagnosticCode::CutterRadius, first.span, message)
                     .because("this control begins it with a straight move alone")
                     .help("write G41 or G42 into the straight move before the arc"),
             );
@@ -33,7 +33,7 @@ impl Compensation {
                 "the first move with cutter radius compensation is not longer than the tool radius, {radius} mm"
             );
             return Err(
-                Fault::new(DiagnosticCode::CutterRadius, first.span, message)
+                BlockDiagnostic::new(DiagnosticCode::CutterRadius, first.span, message)
                     .because("it leads the tool from the programmed point to beside the contour")
                     .help("start further away, or move in the plane first"),
             );

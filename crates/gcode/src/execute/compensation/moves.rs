@@ -3,7 +3,7 @@
 use glidepath_geometry::{Arc, AxisVector, Segment};
 use glidepath_program::{Item, ItemKind};
 
-use crate::diagnostic::fault::Outcome;
+use crate::diagnostic::block_diagnostic::Outcome;
 use crate::execute::compensation::element::{Element, distance};
 use crate::execute::compensation::path::ContourMove;
 use crate::execute::interpreter::Interpreter;

@@ -3,8 +3,8 @@
 use glidepath_geometry::{Arc, AxisVector, Plane, Segment};
 use glidepath_program::{Item, ItemKind, PathMode};
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::compensation::element::{Element, Point, distance, lines, meet, minus, turn};
 use crate::execute::motion::settled::MIN_MOVE;
@@ -339,17 +339,17 @@ impl Compensation {
 }
 
 #[cold]
-pub(super) fn too_small(span: SourceSpan, radius: f64) -> Box<Fault> {
+pub(super) fn too_small(span: SourceSpan, radius: f64) -> Box<BlockDiagnostic> {
     let message = format!("the arc is too small for a tool radius of {radius} mm inside it");
-    Fault::new(DiagnosticCode::Gouge, span, message)
+    BlockDiagnostic::new(DiagnosticCode::Gouge, span, message)
         .because("the tool is on the inner side of the arc and would cut into it all along")
         .help("use a smaller tool, or the other side (G41, G42)")
 }
 
 #[cold]
-fn gouge(span: SourceSpan, radius: f64) -> Box<Fault> {
+fn gouge(span: SourceSpan, radius: f64) -> Box<BlockDiagnostic> {
     let message = format!("a tool radius of {radius} mm does not fit into the corner");
-    Fault::new(DiagnosticCode::Gouge, span, message)
+    BlockDiagnostic::new(DiagnosticCode::Gouge, span, message)
         .because(
             "the tool is on the inner side of the corner, and one of the moves beside it is too \
              short: the tool would cut into the contour",

@@ -7,7 +7,7 @@
 use glidepath_geometry::Plane;
 use glidepath_program::Item;
 
-use crate::diagnostic::fault::Outcome;
+use crate::diagnostic::block_diagnostic::Outcome;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::state::contour_plane::ContourPlane;
 use crate::execute::state::frame::Frame;

@@ -7,8 +7,8 @@
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_program::Item;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::speed::Pace;
 use crate::execute::state::modal::Feed;
@@ -41,9 +41,11 @@ impl Interpreter {
         }
         let Some(kept) = self.kept_by_printer.places.get(&slot).copied() else {
             let message = format!("G61 S{slot} without a place that was kept");
-            return Err(Fault::new(DiagnosticCode::Parameter, coded.span, message)
-                .because("it goes back to where G60 of the same number was")
-                .help("write G60 before it, or the place itself"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::Parameter, coded.span, message)
+                    .because("it goes back to where G60 of the same number was")
+                    .help("write G60 before it, or the place itself"),
+            );
         };
         let all = !block.has_any(AXIS_WORDS) && block.get(b'E').is_none();
         let scale = self.state.modal.units.mm();

@@ -11,8 +11,8 @@ use std::io::BufRead;
 use glidepath_geometry::AxisVector;
 use glidepath_program::Item;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::speed::Pace;
@@ -71,9 +71,11 @@ impl MoveWords {
                 let speed_v = word.number()?;
                 if speed_v <= 0.0 {
                     let message = "MOVE_SPEED is not above zero";
-                    return Err(Fault::new(DiagnosticCode::BadFeed, word.span, message)
-                        .because("a move at that speed would never end")
-                        .help("write mm per second, above zero"));
+                    return Err(
+                        BlockDiagnostic::new(DiagnosticCode::BadFeed, word.span, message)
+                            .because("a move at that speed would never end")
+                            .help("write mm per second, above zero"),
+                    );
                 }
                 self.speed_v = Some(speed_v);
             }
@@ -132,9 +134,11 @@ impl Interpreter {
         let states = &mut self.kept_by_printer.states;
         if states.len() >= MAX_STATES && !states.contains_key(&name) {
             let message = format!("more than {MAX_STATES} states are kept");
-            return Err(Fault::new(DiagnosticCode::Parameter, span, message)
-                .because("the memory of a program is bounded")
-                .help("use a name again"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::Parameter, span, message)
+                    .because("the memory of a program is bounded")
+                    .help("use a name again"),
+            );
         }
         states.insert(name, kept);
         Ok(())
@@ -157,9 +161,11 @@ impl Interpreter {
         let Some(kept) = self.kept_by_printer.states.get(&name).copied() else {
             let shown = String::from_utf8_lossy(&name).into_owned();
             let message = format!("no state `{shown}` was kept");
-            return Err(Fault::new(DiagnosticCode::Parameter, span, message)
-                .because("it brings back what SAVE_GCODE_STATE of the same name has kept")
-                .help("write SAVE_GCODE_STATE before it"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::Parameter, span, message)
+                    .because("it brings back what SAVE_GCODE_STATE of the same name has kept")
+                    .help("write SAVE_GCODE_STATE before it"),
+            );
         };
         self.state.modal = kept.modal;
         self.state.extruder = kept.extruder;
@@ -214,10 +220,10 @@ fn state_name(words: &[KlipperWord], span: SourceSpan) -> Outcome<Vec<u8>> {
 }
 
 #[cold]
-fn unknown_word(word: &KlipperWord) -> Box<Fault> {
+fn unknown_word(word: &KlipperWord) -> Box<BlockDiagnostic> {
     let shown = String::from_utf8_lossy(&word.key).into_owned();
     let message = format!("{shown} is no word of this command here");
-    Fault::new(DiagnosticCode::UnusedWord, word.span, message)
+    BlockDiagnostic::new(DiagnosticCode::UnusedWord, word.span, message)
         .because("X, Y and Z are offset, MOVE and MOVE_SPEED move, NAME names a state")
         .help("remove it")
 }

@@ -4,7 +4,7 @@
 use std::io::BufRead;
 use std::sync::Arc;
 
-use crate::diagnostic::fault::Outcome;
+use crate::diagnostic::block_diagnostic::Outcome;
 use crate::execute::line_origin::LineOrigin;
 use crate::execute::program::{Program, is_percent};
 use crate::execute::scope::ProgramScope;

@@ -4,8 +4,8 @@ use std::io::BufRead;
 
 use glidepath_program::{Event, Item, ItemKind};
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::line_origin::LineOrigin;
@@ -71,7 +71,7 @@ impl<R: BufRead> Program<R> {
         let name = String::from_utf8_lossy(&name).into_owned();
         let message = format!("{name} (a command or macro of Klipper) is not supported");
         Err(
-            Fault::new(DiagnosticCode::NotSupported, command.span, message)
+            BlockDiagnostic::new(DiagnosticCode::NotSupported, command.span, message)
                 .because("what it does stands in the printer's configuration, and it may move the machine")
                 .help("write the moves that it makes, or remove it"),
         )
@@ -86,7 +86,7 @@ impl Interpreter {
         };
         let message = format!("T{tool} (another extruder than T0) is not supported");
         Err(
-            Fault::new(DiagnosticCode::NotSupported, block.span(b'T'), message)
+            BlockDiagnostic::new(DiagnosticCode::NotSupported, block.span(b'T'), message)
                 .because("each tool of a printer has an extruder and a place of its own, and the machine has one extruder: E words behind it would move that of T0")
                 .help("let the slicer write the program for one extruder"),
         )
@@ -104,9 +104,11 @@ impl Interpreter {
         let other = other.or_else(|| block.codes.non_modal.map(|c| c.span));
         if let Some(span) = other {
             let message = format!("a G code beside M{number}");
-            return Err(Fault::new(DiagnosticCode::AmbiguousWord, span, message)
-                .because("M codes of printers take the words of their block")
-                .help("write two blocks"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::AmbiguousWord, span, message)
+                    .because("M codes of printers take the words of their block")
+                    .help("write two blocks"),
+            );
         }
         if number == 400 || shows_text(number) {
             // M400 waits for the end of the motion, and a message is shown at rest.
@@ -118,11 +120,13 @@ impl Interpreter {
         if waits(number) && !simulated && !self.options.m_codes.contains(number) {
             let message =
                 format!("M{number} waits for a temperature, and nothing says when it is reached");
-            return Err(Fault::new(DiagnosticCode::NotConnected, span, message)
-                .because("going on with a cold nozzle or bed could break the extruder")
-                .help(format!(
-                    "say what it waits for: a table [m_codes.M{number}] in the configuration"
-                )));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::NotConnected, span, message)
+                    .because("going on with a cold nozzle or bed could break the extruder")
+                    .help(format!(
+                        "say what it waits for: a table [m_codes.M{number}] in the configuration"
+                    )),
+            );
         }
         if self.options.extruder.is_none() {
             self.require_connection(span, "heater, fan or printer setting")?;
@@ -149,7 +153,7 @@ fn check_factors(block: &Block, number: u32) -> Outcome<()> {
     let name = char::from(letter);
     let message = format!("M{number} {name}{value} ({what}) is not supported");
     Err(
-        Fault::new(DiagnosticCode::NotSupported, block.span(letter), message)
+        BlockDiagnostic::new(DiagnosticCode::NotSupported, block.span(letter), message)
             .because("going on without it would make other moves than the program's")
             .help(format!(
                 "write {name}{none}, or let the slicer compute it in"

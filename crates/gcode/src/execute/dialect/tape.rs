@@ -7,8 +7,8 @@ use std::sync::Arc;
 
 use glidepath_geometry::AxisVector;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::line_source::LineSource;
 
@@ -373,9 +373,9 @@ impl Tape {
     }
 }
 
-fn too_long() -> Box<Fault> {
+fn too_long() -> Box<BlockDiagnostic> {
     let message = format!("a program with jumps longer than {MAX_BYTES} bytes");
-    Fault::new(DiagnosticCode::FlowTooLong, SourceSpan::default(), message)
+    BlockDiagnostic::new(DiagnosticCode::FlowTooLong, SourceSpan::default(), message)
         .because("what may be jumped to is kept in memory, up to that bound")
         .help("split the program, or write its jumps out")
 }

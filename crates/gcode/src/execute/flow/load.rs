@@ -3,8 +3,8 @@
 use std::io::BufRead;
 use std::sync::Arc;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::flow::kept_lines::KeptLines;
 use crate::execute::flow::recorder::Recorder;
@@ -22,7 +22,7 @@ enum Broken {
     /// It does not define it.
     Absent,
     /// Something in it is wrong.
-    Fault(Box<Fault>, SourceLine),
+    Fault(Box<BlockDiagnostic>, SourceLine),
 }
 
 impl<R: BufRead> Program<R> {
@@ -136,14 +136,14 @@ enum Recorded {
     End,
 }
 
-fn unknown(label: &Label, span: SourceSpan) -> Box<Fault> {
+fn unknown(label: &Label, span: SourceSpan) -> Box<BlockDiagnostic> {
     let message = format!("there is no subroutine {label}");
-    Fault::new(DiagnosticCode::UnknownSubroutine, span, message)
+    BlockDiagnostic::new(DiagnosticCode::UnknownSubroutine, span, message)
 }
 
-fn no_file_name(label: &Label, span: SourceSpan) -> Box<Fault> {
+fn no_file_name(label: &Label, span: SourceSpan) -> Box<BlockDiagnostic> {
     let message = format!("there is no subroutine {label}, and that cannot be a file's name");
-    Fault::new(DiagnosticCode::UnknownSubroutine, span, message)
+    BlockDiagnostic::new(DiagnosticCode::UnknownSubroutine, span, message)
         .because(
             "a subroutine that the program does not define is looked for in a file of its name; with \
              / or \\, or . at its beginning, that would lead into other folders",
@@ -151,7 +151,7 @@ fn no_file_name(label: &Label, span: SourceSpan) -> Box<Fault> {
         .help("name the subroutine and its file alone, and add the folder to the search path")
 }
 
-fn not_taken(label: &Label, name: &str, span: SourceSpan, why: NotTaken) -> Box<Fault> {
+fn not_taken(label: &Label, name: &str, span: SourceSpan, why: NotTaken) -> Box<BlockDiagnostic> {
     match why {
         NotTaken::None(NoSubroutineFile::Missing { looked_in }) if looked_in.is_empty() => unknown(
             label, span,
@@ -178,21 +178,21 @@ fn not_taken(label: &Label, name: &str, span: SourceSpan, why: NotTaken) -> Box<
 }
 
 /// A file that is there and cannot be taken; `what` is looked for in it.
-pub(crate) fn unusable(what: &str, span: SourceSpan, why: NotTaken) -> Box<Fault> {
+pub(crate) fn unusable(what: &str, span: SourceSpan, why: NotTaken) -> Box<BlockDiagnostic> {
     match why {
-        NotTaken::None(NoSubroutineFile::Missing { .. }) => Fault::new(
+        NotTaken::None(NoSubroutineFile::Missing { .. }) => BlockDiagnostic::new(
             DiagnosticCode::UnknownSubroutine,
             span,
             format!("there is no {what}"),
         ),
         NotTaken::None(NoSubroutineFile::Unreadable { path, reason }) => {
             let message = format!("cannot read {path}: {reason}");
-            Fault::new(DiagnosticCode::ReadFailed, span, message)
+            BlockDiagnostic::new(DiagnosticCode::ReadFailed, span, message)
                 .because(format!("the {what} is looked for there"))
         }
         NotTaken::TooLong(path) => {
             let message = format!("{path} is too long for a subroutine");
-            Fault::new(DiagnosticCode::FlowTooLong, span, message)
+            BlockDiagnostic::new(DiagnosticCode::FlowTooLong, span, message)
                 .because(format!(
                     "a file of a subroutine has at most {MAX_SUBROUTINE_BYTES} bytes, and all those of a \
                      program together {MAX_KEPT_BYTES}"
@@ -202,9 +202,9 @@ pub(crate) fn unusable(what: &str, span: SourceSpan, why: NotTaken) -> Box<Fault
     }
 }
 
-fn absent(label: &Label, file: &SubroutineFile, span: SourceSpan) -> Box<Fault> {
+fn absent(label: &Label, file: &SubroutineFile, span: SourceSpan) -> Box<BlockDiagnostic> {
     let message = format!("{} does not define {label}", file.name);
-    Fault::new(DiagnosticCode::UnknownSubroutine, span, message)
+    BlockDiagnostic::new(DiagnosticCode::UnknownSubroutine, span, message)
         .because("the file of a subroutine has its `sub` and `endsub`, with the same name")
         .help(format!("write `{label} sub` … `{label} endsub` into it"))
 }

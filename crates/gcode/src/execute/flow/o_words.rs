@@ -3,8 +3,8 @@
 use std::io::BufRead;
 use std::sync::Arc;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::flow::activation::{Activation, MAX_CALLS};
 use crate::execute::flow::kept_lines::{KeptLine, KeptLines};
@@ -213,9 +213,11 @@ impl<R: BufRead> Program<R> {
     ) -> Outcome<()> {
         if self.parameters.call_level() >= MAX_CALLS {
             let message = format!("more than {MAX_CALLS} calls in each other");
-            return Err(Fault::new(DiagnosticCode::CallDepth, span, message)
-                .because("the depth of subroutine calls is bounded")
-                .help("check what should end the recursion"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::CallDepth, span, message)
+                    .because("the depth of subroutine calls is bounded")
+                    .help("check what should end the recursion"),
+            );
         }
         let called_from = self.line_of_program();
         self.flow

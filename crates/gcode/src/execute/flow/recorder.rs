@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::flow::kept_lines::{KeptLine, KeptLines};
 use crate::setup::subroutine_file::MAX_KEPT_BYTES;
@@ -68,7 +68,7 @@ impl Recorder {
     ) -> Outcome<bool> {
         self.bytes += text.len() + LINE_OVERHEAD;
         if kept + self.bytes > MAX_KEPT_BYTES {
-            return Err(Fault::new(
+            return Err(BlockDiagnostic::new(
                 DiagnosticCode::FlowTooLong,
                 SourceSpan::new(0, text.len()),
                 "the subroutines and loops are too long",
@@ -208,7 +208,7 @@ impl Recorder {
         Ok(self.open.is_empty() && self.subroutine.is_none())
     }
 
-    fn unmatched(&self, o_word: &OWord, found: &str, wanted: &str) -> Box<Fault> {
+    fn unmatched(&self, o_word: &OWord, found: &str, wanted: &str) -> Box<BlockDiagnostic> {
         let fault = misplaced(o_word, &format!("`{found}` without its `{wanted}`"));
         match self.open.last() {
             Some(open) => fault.help(format!(
@@ -224,14 +224,14 @@ impl Recorder {
     }
 
     /// What is wrong when the program ends before the part does.
-    pub(crate) fn unfinished(&self) -> Box<Fault> {
+    pub(crate) fn unfinished(&self) -> Box<BlockDiagnostic> {
         let what = if self.subroutine.is_some() {
             "subroutine"
         } else {
             "structure"
         };
         let message = format!("the {what} is not ended");
-        Fault::new(DiagnosticCode::FlowStructure, self.first.2, message)
+        BlockDiagnostic::new(DiagnosticCode::FlowStructure, self.first.2, message)
             .because("the program ends before it does")
             .help("add its last O word (endsub, endif, endwhile, endrepeat or while)")
     }
@@ -242,7 +242,7 @@ impl Recorder {
     }
 }
 
-pub(crate) fn misplaced(o_word: &OWord, message: &str) -> Box<Fault> {
-    Fault::new(DiagnosticCode::FlowStructure, o_word.span, message)
+pub(crate) fn misplaced(o_word: &OWord, message: &str) -> Box<BlockDiagnostic> {
+    BlockDiagnostic::new(DiagnosticCode::FlowStructure, o_word.span, message)
         .because("the O words of a program nest, each kind with its own beginning and end")
 }

@@ -3,8 +3,8 @@
 use glidepath_geometry::{Axis, Plane};
 use glidepath_program::Item;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::compensation::element::Point;
 use crate::execute::interpreter::Interpreter;
@@ -59,9 +59,11 @@ impl Interpreter {
     fn check_lathe_cycle(&self, block: &Block) -> Outcome<()> {
         let span = block.motion_span();
         let refuse = |span: SourceSpan, message: &str, reason: &str, help: &str| {
-            Err(Fault::new(DiagnosticCode::CannedCycle, span, message)
-                .because(reason)
-                .help(help))
+            Err(
+                BlockDiagnostic::new(DiagnosticCode::CannedCycle, span, message)
+                    .because(reason)
+                    .help(help),
+            )
         };
         if self.state.modal.plane != Plane::Zx {
             return refuse(
@@ -118,11 +120,13 @@ impl Interpreter {
         let none = [(b'P', finishing == 0), (b'I', increment_mm <= 0.0)];
         if let Some((letter, _)) = none.into_iter().find(|(_, none)| *none) {
             let message = format!("{}0 cuts nothing", char::from(letter));
-            return Err(
-                Fault::new(DiagnosticCode::CannedCycle, block.span(letter), message)
-                    .because("P counts the finishing passes, and I is the depth of a roughing pass")
-                    .help("write a number above zero"),
-            );
+            return Err(BlockDiagnostic::new(
+                DiagnosticCode::CannedCycle,
+                block.span(letter),
+                message,
+            )
+            .because("P counts the finishing passes, and I is the depth of a roughing pass")
+            .help("write a number above zero"));
         }
         Ok(LatheCycleWords {
             cycle,

@@ -3,8 +3,8 @@
 use glidepath_geometry::{AXES, Arc as ArcSegment, Axis, AxisVector, Plane, Segment};
 use glidepath_program::Item;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::execute::compensation::element::{Element, Point, turn};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::lathe_cycle::offset::offset;
@@ -201,7 +201,7 @@ fn check_elements(block: &Block, profile: &LatheProfile) -> Outcome<()> {
         return Ok(());
     };
     Err(
-        Fault::new(DiagnosticCode::CannedCycle, block.span(b'Q'), message)
+        BlockDiagnostic::new(DiagnosticCode::CannedCycle, block.span(b'Q'), message)
             .because("the cycle follows the elements of its profile")
             .help(help),
     )
@@ -212,31 +212,31 @@ fn axes_of(block: &Block, facing: bool, profile: &[Element], start: Point) -> Ou
     PassAxes::new(facing, profile, start).ok_or_else(|| nothing_left(block, b'Q'))
 }
 
-fn turns_back(block: &Block, facing: bool, element: Option<&Element>) -> Box<Fault> {
+fn turns_back(block: &Block, facing: bool, element: Option<&Element>) -> Box<BlockDiagnostic> {
     let [z, x] = element.map_or([0.0; 2], |element| element.start);
     let (axis, other) = if facing { ("X", "G71") } else { ("Z", "G72") };
     let message =
         format!("the profile turns back along {axis} behind X{x:.4} Z{z:.4} mm (X: radius)");
-    Fault::new(DiagnosticCode::CannedCycle, block.span(b'Q'), message)
+    BlockDiagnostic::new(DiagnosticCode::CannedCycle, block.span(b'Q'), message)
         .because("it must lead one way along it, with arcs of at most half a turn")
         .help(format!(
             "draw it otherwise, in several parts, or use {other}"
         ))
 }
 
-fn nothing_left(block: &Block, letter: u8) -> Box<Fault> {
+fn nothing_left(block: &Block, letter: u8) -> Box<BlockDiagnostic> {
     let message = "nothing is left of the profile at that distance";
-    Fault::new(DiagnosticCode::CannedCycle, block.span(letter), message)
+    BlockDiagnostic::new(DiagnosticCode::CannedCycle, block.span(letter), message)
         .because("the distance is greater than what the profile has room for")
         .help("write a smaller distance")
 }
 
-fn no_passes(block: &Block, why: NoPasses) -> Box<Fault> {
+fn no_passes(block: &Block, why: NoPasses) -> Box<BlockDiagnostic> {
     let span = block.motion_span();
     match why {
         NoPasses::WrongSide => {
             let message = "the cycle starts on the side of the workpiece";
-            Fault::new(DiagnosticCode::CannedCycle, span, message)
+            BlockDiagnostic::new(DiagnosticCode::CannedCycle, span, message)
                 .because(
                     "the tool comes from the side to which the profile leads, beyond its first point \
                      and the distance D",
@@ -245,7 +245,7 @@ fn no_passes(block: &Block, why: NoPasses) -> Box<Fault> {
         }
         NoPasses::TooMany => {
             let message = "too many passes";
-            Fault::new(DiagnosticCode::CannedCycle, span, message)
+            BlockDiagnostic::new(DiagnosticCode::CannedCycle, span, message)
                 .because("one cycle makes at most 10000 passes and 50000 moves")
                 .help("write a larger I or a smaller P, or make two cycles of it")
         }

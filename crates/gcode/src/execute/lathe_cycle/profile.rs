@@ -11,8 +11,8 @@
 //! Codes that would give the words another meaning are refused, as skipping them would make another
 //! profile.
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::compensation::element::{Element, Point};
 use crate::execute::interpreter::Interpreter;
@@ -144,7 +144,7 @@ impl LatheProfile {
     fn element(&mut self, block: &Block, interpreter: &Interpreter, end: Point) -> Outcome<()> {
         let span = block.motion_span();
         let Some(motion) = self.motion else {
-            return Err(Fault::new(
+            return Err(BlockDiagnostic::new(
                 DiagnosticCode::NoMotionMode,
                 span,
                 "axis words without a motion mode",
@@ -190,9 +190,11 @@ impl LatheProfile {
         if let (Some(corner), Some(last)) = (self.corner.take(), self.elements.last_mut()) {
             let Some(between) = cut(last, &mut next, corner) else {
                 let message = "the fillet or chamfer in front of it does not fit";
-                return Err(Fault::new(DiagnosticCode::CannedCycle, span, message)
-                    .because("it begins and ends on the elements on both sides of the corner")
-                    .help("make it smaller, or the elements longer"));
+                return Err(
+                    BlockDiagnostic::new(DiagnosticCode::CannedCycle, span, message)
+                        .because("it begins and ends on the elements on both sides of the corner")
+                        .help("make it smaller, or the elements longer"),
+                );
             };
             self.elements.extend(between);
         }
@@ -225,7 +227,7 @@ impl LatheProfile {
             (None, Some(size)) => (b'C', size * scale),
         };
         if size <= 0.0 {
-            return Err(Fault::new(
+            return Err(BlockDiagnostic::new(
                 DiagnosticCode::InvalidValue,
                 block.span(letter),
                 "the size of the corner is not above zero",
@@ -254,16 +256,18 @@ fn arc(
     let center = match block.get(b'R') {
         Some(_) if words != [None, None] => {
             let message = "an arc with both a radius and a centre";
-            return Err(
-                Fault::new(DiagnosticCode::ArcOverdetermined, block.span(b'R'), message)
-                    .because("one of them determines the arc; the other could contradict it")
-                    .help("remove R, or I and K"),
-            );
+            return Err(BlockDiagnostic::new(
+                DiagnosticCode::ArcOverdetermined,
+                block.span(b'R'),
+                message,
+            )
+            .because("one of them determines the arc; the other could contradict it")
+            .help("remove R, or I and K"));
         }
         Some(radius) => center_from_radius(block, ends, radius * scale, left)?,
         None if words == [None, None] => {
             let message = "an arc without centre or radius";
-            return Err(Fault::new(
+            return Err(BlockDiagnostic::new(
                 DiagnosticCode::ArcWithoutCenter,
                 block.motion_span(),
                 message,
@@ -283,8 +287,8 @@ fn arc(
     Ok((center, sweep(ends, center, left, 1.0)))
 }
 
-fn refused(span: SourceSpan, message: &str) -> Box<Fault> {
-    Fault::new(DiagnosticCode::CannedCycle, span, message)
+fn refused(span: SourceSpan, message: &str) -> Box<BlockDiagnostic> {
+    BlockDiagnostic::new(DiagnosticCode::CannedCycle, span, message)
         .because("a profile is drawn by G0, G1, G2 and G3 alone")
 }
 

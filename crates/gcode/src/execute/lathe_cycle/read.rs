@@ -3,8 +3,8 @@
 use std::io::BufRead;
 use std::sync::Arc;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::execute::flow::kept_lines::KeptLines;
 use crate::execute::lathe_cycle::begin::label;
 use crate::execute::lathe_cycle::open::OpenLatheCycle;
@@ -34,7 +34,7 @@ impl<R: BufRead> Program<R> {
         if block.dialect != Dialect::LinuxCnc {
             let message = "a lathe cycle in this dialect is not supported";
             return Err(
-                Fault::new(DiagnosticCode::NotSupported, motion.span, message)
+                BlockDiagnostic::new(DiagnosticCode::NotSupported, motion.span, message)
                     .because("its words mean something else than LinuxCNC's")
                     .help("let the CAM system write the passes out"),
             );
@@ -42,7 +42,7 @@ impl<R: BufRead> Program<R> {
         if self.lathe_cycle.is_some() {
             let message = "a lathe cycle in the profile of another one";
             return Err(
-                Fault::new(DiagnosticCode::CannedCycle, motion.span, message)
+                BlockDiagnostic::new(DiagnosticCode::CannedCycle, motion.span, message)
                     .because("a profile is drawn by G0, G1, G2 and G3 alone"),
             );
         }
@@ -55,7 +55,7 @@ impl<R: BufRead> Program<R> {
             None => {
                 let message = format!("there is no subroutine {label}");
                 let span = block.span(b'Q');
-                Err(Fault::new(DiagnosticCode::UnknownSubroutine, span, message)
+                Err(BlockDiagnostic::new(DiagnosticCode::UnknownSubroutine, span, message)
                     .because(
                         "the profile is a subroutine of the same file, defined before the cycle",
                     )

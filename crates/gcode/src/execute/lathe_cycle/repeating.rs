@@ -8,8 +8,8 @@ use core::f64::consts::PI;
 
 use glidepath_program::Item;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::execute::compensation::element::{Element, Point};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::lathe_cycle::open::OpenLatheCycle;
@@ -68,11 +68,13 @@ impl Interpreter {
         };
         if sweep_rad.abs() > PI + ROUNDING_RAD {
             let message = "an arc of more than half a turn in the profile";
-            return Err(
-                Fault::new(DiagnosticCode::CannedCycle, block.span(b'Q'), message)
-                    .because("the arcs of a profile are half a turn at most")
-                    .help("draw it as two arcs"),
-            );
+            return Err(BlockDiagnostic::new(
+                DiagnosticCode::CannedCycle,
+                block.span(b'Q'),
+                message,
+            )
+            .because("the arcs of a profile are half a turn at most")
+            .help("draw it as two arcs"));
         }
         let center = self.lathe_target(by(center));
         self.lathe_arc(block, target, center, sweep_rad > 0.0, out)

@@ -12,8 +12,8 @@
 use glidepath_geometry::{Arc, AxisVector, LINEAR_XYZ, Plane, Segment};
 use glidepath_program::Item;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::arc_center::check_center_words;
@@ -127,9 +127,11 @@ impl Interpreter {
         let span = block.motion_span();
         if self.offsets.is_rotated() && matches!(plane, Plane::Zx | Plane::Yz) {
             let message = "an arc outside the XY plane in a rotated coordinate system";
-            return Err(Fault::new(DiagnosticCode::ArcPlane, span, message)
-                .because("its plane would be no coordinate plane of the machine")
-                .help("set the rotation to zero (G10 L2 R0), or use G17"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::ArcPlane, span, message)
+                    .because("its plane would be no coordinate plane of the machine")
+                    .help("set the rotation to zero (G10 L2 R0), or use G17"),
+            );
         }
         let of_uvw = matches!(plane, Plane::Uv | Plane::Wu | Plane::Vw);
         if of_uvw
@@ -138,9 +140,11 @@ impl Interpreter {
                 .any(|axis| (end[axis] - start[axis]).abs() > 0.0)
         {
             let message = "X, Y or Z moves along with an arc of U, V, W";
-            return Err(Fault::new(DiagnosticCode::ArcPlane, span, message)
-                .because("the feedrate would be that of X, Y, Z, which go straight")
-                .help("write two blocks"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::ArcPlane, span, message)
+                    .because("the feedrate would be that of X, Y, Z, which go straight")
+                    .help("write two blocks"),
+            );
         }
         Ok(())
     }
@@ -208,7 +212,7 @@ fn angle_without_end(block: &Block, plane: Plane) -> Outcome<Option<f64>> {
     let has_center = block.has_any(Letters::of(b"IJK"));
     let refuse = |message: &str, reason: &str, help: &str| {
         Err(
-            Fault::new(DiagnosticCode::ArcOverdetermined, word.span, message)
+            BlockDiagnostic::new(DiagnosticCode::ArcOverdetermined, word.span, message)
                 .because(reason)
                 .help(help),
         )
@@ -244,11 +248,13 @@ fn radius_word(block: &Block, ends: Ends) -> Outcome<Option<f64>> {
     };
     if ends.is_closed() {
         let message = "an angle, and an end point that is the start point";
-        return Err(
-            Fault::new(DiagnosticCode::ArcFullCircleWithRadius, word.span, message)
-                .because("every circle through the point would do")
-                .help("give the centre by I, J or K"),
-        );
+        return Err(BlockDiagnostic::new(
+            DiagnosticCode::ArcFullCircleWithRadius,
+            word.span,
+            message,
+        )
+        .because("every circle through the point would do")
+        .help("give the centre by I, J or K"));
     }
     let half = 0.5 * word.value.to_radians();
     let radius_mm = 0.5 * ends.chord() / half.sin();
@@ -293,7 +299,7 @@ fn turns(block: &Block, is_closed: bool) -> Outcome<f64> {
         Some(0) => {
             let message = "an arc of no turns";
             Err(
-                Fault::new(DiagnosticCode::InvalidValue, block.span(b'P'), message)
+                BlockDiagnostic::new(DiagnosticCode::InvalidValue, block.span(b'P'), message)
                     .help("write P1 or more, or leave P out"),
             )
         }
@@ -302,25 +308,25 @@ fn turns(block: &Block, is_closed: bool) -> Outcome<f64> {
 }
 
 #[cold]
-fn no_corner(span: SourceSpan) -> Box<Fault> {
+fn no_corner(span: SourceSpan) -> Box<BlockDiagnostic> {
     let message = "a corner that is broken beside an arc in a tilted plane";
-    Fault::new(DiagnosticCode::NotSupported, span, message)
+    BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
         .because("both moves have to be in a plane of the machine's axes")
         .help("write the chamfer or arc out")
 }
 
 #[cold]
-fn stretched(span: SourceSpan) -> Box<Fault> {
+fn stretched(span: SourceSpan) -> Box<BlockDiagnostic> {
     let message = "an arc in a frame that makes an ellipse of it";
-    Fault::new(DiagnosticCode::ArcPlane, span, message)
+    BlockDiagnostic::new(DiagnosticCode::ArcPlane, span, message)
         .because("the frame scales the axes of the plane differently, and circles do not stay ones")
         .help("scale both axes of the plane alike, or write short lines")
 }
 
 #[cold]
-fn arc_off_contour(span: SourceSpan) -> Box<Fault> {
+fn arc_off_contour(span: SourceSpan) -> Box<BlockDiagnostic> {
     let message = "an arc as the first move after cutter radius compensation";
-    Fault::new(DiagnosticCode::CutterRadius, span, message)
+    BlockDiagnostic::new(DiagnosticCode::CutterRadius, span, message)
         .because("the tool stands beside the programmed point, where the arc does not begin")
         .help("make a straight move first")
 }

@@ -2,8 +2,8 @@
 
 use glidepath_geometry::{Axis, AxisVector, Plane};
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::pole::is_polar;
 use crate::execute::state::offsets::Offsets;
@@ -79,7 +79,7 @@ impl Interpreter {
             ([None, None], _) if is_polar(block) => Center::Pole,
             ([None, None], _) => {
                 let message = "an arc without centre or radius";
-                return Err(Fault::new(
+                return Err(BlockDiagnostic::new(
                     DiagnosticCode::ArcWithoutCenter,
                     block.motion_span(),
                     message,
@@ -92,7 +92,7 @@ impl Interpreter {
             ([a, _], Distance::Absolute) => {
                 let absent = if a.is_none() { names[0] } else { names[1] };
                 let message = format!("an absolute arc centre without {absent}");
-                return Err(Fault::new(
+                return Err(BlockDiagnostic::new(
                     DiagnosticCode::ArcWithoutCenter,
                     block.motion_span(),
                     message,
@@ -122,7 +122,7 @@ pub(super) fn check_center_words(block: &Block, plane: Plane) -> Outcome<()> {
     let normal = center_letter(plane.normal());
     if block.get(normal).is_some_and(|value| value != 0.0) {
         let message = format!("{} is not in the plane of the arc", char::from(normal));
-        return Err(Fault::new(
+        return Err(BlockDiagnostic::new(
             DiagnosticCode::ArcOffsetOutsidePlane,
             block.span(normal),
             message,
@@ -132,11 +132,13 @@ pub(super) fn check_center_words(block: &Block, plane: Plane) -> Outcome<()> {
     }
     if block.get(b'R').is_some() && block.has_any(Letters::of(b"IJK")) {
         let message = "an arc with both a radius and a centre";
-        return Err(
-            Fault::new(DiagnosticCode::ArcOverdetermined, block.span(b'R'), message)
-                .because("one of them determines the arc; the other could contradict it")
-                .help("remove R, or I, J and K"),
-        );
+        return Err(BlockDiagnostic::new(
+            DiagnosticCode::ArcOverdetermined,
+            block.span(b'R'),
+            message,
+        )
+        .because("one of them determines the arc; the other could contradict it")
+        .help("remove R, or I, J and K"));
     }
     Ok(())
 }

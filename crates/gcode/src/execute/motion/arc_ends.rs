@@ -2,8 +2,8 @@
 
 use core::f64::consts::{PI, TAU};
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::motion::settled::MIN_MOVE;
 use crate::syntax::block::Block;
@@ -48,9 +48,11 @@ pub(crate) fn check_radii(block: &Block, ends: Ends, center: [f64; 2]) -> Outcom
     if start <= MIN_MOVE || end <= MIN_MOVE {
         let which = if start <= MIN_MOVE { "start" } else { "end" };
         let message = format!("the centre of the arc is its {which} point");
-        return Err(Fault::new(DiagnosticCode::ArcZeroRadius, span, message)
-            .because("a circle of radius zero has no direction")
-            .help("write the centre relative to the start (G91.1), or use G90.1"));
+        return Err(
+            BlockDiagnostic::new(DiagnosticCode::ArcZeroRadius, span, message)
+                .because("a circle of radius zero has no direction")
+                .help("write the centre relative to the start (G91.1), or use G90.1"),
+        );
     }
     let difference = (start - end).abs();
     let relative = difference / start.max(end);
@@ -60,9 +62,11 @@ pub(crate) fn check_radii(block: &Block, ends: Ends, center: [f64; 2]) -> Outcom
         let message = format!(
             "the arc does not close: its radius is {start:.4} mm at the start, {end:.4} mm at the end"
         );
-        return Err(Fault::new(DiagnosticCode::ArcRadiusMismatch, span, message)
-            .because("both ends must lie on one circle about the centre")
-            .help("check that the centre is meant as G91.1 (relative) or G90.1 (absolute)"));
+        return Err(
+            BlockDiagnostic::new(DiagnosticCode::ArcRadiusMismatch, span, message)
+                .because("both ends must lie on one circle about the centre")
+                .help("check that the centre is meant as G91.1 (relative) or G90.1 (absolute)"),
+        );
     }
     Ok(())
 }
@@ -87,7 +91,7 @@ pub(crate) fn center_from_radius(
     let chord = distance(ends.start, ends.end);
     let half = 0.5 * chord;
     if radius.abs() <= MIN_MOVE {
-        return Err(Fault::new(
+        return Err(BlockDiagnostic::new(
             DiagnosticCode::ArcZeroRadius,
             span,
             "the radius of the arc is zero",
@@ -97,7 +101,7 @@ pub(crate) fn center_from_radius(
     if chord <= SAME_POINT_MM {
         let message = "a radius, and an end point that is the start point";
         return Err(
-            Fault::new(DiagnosticCode::ArcFullCircleWithRadius, span, message)
+            BlockDiagnostic::new(DiagnosticCode::ArcFullCircleWithRadius, span, message)
                 .because("every circle of that radius through the point would do")
                 .help("give the centre by I, J or K"),
         );
@@ -107,9 +111,11 @@ pub(crate) fn center_from_radius(
             "the radius {:.4} mm is too small: the ends are {chord:.4} mm apart",
             radius.abs()
         );
-        return Err(Fault::new(DiagnosticCode::ArcRadiusTooSmall, span, message)
-            .because("the radius must be at least half the distance of the ends")
-            .help("correct R or the end point"));
+        return Err(
+            BlockDiagnostic::new(DiagnosticCode::ArcRadiusTooSmall, span, message)
+                .because("the radius must be at least half the distance of the ends")
+                .help("correct R or the end point"),
+        );
     }
     let rise = (radius * radius - half * half).max(0.0).sqrt();
     // The centre is left of the chord for a short counterclockwise arc.

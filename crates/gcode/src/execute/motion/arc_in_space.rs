@@ -9,8 +9,8 @@ use core::f64::consts::{FRAC_PI_4, TAU};
 use glidepath_geometry::{Axis, AxisVector, Nurbs, Plane};
 use glidepath_program::Item;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::settled::{MIN_MOVE, settled};
@@ -71,7 +71,7 @@ impl SpaceArc {
     pub(super) fn curve(
         &self,
         map: impl Fn(AxisVector) -> AxisVector,
-    ) -> Result<Nurbs, Box<Fault>> {
+    ) -> Result<Nurbs, Box<BlockDiagnostic>> {
         let way = self.end - self.start;
         let flat = self.offset(self.sweep_rad, 1.0);
         let arc_way = [0, 1, 2].map(|i| flat[i] + self.center[i] - self.start[i]);
@@ -122,7 +122,7 @@ impl SpaceArc {
         knots.push(number);
         Nurbs::new(2, &points, &weights, &knots).map_err(|error| {
             let span = SourceSpan::default();
-            Fault::new(DiagnosticCode::Spline, span, error.to_string())
+            BlockDiagnostic::new(DiagnosticCode::Spline, span, error.to_string())
         })
     }
 
@@ -176,7 +176,7 @@ impl Interpreter {
         let xyz = |point: &AxisVector| [point[0], point[1], point[2]];
         let Some(arc) = through(xyz(&start), xyz(&via), xyz(&end)) else {
             let message = "the three points of CIP are on a line";
-            return Err(Fault::new(DiagnosticCode::ArcWithoutCenter, span, message)
+            return Err(BlockDiagnostic::new(DiagnosticCode::ArcWithoutCenter, span, message)
                 .because("an arc goes from the start through I1 J1 K1 to the end, which are three places of a circle")
                 .help("correct I1, J1 and K1, or write G1"));
         };
@@ -192,7 +192,7 @@ impl Interpreter {
         }
         let message = "an arc in space with cutter radius compensation";
         Err(
-            Fault::new(DiagnosticCode::CutterRadius, block.motion_span(), message)
+            BlockDiagnostic::new(DiagnosticCode::CutterRadius, block.motion_span(), message)
                 .because("the radius is taken beside lines and arcs of the plane")
                 .help("write G40 and a straight move before it"),
         )

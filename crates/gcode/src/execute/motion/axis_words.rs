@@ -2,8 +2,8 @@
 
 use glidepath_geometry::{AXES, Axis};
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::syntax::block::Block;
@@ -49,7 +49,7 @@ impl Interpreter {
             (Some(Coded { code: None, .. }), false) if has_axes && fanuc => {
                 Ok(Some(self.state.fanuc.before_cycles))
             }
-            (Some(Coded { code: None, span }), false) if has_axes => Err(Fault::new(
+            (Some(Coded { code: None, span }), false) if has_axes => Err(BlockDiagnostic::new(
                 DiagnosticCode::NoMotionMode,
                 span,
                 "axis words in a block with G80",
@@ -100,7 +100,7 @@ impl Interpreter {
         if has_axes {
             return modal.map(Some).ok_or_else(|| {
                 let span = block.motion_span();
-                Fault::new(
+                BlockDiagnostic::new(
                     DiagnosticCode::NoMotionMode,
                     span,
                     "axis words without a motion mode",
@@ -149,7 +149,7 @@ impl Interpreter {
                     .filter(|a| self.options.machine.has(*a))
                     .flat_map(|a| [' ', a.letter()])
                     .collect();
-                Err(Fault::new(
+                Err(BlockDiagnostic::new(
                     DiagnosticCode::AxisNotConfigured,
                     block.axis_span(axis),
                     message,
@@ -200,11 +200,13 @@ impl Interpreter {
         };
         let Some(axis) = self.options.extruder else {
             let message = "no axis is the extruder";
-            return Err(
-                Fault::new(DiagnosticCode::AxisNotConfigured, block.span(b'E'), message)
-                    .because("E words move an axis of the machine")
-                    .help("name the axis: `extruder` of [program] in the configuration"),
-            );
+            return Err(BlockDiagnostic::new(
+                DiagnosticCode::AxisNotConfigured,
+                block.span(b'E'),
+                message,
+            )
+            .because("E words move an axis of the machine")
+            .help("name the axis: `extruder` of [program] in the configuration"));
         };
         let value = word * self.state.modal.units.mm();
         let program = self.offsets.to_program(self.state.position)[axis.index()];
@@ -247,16 +249,16 @@ pub(crate) fn axis_value(axis: Axis, word: f64, scale: f64) -> f64 {
 }
 
 #[cold]
-fn extruder_in_doubt(span: SourceSpan) -> Box<Fault> {
+fn extruder_in_doubt(span: SourceSpan) -> Box<BlockDiagnostic> {
     let message = "whether E is relative depends on the printer's firmware";
-    Fault::new(DiagnosticCode::AmbiguousWord, span, message)
+    BlockDiagnostic::new(DiagnosticCode::AmbiguousWord, span, message)
         .because("behind M83 G90 makes E absolute to Marlin, and leaves it relative to Klipper; M82 within G91 differs likewise")
         .help("write M82 or M83 behind G90 or G91, or say which it is: `firmware` of [program] in the configuration")
 }
 
 #[cold]
-fn conflict(span: SourceSpan) -> Box<Fault> {
-    Fault::new(
+fn conflict(span: SourceSpan) -> Box<BlockDiagnostic> {
+    BlockDiagnostic::new(
         DiagnosticCode::AxisWordsConflict,
         span,
         "two codes want the axis words",

@@ -7,8 +7,8 @@
 use glidepath_geometry::{Arc, AxisVector, Plane, Segment};
 use glidepath_program::Item;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::compensation::element::Element;
 use crate::execute::interpreter::Interpreter;
@@ -321,42 +321,42 @@ fn says_codes_alone(block: &Block) -> bool {
 }
 
 #[cold]
-fn no_second_move(span: SourceSpan) -> Box<Fault> {
+fn no_second_move(span: SourceSpan) -> Box<BlockDiagnostic> {
     let message = "a corner that is broken has no move in the plane behind it";
-    Fault::new(DiagnosticCode::NotSupported, span, message)
+    BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
         .because("the word in the block before counts between two moves of G1, G2 and G3")
         .help("write the moves one behind the other, or write the chamfer or arc out")
 }
 
 #[cold]
-fn changed_between(span: SourceSpan) -> Box<Fault> {
+fn changed_between(span: SourceSpan) -> Box<BlockDiagnostic> {
     let message =
         "a corner that is broken in front of another plane, tool, compensation or spindle speed";
-    Fault::new(DiagnosticCode::NotSupported, span, message)
+    BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
         .because("both moves of a corner have to be made with the same")
         .help("write the change into the block before the corner, or write the chamfer or arc out")
 }
 
 #[cold]
-fn timed(span: SourceSpan) -> Box<Fault> {
+fn timed(span: SourceSpan) -> Box<BlockDiagnostic> {
     let message = "a corner that is broken with a feed that is a time (G93)";
-    Fault::new(DiagnosticCode::NotSupported, span, message)
+    BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
         .because("the time of a block is of its move, and the corner has none of its own")
         .help("write G94 or G95 before both moves, or write the chamfer or arc out")
 }
 
 #[cold]
-fn not_in_plane(span: SourceSpan) -> Box<Fault> {
+fn not_in_plane(span: SourceSpan) -> Box<BlockDiagnostic> {
     let message = "a corner that is broken outside the plane";
-    Fault::new(DiagnosticCode::NotSupported, span, message)
+    BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
         .because("both moves have to be in the plane of arcs")
         .help("write G17, G18 or G19, or write the chamfer or arc out")
 }
 
 #[cold]
-fn cannot_break(span: SourceSpan, why: &str) -> Box<Fault> {
+fn cannot_break(span: SourceSpan, why: &str) -> Box<BlockDiagnostic> {
     let message = "the corner before this move cannot be broken";
-    Fault::new(DiagnosticCode::InvalidValue, span, message)
+    BlockDiagnostic::new(DiagnosticCode::InvalidValue, span, message)
         .because(why)
         .help("write a smaller value")
 }

@@ -3,7 +3,7 @@
 use glidepath_geometry::{Nurbs, NurbsPath, Segment};
 use glidepath_program::{Item, PathMode};
 
-use crate::diagnostic::fault::Outcome;
+use crate::diagnostic::block_diagnostic::Outcome;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::speed::{Pace, Speed};
 use crate::syntax::block::Block;

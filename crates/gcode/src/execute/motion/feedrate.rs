@@ -2,8 +2,8 @@
 
 use glidepath_geometry::Segment;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::speed::{Pace, Speed};
 use crate::syntax::block::Block;
@@ -18,7 +18,7 @@ impl Interpreter {
         let modal = &self.state.modal;
         if modal.feed_mode == FeedMode::InverseTime {
             let per_minute = block.get(b'F').ok_or_else(|| {
-                Fault::new(
+                BlockDiagnostic::new(
                     DiagnosticCode::MissingFeed,
                     block.motion_span(),
                     "no F in an inverse-time block",
@@ -29,7 +29,7 @@ impl Interpreter {
             return Ok(Speed::Moves(per_minute));
         }
         let feed = modal.feed.ok_or_else(|| {
-            Fault::new(
+            BlockDiagnostic::new(
                 DiagnosticCode::MissingFeed,
                 block.motion_span(),
                 "a feed move without a feedrate",
@@ -47,11 +47,13 @@ impl Interpreter {
         let speed = self.state.spindle.speed;
         if speed <= 0.0 {
             let message = "a feed per revolution (G95) of a spindle without a speed";
-            return Err(
-                Fault::new(DiagnosticCode::Spindle, block.motion_span(), message)
-                    .because("the move would never end")
-                    .help("write an S word above zero, or go back to G94"),
-            );
+            return Err(BlockDiagnostic::new(
+                DiagnosticCode::Spindle,
+                block.motion_span(),
+                message,
+            )
+            .because("the move would never end")
+            .help("write an S word above zero, or go back to G94"));
         }
         let feed_v = feed * speed / 60.0;
         Ok(match self.options.threading {

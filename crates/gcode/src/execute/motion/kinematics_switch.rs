@@ -6,8 +6,8 @@
 
 use glidepath_program::{Item, ItemKind};
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::state::tip::Tip;
 use crate::syntax::block::Block;
@@ -31,14 +31,16 @@ impl Interpreter {
             429 => Tip::Stands,
             _ => {
                 let message = "M430 (kinematics of the user) is not supported";
-                return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
-                    .because("what they are is made for each machine, and not known here")
-                    .help("write M428 or M429"));
+                return Err(
+                    BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
+                        .because("what they are is made for each machine, and not known here")
+                        .help("write M428 or M429"),
+                );
             }
         };
         if self.state.on_contour || self.state.leaving_contour {
             let message = format!("M{code} with cutter radius compensation on");
-            return Err(Fault::new(DiagnosticCode::CutterRadius, span, message)
+            return Err(BlockDiagnostic::new(DiagnosticCode::CutterRadius, span, message)
                 .because("the tool stands beside the programmed point, at a place that depends on the next move")
                 .help("write G40 and a move before it"));
         }

@@ -2,8 +2,8 @@
 
 use glidepath_geometry::{Axis, AxisVector};
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::execute::interpreter::Interpreter;
 use crate::syntax::block::Block;
 
@@ -54,7 +54,13 @@ impl Interpreter {
 }
 
 #[cold]
-fn beyond_limit(block: &Block, axis: Axis, reached: f64, limit: f64, what: &str) -> Box<Fault> {
+fn beyond_limit(
+    block: &Block,
+    axis: Axis,
+    reached: f64,
+    limit: f64,
+    what: &str,
+) -> Box<BlockDiagnostic> {
     let span = Some(block.axis_span(axis)).filter(|span| span.length > 0);
     let unit = if axis.is_rotary() { "°" } else { " mm" };
     let side = if reached > limit { "above" } else { "below" };
@@ -63,7 +69,7 @@ fn beyond_limit(block: &Block, axis: Axis, reached: f64, limit: f64, what: &str)
         short(reached),
         short(limit)
     );
-    Fault::new(
+    BlockDiagnostic::new(
         DiagnosticCode::SoftLimit,
         span.unwrap_or_else(|| block.motion_span()),
         message,

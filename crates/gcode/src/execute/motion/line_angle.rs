@@ -11,8 +11,8 @@
 use glidepath_geometry::{AXES, Axis};
 use glidepath_program::Item;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::corner::CornerMove;
@@ -200,8 +200,8 @@ fn crossing(start: [f64; 2], degrees: f64, end: [f64; 2], degrees_to: f64) -> Op
 }
 
 #[cold]
-fn refused(span: SourceSpan, message: &str, reason: &str) -> Box<Fault> {
-    Fault::new(DiagnosticCode::Polar, span, message)
+fn refused(span: SourceSpan, message: &str, reason: &str) -> Box<BlockDiagnostic> {
+    BlockDiagnostic::new(DiagnosticCode::Polar, span, message)
         .because(reason)
         .help("write the coordinates of the end, or correct the angle")
 }

@@ -5,8 +5,8 @@
 
 use glidepath_program::Item;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::state::tip::Tilt;
 use crate::syntax::block::Block;
@@ -40,9 +40,13 @@ impl Interpreter {
         let span = block.codes.non_modal.map(|coded| coded.span);
         let message = "a place of the machine while the tip of the tool is followed";
         let code = DiagnosticCode::MachineCoordinates;
-        Err(Fault::new(code, span.unwrap_or_default(), message)
-            .because("with the rotary axes away from zero the coordinates are those of the work")
-            .help("write G49 or TRAFOOF before it"))
+        Err(
+            BlockDiagnostic::new(code, span.unwrap_or_default(), message)
+                .because(
+                    "with the rotary axes away from zero the coordinates are those of the work",
+                )
+                .help("write G49 or TRAFOOF before it"),
+        )
     }
 
     /// Has the coordinates be those of the machine's axes for such a block; true if they were not.

@@ -3,8 +3,8 @@
 use glidepath_geometry::{Arc, AxisVector, NurbsPath, Segment};
 use glidepath_program::{Event, Item, ItemKind, Rate};
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::arc_in_space::SpaceArc;
 use crate::execute::motion::tip_map::TipMap;
@@ -133,7 +133,7 @@ impl Interpreter {
         }
         let message = "a probing move with the rotary axes away from zero";
         Err(
-            Fault::new(DiagnosticCode::NotSupported, block.motion_span(), message)
+            BlockDiagnostic::new(DiagnosticCode::NotSupported, block.motion_span(), message)
                 .because("the place of the contact is that of the tip on the work, and this program counts the machine's axes")
                 .help("probe behind G43.4 or TRAORI, with a tool of the length that the kinematics know"),
         )
@@ -141,9 +141,9 @@ impl Interpreter {
 }
 
 #[cold]
-fn behind_spindle(block: &Block) -> Box<Fault> {
+fn behind_spindle(block: &Block) -> Box<BlockDiagnostic> {
     let message = "a thread or a tap with the rotary axes away from zero";
-    Fault::new(DiagnosticCode::NotSupported, block.motion_span(), message)
+    BlockDiagnostic::new(DiagnosticCode::NotSupported, block.motion_span(), message)
         .because(
             "one axis follows the spindle, and along a tool that leans it is none of the machine's",
         )

@@ -3,8 +3,8 @@
 use glidepath_geometry::{AxisVector, Nurbs, NurbsError};
 use glidepath_program::Item;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::state::open_spline::OpenSpline;
@@ -46,11 +46,13 @@ impl Interpreter {
         match order {
             Some(order) if order < 2 => {
                 let message = format!("a NURBS of order L{order}");
-                return Err(
-                    Fault::new(DiagnosticCode::Spline, block.span(b'L'), message)
-                        .because("the order is the degree + 1; lines have order 2")
-                        .help("write L2 to L8"),
-                );
+                return Err(BlockDiagnostic::new(
+                    DiagnosticCode::Spline,
+                    block.span(b'L'),
+                    message,
+                )
+                .because("the order is the degree + 1; lines have order 2")
+                .help("write L2 to L8"));
             }
             Some(order) => open.order = order,
             None => {}
@@ -78,13 +80,15 @@ impl Interpreter {
             .find(|(axis, _)| *axis != first && *axis != second);
         if let Some((axis, _)) = other {
             let message = format!("{axis} in a control point of G5.2");
-            return Err(
-                Fault::new(DiagnosticCode::Spline, block.axis_span(axis), message)
-                    .because(format!(
-                        "the curve goes in {first} and {second}, the axes of the plane"
-                    ))
-                    .help("select the plane it goes in, or use G6.2"),
-            );
+            return Err(BlockDiagnostic::new(
+                DiagnosticCode::Spline,
+                block.axis_span(axis),
+                message,
+            )
+            .because(format!(
+                "the curve goes in {first} and {second}, the axes of the plane"
+            ))
+            .help("select the plane it goes in, or use G6.2"));
         }
         let values = self.axis_values(block)?;
         for axis in [first, second] {
@@ -109,7 +113,7 @@ impl Interpreter {
         self.state.modal.motion = None;
         let Some(mut open) = self.open_spline.take() else {
             return Err(
-                Fault::new(DiagnosticCode::Spline, span, "G5.3 without G5.2")
+                BlockDiagnostic::new(DiagnosticCode::Spline, span, "G5.3 without G5.2")
                     .because("it ends a NURBS, and none has begun")
                     .help("write G5.2 and its control points before it"),
             );
@@ -145,13 +149,13 @@ impl Interpreter {
         match order {
             Some(order) if order < 2 || (!opens && order != open.order) => {
                 let message = format!("P{order} cannot be the order of this NURBS");
-                return Err(
-                    Fault::new(DiagnosticCode::Spline, block.span(b'P'), message)
-                        .because(
-                            "the order is the degree + 1, 2 to 8, and stands in the first block",
-                        )
-                        .help("write P4 for a cubic"),
-                );
+                return Err(BlockDiagnostic::new(
+                    DiagnosticCode::Spline,
+                    block.span(b'P'),
+                    message,
+                )
+                .because("the order is the degree + 1, 2 to 8, and stands in the first block")
+                .help("write P4 for a cubic"));
             }
             Some(order) => open.order = order,
             None => {}
@@ -159,7 +163,7 @@ impl Interpreter {
         if open.knots.last().is_some_and(|last| knot < *last) {
             let message = format!("the knot {knot} is below the one before it");
             return Err(
-                Fault::new(DiagnosticCode::Spline, block.span(b'K'), message)
+                BlockDiagnostic::new(DiagnosticCode::Spline, block.span(b'K'), message)
                     .because("knots never descend")
                     .help("correct K"),
             );
@@ -169,14 +173,14 @@ impl Interpreter {
             if opens {
                 if (point - here).amax() > START_MM {
                     let message = "the first control point is not where the tool stands";
-                    return Err(Fault::new(DiagnosticCode::Spline, span, message)
+                    return Err(BlockDiagnostic::new(DiagnosticCode::Spline, span, message)
                         .because("the curve begins at its first control point")
                         .help("move there before it, with G1 or G0"));
                 }
                 point = here;
             }
             if open.knots.len() != open.points.len() + 1 {
-                return Err(Fault::new(
+                return Err(BlockDiagnostic::new(
                     DiagnosticCode::Spline,
                     span,
                     "a control point after the last knots",
@@ -218,7 +222,7 @@ fn push_point(open: &mut OpenSpline, block: &Block, point: AxisVector, weight: f
     if open.points.len() >= MAX_POINTS {
         let message = format!("a NURBS of more than {MAX_POINTS} control points");
         return Err(
-            Fault::new(DiagnosticCode::Spline, block.motion_span(), message)
+            BlockDiagnostic::new(DiagnosticCode::Spline, block.motion_span(), message)
                 .because("a curve is kept until it is complete")
                 .help("write several curves"),
         );
@@ -235,7 +239,7 @@ fn positive_weight(block: &Block, letter: u8) -> Outcome<f64> {
         Some(weight) => {
             let message = format!("a weight of {weight}");
             Err(
-                Fault::new(DiagnosticCode::Spline, block.span(letter), message)
+                BlockDiagnostic::new(DiagnosticCode::Spline, block.span(letter), message)
                     .because(
                         "a control point of no weight draws nothing, one below zero pushes away",
                     )
@@ -246,14 +250,14 @@ fn positive_weight(block: &Block, letter: u8) -> Outcome<f64> {
     }
 }
 
-fn no_curve(open: &OpenSpline, error: &NurbsError, span: SourceSpan) -> Box<Fault> {
+fn no_curve(open: &OpenSpline, error: &NurbsError, span: SourceSpan) -> Box<BlockDiagnostic> {
     let message = format!("the NURBS begun in line {} is no curve", open.line);
     let help = match error {
         NurbsError::TooFewPoints { .. } => "write more control points, or a lower order",
         NurbsError::StandsStill { .. } => "remove the control points that repeat",
         _ => "correct its knots",
     };
-    Fault::new(DiagnosticCode::Spline, span, message)
+    BlockDiagnostic::new(DiagnosticCode::Spline, span, message)
         .because(error.to_string())
         .help(help)
 }

@@ -14,8 +14,8 @@
 use glidepath_geometry::{Axis, AxisVector, LINEAR_XYZ, Segment};
 use glidepath_program::{Item, ItemKind, PathMode, Rate};
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::settled::{MIN_MOVE, settled};
@@ -80,9 +80,11 @@ impl Interpreter {
             .all(|axis| LINEAR_XYZ.contains(&axis.index()) || way[axis.index()] == 0.0);
         if length_mm <= MIN_MOVE || !is_straight {
             let message = "a tap that goes nowhere, or of other axes than X, Y and Z";
-            return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
-                .because("a straight way goes with the spindle")
-                .help("write another depth than where the tool is, and leave other axes out"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
+                    .because("a straight way goes with the spindle")
+                    .help("write another depth than where the tool is, and leave other axes out"),
+            );
         }
         let turns = match hole.turning {
             SpindleDirection::Clockwise => 1.0,
@@ -98,9 +100,11 @@ impl Interpreter {
         let peck_mm = hole.peck_mm.unwrap_or(length_mm);
         if length_mm / peck_mm > MAX_DEPTHS {
             let message = format!("{:.0} depths of one hole", length_mm / peck_mm);
-            return Err(Fault::new(DiagnosticCode::InvalidValue, span, message)
-                .because(format!("one hole has at most {MAX_DEPTHS}"))
-                .help("write a larger Q"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::InvalidValue, span, message)
+                    .because(format!("one hole has at most {MAX_DEPTHS}"))
+                    .help("write a larger Q"),
+            );
         }
         self.spindle_to_axis(out);
         // The corner to the move before is not rounded.
@@ -153,7 +157,7 @@ impl Interpreter {
         } else {
             return Ok(spindle.speed);
         };
-        Err(Fault::new(DiagnosticCode::Spindle, span, message)
+        Err(BlockDiagnostic::new(DiagnosticCode::Spindle, span, message)
             .because("the tap goes in at the speed S, along its own line")
             .help("write G97, G40 and an S word before it"))
     }
@@ -180,7 +184,9 @@ fn check_speed(
         spindle.axis,
     );
     let reason = format!("the axes go {:.0} mm/min there at most", most_v * 60.0);
-    Err(Fault::new(DiagnosticCode::InvalidValue, span, message)
-        .because(reason)
-        .help(format!("write S{most} or less")))
+    Err(
+        BlockDiagnostic::new(DiagnosticCode::InvalidValue, span, message)
+            .because(reason)
+            .help(format!("write S{most} or less")),
+    )
 }

@@ -5,8 +5,8 @@
 
 use glidepath_geometry::AXES;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::execute::interpreter::Interpreter;
 use crate::syntax::block::Block;
 use crate::syntax::modes::Distance;
@@ -23,7 +23,7 @@ impl Interpreter {
             return Ok(());
         };
         let refuse = |message: &str, reason: &str, help: &str| {
-            Fault::new(DiagnosticCode::Polar, first.span, message)
+            BlockDiagnostic::new(DiagnosticCode::Polar, first.span, message)
                 .because(reason)
                 .help(help)
         };

@@ -10,8 +10,8 @@
 
 use glidepath_geometry::AXES;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::axis_words::axis_value;
@@ -71,7 +71,7 @@ impl Interpreter {
                 let Some(slot) = at.get_mut(axis.index()) else {
                     let message = format!("{axis} in the place of a pole");
                     let span = block.axis_span(axis);
-                    return Err(Fault::new(DiagnosticCode::Polar, span, message)
+                    return Err(BlockDiagnostic::new(DiagnosticCode::Polar, span, message)
                         .because("a pole is a point of X, Y and Z")
                         .help("write the axes of the plane"));
                 };
@@ -92,7 +92,8 @@ impl Interpreter {
             return Ok((first.index(), second.index()));
         }
         let message = "polar coordinates in a plane that is not of X, Y and Z";
-        Err(Fault::new(DiagnosticCode::Polar, span, message).help("write G17, G18 or G19"))
+        Err(BlockDiagnostic::new(DiagnosticCode::Polar, span, message)
+            .help("write G17, G18 or G19"))
     }
 
     /// Keeps the polar words of a block that moves.
@@ -116,7 +117,7 @@ impl Interpreter {
         };
         let (first, second) = self.plane_of_pole(span)?;
         let refuse = |message: &str, reason: &str, help: &str| {
-            Err(Fault::new(DiagnosticCode::Polar, span, message)
+            Err(BlockDiagnostic::new(DiagnosticCode::Polar, span, message)
                 .because(reason)
                 .help(help))
         };
@@ -152,8 +153,8 @@ impl Interpreter {
 }
 
 #[cold]
-fn beside(span: SourceSpan) -> Box<Fault> {
-    Fault::new(
+fn beside(span: SourceSpan) -> Box<BlockDiagnostic> {
+    BlockDiagnostic::new(
         DiagnosticCode::Polar,
         span,
         "polar coordinates beside those of the plane",

@@ -8,8 +8,8 @@
 use glidepath_geometry::AXES;
 use glidepath_program::{Event, Item, ItemKind, PathMode};
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::settled::MIN_MOVE;
@@ -31,9 +31,11 @@ impl Interpreter {
         let is_real = self.options.connections == Connections::Real;
         if self.state.modal.feed_mode != FeedMode::PerMinute {
             let message = "probing needs a feedrate per minute";
-            return Err(Fault::new(DiagnosticCode::MissingFeed, span, message)
-                .because("the move ends where contact is made, so its time is not known")
-                .help("write G94"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::MissingFeed, span, message)
+                    .because("the move ends where contact is made, so its time is not known")
+                    .help("write G94"),
+            );
         }
         if is_real {
             self.check_probing_feed(span)?;
@@ -42,9 +44,11 @@ impl Interpreter {
         let far = (0..AXES).any(|axis| (target[axis] - self.state.position[axis]).abs() > MIN_MOVE);
         if !far {
             let message = "the probe would not move";
-            return Err(Fault::new(DiagnosticCode::InvalidValue, span, message)
-                .because("the end of the move is where the machine stands")
-                .help("write an end in the direction of the part"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::InvalidValue, span, message)
+                    .because("the end of the move is where the machine stands")
+                    .help("write an end in the direction of the part"),
+            );
         }
         let first = out.len();
         let mode = core::mem::replace(&mut self.state.modal.path_mode, PathMode::ExactStop);
@@ -71,11 +75,13 @@ impl Interpreter {
     /// Refuses what no machine could stop from in time.
     fn check_probing_feed(&self, span: SourceSpan) -> Outcome<()> {
         let Some(most_v) = self.options.probing_v else {
-            return Err(
-                Fault::new(DiagnosticCode::NotConnected, span, "no probe is connected")
-                    .because("the machine's configuration does not say which input it is")
-                    .help("remove the block, or write the table [probe] into the configuration"),
-            );
+            return Err(BlockDiagnostic::new(
+                DiagnosticCode::NotConnected,
+                span,
+                "no probe is connected",
+            )
+            .because("the machine's configuration does not say which input it is")
+            .help("remove the block, or write the table [probe] into the configuration"));
         };
         let feed = self.state.modal.feed;
         let feed_v = feed.map_or(0.0, |feed| feed.linear_v.max(feed.rotary_v));
@@ -84,9 +90,11 @@ impl Interpreter {
         }
         let (feed, most) = (feed_v * 60.0, most_v * 60.0);
         let message = format!("F{feed:.0} is too fast for the probe");
-        Err(Fault::new(DiagnosticCode::InvalidValue, span, message)
-            .because("it could not stop within the overtravel that the configuration allows it")
-            .help(format!("write F{most:.0} or less")))
+        Err(
+            BlockDiagnostic::new(DiagnosticCode::InvalidValue, span, message)
+                .because("it could not stop within the overtravel that the configuration allows it")
+                .help(format!("write F{most:.0} or less")),
+        )
     }
 
     /// Goes on from where a search has ended.
@@ -117,7 +125,7 @@ impl Interpreter {
         if !probe.must {
             return Ok(());
         }
-        Err(Fault::new(DiagnosticCode::Probe, span, message)
+        Err(BlockDiagnostic::new(DiagnosticCode::Probe, span, message)
             .because(reason)
             .help("look at the probe and its cable; G38.3 and G38.5 go on in any case"))
     }

@@ -17,8 +17,8 @@
 use glidepath_geometry::{Axis, AxisVector, Segment};
 use glidepath_program::{Event, Item, ItemKind, TAP_DEPTHS_UM};
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::planned_tap::TappedHole;
@@ -45,9 +45,11 @@ impl Interpreter {
         let is_pitch = if is_signed { pitch != 0.0 } else { pitch > 0.0 };
         if !is_pitch || block.get(b'F').is_some() {
             let message = "G33.1 takes a pitch K above zero, and no F";
-            return Err(Fault::new(DiagnosticCode::InvalidValue, span, message)
-                .because("the spindle alone gives the speed of a tap")
-                .help("write the way of a revolution as K, and the axis word of the hole"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::InvalidValue, span, message)
+                    .because("the spindle alone gives the speed of a tap")
+                    .help("write the way of a revolution as K, and the axis word of the hole"),
+            );
         }
         let scale = self.state.modal.units.mm();
         let bottom = self.target(block)?;
@@ -60,7 +62,8 @@ impl Interpreter {
         let above_zero = |letter: u8, scale: f64, meaning: &str| match block.get(letter) {
             Some(value) if value <= 0.0 => {
                 let message = format!("{} is not above zero", char::from(letter));
-                let fault = Fault::new(DiagnosticCode::InvalidValue, block.span(letter), message);
+                let fault =
+                    BlockDiagnostic::new(DiagnosticCode::InvalidValue, block.span(letter), message);
                 Err(fault
                     .because(meaning)
                     .help("write a value above zero, or leave it out"))
@@ -116,9 +119,11 @@ impl Interpreter {
         self.check_limits(block, &deepest, &deepest, what)?;
         if depth_um >= f64::from(TAP_DEPTHS_UM) {
             let message = "a hole of more than a metre";
-            return Err(Fault::new(DiagnosticCode::InvalidValue, span, message)
-                .because("depths are kept up to that")
-                .help("check the axis word, and the units it is in"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::InvalidValue, span, message)
+                    .because("depths are kept up to that")
+                    .help("check the axis word, and the units it is in"),
+            );
         }
         #[expect(
             clippy::cast_possible_truncation,
@@ -150,12 +155,14 @@ impl Interpreter {
         if turning_a > most_a {
             let message =
                 format!("the axis goes with {turning_a:.0} mm/s² where the spindle turns back");
-            return Err(Fault::new(DiagnosticCode::InvalidValue, span, message)
-                .because(format!("it can do {most_a:.0} mm/s²"))
-                .help(
-                    "let the spindle turn back more slowly, and say so by `acceleration` of \
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::InvalidValue, span, message)
+                    .because(format!("it can do {most_a:.0} mm/s²"))
+                    .help(
+                        "let the spindle turn back more slowly, and say so by `acceleration` of \
                      [spindle]",
-                ));
+                    ),
+            );
         }
         let run_in_mm = threading.run_in_mm(&direction, speed_v);
         let run_on_mm = threading.run_on_mm(pitch_mm, speed / 60.0);
@@ -163,7 +170,7 @@ impl Interpreter {
         let turn_mm = length_mm - run_on_mm;
         if turn_mm < run_in_mm {
             let message = format!("a hole of {length_mm:.3} mm is too short at S{speed}");
-            return Err(Fault::new(DiagnosticCode::InvalidValue, span, message)
+            return Err(BlockDiagnostic::new(DiagnosticCode::InvalidValue, span, message)
                 .because(format!(
                     "the tap needs {run_in_mm:.3} mm to come to the speed of the spindle, which \
                      runs on for {run_on_mm:.3} mm"
@@ -177,7 +184,7 @@ impl Interpreter {
             let overtravel = threading.overtravel;
             let message =
                 format!("at S{speed} the tap goes on for more than {overtravel} revolutions");
-            return Err(Fault::new(DiagnosticCode::InvalidValue, span, message)
+            return Err(BlockDiagnostic::new(DiagnosticCode::InvalidValue, span, message)
                 .because(format!(
                     "the spindle runs on for {:.2} revolutions when it is told to turn back, and to \
                      stop the tap takes {:.2}: that is beyond `overtravel` of [spindle], where the \
@@ -202,7 +209,7 @@ fn hole_axis(span: SourceSpan, start: &AxisVector, bottom: &AxisVector) -> Outco
         [axis] if !axis.is_rotary() => Ok((axis, way[axis.index()])),
         _ => {
             let message = "a tap along more than one axis, or none that is straight";
-            Err(Fault::new(DiagnosticCode::NotSupported, span, message)
+            Err(BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
                 .because("one axis goes with the spindle")
                 .help(
                     "write the axis of the hole alone, with another depth than where the tool is",
@@ -213,7 +220,7 @@ fn hole_axis(span: SourceSpan, start: &AxisVector, bottom: &AxisVector) -> Outco
 
 /// Refuses a word of a tap that a spindle that is only followed cannot do.
 #[cold]
-pub(crate) fn needs_axis(block: &Block, letter: u8) -> Box<Fault> {
+pub(crate) fn needs_axis(block: &Block, letter: u8) -> Box<BlockDiagnostic> {
     let (what, reason) = match letter {
         b'P' => (
             "with a dwell at the bottom (P)",
@@ -229,7 +236,7 @@ pub(crate) fn needs_axis(block: &Block, letter: u8) -> Box<Fault> {
         ),
     };
     let letter_name = char::from(letter);
-    Fault::new(
+    BlockDiagnostic::new(
         DiagnosticCode::NotSupported,
         block.span(letter),
         format!("a rigid tap {what} is not supported"),

@@ -6,8 +6,8 @@
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_program::{Event, Item, ItemKind};
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::settled::MIN_MOVE;
 use crate::execute::state::spindle::SpindleDirection;
@@ -61,7 +61,7 @@ impl Interpreter {
         }
         let span = Some(block.axis_span(axis)).filter(|span| span.length > 0);
         let message = format!("a move of {axis}, which is the spindle, while that turns");
-        Err(Fault::new(
+        Err(BlockDiagnostic::new(
             DiagnosticCode::Spindle,
             span.unwrap_or_else(|| block.motion_span()),
             message,

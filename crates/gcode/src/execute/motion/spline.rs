@@ -16,8 +16,8 @@
 use glidepath_geometry::{Axis, AxisVector, Nurbs, Plane};
 use glidepath_program::Item;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::settled::settled;
@@ -39,7 +39,7 @@ impl Interpreter {
         if self.compensation.is_some() || self.state.leaving_contour {
             let span = block.motion_span();
             let message = "a spline with cutter radius compensation";
-            return Err(Fault::new(DiagnosticCode::Spline, span, message)
+            return Err(BlockDiagnostic::new(DiagnosticCode::Spline, span, message)
                 .because("beside a spline there runs no spline")
                 .help("let the CAM system compensate, or write lines and arcs"));
         }
@@ -107,7 +107,7 @@ impl Interpreter {
     fn check_xy(&self, block: &Block, code: &str) -> Outcome<()> {
         let span = block.motion_span();
         if self.state.modal.plane != Plane::Xy {
-            return Err(Fault::new(
+            return Err(BlockDiagnostic::new(
                 DiagnosticCode::Spline,
                 span,
                 format!("{code} outside the XY plane"),
@@ -120,11 +120,13 @@ impl Interpreter {
             .find(|(axis, _)| !matches!(axis, Axis::X | Axis::Y));
         if let Some((axis, _)) = other {
             let message = format!("{axis} in a block with {code}");
-            return Err(
-                Fault::new(DiagnosticCode::Spline, block.axis_span(axis), message)
-                    .because("the curve goes in X and Y alone")
-                    .help("write the other axes in a block of their own"),
-            );
+            return Err(BlockDiagnostic::new(
+                DiagnosticCode::Spline,
+                block.axis_span(axis),
+                message,
+            )
+            .because("the curve goes in X and Y alone")
+            .help("write the other axes in a block of their own"));
         }
         if !block.has_axes() {
             return Err(missing(span, code, "X or Y", "where the curve ends"));
@@ -160,7 +162,7 @@ impl Interpreter {
         }
         match Nurbs::new(degree, points, &vec![1.0; points.len()], &knots) {
             Ok(curve) => self.push_curve(block, curve, out),
-            Err(error) => Err(Fault::new(
+            Err(error) => Err(BlockDiagnostic::new(
                 DiagnosticCode::Spline,
                 block.motion_span(),
                 error.to_string(),

@@ -3,8 +3,8 @@
 use glidepath_geometry::{AXES, Axis, AxisVector, Segment};
 use glidepath_program::{Item, ItemKind};
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::axis_words::homes_without_mesh;
 use crate::execute::motion::settled::{MIN_MOVE, settled};
@@ -136,7 +136,7 @@ impl Interpreter {
             .non_modal
             .map_or_else(|| block.motion_span(), |coded| coded.span);
         let message = "a way to the reference position without axes";
-        Err(Fault::new(DiagnosticCode::AmbiguousWord, span, message)
+        Err(BlockDiagnostic::new(DiagnosticCode::AmbiguousWord, span, message)
             .because("a Haas sends all axes there, and a FANUC moves none")
             .help("name the axes, as in G91 G28 X0 Y0 Z0; or set offset_memory = \"haas\" in [program]"))
     }

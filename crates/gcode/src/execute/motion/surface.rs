@@ -11,7 +11,7 @@
 use glidepath_geometry::{AxisVector, Segment};
 use glidepath_program::Item;
 
-use crate::diagnostic::fault::Outcome;
+use crate::diagnostic::block_diagnostic::Outcome;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::speed::{Pace, Speed};
 use crate::syntax::block::Block;

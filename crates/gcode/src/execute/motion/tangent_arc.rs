@@ -8,8 +8,8 @@
 use glidepath_geometry::{Arc, AxisVector, Segment};
 use glidepath_program::{Item, ItemKind};
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::arc_ends::{Ends, sweep};
 use crate::execute::motion::settled::settled;
@@ -32,7 +32,7 @@ impl Interpreter {
     pub(crate) fn tangent_arc(&mut self, block: &Block, out: &mut Vec<Item>) -> Outcome<()> {
         let span = block.motion_span();
         let refuse = |message: &str, reason: &str| {
-            Fault::new(DiagnosticCode::ArcWithoutCenter, span, message)
+            BlockDiagnostic::new(DiagnosticCode::ArcWithoutCenter, span, message)
                 .because(reason)
                 .help("write G2 or G3 with the radius CR=")
         };

@@ -8,8 +8,8 @@
 use glidepath_geometry::Axis;
 use glidepath_program::{Event, Item, ItemKind};
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::planned_tap::TappedHole;
@@ -57,15 +57,19 @@ impl Interpreter {
         let pitch_mm = self.pitch_of_pair(block, "G332")?;
         let Some(tap) = self.open_tap.take() else {
             let message = "G332 without G331 in the block before it";
-            return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
-                .because("it is the way out of a hole that was tapped")
-                .help("write G331 with the depth before it"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
+                    .because("it is the way out of a hole that was tapped")
+                    .help("write G331 with the depth before it"),
+            );
         };
         if (tap.pitch_mm - pitch_mm).abs() > MIN_MOVE {
             let message = "G332 with another pitch than G331";
-            return Err(Fault::new(DiagnosticCode::InvalidValue, span, message)
-                .because("the tap goes out along its own thread")
-                .help("write the same pitch, with the same sign"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::InvalidValue, span, message)
+                    .because("the tap goes out along its own thread")
+                    .help("write the same pitch, with the same sign"),
+            );
         }
         let end = self.target(block)?;
         let start = self.state.path_end;
@@ -79,7 +83,7 @@ impl Interpreter {
         });
         if !is_back || is_beside {
             let message = "G332 does not lead out of the hole";
-            return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
+            return Err(BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
                 .because("the tap goes in and out at once: it comes back to where G331 began, or goes on from there")
                 .help("write the place where G331 began as the end of G332"));
         }
@@ -105,7 +109,7 @@ impl Interpreter {
         {
             let message = "the spindle turns the other way than the pitch of the tap says";
             let span = block.motion_span();
-            return Err(Fault::new(DiagnosticCode::Spindle, span, message)
+            return Err(BlockDiagnostic::new(DiagnosticCode::Spindle, span, message)
                 .because("a pitch above zero is of a right-hand thread, which M3 cuts")
                 .help("write SPOS or M5 before G331, or correct the sign of the pitch"));
         }
@@ -151,18 +155,20 @@ impl Interpreter {
         if pitch == 0.0 || block.get(b'F').is_some() {
             let message = format!("{code} takes a pitch other than zero, and no F");
             let span = block.motion_span();
-            return Err(Fault::new(DiagnosticCode::InvalidValue, span, message)
-                .because("the spindle alone gives the speed of a tap")
-                .help("write the way of a revolution as K, below zero for a left-hand thread"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::InvalidValue, span, message)
+                    .because("the spindle alone gives the speed of a tap")
+                    .help("write the way of a revolution as K, below zero for a left-hand thread"),
+            );
         }
         Ok(pitch * self.state.modal.units.mm())
     }
 }
 
 #[cold]
-fn not_out(span: SourceSpan) -> Box<Fault> {
+fn not_out(span: SourceSpan) -> Box<BlockDiagnostic> {
     let message = "a tap that does not come out of its hole";
-    Fault::new(DiagnosticCode::NotSupported, span, message)
+    BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
         .because("behind G331 comes G332, in the next block: both ways are made at once")
         .help("write G332 behind it; a dwell in the hole is an argument of CYCLE84")
 }

@@ -2,7 +2,7 @@
 
 use glidepath_geometry::{AXES, AxisVector};
 
-use crate::diagnostic::fault::Outcome;
+use crate::diagnostic::block_diagnostic::Outcome;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::state::offsets::overlay;
 use crate::syntax::block::Block;

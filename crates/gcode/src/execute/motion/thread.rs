@@ -7,8 +7,8 @@
 use glidepath_geometry::Segment;
 use glidepath_program::{Event, Item, ItemKind, PHASE_STEPS, PathMode, Rate};
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::settled::{MIN_MOVE, settled};
@@ -44,27 +44,33 @@ impl Interpreter {
         // F of a SINUMERIK is that of the moves that follow.
         if block.dialect != Dialect::Siemens && block.get(other).is_some() {
             let message = format!("G33 with {}", char::from(other));
-            return Err(
-                Fault::new(DiagnosticCode::InvalidValue, block.span(other), message)
-                    .because("the spindle alone gives the speed of a thread")
-                    .help(format!(
-                        "the way of a revolution is {name}; remove the other word"
-                    )),
-            );
+            return Err(BlockDiagnostic::new(
+                DiagnosticCode::InvalidValue,
+                block.span(other),
+                message,
+            )
+            .because("the spindle alone gives the speed of a thread")
+            .help(format!(
+                "the way of a revolution is {name}; remove the other word"
+            )));
         }
         if pitch <= 0.0 {
             let message = format!("the pitch {name}{pitch} is not above zero");
-            return Err(
-                Fault::new(DiagnosticCode::InvalidValue, block.span(letter), message)
-                    .help("write the way of a revolution; the axis words give its direction"),
-            );
+            return Err(BlockDiagnostic::new(
+                DiagnosticCode::InvalidValue,
+                block.span(letter),
+                message,
+            )
+            .help("write the way of a revolution; the axis words give its direction"));
         }
         let target = self.target(block)?;
         if self.open_thread.is_none() && self.state.thread_end == Some(self.state.path_end) {
             let message = "a thread that goes on from another one";
-            return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
-                .because("a pass ends at rest, and what follows would begin at any angle")
-                .help("write the thread in one block, or retract between two"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
+                    .because("a pass ends at rest, and what follows would begin at any angle")
+                    .help("write the thread in one block, or retract between two"),
+            );
         }
         let phase = self.phase(block)?;
         let from = self.thread_from();
@@ -112,10 +118,12 @@ impl Interpreter {
         };
         if !(0.0..=360.0).contains(&degrees) {
             let message = format!("a thread cannot begin at {degrees} degrees");
-            return Err(
-                Fault::new(DiagnosticCode::InvalidValue, block.span(b'Q'), message)
-                    .help("write an angle of the spindle from 0 to 360 degrees"),
-            );
+            return Err(BlockDiagnostic::new(
+                DiagnosticCode::InvalidValue,
+                block.span(b'Q'),
+                message,
+            )
+            .help("write an angle of the spindle from 0 to 360 degrees"));
         }
         #[expect(
             clippy::cast_possible_truncation,
@@ -143,8 +151,10 @@ impl Interpreter {
             let segment = Segment::line(self.state.path_end, groove.end);
             if segment.length() <= MIN_MOVE {
                 let message = "a thread without a length";
-                return Err(Fault::new(DiagnosticCode::InvalidValue, span, message)
-                    .help("write an end that is not where the tool is"));
+                return Err(
+                    BlockDiagnostic::new(DiagnosticCode::InvalidValue, span, message)
+                        .help("write an end that is not where the tool is"),
+                );
             }
             let ends = [index == 0, index + 1 == grooves.len()];
             let speed_v = self.check_groove(span, &threading, &segment, groove.pitch_mm, ends)?;
@@ -186,7 +196,7 @@ impl Interpreter {
     pub(crate) fn known_angle(&self, span: SourceSpan) -> Outcome<Threading> {
         self.options.threading.ok_or_else(|| {
             let message = "the angle of the spindle is not known";
-            Fault::new(DiagnosticCode::NotConnected, span, message)
+            BlockDiagnostic::new(DiagnosticCode::NotConnected, span, message)
                 .because("a thread follows it, and the machine's configuration names no encoder")
                 .help(
                     "write `encoder = true` into the table [spindle] if the drives' feedback tells \
@@ -210,7 +220,7 @@ impl Interpreter {
         } else {
             return Ok(threading);
         };
-        Err(Fault::new(DiagnosticCode::Spindle, span, message)
+        Err(BlockDiagnostic::new(DiagnosticCode::Spindle, span, message)
             .because("the passes of a thread are cut at one steady speed, along its own line")
             .help("write G97, G40, an S word and M3 or M4 before it"))
     }
@@ -234,7 +244,7 @@ impl Interpreter {
                 "a pitch of {pitch_mm:.3} mm at S{speed} takes {:.0} mm/min",
                 speed_v * 60.0
             );
-            return Err(Fault::new(DiagnosticCode::InvalidValue, span, message)
+            return Err(BlockDiagnostic::new(DiagnosticCode::InvalidValue, span, message)
                 .because(format!(
                     "the axes go {:.0} mm/min there at most, with a reserve of 10 % for the spindle",
                     most_v * 60.0
@@ -247,13 +257,15 @@ impl Interpreter {
         let length_mm = segment.length();
         if length_mm < least_mm {
             let message = format!("a thread of {length_mm:.3} mm is too short at S{speed}");
-            return Err(Fault::new(DiagnosticCode::InvalidValue, span, message)
-                .because(format!(
-                    "the axes need {run_in_mm:.3} mm to come to its speed, and as much to stop"
-                ))
-                .help(format!(
-                    "begin further away, at least {least_mm:.3} mm in all, or turn more slowly"
-                )));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::InvalidValue, span, message)
+                    .because(format!(
+                        "the axes need {run_in_mm:.3} mm to come to its speed, and as much to stop"
+                    ))
+                    .help(format!(
+                        "begin further away, at least {least_mm:.3} mm in all, or turn more slowly"
+                    )),
+            );
         }
         Ok(speed_v)
     }
@@ -275,10 +287,10 @@ fn second_lead(block: &Block, counts: u8) -> Option<u8> {
 }
 
 #[cold]
-fn other_lead(block: &Block, letter: u8) -> Box<Fault> {
+fn other_lead(block: &Block, letter: u8) -> Box<BlockDiagnostic> {
     let name = char::from(letter);
     let message = format!("{name} is not the lead of the axis that goes further");
-    Fault::new(DiagnosticCode::InvalidValue, block.span(letter), message)
+    BlockDiagnostic::new(DiagnosticCode::InvalidValue, block.span(letter), message)
         .because("I is the lead along X, J along Y, K along Z: that of the longer way counts")
         .help("write the lead of the axis that goes further")
 }

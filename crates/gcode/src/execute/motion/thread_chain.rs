@@ -8,8 +8,8 @@
 use glidepath_geometry::{AxisVector, Segment};
 use glidepath_program::Item;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::state::open_thread::Groove;
@@ -47,7 +47,7 @@ impl Interpreter {
         } else if block.get(b'Q').is_some() || open.grooves.len() >= MOST_BLOCKS {
             let span = block.motion_span();
             let message = "a thread that does not go on as it began";
-            return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
+            return Err(BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
                 .because(format!(
                     "its first block gives the angle (Q) at which it begins, and it has {MOST_BLOCKS} blocks at most"
                 ))
@@ -123,12 +123,12 @@ impl Interpreter {
 }
 
 #[cold]
-fn too_sharp(groove: &Groove, corner_mm: f64, span: SourceSpan) -> Box<Fault> {
+fn too_sharp(groove: &Groove, corner_mm: f64, span: SourceSpan) -> Box<BlockDiagnostic> {
     let message = format!(
         "the thread of line {} turns too sharply for this speed of the spindle",
         groove.line
     );
-    Fault::new(DiagnosticCode::InvalidValue, span, message)
+    BlockDiagnostic::new(DiagnosticCode::InvalidValue, span, message)
         .because(format!(
             "the axes need a corner that is rounded by {corner_mm:.3} mm to keep up with it, which is more than a quarter of a block"
         ))

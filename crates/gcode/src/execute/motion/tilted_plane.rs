@@ -11,8 +11,8 @@ use glidepath_kinematics::FiveAxis;
 use glidepath_program::Item;
 use nalgebra::Vector3;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::speed::Pace;
@@ -40,7 +40,7 @@ impl Interpreter {
     fn five_axis(&self, span: SourceSpan, what: &str) -> Outcome<FiveAxis> {
         self.options.five_axis.ok_or_else(|| {
             let message = format!("{what} is not supported by this machine");
-            Fault::new(DiagnosticCode::NotSupported, span, message)
+            BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
                 .because("its kinematics have no rotary axes that turn the tool or the table")
                 .help("configure `kinematics = \"five-axis\"`, or let the CAM system write the positions of the axes")
         })
@@ -50,9 +50,11 @@ impl Interpreter {
     pub(crate) fn check_may_tilt(&self, span: SourceSpan) -> Outcome<()> {
         self.five_axis(span, "a tilted work plane")?;
         let refuse = |message: &str, reason: &str, help: &str| {
-            Err(Fault::new(DiagnosticCode::NotSupported, span, message)
-                .because(reason)
-                .help(help))
+            Err(
+                BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
+                    .because(reason)
+                    .help(help),
+            )
         };
         if self.state.tilted.is_some() {
             return refuse(
@@ -111,7 +113,7 @@ impl Interpreter {
         }
         let message = "a move in a tilted plane before the tool stands along its normal";
         Err(
-            Fault::new(DiagnosticCode::NotSupported, block.motion_span(), message)
+            BlockDiagnostic::new(DiagnosticCode::NotSupported, block.motion_span(), message)
                 .because(
                     "the coordinates of the plane are reached when the rotary axes have turned",
                 )
@@ -129,15 +131,19 @@ impl Interpreter {
         let machine = self.five_axis(span, "a tilted work plane")?;
         if self.state.tilted.is_none() {
             let message = "G53.1 without a tilted plane";
-            return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
-                .because("it turns the tool along the normal of the plane that G68.2 gave")
-                .help("write G68.2 before it"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
+                    .because("it turns the tool along the normal of the plane that G68.2 gave")
+                    .help("write G68.2 before it"),
+            );
         }
         if self.state.on_contour || self.state.leaving_contour {
             let message = "the tool turns with cutter radius compensation on";
-            return Err(Fault::new(DiagnosticCode::CutterRadius, span, message)
-                .because("it stands beside the programmed point")
-                .help("write G40 and a move before it"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::CutterRadius, span, message)
+                    .because("it stands beside the programmed point")
+                    .help("write G40 and a move before it"),
+            );
         }
         let normal = self.normal_of_plane();
         let place = *self.axes_place();
@@ -162,9 +168,11 @@ impl Interpreter {
         });
         let Some((tilt, rotary)) = reached.first().copied() else {
             let message = "a tilted plane whose normal the tool cannot stand along";
-            return Err(Fault::new(DiagnosticCode::SoftLimit, span, message)
-                .because("both ways to turn the rotary axes are outside of their travel")
-                .help("set the work up in another way"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::SoftLimit, span, message)
+                    .because("both ways to turn the rotary axes are outside of their travel")
+                    .help("set the work up in another way"),
+            );
         };
         let was_waiting = self.state.tilted == Some(Tilt::Waits);
         if !was_waiting {
@@ -212,7 +220,7 @@ impl Interpreter {
         let machine = self.five_axis(first.span, "a direction of the tool")?;
         let refuse = |message: &str, reason: &str, help: &str| {
             Err(
-                Fault::new(DiagnosticCode::InvalidValue, first.span, message)
+                BlockDiagnostic::new(DiagnosticCode::InvalidValue, first.span, message)
                     .because(reason)
                     .help(help),
             )

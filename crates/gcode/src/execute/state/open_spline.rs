@@ -2,8 +2,8 @@
 
 use glidepath_geometry::AxisVector;
 
+use crate::diagnostic::block_diagnostic::BlockDiagnostic;
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::Fault;
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::block::Block;
 use crate::syntax::letters::Letters;
@@ -75,9 +75,9 @@ impl OpenSpline {
 }
 
 /// Refuses a block between the blocks of a NURBS.
-pub(crate) fn interrupted(open: &OpenSpline, span: SourceSpan) -> Box<Fault> {
+pub(crate) fn interrupted(open: &OpenSpline, span: SourceSpan) -> Box<BlockDiagnostic> {
     let message = format!("the NURBS begun in line {} is not complete", open.line);
-    Fault::new(DiagnosticCode::Spline, span, message)
+    BlockDiagnostic::new(DiagnosticCode::Spline, span, message)
         .because(open.lacks())
         .help("complete it before anything else, or let it be")
 }

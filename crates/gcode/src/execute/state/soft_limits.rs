@@ -3,7 +3,7 @@
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_program::Travel as Ends;
 
-use crate::setup::machine::{Machine, Travel};
+use crate::setup::machine::{AxisTravel, Machine};
 
 /// The soft limits with what rounding may put a coordinate beyond them, infinite where there is none. It
 /// is no more than whoever plays the motion allows: what is accepted can be driven.
@@ -20,7 +20,7 @@ impl SoftLimits {
             high: AxisVector::repeat(f64::INFINITY),
         };
         for axis in Axis::ALL {
-            if let Some(Travel { min, max }) = machine.travel(axis) {
+            if let Some(AxisTravel { min, max }) = machine.travel(axis) {
                 limits.low[axis.index()] = min - Ends::ROUNDING;
                 limits.high[axis.index()] = max + Ends::ROUNDING;
             }

@@ -1,7 +1,7 @@
 //! The codes of the other dialects: G and M numbers, sorted into the groups of [`Codes`].
 
+use crate::diagnostic::block_diagnostic::Outcome;
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::Outcome;
 use crate::diagnostic::span::SourceSpan;
 use crate::setup::m_codes::MCodes;
 use crate::syntax::codes::{Codes, FrameCode, NO_SYSTEM, TiltCode, code_number, set};

@@ -3,7 +3,7 @@
 
 use glidepath_geometry::Axis;
 
-use crate::diagnostic::fault::Outcome;
+use crate::diagnostic::block_diagnostic::Outcome;
 use crate::setup::machine::Machine;
 use crate::syntax::block::{Block, CornerKind, CornerWord};
 use crate::syntax::modes::Motion;

@@ -1,7 +1,7 @@
 //! The words of Klipper's commands with names: `SET_GCODE_OFFSET Z=0.2 MOVE=1`.
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 
 /// A word of such a command.
@@ -22,7 +22,7 @@ impl KlipperWord {
         number.filter(|number| number.is_finite()).ok_or_else(|| {
             let shown = String::from_utf8_lossy(&self.value).into_owned();
             let message = format!("`{shown}` is not a number");
-            Fault::new(DiagnosticCode::MalformedNumber, self.span, message)
+            BlockDiagnostic::new(DiagnosticCode::MalformedNumber, self.span, message)
                 .because("behind the equals sign stands a number, without blanks")
                 .help("write KEY=1.5")
         })
@@ -47,9 +47,11 @@ pub(crate) fn words(text: &[u8], at: usize) -> Outcome<Vec<KlipperWord>> {
         let Some(sign) = word.iter().position(|byte| *byte == b'=') else {
             let shown = String::from_utf8_lossy(word).into_owned();
             let message = format!("`{shown}` has no value");
-            return Err(Fault::new(DiagnosticCode::MissingNumber, span, message)
-                .because("the words of a command with a name are KEY=VALUE")
-                .help("write the value behind an equals sign"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::MissingNumber, span, message)
+                    .because("the words of a command with a name are KEY=VALUE")
+                    .help("write the value behind an equals sign"),
+            );
         };
         words.push(KlipperWord {
             key: word.get(..sign).unwrap_or_default().to_ascii_uppercase(),

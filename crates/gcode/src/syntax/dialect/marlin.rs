@@ -1,7 +1,7 @@
 //! Programs of printers: checksums of lines, and the M codes that take the rest of their line.
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::dialect::line_body::body;
 
@@ -95,9 +95,11 @@ pub(crate) fn verified(text: &[u8]) -> Outcome<&[u8]> {
     }
     let span = SourceSpan::new(star, star + 1 + digits.len());
     let message = format!("the checksum of the line is {sum}");
-    Err(Fault::new(DiagnosticCode::Checksum, span, message)
-        .because("the line was damaged on its way, or changed by hand")
-        .help("write the program again, or remove the checksum"))
+    Err(
+        BlockDiagnostic::new(DiagnosticCode::Checksum, span, message)
+            .because("the line was damaged on its way, or changed by hand")
+            .help("write the program again, or remove the checksum"),
+    )
 }
 
 /// M codes of printers; the rest of the line belongs to them. None of them moves an axis or gives

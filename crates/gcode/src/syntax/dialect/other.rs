@@ -1,7 +1,7 @@
 //! The other dialects that have a word which the one in use does not have.
 
+use crate::diagnostic::block_diagnostic::BlockDiagnostic;
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::Fault;
 use crate::diagnostic::span::SourceSpan;
 use crate::setup::m_codes::MCodes;
 use crate::setup::machine::Machine;
@@ -24,7 +24,12 @@ const ALL: [Dialect; 4] = [
 
 /// Names the other dialects in the help of a fault about a word, where they have it.
 #[cold]
-pub(crate) fn name_dialects(fault: &mut Fault, text: &[u8], used: Dialect, machine: &Machine) {
+pub(crate) fn name_dialects(
+    fault: &mut BlockDiagnostic,
+    text: &[u8],
+    used: Dialect,
+    machine: &Machine,
+) {
     let found: Vec<Dialect> = match fault.code {
         DiagnosticCode::UnknownGCode | DiagnosticCode::UnknownMCode => {
             let by_line = of_line(text, machine);
@@ -134,7 +139,8 @@ mod tests {
     use glidepath_geometry::Axis;
 
     fn others(text: &[u8], start: usize, code: DiagnosticCode, used: Dialect) -> String {
-        let mut fault = Fault::new(code, SourceSpan::new(start, start + 1), "no").help("remove it");
+        let mut fault =
+            BlockDiagnostic::new(code, SourceSpan::new(start, start + 1), "no").help("remove it");
         let machine = Machine::new(&[Axis::X, Axis::Z]);
         name_dialects(&mut fault, text, used, &machine);
         fault.at(1, text).help

@@ -2,8 +2,8 @@
 //! another thing to the next.
 
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::block_diagnostic::BlockDiagnostic;
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::Fault;
 use crate::diagnostic::span::SourceSpan;
 
 /// What is in doubt.
@@ -57,7 +57,7 @@ impl DialectQuestion {
         let start = start.count();
         let end = self.text.trim_ascii_end().len();
         let span = SourceSpan::new(start, end.max(start));
-        let fault = Fault::new(DiagnosticCode::UndecidedDialect, span, message)
+        let fault = BlockDiagnostic::new(DiagnosticCode::UndecidedDialect, span, message)
             .because(reason)
             .help("say which it is: --dialect fanuc or --dialect linuxcnc (or another), or `dialect` of [program] in the configuration");
         fault.at(self.line, &self.text)

@@ -1,6 +1,6 @@
 //! Functions of expressions.
 
-use crate::diagnostic::fault::Outcome;
+use crate::diagnostic::block_diagnostic::Outcome;
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::cursor::Cursor;
 use crate::syntax::dialect::Dialect;

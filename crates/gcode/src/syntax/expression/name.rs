@@ -1,7 +1,7 @@
 //! Names of parameters and subroutines: `<name>`.
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::cursor::Cursor;
 
@@ -25,13 +25,15 @@ pub(crate) fn name(cursor: &mut Cursor<'_>) -> Outcome<String> {
             }
             _ => {
                 let span = SourceSpan::new(start, cursor.at());
-                return Err(
-                    Fault::new(DiagnosticCode::Expression, span, "the name is not closed")
-                        .because(format!(
-                            "a name is ASCII text of up to {MAX_NAME} bytes in < >"
-                        ))
-                        .help("add `>`"),
-                );
+                return Err(BlockDiagnostic::new(
+                    DiagnosticCode::Expression,
+                    span,
+                    "the name is not closed",
+                )
+                .because(format!(
+                    "a name is ASCII text of up to {MAX_NAME} bytes in < >"
+                ))
+                .help("add `>`"));
             }
         }
     }

@@ -1,7 +1,7 @@
 //! Operators of expressions.
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::dialect::Dialect;
 use crate::syntax::expression::finite::finite;
@@ -93,9 +93,11 @@ fn bits(value: f64, span: SourceSpan) -> Outcome<i64> {
     let nearest = value.round();
     if nearest.abs() > MOST_BITS {
         let message = format!("{value} has too many bits");
-        return Err(Fault::new(DiagnosticCode::Arithmetic, span, message)
-            .because("AND, OR and XOR are of whole numbers with 31 bits")
-            .help("check the values it is computed from"));
+        return Err(
+            BlockDiagnostic::new(DiagnosticCode::Arithmetic, span, message)
+                .because("AND, OR and XOR are of whole numbers with 31 bits")
+                .help("check the values it is computed from"),
+        );
     }
     #[expect(clippy::cast_possible_truncation, reason = "range checked")]
     Ok(nearest as i64)
@@ -123,11 +125,13 @@ pub(crate) fn apply(operator: Operator, left: f64, right: f64, span: SourceSpan)
         Operator::Over | Operator::Modulo | Operator::Remainder
             if right == 0.0 || operator == Operator::Remainder && right.round() == 0.0 =>
         {
-            return Err(
-                Fault::new(DiagnosticCode::Arithmetic, span, "a division by zero")
-                    .because("the value on the right of the operator is zero")
-                    .help("check the values it is computed from"),
-            );
+            return Err(BlockDiagnostic::new(
+                DiagnosticCode::Arithmetic,
+                span,
+                "a division by zero",
+            )
+            .because("the value on the right of the operator is zero")
+            .help("check the values it is computed from"));
         }
         Operator::Over => left / right,
         Operator::Modulo => left.rem_euclid(right),

@@ -1,7 +1,7 @@
 //! The reader of a value, from left to right, by recursive descent with a bounded depth.
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::cursor::Cursor;
 use crate::syntax::dialect::Dialect;
@@ -29,9 +29,11 @@ impl Reader<'_, '_, '_> {
         }
         let span = SourceSpan::new(self.cursor.at(), self.cursor.at() + 1);
         let message = format!("more than {MAX_DEPTH} levels of brackets");
-        Err(Fault::new(DiagnosticCode::Expression, span, message)
-            .because("the depth of expressions is bounded")
-            .help("compute parts of it into parameters first"))
+        Err(
+            BlockDiagnostic::new(DiagnosticCode::Expression, span, message)
+                .because("the depth of expressions is bounded")
+                .help("compute parts of it into parameters first"),
+        )
     }
 
     /// A value: sign, then number, parameter, bracket or function.
@@ -108,7 +110,7 @@ impl Reader<'_, '_, '_> {
         number.map(Parameter::Numbered).ok_or_else(|| {
             let span = SourceSpan::new(start, self.cursor.at());
             let message = format!("there is no variable #{name}");
-            Fault::new(DiagnosticCode::Parameter, span, message)
+            BlockDiagnostic::new(DiagnosticCode::Parameter, span, message)
                 .because("names of variables are those that SETVN gave; what the control itself names is not known here")
                 .help("write its number, or name it by SETVN before")
         })
@@ -120,7 +122,7 @@ impl Reader<'_, '_, '_> {
         let span = SourceSpan::new(start, self.cursor.end_of_word());
         match parameter {
             Parameter::Numbered(number) => match self.scope.refuses(number) {
-                Some(why) => Err(Fault::new(
+                Some(why) => Err(BlockDiagnostic::new(
                     DiagnosticCode::Parameter,
                     span,
                     format!("#{number} cannot be read"),
@@ -133,7 +135,7 @@ impl Reader<'_, '_, '_> {
                     .ok_or_else(|| no_parameter(span, f64::from(number))),
             },
             Parameter::Named(name) => self.scope.named(&name).ok_or_else(|| {
-                Fault::new(
+                BlockDiagnostic::new(
                     DiagnosticCode::Parameter,
                     span,
                     format!("the parameter <{name}> has no value"),
@@ -156,7 +158,7 @@ impl Reader<'_, '_, '_> {
             return Ok(value);
         }
         let span = SourceSpan::new(start, self.cursor.at().max(start + 1));
-        Err(Fault::new(
+        Err(BlockDiagnostic::new(
             DiagnosticCode::Expression,
             span,
             "the bracket is not closed",
@@ -211,11 +213,13 @@ impl Reader<'_, '_, '_> {
                 second = Some(self.bracket()?);
             } else if self.scope.dialect() != Dialect::Fanuc {
                 let span = SourceSpan::new(start, self.cursor.at());
-                return Err(
-                    Fault::new(DiagnosticCode::Expression, span, "ATAN with one argument")
-                        .because("ATAN takes two, so that it knows the quadrant")
-                        .help("write ATAN[y]/[x]"),
-                );
+                return Err(BlockDiagnostic::new(
+                    DiagnosticCode::Expression,
+                    span,
+                    "ATAN with one argument",
+                )
+                .because("ATAN takes two, so that it knows the quadrant")
+                .help("write ATAN[y]/[x]"));
             }
         }
         let span = SourceSpan::new(start, self.cursor.at());
@@ -253,7 +257,7 @@ impl Reader<'_, '_, '_> {
             return Ok((x, second));
         }
         let span = SourceSpan::new(start, self.cursor.at().max(start + 1));
-        Err(Fault::new(
+        Err(BlockDiagnostic::new(
             DiagnosticCode::Expression,
             span,
             "the arguments of the function are not complete",
@@ -273,7 +277,7 @@ impl Reader<'_, '_, '_> {
             return Ok(f64::from(u8::from(self.scope.named(&name).is_some())));
         }
         let span = SourceSpan::new(start, self.cursor.at());
-        Err(Fault::new(
+        Err(BlockDiagnostic::new(
             DiagnosticCode::Expression,
             span,
             "EXISTS of something else than one name",
@@ -284,8 +288,8 @@ impl Reader<'_, '_, '_> {
 }
 
 #[cold]
-fn no_name(span: SourceSpan) -> Box<Fault> {
-    Fault::new(
+fn no_name(span: SourceSpan) -> Box<BlockDiagnostic> {
+    BlockDiagnostic::new(
         DiagnosticCode::Parameter,
         span,
         "a variable with a name in < >",

@@ -1,7 +1,7 @@
 //! The scope: where an expression gets the values of its parameters from.
 
+use crate::diagnostic::block_diagnostic::BlockDiagnostic;
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::Fault;
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::dialect::Dialect;
 use crate::syntax::dialect::siemens::system_index::Index;
@@ -58,8 +58,8 @@ pub(crate) enum Parameter {
 }
 
 #[cold]
-pub(crate) fn no_parameter(span: SourceSpan, number: f64) -> Box<Fault> {
-    Fault::new(
+pub(crate) fn no_parameter(span: SourceSpan, number: f64) -> Box<BlockDiagnostic> {
+    BlockDiagnostic::new(
         DiagnosticCode::Parameter,
         span,
         format!("there is no parameter #{number}"),

@@ -1,7 +1,7 @@
 //! The values of a word, of an assignment and of a condition, as they are read.
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::cursor::{Cursor, MAX_NUMBER};
 use crate::syntax::dialect::Dialect;
@@ -60,12 +60,14 @@ fn in_range(value: f64, start: usize, cursor: &Cursor<'_>) -> Outcome<f64> {
     if value.abs() > MAX_NUMBER {
         let span = SourceSpan::new(start, cursor.end_of_word());
         let message = format!("the value is {value}, which is too large");
-        return Err(Fault::new(DiagnosticCode::NumberOutOfRange, span, message)
-            .because(format!(
-                "no word or parameter takes a value beyond ±{}",
-                MAX_NUMBER
-            ))
-            .help("check the values it is computed from"));
+        return Err(
+            BlockDiagnostic::new(DiagnosticCode::NumberOutOfRange, span, message)
+                .because(format!(
+                    "no word or parameter takes a value beyond ±{}",
+                    MAX_NUMBER
+                ))
+                .help("check the values it is computed from"),
+        );
     }
     Ok(value)
 }

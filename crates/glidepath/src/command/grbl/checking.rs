@@ -1,7 +1,7 @@
 //! The check mode `$C`: lines are judged, and nothing moves.
 
 use crate::config::MachineConfig;
-use crate::kept::read::{read, set_up};
+use crate::persistence::read::{read, set_up};
 use glidepath_gcode::{Dialect, InForce, Program};
 use glidepath_geometry::AxisVector;
 use glidepath_grbl::Refused;

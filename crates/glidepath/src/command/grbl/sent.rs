@@ -3,7 +3,7 @@
 use crate::command::failure::Failure;
 use crate::command::jobs::client;
 use glidepath_geometry::AXES;
-use glidepath_grbl::{End, Facts, Refused, Request, Session, Stage, Told, Wish};
+use glidepath_grbl::{End, Facts, JobIntent, Refused, Request, Session, Stage, Told};
 use glidepath_link::{
     Client, Ipc, LinesReply, LinesRequest, LinesState, LinesWish, LinkError, LongText, Record as _,
     Text, Transport as _,
@@ -125,12 +125,12 @@ fn text(request: &Request) -> String {
     lines.flat_map(|line| [line.as_str(), "\n"]).collect()
 }
 
-const fn wish(wish: Wish) -> LinesWish {
+const fn wish(wish: JobIntent) -> LinesWish {
     match wish {
-        Wish::Execute => LinesWish::Execute,
-        Wish::Ask => LinesWish::Ask,
-        Wish::Close => LinesWish::Close,
-        Wish::Cancel => LinesWish::Cancel,
+        JobIntent::Execute => LinesWish::Execute,
+        JobIntent::Ask => LinesWish::Ask,
+        JobIntent::Close => LinesWish::Close,
+        JobIntent::Cancel => LinesWish::Cancel,
     }
 }
 

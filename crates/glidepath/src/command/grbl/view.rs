@@ -2,7 +2,7 @@
 
 use crate::config::MachineConfig;
 use glidepath_geometry::{AXES, AxisVector};
-use glidepath_grbl::{Alarm, Doing, Machine, Spindle};
+use glidepath_grbl::{Alarm, Doing, MachineView, Spindle};
 use glidepath_link::{
     Auxiliary, Coolant, FaultCause, FrameRefusal, MachineState, SpindleState, Status,
 };
@@ -51,11 +51,11 @@ impl View {
     }
 
     /// All that a sender is told, with the zero of programs there.
-    pub(super) fn machine(&self, zero: [f64; AXES]) -> Machine {
-        let mut machine = Machine {
+    pub(super) fn machine(&self, zero: [f64; AXES]) -> MachineView {
+        let mut machine = MachineView {
             position: self.position().into(),
             zero,
-            ..Machine::default()
+            ..MachineView::default()
         };
         if let Some(told) = &self.auxiliary {
             machine.spindle = match told.spindle() {

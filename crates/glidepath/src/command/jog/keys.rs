@@ -6,7 +6,7 @@
 //! held down moves a moment, rests until its repetition begins, and moves as long as that goes on.
 //!
 //! Whatever is lost, the motion stops: the key, the terminal (it hangs up), this process (the
-//! interpolator hears of nobody for its dead-man). A process that was stopped and goes on forgets
+//! interpolator hears of nobody for its jog time-out). A process that was stopped and goes on forgets
 //! what was pressed meanwhile.
 
 use super::arrival::is_at_end;
@@ -237,7 +237,8 @@ impl<'m> Hand<'m> {
             .and_then(|step| self.config.jog.increments.get(step));
         if let Some(step) = step {
             // One after the other: a key that repeats makes no queue.
-            let is_over = self.sent.elapsed() > PRESS && Panel::objection(panel.state()?).is_none();
+            let is_over =
+                self.sent.elapsed() > PRESS && Panel::precondition(panel.state()?).is_none();
             if is_over {
                 let demands = &mut panel.demands;
                 let (mode, value) = (JogMode::Incremental, along(*step));

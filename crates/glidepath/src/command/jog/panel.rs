@@ -7,8 +7,8 @@ use crate::config::MachineConfig;
 use core::time::Duration;
 use glidepath_geometry::{AXES, Axis};
 use glidepath_link::{
-    InterpolatorProcess, Ipc, LinkConfig, LinkError, MachineState, Objection, Record as _, Status,
-    Subscriber, Transport as _,
+    InterpolatorProcess, Ipc, LinkConfig, LinkError, MachineState, Record as _, Status, Subscriber,
+    Transport as _, UnmetPrecondition,
 };
 use glidepath_realtime::{Clock as _, Monotonic};
 use std::time::Instant;
@@ -101,24 +101,24 @@ impl Panel {
     }
 
     /// Why the machine cannot be jogged as it is, if it cannot.
-    pub(super) const fn objection(state: MachineState) -> Option<Objection> {
+    pub(super) const fn precondition(state: MachineState) -> Option<UnmetPrecondition> {
         match state {
             MachineState::Idle
             | MachineState::NotHomed
             | MachineState::Held
             | MachineState::ProgramStop
             | MachineState::Awaiting => None,
-            MachineState::Faulted => Some(Objection::FaultLatched),
-            MachineState::Off => Some(Objection::NeedsPower),
-            MachineState::Preparing => Some(Objection::JobHasMachine),
-            MachineState::Homing => Some(Objection::HomingAlready),
+            MachineState::Faulted => Some(UnmetPrecondition::FaultLatched),
+            MachineState::Off => Some(UnmetPrecondition::NeedsPower),
+            MachineState::Preparing => Some(UnmetPrecondition::JobHasMachine),
+            MachineState::Homing => Some(UnmetPrecondition::HomingAlready),
             MachineState::Running
             | MachineState::Holding
             | MachineState::Starving
             | MachineState::Starved
             | MachineState::Stopping
-            | MachineState::Waiting => Some(Objection::NoJogNow),
-            MachineState::Jogging => Some(Objection::ByHand),
+            | MachineState::Waiting => Some(UnmetPrecondition::NoJogNow),
+            MachineState::Jogging => Some(UnmetPrecondition::ByHand),
         }
     }
 }

@@ -14,7 +14,7 @@ use crate::output;
 use crate::report::decimals;
 use core::time::Duration;
 use glidepath_geometry::{AXES, Axis};
-use glidepath_link::{JogMode, MachineState, Objection};
+use glidepath_link::{JogMode, MachineState, UnmetPrecondition};
 use serde_json::{Map, Value, json};
 use std::time::Instant;
 
@@ -49,8 +49,8 @@ pub(super) fn jog(
             *slot += step.distance;
         }
     }
-    if let Some(objection) = Panel::objection(state) {
-        return Err(refused(state.name(), objection.text().to_owned()));
+    if let Some(precondition) = Panel::precondition(state) {
+        return Err(refused(state.name(), precondition.text().to_owned()));
     }
     let start = panel.position();
     let is_homed = panel.status()?.homed == panel.status()?.joints;
@@ -134,10 +134,10 @@ fn give_up(panel: &mut Panel, is_anothers: bool) -> Result<(), Failure> {
         std::thread::sleep(POLL);
     }
     let reason = if is_anothers {
-        Objection::ByHand.text().to_owned()
+        UnmetPrecondition::ByHand.text().to_owned()
     } else {
         ending::failure(&status)
-            .or_else(|| Panel::objection(state).map(|it| it.text().to_owned()))
+            .or_else(|| Panel::precondition(state).map(|it| it.text().to_owned()))
             .or_else(|| ending::why(&status))
             .unwrap_or_else(|| {
                 "nothing moved: it is at the end of its travel or reach, or somebody else jogs"

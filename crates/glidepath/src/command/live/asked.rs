@@ -3,7 +3,7 @@
 
 use super::super::tool_names::ToolNames;
 use crate::config::MachineConfig;
-use crate::kept::read::{read, set_up, table};
+use crate::persistence::read::{read, set_up, table};
 use crate::report::awaited_code;
 use glidepath_geometry::Axis;
 use glidepath_link::{Auxiliary, MachineState, Status};

@@ -14,10 +14,10 @@ use crate::command::active_program::active_program;
 use crate::command::failure::Failure;
 use crate::command::forecast::{Forecast, PlannedFor};
 use crate::config::MachineConfig;
-use crate::kept::read::read;
-use crate::report::Place;
-use glidepath_kept::{Offsets, Tool};
+use crate::persistence::read::read;
+use crate::report::ProgramPlace;
 use glidepath_link::{ActiveProgram, EndOfEpoch, LinkConfig, Status};
+use glidepath_persistence::{Offsets, Tool};
 use serde_json::{Value, json};
 use std::path::Path;
 use std::sync::Arc;
@@ -164,7 +164,7 @@ impl Following {
     }
 
     /// Where the machine is in it.
-    pub(super) fn place(&self, status: &Status) -> Option<Place> {
+    pub(super) fn place(&self, status: &Status) -> Option<ProgramPlace> {
         self.program.as_ref()?.forecast.place(status)
     }
 

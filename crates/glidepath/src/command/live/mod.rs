@@ -16,7 +16,7 @@ mod day;
 mod folder;
 mod following;
 mod gesture;
-mod job_desk;
+mod job_submitter;
 pub(super) mod jogger;
 mod lateness;
 mod log;
@@ -30,7 +30,7 @@ mod set_up;
 mod shown;
 mod witness;
 
-use super::kept_offsets::KeptOffsets;
+use super::persistent_offsets::PersistentOffsets;
 use super::session;
 use crate::cli::LiveArgs;
 use crate::command::failure::Failure;
@@ -53,7 +53,7 @@ use glidepath_link::{
 };
 use glidepath_live::{Feed, Message, Role, Seat, Server, ServerError};
 use glidepath_realtime::{Clock as _, Monotonic};
-use job_desk::JobDesk;
+use job_submitter::JobSubmitter;
 use jogger::Jogger;
 use lateness::Histogram;
 use log::Log;
@@ -103,7 +103,7 @@ pub(super) fn live(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Fail
         .as_deref()
         .map(|path| Folder::at(path).map_err(FileError::open(path)));
     let operates = role == Role::Operate;
-    let jobs = operates.then(|| JobDesk::start(&link)).transpose();
+    let jobs = operates.then(|| JobSubmitter::start(&link)).transpose();
     let jobs = jobs.map_err(ServerError::Thread)?.map(Arc::new);
     let jogger = operates.then(|| Jogger::start(&link)).transpose();
     let pages = Pages {
@@ -123,7 +123,7 @@ pub(super) fn live(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Fail
     let certificates = Arc::clone(&pages.certificates);
     let running = server.start(Arc::new(pages), &feed)?;
     tell(args, &instance, &urls, port);
-    let offsets = KeptOffsets::new(config, &link);
+    let offsets = PersistentOffsets::new(config, &link);
     let mut machine = Machine {
         config,
         instance,
@@ -203,11 +203,11 @@ struct Machine<'a> {
     shown: Arc<Shown>,
     following: Following,
     asked: Asked,
-    offsets: KeptOffsets,
+    offsets: PersistentOffsets,
     feed: Feed,
     set_up: Arc<SetUp>,
     seat: Arc<Mutex<Seat>>,
-    jobs: Option<Arc<JobDesk>>,
+    jobs: Option<Arc<JobSubmitter>>,
     day: Day,
     certificates: Arc<Certificates>,
     witness: Witness,

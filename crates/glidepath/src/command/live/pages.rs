@@ -2,7 +2,7 @@
 
 use super::certificates::Certificates;
 use super::folder::{Folder, FolderError, Piece};
-use super::job_desk::{Handed, JobDesk, Wanted};
+use super::job_submitter::{Handed, JobSubmitter, Wanted};
 use super::jogger::{Hand, Jogger};
 use super::order::{Given, Order, by_axis};
 use super::preview::{Look, Preview};
@@ -13,7 +13,7 @@ use crate::command::operator::PATIENCE;
 use crate::config::MachineConfig;
 use crate::machine_options::complete;
 use glidepath_link::{Command, CommandRequest, LinkConfig, LinkError, Operator, refused};
-use glidepath_live::{Answer, Caller, ContentType, Role, Seat, Site, Status};
+use glidepath_live::{Caller, ContentType, Response, Role, Seat, Site, Status};
 use glidepath_realtime::{Clock as _, Monotonic};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -35,7 +35,7 @@ pub(super) struct Pages {
     pub(super) preview: Preview,
     /// Whoever jogs and hands jobs in, where pages may operate.
     pub(super) jogger: Option<Jogger>,
-    pub(super) jobs: Option<Arc<JobDesk>>,
+    pub(super) jobs: Option<Arc<JobSubmitter>>,
     pub(super) certificates: Arc<Certificates>,
     pub(super) number: AtomicU64,
 }
@@ -241,7 +241,7 @@ impl Pages {
         self.folder.as_ref().ok_or_else(none)
     }
 
-    fn preview(&self, query: &str) -> Option<Answer> {
+    fn preview(&self, query: &str) -> Option<Response> {
         let name = decoded(parameter(query, "name")?)?;
         let look = match parameter(query, "look") {
             None => Look::First,
@@ -264,7 +264,7 @@ impl Pages {
         })
     }
 
-    fn programs(&self) -> Answer {
+    fn programs(&self) -> Response {
         let listed = self.folder().map(Folder::object);
         match listed {
             Ok(Ok(listed)) => object(&listed),
@@ -320,10 +320,10 @@ fn sequence(name: String, lines: &[String]) -> Result<Wanted, (Status, String)> 
 }
 
 /// Numbers and lines of a program.
-fn part(shown: &Shown, what: &str, query: &str) -> Option<Answer> {
+fn part(shown: &Shown, what: &str, query: &str) -> Option<Response> {
     let number = |name: &str| parameter(query, name)?.parse::<u64>().ok();
     let of = number("of")?;
-    let numbers = |bytes| Answer::new(ContentType::Binary, bytes);
+    let numbers = |bytes| Response::new(ContentType::Binary, bytes);
     match what {
         "program.bin" => shown.program_path(of).map(numbers),
         "columns.bin" => shown.columns(of).map(numbers),
@@ -338,7 +338,7 @@ fn part(shown: &Shown, what: &str, query: &str) -> Option<Answer> {
 }
 
 impl Site for Pages {
-    fn document(&self, path: &str, query: &str) -> Option<Answer> {
+    fn document(&self, path: &str, query: &str) -> Option<Response> {
         match path.strip_prefix("/api/")? {
             "plan" => Some(object(&self.shown.object())),
             "set-up" => Some(object(&self.set_up.object())),
@@ -360,16 +360,16 @@ impl Site for Pages {
         }
     }
 
-    fn command(&self, caller: Caller, body: &[u8]) -> Answer {
+    fn command(&self, caller: Caller, body: &[u8]) -> Response {
         answer(self.order(caller, body))
     }
 
-    fn upload(&self, caller: Caller, query: &str, piece: &[u8]) -> Answer {
+    fn upload(&self, caller: Caller, query: &str, piece: &[u8]) -> Response {
         answer(self.take(caller, query, piece))
     }
 }
 
-fn answer(done: Done) -> Answer {
+fn answer(done: Done) -> Response {
     match done {
         Ok(mut told) => {
             told["accepted"] = true.into();
@@ -379,10 +379,10 @@ fn answer(done: Done) -> Answer {
     }
 }
 
-fn refusal((status, reason): &(Status, String)) -> Answer {
+fn refusal((status, reason): &(Status, String)) -> Response {
     object(&json!({ "accepted": false, "reason": reason })).with(*status)
 }
 
-fn object(value: &Value) -> Answer {
-    Answer::new(ContentType::Json, value.to_string().into_bytes())
+fn object(value: &Value) -> Response {
+    Response::new(ContentType::Json, value.to_string().into_bytes())
 }

@@ -7,7 +7,7 @@ use crate::config::MachineConfig;
 use crate::page;
 use crate::program_file::ProgramFile;
 use crate::report::DiagnosisReport;
-use crate::sample::Sample;
+use crate::sample::TickSample;
 use glidepath_audit::AuditSettings;
 use glidepath_audit::diagnosis::Diagnosis;
 use glidepath_gcode::ReadingWatch;
@@ -51,7 +51,7 @@ impl Spectator for Planned {
 
     fn frame(&mut self, frame: &Frame) {
         let binding = self.diagnosis.frame(frame);
-        let sample = Sample::planned(frame, self.config.period_t(), JointVector::zeros());
+        let sample = TickSample::planned(frame, self.config.period_t(), JointVector::zeros());
         page::push(
             &mut self.motion,
             &sample.diagnosed(binding, &self.diagnosis),

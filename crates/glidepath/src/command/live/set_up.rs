@@ -3,11 +3,11 @@
 
 use super::super::tool_names::ToolNames;
 use crate::config::{HomingBy, MachineConfig};
-use crate::kept::convert::system_name;
-use crate::kept::read::{read, set_up, table};
+use crate::persistence::convert::system_name;
+use crate::persistence::read::{read, set_up, table};
 use glidepath_gcode::Connections;
 use glidepath_geometry::AXES;
-use glidepath_kept::Kept;
+use glidepath_persistence::PersistentState;
 use serde_json::{Map, Value, json};
 use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 use std::sync::{Mutex, PoisonError};
@@ -115,9 +115,9 @@ impl SetUp {
             .collect()
     }
 
-    fn systems(&self, kept: &Kept) -> Value {
+    fn systems(&self, kept: &PersistentState) -> Value {
         let systems = (1..).zip(&kept.offsets.systems);
-        let object = |(number, system): (u8, &glidepath_kept::System)| {
+        let object = |(number, system): (u8, &glidepath_persistence::System)| {
             json!({
                 "name": system_name(number),
                 "number": number,

@@ -1,7 +1,7 @@
 //! The remains of a run that ended before its end: files and figures of what was played, and where
 //! the machine stood.
 
-use super::relay::Received;
+use super::setpoint_receiver::Received;
 use crate::command::evidence::Evidence;
 use crate::command::failure::Failure;
 use crate::command::plan::title;

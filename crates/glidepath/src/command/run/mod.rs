@@ -14,7 +14,7 @@ mod instance;
 mod left;
 mod monitor;
 mod pipe;
-mod relay;
+mod setpoint_receiver;
 
 use super::{check, plan::title, session};
 use crate::cli::{RunArgs, RunDrives};
@@ -24,8 +24,8 @@ use crate::exit::Exit;
 use crate::interrupt::Interrupt;
 use crate::joints;
 use crate::output;
-use crate::output_file::{Guard, OutputFile, OutputKind};
-use crate::progress::Progress;
+use crate::output_file::{OutputFile, OutputKind, OverwriteGuard};
+use crate::progress::ProgressDisplay;
 use crate::recording::Recording;
 use crate::report::{DiagnosisReport, Planning, RunReport};
 use child::Process;
@@ -33,8 +33,8 @@ use glidepath_link::{Ipc, Status};
 use left::Left;
 use monitor::Monitor;
 pub(in crate::command) use pipe::Farewell;
-use relay::{Received, Relay};
 use serde_json::Value;
+use setpoint_receiver::{Received, SetpointReceiver};
 use std::ffi::OsString;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -51,7 +51,7 @@ const PATIENCE: Duration = Duration::from_secs(20);
 pub(super) fn run(args: &RunArgs, config: &MachineConfig) -> Result<Exit, Failure> {
     let lines = check::accepted(&args.file, config, args.basic.json)?.lines;
     let program = args.file.name().display().to_string();
-    let progress = Progress::lines(lines.into(), args.basic.json);
+    let progress = ProgressDisplay::lines(lines.into(), args.basic.json);
     progress.doing("judging");
     let watch = &mut |lines| progress.at(lines);
     joints::check_plan(args.file.path(), config, config.home(), watch)
@@ -115,7 +115,7 @@ pub(super) fn run(args: &RunArgs, config: &MachineConfig) -> Result<Exit, Failur
 }
 
 /// Where the plot goes: for people always somewhere, beside nobody's file.
-fn plot_path(args: &RunArgs, guard: &Guard) -> Option<PathBuf> {
+fn plot_path(args: &RunArgs, guard: &OverwriteGuard) -> Option<PathBuf> {
     if args.plot.is_some() || args.basic.json {
         return args.plot.clone();
     }
@@ -127,7 +127,7 @@ fn plot_path(args: &RunArgs, guard: &Guard) -> Option<PathBuf> {
     };
     let path = PathBuf::from(format!("{stem}.svg"));
     // What nobody asked for overwrites nothing, and fails without harm.
-    let guard = Guard {
+    let guard = OverwriteGuard {
         force: false,
         ..guard.clone()
     };
@@ -153,7 +153,7 @@ struct Supervisor<'a> {
     args: &'a RunArgs,
     config: &'a MachineConfig,
     interrupt: &'a Interrupt,
-    progress: &'a Progress,
+    progress: &'a ProgressDisplay,
 }
 
 impl Supervisor<'_> {
@@ -183,8 +183,9 @@ impl Supervisor<'_> {
         let output = servo
             .take_output()
             .ok_or(Failure::Thread("the servo's output"))?;
-        let relay = Relay::start(output, self.args.file.path(), self.config, recording);
-        self.wait_for(&mut servo, || Ok(relay.seen.received() > 0))?;
+        let receiver =
+            SetpointReceiver::start(output, self.args.file.path(), self.config, recording);
+        self.wait_for(&mut servo, || Ok(receiver.seen.received() > 0))?;
         let is_emulated = self.args.drives == RunDrives::Emulated;
         let mut bridge = is_emulated
             .then(|| self.start("ethercat", &instance))
@@ -200,14 +201,14 @@ impl Supervisor<'_> {
         let mut planner = self.start("planner", &instance)?;
         let others = [&mut interpolator, &mut servo].into_iter();
         let others = &mut others.chain(&mut bridge).collect::<Vec<_>>();
-        let played = self.watch(&mut planner, others, &mut monitor, &relay);
+        let played = self.watch(&mut planner, others, &mut monitor, &receiver);
         if let Err(failure) = played {
             rest(&mut monitor);
             let status = monitor.status().copied();
-            let (was_over, has_given_all) = (relay.is_over(), relay.given_all.is_so());
+            let (was_over, has_given_all) = (receiver.is_over(), receiver.given_all.is_so());
             // What it has received is whole when it has ended.
             servo.end().map_err(Failure::Process)?;
-            return Err(match relay.finish() {
+            return Err(match receiver.finish() {
                 // A file that cannot be written, most often.
                 Err(cause) if was_over => cause,
                 Err(_) => failure,
@@ -226,7 +227,7 @@ impl Supervisor<'_> {
         let status = last_status(&mut monitor)?;
         let drives = bridge.map(|bridge| bridge.finish()).transpose()?;
         servo.end().map_err(Failure::Process)?;
-        let received = relay.finish()?;
+        let received = receiver.finish()?;
         interpolator.end().map_err(Failure::Process)?;
         Ok(Played {
             planning,
@@ -339,14 +340,14 @@ impl Supervisor<'_> {
         planner: &mut Process,
         others: &mut [&mut Process],
         monitor: &mut Monitor<'_>,
-        relay: &Relay,
+        receiver: &SetpointReceiver,
     ) -> Result<(), Failure> {
         loop {
             if self.interrupt.is_set() {
                 return Err(Failure::Interrupted);
             }
             // Before the servo, which ends when nobody takes what it gives.
-            if relay.is_over() || relay.given_all.is_so() {
+            if receiver.is_over() || receiver.given_all.is_so() {
                 return Err(Failure::Thread("the thread that receives setpoints"));
             }
             for other in others.iter_mut() {
@@ -367,7 +368,7 @@ impl Supervisor<'_> {
                 self.progress
                     .note(&format!("line {line}: tool change; going on by itself"));
             }
-            self.progress.at(relay.seen.line());
+            self.progress.at(receiver.seen.line());
             std::thread::sleep(POLL);
         }
     }

@@ -19,7 +19,7 @@ use crate::interrupt::{Interrupt, end_with};
 use crate::output;
 use crate::recording::Recording;
 use crate::report::{counted, grouped};
-use crate::sample::Sample;
+use crate::sample::TickSample;
 use desk::Told;
 use glidepath_hal::HalCounts;
 use glidepath_link::Setpoint;
@@ -41,7 +41,7 @@ pub(super) fn servo(args: &ServoArgs, config: &MachineConfig) -> Result<Exit, Fa
     let mut recording = Recording::create(config, args.setpoints.as_deref(), None, &guard)?;
     let period_t = config.period_t();
     let mut take = |setpoint: &Setpoint| {
-        recording.push(&Sample::received(setpoint, period_t))?;
+        recording.push(&TickSample::received(setpoint, period_t))?;
         Ok(true)
     };
     let (counts, hal) = if args.hal.hal {

@@ -4,8 +4,8 @@ mod history;
 
 use super::active_program::active_program;
 use super::forecast::{Forecast, PlannedFor};
-use super::kept_offsets::KeptOffsets;
 use super::operator::{of_link, reach};
+use super::persistent_offsets::PersistentOffsets;
 use super::session;
 use super::tool_names::ToolNames;
 use crate::cli::StatusArgs;
@@ -59,7 +59,7 @@ pub(super) fn watch(args: &StatusArgs, config: &MachineConfig) -> Result<Exit, F
     let screen = Screen::new(as_json);
     let names = ToolNames::new(config);
     let mut history = History::default();
-    let mut offsets = KeptOffsets::new(config, &link);
+    let mut offsets = PersistentOffsets::new(config, &link);
     let every = Duration::from_secs_f64(args.every);
     let mut silent_since = None::<Instant>;
     while !interrupt.is_set() && !output::has_no_reader() {

@@ -5,7 +5,7 @@ use crate::config::diagnostic::ConfigDiagnostic;
 use crate::config::machine::MCodeRule;
 use crate::config::raw::{Optional, RawMCode};
 use glidepath_gcode::{MCodes, WaitsAt};
-use glidepath_interpolator::{Answer, Gate, MAX_GATES};
+use glidepath_interpolator::{AnswerSource, MAX_M_CODE_WAITS, MCodeWait};
 use std::collections::BTreeMap;
 use std::time::Duration;
 use toml::Spanned;
@@ -14,7 +14,7 @@ use toml::Spanned;
 const MAY_WAIT: [u32; 9] = [3, 4, 5, 6, 7, 8, 9, 19, 61];
 
 /// The rules of M66 and, where there is no other, of M6 are the machine's own.
-const MOST: usize = MAX_GATES - 2;
+const MOST: usize = MAX_M_CODE_WAITS - 2;
 
 impl Judge {
     pub(super) fn m_codes(
@@ -49,14 +49,14 @@ impl Judge {
             );
             match codes(name.as_ref()) {
                 Some((first, last)) if (first..=last).all(is_possible) => rules.push(MCodeRule {
-                    gate: Gate {
+                    m_code_wait: MCodeWait {
                         first,
                         last,
                         answer,
                         within,
                         is_late: at != WaitsAt::Code,
                     },
-                    at: if answer == Answer::Nobody {
+                    at: if answer == AnswerSource::Nobody {
                         WaitsAt::Code
                     } else {
                         at
@@ -75,7 +75,12 @@ impl Judge {
             }
         }
         // The more particular rule counts.
-        rules.sort_by_key(|rule| (rule.gate.last - rule.gate.first, rule.gate.first));
+        rules.sort_by_key(|rule| {
+            (
+                rule.m_code_wait.last - rule.m_code_wait.first,
+                rule.m_code_wait.first,
+            )
+        });
         if rules.len() > MOST {
             self.diagnostics.push(ConfigDiagnostic {
                 key: "m_codes".to_owned(),
@@ -88,16 +93,16 @@ impl Judge {
     }
 
     /// What ends the wait for a code.
-    fn answer(&mut self, key: &str, done: Optional<String>) -> Answer {
+    fn answer(&mut self, key: &str, done: Optional<String>) -> AnswerSource {
         let Some(done) = done else {
-            return Answer::Acknowledgement;
+            return AnswerSource::Acknowledgement;
         };
         let answer = match done.as_ref().as_str() {
-            "nothing" => Some(Answer::Nobody),
-            "acknowledge" => Some(Answer::Acknowledgement),
-            "spindle-at-speed" => Some(Answer::SpindleAtSpeed),
-            "spindle-stopped" => Some(Answer::SpindleStopped),
-            "spindle-oriented" => Some(Answer::SpindleOriented),
+            "nothing" => Some(AnswerSource::Nobody),
+            "acknowledge" => Some(AnswerSource::Acknowledgement),
+            "spindle-at-speed" => Some(AnswerSource::SpindleAtSpeed),
+            "spindle-stopped" => Some(AnswerSource::SpindleStopped),
+            "spindle-oriented" => Some(AnswerSource::SpindleOriented),
             other => input(other),
         };
         if answer.is_none() {
@@ -112,16 +117,16 @@ impl Judge {
                 span: Some(done.span()),
             });
         }
-        answer.unwrap_or(Answer::Nobody)
+        answer.unwrap_or(AnswerSource::Nobody)
     }
 }
 
-fn input(text: &str) -> Option<Answer> {
+fn input(text: &str) -> Option<AnswerSource> {
     let (number, level) = text.strip_prefix("input ")?.split_once(' ')?;
     let number = number.parse().ok().filter(|number| *number < 64)?;
     match level {
-        "high" => Some(Answer::Input { number, high: true }),
-        "low" => Some(Answer::Input {
+        "high" => Some(AnswerSource::Input { number, high: true }),
+        "low" => Some(AnswerSource::Input {
             number,
             high: false,
         }),

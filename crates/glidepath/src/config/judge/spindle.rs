@@ -7,7 +7,7 @@ use crate::config::raw::{Optional, RawSpindle};
 use crate::config::spindle::SpindleConfig;
 use glidepath_gcode::WaitsAt;
 use glidepath_geometry::Axis;
-use glidepath_interpolator::Answer;
+use glidepath_interpolator::AnswerSource;
 use glidepath_program::TAP_OVERTRAVEL;
 
 /// What of the machine a spindle is judged by.
@@ -108,9 +108,10 @@ impl Judge {
         let stop = of
             .m_codes
             .iter()
-            .find(|rule| (rule.gate.first..=rule.gate.last).contains(&5));
-        let is_awaited =
-            stop.is_some_and(|rule| rule.gate.answer != Answer::Nobody && rule.at == WaitsAt::Code);
+            .find(|rule| (rule.m_code_wait.first..=rule.m_code_wait.last).contains(&5));
+        let is_awaited = stop.is_some_and(|rule| {
+            rule.m_code_wait.answer != AnswerSource::Nobody && rule.at == WaitsAt::Code
+        });
         if of.has_drives && !is_awaited {
             self.spindle_finding(
                 "axis",

@@ -2,7 +2,7 @@
 
 use super::*;
 
-use crate::jitter::{Beat, Windows};
+use crate::jitter::{LoopBeat, Windows};
 use glidepath_realtime::{Mode, Request};
 
 fn setup() -> Setup {
@@ -24,7 +24,7 @@ fn setup() -> Setup {
 fn measured() -> Measurement {
     let mut windows = Windows::new(Some(7));
     let mut beat = |latency_ns: u64, missed: u64| {
-        windows.record(&Beat {
+        windows.record(&LoopBeat {
             latency_ns,
             lateness_ns: latency_ns.saturating_sub(20_000),
             missed,
@@ -35,7 +35,7 @@ fn measured() -> Measurement {
     (0..998).for_each(|_| beat(20_000, 0));
     beat(1_000_000, 0);
     windows.close(Some(7));
-    windows.record(&Beat {
+    windows.record(&LoopBeat {
         latency_ns: 9_000_000,
         lateness_ns: 980_000,
         missed: 2,

@@ -6,4 +6,4 @@ mod seen;
 
 pub use object::view_object;
 pub use screen::view_text;
-pub use seen::{Place, View};
+pub use seen::{ProgramPlace, View};

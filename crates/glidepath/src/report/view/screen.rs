@@ -212,7 +212,7 @@ mod tests {
     use super::*;
     use crate::report::machine::AwaitedEvent;
     use crate::report::view::object::view_object;
-    use crate::report::view::seen::Place;
+    use crate::report::view::seen::ProgramPlace;
     use crate::report::work_offset::WorkOffset;
     use core::time::Duration;
     use glidepath_gcode::ToolLength;
@@ -250,7 +250,7 @@ mod tests {
             auxiliary: Some(&auxiliary),
             axes: &[Axis::X, Axis::Y, Axis::Z],
             not_homed: &[Axis::Y],
-            place: Some(Place {
+            place: Some(ProgramPlace {
                 program: "part.ngc".to_owned(),
                 text: "G1 X10 F1200 ".to_owned() + &"(a long comment)".repeat(9),
                 planned_t: Some(100.0),

@@ -8,7 +8,7 @@ use glidepath_link::{Auxiliary, Status};
 
 /// The place of the machine in a program that is known.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Place {
+pub struct ProgramPlace {
     /// The program's name.
     pub program: String,
     /// Text of the line that is executed; empty if it is not known.
@@ -37,7 +37,7 @@ pub struct View<'a> {
     /// Those that do not know where they are: their positions mean nothing yet.
     pub not_homed: &'a [Axis],
     /// Where it is in the program; `None` if that is not known.
-    pub place: Option<Place>,
+    pub place: Option<ProgramPlace>,
     /// The coordinate system in force; `None` if none is kept.
     pub offsets: Option<WorkOffset>,
     /// What happened lately, the newest first, and how long ago.

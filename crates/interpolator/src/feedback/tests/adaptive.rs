@@ -4,7 +4,7 @@ use super::bench::{Bench, config};
 use crate::config::Config;
 use crate::feedback::AdaptiveFeed;
 use glidepath_link::{Command, MachineState, MotionMode};
-use glidepath_plant::{JointSettings, Upset};
+use glidepath_plant::{InjectedFault, JointSettings};
 
 const INPUT: usize = 3;
 
@@ -36,7 +36,7 @@ fn bench(always: bool) -> Bench {
 #[test]
 fn the_input_is_a_factor_of_the_override_and_zero_holds() {
     let mut bench = bench(true);
-    bench.upset(Upset::Analog(INPUT, 5.0));
+    bench.inject(InjectedFault::Analog(INPUT, 5.0));
     bench.run(20);
     bench.load(5, 900);
     assert!(bench.run_to(MachineState::Running, 50));
@@ -55,12 +55,12 @@ fn the_input_is_a_factor_of_the_override_and_zero_holds() {
         override_r(&bench)
     );
     // No current, no way.
-    bench.upset(Upset::Analog(INPUT, 0.0));
+    bench.inject(InjectedFault::Analog(INPUT, 0.0));
     assert!(bench.run_to(MachineState::Held, 500));
     let stood = bench.last().position;
     bench.run(300);
     assert_eq!(bench.last().position, stood);
-    bench.upset(Upset::Analog(INPUT, 30.0));
+    bench.inject(InjectedFault::Analog(INPUT, 30.0));
     bench.command(Command::FeedOverride(1.0)).unwrap();
     assert!(bench.run_to(MachineState::Running, 50));
     bench.run(150);
@@ -77,13 +77,13 @@ fn the_input_is_a_factor_of_the_override_and_zero_holds() {
 #[test]
 fn below_zero_the_input_turns_the_motion_round() {
     let mut bench = bench(true);
-    bench.upset(Upset::Analog(INPUT, 10.0));
+    bench.inject(InjectedFault::Analog(INPUT, 10.0));
     bench.run(20);
     bench.load(5, 900);
     assert!(bench.run_to(MachineState::Running, 50));
     bench.run(300);
     let turned = bench.last();
-    bench.upset(Upset::Analog(INPUT, -5.0));
+    bench.inject(InjectedFault::Analog(INPUT, -5.0));
     bench.run(200);
     let back = bench.last();
     assert!(
@@ -97,7 +97,7 @@ fn below_zero_the_input_turns_the_motion_round() {
     // To the beginning, where there is no more way.
     assert!(bench.run_to(MachineState::Held, 4000));
     assert_eq!(bench.last().sequence, 0);
-    bench.upset(Upset::Analog(INPUT, 10.0));
+    bench.inject(InjectedFault::Analog(INPUT, 10.0));
     assert!(bench.run_to(MachineState::Idle, 4000));
     assert_eq!(bench.fault(), None);
     assert!(bench.worst_ratio() < 1.0 + 1e-6, "{}", bench.worst_ratio());
@@ -110,16 +110,16 @@ fn a_machine_whose_input_trembles_keeps_its_limits() {
     bench.load(6, 700);
     for _ in 0..1500 {
         let value = 12.0 * numbers.unit();
-        bench.upset(Upset::Analog(INPUT, value));
+        bench.inject(InjectedFault::Analog(INPUT, value));
         bench.run(5);
     }
     // And one that turns the motion round now and then.
     for _ in 0..150 {
         let value = 24.0 * numbers.unit() - 8.0;
-        bench.upset(Upset::Analog(INPUT, value));
+        bench.inject(InjectedFault::Analog(INPUT, value));
         bench.run(40);
     }
-    bench.upset(Upset::Analog(INPUT, 10.0));
+    bench.inject(InjectedFault::Analog(INPUT, 10.0));
     assert!(bench.run_to(MachineState::Idle, 4000));
     assert_eq!(bench.fault(), None);
     assert!(bench.worst_ratio() < 1.0 + 1e-6, "{}", bench.worst_ratio());

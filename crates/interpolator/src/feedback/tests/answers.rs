@@ -1,9 +1,9 @@
-//! Tests of every kind of gate, with every kind of answer, while the operator and the planner do
+//! Tests of every kind of M-code wait, with every kind of answer, while the operator and the planner do
 //! this or that.
 
 use super::bench::Bench;
-use super::gates::{ACK, DONE, acknowledge, bench, gates, late, moves, told};
-use crate::gates::Gates;
+use super::m_code_waits::{ACK, DONE, acknowledge, bench, late, m_code_waits, moves, told};
+use crate::m_code_waits::MCodeWaits;
 use glidepath_link::{Command, EventId, FaultCause, MachineState};
 use glidepath_program::Event;
 
@@ -163,7 +163,7 @@ fn answer(bench: &mut Bench, cell: Cell, event: EventId) {
     }
 }
 
-/// What the operator or the planner does while the answer is awaited, or under way to its gate.
+/// What the operator or the planner does while the answer is awaited, or under way to its wait.
 /// Returns whether the program goes on.
 fn interfere(bench: &mut Bench, cell: Cell) -> bool {
     match cell.meanwhile {
@@ -186,7 +186,7 @@ fn interfere(bench: &mut Bench, cell: Cell) -> bool {
 fn play(cell: Cell, free: &[[f64; 9]]) {
     let rule = [(CODE, ACK, WITHIN_MS)];
     let mut bench = bench(match cell.waits {
-        Waits::There => gates(&rule),
+        Waits::There => m_code_waits(&rule),
         Waits::Later => late(&rule),
     });
     bench.load_events(3, TICKS, &cell.events());
@@ -239,10 +239,10 @@ fn play(cell: Cell, free: &[[f64; 9]]) {
 }
 
 #[test]
-fn every_gate_with_every_answer_whatever_happens_meanwhile() {
+fn every_m_code_wait_with_every_answer_whatever_happens_meanwhile() {
     for waits in [Waits::There, Waits::Later] {
         let cells = Cell::all(waits);
-        let mut free = bench(Gates::NONE);
+        let mut free = bench(MCodeWaits::NONE);
         free.load_events(3, TICKS, &cells[0].events());
         assert!(free.run_to(MachineState::Running, 50) && free.run_to(MachineState::Idle, 3000));
         let free = moves(&free);

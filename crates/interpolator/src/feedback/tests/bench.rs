@@ -2,7 +2,7 @@
 
 use crate::config::Config;
 use crate::feedback::{FeedbackSettings, JointFeedback};
-use crate::message::{Awaited, HAPPENINGS, Happening, Inputs, Report};
+use crate::message::{Awaited, Inputs, LOG_EVENTS, LogEvent, TickReport};
 use crate::ports::Ports;
 use crate::testing::{Numbers, Rig, audit, mill, plan, records};
 use crate::tick::Interpolator;
@@ -13,7 +13,7 @@ use glidepath_link::{
     FrameSink, InProcess, JogDemand, MachineState, Power, Publisher, Setpoint, SetpointFrame,
     Status, Subscriber, Transport,
 };
-use glidepath_plant::{JointSettings, Plant, Upset};
+use glidepath_plant::{InjectedFault, JointSettings, Plant};
 use glidepath_program::{Event, FrameEvents, FrameFlags};
 use glidepath_realtime::{CountingAllocator, Events, Wake, event_ring};
 use heapless::spsc::Producer;
@@ -28,7 +28,7 @@ const HORIZON: u64 = 150;
 pub(super) struct Bench {
     interpolator: Interpolator<'static>,
     inputs: Inputs<'static>,
-    reports: Producer<'static, Report>,
+    reports: Producer<'static, TickReport>,
     ports: Ports<'static>,
     pub(super) servo: Servo,
     pub(super) plant: Plant,
@@ -84,7 +84,7 @@ impl Bench {
             ..
         } = Rig::new(config);
         let link = InProcess::default();
-        let events = Box::leak(Box::<Events<Happening, HAPPENINGS>>::default());
+        let events = Box::leak(Box::<Events<LogEvent, LOG_EVENTS>>::default());
         let (_writer, reader) = event_ring(events);
         let log = Box::leak(Box::new(|_: &str| {}));
         let transport = Box::new(link.clone());
@@ -138,7 +138,7 @@ impl Bench {
             woke_ns: scheduled_ns,
             missed: 0,
         };
-        let mut report = Report::blank();
+        let mut report = TickReport::blank();
         // Whatever the drives do: the real-time thread's part of it does not allocate.
         let calls = CountingAllocator::calls_of_this_thread();
         self.interpolator
@@ -322,8 +322,8 @@ impl Bench {
         self.feed.iter().find(is_it).unwrap().sequence
     }
 
-    pub(super) fn upset(&mut self, upset: Upset) {
-        self.plant.upset(upset);
+    pub(super) fn inject(&mut self, upset: InjectedFault) {
+        self.plant.inject(upset);
     }
 
     pub(super) fn fault(&mut self) -> Option<FaultCause> {

@@ -3,22 +3,22 @@
 use super::bench::{Bench, config};
 use super::homing::SWITCH;
 use crate::config::Config;
-use crate::gates::{Answer, Gate, Gates};
+use crate::m_code_waits::{AnswerSource, MCodeWait, MCodeWaits};
 use core::time::Duration;
 use glidepath_link::{Command, JogDemand, JogMode, MachineState};
 use glidepath_plant::{JointSettings, SwitchSettings};
 
 /// A machine whose first joint is brought home by the controller, and that waits for its tools.
 pub(super) fn settings() -> Config {
-    let tool_change = Gate {
+    let tool_change = MCodeWait {
         first: 6,
         last: 6,
-        answer: Answer::Acknowledgement,
+        answer: AnswerSource::Acknowledgement,
         within: Some(Duration::from_secs(1)),
         is_late: false,
     };
     let mut settings = Config {
-        gates: Gates::new(&[tool_change]).unwrap(),
+        m_code_waits: MCodeWaits::new(&[tool_change]).unwrap(),
         ..config(false)
     };
     settings.feedback.as_mut().unwrap().joints[0].homing = Some(SWITCH);

@@ -5,7 +5,7 @@ use bytemuck::Zeroable as _;
 use glidepath_link::{
     Command, FaultCause, Feedback, JogDemand, JogMode, MachineState, Transport as _,
 };
-use glidepath_plant::{JointSettings, Plant, Upset};
+use glidepath_plant::{InjectedFault, JointSettings, Plant};
 
 fn played(joints: &[JointSettings; 3], latency_ns: u64) -> Bench {
     let mut bench = Bench::new(config(false), joints);
@@ -56,7 +56,7 @@ fn a_drive_that_lags_has_the_error_of_its_lag() {
 fn a_joint_that_is_stuck_stops_the_machine_and_loses_the_power() {
     let mut bench = played(&[JointSettings::default(); 3], 0);
     bench.run(60);
-    bench.upset(Upset::Stuck(0, true));
+    bench.inject(InjectedFault::Stuck(0, true));
     let before = bench.setpoints.len();
     let is_found = |bench: &mut Bench| bench.tick().state() != Ok(MachineState::Running);
     assert!((0..80).any(|_| is_found(&mut bench)));
@@ -132,7 +132,7 @@ fn an_error_that_stays_is_not_reset_but_told_how_to_be_cleared() {
     // One that has followed by then is reset as it is.
     step(&mut bench, 2, 0.15);
     assert!(bench.run_to(MachineState::Faulted, 200));
-    bench.upset(Upset::Pushed(0, 0.12));
+    bench.inject(InjectedFault::Pushed(0, 0.12));
     bench.run(20);
     bench.command(Command::Reset).unwrap();
     bench.run(100);
@@ -175,7 +175,7 @@ fn a_stack_that_follows_another_is_told_of_as_it_is() {
         let mut heard = Vec::new();
         for tick in 0..200 {
             if tick == 50 || tick == 0 && is_dead {
-                bench.upset(Upset::Dropout(true));
+                bench.inject(InjectedFault::Dropout(true));
             }
             bench.tick();
             next.step(bench.now_ns() + 1_000_000, None, None);
@@ -203,7 +203,7 @@ fn two_stacks_share_the_joints() {
         Plant::new(9, &[JointSettings::default(); 3]),
     ];
     // The bench's own is silent: these two are the machine.
-    bench.upset(Upset::Dropout(true));
+    bench.inject(InjectedFault::Dropout(true));
     let mut sinks = [(); 2].map(|()| bench.link.feedback_sink().unwrap());
     for _ in 0..20 {
         bench.tick();
@@ -222,7 +222,7 @@ fn two_stacks_share_the_joints() {
 fn feedback_of_the_future_is_refused() {
     let mut bench = Bench::mill();
     bench.enable(MachineState::Idle);
-    bench.upset(Upset::Dropout(true));
+    bench.inject(InjectedFault::Dropout(true));
     let mut sink = bench.link.feedback_sink().unwrap();
     for _ in 0..10 {
         let mut ahead = bench.plant.measured();

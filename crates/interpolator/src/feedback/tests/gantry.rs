@@ -6,7 +6,7 @@ use super::homing::{SWITCH, arrive, assert_inside_limits, home_again, joint, los
 use crate::config::{Config, Gantry};
 use crate::homing::JointHoming;
 use glidepath_link::{Command, FaultCause, MachineState};
-use glidepath_plant::{JointSettings, Upset};
+use glidepath_plant::{InjectedFault, JointSettings};
 
 /// An axis with two joints, of which the second hangs behind.
 fn gantry(lean: f64) -> Bench {
@@ -82,7 +82,7 @@ fn two_joints_of_an_axis_go_together_and_are_squared_on_their_way_home() {
 fn two_joints_of_an_axis_that_go_apart_are_a_fault() {
     // On the way home: the second one's switch is dead, so it goes on where the first one stops.
     let mut bench = gantry(0.0);
-    bench.upset(Upset::Contact(3, Some(false)));
+    bench.inject(InjectedFault::Contact(3, Some(false)));
     set_out(&mut bench, 1);
     assert!(bench.run_to(MachineState::Faulted, 4_000));
     let status = bench.status();
@@ -99,7 +99,7 @@ fn two_joints_of_an_axis_that_go_apart_are_a_fault() {
         set_out(&mut bench, 1);
         arrive(&mut bench);
         lose_power(&mut bench);
-        bench.upset(Upset::Pushed(3, push));
+        bench.inject(InjectedFault::Pushed(3, push));
         bench.run(20);
         let stands = bench.joints();
         bench.enable(if homed == 0b1111 {
@@ -120,7 +120,7 @@ fn two_joints_that_stay_apart_are_cleared_by_what_is_told_and_squared_again() {
     set_out(&mut bench, 1);
     arrive(&mut bench);
     bench.run(20);
-    bench.upset(Upset::Stuck(3, true));
+    bench.inject(InjectedFault::Stuck(3, true));
     step(&mut bench, 1, 10.0);
     assert!(bench.run_to(MachineState::Faulted, 400));
     bench.run(50);

@@ -3,7 +3,7 @@
 use super::bench::{Bench, config, numbers};
 use crate::homing::JointHoming;
 use glidepath_link::{Command, FaultCause, MachineState};
-use glidepath_plant::{INDEX_INPUT, JointSettings, SwitchSettings, Upset};
+use glidepath_plant::{INDEX_INPUT, InjectedFault, JointSettings, SwitchSettings};
 
 /// A switch at −10 that is closed below, found at 20 mm/s, with the edge at 1 mm/s off it.
 pub(super) const SWITCH: JointHoming = JointHoming {
@@ -212,7 +212,7 @@ fn fail(bench: &mut Bench, why: &str) -> f64 {
 #[test]
 fn a_dead_switch_ends_the_search_at_its_bound() {
     let mut bench = mill(SWITCH, 5.0);
-    bench.upset(Upset::Contact(0, Some(false)));
+    bench.inject(InjectedFault::Contact(0, Some(false)));
     let rest = fail(&mut bench, "did not close");
     assert!((rest - (5.0 - 60.0)).abs() < 1e-6, "{rest}");
 }
@@ -221,7 +221,7 @@ fn a_dead_switch_ends_the_search_at_its_bound() {
 fn a_stuck_switch_ends_the_way_off_it_at_its_bound() {
     let mut bench = mill(SWITCH, 5.0);
     // Taken to stand on it, so it backs off.
-    bench.upset(Upset::Contact(0, Some(true)));
+    bench.inject(InjectedFault::Contact(0, Some(true)));
     let rest = fail(&mut bench, "did not open");
     assert!((rest - (5.0 + 60.0)).abs() < 1e-6, "{rest}");
     // Stuck once it has closed: twice the clearance off it is the bound.
@@ -231,7 +231,7 @@ fn a_stuck_switch_ends_the_way_off_it_at_its_bound() {
         bench.tick();
         bench.joints()[0] - 1000.0 < EDGE
     }));
-    bench.upset(Upset::Contact(0, Some(true)));
+    bench.inject(InjectedFault::Contact(0, Some(true)));
     assert!(bench.run_to(MachineState::Faulted, 4_000));
     let rest = bench.joints()[0] - 1000.0;
     assert!(rest > EDGE - 2.0 && rest < EDGE + 4.0, "{rest}");
@@ -308,7 +308,7 @@ fn groups_go_home_in_their_order_and_a_failed_one_stops_the_others() {
     bench.assert_no_joint_jumps();
 
     let mut bench = Bench::new(settings, &joints);
-    bench.upset(Upset::Contact(2, Some(false)));
+    bench.inject(InjectedFault::Contact(2, Some(false)));
     set_out(&mut bench, 0b111);
     assert!(bench.run_to(MachineState::Faulted, 8_000));
     bench.run(100);

@@ -5,7 +5,7 @@ use crate::testing::Numbers;
 use glidepath_link::{
     Command, Feedback, MachineState, Record as _, Setpoint, Status, Transport as _,
 };
-use glidepath_plant::Upset;
+use glidepath_plant::InjectedFault;
 
 /// What is published can be used, whatever came in.
 fn assert_usable(bench: &Bench, status: &Status, what: &str) {
@@ -20,7 +20,7 @@ fn positions_of_no_machine_are_not_taken_over() {
     for far in [1e308, -1e308, f64::MAX, 1e10] {
         let mut bench = Bench::mill();
         bench.run(10);
-        bench.upset(Upset::Dropout(true));
+        bench.inject(InjectedFault::Dropout(true));
         bench.run(30);
         let mut sink = bench.link.feedback_sink().unwrap();
         for number in 0..40 {

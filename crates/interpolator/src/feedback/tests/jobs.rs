@@ -3,7 +3,7 @@
 use super::bench::{Bench, config};
 use super::client::Machine;
 use glidepath_link::{Command, EndOfEpoch, JobPhase, JobStage, MachineState};
-use glidepath_plant::{JointSettings, Upset};
+use glidepath_plant::{InjectedFault, JointSettings};
 
 /// Ticks from before the job has the machine to when its motion is under way.
 const TICKS: usize = 16;
@@ -324,12 +324,12 @@ fn a_fault_before_the_first_frame_gives_the_machine_back() {
         machine.bench.run(5);
         begin(&mut machine.bench, 1);
         let frames = std::mem::take(&mut machine.bench.feed);
-        machine.bench.upset(Upset::EmergencyStop(true));
+        machine.bench.inject(InjectedFault::EmergencyStop(true));
         machine.bench.run(ticks);
         machine.bench.feed = frames;
         assert!(machine.bench.run_to(MachineState::Faulted, 300), "{ticks}");
         let epoch = machine.bench.status().epoch;
-        machine.bench.upset(Upset::EmergencyStop(false));
+        machine.bench.inject(InjectedFault::EmergencyStop(false));
         machine.bench.run(50);
         machine.bench.command(Command::Reset).unwrap();
         machine.bench.run(50);
@@ -365,7 +365,7 @@ fn at_rest_a_hold_and_an_abort_are_done_and_clear_no_fault() {
     bench.command(Command::Hold).unwrap();
     bench.command(Command::Abort).unwrap();
     goes_on(&mut bench, 1);
-    bench.upset(Upset::EmergencyStop(true));
+    bench.inject(InjectedFault::EmergencyStop(true));
     bench.run(60);
     bench.command(Command::Abort).unwrap();
     bench.command(Command::Hold).unwrap();

@@ -5,7 +5,7 @@ use super::client::{Machine, settings};
 use crate::config::SoftLimits;
 use glidepath_geometry::AxisVector;
 use glidepath_link::{Command, MachineState};
-use glidepath_plant::{JointSettings, Upset};
+use glidepath_plant::{InjectedFault, JointSettings};
 
 #[test]
 fn a_key_that_stays_pressed_moves_nothing_after_an_emergency_stop() {
@@ -14,11 +14,11 @@ fn a_key_that_stays_pressed_moves_nothing_after_an_emergency_stop() {
         machine.bench.enable(MachineState::NotHomed);
         machine.home();
         machine.jog([30.0, -20.0, 10.0], numbers(seed).whole(2, 80) as usize);
-        machine.bench.upset(Upset::EmergencyStop(true));
+        machine.bench.inject(InjectedFault::EmergencyStop(true));
         let pressed = Some([30.0, 0.0, 0.0]);
         machine.run(30, pressed);
         let rest = machine.bench.joints();
-        machine.bench.upset(Upset::EmergencyStop(false));
+        machine.bench.inject(InjectedFault::EmergencyStop(false));
         machine.run(40, pressed);
         machine.bench.command(Command::Reset).unwrap();
         machine.run(10, pressed);
@@ -97,10 +97,10 @@ fn what_ended_a_jog_is_told_of_that_jog_alone() {
     let mut machine = Machine::new();
     machine.bench.enable(MachineState::NotHomed);
     machine.home();
-    machine.bench.upset(Upset::DriveFault(0, 7));
+    machine.bench.inject(InjectedFault::DriveFault(0, 7));
     assert!(machine.bench.run_to(MachineState::Faulted, 20));
     assert_ne!(told(&mut machine), "");
-    machine.bench.upset(Upset::DriveFault(0, 0));
+    machine.bench.inject(InjectedFault::DriveFault(0, 0));
     machine.bench.run(20);
     machine.bench.command(Command::Reset).unwrap();
     machine.bench.enable(MachineState::Idle);

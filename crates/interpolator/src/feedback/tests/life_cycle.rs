@@ -7,14 +7,14 @@ use crate::testing::hexapod;
 use glidepath_geometry::AxisVector;
 use glidepath_kinematics::{Kinematics as _, Mechanism};
 use glidepath_link::{Command, EndOfEpoch, MachineState, Power, SWITCHED_OFF};
-use glidepath_plant::{HomeSettings, JointSettings, Upset};
+use glidepath_plant::{HomeSettings, InjectedFault, JointSettings};
 
 #[test]
 fn off_repeats_the_drives_and_the_hand_over_moves_nothing() {
     let mut bench = Bench::mill();
     bench.run(10);
     assert_eq!(bench.state(), MachineState::Off);
-    bench.upset(Upset::Pushed(0, 1.25));
+    bench.inject(InjectedFault::Pushed(0, 1.25));
     bench.run(3);
     assert_eq!(bench.last().position[..3], [13.75, -3.0, 40.0]);
     assert_eq!((bench.last().enable, bench.last().reference), (0, 1));
@@ -151,7 +151,7 @@ fn home_with_a_stuck_drive() -> Bench {
     bench.command(Command::Home(1)).unwrap();
     assert!(bench.run_to(MachineState::Homing, 3) && bench.run_to(MachineState::Idle, 100));
     assert_eq!(bench.status().homed, 0b111);
-    bench.upset(Upset::Stuck(0, true));
+    bench.inject(InjectedFault::Stuck(0, true));
     bench
 }
 
@@ -190,7 +190,7 @@ fn a_joint_whose_way_home_did_not_end_well_is_not_homed_whatever_its_drive_says(
         assert_eq!(bench.state(), MachineState::NotHomed, "no program begins");
         // The next way home can end well.
         bench.feed.clear();
-        bench.upset(Upset::Stuck(0, false));
+        bench.inject(InjectedFault::Stuck(0, false));
         bench.run(3);
         bench.command(Command::Home(1)).unwrap();
         assert!(bench.run_to(MachineState::Idle, 200), "{unhomes} {end:?}");
@@ -201,7 +201,7 @@ fn a_joint_whose_way_home_did_not_end_well_is_not_homed_whatever_its_drive_says(
 #[test]
 fn a_joint_that_is_at_home_comes_home_again() {
     let mut bench = home_with_a_stuck_drive();
-    bench.upset(Upset::Stuck(0, false));
+    bench.inject(InjectedFault::Stuck(0, false));
     bench.command(Command::Home(1)).unwrap();
     assert!(bench.run_to(MachineState::Homing, 3));
     assert!(bench.run_to(MachineState::Idle, 100));
@@ -214,12 +214,12 @@ fn a_fault_without_a_program_is_of_no_line_and_a_program_that_is_switched_off_sa
     bench.enable(MachineState::Idle);
     bench.load_codes(3, 60, &[8, 9]);
     assert!(bench.run_to(MachineState::Running, 50) && bench.run_to(MachineState::Idle, 1000));
-    bench.upset(Upset::DriveFault(0, 7));
+    bench.inject(InjectedFault::DriveFault(0, 7));
     assert!(bench.run_to(MachineState::Faulted, 20));
     let status = bench.status();
     assert_ne!(status.line, 0, "a program ran before");
     assert_eq!((status.fault_line, status.fault_sequence), (0, 0));
-    bench.upset(Upset::DriveFault(0, 0));
+    bench.inject(InjectedFault::DriveFault(0, 0));
     bench.run(20);
     bench.command(Command::Reset).unwrap();
     bench.enable(MachineState::Idle);
@@ -235,7 +235,7 @@ fn a_fault_without_a_program_is_of_no_line_and_a_program_that_is_switched_off_sa
 fn a_fault_is_what_keeps_joints_from_their_home_and_from_another_number() {
     let mut bench = Bench::mill();
     bench.enable(MachineState::Idle);
-    bench.upset(Upset::DriveFault(0, 7));
+    bench.inject(InjectedFault::DriveFault(0, 7));
     assert!(bench.run_to(MachineState::Faulted, 20));
     let set = Command::SetPosition {
         joint: 1,

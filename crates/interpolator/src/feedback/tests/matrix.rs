@@ -15,7 +15,7 @@ use super::bench::{Bench, numbers};
 use super::client::Machine;
 use crate::testing::Numbers;
 use glidepath_link::{Command, EventId, FaultCause, MachineState};
-use glidepath_plant::Upset;
+use glidepath_plant::InjectedFault;
 
 /// What the machine does when it goes wrong.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -59,7 +59,7 @@ impl Situation {
     ];
 
     /// Whether a tool change is waited for, or will be.
-    const fn has_gate(self) -> bool {
+    const fn has_m_code_wait(self) -> bool {
         matches!(self, Self::ToATool | Self::Awaiting)
     }
 
@@ -103,17 +103,31 @@ impl Wrong {
     ];
 
     /// What begins it, and what ends it.
-    const fn upsets(self, joint: usize) -> Option<(Upset, Upset)> {
+    const fn upsets(self, joint: usize) -> Option<(InjectedFault, InjectedFault)> {
         Some(match self {
-            Self::EmergencyStop => (Upset::EmergencyStop(true), Upset::EmergencyStop(false)),
-            Self::PowerLost => (
-                Upset::PowerLost(joint, true),
-                Upset::PowerLost(joint, false),
+            Self::EmergencyStop => (
+                InjectedFault::EmergencyStop(true),
+                InjectedFault::EmergencyStop(false),
             ),
-            Self::DriveFault => (Upset::DriveFault(joint, 9), Upset::DriveFault(joint, 0)),
-            Self::ShortSilence | Self::LongSilence => (Upset::Dropout(true), Upset::Dropout(false)),
-            Self::Stuck => (Upset::Stuck(joint, true), Upset::Stuck(joint, false)),
-            Self::DeadContact => (Upset::Contact(0, Some(false)), Upset::Contact(0, None)),
+            Self::PowerLost => (
+                InjectedFault::PowerLost(joint, true),
+                InjectedFault::PowerLost(joint, false),
+            ),
+            Self::DriveFault => (
+                InjectedFault::DriveFault(joint, 9),
+                InjectedFault::DriveFault(joint, 0),
+            ),
+            Self::ShortSilence | Self::LongSilence => {
+                (InjectedFault::Dropout(true), InjectedFault::Dropout(false))
+            }
+            Self::Stuck => (
+                InjectedFault::Stuck(joint, true),
+                InjectedFault::Stuck(joint, false),
+            ),
+            Self::DeadContact => (
+                InjectedFault::Contact(0, Some(false)),
+                InjectedFault::Contact(0, None),
+            ),
             Self::OperatorAborts
             | Self::LateAnswer
             | Self::NoAnswer
@@ -152,7 +166,7 @@ impl Wrong {
     /// It begins.
     fn begin(self, bench: &mut Bench, joint: usize) -> Checked {
         if let Some((begin, _)) = self.upsets(joint) {
-            bench.upset(begin);
+            bench.inject(begin);
             return Ok(());
         }
         match self {
@@ -214,7 +228,7 @@ impl Machine {
             }
             _ => {}
         }
-        if situation.has_gate() {
+        if situation.has_m_code_wait() {
             self.bench.load_codes(seed, 120, &[8, 6, 9]);
         } else {
             self.bench.load(seed, 500);
@@ -223,9 +237,9 @@ impl Machine {
         if situation == Situation::Awaiting {
             assert!(self.bench.run_to(Awaiting, 2_000));
         }
-        let most = if situation.has_gate() { 90 } else { 200 };
+        let most = if situation.has_m_code_wait() { 90 } else { 200 };
         self.bench.run(numbers.whole(20, most) as usize);
-        if situation.has_gate() {
+        if situation.has_m_code_wait() {
             return None;
         }
         if matches!(situation, Situation::WayBack | Situation::OnwardAgain) {
@@ -299,7 +313,7 @@ fn play(situation: Situation, wrong: Wrong, seed: u64) -> Checked {
     machine.run(lasts as usize, pressed);
     never_leads(&machine.bench, wrong, begun)?;
     if let Some((_, end)) = wrong.upsets(joint) {
-        machine.bench.upset(end);
+        machine.bench.inject(end);
     }
     machine.run(60, pressed);
     comes_to_rest(&mut machine, situation, wrong)?;
@@ -402,7 +416,7 @@ fn comes_to_rest(machine: &mut Machine, situation: Situation, wrong: Wrong) -> C
         wrong,
         Wrong::EmergencyStop | Wrong::PowerLost | Wrong::DriveFault
     ) && !matches!(situation, Situation::Off | Situation::Enabling)
-        || matches!(wrong, Wrong::NoAnswer | Wrong::FailedAnswer) && situation.has_gate();
+        || matches!(wrong, Wrong::NoAnswer | Wrong::FailedAnswer) && situation.has_m_code_wait();
     check(cause.is_some() || !must_fault, "nobody is told")
 }
 

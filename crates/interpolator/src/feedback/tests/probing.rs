@@ -9,7 +9,7 @@ use glidepath_geometry::AxisVector;
 use glidepath_link::{
     Command, ContactKind, EndOfEpoch, FaultCause, MachineState, Setpoint, SetpointFrame,
 };
-use glidepath_plant::{JointSettings, Upset};
+use glidepath_plant::{InjectedFault, JointSettings};
 use glidepath_program::{Event, FrameFlags};
 
 const T: f64 = 0.004;
@@ -296,7 +296,7 @@ fn a_lost_cable_stops_the_search_or_is_found_at_its_end() {
         });
         let mut bench = Bench::new(Config { feedback, ..usual }, &START.map(joint));
         let signal = |bench: &mut Bench, is_there: bool| {
-            bench.upset(Upset::Input(u32::from(INPUT), is_there && !high));
+            bench.inject(InjectedFault::Input(u32::from(INPUT), is_there && !high));
         };
         signal(&mut bench, !is_before);
         bench.enable(MachineState::Idle);
@@ -336,7 +336,7 @@ fn a_lost_cable_stops_the_search_or_is_found_at_its_end() {
     assert!(bench.run_to(MachineState::Running, 50));
     bench.run(100);
     let lost_at = bench.last().position[2];
-    bench.upset(Upset::Dropout(true));
+    bench.inject(InjectedFault::Dropout(true));
     assert!(
         bench.run_to(MachineState::Faulted, 400),
         "{:?}",

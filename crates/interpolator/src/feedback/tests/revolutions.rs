@@ -4,7 +4,7 @@ use super::bench::{Bench, config};
 use crate::testing::{blocks, mill, planned};
 use glidepath_geometry::{AxisVector, Segment};
 use glidepath_link::{MachineState, Setpoint, SetpointFrame};
-use glidepath_plant::{JointSettings, SpindleSettings, Upset};
+use glidepath_plant::{InjectedFault, JointSettings, SpindleSettings};
 use glidepath_program::{Effort, Event, FrameFlags, ItemKind, PathMode, Rate};
 
 const START: [f64; 3] = [12.5, -3.0, 40.0];
@@ -87,7 +87,7 @@ fn per_turn_mm(samples: &[(Setpoint, f64)]) -> f64 {
 fn the_way_of_a_revolution_is_the_programmed_one_however_fast_the_spindle_turns() {
     for part in [0.5, 0.6, 0.75, 0.9, 0.97, 0.985, 0.995, 1.0, 1.05, 1.09] {
         let mut bench = bench();
-        bench.upset(Upset::SpindlePart(part));
+        bench.inject(InjectedFault::SpindlePart(part));
         load(&mut bench, true);
         let samples = turn(&mut bench, usize::MAX);
         let steady = &samples[120..samples.len() - 40];
@@ -142,11 +142,11 @@ fn a_load_is_followed_and_a_spindle_at_its_speed_changes_no_frame() {
         let frame = &frames[setpoint.sequence as usize];
         assert_eq!(setpoint.position, frame.position);
     }
-    bench.upset(Upset::SpindlePart(0.7));
+    bench.inject(InjectedFault::SpindlePart(0.7));
     turn(&mut bench, 250);
     let loaded = turn(&mut bench, 100);
     assert!((per_turn_mm(&loaded) / PER_TURN_MM - 1.0).abs() < 0.015);
-    bench.upset(Upset::SpindlePart(1.0));
+    bench.inject(InjectedFault::SpindlePart(1.0));
     turn(&mut bench, 250);
     let after = turn(&mut bench, 100);
     assert!((per_turn_mm(&after) / PER_TURN_MM - 1.0).abs() < 0.015);
@@ -161,7 +161,7 @@ fn a_spindle_that_stands_holds_the_motion_and_is_told_of() {
     let mut bench = bench();
     load(&mut bench, true);
     turn(&mut bench, 200);
-    bench.upset(Upset::SpindleStuck(true));
+    bench.inject(InjectedFault::SpindleStuck(true));
     assert!(bench.run_to(MachineState::Held, 500));
     let held = bench.last().position;
     let status = bench.status();
@@ -172,7 +172,7 @@ fn a_spindle_that_stands_holds_the_motion_and_is_told_of() {
     );
     bench.run(300);
     assert_eq!(bench.last().position, held);
-    bench.upset(Upset::SpindleStuck(false));
+    bench.inject(InjectedFault::SpindleStuck(false));
     assert!(bench.run_to(MachineState::Running, 500));
     assert!(bench.run_to(MachineState::Idle, 4_000));
     assert_eq!(bench.fault(), None);

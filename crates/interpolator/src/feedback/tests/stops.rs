@@ -6,7 +6,7 @@ use crate::stops::StopSettings;
 use glidepath_link::{
     Auxiliary, Command, Coolant, MachineState, Setpoint, SpindleState, Subscriber, Transport as _,
 };
-use glidepath_plant::{JointSettings, Upset};
+use glidepath_plant::{InjectedFault, JointSettings};
 use glidepath_program::Event;
 
 /// A machine in the middle of a program that has turned on spindle and coolant.
@@ -78,11 +78,11 @@ impl Cutting {
 
 #[test]
 fn an_abort_and_a_fault_stop_spindle_and_coolant_when_the_motion_rests() {
-    for upset in [None, Some(Upset::DriveFault(1, 0x7305))] {
+    for upset in [None, Some(InjectedFault::DriveFault(1, 0x7305))] {
         let mut cutting = Cutting::new(StopSettings::default());
         match upset {
             None => cutting.bench.command(Command::Abort).unwrap(),
-            Some(upset) => cutting.bench.upset(upset),
+            Some(upset) => cutting.bench.inject(upset),
         }
         let moves = cutting.bench.setpoints[cutting.since..].len();
         assert!(moves < 3, "it takes some ticks to come to rest");
@@ -95,7 +95,7 @@ fn an_abort_and_a_fault_stop_spindle_and_coolant_when_the_motion_rests() {
 #[test]
 fn without_power_they_stop_at_once() {
     let mut cutting = Cutting::new(StopSettings::default());
-    cutting.bench.upset(Upset::EmergencyStop(true));
+    cutting.bench.inject(InjectedFault::EmergencyStop(true));
     cutting.bench.feed.clear();
     cutting.bench.run(200);
     let (tick, _) = cutting.told()[0];
@@ -152,7 +152,7 @@ fn what_the_configuration_leaves_on_stays_on() {
         disable: false,
     };
     let mut cutting = Cutting::new(none);
-    cutting.bench.upset(Upset::EmergencyStop(true));
+    cutting.bench.inject(InjectedFault::EmergencyStop(true));
     cutting.bench.feed.clear();
     cutting.bench.run(200);
     assert_eq!(cutting.told(), []);

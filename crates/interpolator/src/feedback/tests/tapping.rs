@@ -5,7 +5,7 @@ use crate::config::Config;
 use crate::testing::{blocks, happens, mill, planned};
 use glidepath_geometry::{AxisVector, Segment};
 use glidepath_link::{Command, EndOfEpoch, FaultCause, MachineState, Setpoint, SetpointFrame};
-use glidepath_plant::{JointSettings, SpindleSettings, Upset};
+use glidepath_plant::{InjectedFault, JointSettings, SpindleSettings};
 use glidepath_program::{Effort, Event, ItemKind, PathMode, Rate};
 
 const START: [f64; 3] = [12.5, -3.0, 40.0];
@@ -151,7 +151,7 @@ fn a_spindle_that_is_blocked_in_a_hole_stops_the_axis_there() {
     let start = bench.last().position[2];
     let _samples = tap(&mut bench, |bench, depth| {
         if depth > 5.0 {
-            bench.upset(Upset::SpindleStuck(true));
+            bench.inject(InjectedFault::SpindleStuck(true));
         }
     });
     let cause = bench.fault();
@@ -251,7 +251,7 @@ fn an_axis_that_cannot_follow_stops_from_where_it_is() {
     let mut bench = bench();
     let _samples = tap(&mut bench, |bench, depth| {
         if depth > 5.0 {
-            bench.upset(Upset::SpindlePart(30.0));
+            bench.inject(InjectedFault::SpindlePart(30.0));
         }
     });
     assert_eq!(bench.fault(), Some(FaultCause::ThreadLost));
@@ -262,8 +262,8 @@ fn an_axis_that_cannot_follow_stops_from_where_it_is() {
 fn the_pitch_is_that_of_the_tap_at_any_speed_and_without_index_pulses() {
     for part in [0.6, 1.2] {
         let mut bench = bench();
-        bench.upset(Upset::SpindlePart(part));
-        bench.upset(Upset::IndexLost(true));
+        bench.inject(InjectedFault::SpindlePart(part));
+        bench.inject(InjectedFault::IndexLost(true));
         let samples = tap(&mut bench, |_, _| {});
         assert_eq!(bench.fault(), None);
         let off = |(depth, angle): &(f64, f64)| (*depth > 2.0).then(|| depth - PITCH_MM * angle);
@@ -306,7 +306,7 @@ fn an_encoder_that_falls_silent_in_a_hole_stops_the_axis_there() {
     let start = bench.last().position[2];
     let _samples = tap(&mut bench, |bench, depth| {
         if depth > 5.0 {
-            bench.upset(Upset::EncoderLost(true));
+            bench.inject(InjectedFault::EncoderLost(true));
         }
     });
     assert!(bench.fault().is_some());

@@ -6,7 +6,7 @@ use super::bench::{Bench, config};
 use crate::testing::{blocks, mill, planned};
 use glidepath_geometry::{AxisVector, Segment};
 use glidepath_link::{Command, EndOfEpoch, FaultCause, MachineState, Setpoint, SetpointFrame};
-use glidepath_plant::{JointSettings, SpindleSettings, Upset};
+use glidepath_plant::{InjectedFault, JointSettings, SpindleSettings};
 use glidepath_program::{Effort, Event, FrameFlags, Item, ItemKind, PHASE_STEPS, PathMode, Rate};
 
 const T: f64 = 0.004;
@@ -168,7 +168,7 @@ fn the_phase_does_not_depend_on_the_speed_of_the_spindle() {
     for part in [0.51, 0.6, 0.75, 0.9, 1.0, 1.05, 1.085] {
         for effort in [Effort::Fast, Effort::Optimal] {
             let mut bench = bench(COUNTED);
-            bench.upset(Upset::SpindlePart(part));
+            bench.inject(InjectedFault::SpindlePart(part));
             let samples = cut(&mut bench, &Thread::USUAL, effort, |_, _| {});
             assert_eq!(bench.fault(), None, "{part}");
             let off = worst(&errors(&samples, &Thread::USUAL));
@@ -204,7 +204,7 @@ fn a_load_that_slows_the_spindle_is_followed() {
         let mut bench = bench(COUNTED);
         let samples = cut(&mut bench, &Thread::USUAL, Effort::Optimal, |bench, now| {
             if now == tick {
-                bench.upset(Upset::SpindlePart(part));
+                bench.inject(InjectedFault::SpindlePart(part));
             }
         });
         assert_eq!(bench.fault(), None, "{part}");
@@ -302,11 +302,11 @@ fn an_abort_waits_for_the_run_out() {
 #[test]
 fn a_spindle_that_makes_no_sense_any_more_stops_the_thread() {
     let cases = [
-        (Upset::SpindleStuck(true), FaultCause::ThreadLost),
-        (Upset::SpindlePart(0.4), FaultCause::SpindleSpeed),
-        (Upset::SpindlePart(1.2), FaultCause::SpindleSpeed),
-        (Upset::IndexLost(true), FaultCause::SpindleAngle),
-        (Upset::EncoderLost(true), FaultCause::SpindleSpeed),
+        (InjectedFault::SpindleStuck(true), FaultCause::ThreadLost),
+        (InjectedFault::SpindlePart(0.4), FaultCause::SpindleSpeed),
+        (InjectedFault::SpindlePart(1.2), FaultCause::SpindleSpeed),
+        (InjectedFault::IndexLost(true), FaultCause::SpindleAngle),
+        (InjectedFault::EncoderLost(true), FaultCause::SpindleSpeed),
     ];
     for (upset, cause) in cases {
         let mut bench = bench(COUNTED);
@@ -316,7 +316,7 @@ fn a_spindle_that_makes_no_sense_any_more_stops_the_thread() {
             Effort::Optimal,
             |bench, tick| {
                 if tick == 100 {
-                    bench.upset(upset);
+                    bench.inject(upset);
                 }
             },
         );
@@ -348,7 +348,7 @@ fn frames_that_stay_away_in_a_thread_end_it() {
 #[test]
 fn a_pass_waits_for_a_spindle_that_is_not_at_speed() {
     let mut bench = bench(COUNTED);
-    bench.upset(Upset::SpindlePart(0.3));
+    bench.inject(InjectedFault::SpindlePart(0.3));
     let start = AxisVector::from(bench.last().position);
     bench.load_frames(frames(&Thread::USUAL.items(start), start, Effort::Optimal));
     assert!(bench.run_to(MachineState::Awaiting, 200));
@@ -356,7 +356,7 @@ fn a_pass_waits_for_a_spindle_that_is_not_at_speed() {
     assert_eq!(bench.state(), MachineState::Awaiting);
     assert_eq!(bench.last().position[2], start[2]);
     // Turning up the speed is all that it takes.
-    bench.upset(Upset::SpindlePart(1.0));
+    bench.inject(InjectedFault::SpindlePart(1.0));
     assert!(
         bench.run_to(MachineState::Idle, 3_000),
         "{:?}",
@@ -370,11 +370,11 @@ fn a_hold_before_the_pass_keeps_it_from_beginning_and_an_abort_ends_it() {
     let mut bench = bench(COUNTED);
     let start = AxisVector::from(bench.last().position);
     let all = frames(&Thread::USUAL.items(start), start, Effort::Optimal);
-    bench.upset(Upset::SpindlePart(0.3));
+    bench.inject(InjectedFault::SpindlePart(0.3));
     bench.load_frames(all);
     assert!(bench.run_to(MachineState::Awaiting, 200));
     bench.command(Command::Hold).unwrap();
-    bench.upset(Upset::SpindlePart(1.0));
+    bench.inject(InjectedFault::SpindlePart(1.0));
     bench.run(500);
     assert_eq!(bench.last().position[2], start[2]);
     bench.command(Command::Abort).unwrap();

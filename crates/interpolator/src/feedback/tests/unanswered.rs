@@ -1,9 +1,9 @@
 //! What nobody has answered, or let pass, when the motion ends is not done.
 
 use super::bench::Bench;
-use super::gates::{ACK, DONE, acknowledge, bench, gates};
+use super::m_code_waits::{ACK, DONE, acknowledge, bench, m_code_waits};
 use glidepath_link::{Auxiliary, Command, MachineState, Subscriber, Transport as _};
-use glidepath_plant::Upset;
+use glidepath_plant::InjectedFault;
 use glidepath_program::{Event, FrameFlags};
 
 /// A machine that waits for its second tool.
@@ -15,7 +15,7 @@ struct Changing {
 
 impl Changing {
     fn new() -> Self {
-        let mut bench = bench(gates(&[(6, ACK, 0)]));
+        let mut bench = bench(m_code_waits(&[(6, ACK, 0)]));
         let records = bench.link.auxiliary_source().unwrap();
         let tool = |tool| [Event::SelectTool(tool), Event::MCode(6)];
         bench.load_events(8, 60, &[tool(1), tool(2)].concat());
@@ -58,7 +58,7 @@ fn a_tool_change_that_is_not_answered_is_not_done_however_the_motion_ends() {
             machine.bench.command(Command::Abort).unwrap();
         },
         |machine| machine.bench.command(Command::Disable).unwrap(),
-        |machine| machine.bench.upset(Upset::EmergencyStop(true)),
+        |machine| machine.bench.inject(InjectedFault::EmergencyStop(true)),
     ];
     for (number, end) in ends.into_iter().enumerate() {
         let mut machine = Changing::new();
@@ -90,7 +90,7 @@ fn a_tool_change_that_was_answered_is_done_however_the_motion_ends() {
 /// Also where the motion is held in front of it, in its block: a program that is resumed begins so.
 #[test]
 fn a_code_that_the_motion_did_not_come_to_is_not_done() {
-    let mut bench = bench(gates(&[(6, ACK, 0)]));
+    let mut bench = bench(m_code_waits(&[(6, ACK, 0)]));
     bench.load_codes(8, 60, &[6]);
     // It begins held, at its first frame.
     bench.command(Command::FeedOverride(0.0)).unwrap();
@@ -107,7 +107,7 @@ fn a_code_that_the_motion_did_not_come_to_is_not_done() {
 #[test]
 fn a_program_stop_that_nobody_let_pass_is_not_done() {
     for passes in [false, true] {
-        let mut bench = bench(gates(&[]));
+        let mut bench = bench(m_code_waits(&[]));
         let stop = Event::ProgramStop(0);
         bench.load_events(8, 60, &[Event::MCode(7), stop]);
         for frame in &mut bench.feed {

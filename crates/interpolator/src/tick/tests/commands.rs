@@ -256,7 +256,7 @@ fn command_all(
         is_over || standing > 1_000
     };
     prop_assert!(rig.run_until(8_000, ended), "{:?}", rig.state());
-    prop_assert!(rig.state() != MachineState::Starved || rig.interpolator.supply.is_out());
+    prop_assert!(rig.state() != MachineState::Starved || rig.interpolator.queue_level.is_out());
     prop_assert!(rig.worst_ratio() <= INSIDE, "{}", rig.worst_ratio());
     Ok(())
 }

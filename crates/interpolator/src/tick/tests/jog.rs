@@ -139,7 +139,7 @@ fn a_step_ends_where_it_should_and_is_done_once() {
         let [x, _, z, ..] = setpoint.position;
         assert!((z + 0.25 * x).abs() < 1e-12, "{x} {z}");
     }
-    // Nothing is pressed for a second: it goes on without a dead-man.
+    // Nothing is pressed for a second: it goes on without a jog time-out.
     hand.ask(&mut rig, JogMode::Incremental, [20.0, 0.0, 0.0]);
     settle(&mut rig, MachineState::Idle);
     assert_eq!(x(&rig), 30.0);

@@ -87,7 +87,7 @@ fn at_random_the_axes_stay_inside_limits_and_travel_and_stop_when_nobody_demands
         rig.run(1);
         let mut numbers = Numbers::new(seed + 1);
         play(&mut rig, &mut numbers, 200.0);
-        // Killed: what was demanded last ends within the dead-man and a stop, or where its way
+        // Killed: what was demanded last ends within the jog time-out and a stop, or where its way
         // does: that of a step, or 15 mm ahead of a wheel. A step begins where the axis was when it
         // was asked for, which may be on the way in the other direction.
         let from = rig.setpoints.len() - 1;

@@ -79,7 +79,7 @@ fn planned_time_is_run_time() {
         }
         let last = frames.len() - 1;
         let ticks = rig.ticks_from(1, last as u64);
-        let reserve_stops = rig.interpolator.account.counters().reserve_stops();
+        let reserve_stops = rig.interpolator.statistics.counters().reserve_stops();
         if ticks != last - 1 || reserve_stops > 0 {
             late.push((seed, effort, ticks + 1 - last, last, reserve_stops));
         }

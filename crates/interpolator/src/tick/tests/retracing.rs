@@ -2,7 +2,7 @@
 
 use super::planned::{planned, program};
 use super::*;
-use crate::message::Happening;
+use crate::message::LogEvent;
 use glidepath_geometry::Segment;
 use glidepath_program::{Effort, Event, Item, ItemKind, PathMode, Rate as Speed};
 
@@ -240,7 +240,7 @@ fn where_there_is_no_way_back_that_is_told_once() {
     let mut rig = Rig::playing(&square(&[Event::MCode(8)]));
     let ends = |rig: &mut Rig| {
         let told = std::iter::from_fn(|| rig.log.read());
-        told.filter(|told| matches!(told, Happening::WayBackEnds { .. }))
+        told.filter(|told| matches!(told, LogEvent::WayBackEnds { .. }))
             .count()
     };
     play_until(&mut rig, 20_000, |s| s.path_s > 5.0);

@@ -153,7 +153,7 @@ mod tests {
             top_v: 200.0,
             tolerance_mm: 0.02,
             tolerance_deg: 0.02,
-            bow: AxisVector::zeros(),
+            sagitta_vector: AxisVector::zeros(),
             straight_mm: None,
             is_rapid: false,
             tag: 0,

@@ -1,7 +1,7 @@
 //! What is made of segments: distances, order, lines.
 
 use super::*;
-use crate::in_tube::works::Works;
+use crate::in_tube::work_queue::WorkQueue;
 use glidepath_geometry::Plane;
 use glidepath_program::{Effort, ItemKind, Limits, PathMode, Smoothing};
 
@@ -18,7 +18,10 @@ fn settings() -> Settings {
 
 fn pieces(segments: &[Segment]) -> Vec<(LedgerEntry, Reference)> {
     let start = segments[0].start();
-    let (mut works, mut chords) = (Works::new(settings(), start), Flattener::new(settings()));
+    let (mut work_queue, mut chords) = (
+        WorkQueue::new(settings(), start),
+        Flattener::new(settings()),
+    );
     for (line, segment) in (1..).zip(segments) {
         let kind = ItemKind::Move {
             segment: *segment,
@@ -26,7 +29,7 @@ fn pieces(segments: &[Segment]) -> Vec<(LedgerEntry, Reference)> {
             mode: PathMode::Continuous { tolerance_mm: None },
         };
         assert_eq!(
-            works.push(&Item {
+            work_queue.push(&Item {
                 line,
                 block: 0,
                 kind
@@ -34,9 +37,9 @@ fn pieces(segments: &[Segment]) -> Vec<(LedgerEntry, Reference)> {
             Ok(())
         );
     }
-    works.finish();
+    work_queue.finish();
     let mut pieces = Vec::new();
-    while let Some(product) = chords.next(&mut works) {
+    while let Some(product) = chords.next(&mut work_queue) {
         if let Product::Piece(entry, reference) = product {
             pieces.push((entry, reference));
         }

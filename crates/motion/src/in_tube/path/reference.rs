@@ -17,7 +17,7 @@ pub(crate) struct Reference {
     pub(crate) tolerance_deg: f64,
     /// From the middle of the piece to the program it stands for, which is taken to be a parabola
     /// over it: where the motion is drawn to. Within what the tolerance is smaller by.
-    pub(crate) bow: AxisVector,
+    pub(crate) sagitta_vector: AxisVector,
     /// How far the motion may be beside it in its middle half, mm; none where the tolerance is for all of it.
     pub(crate) straight_mm: Option<f64>,
     /// It has no feed.

@@ -13,7 +13,7 @@
 
 use super::direction::{Bounds, directional};
 use super::reference::Reference;
-use super::sense::{Course, Sense};
+use super::sense::{PieceGeometry, Sense};
 use crate::feed_axes::counted_axes;
 use crate::joints::JointRows;
 use glidepath_geometry::{AXES, AxisVector, LINEAR_XYZ, ROTARY_ABC, UVW, feed_length};
@@ -41,7 +41,7 @@ pub(crate) struct TubePiece {
     /// Tolerance of each rotary axis, degrees.
     pub(crate) tolerance_deg: f64,
     /// From its middle to the program.
-    pub(crate) bow: AxisVector,
+    pub(crate) sagitta_vector: AxisVector,
     /// How far the motion may be beside it in its middle half, mm, if that is less than the tolerance.
     pub(crate) straight_mm: Option<f64>,
     /// What joints that are not the axes leave along it, by feed length.
@@ -113,11 +113,11 @@ impl TubePiece {
         }
     }
 
-    fn course(&self) -> Course<'_> {
-        Course {
+    fn geometry(&self) -> PieceGeometry<'_> {
+        PieceGeometry {
             start: &self.start,
             end: &self.end,
-            bow: &self.bow,
+            sagitta_vector: &self.sagitta_vector,
             start_s: self.start_s,
             tolerances: core::array::from_fn(|axis| self.tolerance(axis)),
         }
@@ -142,7 +142,7 @@ impl TubePiece {
 
     /// True if it is a straight feed move of the program.
     pub(crate) fn is_cut(&self) -> bool {
-        !self.is_rapid && self.bow.amax() <= 0.0
+        !self.is_rapid && self.sagitta_vector.amax() <= 0.0
     }
 
     /// Speed along the path in the sense of the feed.
@@ -218,7 +218,7 @@ impl ReferencePath {
             top_v: piece.top_v,
             tolerance_mm: piece.tolerance_mm * keep_r,
             tolerance_deg: piece.tolerance_deg * keep_r,
-            bow: piece.bow,
+            sagitta_vector: piece.sagitta_vector,
             straight_mm: piece.straight_mm,
             by_joints: None,
             is_rapid: piece.is_rapid,
@@ -236,7 +236,7 @@ impl ReferencePath {
         if piece.length_s > 0.0 {
             let before = self.last.map(|last| last.end - last.start);
             let senses = self.last.map_or(piece.senses, |last| last.senses);
-            piece.senses = piece.course().senses(&senses, before.as_ref());
+            piece.senses = piece.geometry().senses(&senses, before.as_ref());
             let is_cut = |last: &TubePiece| last.is_cut() && piece.is_cut();
             piece.cut_before = before.filter(|_| self.last.as_ref().is_some_and(is_cut));
             if let Some(machine) = &self.machine {

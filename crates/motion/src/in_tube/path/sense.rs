@@ -19,7 +19,7 @@ const SHARP_COS: f64 = 0.955;
 
 /// Where an axis goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Way {
+pub(crate) enum AxisDirection {
     /// Nowhere.
     Rest,
     Up,
@@ -28,7 +28,7 @@ pub(crate) enum Way {
     Bent,
 }
 
-impl Way {
+impl AxisDirection {
     /// 1 upwards, −1 downwards, else 0.
     pub(crate) const fn sign(self) -> f64 {
         match self {
@@ -57,7 +57,7 @@ pub(crate) enum Origin {
 /// What an axis does along a piece.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Sense {
-    pub(crate) way: Way,
+    pub(crate) way: AxisDirection,
     /// Coordinate at which the run began, and feed length from the start of the stretch up to there.
     pub(crate) from: f64,
     pub(crate) from_s: f64,
@@ -71,7 +71,7 @@ impl Sense {
     /// At rest since the start of a stretch.
     pub(crate) const fn at_rest(from: f64) -> Self {
         Self {
-            way: Way::Rest,
+            way: AxisDirection::Rest,
             from,
             from_s: 0.0,
             origin: Origin::Rest,
@@ -87,18 +87,18 @@ pub(crate) fn is_sharp(before: &AxisVector, behind: &AxisVector) -> bool {
 
 /// What is to be known of a piece.
 #[derive(Debug)]
-pub(super) struct Course<'a> {
+pub(super) struct PieceGeometry<'a> {
     pub(super) start: &'a AxisVector,
     pub(super) end: &'a AxisVector,
     /// From its middle to the program.
-    pub(super) bow: &'a AxisVector,
+    pub(super) sagitta_vector: &'a AxisVector,
     /// Feed length from the start of the stretch to its start.
     pub(super) start_s: f64,
     /// By axis.
     pub(super) tolerances: [f64; AXES],
 }
 
-impl Course<'_> {
+impl PieceGeometry<'_> {
     /// What all axes do along it, by what they did along the piece before, whose displacement is given
     /// if there was one.
     pub(super) fn senses(
@@ -117,7 +117,7 @@ impl Course<'_> {
         }
         let at = self.start[axis];
         let origin = match last.way {
-            Way::Rest => Origin::Rest,
+            AxisDirection::Rest => Origin::Rest,
             _ if is_corner && last.way.turns_to(way) => Origin::Turn,
             _ => Origin::Motion,
         };
@@ -131,20 +131,24 @@ impl Course<'_> {
         }
     }
 
-    fn way(&self, axis: usize, last: &Sense) -> Way {
+    fn way(&self, axis: usize, last: &Sense) -> AxisDirection {
         let (start, end) = (self.start[axis], self.end[axis]);
         let least = STILL_R * self.tolerances[axis];
-        let rest = if last.way == Way::Rest {
+        let rest = if last.way == AxisDirection::Rest {
             last.from
         } else {
             start
         };
         if (end - rest).abs() > least {
-            if end > start { Way::Up } else { Way::Down }
-        } else if self.bow[axis].abs() > least {
-            Way::Bent
+            if end > start {
+                AxisDirection::Up
+            } else {
+                AxisDirection::Down
+            }
+        } else if self.sagitta_vector[axis].abs() > least {
+            AxisDirection::Bent
         } else {
-            Way::Rest
+            AxisDirection::Rest
         }
     }
 }

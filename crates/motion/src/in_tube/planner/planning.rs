@@ -16,7 +16,7 @@ use crate::in_tube::fallback::{Baseline, StopLeg};
 use crate::in_tube::path::{Bounds, TubePiece, directional};
 use crate::in_tube::verify::NearPieces;
 use crate::in_tube::window::{
-    FEED_INTERVALS, FIRST_WORK, Grid, LEAST_INTERVALS, PLAN_WORK, Search, View, WindowContext,
+    FEED_INTERVALS, FIRST_WORK, Grid, LEAST_INTERVALS, PLAN_WORK, View, WindowContext, WindowSearch,
 };
 use crate::joints::alone;
 use glidepath_geometry::{AXES, AxisVector, ROTARY_ABC, feed_length};
@@ -127,7 +127,7 @@ impl PlannerState {
         (stay_t, work): (Option<f64>, usize),
     ) -> Option<Candidate> {
         let tail = &self.tail(grid, view.intervals);
-        let window = self.try_window(grid, view, tail, Search::Whole(FIRST_WORK));
+        let window = self.try_window(grid, view, tail, WindowSearch::Whole(FIRST_WORK));
         let is_behind = |window: &Candidate| window.gain_t.is_none_or(|gain_t| gain_t < 0.0);
         let may_halt =
             matches!(self.active, ActiveMotion::Window { .. }) && self.baseline.is_some();
@@ -142,7 +142,7 @@ impl PlannerState {
             return window;
         }
         let left_work = PLAN_WORK.saturating_sub(self.optimisers.work() - work);
-        let halt = self.try_halt(grid, view, tail, Search::Whole(left_work));
+        let halt = self.try_halt(grid, view, tail, WindowSearch::Whole(left_work));
         // While the last window leads by as much, from a little further on a better one may be found.
         let halt = halt.filter(|halt| halt.gain_t >= stay_t);
         let mut all = [window, halt].into_iter().flatten();
@@ -194,7 +194,7 @@ impl PlannerState {
         stay_t: Option<f64>,
     ) -> Option<Candidate> {
         let tail = self.tail(grid, view.intervals);
-        let window = self.try_window(grid, view, &tail, Search::AtFeed)?;
+        let window = self.try_window(grid, view, &tail, WindowSearch::AtFeed)?;
         Some(window).filter(|window| window.is_worth(stay_t, self.period_t))
     }
 
@@ -204,7 +204,7 @@ impl PlannerState {
         grid: &Grid,
         view: &View,
         tail: &[AxisVector],
-        search: Search,
+        search: WindowSearch,
     ) -> Option<Candidate> {
         let setting = WindowContext {
             limits: &self.limits,
@@ -232,7 +232,7 @@ impl PlannerState {
         grid: &Grid,
         view: &View,
         tail: &[AxisVector],
-        search: Search,
+        search: WindowSearch,
     ) -> Option<Candidate> {
         let end = self.follower.reachable.last() + 1;
         if end >= view.pieces.end || !self.may_rest_before(end) {

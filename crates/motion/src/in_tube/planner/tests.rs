@@ -17,7 +17,7 @@ use crate::in_tube::SearchBias;
 use crate::in_tube::path::Reference;
 use crate::in_tube::period::Period;
 use crate::in_tube::window::PLAN_WORK;
-use glidepath_audit::{Audit, AuditSettings, Report, Sample};
+use glidepath_audit::{Audit, AuditReport, AuditSettings, Sample};
 use glidepath_geometry::{AxisVector, Segment};
 use glidepath_program::{Corners, Item, ItemKind, Limits, PathMode, Rate};
 use proptest::prelude::{ProptestConfig, proptest};
@@ -57,7 +57,7 @@ impl Case {
                     top_v: self.feed_v,
                     tolerance_mm: self.tolerance_mm,
                     tolerance_deg: self.tolerance_mm,
-                    bow: AxisVector::zeros(),
+                    sagitta_vector: AxisVector::zeros(),
                     straight_mm: self.straight_mm,
                     is_rapid: false,
                     tag: k as u64,
@@ -111,7 +111,7 @@ impl Case {
         })
     }
 
-    fn audit(&self, periods: &[Period]) -> Report {
+    fn audit(&self, periods: &[Period]) -> AuditReport {
         let mut audit = Audit::new(&AuditSettings {
             limits: self.limits,
             period_t: self.period_t,

@@ -112,7 +112,7 @@ impl Reachable {
         } else {
             range.to
         };
-        let program = piece.start + along * u + piece.bow * (4.0 * u * (1.0 - u));
+        let program = piece.start + along * u + piece.sagitta_vector * (4.0 * u * (1.0 - u));
         Some(Displacement::of(&(position - program)).size())
     }
 

@@ -12,7 +12,7 @@
 //! ([`super::shortcuts`]).
 
 use super::budget::Budget;
-use super::optimiser::{Optimiser, Question, Solution};
+use super::optimiser::{JudgeQuestion, Optimiser, Solution};
 use super::rounds::RoundState;
 use super::scaled_path::ScaledPath;
 use super::tube::Style;
@@ -29,13 +29,13 @@ impl<const D: usize> Optimiser<D> {
         &mut self,
         path: &ScaledPath<D>,
         window_start: &WindowStart<'_, D>,
-        judge: &mut impl FnMut(&[[f64; D]], Question) -> bool,
+        judge: &mut impl FnMut(&[[f64; D]], JudgeQuestion) -> bool,
     ) -> Option<Solution<D>> {
         self.begin(path, window_start);
         let period_t = window_start.period_t;
         let grid = (&window_start.grid, period_t);
         let tail = window_start.tail;
-        self.samples.give_out(path, window_start.piece);
+        self.samples.assign(path, window_start.piece);
         let slowing_at = at_feed_until(path, tail, &self.samples, grid);
         if slowing_at == 0 {
             return None;
@@ -55,8 +55,9 @@ impl<const D: usize> Optimiser<D> {
             return None;
         }
         self.samples.forget();
-        self.samples.give_out(path, window_start.piece);
-        self.cuts.clear(self.samples.count(), path.segments.len());
+        self.samples.assign(path, window_start.piece);
+        self.cutting_planes
+            .clear(self.samples.count(), path.segments.len());
         let budget = Budget::new(D, path.joints().is_some());
         self.interior.allow(budget.at_feed());
         let style = Style {

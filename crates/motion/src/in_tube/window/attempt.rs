@@ -1,6 +1,6 @@
 //! One window: how much of the path it sees, which axes move, and what becomes of it.
 
-use super::optimiser::{Optimiser, Question};
+use super::optimiser::{JudgeQuestion, Optimiser};
 use super::scaled_path::{ScaledPath, moving_axes};
 use super::search_bias::SearchBias;
 use super::spline::Grid;
@@ -115,13 +115,13 @@ pub(crate) struct WindowContext<'a> {
     pub(crate) commit: usize,
     /// What goes on without a window keeps the rates, which may have changed.
     pub(crate) keeps_rates: bool,
-    pub(crate) search: Search,
+    pub(crate) search: WindowSearch,
     pub(crate) bias: SearchBias,
 }
 
 /// What is looked for.
 #[derive(Debug, Clone, Copy)]
-pub(crate) enum Search {
+pub(crate) enum WindowSearch {
     /// The fastest motion, for so many multiplications of the solver at most.
     Whole(usize),
     /// One that goes on at the feed, if nothing else binds.
@@ -180,7 +180,7 @@ impl Optimisers {
 }
 
 /// What an optimiser is given: a context, a view, the motion to fall back on, which axes move.
-type Way<'a> = (
+type AttemptInput<'a> = (
     &'a WindowContext<'a>,
     &'a View,
     &'a [AxisVector],
@@ -189,7 +189,7 @@ type Way<'a> = (
 
 fn attempt<const D: usize>(
     optimiser: &mut Option<Box<Optimiser<D>>>,
-    (context, view, tail, moves): Way<'_>,
+    (context, view, tail, moves): AttemptInput<'_>,
 ) -> Option<WindowMotion> {
     let optimiser = optimiser.get_or_insert_with(|| Box::new(Optimiser::new(context.corners)));
     let mut path: ScaledPath<D> = ScaledPath::new(
@@ -238,10 +238,10 @@ fn attempt_along<const D: usize>(
         passes((context, path), &points, question)
     };
     let solution = match context.search {
-        Search::Whole(most_work) => {
+        WindowSearch::Whole(most_work) => {
             optimiser.optimise(path, &window_start, most_work, &mut judge)?
         }
-        Search::AtFeed => optimiser.go_on_at_feed(path, &window_start, &mut judge)?,
+        WindowSearch::AtFeed => optimiser.go_on_at_feed(path, &window_start, &mut judge)?,
     };
     let points = solution.points.iter();
     let mut points: Vec<_> = points.map(|point| path.outside(point)).collect();
@@ -267,10 +267,10 @@ fn end_exactly(context: &WindowContext<'_>, points: &mut [AxisVector]) {
 fn passes<const D: usize>(
     (context, path): (&WindowContext<'_>, &ScaledPath<D>),
     points: &[AxisVector],
-    question: Question,
+    question: JudgeQuestion,
 ) -> bool {
     let mut points = points.to_vec();
-    if question == Question::IsEnd {
+    if question == JudgeQuestion::IsEnd {
         end_exactly(context, &mut points);
     }
     let mut history = context.history.clone();
@@ -308,7 +308,7 @@ fn passes<const D: usize>(
     // A chord that has missed a vertex could not be led on from the rest.
     let may_set_out = follower.least_reach() >= follower.reachable.last();
     may_set_out
-        && (question == Question::IsValid || follower.reachable.is_at_end_of(context.end - 1))
+        && (question == JudgeQuestion::IsValid || follower.reachable.is_at_end_of(context.end - 1))
 }
 
 /// True if a motion with no more jerk than that of each axis can lead from one state to the next.

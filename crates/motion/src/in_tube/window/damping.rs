@@ -74,13 +74,13 @@ fn add_at<const D: usize>(
     }
     let center = progress.map(|progress| path.center_beyond(piece, progress));
     let radius = segment.radius * style.keep_r;
-    let pull = style.ridge / (radius * radius);
+    let pull = style.attraction / (radius * radius);
     // The square of ω, per period: of the rate that this pull makes with the price of jerk, p = j·ω⁶.
     let square = (pull / dearest_jerk).cbrt() * style.period_t.powi(2);
-    let mut price = |(first, weights), ridge, center: [f64; D]| {
+    let mut price = |(first, weights), attraction, center: [f64; D]| {
         problem.add_site(first, weights);
         if let Some(site) = problem.sites.last_mut() {
-            (site.ridge, site.center, site.tangent) = (ridge, center, segment.tangent);
+            (site.attraction, site.center, site.tangent) = (attraction, center, segment.tangent);
         }
     };
     // v = 3jω⁴ = 3p/ω², a = 3jω² = 3p/ω⁴.

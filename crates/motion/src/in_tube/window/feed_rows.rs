@@ -14,7 +14,7 @@
 //!             ───────────────────────────            ──┴●▶────────────────
 //! ```
 
-use super::cuts::{WORTH_OF_FEED, piece_at, pieces_at, sample_at, slowest_feed};
+use super::cutting_planes::{WORTH_OF_FEED, piece_at, pieces_at, sample_at, slowest_feed};
 use super::scaled_path::SHARP;
 use super::sense_rows;
 use super::solver::{FAR, Problem};
@@ -37,7 +37,7 @@ pub(crate) fn add<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, 
         samples,
         points,
         style,
-        cuts,
+        cutting_planes,
     } = layout;
     let (grid, h) = (&style.grid, style.grid.knot_t);
     let stray_t = style.stray_t(path);
@@ -63,7 +63,7 @@ pub(crate) fn add<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, 
         // more where earlier ones were beyond it.
         let (size, direction) = velocity_over_feed(points, &slowest, k, grid);
         let last = Some(direction).filter(|_| size > TOLD_R && size <= WORTH_OF_FEED);
-        for direction in last.iter().chain(cuts.of_feed(k)) {
+        for direction in last.iter().chain(cutting_planes.of_feed(k)) {
             let normal = core::array::from_fn(|a| direction[a] * slowest[a] / h);
             problem.add_feed_row(normal, [-FAR, style.feed_r], style.is_feed_firm);
         }
@@ -97,8 +97,8 @@ fn steer<const D: usize>(
         .iter()
         .rfind(|piece| piece.s <= progress);
     if let (Some(site), Some(here)) = (problem.sites.last_mut(), here) {
-        // A ridge on Δx, whose center is 0: ½·ridge·|velocity across|², of the way at the feed.
-        site.ridge = style.steering * slowness / (top * grid.knot_t).powi(2);
+        // An attraction on Δx, whose center is 0: ½·attraction·|velocity across|², of the way at the feed.
+        site.attraction = style.steering * slowness / (top * grid.knot_t).powi(2);
         site.tangent = here.tangent;
     }
 }

@@ -1,6 +1,6 @@
 //! The end of a window that sees the end of its path: the shortest motion that rests exactly there.
 
-use super::optimiser::{Optimiser, Question, Solution};
+use super::optimiser::{JudgeQuestion, Optimiser, Solution};
 use super::rounds::ENOUGH_VIOLATION;
 use super::scaled_path::ScaledPath;
 use super::spline::Grid;
@@ -156,7 +156,7 @@ impl<const D: usize> Optimiser<D> {
         window_start: &WindowStart<'_, D>,
         points: &[[f64; D]],
         progress: &[f64],
-        judge: &mut impl FnMut(&[[f64; D]], Question) -> bool,
+        judge: &mut impl FnMut(&[[f64; D]], JudgeQuestion) -> bool,
     ) -> Option<Solution<D>> {
         let last = path.segments.last().filter(|_| path.is_final)?;
         let total = path.length();
@@ -169,7 +169,7 @@ impl<const D: usize> Optimiser<D> {
         let first = arrival.max(LEAST_INTERVALS + 1).div_ceil(multiple) * multiple;
         let style = Style {
             is_centred: true,
-            ridge: CENTRED_PULL,
+            attraction: CENTRED_PULL,
             jerk: 0.0,
             ..window_start.style(true)
         };
@@ -187,7 +187,7 @@ impl<const D: usize> Optimiser<D> {
             };
             self.samples.progress = progress;
             self.samples.cut(grid.periods_in(count));
-            self.samples.give_out(path, window_start.piece);
+            self.samples.assign(path, window_start.piece);
             // The state it starts from, and rest exactly at the end: neither is sought.
             next[..3].copy_from_slice(&points[..3]);
             next[count..].fill(end);
@@ -217,7 +217,7 @@ impl<const D: usize> Optimiser<D> {
         path: &ScaledPath<D>,
         window_start: &WindowStart<'_, D>,
         points: Vec<[f64; D]>,
-        judge: &mut impl FnMut(&[[f64; D]], Question) -> bool,
+        judge: &mut impl FnMut(&[[f64; D]], JudgeQuestion) -> bool,
     ) -> Vec<[f64; D]> {
         if self.interior.is_spent() {
             return points;
@@ -230,7 +230,7 @@ impl<const D: usize> Optimiser<D> {
         self.samples.cut(count);
         self.samples
             .project(path, &points, window_start.piece, &window_start.grid, false);
-        self.samples.give_out(path, window_start.piece);
+        self.samples.assign(path, window_start.piece);
         let mut next = points.clone();
         if self.finish_in(path, window_start, &style, &mut next, judge) {
             next
@@ -246,7 +246,7 @@ impl<const D: usize> Optimiser<D> {
         window_start: &WindowStart<'_, D>,
         style: &Style,
         points: &mut [[f64; D]],
-        judge: &mut impl FnMut(&[[f64; D]], Question) -> bool,
+        judge: &mut impl FnMut(&[[f64; D]], JudgeQuestion) -> bool,
     ) -> bool {
         for _ in 0..FINISH_ROUNDS {
             // With the end given, a row that stays violated says that the time is too short.
@@ -254,10 +254,10 @@ impl<const D: usize> Optimiser<D> {
             if !is_solved || self.interior.violation() > ENOUGH_VIOLATION {
                 return false;
             }
-            if judge(points, Question::IsEnd) {
+            if judge(points, JudgeQuestion::IsEnd) {
                 return true;
             }
-            self.cuts
+            self.cutting_planes
                 .learn(path, &self.samples, points, &window_start.grid);
         }
         false

@@ -12,7 +12,7 @@
 //! On the faster piece the sample asks for nothing that the motion cannot do, and moves on as soon
 //! as the motion has slowed down.
 
-use super::place::Place;
+use super::sample_place::SamplePlace;
 use super::scaled_path::ScaledPath;
 use super::speed::{differences_of, velocity_over_feed};
 use super::spline::Grid;
@@ -46,12 +46,12 @@ pub(crate) fn hold_back<const D: usize>(
     path: &ScaledPath<D>,
     points: &[[f64; D]],
     (k, y): (usize, &[f64; D]),
-    (from, to): (Place, Place),
+    (from, to): (SamplePlace, SamplePlace),
     grid: &Grid,
-) -> Place {
+) -> SamplePlace {
     let held = (from.piece..to.piece)
         .find(|&i| is_too_fast(path, points, (i, k), grid))
-        .map(|i| Place::on(path, i, from.s, y));
+        .map(|i| SamplePlace::on(path, i, from.s, y));
     held.filter(|held| held.distance < MOST_R * path.segments[held.piece].radius)
         .unwrap_or(to)
 }

@@ -1,7 +1,7 @@
 //! One window: a motion of near least time through the tube, from the present state to rest.
 //!
 //! ```text
-//!   attempt ──▶ optimiser ──▶ tube, cuts ──▶ solver        geometry and time come out together
+//!   attempt ──▶ optimiser ──▶ tube, planes ▶ solver        geometry and time come out together
 //!     │            ▲              rows        convex
 //!     │            └── samples ◀──────────────┘ problem
 //!     └──▶ verify: every motion, before it is given out
@@ -10,7 +10,7 @@
 //! A motion that is found is solved for once more to be smooth (`smoothing`); one that sees the end
 //! of its path is made to rest exactly there (`finishing`). Where nothing but the feed binds, the
 //! solve for smoothness is all there is (`at_feed`). Axes the path leaves alone are held fast by
-//! `pins`.
+//! `fixed_axes`.
 //!
 //! **The question.** Which motion gets furthest along the path in the time of the window, rests at its
 //! end, keeps every limit and stays in the tube? Furthest in a given time, not soonest at a given place:
@@ -22,7 +22,7 @@
 //! | unknown | control points of a uniform cubic B-spline in time ([`spline`]) | tolerances |
 //! | aim | mean progress, less a pull to the path and a price of jerk ([`tube`]) | periods at the feed |
 //! | hard | velocity, acceleration, jerk of every axis ([`solver`]) | the limit |
-//! | elastic | tube and corners ([`tube`]); feed, travel, joints (`_rows`) | radius, feed, limit |
+//! | soft | tube and corners ([`tube`]); feed, travel, joints (`_rows`) | radius, feed, limit |
 //! | not convex | which piece a sample belongs to ([`samples`]) | |
 //!
 //! **Words.** A *knot* is where jerk may change, an *interval* lies between two; several are a period, or
@@ -53,19 +53,19 @@
 mod at_feed;
 mod attempt;
 mod budget;
-mod cuts;
+mod cutting_planes;
 mod damping;
 mod feed_rows;
 mod finishing;
+mod fixed_axes;
 mod guess;
 mod hold_back;
 mod joint_rows;
 mod one_sided;
 mod optimiser;
-mod pins;
-mod place;
 mod rate_changes;
 mod rounds;
+mod sample_place;
 mod samples;
 mod scaled_path;
 mod search_bias;
@@ -83,7 +83,7 @@ mod way;
 mod window_start;
 
 pub(crate) use attempt::{
-    FEED_INTERVALS, LEAST_INTERVALS, Optimisers, Search, View, WindowContext, WindowMotion,
+    FEED_INTERVALS, LEAST_INTERVALS, Optimisers, View, WindowContext, WindowMotion, WindowSearch,
 };
 pub(crate) use budget::FIRST_WORK;
 pub(crate) use budget::PLAN_WORK;

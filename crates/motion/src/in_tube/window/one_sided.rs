@@ -20,7 +20,7 @@
 use super::scaled_path::{SHARP, ScaledPath};
 use super::sides::{AxisSides, Corner, HalfSpace, Stop};
 use super::solver::{Problem, dot};
-use crate::in_tube::path::{Origin, ReferencePath, TubePiece, WORTH_R, Way};
+use crate::in_tube::path::{AxisDirection, Origin, ReferencePath, TubePiece, WORTH_R};
 use glidepath_geometry::AxisVector;
 use glidepath_program::Corners;
 
@@ -60,8 +60,8 @@ impl<const D: usize> ScaledPath<D> {
         let from = (sense.from - self.origin[self.axes[k]]) / self.unit[k];
         let before = Stop {
             sign: match (sense.way, sense.origin) {
-                (Way::Rest, _) => sense.came,
-                (Way::Bent, _) | (_, Origin::Motion) => 0.0,
+                (AxisDirection::Rest, _) => sense.came,
+                (AxisDirection::Bent, _) | (_, Origin::Motion) => 0.0,
                 _ => sense.way.sign(),
             },
             at: from,
@@ -71,7 +71,7 @@ impl<const D: usize> ScaledPath<D> {
         let next = self.segments.get(i + 1).map(|next| next.sides.axes[k]);
         let mut sides = AxisSides {
             way: sense.way.sign(),
-            is_rest: sense.way == Way::Rest,
+            is_rest: sense.way == AxisDirection::Rest,
             from,
             to: self.vertex(i)[k],
             before,

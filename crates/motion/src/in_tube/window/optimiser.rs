@@ -1,7 +1,7 @@
 //! The optimisation of one window: convex problems in turn with the giving out of samples.
 //!
 //! ```text
-//!   guess ──► give out samples ──► solve ──► project ──┐     until progress gains nothing more, or
+//!   guess ──► assign samples ──► solve ──► project ──┐     until progress gains nothing more, or
 //!                  ▲                                   │     the iterations are used up; the best
 //!                  └───────────────────────────────────┘     motion that passes the judge is taken
 //! ```
@@ -13,18 +13,18 @@
 //! linear in the control points. It is alternating minimisation. With every sample on a piece the problem
 //! is a convex quadratic program ([`super::solver`]); with the motion given, samples go to pieces by a
 //! projection ([`super::samples`]). There is no trust region: nothing is linearised but balls
-//! ([`super::cuts`]) and joints ([`super::joint_rows`]), and where a corner is passed and
+//! ([`super::cutting_planes`]) and joints ([`super::joint_rows`]), and where a corner is passed and
 //! what chords cut off is taken from the last motion. Where there are joints, rounds of polishing go no further than
 //! the motion before, so that what is linear about it settles. What comes out is a local optimum
 //! ([`super::search_bias`]), and nothing is believed of it that the judge has not seen.
 
 use super::budget::Budget;
-use super::cuts::Cuts;
+use super::cutting_planes::CuttingPlanes;
 use super::damping;
 use super::feed_rows;
+use super::fixed_axes::FixedAxes;
 use super::guess::Guess;
 use super::joint_rows;
-use super::pins::Pins;
 use super::rounds::{BestMotion, ENOUGH_VIOLATION, RoundState, gains};
 use super::samples::Samples;
 use super::scaled_path::{ScaledPath, ScaledSegment};
@@ -139,7 +139,7 @@ pub(crate) struct Solution<const D: usize> {
 
 /// What the judge is asked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Question {
+pub(crate) enum JudgeQuestion {
     /// Does it keep everything?
     IsValid,
     /// And does it rest at the end of the path?
@@ -155,8 +155,8 @@ pub(crate) struct Optimiser<const D: usize> {
     problem: Problem<D>,
     pub(super) guess: Guess,
     pub(super) samples: Samples,
-    pub(super) cuts: Cuts<D>,
-    pins: Pins<D>,
+    pub(super) cutting_planes: CuttingPlanes<D>,
+    fixed_axes: FixedAxes<D>,
     extents: [Extents; 2],
     /// How much faster than the guess the motion has turned out to be.
     pace: f64,
@@ -171,8 +171,8 @@ impl<const D: usize> Optimiser<D> {
             problem: Problem::new(),
             guess: Guess::default(),
             samples: Samples::default(),
-            cuts: Cuts::new(),
-            pins: Pins::default(),
+            cutting_planes: CuttingPlanes::new(),
+            fixed_axes: FixedAxes::default(),
             extents: [Extents::default(), Extents::default()],
             pace: if is_dear { 1.0 } else { START_PACE },
         }
@@ -184,7 +184,7 @@ impl<const D: usize> Optimiser<D> {
         path: &ScaledPath<D>,
         window_start: &WindowStart<'_, D>,
         most_work: usize,
-        judge: &mut impl FnMut(&[[f64; D]], Question) -> bool,
+        judge: &mut impl FnMut(&[[f64; D]], JudgeQuestion) -> bool,
     ) -> Option<Solution<D>> {
         let budget = Budget::new(D, path.joints().is_some());
         let most_work = budget.most(most_work);
@@ -198,7 +198,8 @@ impl<const D: usize> Optimiser<D> {
         for (attempt, seed) in ATTEMPTS.into_iter().enumerate() {
             self.samples.progress.clone_from(&tail_progress);
             self.samples.forget();
-            self.cuts.clear(self.samples.count(), path.segments.len());
+            self.cutting_planes
+                .clear(self.samples.count(), path.segments.len());
             let progress = &mut self.samples.progress;
             match seed {
                 Seed::Guess(share) => {
@@ -266,7 +267,7 @@ impl<const D: usize> Optimiser<D> {
         path: &ScaledPath<D>,
         window_start: &WindowStart<'_, D>,
         is_careful: bool,
-        judge: &mut impl FnMut(&[[f64; D]], Question) -> bool,
+        judge: &mut impl FnMut(&[[f64; D]], JudgeQuestion) -> bool,
         found: &mut BestMotion<D>,
     ) {
         let mut round_state = RoundState::starting(window_start.tail);
@@ -280,7 +281,7 @@ impl<const D: usize> Optimiser<D> {
                 }
                 // The first round of polishing still takes what the last search has shown.
                 if round <= phase.search {
-                    self.samples.give_out(path, window_start.piece);
+                    self.samples.assign(path, window_start.piece);
                 }
                 let is_polish = round >= phase.search;
                 let is_wide = !is_polish && !is_careful;
@@ -295,10 +296,10 @@ impl<const D: usize> Optimiser<D> {
                     } else {
                         FEED_R
                     },
-                    ridge: if is_polish && number > 0 {
-                        round_state.firm_pull(usual.ridge)
+                    attraction: if is_polish && number > 0 {
+                        round_state.firm_pull(usual.attraction)
                     } else {
-                        usual.ridge
+                        usual.attraction
                     },
                     keeps_progress: is_polish && has_joints,
                     ..usual
@@ -311,7 +312,7 @@ impl<const D: usize> Optimiser<D> {
                     round_state.learn_feed(style.feed_r);
                 }
                 let mean_t = self.samples.mean_t(path);
-                let passes = is_solved && judge(&round_state.points, Question::IsValid);
+                let passes = is_solved && judge(&round_state.points, JudgeQuestion::IsValid);
                 if passes {
                     found.add(mean_t, &round_state.points, &self.samples);
                 }
@@ -352,9 +353,9 @@ impl<const D: usize> Optimiser<D> {
         let is_exact = style.stray_r <= 1.0;
         let is_solved = self.solve(path, style, &mut next, false, is_exact);
         if is_solved {
-            round_state.speed_r = self
-                .cuts
-                .learn(path, &self.samples, &next, &window_start.grid);
+            round_state.speed_r =
+                self.cutting_planes
+                    .learn(path, &self.samples, &next, &window_start.grid);
         }
         round_state.is_exceeding = self.interior.violation() > ENOUGH_VIOLATION;
         let grid = &window_start.grid;
@@ -389,14 +390,16 @@ impl<const D: usize> Optimiser<D> {
         let unit = style.priced_jerk(path).map(|j| j * h * h * h);
         self.problem.jerk = unit.map(|unit| style.jerk / (unit * unit));
         let margin = style.settling_periods(path);
-        self.pins
+        self.fixed_axes
             .set(path, &self.samples, points, &style.grid, margin);
-        self.problem.pins.clone_from(&self.pins.of_points);
+        self.problem
+            .fixed_axes
+            .clone_from(&self.fixed_axes.of_points);
         let extents = &mut self.extents[usize::from(style.stray_r > 1.0)];
         let layout = Layout {
             path,
             samples: &self.samples,
-            cuts: &self.cuts,
+            cutting_planes: &self.cutting_planes,
             points,
             style,
         };

@@ -7,7 +7,7 @@
 //! too, and the next solution can use the room.
 
 use super::hold_back::{hold_back, is_too_fast};
-use super::place::Place;
+use super::sample_place::SamplePlace;
 use super::scaled_path::ScaledPath;
 use super::solver::{combine, dot};
 use super::spline::Grid;
@@ -134,7 +134,7 @@ impl Samples {
     }
 
     /// Gives every sample to a piece by its progress.
-    pub(crate) fn give_out<const D: usize>(&mut self, path: &ScaledPath<D>, first: usize) {
+    pub(crate) fn assign<const D: usize>(&mut self, path: &ScaledPath<D>, first: usize) {
         let segments = &path.segments;
         let mut i = first;
         self.piece[0] = first;
@@ -167,7 +167,7 @@ impl Samples {
         grid: &Grid,
         may_lead: bool,
     ) {
-        let mut at = Place {
+        let mut at = SamplePlace {
             piece: first,
             s: self.progress[0],
             distance: 0.0,
@@ -181,7 +181,7 @@ impl Samples {
             let next = nearest(path, &y, at, ahead(path, at.piece, &before, &y));
             before = y;
             at = hold_back(path, points, (k, &y), (at, next), grid);
-            let Place { piece, s, distance } = at;
+            let SamplePlace { piece, s, distance } = at;
             self.is_too_fast[k] = is_too_fast(path, points, (piece, k), grid);
             self.progress[k] = s;
             self.at_least[k] = 0;
@@ -283,16 +283,21 @@ fn ahead<const D: usize>(
 }
 
 /// The nearest place from `at` on, at most so far ahead, that a sample can be at.
-fn nearest<const D: usize>(path: &ScaledPath<D>, y: &[f64; D], at: Place, ahead: f64) -> Place {
+fn nearest<const D: usize>(
+    path: &ScaledPath<D>,
+    y: &[f64; D],
+    at: SamplePlace,
+    ahead: f64,
+) -> SamplePlace {
     let segments = &path.segments;
-    let mut best = Place {
+    let mut best = SamplePlace {
         distance: f64::INFINITY,
         ..at
     };
     let mut i = at.piece;
     while i < segments.len() && segments[i].s <= at.s + ahead {
         let segment = &segments[i];
-        let place = Place::on(path, i, at.s, y);
+        let place = SamplePlace::on(path, i, at.s, y);
         if place.distance < best.distance - 1e-7 * segment.radius {
             best = place;
         }

@@ -45,7 +45,7 @@ pub(crate) struct ScaledSegment<const D: usize> {
     /// window.
     pub(crate) feed_axes: [f64; D],
     /// From its middle to the program it stands for.
-    pub(crate) bow: [f64; D],
+    pub(crate) sagitta_vector: [f64; D],
     /// Where it leaves an axis alone: the coordinate.
     pub(crate) level: [Option<f64>; D],
     /// Across: first in the plane of the corner at its end, then whatever completes the base.
@@ -215,11 +215,11 @@ impl<const D: usize> ScaledPath<D> {
             along[k] = displacement[self.axes[k]] / self.unit[k];
         }
         let mut level = [None; D];
-        let mut bow = [0.0; D];
+        let mut sagitta_vector = [0.0; D];
         for k in 0..self.moving {
             let i = self.axes[k];
-            bow[k] = piece.bow[i] / self.unit[k];
-            if piece.start[i].total_cmp(&piece.end[i]).is_eq() && bow[k].abs() <= 0.0 {
+            sagitta_vector[k] = piece.sagitta_vector[i] / self.unit[k];
+            if piece.start[i].total_cmp(&piece.end[i]).is_eq() && sagitta_vector[k].abs() <= 0.0 {
                 level[k] = Some(start[k]);
                 self.levels[k].push((start[k], piece.start[i]));
             }
@@ -256,7 +256,7 @@ impl<const D: usize> ScaledPath<D> {
             limits: bounds.path,
             feed,
             feed_axes,
-            bow,
+            sagitta_vector,
             level,
             normals: [[0.0; D]; D],
             sides: Sides::none(),
@@ -357,7 +357,9 @@ impl<const D: usize> ScaledPath<D> {
     fn heading_at(&self, i: usize, u: f64) -> [f64; D] {
         let segment = &self.segments[i];
         let slope = 4.0 * (1.0 - 2.0 * u);
-        core::array::from_fn(|k| segment.tangent[k] + slope * segment.bow[k] / segment.length)
+        core::array::from_fn(|k| {
+            segment.tangent[k] + slope * segment.sagitta_vector[k] / segment.length
+        })
     }
 
     /// A position in the space of the window.
@@ -411,7 +413,7 @@ impl<const D: usize> ScaledPath<D> {
     fn center_at(&self, i: usize, u: f64) -> [f64; D] {
         let segment = &self.segments[i];
         let height = 4.0 * u * (1.0 - u);
-        core::array::from_fn(|k| segment.start[k] + height * segment.bow[k])
+        core::array::from_fn(|k| segment.start[k] + height * segment.sagitta_vector[k])
     }
 
     /// Limits of the axes whose own velocity may bind before the feed does; infinite for those that the feed

@@ -20,7 +20,7 @@ const BACK_R: f64 = 0.1;
 /// Adds rows to the last site, which is first difference `k` of the control points.
 pub(super) fn add<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, D>, k: usize) {
     let (path, points) = (layout.path, layout.points);
-    let place = Place::of(layout, k);
+    let place = DifferencePlace::of(layout, k);
     let segment = &path.segments[place.piece];
     let radius = segment.radius;
     for (axis, sides) in segment.sides.axes.iter().enumerate() {
@@ -46,14 +46,14 @@ pub(super) fn add<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, 
 }
 
 /// Where a first difference of the control points is, in the middle of a knot interval.
-struct Place {
+struct DifferencePlace {
     piece: usize,
     progress: f64,
     /// The way in the interval.
     way: f64,
 }
 
-impl Place {
+impl DifferencePlace {
     fn of<const D: usize>(layout: &Layout<'_, D>, k: usize) -> Self {
         let (grid, samples) = (&layout.style.grid, layout.samples);
         let halves = (2 * k - 1) * grid.periods;

@@ -23,7 +23,7 @@
 
 use super::at_feed::WEIGHT;
 use super::damping;
-use super::optimiser::{Optimiser, Question};
+use super::optimiser::{JudgeQuestion, Optimiser};
 use super::rounds::RoundState;
 use super::samples::{Samples, mean};
 use super::scaled_path::ScaledPath;
@@ -75,7 +75,7 @@ impl<const D: usize> WindowStart<'_, D> {
     pub(super) fn smooth_style(&self, weight: f64) -> Style {
         Style {
             keep_r: KEEP_R,
-            ridge: weight * PULL,
+            attraction: weight * PULL,
             jerk: weight * JERK,
             steering: weight.min(1.0) * STEERING,
             counts_way: true,
@@ -92,7 +92,7 @@ impl<const D: usize> Optimiser<D> {
         path: &ScaledPath<D>,
         window_start: &WindowStart<'_, D>,
         (mean_t, points, samples): Found<D>,
-        judge: &mut impl FnMut(&[[f64; D]], Question) -> bool,
+        judge: &mut impl FnMut(&[[f64; D]], JudgeQuestion) -> bool,
     ) -> Vec<[f64; D]> {
         let corner_margin = damping::margin(path, &window_start.smooth_style(1.0));
         let gained_t = |points: &[[f64; D]], samples: &Samples| {
@@ -112,7 +112,7 @@ impl<const D: usize> Optimiser<D> {
         let least = (1.0 - most_loss) * mean_t - gained_mean_t - at_corners_t;
         // Pieces that are reached by a shorter way would hold the motion there.
         shortcuts::take_back(path, &mut samples, &gained_by_best_t);
-        let mut is_given_out = false;
+        let mut is_assigned = false;
         let mut weights = WEIGHTS.into_iter().peekable();
         while let Some(weight) = weights.peek() {
             self.samples.clone_from(&samples);
@@ -122,7 +122,7 @@ impl<const D: usize> Optimiser<D> {
             };
             let mut round_state = RoundState::polishing(&points);
             round_state.least_t = (1.0 - BROUGHT_BACK) * least;
-            if is_given_out {
+            if is_assigned {
                 round_state.most_violation = f64::INFINITY;
             }
             match self.smooth_with(path, window_start, &style, round_state, judge) {
@@ -131,9 +131,9 @@ impl<const D: usize> Optimiser<D> {
                 {
                     return points;
                 }
-                None if !is_given_out => {
-                    samples.give_out(path, window_start.piece);
-                    is_given_out = true;
+                None if !is_assigned => {
+                    samples.assign(path, window_start.piece);
+                    is_assigned = true;
                 }
                 _ => {
                     weights.next();
@@ -154,7 +154,7 @@ impl<const D: usize> Optimiser<D> {
         window_start: &WindowStart<'_, D>,
         style: &Style,
         mut round_state: RoundState<D>,
-        judge: &mut impl FnMut(&[[f64; D]], Question) -> bool,
+        judge: &mut impl FnMut(&[[f64; D]], JudgeQuestion) -> bool,
     ) -> Option<Found<D>> {
         let mut passed: Option<Found<D>> = None;
         for _ in 0..ROUNDS {
@@ -174,7 +174,7 @@ impl<const D: usize> Optimiser<D> {
             let mean_t = self.samples.mean_t(path);
             let change = mean_t - round_state.mean_t;
             round_state.mean_t = mean_t;
-            if judge(&round_state.points, Question::IsValid) {
+            if judge(&round_state.points, JudgeQuestion::IsValid) {
                 passed = Some((mean_t, round_state.points.clone(), self.samples.clone()));
                 if change.abs() < SETTLED * mean_t || mean_t < round_state.least_t {
                     break;

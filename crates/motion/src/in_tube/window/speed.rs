@@ -4,7 +4,7 @@ use super::solver::dot;
 use super::spline::Grid;
 
 /// The first differences up to a sample that it has a part in: those that may be no faster than what
-/// it is given to ([`super::cuts::pieces_at`]).
+/// it is given to ([`super::cutting_planes::pieces_at`]).
 pub(crate) fn differences_of(grid: &Grid, sample: usize) -> core::ops::RangeInclusive<usize> {
     let intervals_2 = 2 * grid.knots * sample;
     let reach_2 = (2 + grid.knots) * grid.periods;
@@ -30,7 +30,7 @@ pub(crate) fn velocity_over_feed<const D: usize>(
 #[cfg(test)]
 mod tests {
     use super::{Grid, differences_of};
-    use crate::in_tube::window::cuts::pieces_at;
+    use crate::in_tube::window::cutting_planes::pieces_at;
     use crate::in_tube::window::samples::Samples;
 
     /// A piece for each sample: what a difference has a part in are samples, then.

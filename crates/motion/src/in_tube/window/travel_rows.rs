@@ -61,7 +61,7 @@ fn add_wall<const D: usize>(
             continue;
         }
         for weights in POINTS {
-            // What is given or pinned is where it is.
+            // What is given or fixed is where it is.
             if problem.is_given((first, &weights), axis) {
                 continue;
             }

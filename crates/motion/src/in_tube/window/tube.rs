@@ -17,7 +17,7 @@
 //! there. Half-way between both, which is linear in the control points, each plane that touches the
 //! ball is nearer by half the way. Together that is just what the judge asks.
 //!
-//! The round parts are bounded by planes ([`super::cuts`]).
+//! The round parts are bounded by planes ([`super::cutting_planes`]).
 //!
 //! The objective counts in periods. A sample that is a period's way at the top speed further on counts
 //! 1/N of N samples, so what is gained at a place counts as much as samples behind it have a part in the
@@ -25,7 +25,7 @@
 //! at each sample, in the same measure. So a longer window weighs a corner or an arc against the pull like
 //! a short one, and prices need no division by N.
 
-use super::cuts::{CLOSE_R, Cuts, HALF_WAY, Passing, Plane, nearest_to_corner};
+use super::cutting_planes::{CLOSE_R, CuttingPlanes, HALF_WAY, Passing, Plane, nearest_to_corner};
 use super::one_sided;
 use super::rate_changes;
 use super::samples::Samples;
@@ -64,7 +64,7 @@ pub(crate) struct Style {
     pub(crate) keep_r: f64,
     /// Pull towards the programmed path: what an offset of the whole radius costs, in gains of
     /// progress of one sample in all of the time.
-    pub(crate) ridge: f64,
+    pub(crate) attraction: f64,
     /// What jerk at its limit costs, in the same measure, for each knot interval: with more knots in a
     /// period a time costs more of it beside the pull, which counts by sample.
     pub(crate) jerk: f64,
@@ -87,8 +87,8 @@ pub(crate) struct Style {
 }
 
 /// What the motion takes to settle, in times in which jerk strays by a tolerance: 15 periods of 4 ms where
-/// jerk is 4e4 and the tolerance .02 mm, with which axes were first pinned. One of the two pulls
-/// ([`Style::ridge`], [`Style::jerk`]) against the other is the sixth root of their ratio, .83, of such a
+/// jerk is 4e4 and the tolerance .02 mm, with which axes were first fixed. One of the two pulls
+/// ([`Style::attraction`], [`Style::jerk`]) against the other is the sixth root of their ratio, .83, of such a
 /// time.
 const SETTLING: f64 = 7.5;
 
@@ -209,7 +209,7 @@ pub(crate) struct Layout<'a, const D: usize> {
     pub(crate) path: &'a ScaledPath<D>,
     /// Given out.
     pub(crate) samples: &'a Samples,
-    pub(crate) cuts: &'a Cuts<D>,
+    pub(crate) cutting_planes: &'a CuttingPlanes<D>,
     /// The motion so far.
     pub(crate) points: &'a [[f64; D]],
     pub(crate) style: &'a Style,
@@ -268,7 +268,7 @@ fn add_tube<const D: usize>(
     let sagitta = sagitta.min(MOST_SAGITTA_R * segment.radius);
     let radius = (segment.radius * layout.style.keep_r - sagitta) * layout.samples.shrink[k];
     if let Some(site) = problem.sites.last_mut() {
-        site.ridge = layout.style.ridge / (radius * radius);
+        site.attraction = layout.style.attraction / (radius * radius);
         site.center = layout.path.center(piece, layout.samples.progress[k]);
         site.tangent = segment.tangent;
     }
@@ -288,7 +288,7 @@ fn add_tube<const D: usize>(
     };
     let ends = [-back / scale, end / scale];
     problem.add_row(segment.tangent.map(|t| t / scale), &segment.start, ends);
-    for plane in layout.cuts.of_sample(k, piece) {
+    for plane in layout.cutting_planes.of_sample(k, piece) {
         let normal = plane.normal.map(|n| n / radius);
         problem.add_row(normal, &plane.center, [-FAR, 1.0]);
     }
@@ -318,7 +318,7 @@ fn add_middle<const D: usize>(
         let normal = normal.map(|n| n / radius);
         problem.add_row(normal, &segment.start, [-beside, beside]);
     }
-    let planes = [k - 1, k].map(|k| layout.cuts.of_sample(k, piece));
+    let planes = [k - 1, k].map(|k| layout.cutting_planes.of_sample(k, piece));
     for plane in planes.into_iter().flatten() {
         let normal = plane.normal.map(|n| n / radius);
         problem.add_row(normal, &plane.center, [-FAR, 1.0]);
@@ -346,7 +346,8 @@ fn add_corners<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, D>,
             let off = passing.furthest();
             let distance_r = dot(&off, &off).sqrt() / corner_radius(path, i, style);
             // A corner once close stays in, or else it would come and go from round to round.
-            let is_close = distance_r > CLOSE_R || layout.cuts.of_corner(i).next().is_some();
+            let is_close =
+                distance_r > CLOSE_R || layout.cutting_planes.of_corner(i).next().is_some();
             (turn > SHARP || is_close).then_some((distance_r, i, Some(passing)))
         })
         .collect();
@@ -364,7 +365,7 @@ fn add_corners<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, D>,
         let (first, weights) = style.grid.inner_site(k - 1, lambda, HALF_WAY);
         problem.add_site(first, weights);
         if let Some(site) = problem.sites.last_mut().filter(|_| style.is_centred) {
-            site.ridge = style.ridge / (radius * radius);
+            site.attraction = style.attraction / (radius * radius);
             site.center = after.start;
         }
         let turn = path.turn(*i, i + 1);
@@ -372,7 +373,7 @@ fn add_corners<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, D>,
             normal: core::array::from_fn(|a| (after.tangent[a] - before.tangent[a]) / turn),
             center: after.start,
         });
-        for plane in inwards.iter().chain(layout.cuts.of_corner(*i)) {
+        for plane in inwards.iter().chain(layout.cutting_planes.of_corner(*i)) {
             let left = left(&plane.normal);
             let normal = plane.normal.map(|n| n / left);
             problem.add_row(normal, &plane.center, [-FAR, 1.0]);

@@ -60,7 +60,7 @@ impl<const D: usize> WindowStart<'_, D> {
             aims_beyond: 0,
             aims_until: usize::MAX,
             keep_r: 0.995,
-            ridge: self.bias.pull,
+            attraction: self.bias.pull,
             jerk: self.bias.jerk,
             steering: STEERING,
             has_motion,

@@ -2,7 +2,7 @@
 
 use super::settled::Settled;
 use crate::on_path::pieces::{Piece, Shape};
-use crate::on_path::speed::{Course, Leg, Run, boost_limits, drive_together};
+use crate::on_path::speed::{Leg, PieceSequence, Run, boost_limits, drive_together};
 use glidepath_program::Limits;
 
 /// Runs that are driven together, and how.
@@ -16,9 +16,9 @@ const MOST_TOGETHER: usize = 512;
 
 impl JoinedRuns {
     pub(crate) fn new(run: Run, (entry_v, exit_v): (f64, f64), limits: &Limits) -> Self {
-        let course = Course::new(&run.pieces);
-        let mut legs = run.drive(&course, entry_v, exit_v);
-        boost_limits(&mut legs, &course, limits);
+        let sequence = PieceSequence::new(&run.pieces);
+        let mut legs = run.drive(&sequence, entry_v, exit_v);
+        boost_limits(&mut legs, &sequence, limits);
         Self {
             pieces: run.pieces,
             legs,
@@ -36,18 +36,18 @@ impl JoinedRuns {
             return Some(next);
         }
         self.pieces.append(&mut next.pieces);
-        let course = Course::new(&self.pieces);
-        let offset_s = course.starts_s[count];
+        let sequence = PieceSequence::new(&self.pieces);
+        let offset_s = sequence.starts_s[count];
         let mut others = next.legs.iter().map(|leg| Leg {
             from_s: leg.from_s + offset_s,
             ..*leg
         });
         let together = match (self.legs.last(), others.next()) {
-            (Some(before), Some(after)) => drive_together((before, &after), &course, limits),
+            (Some(before), Some(after)) => drive_together((before, &after), &sequence, limits),
             _ => None,
         };
         if let Some(mut legs) = together {
-            boost_limits(&mut legs, &course, limits);
+            boost_limits(&mut legs, &sequence, limits);
             self.legs.pop();
             self.legs.extend(legs);
             self.legs.extend(others);

@@ -6,6 +6,6 @@ mod scheduler;
 mod settled;
 mod stop_at_each;
 
-pub(crate) use planned::Planned;
+pub(crate) use planned::PlannedMotion;
 pub(crate) use scheduler::Scheduler;
 pub(crate) use settled::Settled;

@@ -4,7 +4,7 @@ use super::settled::Settled;
 
 /// The output of look-ahead.
 #[derive(Debug)]
-pub(crate) enum Planned {
+pub(crate) enum PlannedMotion {
     One(Settled),
     /// A stretch from rest to rest, of which one way is to be chosen.
     Either {
@@ -16,7 +16,7 @@ pub(crate) enum Planned {
     },
 }
 
-impl Planned {
+impl PlannedMotion {
     /// The way that takes less time by S-curves.
     pub(crate) fn by_s_curves(self) -> Vec<Settled> {
         match self {

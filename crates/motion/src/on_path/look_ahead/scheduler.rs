@@ -14,7 +14,7 @@
 //! one.
 
 use super::joined_runs::JoinedRuns;
-use super::planned::Planned;
+use super::planned::PlannedMotion;
 use super::settled::Settled;
 use super::stop_at_each::drive_each;
 use crate::on_path::pieces::{Element, Piece};
@@ -125,7 +125,7 @@ impl Scheduler {
     }
 
     /// Takes the next element and appends what it settles.
-    pub(crate) fn push(&mut self, element: Element, out: &mut VecDeque<Planned>) {
+    pub(crate) fn push(&mut self, element: Element, out: &mut VecDeque<PlannedMotion>) {
         match element {
             Element::Piece(piece) => {
                 let next = Run::new(piece);
@@ -153,7 +153,7 @@ impl Scheduler {
                 }
                 self.is_whole = true;
                 self.start_from_rest();
-                out.push_back(Planned::One(Settled::Rest(rest)));
+                out.push_back(PlannedMotion::One(Settled::Rest(rest)));
             }
             Element::InnerRest(rest) => {
                 self.close_run();
@@ -175,7 +175,7 @@ impl Scheduler {
     }
 
     /// Settles some runs while the stretch goes on.
-    fn settle_some(&mut self, count: usize, out: &mut VecDeque<Planned>) {
+    fn settle_some(&mut self, count: usize, out: &mut VecDeque<PlannedMotion>) {
         if count > 0 {
             self.is_whole = false;
             self.settle(count);
@@ -184,8 +184,8 @@ impl Scheduler {
     }
 
     /// Gives on what is settled.
-    fn put_held(&mut self, out: &mut VecDeque<Planned>) {
-        out.extend(self.held.drain(..).map(Planned::One));
+    fn put_held(&mut self, out: &mut VecDeque<PlannedMotion>) {
+        out.extend(self.held.drain(..).map(PlannedMotion::One));
     }
 
     fn enqueue(&mut self, run: Run) {
@@ -200,7 +200,7 @@ impl Scheduler {
     }
 
     /// Settles what has enough path beyond it.
-    fn settle_front(&mut self, out: &mut VecDeque<Planned>) {
+    fn settle_front(&mut self, out: &mut VecDeque<PlannedMotion>) {
         let horizon_s = slowing_horizon(self.fastest_v, self.weakest);
         let whole_s = 2.0 * horizon_s + self.fastest_v * WHOLE_T;
         if self.is_whole && self.waiting_pieces < MOST_WHOLE && self.waiting_s < whole_s {
@@ -223,7 +223,12 @@ impl Scheduler {
     }
 
     /// Settles a whole stretch between two rests: as planned, or at rest after each piece.
-    fn settle_stretch(&mut self, pieces: Vec<Piece>, exact: bool, out: &mut VecDeque<Planned>) {
+    fn settle_stretch(
+        &mut self,
+        pieces: Vec<Piece>,
+        exact: bool,
+        out: &mut VecDeque<PlannedMotion>,
+    ) {
         self.settle(self.waiting.len());
         let Some(legs) = drive_each(&pieces) else {
             return self.put_held(out);
@@ -248,7 +253,7 @@ impl Scheduler {
                 stopping.push(Settled::Rest(Rest { kind, line }));
             }
         }
-        out.push_back(Planned::Either {
+        out.push_back(PlannedMotion::Either {
             passing: self.held.drain(..).collect(),
             stopping,
             rests_t,

@@ -14,10 +14,10 @@
 use super::motion_chain::MotionChain;
 use super::worth::{blocks_on, is_dense, is_worthwhile};
 use crate::joints::MachineLimits;
-use crate::on_path::look_ahead::{Planned, Settled};
+use crate::on_path::look_ahead::{PlannedMotion, Settled};
 use crate::on_path::pieces::{Element, Piece};
-use crate::on_path::speed::{Course, Leg, boost_leg};
-use crate::on_path::topp::{Fineness, KnotPath, Parametrisation, keeps_limits, optimise};
+use crate::on_path::speed::{Leg, PieceSequence, boost_leg};
+use crate::on_path::topp::{KnotPath, Parametrisation, SolverTolerances, keeps_limits, optimise};
 use std::collections::VecDeque;
 
 /// Motion that is optimised together, s, as the S-curves drive it, and its most pieces: little
@@ -106,10 +106,10 @@ impl Refiner {
     }
 
     /// Takes what was planned next.
-    pub(crate) fn push(&mut self, planned: Planned, out: &mut VecDeque<Settled>) {
+    pub(crate) fn push(&mut self, planned: PlannedMotion, out: &mut VecDeque<Settled>) {
         match planned {
-            Planned::One(settled) => self.push_settled(settled, out),
-            Planned::Either {
+            PlannedMotion::One(settled) => self.push_settled(settled, out),
+            PlannedMotion::Either {
                 passing,
                 stopping,
                 rests_t,
@@ -257,10 +257,10 @@ impl Refiner {
         if self.limits.joints.is_none() {
             return;
         }
-        let course = Course::new(&chain.pieces);
+        let sequence = PieceSequence::new(&chain.pieces);
         for leg in &mut chain.legs {
-            boost_leg(leg, &course, |faster| {
-                keeps_limits(faster, &course, &self.limits)
+            boost_leg(leg, &sequence, |faster| {
+                keeps_limits(faster, &sequence, &self.limits)
             });
         }
         chain.time();
@@ -319,21 +319,21 @@ impl Refiner {
         rates: &[f64],
         ends_r: [Option<f64>; 2],
     ) -> Option<Parametrisation> {
-        let course = Course::new(pieces);
-        let fineness = if self.is_wanted {
-            Fineness::CLOSE
+        let sequence = PieceSequence::new(pieces);
+        let tolerances = if self.is_wanted {
+            SolverTolerances::CLOSE
         } else if is_dense(
             pieces,
             legs.iter().map(|leg| leg.profile.duration_t()).sum(),
         ) {
-            Fineness::COARSE
+            SolverTolerances::COARSE
         } else if self.limits.joints.is_some() {
-            Fineness::OF_JOINTS
+            SolverTolerances::OF_JOINTS
         } else {
-            Fineness::QUICK
+            SolverTolerances::QUICK
         };
-        let knot_path = KnotPath::new(&course, legs, &self.limits, &fineness, ends_r)?;
-        optimise(knot_path, &course, &self.limits, (rates, &fineness))
+        let knot_path = KnotPath::new(&sequence, legs, &self.limits, &tolerances, ends_r)?;
+        optimise(knot_path, &sequence, &self.limits, (rates, &tolerances))
     }
 }
 

@@ -11,7 +11,7 @@
 //! * for neighbouring runs together ([`drive_together`]), so that the junction between them need
 //!   not be passed without acceleration.
 
-use super::course::{Course, Leg};
+use super::piece_sequence::{Leg, PieceSequence};
 use super::valley_first::{Limiting, Section, ValleyFirst};
 use crate::on_path::pieces::{Piece, Shape};
 use crate::scurve::{PathLimits, Profile};
@@ -22,17 +22,21 @@ use glidepath_program::Limits;
 /// pieces of a leg. Without a check at all there is the last one.
 const SHARES: [f64; 10] = [1.0, 0.8, 0.65, 0.5, 0.4, 0.3, 0.2, 0.12, 0.06, 0.0];
 /// Where both cannot be had: equal shares, more acceleration, more jerk.
-const WAYS: [Way; 3] = [Way::Both, Way::Acceleration, Way::Jerk];
+const WAYS: [BoostedLimits; 3] = [
+    BoostedLimits::Both,
+    BoostedLimits::Acceleration,
+    BoostedLimits::Jerk,
+];
 
 #[derive(Debug, Clone, Copy)]
-enum Way {
+enum BoostedLimits {
     Both,
     Acceleration,
     Jerk,
 }
 
 /// What comes out of a trial.
-enum Verdict<T> {
+enum TrialOutcome<T> {
     /// The motion breaks a limit: weaker ones may not.
     Breaks,
     /// It is not faster: stronger limits may be.
@@ -44,21 +48,24 @@ enum Verdict<T> {
 #[derive(Debug, Clone, Copy)]
 struct Trial {
     share_r: f64,
-    way: Way,
+    way: BoostedLimits,
 }
 
 impl Trial {
     /// The strongest trial of one way that is good, by bisection.
-    fn strongest<T>(way: Way, mut judge: impl FnMut(Self) -> Verdict<T>) -> Option<T> {
+    fn strongest<T>(
+        way: BoostedLimits,
+        mut judge: impl FnMut(Self) -> TrialOutcome<T>,
+    ) -> Option<T> {
         let mut found = None;
         let mut left = 0..SHARES.len();
         while !left.is_empty() {
             let middle = left.start.midpoint(left.end);
             let share_r = SHARES[middle];
             match judge(Self { share_r, way }) {
-                Verdict::Breaks => left.start = middle + 1,
-                Verdict::IsSlow => left.end = middle,
-                Verdict::Good(motion) => {
+                TrialOutcome::Breaks => left.start = middle + 1,
+                TrialOutcome::IsSlow => left.end = middle,
+                TrialOutcome::Good(motion) => {
                     left.end = middle;
                     found = Some(motion);
                 }
@@ -72,9 +79,9 @@ impl Trial {
         // With a share below one its root is more and its square less.
         let (more_r, less_r) = (share_r.sqrt(), share_r * share_r);
         let (accel_r, jerk_r) = match self.way {
-            Way::Both => (share_r, share_r),
-            Way::Acceleration => (more_r, less_r),
-            Way::Jerk => (less_r, more_r),
+            BoostedLimits::Both => (share_r, share_r),
+            BoostedLimits::Acceleration => (more_r, less_r),
+            BoostedLimits::Jerk => (less_r, more_r),
         };
         let between = |a: f64, b: f64, share_r: f64| a + share_r * (b - a).max(0.0);
         PathLimits {
@@ -108,23 +115,23 @@ fn duration_t(legs: &[Leg]) -> f64 {
 }
 
 /// Replaces S-curves by faster ones over the same path between the same speeds.
-pub(crate) fn boost_limits(legs: &mut [Leg], course: &Course<'_>, limits: &Limits) {
-    let pieces = course.pieces;
+pub(crate) fn boost_limits(legs: &mut [Leg], sequence: &PieceSequence<'_>, limits: &Limits) {
+    let pieces = sequence.pieces;
     for leg in legs {
         let to_s = leg.from_s + leg.profile.length_s();
-        let touched = course.touched(leg.from_s, to_s);
+        let touched = sequence.touched(leg.from_s, to_s);
         let is_bent = |piece: &Piece| matches!(piece.shape, Shape::Spline(_));
         if pieces[touched].iter().any(is_bent) {
-            boost_leg(leg, course, |faster| holds(faster, course, limits));
+            boost_leg(leg, sequence, |faster| holds(faster, sequence, limits));
         }
     }
 }
 
 /// Replaces an S-curve by a faster one over the same path between the same speeds that a judge lets pass.
-pub(crate) fn boost_leg(leg: &mut Leg, course: &Course<'_>, holds: impl Fn(&Leg) -> bool) {
-    let pieces = course.pieces;
+pub(crate) fn boost_leg(leg: &mut Leg, sequence: &PieceSequence<'_>, holds: impl Fn(&Leg) -> bool) {
+    let pieces = sequence.pieces;
     let to_s = leg.from_s + leg.profile.length_s();
-    let touched = course.touched(leg.from_s, to_s);
+    let touched = sequence.touched(leg.from_s, to_s);
     if let Some((safe, alone)) = weakest(&pieces[touched.clone()]) {
         let (from_s, length_s) = (leg.from_s, leg.profile.length_s());
         let (entry_v, exit_v) = (leg.profile.entry_v(), leg.profile.exit_v());
@@ -136,15 +143,15 @@ pub(crate) fn boost_leg(leg: &mut Leg, course: &Course<'_>, holds: impl Fn(&Leg)
                 let top_v = caps_v.fold(entry_v.max(exit_v), f64::max);
                 let tried = trial.limits(safe, alone);
                 let Some(profile) = Profile::new(entry_v, exit_v, length_s, top_v, tried) else {
-                    return Verdict::Breaks;
+                    return TrialOutcome::Breaks;
                 };
                 let faster = Leg { from_s, profile };
                 if profile.duration_t() >= below_t {
-                    Verdict::IsSlow
+                    TrialOutcome::IsSlow
                 } else if holds(&faster) {
-                    Verdict::Good(faster)
+                    TrialOutcome::Good(faster)
                 } else {
-                    Verdict::Breaks
+                    TrialOutcome::Breaks
                 }
             });
             *leg = faster.unwrap_or(*leg);
@@ -155,7 +162,7 @@ pub(crate) fn boost_leg(leg: &mut Leg, course: &Course<'_>, holds: impl Fn(&Leg)
 /// S-curves over two that follow each other as one; `None` if that is not faster.
 pub(crate) fn drive_together(
     (before, after): (&Leg, &Leg),
-    course: &Course<'_>,
+    sequence: &PieceSequence<'_>,
     limits: &Limits,
 ) -> Option<Vec<Leg>> {
     let section = Section {
@@ -164,12 +171,12 @@ pub(crate) fn drive_together(
         entry_v: before.profile.entry_v(),
         exit_v: after.profile.exit_v(),
     };
-    let touched = course.touched(section.from_s, section.to_s);
-    let pieces = &course.pieces[touched.clone()];
+    let touched = sequence.touched(section.from_s, section.to_s);
+    let pieces = &sequence.pieces[touched.clone()];
     let (safe, alone) = weakest(pieces)?;
     let apart_t = before.profile.duration_t() + after.profile.duration_t();
     let mut best: Option<Vec<Leg>> = None;
-    let mut caps_v = vec![0.0; course.pieces.len()];
+    let mut caps_v = vec![0.0; sequence.pieces.len()];
     for way in WAYS {
         let below_t = best.as_deref().map_or(apart_t, duration_t);
         let faster = Trial::strongest(way, |trial| {
@@ -177,19 +184,19 @@ pub(crate) fn drive_together(
                 *cap_v = trial.cap_v(piece);
             }
             let valley = ValleyFirst {
-                course,
+                sequence,
                 caps_v: &caps_v,
                 limiting: Limiting::Fixed(trial.limits(safe, alone)),
             };
             let Some(legs) = valley.drive(section) else {
-                return Verdict::Breaks;
+                return TrialOutcome::Breaks;
             };
             if duration_t(&legs) >= below_t * LESS_R {
-                Verdict::IsSlow
-            } else if legs.iter().all(|leg| holds(leg, course, limits)) {
-                Verdict::Good(legs)
+                TrialOutcome::IsSlow
+            } else if legs.iter().all(|leg| holds(leg, sequence, limits)) {
+                TrialOutcome::Good(legs)
             } else {
-                Verdict::Breaks
+                TrialOutcome::Breaks
             }
         });
         best = faster.or(best);
@@ -198,12 +205,12 @@ pub(crate) fn drive_together(
 }
 
 /// True if an S-curve keeps every limit on every piece.
-fn holds(leg: &Leg, course: &Course<'_>, limits: &Limits) -> bool {
+fn holds(leg: &Leg, sequence: &PieceSequence<'_>, limits: &Limits) -> bool {
     let to_s = leg.from_s + leg.profile.length_s();
     let mut place = leg.profile.start();
-    course.touched(leg.from_s, to_s).all(|m| {
-        let piece = &course.pieces[m];
-        let piece_to_s = course.starts_s[m + 1].min(to_s) - leg.from_s;
+    sequence.touched(leg.from_s, to_s).all(|m| {
+        let piece = &sequence.pieces[m];
+        let piece_to_s = sequence.starts_s[m + 1].min(to_s) - leg.from_s;
         let (most, next) = leg.profile.extremes(&place, piece_to_s);
         place = next;
         piece.permits(&most, limits)

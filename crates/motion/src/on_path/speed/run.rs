@@ -5,7 +5,7 @@
 //! pieces are so short that it does not, many form one run, and the speed inside is found valley
 //! first ([`super::valley_first`]).
 
-use super::course::{Course, Leg};
+use super::piece_sequence::{Leg, PieceSequence};
 use super::valley_first::{Limiting, SPEED_ROUNDING_R, Section, ValleyFirst};
 use crate::on_path::pieces::{Piece, SpeedLimit};
 use crate::scurve::{PathLimits, Profile, ramp_fits, reachable_speed, slowing_horizon};
@@ -138,9 +138,14 @@ impl Run {
         ramp_fits(entry_v, highest_v, self.length_s, self.change).then_some(highest_v)
     }
 
-    /// The S-curves through the run (`course` is that of its pieces), from `entry_v` to `exit_v`,
+    /// The S-curves through the run (`sequence` is that of its pieces), from `entry_v` to `exit_v`,
     /// both at most [`Run::low_v`] and feasible over its length.
-    pub(crate) fn drive(&self, course: &Course<'_>, entry_v: f64, exit_v: f64) -> Vec<Leg> {
+    pub(crate) fn drive(
+        &self,
+        sequence: &PieceSequence<'_>,
+        entry_v: f64,
+        exit_v: f64,
+    ) -> Vec<Leg> {
         let mut legs = Vec::new();
         if self.constant_above_v < self.low_v {
             let top_v = self.constant_above_v.max(entry_v);
@@ -153,13 +158,13 @@ impl Run {
         }
         let section = Section {
             from_s: 0.0,
-            to_s: course.length_s(),
+            to_s: sequence.length_s(),
             entry_v,
             exit_v,
         };
         let caps_v: Vec<f64> = self.pieces.iter().map(|piece| piece.limit.top_v).collect();
         let valley = ValleyFirst {
-            course,
+            sequence,
             caps_v: &caps_v,
             limiting: Limiting::Weakest(self.change),
         };

@@ -16,7 +16,7 @@
 //! order, and lowering the peak of an S-curve lowers it everywhere. So every step is feasible, and
 //! there is nothing to go back on.
 
-use super::course::{Course, Leg};
+use super::piece_sequence::{Leg, PieceSequence};
 use crate::scurve::{PathLimits, Profile};
 
 /// A speed above a cap by less than this is rounding.
@@ -33,7 +33,7 @@ pub(crate) enum Limiting {
 
 /// Finds the speed along a course.
 pub(crate) struct ValleyFirst<'a> {
-    pub course: &'a Course<'a>,
+    pub sequence: &'a PieceSequence<'a>,
     /// The top speed on each piece.
     pub caps_v: &'a [f64],
     pub limiting: Limiting,
@@ -58,14 +58,14 @@ impl ValleyFirst<'_> {
     }
 
     fn touched(&self, section: Section) -> core::ops::Range<usize> {
-        self.course.touched(section.from_s, section.to_s)
+        self.sequence.touched(section.from_s, section.to_s)
     }
 
     fn own_limits(&self, section: Section, outer: PathLimits) -> PathLimits {
         let Limiting::Weakest(_) = self.limiting else {
             return outer;
         };
-        self.course.pieces[self.touched(section)]
+        self.sequence.pieces[self.touched(section)]
             .iter()
             .map(|piece| piece.limit.change)
             .reduce(PathLimits::weaker)
@@ -97,8 +97,8 @@ impl ValleyFirst<'_> {
             (section.from_s + cruise_from_s, section.from_s + cruise_to_s);
         // Junctions need a speed that is cruised at: at the ends of the slow piece, or at the end of the
         // cruise that is next to it.
-        let before_s = self.course.starts_s[slowest].min(cruise_to_s);
-        let after_s = self.course.starts_s[slowest + 1].max(cruise_from_s);
+        let before_s = self.sequence.starts_s[slowest].min(cruise_to_s);
+        let after_s = self.sequence.starts_s[slowest + 1].max(cruise_from_s);
 
         let mut middle = section;
         if before_s >= cruise_from_s && before_s > section.from_s {
@@ -189,8 +189,8 @@ impl ValleyFirst<'_> {
             {
                 continue;
             }
-            let from_s = self.course.starts_s[m].max(section.from_s) - section.from_s;
-            let to_s = self.course.starts_s[m + 1].min(section.to_s) - section.from_s;
+            let from_s = self.sequence.starts_s[m].max(section.from_s) - section.from_s;
+            let to_s = self.sequence.starts_s[m + 1].min(section.to_s) - section.from_s;
             let greatest_v = profile.greatest_speed_between(from_s, to_s);
             if greatest_v > top_v * (1.0 + SPEED_ROUNDING_R) {
                 slowest = Some(m);

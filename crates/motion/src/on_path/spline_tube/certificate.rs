@@ -18,7 +18,7 @@ const SLOWEST_R: f64 = 0.12;
 
 /// What a certificate says.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Verdict {
+pub(super) struct Certificate {
     /// Largest distance, mm; infinite where the curve comes near a cusp.
     pub(super) worst_mm: f64,
     /// The sample at the end of the chord where that is.
@@ -39,11 +39,11 @@ impl<const D: usize> Spline<D> {
         passed_u: f64,
         feed_axes: &Range<usize>,
         errors_mm: &mut Vec<f64>,
-    ) -> Verdict {
+    ) -> Certificate {
         errors_mm.clear();
         errors_mm.resize(spans, 0.0);
         let end_t = self.knots[spans + 3];
-        let mut verdict = Verdict {
+        let mut certificate = Certificate {
             worst_mm: 0.0,
             worst_sample: 1,
             chord: 0,
@@ -69,26 +69,26 @@ impl<const D: usize> Spline<D> {
                 // Hermite data rather than a cut of the span's own Bézier points: the start is that of the
                 // last part, so each break costs one evaluation.
                 let points = hermite_points(&start, &end, to_t - from_t);
-                let square_mm2 = square_off_chord(&points, (a, &chord), &mut verdict.passed_u);
+                let square_mm2 = square_off_chord(&points, (a, &chord), &mut certificate.passed_u);
                 let error_mm = if is_regular {
                     square_mm2.sqrt()
                 } else {
                     f64::INFINITY
                 };
-                note(&mut verdict, &mut errors_mm[span], error_mm, j + 1);
+                note(&mut certificate, &mut errors_mm[span], error_mm, j + 1);
                 (from_t, start) = (to_t, end);
             }
             if from_t < foot_t {
                 break;
             }
             let missed_mm = tolerance_square(&minus(&start.0, b)).sqrt();
-            note(&mut verdict, &mut errors_mm[span], missed_mm, j + 1);
-            (verdict.chord, verdict.passed_u) = (j + 1, 0.0);
+            note(&mut certificate, &mut errors_mm[span], missed_mm, j + 1);
+            (certificate.chord, certificate.passed_u) = (j + 1, 0.0);
             if from_t >= end_t {
                 break;
             }
         }
-        verdict
+        certificate
     }
 
     /// True if a span moves forward everywhere in the axes that measure the feed.
@@ -128,15 +128,15 @@ fn square_off_chord<const D: usize>(
 }
 
 /// Takes a distance into account; one that is not a number counts as infinite.
-fn note(verdict: &mut Verdict, of_span: &mut f64, error_mm: f64, sample: usize) {
+fn note(certificate: &mut Certificate, of_span: &mut f64, error_mm: f64, sample: usize) {
     let error_mm = if error_mm.is_nan() {
         f64::INFINITY
     } else {
         error_mm
     };
     *of_span = of_span.max(error_mm);
-    if error_mm > verdict.worst_mm {
-        verdict.worst_mm = error_mm;
-        verdict.worst_sample = sample;
+    if error_mm > certificate.worst_mm {
+        certificate.worst_mm = error_mm;
+        certificate.worst_sample = sample;
     }
 }

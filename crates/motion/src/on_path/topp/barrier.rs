@@ -18,8 +18,8 @@
 //! An iterate never leaves the limits, unlike one of the window's primal-dual method: whatever is at hand
 //! when steps no longer gain is a motion that keeps them at its places.
 
-use super::constraints::{Part, Place, Problem, Row};
-use super::fineness::Fineness;
+use super::constraints::{ConstraintPoint, Part, Problem, Row};
+use super::solver_tolerances::SolverTolerances;
 
 /// The weight of the time at the start, in limits for the time that the start takes: the barrier then
 /// leaves a fifth of that to be gained. With less, the first steps lead away from the limits, to come back
@@ -36,7 +36,7 @@ const SMALL_STEP: f64 = 1.0;
 const GROWTH: f64 = 50.0;
 /// How many limits a knot is counted as: a barrier of m limits leaves m/weight to be gained. There are more
 /// ([`Problem::count`], of three axes some twenty at a knot), most of them far from binding; where more than
-/// three bind, more is left than [`Fineness::gap_r`]. Why three is not on record.
+/// three bind, more is left than [`SolverTolerances::gap_r`]. Why three is not on record.
 const LIMITS_OF_KNOT: f64 = 3.0;
 /// Halvings of a step that would leave the limits.
 const HALVINGS: u32 = 40;
@@ -48,12 +48,16 @@ const PRODUCTS: core::ops::RangeInclusive<f64> = 1e-100..=1e100;
 
 /// Coefficients of a time parametrisation that keeps all limits and takes near the least time, from
 /// one that keeps them with room to spare; `None` if the start does not.
-pub(crate) fn solve(problem: &Problem, start: Vec<f64>, fineness: &Fineness) -> Option<Vec<f64>> {
+pub(crate) fn solve(
+    problem: &Problem,
+    start: Vec<f64>,
+    tolerances: &SolverTolerances,
+) -> Option<Vec<f64>> {
     let mut x = start;
     let time_t = problem.time(&x);
     let mut weight = START * problem.count as f64 / time_t;
-    let last = LIMITS_OF_KNOT * problem.knots as f64 / (fineness.gap_r * time_t);
-    let small_step = (fineness.small_r * problem.knots as f64).max(SMALL_STEP);
+    let last = LIMITS_OF_KNOT * problem.knots as f64 / (tolerances.gap_r * time_t);
+    let small_step = (tolerances.small_r * problem.knots as f64).max(SMALL_STEP);
     let mut value = merit(problem, &x, weight)?;
     let mut newton = Newton::new(x.len());
     loop {
@@ -143,7 +147,7 @@ struct Local {
 }
 
 impl Local {
-    fn at(place: &Place, rows: &[Row], [b, b1, b2]: [f64; 3], weight: f64) -> Self {
+    fn at(place: &ConstraintPoint, rows: &[Row], [b, b1, b2]: [f64; 3], weight: f64) -> Self {
         let mut local = Self::default();
         let inverse = 1.0 / b;
         let root = inverse.sqrt();
@@ -261,7 +265,7 @@ impl Newton {
 
     /// Brings gradient and Hessian over b alone to the three coefficients of a place.
     #[inline]
-    fn add_value(&mut self, place: &Place, local: &Local) {
+    fn add_value(&mut self, place: &ConstraintPoint, local: &Local) {
         let v = &place.taylor.value;
         let gradient = &mut self.gradient[place.first..place.first + 3];
         let band = &mut self.band[place.first..place.first + 3];
@@ -278,7 +282,7 @@ impl Newton {
     #[inline]
     fn add<const I: usize, const J: usize, const K: usize>(
         &mut self,
-        place: &Place,
+        place: &ConstraintPoint,
         local: &Local,
     ) {
         let (v, s, c) = (

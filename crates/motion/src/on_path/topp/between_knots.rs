@@ -6,12 +6,12 @@
 //! what was optimised is looked at in between, and where it demands too much the constraints of the
 //! intervals around are given a smaller share of the limits, and the parametrisation is made anew.
 
-use super::fineness::Fineness;
 use super::interval::Interval;
 use super::parametrisation::{MotionPhase, Parametrisation};
+use super::solver_tolerances::SolverTolerances;
 use crate::joints::MachineLimits;
 use crate::on_path::pieces::Shape;
-use crate::on_path::speed::{Course, Leg};
+use crate::on_path::speed::{Leg, PieceSequence};
 use crate::scurve::PathState;
 use glidepath_geometry::{Cubic, Jet};
 use glidepath_program::Limits;
@@ -45,11 +45,11 @@ fn worst(
     phase: &MotionPhase,
     duration_t: f64,
     interval: &Interval,
-    course: &Course<'_>,
+    sequence: &PieceSequence<'_>,
     limits: &MachineLimits,
 ) -> f64 {
-    let piece = &course.pieces[interval.piece];
-    let from_s = course.starts_s[interval.piece];
+    let piece = &sequence.pieces[interval.piece];
+    let from_s = sequence.starts_s[interval.piece];
     let places = match piece.shape {
         Shape::Transition(_) => PLACES_OF_TRANSITION,
         Shape::Segment(_) | Shape::Spline(_) => PLACES,
@@ -103,7 +103,11 @@ fn used_by_all(jet: &Jet, state: &PathState, phase: &MotionPhase, limits: &Machi
 
 /// True if an S-curve keeps the limits of axes and joints, at places of each of its phases and of each
 /// piece.
-pub(crate) fn keeps_limits(leg: &Leg, course: &Course<'_>, limits: &MachineLimits) -> bool {
+pub(crate) fn keeps_limits(
+    leg: &Leg,
+    sequence: &PieceSequence<'_>,
+    limits: &MachineLimits,
+) -> bool {
     let phases = leg
         .profile
         .phases()
@@ -121,8 +125,8 @@ pub(crate) fn keeps_limits(leg: &Leg, course: &Course<'_>, limits: &MachineLimit
         .collect();
     let is_kept = |state: &PathState, phase: &MotionPhase, piece: usize| {
         let at_s = leg.from_s + state.position_s;
-        let own = &course.pieces[piece];
-        let jet = own.jet((at_s - course.starts_s[piece]).clamp(0.0, own.length_s));
+        let own = &sequence.pieces[piece];
+        let jet = own.jet((at_s - sequence.starts_s[piece]).clamp(0.0, own.length_s));
         // The rate of the program is among what bounds the speed on a piece.
         state.speed_v <= own.limit.peak_v * (1.0 + SPEED_ROUNDING_R)
             && used_by_all(&jet, state, phase, limits) <= 1.0
@@ -131,17 +135,17 @@ pub(crate) fn keeps_limits(leg: &Leg, course: &Course<'_>, limits: &MachineLimit
         (0..=PLACES).all(|k| {
             let state = phase.at(duration_t * f64::from(k) / f64::from(PLACES));
             let at_s = leg.from_s + state.position_s;
-            is_kept(&state, phase, course.touched(at_s, at_s).start)
+            is_kept(&state, phase, sequence.touched(at_s, at_s).start)
         })
     });
     let to_s = leg.from_s + leg.profile.length_s();
     along_phases
-        && course.touched(leg.from_s, to_s).all(|piece| {
-            let places = match course.pieces[piece].shape {
+        && sequence.touched(leg.from_s, to_s).all(|piece| {
+            let places = match sequence.pieces[piece].shape {
                 Shape::Transition(_) => PLACES_OF_TRANSITION,
                 Shape::Segment(_) | Shape::Spline(_) => PLACES,
             };
-            let ends_s = [course.starts_s[piece], course.starts_s[piece + 1]];
+            let ends_s = [sequence.starts_s[piece], sequence.starts_s[piece + 1]];
             (0..=places).all(|k| {
                 let share_r = f64::from(k) / f64::from(places);
                 let at_s = ends_s[0] + share_r * (ends_s[1] - ends_s[0]) - leg.from_s;
@@ -190,8 +194,8 @@ pub(crate) fn lessen(
     (parametrisation, first): (&Parametrisation, usize),
     firmness: f64,
     intervals: &[Interval],
-    course: &Course<'_>,
-    (limits, fineness): (&MachineLimits, &Fineness),
+    sequence: &PieceSequence<'_>,
+    (limits, tolerances): (&MachineLimits, &SolverTolerances),
 ) -> Remedy {
     let given = shares.to_vec();
     let mut remedy = Remedy {
@@ -207,13 +211,13 @@ pub(crate) fn lessen(
             .get(first + k + 1)
             .map(|next| next.from_t);
         let duration_t = next_t.unwrap_or(parametrisation.duration_t) - phase.from_t;
-        let piece = &course.pieces[interval.piece];
-        let from_s = course.starts_s[interval.piece] - piece.from_s;
-        let ratio = match (&piece.shape, fineness.places_of_span) {
+        let piece = &sequence.pieces[interval.piece];
+        let from_s = sequence.starts_s[interval.piece] - piece.from_s;
+        let ratio = match (&piece.shape, tolerances.places_of_span) {
             (Shape::Spline(span), Some(places)) => {
                 worst_of_span(phase, interval, (span, from_s, places), limits)
             }
-            _ => worst(phase, duration_t, interval, course, limits),
+            _ => worst(phase, duration_t, interval, sequence, limits),
         };
         if ratio <= 1.0 {
             continue;

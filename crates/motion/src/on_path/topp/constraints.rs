@@ -43,7 +43,7 @@ pub(crate) enum Part {
 
 /// A place where limits are kept.
 #[derive(Debug)]
-pub(crate) struct Place {
+pub(crate) struct ConstraintPoint {
     /// The first of the three coefficients that matter here.
     pub(crate) first: usize,
     /// b, b′ and b″ over these.
@@ -57,7 +57,7 @@ pub(crate) struct Place {
     pub(crate) rows_end: usize,
 }
 
-impl Place {
+impl ConstraintPoint {
     /// b, b′ and b″ for some coefficients.
     pub(crate) fn values(&self, x: &[f64]) -> [f64; 3] {
         let near = &x[self.first..self.first + 3];
@@ -73,7 +73,7 @@ impl Place {
 /// All limits.
 #[derive(Debug)]
 pub(crate) struct Problem {
-    pub(crate) places: Vec<Place>,
+    pub(crate) places: Vec<ConstraintPoint>,
     pub(crate) rows: Vec<Row>,
     /// How many limits there are, those that hold both ways counted twice.
     pub(crate) count: usize,
@@ -155,7 +155,7 @@ impl Problem {
     fn place(&mut self, (first, part): (usize, Part), taylor: Taylor, top_v: f64, share_s: f64) {
         let cap_b = top_v * top_v;
         self.count += usize::from(cap_b.is_finite());
-        self.places.push(Place {
+        self.places.push(ConstraintPoint {
             first,
             taylor,
             part,

@@ -1,12 +1,12 @@
 //! Where the knots of a time parametrisation are, what the path is there, and the S-curves it
 //! starts from.
 
-use super::fineness::Fineness;
 use super::interval::{Caps, Interval};
 use super::parabola::Parabola;
+use super::solver_tolerances::SolverTolerances;
 use crate::joints::MachineLimits;
 use crate::on_path::pieces::{Piece, Shape};
-use crate::on_path::speed::{Course, Leg};
+use crate::on_path::speed::{Leg, PieceSequence};
 use crate::scurve::PathState;
 use glidepath_geometry::{AxisVector, Jet, Segment};
 use glidepath_program::Limits;
@@ -19,7 +19,7 @@ const MOST_KNOTS: f64 = 30_000.0;
 const LEAST_KNOT_T: f64 = 0.002;
 /// Time of the phase of constant jerk next to a rest, and its largest share of the S-curve's. At a rest
 /// b ~ s^(4/3) has a second derivative beyond all bounds, which no spline follows; the shorter the
-/// phase, the more knots next to it ([`Fineness::rest_growth`]). No measurement of either is
+/// phase, the more knots next to it ([`SolverTolerances::rest_growth`]). No measurement of either is
 /// kept.
 const REST_T: f64 = 0.001;
 const REST_R: f64 = 0.25;
@@ -69,10 +69,10 @@ pub(crate) struct KnotPath {
 impl KnotPath {
     /// Knots along a course that S-curves drive.
     pub(crate) fn new(
-        course: &Course<'_>,
+        sequence: &PieceSequence<'_>,
         legs: &[Leg],
         limits: &MachineLimits,
-        fineness: &Fineness,
+        tolerances: &SolverTolerances,
         ends_r: [Option<f64>; 2],
     ) -> Option<Self> {
         let first = legs.first()?.profile;
@@ -85,7 +85,7 @@ impl KnotPath {
             }),
         ];
         let duration_t: f64 = legs.iter().map(|leg| leg.profile.duration_t()).sum();
-        let knot_t = knot_time(limits, fineness).max(duration_t / MOST_KNOTS);
+        let knot_t = knot_time(limits, tolerances).max(duration_t / MOST_KNOTS);
         let mut knot_path = Self {
             intervals: Vec::new(),
             legs: legs.to_vec(),
@@ -93,14 +93,14 @@ impl KnotPath {
             rests,
             ends_v: [first.entry_v(), last.exit_v()],
             ends_r,
-            ramps_s: [first.entry_v(), last.exit_v()].map(|v| ramp_length(v, course, limits)),
-            length_s: course.length_s(),
+            ramps_s: [first.entry_v(), last.exit_v()].map(|v| ramp_length(v, sequence, limits)),
+            length_s: sequence.length_s(),
             knot_t,
-            nearest_r: fineness.nearest_r,
-            rest_growth: fineness.rest_growth,
+            nearest_r: tolerances.nearest_r,
+            rest_growth: tolerances.rest_growth,
         };
-        let knots = knot_path.knots(course);
-        knot_path.lay(course, &knots, limits);
+        let knots = knot_path.knots(sequence);
+        knot_path.lay(sequence, &knots, limits);
         // Two coefficients are given at either end: of three intervals one is left. Why five are asked for is
         // not on record.
         (knot_path.intervals.len() > 4).then_some(knot_path)
@@ -128,7 +128,7 @@ impl KnotPath {
     }
 
     /// Path positions of the knots.
-    fn knots(&self, course: &Course<'_>) -> Vec<f64> {
+    fn knots(&self, sequence: &PieceSequence<'_>) -> Vec<f64> {
         let [from_s, to_s] = self.inner();
         let duration_t = self.marks.last().map_or(0.0, |mark| mark.t);
         // From both ends to the middle.
@@ -143,7 +143,7 @@ impl KnotPath {
         own.push(to_s);
         // Where pieces meet there is a knot in any case, for derivatives of the path jump there; those of
         // the time that are too near to one are left out, or intervals of very different lengths meet.
-        let junctions: Vec<f64> = course.starts_s.clone();
+        let junctions: Vec<f64> = sequence.starts_s.clone();
         let junctions = &junctions[junctions.partition_point(|s| *s <= from_s)..];
         let junctions = &junctions[..junctions.partition_point(|s| *s < to_s)];
         let mut knots = vec![from_s];
@@ -192,7 +192,12 @@ impl KnotPath {
     }
 
     /// Puts knots into the middle of some intervals, in rising order.
-    pub(crate) fn halve(&mut self, halved: &[usize], course: &Course<'_>, limits: &MachineLimits) {
+    pub(crate) fn halve(
+        &mut self,
+        halved: &[usize],
+        sequence: &PieceSequence<'_>,
+        limits: &MachineLimits,
+    ) {
         let mut knots = Vec::with_capacity(self.intervals.len() + halved.len() + 1);
         let mut next = halved.iter().peekable();
         for (k, interval) in self.intervals.drain(..).enumerate() {
@@ -202,18 +207,18 @@ impl KnotPath {
             }
         }
         knots.push(self.inner()[1]);
-        self.lay(course, &knots, limits);
+        self.lay(sequence, &knots, limits);
     }
 
     /// The path between the knots.
-    fn lay(&mut self, course: &Course<'_>, knots: &[f64], limits: &MachineLimits) {
+    fn lay(&mut self, sequence: &PieceSequence<'_>, knots: &[f64], limits: &MachineLimits) {
         for window in knots.windows(2) {
             let (from_s, to_s) = (window[0], window[1]);
             let middle_s = 0.5 * (from_s + to_s);
-            let index = course.touched(middle_s, middle_s).start;
-            let piece = &course.pieces[index];
+            let index = sequence.touched(middle_s, middle_s).start;
+            let piece = &sequence.pieces[index];
             let caps = caps(piece);
-            let jet = |s: f64| piece.jet((s - course.starts_s[index]).clamp(0.0, piece.length_s));
+            let jet = |s: f64| piece.jet((s - sequence.starts_s[index]).clamp(0.0, piece.length_s));
             let start = match self.intervals.last() {
                 Some(before) if before.piece == index => before.end,
                 _ => jet(from_s),
@@ -362,11 +367,11 @@ fn caps(piece: &Piece) -> Caps {
 }
 
 /// The length on which a motion can easily go from the speed of the S-curves to that of a start.
-fn ramp_length(speed_v: f64, course: &Course<'_>, limits: &MachineLimits) -> f64 {
+fn ramp_length(speed_v: f64, sequence: &PieceSequence<'_>, limits: &MachineLimits) -> f64 {
     let least = |of: &AxisVector| of.iter().copied().fold(f64::INFINITY, f64::min);
     let (mut jerk_j, mut accel_a) = (least(&limits.axes.jerk), least(&limits.axes.acceleration));
     if limits.joints.is_some() {
-        let along = course.pieces.iter().map(|piece| piece.limit.change);
+        let along = sequence.pieces.iter().map(|piece| piece.limit.change);
         for change in along {
             (jerk_j, accel_a) = (jerk_j.min(change.jerk_j), accel_a.min(change.accel_a));
         }
@@ -378,7 +383,7 @@ fn ramp_length(speed_v: f64, course: &Course<'_>, limits: &MachineLimits) -> f64
 }
 
 /// Time from knot to knot.
-fn knot_time(limits: &MachineLimits, fineness: &Fineness) -> f64 {
+fn knot_time(limits: &MachineLimits, tolerances: &SolverTolerances) -> f64 {
     let limits = limits
         .joints
         .as_ref()
@@ -387,9 +392,9 @@ fn knot_time(limits: &MachineLimits, fineness: &Fineness) -> f64 {
     let limited = axes.filter(|(_, jerk_j)| **jerk_j < Limits::UNLIMITED);
     let rises_t = limited.map(|(accel_a, jerk_j)| accel_a / jerk_j);
     let least_t = rises_t.fold(f64::INFINITY, f64::min);
-    (fineness.knot_r * least_t)
+    (tolerances.knot_r * least_t)
         .max(LEAST_KNOT_T)
-        .min(fineness.knot_t)
+        .min(tolerances.knot_t)
 }
 
 /// Times of knots from an end of the motion up to some time, without the end.

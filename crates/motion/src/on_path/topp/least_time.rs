@@ -3,11 +3,11 @@
 use super::barrier::solve;
 use super::between_knots::lessen;
 use super::constraints::Problem;
-use super::fineness::Fineness;
 use super::knots::{KnotPath, RestPhase};
 use super::parametrisation::{Builder, Parametrisation};
+use super::solver_tolerances::SolverTolerances;
 use crate::joints::MachineLimits;
-use crate::on_path::speed::Course;
+use crate::on_path::speed::PieceSequence;
 use crate::scurve::PathState;
 
 /// Times a time parametrisation is made anew where it demands too much between its knots: a peak
@@ -19,9 +19,9 @@ const ROUNDS: u32 = 8;
 /// keeps all limits, also between knots.
 pub(crate) fn optimise(
     mut knot_path: KnotPath,
-    course: &Course<'_>,
+    sequence: &PieceSequence<'_>,
     limits: &MachineLimits,
-    (rates, fineness): (&[f64], &Fineness),
+    (rates, tolerances): (&[f64], &SolverTolerances),
 ) -> Option<Parametrisation> {
     let mut shares = vec![1.0; knot_path.intervals.len()];
     let first = usize::from(knot_path.rests[0].is_some());
@@ -31,7 +31,7 @@ pub(crate) fn optimise(
     for _ in 0..ROUNDS {
         let problem = Problem::new(&knot_path, limits, &shares);
         let parametrisation = loop {
-            match parametrisation_of(&knot_path, &problem, *rates.peek()?, fineness) {
+            match parametrisation_of(&knot_path, &problem, *rates.peek()?, tolerances) {
                 Some(parametrisation) => break parametrisation,
                 None => rates.next(),
             };
@@ -41,8 +41,8 @@ pub(crate) fn optimise(
             (&parametrisation, first),
             firmness,
             &knot_path.intervals,
-            course,
-            (limits, fineness),
+            sequence,
+            (limits, tolerances),
         );
         if remedy.is_none {
             return Some(parametrisation);
@@ -51,8 +51,8 @@ pub(crate) fn optimise(
         for &k in remedy.halved.iter().rev() {
             shares.insert(k, shares[k]);
         }
-        knot_path.halve(&remedy.halved, course, limits);
-        firmness *= fineness.firmer_r;
+        knot_path.halve(&remedy.halved, sequence, limits);
+        firmness *= tolerances.firmer_r;
     }
     None
 }
@@ -61,9 +61,9 @@ fn parametrisation_of(
     knot_path: &KnotPath,
     problem: &Problem,
     rate_r: f64,
-    fineness: &Fineness,
+    tolerances: &SolverTolerances,
 ) -> Option<Parametrisation> {
-    let x = solve(problem, knot_path.start(rate_r), fineness)?;
+    let x = solve(problem, knot_path.start(rate_r), tolerances)?;
     let mut builder = Builder::new();
     let zero = PathState {
         position_s: 0.0,

@@ -44,15 +44,15 @@
 mod barrier;
 mod between_knots;
 mod constraints;
-mod fineness;
 mod interval;
 mod knots;
 mod least_time;
 mod parabola;
 mod parametrisation;
+mod solver_tolerances;
 
 pub(crate) use between_knots::keeps_limits;
-pub(crate) use fineness::Fineness;
 pub(crate) use knots::KnotPath;
 pub(crate) use least_time::optimise;
 pub(crate) use parametrisation::Parametrisation;
+pub(crate) use solver_tolerances::SolverTolerances;

@@ -144,7 +144,7 @@ fn two_lines_in_a_pipe_that_stays_open_are_driven_and_a_third_one_later() {
     for effort in [Effort::Fast, Effort::Optimal] {
         let (reader, mut writer) = std::io::pipe().unwrap();
         let source =
-            PipeSource::spawn(reader, Options::default(), crate::Attending::default()).unwrap();
+            PipeSource::spawn(reader, Options::default(), crate::RunChannels::default()).unwrap();
         let mut pipeline = Pipeline::new(source, mill(effort), AxisVector::zeros()).of_stream();
         pipeline.let_rest(true);
         writer

@@ -11,7 +11,7 @@ use std::fmt::Write as _;
 use std::io::Cursor;
 use std::path::Path;
 
-use glidepath_audit::{Audit, AuditSettings, Report};
+use glidepath_audit::{Audit, AuditReport, AuditSettings};
 use glidepath_gcode::{Options, Program};
 use glidepath_geometry::AxisVector;
 use glidepath_motion::Planner;
@@ -47,7 +47,7 @@ pub(crate) fn audited(
     text: &str,
     settings: Settings,
     mut each: impl FnMut(&Frame),
-) -> Report {
+) -> AuditReport {
     let mut audit = Audit::new(&AuditSettings::from(&settings));
     let mut planner = Planner::new(settings, AxisVector::zeros());
     for item in Program::new(Cursor::new(text), Options::default()) {

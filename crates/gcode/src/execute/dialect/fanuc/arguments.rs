@@ -9,8 +9,8 @@
 
 use std::io::BufRead;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::dialect::macro_call::Arguments;
 use crate::execute::parameters::FANUC_LOCALS;
@@ -166,9 +166,9 @@ impl<R: BufRead> Program<R> {
     }
 }
 
-fn too_many(span: SourceSpan) -> Box<Fault> {
+fn too_many(span: SourceSpan) -> Box<BlockDiagnostic> {
     let message = format!("more than {MOST_SETS} sets of I, J and K");
-    Fault::new(DiagnosticCode::InvalidValue, span, message)
+    BlockDiagnostic::new(DiagnosticCode::InvalidValue, span, message)
         .because("the last of them is #31 to #33")
         .help("pass the others in common variables, #100 to #199")
 }

@@ -5,8 +5,8 @@ use std::io::BufRead;
 use glidepath_geometry::Axis;
 use glidepath_program::{Event, ItemKind};
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::dialect::fanuc::tool_variables::{ToolPart, direction, is_of_tools};
 use crate::execute::dialect::fanuc::variables::{EXTENDED, NO_VARIABLE, OF_THE_MEMORY, Variable};
@@ -50,19 +50,21 @@ impl<R: BufRead> Program<R> {
             Variable::Unknown => NO_VARIABLE,
         };
         let message = format!("#{number} cannot be assigned");
-        Err(Fault::new(DiagnosticCode::Parameter, span, message)
-            .because(why)
-            .help("use #100 to #199, or #500 to #999"))
+        Err(
+            BlockDiagnostic::new(DiagnosticCode::Parameter, span, message)
+                .because(why)
+                .help("use #100 to #199, or #500 to #999"),
+        )
     }
 
     /// An alarm of the program, with its text.
-    fn alarm(&self, number: f64, span: SourceSpan) -> Box<Fault> {
+    fn alarm(&self, number: f64, span: SourceSpan) -> Box<BlockDiagnostic> {
         let text = String::from_utf8_lossy(self.block.comment.trim_ascii()).into_owned();
         let message = match text.as_str() {
             "" => format!("the program raises alarm {number}"),
             text => format!("the program raises alarm {number}: {text}"),
         };
-        Fault::new(DiagnosticCode::Alarm, span, message)
+        BlockDiagnostic::new(DiagnosticCode::Alarm, span, message)
             .because("#3000 stops the machine: the program found something that must not be")
             .help("look at the condition in front of it")
     }

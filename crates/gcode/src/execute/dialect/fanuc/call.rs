@@ -7,8 +7,8 @@
 use std::io::BufRead;
 use std::sync::Arc;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::dialect::fanuc::arguments::CallWords;
 use crate::execute::dialect::macro_call::Arguments;
@@ -35,9 +35,11 @@ impl<R: BufRead> Program<R> {
             }
             CallCode::MacroOfEachBlock => {
                 let message = "G66.1 (a macro behind every block) is not supported";
-                return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
-                    .because("its blocks are arguments, and not words")
-                    .help("write G65 in their place"));
+                return Err(
+                    BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
+                        .because("its blocks are arguments, and not words")
+                        .help("write G65 in their place"),
+                );
             }
             CallCode::Macro | CallCode::ModalMacro | CallCode::Subprogram | CallCode::Local => {}
         }
@@ -46,9 +48,11 @@ impl<R: BufRead> Program<R> {
         let program = match (words.program, &words.name) {
             (Some(_), Some(_)) => {
                 let message = "a number and a name of the program in one call";
-                return Err(Fault::new(DiagnosticCode::AmbiguousWord, span, message)
-                    .because("they may be of two programs")
-                    .help("write P, or the name in < >"));
+                return Err(
+                    BlockDiagnostic::new(DiagnosticCode::AmbiguousWord, span, message)
+                        .because("they may be of two programs")
+                        .help("write P, or the name in < >"),
+                );
             }
             (Some(program), None) => program,
             (None, Some(name)) if call.code != CallCode::Local => {
@@ -96,9 +100,11 @@ impl<R: BufRead> Program<R> {
         if self.tape.calls.len() >= MAX_CALLS {
             let message = format!("more than {MAX_CALLS} calls in each other");
             let span = SourceSpan::default();
-            return Err(Fault::new(DiagnosticCode::CallDepth, span, message)
-                .because("the depth of calls is bounded")
-                .help("check what should end the recursion"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::CallDepth, span, message)
+                    .because("the depth of calls is bounded")
+                    .help("check what should end the recursion"),
+            );
         }
         if turns == 0 {
             return Ok(());
@@ -132,7 +138,7 @@ impl<R: BufRead> Program<R> {
         let line = self.tape.search(0, &mut self.source, wanted, |_| false)?;
         line.map(|line| TapePlace { text, line }).ok_or_else(|| {
             let message = format!("there is no block N{number} in the program");
-            Fault::new(DiagnosticCode::UnknownSubroutine, span, message)
+            BlockDiagnostic::new(DiagnosticCode::UnknownSubroutine, span, message)
                 .because("M97 calls blocks of the same program, from that number to M99")
                 .help("add the block number, or write M98 for another program")
         })
@@ -159,7 +165,7 @@ impl<R: BufRead> Program<R> {
             return Ok(());
         }
         let span = SourceSpan::new(cursor.at(), text.len());
-        Err(Fault::new(
+        Err(BlockDiagnostic::new(
             DiagnosticCode::NotSupported,
             span,
             "words behind M99 or G67",
@@ -183,9 +189,11 @@ impl<R: BufRead> Program<R> {
         let Some(call) = self.tape.calls.last_mut() else {
             let span = SourceSpan::new(code.start, code.end);
             let message = "M99 in the program itself, which would begin it again";
-            return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
-                .because("a program that repeats itself never ends")
-                .help("write M30; start the program again for the next part"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
+                    .because("a program that repeats itself never ends")
+                    .help("write M30; start the program again for the next part"),
+            );
         };
         if call.again > 0 && target.is_none() {
             call.again -= 1;
@@ -208,16 +216,18 @@ impl<R: BufRead> Program<R> {
 }
 
 /// A subprogram that runs into its end or into the next one; `text` is the line there.
-pub(super) fn not_returned(text: &[u8]) -> Box<Fault> {
+pub(super) fn not_returned(text: &[u8]) -> Box<BlockDiagnostic> {
     let span = SourceSpan::new(0, text.len());
     let message = "the subprogram is not ended";
-    Fault::new(DiagnosticCode::FlowStructure, span, message)
+    BlockDiagnostic::new(DiagnosticCode::FlowStructure, span, message)
         .because("a subprogram that was called leads back by M99")
         .help("write M99 at its end")
 }
 
 /// The lines of a file, from percent sign to percent sign.
-pub(crate) fn lines_of(file: &SubroutineFile) -> Result<Vec<TapeLine>, (Box<Fault>, SourceLine)> {
+pub(crate) fn lines_of(
+    file: &SubroutineFile,
+) -> Result<Vec<TapeLine>, (Box<BlockDiagnostic>, SourceLine)> {
     let mut source = LineSource::new(&*file.text);
     let mut lines = Vec::new();
     loop {

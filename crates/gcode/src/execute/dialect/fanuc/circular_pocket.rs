@@ -15,8 +15,8 @@ use core::f64::consts::{PI, TAU};
 use glidepath_geometry::{AxisVector, Plane};
 use glidepath_program::Item;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::settled::MIN_MOVE;
 use crate::execute::motion::speed::Pace;
@@ -39,9 +39,11 @@ impl Interpreter {
         let is_flat = self.state.modal.plane == Plane::Xy && !self.offsets.frame.is_in_force();
         if !is_flat || self.state.on_contour || self.state.leaving_contour {
             let message = "a round pocket outside G17, within a frame, or with G41 or G42 on";
-            return Err(Fault::new(DiagnosticCode::CannedCycle, span, message)
-                .because("it is made in the XY plane, with the radius of the tool taken away")
-                .help("write G17, G69, G50 and G40 before it"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::CannedCycle, span, message)
+                    .because("it is made in the XY plane, with the radius of the tool taken away")
+                    .help("write G17, G69, G50 and G40 before it"),
+            );
         }
         if let Some((axis, _)) = block.axes().find(|(axis, _)| axis.index() >= 3) {
             return Err(unused(axis.letter(), block.axis_span(axis)));
@@ -51,11 +53,13 @@ impl Interpreter {
         let incremental = self.state.modal.distance == Distance::Incremental;
         if levels > 1 && !incremental {
             let message = "L of a round pocket with absolute distances (G90)";
-            return Err(
-                Fault::new(DiagnosticCode::CannedCycle, block.span(b'L'), message)
-                    .because("with G91 Z is how much deeper each level is")
-                    .help("write G91 into the block"),
-            );
+            return Err(BlockDiagnostic::new(
+                DiagnosticCode::CannedCycle,
+                block.span(b'L'),
+                message,
+            )
+            .because("with G91 Z is how much deeper each level is")
+            .help("write G91 into the block"));
         }
         let values = self.axis_values(block)?;
         let mut center = self.offsets.to_program(self.state.position);
@@ -172,9 +176,9 @@ impl Interpreter {
 }
 
 #[cold]
-fn not_possible(block: &Block, letter: u8, what: &str) -> Box<Fault> {
+fn not_possible(block: &Block, letter: u8, what: &str) -> Box<BlockDiagnostic> {
     let message = format!("a round pocket with {what}");
-    Fault::new(DiagnosticCode::CannedCycle, block.span(letter), message)
+    BlockDiagnostic::new(DiagnosticCode::CannedCycle, block.span(letter), message)
         .because(
             "I is the radius of the first circle, K that of the last one, Q from circle to circle",
         )

@@ -2,8 +2,8 @@
 //!
 //! The machine stays where it is; the next block gives places in the new coordinates.
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::state::fanuc_offsets::{Scale, Turn};
 use crate::syntax::block::Block;
@@ -59,7 +59,7 @@ impl Interpreter {
             return Ok(());
         }
         let message = "coordinates that change with cutter radius compensation on";
-        Err(Fault::new(DiagnosticCode::CutterRadius, coded.span, message)
+        Err(BlockDiagnostic::new(DiagnosticCode::CutterRadius, coded.span, message)
             .because("the tool stands beside the programmed point, at a place that depends on the next move")
             .help("write G40 and a move before it"))
     }
@@ -91,11 +91,13 @@ impl Interpreter {
             (None, factors) => factors.map(|factor| factor.unwrap_or(1.0)),
             (Some(_), _) => {
                 let message = "both P and I, J, K in G51";
-                return Err(
-                    Fault::new(DiagnosticCode::AmbiguousWord, block.span(b'P'), message)
-                        .because("P is the factor of all axes, I, J and K are those of each")
-                        .help("write one or the other"),
-                );
+                return Err(BlockDiagnostic::new(
+                    DiagnosticCode::AmbiguousWord,
+                    block.span(b'P'),
+                    message,
+                )
+                .because("P is the factor of all axes, I, J and K are those of each")
+                .help("write one or the other"));
             }
         };
         let wrong = factors
@@ -104,7 +106,7 @@ impl Interpreter {
         if let Some(factor) = wrong {
             let message = format!("a scale of {factor}");
             return Err(
-                Fault::new(DiagnosticCode::InvalidValue, coded.span, message)
+                BlockDiagnostic::new(DiagnosticCode::InvalidValue, coded.span, message)
                     .because(format!(
                         "factors are from {} to {MAX_SCALE}",
                         1.0 / MAX_SCALE
@@ -129,7 +131,7 @@ impl Interpreter {
         if words[3..].iter().any(Option::is_some) {
             let message = "a mirror image of an axis other than X, Y or Z";
             return Err(
-                Fault::new(DiagnosticCode::NotSupported, coded.span, message)
+                BlockDiagnostic::new(DiagnosticCode::NotSupported, coded.span, message)
                     .because("rotary and parallel axes keep their coordinates")
                     .help("write X, Y or Z"),
             );
@@ -159,7 +161,7 @@ impl Interpreter {
         if plane.normal().index() >= 3 {
             let message = "G68 in a plane of U, V, W";
             return Err(
-                Fault::new(DiagnosticCode::NotSupported, coded.span, message)
+                BlockDiagnostic::new(DiagnosticCode::NotSupported, coded.span, message)
                     .because("X, Y and Z are turned")
                     .help("write G17, G18 or G19"),
             );

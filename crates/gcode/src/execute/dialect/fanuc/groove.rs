@@ -15,8 +15,8 @@
 use glidepath_geometry::AxisVector;
 use glidepath_program::Item;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::settled::MIN_MOVE;
 use crate::execute::motion::speed::Pace;
@@ -140,11 +140,13 @@ impl Interpreter {
         if step_mm <= 0.0 || length / step_mm > MOST {
             let name = char::from(letter);
             let message = format!("{name} of {step_mm} mm");
-            return Err(
-                Fault::new(DiagnosticCode::InvalidValue, block.span(letter), message)
-                    .because(format!("{name} is how far the cycle goes at a time"))
-                    .help("write a larger one: P and Q without a point count thousandths"),
-            );
+            return Err(BlockDiagnostic::new(
+                DiagnosticCode::InvalidValue,
+                block.span(letter),
+                message,
+            )
+            .because(format!("{name} is how far the cycle goes at a time"))
+            .help("write a larger one: P and Q without a point count thousandths"));
         }
         Ok(Stepped {
             axis,
@@ -195,9 +197,9 @@ impl Interpreter {
 }
 
 #[cold]
-fn too_far_aside(block: &Block, aside_mm: f64, free_mm: f64) -> Box<Fault> {
+fn too_far_aside(block: &Block, aside_mm: f64, free_mm: f64) -> Box<BlockDiagnostic> {
     let message = format!("R of {aside_mm} mm, where {free_mm:.3} mm beside the bottom are free");
-    let fault = Fault::new(DiagnosticCode::InvalidValue, block.span(b'R'), message)
+    let fault = BlockDiagnostic::new(DiagnosticCode::InvalidValue, block.span(b'R'), message)
         .because("at the bottom the tool goes aside by R, to where it has cut before");
     if free_mm > 0.0 {
         return fault.help("write a smaller R in the block with X and Z");
@@ -206,18 +208,18 @@ fn too_far_aside(block: &Block, aside_mm: f64, free_mm: f64) -> Box<Fault> {
 }
 
 #[cold]
-fn too_many(block: &Block) -> Box<Fault> {
+fn too_many(block: &Block) -> Box<BlockDiagnostic> {
     let message = "too many depths in one block";
-    Fault::new(DiagnosticCode::InvalidValue, block.motion_span(), message)
+    BlockDiagnostic::new(DiagnosticCode::InvalidValue, block.motion_span(), message)
         .because(format!("a cycle has {MOST_DEPTHS} of them at most"))
         .help("write larger steps: P and Q without a point count thousandths")
 }
 
 #[cold]
-fn both(block: &Block, letter: u8, haas: u8) -> Box<Fault> {
+fn both(block: &Block, letter: u8, haas: u8) -> Box<BlockDiagnostic> {
     let [letter, other] = [letter, haas].map(char::from);
     let message = format!("{other} beside {letter}");
-    Fault::new(DiagnosticCode::UnusedWord, block.span(haas), message)
+    BlockDiagnostic::new(DiagnosticCode::UnusedWord, block.span(haas), message)
         .because("both say how far the cycle goes at a time: one is FANUC's, the other Haas'")
         .help("write one of them")
 }

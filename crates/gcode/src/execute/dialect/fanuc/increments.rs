@@ -2,8 +2,8 @@
 
 use glidepath_geometry::{AXES, Axis};
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::axis_words::axis_value;
 use crate::syntax::block::Block;
@@ -60,11 +60,13 @@ impl Interpreter {
             if values[i].is_some() {
                 let [name, other] = [letter, AXIS_LETTERS[i]].map(char::from);
                 let message = format!("{name} beside {other}");
-                return Err(
-                    Fault::new(DiagnosticCode::AmbiguousWord, block.span(letter), message)
-                        .because(format!("{name} is the increment of {other}"))
-                        .help("write one of them"),
-                );
+                return Err(BlockDiagnostic::new(
+                    DiagnosticCode::AmbiguousWord,
+                    block.span(letter),
+                    message,
+                )
+                .because(format!("{name} is the increment of {other}"))
+                .help("write one of them"));
             }
             let is_diameter = axis == Axis::X && self.state.modal.diameter;
             let share = if is_diameter { 0.5 } else { 1.0 };

@@ -5,8 +5,8 @@
 
 use std::io::BufRead;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::execute::dialect::tape::{Finishing, TapePlace};
 use crate::execute::motion::speed::Pace;
 use crate::execute::program::Program;
@@ -26,11 +26,13 @@ impl<R: BufRead> Program<R> {
         }
         if self.finishing.is_some() {
             let message = "a cycle in the profile of another one";
-            return Err(
-                Fault::new(DiagnosticCode::CannedCycle, block.motion_span(), message)
-                    .because("a profile is drawn by G0, G1, G2 and G3 alone")
-                    .help("write it behind block Q"),
-            );
+            return Err(BlockDiagnostic::new(
+                DiagnosticCode::CannedCycle,
+                block.motion_span(),
+                message,
+            )
+            .because("a profile is drawn by G0, G1, G2 and G3 alone")
+            .help("write it behind block Q"));
         }
         let start = self.interpreter.state.position;
         if self.interpreter.compensation.is_some() {

@@ -7,8 +7,8 @@
 //!
 //! They count from the next T word on.
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::syntax::block::Block;
@@ -47,11 +47,13 @@ impl Interpreter {
         };
         if !(1..=MOST).contains(&number) {
             let message = format!("there is no offset P{number}");
-            return Err(
-                Fault::new(DiagnosticCode::InvalidValue, block.span(b'P'), message)
-                    .because("P1 to P99 are wear, P10001 to P10099 the offsets of the table")
-                    .help("write one of these"),
-            );
+            return Err(BlockDiagnostic::new(
+                DiagnosticCode::InvalidValue,
+                block.span(b'P'),
+                message,
+            )
+            .because("P1 to P99 are wear, P10001 to P10099 the offsets of the table")
+            .help("write one of these"));
         }
         if !block.has_any(Letters::of(b"XZUWRQ")) {
             return Err(missing(

@@ -18,8 +18,8 @@ use std::io::BufRead;
 
 use glidepath_geometry::Plane;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::lathe_cycle::open::{LatheCycleWords, OpenLatheCycle};
@@ -181,9 +181,11 @@ impl<R: BufRead> Program<R> {
             .or_else(|| angle.map(|angle| angle.span));
         if let Some(span) = span {
             let message = "an angle, or an axis of rotation, in the profile of a cycle";
-            return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
-                .because("a profile is drawn by ends and arcs, chamfers and rounded corners")
-                .help("write the coordinates of the end"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
+                    .because("a profile is drawn by ends and arcs, chamfers and rounded corners")
+                    .help("write the coordinates of the end"),
+            );
         }
         profile.add(&self.block, &self.interpreter)
     }
@@ -209,9 +211,11 @@ fn last_cut(block: &Block, mm: f64) -> Outcome<Option<[f64; 2]>> {
 /// that say how these two count.
 fn check_alone(block: &Block) -> Outcome<()> {
     let refuse = |span: SourceSpan, message: &str, reason: &str| {
-        Err(Fault::new(DiagnosticCode::NotSupported, span, message)
-            .because(reason)
-            .help("write it into a block before the cycle"))
+        Err(
+            BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
+                .because(reason)
+                .help("write it into a block before the cycle"),
+        )
     };
     if block.get(b'T').is_some() {
         return refuse(
@@ -237,9 +241,9 @@ fn check_alone(block: &Block) -> Outcome<()> {
 }
 
 #[cold]
-fn statement_in_profile(span: SourceSpan) -> Box<Fault> {
+fn statement_in_profile(span: SourceSpan) -> Box<BlockDiagnostic> {
     let message = "a statement in the profile of a cycle";
-    Fault::new(DiagnosticCode::NotSupported, span, message)
+    BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
         .because("a profile is drawn by G0, G1, G2 and G3 alone")
         .help("write its blocks out")
 }
@@ -357,7 +361,7 @@ impl Interpreter {
         let message =
             "a cycle along a profile outside the ZX plane, or roughing with G41 or G42 on";
         Err(
-            Fault::new(DiagnosticCode::CannedCycle, block.motion_span(), message)
+            BlockDiagnostic::new(DiagnosticCode::CannedCycle, block.motion_span(), message)
                 .because("its profile is drawn in Z and X, for the tip of the tool")
                 .help("write G18 and G40 before it"),
         )

@@ -4,7 +4,7 @@
 
 use std::io::BufRead;
 
-use crate::diagnostic::fault::Outcome;
+use crate::diagnostic::block_diagnostic::Outcome;
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::dialect::fanuc::statement::fault;
 use crate::execute::program::Program;

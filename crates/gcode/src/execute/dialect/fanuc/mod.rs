@@ -35,8 +35,8 @@ mod turning;
 mod turret;
 pub(crate) mod variables;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::setup::tool_table::MAX_TOOL;
@@ -86,7 +86,7 @@ impl Interpreter {
         }
         let message = format!("look-ahead without {}", char::from(word));
         Err(
-            Fault::new(DiagnosticCode::NotSupported, coded.span, message)
+            BlockDiagnostic::new(DiagnosticCode::NotSupported, coded.span, message)
                 .because("the code has other meanings with other words, which are not made")
                 .help(format!(
                     "write {}0 or {}1 behind it",
@@ -98,9 +98,9 @@ impl Interpreter {
 }
 
 #[cold]
-fn another_radius(span: SourceSpan) -> Box<Fault> {
+fn another_radius(span: SourceSpan) -> Box<BlockDiagnostic> {
     let message = "another radius with cutter radius compensation on";
-    Fault::new(DiagnosticCode::CutterRadius, span, message)
+    BlockDiagnostic::new(DiagnosticCode::CutterRadius, span, message)
         .because(
             "the tool stands beside the programmed point, at a place that depends on the next move",
         )

@@ -3,8 +3,8 @@
 
 use std::io::BufRead;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::dialect::macro_call::{Arguments, ModalMacro};
 use crate::execute::dialect::tape::TapePlace;
@@ -21,9 +21,11 @@ impl<R: BufRead> Program<R> {
     ) -> Outcome<()> {
         if self.modal_macro.is_some() {
             let message = "a second G66 before G67";
-            return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
-                .because("macros that call each other behind their moves are not made")
-                .help("write G67 before it"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
+                    .because("macros that call each other behind their moves are not made")
+                    .help("write G67 before it"),
+            );
         }
         self.modal_macro = Some(ModalMacro {
             first,
@@ -46,9 +48,11 @@ impl<R: BufRead> Program<R> {
             return Ok(());
         }
         let message = "a move in the block of a call while G66 is in force";
-        Err(Fault::new(DiagnosticCode::NotSupported, span, message)
-            .because("the macro of G66 is called behind it, before the call of its block")
-            .help("write the move into a block before the call"))
+        Err(
+            BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
+                .because("the macro of G66 is called behind it, before the call of its block")
+                .help("write the move into a block before the call"),
+        )
     }
 
     /// Calls the macro behind a block that moved.

@@ -6,8 +6,8 @@
 use std::io::BufRead;
 use std::sync::Arc;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::dialect::fanuc::call::lines_of;
 use crate::execute::dialect::tape::TapePlace;
@@ -85,9 +85,9 @@ impl<R: BufRead> Program<R> {
     }
 }
 
-fn unknown(name: &str, span: SourceSpan) -> Box<Fault> {
+fn unknown(name: &str, span: SourceSpan) -> Box<BlockDiagnostic> {
     let message = format!("there is no program <{name}>");
-    Fault::new(DiagnosticCode::UnknownSubroutine, span, message)
+    BlockDiagnostic::new(DiagnosticCode::UnknownSubroutine, span, message)
         .because("it is not in the text of its caller, and no file of that name was found")
         .help("copy it behind the end of this program, or give the folder of its file: --subroutine-path, or `subroutine_path` of [program]")
 }

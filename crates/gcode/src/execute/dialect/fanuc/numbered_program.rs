@@ -8,8 +8,8 @@
 use std::io::BufRead;
 use std::sync::Arc;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::dialect::fanuc::arguments::CallWords;
 use crate::execute::dialect::fanuc::call::lines_of;
@@ -128,9 +128,11 @@ impl<R: BufRead> Program<R> {
             return Ok(());
         };
         let message = format!("there are two programs O{program}");
-        Err(Fault::new(DiagnosticCode::AmbiguousWord, span, message)
-            .because(format!("the second one begins in line {number}"))
-            .help("remove one of them, or give it another number"))
+        Err(
+            BlockDiagnostic::new(DiagnosticCode::AmbiguousWord, span, message)
+                .because(format!("the second one begins in line {number}"))
+                .help("remove one of them, or give it another number"),
+        )
     }
 
     /// The program of that number in a file of its own.
@@ -173,20 +175,22 @@ impl<R: BufRead> Program<R> {
             }),
             None if others => {
                 let message = format!("{} has other programs than O{program}", file.name);
-                Err(Fault::new(DiagnosticCode::UnknownSubroutine, span, message)
-                    .because("the O numbers in a file say which programs it has")
-                    .help(format!(
-                        "write O{program} at its beginning, or remove the O numbers"
-                    )))
+                Err(
+                    BlockDiagnostic::new(DiagnosticCode::UnknownSubroutine, span, message)
+                        .because("the O numbers in a file say which programs it has")
+                        .help(format!(
+                            "write O{program} at its beginning, or remove the O numbers"
+                        )),
+                )
             }
             None => Ok(TapePlace { text, line: 0 }),
         }
     }
 }
 
-fn unknown(program: u32, span: SourceSpan, looked_in: &[String]) -> Box<Fault> {
+fn unknown(program: u32, span: SourceSpan, looked_in: &[String]) -> Box<BlockDiagnostic> {
     let message = format!("there is no program O{program}");
-    let fault = Fault::new(DiagnosticCode::UnknownSubroutine, span, message);
+    let fault = BlockDiagnostic::new(DiagnosticCode::UnknownSubroutine, span, message);
     let fault = if looked_in.is_empty() {
         fault.because(
             "it is not in the text of its caller, and there is no folder to look for it in",

@@ -11,8 +11,8 @@ use std::sync::Arc;
 
 use glidepath_geometry::{AXES, AxisVector};
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::block_words::{require_axes, takes_number};
 use crate::execute::interpreter::Interpreter;
@@ -51,7 +51,7 @@ impl Interpreter {
             _ => {
                 let message = format!("G10 L{kind} is not supported");
                 Err(
-                    Fault::new(DiagnosticCode::NotSupported, block.span(b'L'), message)
+                    BlockDiagnostic::new(DiagnosticCode::NotSupported, block.span(b'L'), message)
                         .because(
                             "work offsets (L2, L20) and tools (L10 to L13) can be set; what others \
                              set differs from control to control",
@@ -154,7 +154,7 @@ impl Interpreter {
             written.ok_or_else(|| missing(span, "G54.1", "P", "the number of the work offset"))?;
         if !self.offsets.fanuc.extended.contains_key(&number) {
             let message = format!("the work offset of G54.1 P{number} was not set");
-            return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
+            return Err(BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
                 .because(
                     "the machine keeps G54 to G59, and a program has those of G54.1 that it sets",
                 )

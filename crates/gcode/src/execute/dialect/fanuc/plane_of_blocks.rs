@@ -10,8 +10,8 @@
 use glidepath_geometry::AxisVector;
 use nalgebra::Vector3;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::state::frame::Frame;
@@ -106,11 +106,13 @@ impl Interpreter {
         let turn_deg = block.get(b'R').unwrap_or(0.0);
         if shift.norm() > 0.0 && turn_deg.abs() > 0.0 {
             let message = "a way and R in one plane by points";
-            return Err(
-                Fault::new(DiagnosticCode::AmbiguousWord, block.span(b'R'), message)
-                    .because("whether the way counts before the turn or behind it is not known")
-                    .help("write another first point, or other points instead of R"),
-            );
+            return Err(BlockDiagnostic::new(
+                DiagnosticCode::AmbiguousWord,
+                block.span(b'R'),
+                message,
+            )
+            .because("whether the way counts before the turn or behind it is not known")
+            .help("write another first point, or other points instead of R"));
         }
         Ok(OpenPlane::Points {
             shift,
@@ -164,9 +166,11 @@ fn by_points(open: &OpenPlane, third: Vector3<f64>, span: SourceSpan) -> Outcome
     let is_near = along.norm() < APART_MM || aside.norm() < APART_MM;
     if is_near || normal.norm() < LEAST_SINE * lengths {
         let message = "three points that give no plane";
-        return Err(Fault::new(DiagnosticCode::InvalidValue, span, message)
-            .because("they are on one line, or two of them are one point")
-            .help("write three corners of the plane"));
+        return Err(
+            BlockDiagnostic::new(DiagnosticCode::InvalidValue, span, message)
+                .because("they are on one line, or two of them are one point")
+                .help("write three corners of the plane"),
+        );
     }
     Ok(Frame::shifted(lengths_of(&first))
         .with(&Frame::of_axes(&along.normalize(), &normal.normalize()))
@@ -183,9 +187,11 @@ fn by_directions(
 ) -> Outcome<Frame> {
     if x.dot(z).abs() > MOST_COSINE {
         let message = "directions of X and Z that are not at right angles";
-        return Err(Fault::new(DiagnosticCode::InvalidValue, span, message)
-            .because("the axes of a plane are")
-            .help("correct I, J and K of Q1 or of Q2"));
+        return Err(
+            BlockDiagnostic::new(DiagnosticCode::InvalidValue, span, message)
+                .because("the axes of a plane are")
+                .help("correct I, J and K of Q1 or of Q2"),
+        );
     }
     // What digits have left out is taken from X.
     let x = (x - z * x.dot(z)).normalize();
@@ -200,16 +206,16 @@ fn lengths_of(place: &Vector3<f64>) -> AxisVector {
     lengths
 }
 
-fn out_of_order(block: &Block) -> Box<Fault> {
+fn out_of_order(block: &Block) -> Box<BlockDiagnostic> {
     let message = "a block of a plane that does not follow the one before it";
-    Fault::new(DiagnosticCode::NotSupported, block.span(b'Q'), message)
+    BlockDiagnostic::new(DiagnosticCode::NotSupported, block.span(b'Q'), message)
         .because("three points are P2 with Q1, Q2 and Q3, Q0 may stand before them; two directions are P3 with Q1 and Q2")
         .help("write them in this order, one behind the other")
 }
 
-fn incomplete(span: SourceSpan) -> Box<Fault> {
+fn incomplete(span: SourceSpan) -> Box<BlockDiagnostic> {
     let message = "a tilted plane whose blocks are not complete";
-    Fault::new(DiagnosticCode::NotSupported, span, message)
+    BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
         .because("G68.2 P2 has three points, Q1 to Q3, and P3 two directions, Q1 and Q2")
         .help("write the blocks of G68.2 one behind the other, or G69, which gives the plane up")
 }

@@ -5,7 +5,7 @@
 
 use glidepath_geometry::AXES;
 
-use crate::diagnostic::fault::Outcome;
+use crate::diagnostic::block_diagnostic::Outcome;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::axis_words::axis_value;
 use crate::execute::state::fanuc_modal::Polar;

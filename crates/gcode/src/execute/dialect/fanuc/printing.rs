@@ -9,8 +9,8 @@
 
 use std::io::BufRead;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::dialect::fanuc::variables::is_common;
 use crate::execute::parameters::place_of_name;
@@ -64,7 +64,7 @@ impl<R: BufRead> Program<R> {
                     let [before, behind] = digits(&mut cursor).ok_or_else(|| {
                         let span = SourceSpan::new(start, cursor.at().max(start + 1));
                         let message = "a variable without its digits";
-                        Fault::new(DiagnosticCode::Expression, span, message)
+                        BlockDiagnostic::new(DiagnosticCode::Expression, span, message)
                             .because("behind it stand two digits in brackets: how many are printed in front of the point, and behind it")
                             .help("write #100[53], for example")
                     })?;
@@ -108,7 +108,7 @@ impl<R: BufRead> Program<R> {
             if !is_name || !is_common(number) {
                 let shown = String::from_utf8_lossy(name).into_owned();
                 let message = format!("`{shown}` as a name of #{number}");
-                return Err(Fault::new(DiagnosticCode::Parameter, span, message)
+                return Err(BlockDiagnostic::new(DiagnosticCode::Parameter, span, message)
                     .because("names begin with a letter, have 8 characters at most, and are of #100 to #199 and #500 to #999")
                     .help("write another name, or another variable"));
             }
@@ -149,9 +149,9 @@ fn formatted(number: f64, before: usize, behind: usize) -> String {
 }
 
 #[cold]
-fn not_closed(from: usize, to: usize) -> Box<Fault> {
+fn not_closed(from: usize, to: usize) -> Box<BlockDiagnostic> {
     let span = SourceSpan::new(from, to.max(from + 1));
-    Fault::new(
+    BlockDiagnostic::new(
         DiagnosticCode::Expression,
         span,
         "the brackets are not complete",

@@ -5,8 +5,8 @@
 
 use std::io::BufRead;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::execute::program::Program;
 use crate::syntax::block::Block;
 use crate::syntax::dialect::fanuc::{is_label, is_numbered};
@@ -33,11 +33,13 @@ impl<R: BufRead> Program<R> {
         let behind = self.tape.search_back(index, begins, is_label);
         if is_finish && ahead.is_some() && behind.is_some() {
             let message = format!("there are two blocks N{first}, in front of G70 and behind it");
-            return Err(
-                Fault::new(DiagnosticCode::AmbiguousWord, block.span(b'P'), message)
-                    .because("no cycle in front of it has cut one of the two profiles")
-                    .help("give one of them another number"),
-            );
+            return Err(BlockDiagnostic::new(
+                DiagnosticCode::AmbiguousWord,
+                block.span(b'P'),
+                message,
+            )
+            .because("no cycle in front of it has cut one of the two profiles")
+            .help("give one of them another number"));
         }
         let begin = ahead.or(behind);
         let end = match begin {
@@ -57,7 +59,7 @@ impl<R: BufRead> Program<R> {
             _ => {
                 let message = format!("there are no blocks N{first} to N{last} in the program");
                 Err(
-                    Fault::new(DiagnosticCode::FlowStructure, block.span(b'P'), message)
+                    BlockDiagnostic::new(DiagnosticCode::FlowStructure, block.span(b'P'), message)
                         .because("they are the profile of the cycle")
                         .help("write N and the numbers of P and Q in front of its first and last block"),
                 )

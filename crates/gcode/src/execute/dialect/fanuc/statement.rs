@@ -5,8 +5,8 @@
 
 use std::io::BufRead;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::dialect::fanuc::call::not_returned;
 use crate::execute::program::{Program, is_percent};
@@ -66,8 +66,8 @@ fn without_deleted(text: &[u8]) -> &[u8] {
     }
 }
 
-pub(super) fn fault(span: SourceSpan, message: impl Into<String>) -> Box<Fault> {
-    Fault::new(DiagnosticCode::FlowStructure, span, message)
+pub(super) fn fault(span: SourceSpan, message: impl Into<String>) -> Box<BlockDiagnostic> {
+    BlockDiagnostic::new(DiagnosticCode::FlowStructure, span, message)
         .because("IF, WHILE, GOTO and the calls have a line of their own each, in a fixed form")
 }
 

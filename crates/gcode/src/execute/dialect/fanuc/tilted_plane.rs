@@ -11,8 +11,8 @@
 use glidepath_geometry::AxisVector;
 use glidepath_program::Item;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::tilted_plane::Branch;
 use crate::execute::state::frame::Frame;
@@ -38,7 +38,8 @@ impl Interpreter {
         let words = self.axis_values(block)?;
         if let Some((axis, _)) = block.axes().find(|(axis, _)| axis.index() >= 3) {
             let message = format!("{axis} in G68.2");
-            let fault = Fault::new(DiagnosticCode::UnusedWord, block.axis_span(axis), message);
+            let fault =
+                BlockDiagnostic::new(DiagnosticCode::UnusedWord, block.axis_span(axis), message);
             return Err(fault
                 .because("X, Y and Z are the zero of the plane, I, J and K its angles")
                 .help("move the axis in a block before it"));
@@ -54,7 +55,8 @@ impl Interpreter {
             1 => about(2, k).with(&about(1, j)).with(&about(0, i)),
             _ => {
                 let message = format!("G68.2 P{form} is not supported");
-                let fault = Fault::new(DiagnosticCode::NotSupported, block.span(b'P'), message);
+                let fault =
+                    BlockDiagnostic::new(DiagnosticCode::NotSupported, block.span(b'P'), message);
                 return Err(fault
                     .because("a plane by projected angles is not made")
                     .help("write its zero and the angles I, J and K, or three points (P2)"));
@@ -82,7 +84,8 @@ impl Interpreter {
             Some(2) => Branch::LowTilt,
             Some(which) => {
                 let message = format!("G53.1 P{which} is not supported");
-                let fault = Fault::new(DiagnosticCode::NotSupported, block.span(b'P'), message);
+                let fault =
+                    BlockDiagnostic::new(DiagnosticCode::NotSupported, block.span(b'P'), message);
                 return Err(fault
                     .because("P1 is the way with the greater angle of the tilting axis, P2 the other one")
                     .help("write P0, P1 or P2"));
@@ -99,7 +102,7 @@ impl Interpreter {
         }
         let refuse = |message: &str, reason: &str, help: &str| {
             Err(
-                Fault::new(DiagnosticCode::NotSupported, coded.span, message)
+                BlockDiagnostic::new(DiagnosticCode::NotSupported, coded.span, message)
                     .because(reason)
                     .help(help),
             )
@@ -142,7 +145,8 @@ impl Interpreter {
             return Ok(());
         };
         let message = format!("{axis} moves while G254 is in force");
-        let fault = Fault::new(DiagnosticCode::NotSupported, block.axis_span(axis), message);
+        let fault =
+            BlockDiagnostic::new(DiagnosticCode::NotSupported, block.axis_span(axis), message);
         Err(fault
             .because("the zero of the program is that of the table where G254 stood")
             .help("write G255 before the move, and G254 behind it"))

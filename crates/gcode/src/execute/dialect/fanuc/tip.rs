@@ -1,7 +1,7 @@
 //! TRAORI and TRAFOOF of SINUMERIK.
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::execute::interpreter::Interpreter;
 use crate::syntax::codes::Coded;
 
@@ -11,7 +11,7 @@ impl Interpreter {
         if coded.code && self.options.five_axis.is_none() {
             let message = "TRAORI (tool orientation) is not supported by this machine";
             return Err(
-                Fault::new(DiagnosticCode::NotSupported, coded.span, message)
+                BlockDiagnostic::new(DiagnosticCode::NotSupported, coded.span, message)
                     .because("its kinematics have no rotary axes that turn the tool or the table")
                     .help(
                         "configure `kinematics = \"five-axis\"`, or let the CAM system write the \
@@ -22,7 +22,7 @@ impl Interpreter {
         if self.state.tilted.is_some() {
             let message = "TRAORI or TRAFOOF in a swivelled plane";
             return Err(
-                Fault::new(DiagnosticCode::NotSupported, coded.span, message)
+                BlockDiagnostic::new(DiagnosticCode::NotSupported, coded.span, message)
                     .because("the tip is followed there until the plane ends")
                     .help("write CYCLE800() before it"),
             );
@@ -42,7 +42,7 @@ impl Interpreter {
         }
         let message = "a tool with an offset in X or Y where the tip is followed";
         Err(
-            Fault::new(DiagnosticCode::NotSupported, coded.span, message)
+            BlockDiagnostic::new(DiagnosticCode::NotSupported, coded.span, message)
                 .because("the tip is followed along the axis of the spindle")
                 .help("write the length alone into the tool table"),
         )

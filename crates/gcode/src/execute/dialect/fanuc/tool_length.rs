@@ -2,8 +2,8 @@
 
 use glidepath_geometry::AxisVector;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::state::tip::{Tilt, Tip};
 use crate::setup::tool_table::MAX_TOOL;
@@ -50,7 +50,7 @@ impl Interpreter {
         if follows && self.state.tilted.is_some() {
             let message = "G43.4 in a tilted plane";
             return Err(
-                Fault::new(DiagnosticCode::NotSupported, coded.span, message)
+                BlockDiagnostic::new(DiagnosticCode::NotSupported, coded.span, message)
                     .because(
                         "the tip is followed there already, and the tool stands along its normal",
                     )
@@ -81,9 +81,13 @@ impl Interpreter {
         };
         if self.options.five_axis.is_some() {
             let message = "H without G43 or G43.4";
-            return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
-                .because("whether the length counts along Z or along the tool is said by the code")
-                .help("write the code into the block"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
+                    .because(
+                        "whether the length counts along Z or along the tool is said by the code",
+                    )
+                    .help("write the code into the block"),
+            );
         }
         let code = if sign < 0.0 {
             ToolLength::Subtract
@@ -113,9 +117,9 @@ impl Interpreter {
 }
 
 #[cold]
-fn keeps_no_tip(coded: Coded<ToolLength>) -> Box<Fault> {
+fn keeps_no_tip(coded: Coded<ToolLength>) -> Box<BlockDiagnostic> {
     let message = "tool centre point control is not supported by this machine";
-    Fault::new(DiagnosticCode::NotSupported, coded.span, message)
+    BlockDiagnostic::new(DiagnosticCode::NotSupported, coded.span, message)
         .because("its kinematics have no rotary axes that turn the tool or the table")
         .help(
             "configure `kinematics = \"five-axis\"`, or let the CAM system write the positions of \

@@ -15,8 +15,8 @@
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_program::Item;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::speed::Pace;
 use crate::execute::state::fanuc_modal::TurningWords;
@@ -85,7 +85,7 @@ impl Interpreter {
         if block.get(own).is_some() && block.get(b'R').is_some() {
             let message = format!("{} beside R", char::from(own));
             let code = DiagnosticCode::AmbiguousWord;
-            return Err(Fault::new(code, block.span(own), message)
+            return Err(BlockDiagnostic::new(code, block.span(own), message)
                 .because("both are the taper of the pass")
                 .help("write one of them"));
         }

@@ -6,8 +6,8 @@
 use glidepath_geometry::AxisVector;
 use glidepath_program::{Event, Item, ItemKind};
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::execute::interpreter::Interpreter;
 use crate::syntax::block::Block;
 use crate::syntax::word_check::whole;
@@ -21,7 +21,7 @@ impl Interpreter {
         if let Some(coded) = block.codes.tool_change.filter(|coded| coded.code != 6) {
             let message = format!("M{} on a lathe", coded.code);
             return Err(
-                Fault::new(DiagnosticCode::NotSupported, coded.span, message)
+                BlockDiagnostic::new(DiagnosticCode::NotSupported, coded.span, message)
                     .because("T alone changes the tool of a turret")
                     .help("write T0101"),
             );
@@ -33,11 +33,13 @@ impl Interpreter {
         let length = self.tool_of(offset, block.span(b'T'))?;
         if self.state.on_contour {
             let message = "another tool or offset with compensation of the radius on";
-            return Err(
-                Fault::new(DiagnosticCode::CutterRadius, block.span(b'T'), message)
-                    .because("where the tool is would not be clear")
-                    .help("write G40 and a move before it"),
-            );
+            return Err(BlockDiagnostic::new(
+                DiagnosticCode::CutterRadius,
+                block.span(b'T'),
+                message,
+            )
+            .because("where the tool is would not be clear")
+            .help("write G40 and a move before it"));
         }
         let before = self.offsets.tool;
         self.offsets.tool = AxisVector::zeros();

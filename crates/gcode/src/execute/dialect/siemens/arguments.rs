@@ -1,7 +1,7 @@
 //! The arguments of a call of a cycle, and the levels that all cycles have.
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::dialect::siemens::steps::CycleCall;
 use crate::syntax::word_check::missing;
@@ -80,9 +80,9 @@ impl Arguments<'_> {
         })
     }
 
-    pub(super) fn refused(&self, message: impl Into<String>, reason: &str) -> Box<Fault> {
+    pub(super) fn refused(&self, message: impl Into<String>, reason: &str) -> Box<BlockDiagnostic> {
         let message = format!("{}: {}", self.call.name, message.into());
-        Fault::new(DiagnosticCode::CannedCycle, self.span, message).because(reason)
+        BlockDiagnostic::new(DiagnosticCode::CannedCycle, self.span, message).because(reason)
     }
 
     /// The levels: RTP, RFP, SDIS, DP, and DPR if the cycle has one.

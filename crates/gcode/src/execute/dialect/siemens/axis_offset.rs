@@ -8,8 +8,8 @@ use std::io::BufRead;
 
 use glidepath_geometry::AxisVector;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::dialect::siemens::frames::{FrameValue, check_shift};
 use crate::execute::dialect::siemens::steps::ShiftParts;
@@ -66,7 +66,7 @@ impl<R: BufRead> Program<R> {
         let code = if is_fine { "G59" } else { "G58" };
         if state.on_contour {
             let message = format!("{code} with cutter radius compensation on");
-            return Err(Fault::new(DiagnosticCode::CutterRadius, name, message)
+            return Err(BlockDiagnostic::new(DiagnosticCode::CutterRadius, name, message)
                 .because("the tool stands beside the programmed point, at a place that depends on the next move")
                 .help("write G40 and a move before it"));
         }
@@ -78,9 +78,11 @@ impl<R: BufRead> Program<R> {
         let Some(mut parts) = self.shift_parts().filter(|_| !is_tilted) else {
             let message =
                 format!("{code} in a frame whose shift was turned, or that is not its own");
-            return Err(Fault::new(DiagnosticCode::NotSupported, name, message)
-                .because("which part of the offset it would change cannot be told")
-                .help("write TRANS and what is to be in force anew"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::NotSupported, name, message)
+                    .because("which part of the offset it would change cannot be told")
+                    .help("write TRANS and what is to be in force anew"),
+            );
         };
         let to = self.shift(&values)?.shift;
         let part = if is_fine {

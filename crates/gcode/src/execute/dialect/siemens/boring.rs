@@ -5,7 +5,7 @@
 //! | 87, 88 | feed, with the spindle on (SDIR 3 or 4) | –, dwell DTB; the spindle stops, and the program (M0) | rapid |
 //! | 89 | feed | dwell DTB | feed to SDIS, rapid from there |
 
-use crate::diagnostic::fault::Outcome;
+use crate::diagnostic::block_diagnostic::Outcome;
 use crate::execute::dialect::siemens::arguments::Arguments;
 use crate::execute::dialect::siemens::lines::Lines;
 use crate::execute::interpreter::Interpreter;

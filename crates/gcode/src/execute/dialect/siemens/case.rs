@@ -2,7 +2,7 @@
 
 use std::io::BufRead;
 
-use crate::diagnostic::fault::Outcome;
+use crate::diagnostic::block_diagnostic::Outcome;
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::dialect::siemens::flow::{check_end, fault};
 use crate::execute::program::Program;
@@ -74,7 +74,7 @@ fn jump_ahead(input: &mut Evaluator<'_>) -> Outcome<Jump> {
     Ok((way, target, at))
 }
 
-fn form(start: usize, end: usize) -> Box<crate::diagnostic::fault::Fault> {
+fn form(start: usize, end: usize) -> Box<crate::diagnostic::block_diagnostic::BlockDiagnostic> {
     let span = SourceSpan::new(start, end.max(start + 1));
     fault(span, "CASE in another form")
         .help("write CASE (value) OF 1 GOTOF A 2 GOTOF B DEFAULT GOTOF C")

@@ -1,6 +1,6 @@
 //! POCKET4: a circular pocket, cleared in circles from its centre outwards.
 
-use crate::diagnostic::fault::Outcome;
+use crate::diagnostic::block_diagnostic::Outcome;
 use crate::execute::dialect::siemens::arguments::Arguments;
 use crate::execute::dialect::siemens::lines::Lines;
 use crate::execute::dialect::siemens::pocket::{Insertion, Places, Pocket};

@@ -24,8 +24,8 @@ use std::io::BufRead;
 
 use glidepath_geometry::Axis;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::dialect::siemens::arguments::Arguments;
 use crate::execute::dialect::siemens::lines::Lines;
@@ -78,7 +78,7 @@ pub(super) fn coordinate(interpreter: &Interpreter, axis: Axis) -> f64 {
 }
 
 #[cold]
-pub(super) fn diameters(arguments: Arguments<'_>, what: &str) -> Box<Fault> {
+pub(super) fn diameters(arguments: Arguments<'_>, what: &str) -> Box<BlockDiagnostic> {
     arguments
         .refused(
             format!("{what}, where X counts diameters"),
@@ -122,11 +122,13 @@ impl<R: BufRead> Program<R> {
         .settle(&mut arguments)?;
         if !input.is_at_end() {
             let span = SourceSpan::new(input.at, text.len());
-            return Err(
-                Fault::new(DiagnosticCode::UnusedWord, span, "text behind a cycle")
-                    .because("a cycle has a line of its own")
-                    .help("write it into a line of its own"),
-            );
+            return Err(BlockDiagnostic::new(
+                DiagnosticCode::UnusedWord,
+                span,
+                "text behind a cycle",
+            )
+            .because("a cycle has a line of its own")
+            .help("write it into a line of its own"));
         }
         Ok((CycleCall { name, arguments }, span))
     }

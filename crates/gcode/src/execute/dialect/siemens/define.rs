@@ -2,8 +2,8 @@
 
 use std::io::BufRead;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::dialect::siemens::flow::check_end;
 use crate::execute::program::Program;
@@ -97,9 +97,11 @@ fn length_ahead(input: &mut Evaluator<'_>) -> Outcome<usize> {
         _ => {
             let span = SourceSpan::new(start, input.at);
             let message = "the length of a text is not possible";
-            Err(Fault::new(DiagnosticCode::Parameter, span, message)
-                .because(format!("a text has 1 to {MAX_TEXT} bytes"))
-                .help("write one such number in the brackets"))
+            Err(
+                BlockDiagnostic::new(DiagnosticCode::Parameter, span, message)
+                    .because(format!("a text has 1 to {MAX_TEXT} bytes"))
+                    .help("write one such number in the brackets"),
+            )
         }
     }
 }
@@ -119,7 +121,7 @@ fn text_ahead(input: &mut Evaluator<'_>) -> Outcome<DefinedText> {
     let value = if input.eat(b'=') {
         if !sizes.is_empty() || !input.is_text_next() {
             let message = "a variable of texts that no text is given to";
-            return Err(Fault::new(DiagnosticCode::Parameter, span, message)
+            return Err(BlockDiagnostic::new(DiagnosticCode::Parameter, span, message)
                 .because(
                     "behind DEF STRING and the name of a single variable stands a text in quotes",
                 )
@@ -195,7 +197,7 @@ fn kind_ahead(input: &mut Evaluator<'_>) -> Outcome<Kind> {
             b"AXIS" => "write the letter of the axis itself",
             _ => "use one of these",
         };
-        Fault::new(DiagnosticCode::NotSupported, span, message)
+        BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
             .because("variables are REAL, INT, BOOL or STRING, and of this program")
             .help(help)
     })
@@ -211,11 +213,13 @@ fn sizes(input: &mut Evaluator<'_>) -> Outcome<Vec<usize>> {
         let span = SourceSpan::new(start, input.at);
         if !(1.0..=MAX_SIZE).contains(&size) || size.fract() != 0.0 {
             let message = format!("an array of {size} elements");
-            return Err(Fault::new(DiagnosticCode::Parameter, span, message)
-                .because(format!(
-                    "it has a whole number of them along each dimension, 1 to {MAX_SIZE}"
-                ))
-                .help("write another size"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::Parameter, span, message)
+                    .because(format!(
+                        "it has a whole number of them along each dimension, 1 to {MAX_SIZE}"
+                    ))
+                    .help("write another size"),
+            );
         }
         #[expect(
             clippy::cast_possible_truncation,
@@ -228,17 +232,19 @@ fn sizes(input: &mut Evaluator<'_>) -> Outcome<Vec<usize>> {
         }
         if sizes.len() >= MAX_DIMENSIONS || !input.eat(b',') {
             let message = "the sizes of an array are not closed";
-            return Err(Fault::new(DiagnosticCode::Expression, span, message)
-                .because(format!("an array has {MAX_DIMENSIONS} dimensions at most"))
-                .help("add `]`"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::Expression, span, message)
+                    .because(format!("an array has {MAX_DIMENSIONS} dimensions at most"))
+                    .help("add `]`"),
+            );
         }
     }
 }
 
 #[cold]
-fn no_values(span: SourceSpan) -> Box<Fault> {
+fn no_values(span: SourceSpan) -> Box<BlockDiagnostic> {
     let message = "an array that one value is given to";
-    Fault::new(DiagnosticCode::Parameter, span, message)
+    BlockDiagnostic::new(DiagnosticCode::Parameter, span, message)
         .because("each element has a value of its own")
         .help("write SET(a, b, …), or REP(a) for the same in all")
 }

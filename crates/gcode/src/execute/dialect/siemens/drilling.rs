@@ -14,7 +14,7 @@
 //! more, 7 mm at most). Of strokes as long as DAM the last two are alike. Of DAM below zero the
 //! negative is the part of a stroke that the next one has.
 
-use crate::diagnostic::fault::Outcome;
+use crate::diagnostic::block_diagnostic::Outcome;
 use crate::execute::dialect::siemens::arguments::{Arguments, Levels};
 use crate::execute::dialect::siemens::cycle::{coordinate, plane_axes};
 use crate::execute::dialect::siemens::lines::Lines;

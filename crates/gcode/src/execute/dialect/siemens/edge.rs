@@ -6,8 +6,8 @@
 
 use glidepath_geometry::AxisVector;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::state::tip::Tip;
@@ -37,9 +37,11 @@ impl Interpreter {
         };
         if edge > 1 {
             let message = format!("D{edge} is not supported");
-            return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
-                .because("a tool of the table has one edge, which is D1")
-                .help("give the edge a tool number of its own"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
+                    .because("a tool of the table has one edge, which is D1")
+                    .help("give the edge a tool number of its own"),
+            );
         }
         let tool = if edge == 0 {
             Tool::default()

@@ -2,8 +2,8 @@
 
 use std::io::BufRead;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::program::Program;
 use crate::syntax::dialect::siemens::expression::Evaluator;
@@ -14,8 +14,8 @@ use crate::syntax::dialect::siemens::variables::Kind;
 use crate::syntax::expression::scope::{Parameter, Scope};
 use crate::syntax::word_check::missing;
 
-pub(super) fn fault(span: SourceSpan, message: impl Into<String>) -> Box<Fault> {
-    Fault::new(DiagnosticCode::FlowStructure, span, message)
+pub(super) fn fault(span: SourceSpan, message: impl Into<String>) -> Box<BlockDiagnostic> {
+    BlockDiagnostic::new(DiagnosticCode::FlowStructure, span, message)
         .because("structures nest, each with its own end, and each statement has a line of its own")
 }
 
@@ -325,10 +325,10 @@ impl<R: BufRead> Program<R> {
     }
 }
 
-fn no_target(target: &[u8], at: usize) -> Box<Fault> {
+fn no_target(target: &[u8], at: usize) -> Box<BlockDiagnostic> {
     let shown = String::from_utf8_lossy(target).into_owned();
     let span = SourceSpan::new(at, at + target.len());
-    Fault::new(
+    BlockDiagnostic::new(
         DiagnosticCode::FlowStructure,
         span,
         format!("there is no {shown} to jump to"),

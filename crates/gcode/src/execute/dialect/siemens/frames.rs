@@ -10,8 +10,8 @@ use std::io::BufRead;
 
 use glidepath_geometry::{Axis, AxisVector};
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::program::Program;
@@ -59,14 +59,16 @@ impl<R: BufRead> Program<R> {
                     .find(|v| !(1.0 / MAX_SCALE..=MAX_SCALE).contains(&v.value));
                 if let Some(wrong) = wrong {
                     let message = format!("a scale of {}", wrong.value);
-                    return Err(
-                        Fault::new(DiagnosticCode::InvalidValue, wrong.span, message)
-                            .because(format!(
-                                "factors are from {} to {MAX_SCALE}",
-                                1.0 / MAX_SCALE
-                            ))
-                            .help("write a factor above zero; MIRROR turns coordinates round"),
-                    );
+                    return Err(BlockDiagnostic::new(
+                        DiagnosticCode::InvalidValue,
+                        wrong.span,
+                        message,
+                    )
+                    .because(format!(
+                        "factors are from {} to {MAX_SCALE}",
+                        1.0 / MAX_SCALE
+                    ))
+                    .help("write a factor above zero; MIRROR turns coordinates round"));
                 }
                 Frame::scaled(of_axes(&values, 1.0, |value| value)?)
             }
@@ -113,9 +115,11 @@ impl<R: BufRead> Program<R> {
                 _ => {
                     let span = SourceSpan::new(start, start + name.len().max(1));
                     let message = "a word that is none of a frame";
-                    return Err(Fault::new(DiagnosticCode::UnusedWord, span, message)
-                        .because("a frame has a line of its own, and axes with their values")
-                        .help("write the rest into a line of its own"));
+                    return Err(
+                        BlockDiagnostic::new(DiagnosticCode::UnusedWord, span, message)
+                            .because("a frame has a line of its own, and axes with their values")
+                            .help("write the rest into a line of its own"),
+                    );
                 }
             };
             let computed = input.eat(b'=');
@@ -127,9 +131,11 @@ impl<R: BufRead> Program<R> {
             let span = SourceSpan::new(start, input.at);
             if values.iter().any(|other| other.axis == axis) {
                 let message = "the same axis twice";
-                return Err(Fault::new(DiagnosticCode::DuplicateWord, span, message)
-                    .because("a frame has each word once")
-                    .help("remove one of them, or add a second frame"));
+                return Err(
+                    BlockDiagnostic::new(DiagnosticCode::DuplicateWord, span, message)
+                        .because("a frame has each word once")
+                        .help("remove one of them, or add a second frame"),
+                );
             }
             values.push(FrameValue { axis, value, span });
         }
@@ -145,11 +151,13 @@ impl<R: BufRead> Program<R> {
             };
             if !self.interpreter.options.machine.has(axis) {
                 let message = format!("the machine has no {axis} axis");
-                return Err(
-                    Fault::new(DiagnosticCode::AxisNotConfigured, *span, message)
-                        .because("its configuration does not have it")
-                        .help("remove the word, or configure the axis"),
-                );
+                return Err(BlockDiagnostic::new(
+                    DiagnosticCode::AxisNotConfigured,
+                    *span,
+                    message,
+                )
+                .because("its configuration does not have it")
+                .help("remove the word, or configure the axis"));
             }
             shift[axis.index()] = if axis.is_rotary() {
                 *value
@@ -189,7 +197,7 @@ pub(super) fn check_no_contour(interpreter: &Interpreter, span: SourceSpan) -> O
         return Ok(());
     }
     let message = "a frame with cutter radius compensation on";
-    Err(Fault::new(DiagnosticCode::CutterRadius, span, message)
+    Err(BlockDiagnostic::new(DiagnosticCode::CutterRadius, span, message)
         .because(
             "the tool stands beside the programmed point, at a place that depends on the next move",
         )
@@ -202,12 +210,14 @@ pub(super) fn check_scale(frame: &Frame, name: SourceSpan) -> Outcome<()> {
         return Ok(());
     }
     let message = "the scales together are beyond what is possible";
-    Err(Fault::new(DiagnosticCode::InvalidValue, name, message)
-        .because(format!(
-            "factors are from {} to {MAX_SCALE}",
-            1.0 / MAX_SCALE
-        ))
-        .help("write SCALE alone before it, which ends the frame"))
+    Err(
+        BlockDiagnostic::new(DiagnosticCode::InvalidValue, name, message)
+            .because(format!(
+                "factors are from {} to {MAX_SCALE}",
+                1.0 / MAX_SCALE
+            ))
+            .help("write SCALE alone before it, which ends the frame"),
+    )
 }
 
 /// Refuses a frame that is shifted too far.
@@ -216,9 +226,11 @@ pub(super) fn check_shift(frame: &Frame, name: SourceSpan) -> Outcome<()> {
         return Ok(());
     }
     let message = format!("a shift of more than {MAX_SHIFT} mm or degrees");
-    Err(Fault::new(DiagnosticCode::InvalidValue, name, message)
-        .because("coordinates so far away have no micrometres any more")
-        .help("check what is added to what; TRANS alone ends the frame"))
+    Err(
+        BlockDiagnostic::new(DiagnosticCode::InvalidValue, name, message)
+            .because("coordinates so far away have no micrometres any more")
+            .help("check what is added to what; TRANS alone ends the frame"),
+    )
 }
 
 /// The values of X, Y and Z, `else` where there is none.
@@ -235,9 +247,9 @@ fn of_axes(values: &[FrameValue], other: f64, of: impl Fn(f64) -> f64) -> Outcom
     Ok(all)
 }
 
-fn not_here(span: SourceSpan, name: &str) -> Box<Fault> {
+fn not_here(span: SourceSpan, name: &str) -> Box<BlockDiagnostic> {
     let message = format!("{name} in this frame is not supported");
-    Fault::new(DiagnosticCode::NotSupported, span, message)
+    BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
         .because(
             "X, Y and Z can be turned, mirrored and scaled, and every axis shifted; RPL is a word of \
              ROT and AROT alone, in the XY, ZX or YZ plane",

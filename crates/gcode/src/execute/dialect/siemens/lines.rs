@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use glidepath_geometry::Axis;
 
-use crate::diagnostic::fault::Outcome;
+use crate::diagnostic::block_diagnostic::Outcome;
 use crate::execute::dialect::siemens::arguments::Arguments;
 use crate::execute::dialect::siemens::steps::Step;
 

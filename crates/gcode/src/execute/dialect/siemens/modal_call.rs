@@ -2,8 +2,8 @@
 
 use std::io::BufRead;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::dialect::siemens::arguments::Arguments;
 use crate::execute::dialect::siemens::flow::check_end;
@@ -32,7 +32,7 @@ impl<R: BufRead> Program<R> {
             let span = SourceSpan::new(start, start + name.len().max(1));
             let shown = String::from_utf8_lossy(name).into_owned();
             let message = format!("MCALL of {shown} is not supported");
-            return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
+            return Err(BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
                 .because(
                     "CYCLE81 to 86, POCKET3, POCKET4 and subprograms can be called at every move",
                 )

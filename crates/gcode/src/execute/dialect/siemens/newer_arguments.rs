@@ -12,8 +12,8 @@
 
 use glidepath_geometry::Plane;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 
 /// The cycles that have them, and which of their arguments is the dwell at the bottom.
@@ -116,7 +116,7 @@ impl Newer {
         let is_same = (surface - depth.abs() - depth).abs() < 1e-9;
         if depth < surface && !is_same {
             let message = format!("{}: AMODE takes DP {depth} for an increment", self.name);
-            return Err(Fault::new(DiagnosticCode::CannedCycle, self.span, message)
+            return Err(BlockDiagnostic::new(DiagnosticCode::CannedCycle, self.span, message)
                 .because("as a coordinate it would be below the surface, too, and the bottom another one")
                 .help("write the increment as DPR, or AMODE 12 for a coordinate"));
         }
@@ -140,9 +140,9 @@ impl Newer {
     }
 
     #[cold]
-    fn more(self, reason: &str) -> Box<Fault> {
+    fn more(self, reason: &str) -> Box<BlockDiagnostic> {
         let message = format!("{} with more than {} arguments", self.name, self.most);
-        Fault::new(DiagnosticCode::NotSupported, self.span, message)
+        BlockDiagnostic::new(DiagnosticCode::NotSupported, self.span, message)
             .because(reason)
             .help("leave them out, or let the CAM system write plain blocks")
     }

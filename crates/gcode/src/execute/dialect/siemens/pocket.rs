@@ -17,7 +17,7 @@
 
 use glidepath_geometry::Axis;
 
-use crate::diagnostic::fault::Outcome;
+use crate::diagnostic::block_diagnostic::Outcome;
 use crate::execute::dialect::siemens::arguments::{Arguments, Levels};
 use crate::execute::dialect::siemens::cycle::{coordinate, diameters, plane_axes};
 use crate::execute::dialect::siemens::lines::Lines;

@@ -11,8 +11,8 @@ use std::io::BufRead;
 
 use glidepath_geometry::Axis;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::dialect::siemens::single_positions::single_places;
 use crate::execute::dialect::siemens::steps::Step;
@@ -36,9 +36,11 @@ impl<R: BufRead> Program<R> {
             (name, arguments, SourceSpan::new(at, input.at))
         };
         let refuse = |message: &str, reason: &str, help: &str| {
-            Err(Fault::new(DiagnosticCode::CannedCycle, span, message)
-                .because(reason)
-                .help(help))
+            Err(
+                BlockDiagnostic::new(DiagnosticCode::CannedCycle, span, message)
+                    .because(reason)
+                    .help(help),
+            )
         };
         if self.siemens.modal_call.is_none() {
             return refuse(

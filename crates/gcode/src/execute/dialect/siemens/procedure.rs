@@ -2,8 +2,8 @@
 
 use std::io::BufRead;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::program::Program;
 use crate::syntax::dialect::siemens::variables::Kind;
@@ -21,9 +21,11 @@ impl<R: BufRead> Program<R> {
         let span = SourceSpan::new(at, text.trim_ascii_end().len().max(at + 1));
         if !is_called && !parameters.is_empty() {
             let message = "a subprogram with parameters that nothing calls";
-            return Err(Fault::new(DiagnosticCode::FlowStructure, span, message)
-                .because("its parameters have the values of a call")
-                .help("run the program that calls it"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::FlowStructure, span, message)
+                    .because("its parameters have the values of a call")
+                    .help("run the program that calls it"),
+            );
         }
         if arguments.len() > parameters.len() {
             let message = format!(
@@ -31,9 +33,11 @@ impl<R: BufRead> Program<R> {
                 arguments.len(),
                 parameters.len()
             );
-            return Err(Fault::new(DiagnosticCode::Expression, span, message)
-                .because("each argument is of a name in PROC")
-                .help("correct the call, or PROC"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::Expression, span, message)
+                    .because("each argument is of a name in PROC")
+                    .help("correct the call, or PROC"),
+            );
         }
         for (index, (name, kind, default)) in parameters.into_iter().enumerate() {
             let declared = self
@@ -85,7 +89,8 @@ impl<R: BufRead> Program<R> {
                     let span = SourceSpan::new(start, input.at.max(start + 1));
                     let message = "the parameters of PROC are not closed";
                     return Err(
-                        Fault::new(DiagnosticCode::Expression, span, message).help("add `)`")
+                        BlockDiagnostic::new(DiagnosticCode::Expression, span, message)
+                            .help("add `)`"),
                     );
                 }
             }
@@ -101,9 +106,13 @@ impl<R: BufRead> Program<R> {
                 _ => {
                     let span = SourceSpan::new(start, input.at);
                     let message = "a word of PROC that is not known";
-                    return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
-                        .because("behind its parameters stand SAVE, DISPLOF, SBLOF and the like")
-                        .help("remove it"));
+                    return Err(
+                        BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
+                            .because(
+                                "behind its parameters stand SAVE, DISPLOF, SBLOF and the like",
+                            )
+                            .help("remove it"),
+                    );
                 }
             }
         }
@@ -112,11 +121,11 @@ impl<R: BufRead> Program<R> {
 }
 
 #[cold]
-fn no_parameter(word: &[u8], start: usize) -> Box<Fault> {
+fn no_parameter(word: &[u8], start: usize) -> Box<BlockDiagnostic> {
     let shown = String::from_utf8_lossy(word).into_owned();
     let span = SourceSpan::new(start, start + word.len().max(1));
     let message = format!("a parameter of PROC that is {shown}");
-    Fault::new(DiagnosticCode::NotSupported, span, message)
+    BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
         .because("parameters are REAL, INT or BOOL, and have the value of the call (no VAR)")
         .help("give results back by R parameters")
 }

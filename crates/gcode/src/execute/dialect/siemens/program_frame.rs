@@ -14,8 +14,8 @@ use std::io::BufRead;
 
 use glidepath_geometry::{Axis, AxisVector};
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::dialect::siemens::flow::check_end;
 use crate::execute::dialect::siemens::frames::{check_no_contour, check_scale, check_shift};
@@ -144,9 +144,9 @@ impl<R: BufRead> Program<R> {
 }
 
 #[cold]
-fn no_frame(name: &[u8], span: SourceSpan) -> Box<Fault> {
+fn no_frame(name: &[u8], span: SourceSpan) -> Box<BlockDiagnostic> {
     let message = format!("this part of {} cannot be set", letters(name));
-    Fault::new(DiagnosticCode::NotSupported, span, message)
+    BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
         .because("a frame is CTRANS, CROT, CSCALE and CMIRROR of X, Y and Z, with colons between them; by its parts only the shifts (TR) are set")
         .help("write TRANS, ROT, SCALE and MIRROR")
 }

@@ -2,7 +2,7 @@
 
 use std::io::BufRead;
 
-use crate::diagnostic::fault::Outcome;
+use crate::diagnostic::block_diagnostic::Outcome;
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::dialect::siemens::steps::{Before, Step};
 use crate::execute::program::Program;

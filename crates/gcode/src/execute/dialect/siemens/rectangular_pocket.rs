@@ -1,6 +1,6 @@
 //! POCKET3: a rectangular pocket with round corners, cleared in rings from its middle outwards.
 
-use crate::diagnostic::fault::Outcome;
+use crate::diagnostic::block_diagnostic::Outcome;
 use crate::execute::dialect::siemens::arguments::Arguments;
 use crate::execute::dialect::siemens::lines::Lines;
 use crate::execute::dialect::siemens::pocket::{Insertion, Places, Pocket};

@@ -2,8 +2,8 @@
 
 use std::io::BufRead;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::dialect::tape::Repetition;
 use crate::execute::flow::activation::MAX_CALLS;
@@ -61,15 +61,21 @@ impl<R: BufRead> Program<R> {
         };
         if end <= start || (start..end).contains(&index) {
             let message = "a part that ends before it begins, or repeats itself";
-            return Err(Fault::new(DiagnosticCode::FlowStructure, span, message)
-                .because("the first label stands in front of the last, and REPEAT outside of them")
-                .help("check the labels"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::FlowStructure, span, message)
+                    .because(
+                        "the first label stands in front of the last, and REPEAT outside of them",
+                    )
+                    .help("check the labels"),
+            );
         }
         if self.tape.repetitions.len() >= MAX_CALLS {
             let message = format!("more than {MAX_CALLS} repetitions in each other");
-            return Err(Fault::new(DiagnosticCode::CallDepth, span, message)
-                .because("the depth of repetitions is bounded")
-                .help("check what jumps out of a part that is repeated"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::CallDepth, span, message)
+                    .because("the depth of repetitions is bounded")
+                    .help("check what jumps out of a part that is repeated"),
+            );
         }
         let Some(again) = turns.checked_sub(1) else {
             return Ok(());
@@ -110,11 +116,13 @@ impl<R: BufRead> Program<R> {
         if !input.is_at_end() || !(0.0..=MAX_TURNS).contains(&turns) {
             let span = SourceSpan::new(behind, text.len().max(behind + 1));
             let message = "what is repeated how often is not clear";
-            return Err(Fault::new(DiagnosticCode::FlowStructure, span, message)
-                .because(format!(
-                    "P is a number from 0 to {MAX_TURNS}, and the last word"
-                ))
-                .help("write REPEAT label P=n, REPEAT first last P=n, or REPEATB label P=n"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::FlowStructure, span, message)
+                    .because(format!(
+                        "P is a number from 0 to {MAX_TURNS}, and the last word"
+                    ))
+                    .help("write REPEAT label P=n, REPEAT first last P=n, or REPEATB label P=n"),
+            );
         }
         #[expect(
             clippy::cast_possible_truncation,
@@ -143,9 +151,11 @@ impl<R: BufRead> Program<R> {
             _ if start < index => Ok(index),
             _ => {
                 let message = "a part without its end";
-                Err(Fault::new(DiagnosticCode::FlowStructure, span, message)
-                    .because("a part that begins behind REPEAT ends at ENDLABEL:")
-                    .help("add ENDLABEL:, or name the last block: REPEAT first last"))
+                Err(
+                    BlockDiagnostic::new(DiagnosticCode::FlowStructure, span, message)
+                        .because("a part that begins behind REPEAT ends at ENDLABEL:")
+                        .help("add ENDLABEL:, or name the last block: REPEAT first last"),
+                )
             }
         }
     }

@@ -7,8 +7,8 @@
 
 use glidepath_geometry::Plane;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::dialect::siemens::newer_arguments::number_of;
 
@@ -51,9 +51,11 @@ pub(super) fn single_places(
 ) -> Outcome<Vec<[f64; 2]>> {
     let get = |index: usize| arguments.get(index).copied().flatten();
     let refuse = |message: &str, reason: &str, help: &str| {
-        Err(Fault::new(DiagnosticCode::CannedCycle, span, message)
-            .because(reason)
-            .help(help))
+        Err(
+            BlockDiagnostic::new(DiagnosticCode::CannedCycle, span, message)
+                .because(reason)
+                .help(help),
+        )
     };
     let others = [VARIANT, VARIANT + 1].into_iter().filter_map(get);
     let is_other = others.into_iter().any(|value| value != 0.0)

@@ -10,8 +10,8 @@ use std::sync::Arc;
 
 use glidepath_geometry::AXES;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::dialect::fanuc::call::lines_of;
 use crate::execute::dialect::siemens::flow::check_end;
@@ -87,9 +87,11 @@ impl<R: BufRead> Program<R> {
         check_end(&mut input)?;
         if !(0.0..=MAX_TURNS).contains(&turns) || turns.fract() != 0.0 {
             let message = format!("a subprogram that is called {turns} times");
-            return Err(Fault::new(DiagnosticCode::InvalidValue, span, message)
-                .because(format!("P is a whole number from 0 to {MAX_TURNS}"))
-                .help("write another number"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::InvalidValue, span, message)
+                    .because(format!("P is a whole number from 0 to {MAX_TURNS}"))
+                    .help("write another number"),
+            );
         }
         #[expect(
             clippy::cast_possible_truncation,
@@ -115,15 +117,19 @@ impl<R: BufRead> Program<R> {
     ) -> Outcome<()> {
         if self.tape.calls.len() >= MAX_CALLS {
             let message = format!("more than {MAX_CALLS} calls in each other");
-            return Err(Fault::new(DiagnosticCode::CallDepth, span, message)
-                .because("the depth of calls is bounded")
-                .help("check what should end the recursion"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::CallDepth, span, message)
+                    .because("the depth of calls is bounded")
+                    .help("check what should end the recursion"),
+            );
         }
         if !arguments.is_empty() && !self.siemens_takes_arguments(first)? {
             let message = "arguments of a subprogram that takes none";
-            return Err(Fault::new(DiagnosticCode::Expression, span, message)
-                .because("its first line is no PROC with names for them")
-                .help("write PROC NAME(REAL A, …) there, or leave the arguments out"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::Expression, span, message)
+                    .because("its first line is no PROC with names for them")
+                    .help("write PROC NAME(REAL A, …) there, or leave the arguments out"),
+            );
         }
         let Some(again) = turns.checked_sub(1) else {
             return Ok(());
@@ -276,10 +282,10 @@ impl<R: BufRead> Program<R> {
 }
 
 #[cold]
-fn unknown(callee: &Callee, span: SourceSpan, looked_in: &[String]) -> Box<Fault> {
+fn unknown(callee: &Callee, span: SourceSpan, looked_in: &[String]) -> Box<BlockDiagnostic> {
     let shown = String::from_utf8_lossy(&callee.name).into_owned();
     let message = format!("there is no subprogram {shown}");
-    let fault = Fault::new(DiagnosticCode::UnknownSubroutine, span, message);
+    let fault = BlockDiagnostic::new(DiagnosticCode::UnknownSubroutine, span, message);
     let fault = if looked_in.is_empty() {
         fault.because("the program has no line `%_N_…_SPF` of that name, and there is no folder to look for it in")
     } else {

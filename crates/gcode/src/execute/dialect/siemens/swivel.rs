@@ -11,8 +11,8 @@ use std::io::BufRead;
 use glidepath_geometry::AxisVector;
 use glidepath_program::Item;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::dialect::siemens::flow::check_end;
 use crate::execute::interpreter::Interpreter;
@@ -138,7 +138,7 @@ impl Interpreter {
         let place = self.options.siemens.swivel_z_mm;
         let Some(up) = place.filter(|_| (way - 1.0).abs() < 1e-9) else {
             let message = format!("CYCLE800 with the retraction FR {way} is not supported");
-            return Err(Fault::new(DiagnosticCode::CannedCycle, span, message)
+            return Err(BlockDiagnostic::new(DiagnosticCode::CannedCycle, span, message)
                 .because("where the tool goes before it swivels is machine data; with FR 1 it is a place of Z")
                 .help("set `swivel_z` of [program] and write FR 1, or write the way out as a block before it (SUPA Z) and FR 0"));
         };
@@ -158,9 +158,11 @@ fn check_frame(interpreter: &Interpreter, is_off: bool, span: SourceSpan) -> Out
         return Ok(());
     }
     let message = "CYCLE800 within a frame";
-    Err(Fault::new(DiagnosticCode::NotSupported, span, message)
-        .because("TRANS, ROT and the like count in the plane, and would count in another one")
-        .help("write TRANS alone before it, which ends them"))
+    Err(
+        BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
+            .because("TRANS, ROT and the like count in the plane, and would count in another one")
+            .help("write TRANS alone before it, which ends them"),
+    )
 }
 
 /// The zero before the turn, the turn, and the zero behind it; `mm` is the unit of lengths.
@@ -179,7 +181,7 @@ fn frame(value: &impl Fn(usize) -> f64, mm: f64, span: SourceSpan) -> Outcome<Fr
     .map(|(_, order)| order);
     let Some(order) = order else {
         let message = format!("CYCLE800 with MODE {mode} is not supported");
-        return Err(Fault::new(DiagnosticCode::CannedCycle, span, message)
+        return Err(BlockDiagnostic::new(DiagnosticCode::CannedCycle, span, message)
             .because("the angles are about the axes one after the other; solid angles, projections and positions of the rotary axes are not made")
             .help("write MODE 57 (X, Y, Z), 54, 45, 30, 39 or 27"));
     };
@@ -208,7 +210,7 @@ fn branch(value: &impl Fn(usize) -> f64, span: SourceSpan) -> Outcome<Branch> {
         Ok(Branch::HighTilt)
     } else {
         let message = "CYCLE800 with a DIR other than -1 and 1 is not supported";
-        Err(Fault::new(DiagnosticCode::CannedCycle, span, message)
+        Err(BlockDiagnostic::new(DiagnosticCode::CannedCycle, span, message)
             .because("with 0 the rotary axes would stay, and the tool would not stand along the plane's normal")
             .help("write -1 (the smaller angle of the tilting axis) or 1"))
     }
@@ -221,9 +223,11 @@ fn check_rest(
     span: SourceSpan,
 ) -> Outcome<()> {
     let refuse = |message: &str, reason: &str, help: &str| {
-        Err(Fault::new(DiagnosticCode::CannedCycle, span, message)
-            .because(reason)
-            .help(help))
+        Err(
+            BlockDiagnostic::new(DiagnosticCode::CannedCycle, span, message)
+                .because(reason)
+                .help(help),
+        )
     };
     let ones = value(2) % 10.0;
     if ![0.0, 1.0].contains(&ones) {

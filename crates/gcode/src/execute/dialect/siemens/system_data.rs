@@ -13,8 +13,8 @@ use std::io::BufRead;
 
 use glidepath_geometry::Axis;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::dialect::siemens::flow::check_end;
 use crate::execute::interpreter::Interpreter;
@@ -42,7 +42,7 @@ impl<R: BufRead> Program<R> {
         let index = input.system_index()?;
         let span = SourceSpan::new(at, input.at);
         if !input.eat(b'=') {
-            return Err(Fault::new(
+            return Err(BlockDiagnostic::new(
                 DiagnosticCode::Parameter,
                 span,
                 "a variable without a value",
@@ -209,9 +209,9 @@ impl Interpreter {
 }
 
 #[cold]
-pub(super) fn unknown_part(name: &str, span: SourceSpan) -> Box<Fault> {
+pub(super) fn unknown_part(name: &str, span: SourceSpan) -> Box<BlockDiagnostic> {
     let message = format!("this part of {name} cannot be set");
-    Fault::new(DiagnosticCode::NotSupported, span, message)
+    BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
         .because(
             "of a coordinate system shifts and the turn about Z are kept, of a tool the lengths and the radius of edge D1",
         )

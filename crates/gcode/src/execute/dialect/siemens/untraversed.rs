@@ -13,7 +13,7 @@ use std::io::BufRead;
 
 use glidepath_geometry::{AXES, AxisVector};
 
-use crate::diagnostic::fault::Outcome;
+use crate::diagnostic::block_diagnostic::Outcome;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::program::Program;
 use crate::syntax::block::Block;

@@ -1,7 +1,7 @@
 //! The arguments in parentheses: numbers, places that are left out, texts in quotes.
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::dialect::siemens::expression::{Evaluator, unclosed};
 
@@ -73,11 +73,13 @@ impl Evaluator<'_> {
         let rest = self.text.get(start + 1..).unwrap_or_default();
         let Some(length) = rest.iter().position(|byte| *byte == b'"') else {
             let span = SourceSpan::new(start, self.text.len().max(start + 1));
-            return Err(
-                Fault::new(DiagnosticCode::Expression, span, "the text is not closed")
-                    .because("a text stands between two quotes")
-                    .help("add `\"`"),
-            );
+            return Err(BlockDiagnostic::new(
+                DiagnosticCode::Expression,
+                span,
+                "the text is not closed",
+            )
+            .because("a text stands between two quotes")
+            .help("add `\"`"));
         };
         self.at = start + length + 2;
         Ok(rest.get(..length).unwrap_or_default().to_vec())

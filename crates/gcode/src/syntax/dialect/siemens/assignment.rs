@@ -1,6 +1,6 @@
 //! Assignments to the variables of a program: numbers, texts, and elements of arrays.
 
-use crate::diagnostic::fault::Outcome;
+use crate::diagnostic::block_diagnostic::Outcome;
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::dialect::siemens::text_variables::TextAssignment;
 use crate::syntax::dialect::siemens::variables::{Declared, Kind};

@@ -1,8 +1,8 @@
 //! The words of a letter and a number: the G and M codes of the tables, and the addresses of
 //! SINUMERIK's language.
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::codes::code_number;
 use crate::syntax::dialect::Dialect;
@@ -21,9 +21,9 @@ fn number_of(digits: &[u8]) -> Option<u32> {
 
 /// G58 or G59 that is not the first word of its block.
 #[cold]
-fn beside_offset(number: u32, span: SourceSpan) -> Box<Fault> {
+fn beside_offset(number: u32, span: SourceSpan) -> Box<BlockDiagnostic> {
     let message = format!("words in front of G{number}");
-    Fault::new(DiagnosticCode::UnusedWord, span, message)
+    BlockDiagnostic::new(DiagnosticCode::UnusedWord, span, message)
         .because("it changes the offset of an axis, in a block of its own")
         .help("write it first in its block")
 }
@@ -82,7 +82,7 @@ impl Writer<'_> {
         if self.names.scope.system_value(b"H", &[]) != Some(1.0) {
             let shown = String::from_utf8_lossy(name);
             let message = format!("{shown} (a function of the machine's PLC) is not supported");
-            return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
+            return Err(BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
                 .because("it could have been meant to stop or to clamp something")
                 .help("write an M code with a table [m_codes.M…] in its place, or set h_words = \"read-over\" in [program] if it does nothing on this machine"));
         }

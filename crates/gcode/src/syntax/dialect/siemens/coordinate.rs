@@ -3,8 +3,8 @@
 
 use glidepath_geometry::Axis;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::dialect::siemens::system_index::Index;
 use crate::syntax::dialect::siemens::writer::Writer;
@@ -69,25 +69,25 @@ struct UnitOfX {
 }
 
 #[cold]
-fn no_turn(letter: char, span: SourceSpan) -> Box<Fault> {
+fn no_turn(letter: char, span: SourceSpan) -> Box<BlockDiagnostic> {
     let message = format!("DC, ACP or ACN of {letter}, which does not turn");
-    Fault::new(DiagnosticCode::InvalidValue, span, message)
+    BlockDiagnostic::new(DiagnosticCode::InvalidValue, span, message)
         .because("they say which way round a rotary axis goes to its place")
         .help("write the value alone")
 }
 
 #[cold]
-fn no_diameter(letter: char, span: SourceSpan) -> Box<Fault> {
+fn no_diameter(letter: char, span: SourceSpan) -> Box<BlockDiagnostic> {
     let message = format!("a diameter or radius of {letter}");
-    Fault::new(DiagnosticCode::InvalidValue, span, message)
+    BlockDiagnostic::new(DiagnosticCode::InvalidValue, span, message)
         .because("DAC, DIC, RAC and RIC say whether X is a diameter or a radius")
         .help("write AC or IC")
 }
 
 #[cold]
-pub(crate) fn unclear_increment(span: SourceSpan) -> Box<Fault> {
+pub(crate) fn unclear_increment(span: SourceSpan) -> Box<BlockDiagnostic> {
     let message = "an increment behind a frame that turned, mirrored or scaled the coordinate";
-    Fault::new(DiagnosticCode::NotSupported, span, message)
+    BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
         .because("whether it counts from the old coordinate or from where the axis stands is not known: they are two places")
         .help("write the first coordinate behind the frame in G90, or set increment_after_frame = \"alone\" in [program]")
 }
@@ -206,9 +206,11 @@ impl Writer<'_> {
         let axis = AXIS_LETTERS.iter().position(|axis| *axis == of_axis);
         let Some(axis) = axis else {
             let message = "AC( ), IC( ) or the like of what is no coordinate";
-            return Err(Fault::new(DiagnosticCode::NotSupported, word, message)
-                .because("they say from where a coordinate counts")
-                .help("write the value alone"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::NotSupported, word, message)
+                    .because("they say from where a coordinate counts")
+                    .help("write the value alone"),
+            );
         };
         let arguments = self.input.arguments()?;
         let [Some(value)] = arguments.as_slice() else {

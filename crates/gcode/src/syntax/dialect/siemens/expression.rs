@@ -14,8 +14,8 @@
 //! degrees. A comparison gives 1 or 0, and two values are equal if they differ by less than 1e-12 of
 //! the greater.
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::bad_byte::bad_byte;
 use crate::syntax::cursor::MAX_NUMBER;
@@ -121,11 +121,13 @@ impl<'a> Evaluator<'a> {
         if value.abs() > MAX_NUMBER {
             let message = format!("the value is {value}, which is too large");
             let span = SourceSpan::new(start, self.at);
-            return Err(Fault::new(DiagnosticCode::NumberOutOfRange, span, message)
-                .because(format!(
-                    "no word or parameter takes a value beyond ±{MAX_NUMBER}"
-                ))
-                .help("check the values it is computed from"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::NumberOutOfRange, span, message)
+                    .because(format!(
+                        "no word or parameter takes a value beyond ±{MAX_NUMBER}"
+                    ))
+                    .help("check the values it is computed from"),
+            );
         }
         Ok(value)
     }
@@ -139,9 +141,11 @@ impl<'a> Evaluator<'a> {
         if !matches!(self.next_visible(), Some(b'0'..=b'9' | b'.')) {
             let span = SourceSpan::new(self.at.saturating_sub(1), self.at.max(1));
             let message = "a number is missing";
-            return Err(Fault::new(DiagnosticCode::MissingNumber, span, message)
-                .because("a letter and its number make a word")
-                .help("write the number, or `=` and an expression"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::MissingNumber, span, message)
+                    .because("a letter and its number make a word")
+                    .help("write the number, or `=` and an expression"),
+            );
         }
         let start = self.at;
         let value = self.number()?;
@@ -156,9 +160,11 @@ impl<'a> Evaluator<'a> {
         }
         let span = SourceSpan::new(self.at, self.at + 1);
         let message = format!("more than {MAX_DEPTH} levels of parentheses");
-        Err(Fault::new(DiagnosticCode::Expression, span, message)
-            .because("the depth of expressions is bounded")
-            .help("compute parts of it into R parameters first"))
+        Err(
+            BlockDiagnostic::new(DiagnosticCode::Expression, span, message)
+                .because("the depth of expressions is bounded")
+                .help("compute parts of it into R parameters first"),
+        )
     }
 
     pub(super) fn comparison(&mut self) -> Outcome<f64> {
@@ -257,14 +263,16 @@ impl<'a> Evaluator<'a> {
             Some(b'A'..=b'Z' | b'_' | b'$') => self.named(),
             Some(b'"') => {
                 let span = SourceSpan::new(self.at, self.text.len());
-                let fault = Fault::new(DiagnosticCode::NotSupported, span, "a text in quotes");
+                let fault =
+                    BlockDiagnostic::new(DiagnosticCode::NotSupported, span, "a text in quotes");
                 Err(fault
                     .because("a text stands in MSG( ), behind T=, GOTO and variables of DEF STRING, and is compared with texts")
                     .help("write a number, or a variable that has one"))
             }
             None | Some(b';' | b')' | b',' | b'=' | b'<' | b'>' | b'*' | b'/' | b']') => {
                 let span = SourceSpan::new(start.saturating_sub(1), start.max(1));
-                let fault = Fault::new(DiagnosticCode::Expression, span, "a value is missing");
+                let fault =
+                    BlockDiagnostic::new(DiagnosticCode::Expression, span, "a value is missing");
                 Err(fault
                     .because("a number, a variable, a function or parentheses are needed there")
                     .help("write the value"))
@@ -312,7 +320,7 @@ impl<'a> Evaluator<'a> {
         else {
             let shown = String::from_utf8_lossy(&name).into_owned();
             let message = format!("{shown} is not supported in an expression");
-            return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
+            return Err(BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
                 .because(
                     "expressions have numbers, R parameters, variables of DEF REAL, INT and BOOL, \
                      operators and functions; texts are compared with texts",
@@ -332,9 +340,11 @@ impl<'a> Evaluator<'a> {
         let given: Vec<f64> = arguments.iter().flatten().copied().collect();
         if arguments.len() != count || given.len() != count {
             let message = format!("{} arguments in the place of {count}", given.len());
-            return Err(Fault::new(DiagnosticCode::Expression, span, message)
-                .because("a function has a fixed number of arguments")
-                .help("write them with commas between them"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::Expression, span, message)
+                    .because("a function has a fixed number of arguments")
+                    .help("write them with commas between them"),
+            );
         }
         finite(function.of(&given), span)
     }
@@ -355,18 +365,18 @@ impl<'a> Evaluator<'a> {
 }
 
 #[cold]
-fn beside_comparison(span: SourceSpan) -> Box<Fault> {
+fn beside_comparison(span: SourceSpan) -> Box<BlockDiagnostic> {
     let message = "a comparison beside another one, or beside AND, OR or XOR";
-    Fault::new(DiagnosticCode::Expression, span, message)
+    BlockDiagnostic::new(DiagnosticCode::Expression, span, message)
         .because(
             "on a SINUMERIK comparisons bind weakest, so that it does not mean what it looks like",
         )
         .help("put each comparison into parentheses: (R1>5) AND (R2<3)")
 }
 
-pub(super) fn unclosed(span: SourceSpan, with: &str) -> Box<Fault> {
+pub(super) fn unclosed(span: SourceSpan, with: &str) -> Box<BlockDiagnostic> {
     let message = "the parenthesis is not closed";
-    Fault::new(DiagnosticCode::Expression, span, message)
+    BlockDiagnostic::new(DiagnosticCode::Expression, span, message)
         .because("an expression ends in its own line")
         .help(format!("add `{with}`, or an operator between two values"))
 }

@@ -1,7 +1,7 @@
 //! Numbers as SINUMERIK writes them: digits, and what stands in quotes.
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::dialect::siemens::expression::Evaluator;
 use crate::syntax::dialect::siemens::operator::finite;
@@ -26,7 +26,7 @@ impl Evaluator<'_> {
         self.at = start + length;
         value.map(f64::from).ok_or_else(|| {
             let span = SourceSpan::new(start, start + length);
-            Fault::new(
+            BlockDiagnostic::new(
                 DiagnosticCode::MalformedNumber,
                 span,
                 "a number in quotes that is none",
@@ -58,7 +58,7 @@ impl Evaluator<'_> {
             Err(_) => {
                 let shown = String::from_utf8_lossy(&self.text[start..self.at]).into_owned();
                 let message = format!("`{shown}` is not a number");
-                Err(Fault::new(DiagnosticCode::MalformedNumber, span, message)
+                Err(BlockDiagnostic::new(DiagnosticCode::MalformedNumber, span, message)
                     .because(
                         "a number is digits with at most one decimal point, and EX and an exponent",
                     )

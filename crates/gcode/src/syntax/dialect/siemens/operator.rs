@@ -1,7 +1,7 @@
 //! Operators and comparisons of SINUMERIK's expressions.
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 
 /// Values that differ by less than this part of the greater are equal.
@@ -69,11 +69,13 @@ pub(super) fn apply(operator: Operator, left: f64, right: f64, span: SourceSpan)
     let value = match operator {
         Operator::Times => left * right,
         Operator::Over | Operator::Divide | Operator::Modulo if right == 0.0 => {
-            return Err(
-                Fault::new(DiagnosticCode::Arithmetic, span, "a division by zero")
-                    .because("the value on the right of the operator is zero")
-                    .help("check the values it is computed from"),
-            );
+            return Err(BlockDiagnostic::new(
+                DiagnosticCode::Arithmetic,
+                span,
+                "a division by zero",
+            )
+            .because("the value on the right of the operator is zero")
+            .help("check the values it is computed from"));
         }
         Operator::Over => left / right,
         Operator::Divide => (left / right).trunc(),
@@ -95,9 +97,11 @@ pub(super) fn bits(value: f64, span: SourceSpan) -> Outcome<i32> {
     let is_kept = (f64::from(i32::MIN)..=f64::from(i32::MAX)).contains(&value);
     if value.fract() != 0.0 || !is_kept {
         let message = format!("{value} has no bits");
-        return Err(Fault::new(DiagnosticCode::Arithmetic, span, message)
-            .because("B_AND, B_OR, B_XOR and B_NOT are of whole numbers of 32 bits")
-            .help("write TRUNC( ) or ROUND( ) around the value"));
+        return Err(
+            BlockDiagnostic::new(DiagnosticCode::Arithmetic, span, message)
+                .because("B_AND, B_OR, B_XOR and B_NOT are of whole numbers of 32 bits")
+                .help("write TRUNC( ) or ROUND( ) around the value"),
+        );
     }
     #[expect(clippy::cast_possible_truncation, reason = "range checked")]
     Ok(value as i32)
@@ -108,7 +112,9 @@ pub(super) fn finite(value: f64, span: SourceSpan) -> Outcome<f64> {
         return Ok(value);
     }
     let message = "the result is not a number";
-    Err(Fault::new(DiagnosticCode::Arithmetic, span, message)
-        .because("the operation has no value for these operands, or one that is too large")
-        .help("check the values it is computed from"))
+    Err(
+        BlockDiagnostic::new(DiagnosticCode::Arithmetic, span, message)
+            .because("the operation has no value for these operands, or one that is too large")
+            .help("check the values it is computed from"),
+    )
 }

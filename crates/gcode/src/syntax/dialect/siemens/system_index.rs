@@ -2,8 +2,8 @@
 
 use glidepath_geometry::Axis;
 
+use crate::diagnostic::block_diagnostic::BlockDiagnostic;
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::Fault;
 use crate::diagnostic::span::SourceSpan;
 
 /// An index of a variable of the control.
@@ -23,9 +23,9 @@ pub(crate) fn letters(name: &[u8]) -> String {
 
 /// A variable of the control that is not known here.
 #[cold]
-pub(crate) fn not_known(name: &[u8], span: SourceSpan) -> Box<Fault> {
+pub(crate) fn not_known(name: &[u8], span: SourceSpan) -> Box<BlockDiagnostic> {
     let message = format!("{} cannot be read", letters(name));
-    Fault::new(DiagnosticCode::NotSupported, span, message)
+    BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
         .because("what this variable of the control holds is not known here, or depends on its machine data")
         .help("write the value, or a variable of the program")
 }

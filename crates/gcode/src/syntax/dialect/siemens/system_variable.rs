@@ -3,8 +3,8 @@
 
 use glidepath_geometry::Axis;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::dialect::siemens::expression::{Evaluator, unclosed};
 use crate::syntax::dialect::siemens::system_index::Index;
@@ -75,11 +75,13 @@ impl Evaluator<'_> {
             let axis = axis_named(&self.name_ahead());
             let Some(axis) = axis else {
                 let span = SourceSpan::new(self.at, self.at + 1);
-                return Err(
-                    Fault::new(DiagnosticCode::Expression, span, "an axis is missing")
-                        .because("a frame has axes with a value behind each: CTRANS(X,10,Y,5)")
-                        .help("write X, Y or Z, a comma and the value"),
-                );
+                return Err(BlockDiagnostic::new(
+                    DiagnosticCode::Expression,
+                    span,
+                    "an axis is missing",
+                )
+                .because("a frame has axes with a value behind each: CTRANS(X,10,Y,5)")
+                .help("write X, Y or Z, a comma and the value"));
             };
             self.at += 1;
             // CMIRROR(X,Y) has axes alone.

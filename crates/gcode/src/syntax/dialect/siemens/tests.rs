@@ -2,8 +2,8 @@
 
 use glidepath_geometry::Axis;
 
+use crate::diagnostic::block_diagnostic::Outcome;
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::Outcome;
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::dialect::siemens::expression::{Evaluator, Names};
 use crate::syntax::dialect::siemens::rewritten::Rewritten;

@@ -7,8 +7,8 @@
 //!
 //! A text begins with quotes, with the name of a variable of texts, or with `<<`.
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::dialect::siemens::expression::Evaluator;
 use crate::syntax::dialect::siemens::text_variables::{MAX_TEXT, TextAssignment};
@@ -75,9 +75,11 @@ impl Evaluator<'_> {
             if text.len() > MAX_TEXT {
                 let span = SourceSpan::new(start, self.at);
                 let message = format!("a text of more than {MAX_TEXT} bytes");
-                return Err(Fault::new(DiagnosticCode::Expression, span, message)
-                    .because("the length of texts is bounded")
-                    .help("join fewer parts"));
+                return Err(
+                    BlockDiagnostic::new(DiagnosticCode::Expression, span, message)
+                        .because("the length of texts is bounded")
+                        .help("join fewer parts"),
+                );
             }
             if !self.eats_join() {
                 return Ok(text);
@@ -121,9 +123,11 @@ impl Evaluator<'_> {
         let Some((compare, length)) = self.comparator() else {
             let span = SourceSpan::new(start, self.at.max(start + 1));
             let message = "a text in the place of a number";
-            return Err(Fault::new(DiagnosticCode::Expression, span, message)
-                .because("a text is no value: it can be compared with another text")
-                .help("write ==, <> or the like and the other text"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::Expression, span, message)
+                    .because("a text is no value: it can be compared with another text")
+                    .help("write ==, <> or the like and the other text"),
+            );
         };
         self.at += length;
         if !self.is_text_next() {

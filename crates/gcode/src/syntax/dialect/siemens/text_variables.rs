@@ -1,7 +1,7 @@
 //! Variables of texts, which DEF STRING declares, and arrays of them.
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 
 /// Longest text, bytes.
@@ -62,8 +62,10 @@ impl TextVariable {
         }
         let (length, most) = (value.len(), self.most);
         let message = format!("a text of {length} bytes in a variable of {most}");
-        Err(Fault::new(DiagnosticCode::Parameter, span, message)
-            .because("DEF STRING says in brackets how long its texts may be")
-            .help("declare it longer, or write a shorter text"))
+        Err(
+            BlockDiagnostic::new(DiagnosticCode::Parameter, span, message)
+                .because("DEF STRING says in brackets how long its texts may be")
+                .help("declare it longer, or write a shorter text"),
+        )
     }
 }

@@ -1,8 +1,8 @@
 //! Words whose values are written in a way of their own: polar coordinates, tools by their names,
 //! tolerances.
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::dialect::siemens::statement::name_at;
 use crate::syntax::dialect::siemens::system_index::Index;
@@ -54,11 +54,13 @@ impl Writer<'_> {
         let span = SourceSpan::new(open, self.input.at);
         let Some(number) = self.names.scope.tool_named(&name) else {
             let message = format!("the tool table has no tool \"{name}\", or several");
-            return Err(Fault::new(DiagnosticCode::UnknownTool, span, message)
-                .because("the name of a tool stands in its line of the tool table, behind `;`")
-                .help(format!(
-                    "write `;{name}` behind its words there, or its number here"
-                )));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::UnknownTool, span, message)
+                    .because("the name of a tool stands in its line of the tool table, behind `;`")
+                    .help(format!(
+                        "write `;{name}` behind its words there, or its number here"
+                    )),
+            );
         };
         self.out.push(format!("T{number} ").as_bytes(), start);
         Ok(())
@@ -120,9 +122,11 @@ impl Writer<'_> {
         }
         let span = SourceSpan::new(start, self.input.at);
         let message = "FGROUP of other axes than X, Y and Z is not supported";
-        Err(Fault::new(DiagnosticCode::NotSupported, span, message)
-            .because("F is the feed of X, Y and Z together")
-            .help("remove it, and write the feeds that these moves have for X, Y and Z"))
+        Err(
+            BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
+                .because("F is the feed of X, Y and Z together")
+                .help("remove it, and write the feeds that these moves have for X, Y and Z"),
+        )
     }
 
     /// `CTOL=tolerance`, alone or beside G641 and the like; below zero it is the configured one.
@@ -159,7 +163,7 @@ impl Writer<'_> {
                 return Ok(());
             }
         }
-        Err(Fault::new(
+        Err(BlockDiagnostic::new(
             DiagnosticCode::Expression,
             span,
             "the parenthesis is not closed",
@@ -169,9 +173,9 @@ impl Writer<'_> {
 }
 
 #[cold]
-fn other_spindle(word: &str, span: SourceSpan) -> Box<Fault> {
+fn other_spindle(word: &str, span: SourceSpan) -> Box<BlockDiagnostic> {
     let message = format!("{word} of another spindle than the first");
-    Fault::new(DiagnosticCode::NotSupported, span, message)
+    BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
         .because("the machine has one spindle")
         .help("remove it, or write 1 for the spindle")
 }

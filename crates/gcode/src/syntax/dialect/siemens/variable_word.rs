@@ -1,7 +1,7 @@
 //! Variables in a line: R parameters, declared ones, elements of arrays, and what fills them.
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::dialect::siemens::expression::{Evaluator, unclosed};
 use crate::syntax::dialect::siemens::variables::{
@@ -85,7 +85,7 @@ impl<'a> Evaluator<'a> {
         let values: Vec<f64> = arguments.iter().flatten().copied().collect();
         let is_complete = values.len() == arguments.len() && !values.is_empty();
         let refuse = |message: &str, help: &str| {
-            Err(Fault::new(DiagnosticCode::Parameter, span, message)
+            Err(BlockDiagnostic::new(DiagnosticCode::Parameter, span, message)
                 .because(
                     "SET(a, b, …) gives each element a value, REP(a, n) gives n elements the same",
                 )

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::dialect::siemens::text_variables::{MAX_TEXT, TextAssignment, TextVariable};
 use crate::syntax::expression::scope::Parameter;
@@ -138,9 +138,11 @@ impl Variables {
         let count = (self.count - numbers - texts).saturating_add(elements);
         if count > MAX_VARIABLES {
             let message = format!("more than {MAX_VARIABLES} variables");
-            return Err(Fault::new(DiagnosticCode::Parameter, span, message)
-                .because("the memory of a program is bounded; every element of an array counts")
-                .help("use R parameters, or a smaller array"));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::Parameter, span, message)
+                    .because("the memory of a program is bounded; every element of an array counts")
+                    .help("use R parameters, or a smaller array"),
+            );
         }
         self.count = count;
         self.by_name.remove(name);
@@ -180,7 +182,7 @@ fn check_name(name: &[u8], span: SourceSpan) -> Outcome<()> {
     }
     let shown = String::from_utf8_lossy(name).into_owned();
     let message = format!("`{shown}` is no name of a variable");
-    Err(Fault::new(DiagnosticCode::Parameter, span, message)
+    Err(BlockDiagnostic::new(DiagnosticCode::Parameter, span, message)
         .because(format!(
             "a name has two letters or `_` at its beginning and {MAX_NAME} bytes at most; others are \
              addresses"
@@ -191,9 +193,11 @@ fn check_name(name: &[u8], span: SourceSpan) -> Outcome<()> {
 /// Which element the indices of an array name, the last one fastest.
 pub(crate) fn element_at(sizes: &[usize], indices: &[f64], span: SourceSpan) -> Outcome<usize> {
     let refuse = |message: String, help: &str| {
-        Err(Fault::new(DiagnosticCode::Parameter, span, message)
-            .because("an index counts from 0, one for each dimension of DEF")
-            .help(help))
+        Err(
+            BlockDiagnostic::new(DiagnosticCode::Parameter, span, message)
+                .because("an index counts from 0, one for each dimension of DEF")
+                .help(help),
+        )
     };
     if sizes.len() != indices.len() {
         let (given, wanted) = (indices.len(), sizes.len());
@@ -231,7 +235,7 @@ pub(crate) fn r_parameter(number: f64, span: SourceSpan) -> Outcome<Parameter> {
     let nearest = number.round();
     if (number - nearest).abs() > 1e-4 || !(0.0..f64::from(R_COUNT)).contains(&nearest) {
         let last = R_COUNT - 1;
-        return Err(Fault::new(
+        return Err(BlockDiagnostic::new(
             DiagnosticCode::Parameter,
             span,
             "there is no such R parameter",

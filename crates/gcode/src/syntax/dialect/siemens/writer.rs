@@ -1,7 +1,7 @@
 //! The writer, which rewrites the words of a line into those of RS274/NGC.
 
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::dialect::line_body::body;
 use crate::syntax::dialect::siemens::computed_words::check_computed;
@@ -27,7 +27,7 @@ pub(crate) fn rewrite(text: &[u8], names: Names<'_>) -> Outcome<Rewritten> {
 }
 
 #[cold]
-fn foreign(byte: u8, at: usize) -> Box<Fault> {
+fn foreign(byte: u8, at: usize) -> Box<BlockDiagnostic> {
     let (span, shown) = (SourceSpan::new(at, at + 1), char::from(byte));
     let message = format!("`{shown}` has no meaning here");
     let (why, help) = match byte {
@@ -44,7 +44,7 @@ fn foreign(byte: u8, at: usize) -> Box<Fault> {
             "read the program in the language it is from: --dialect",
         ),
     };
-    Fault::new(DiagnosticCode::BadCharacter, span, message)
+    BlockDiagnostic::new(DiagnosticCode::BadCharacter, span, message)
         .because(why)
         .help(help)
 }

@@ -11,8 +11,8 @@ pub(crate) mod marlin;
 pub(crate) mod siemens;
 pub(crate) mod siemens_names;
 
+use crate::diagnostic::block_diagnostic::BlockDiagnostic;
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::Fault;
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::dialect::Dialect;
 
@@ -31,27 +31,32 @@ pub(crate) enum Meaning {
 
 /// A code that its dialect has, and that is not made.
 #[cold]
-pub(crate) fn refused(shown: &str, what: &str, help: &str, span: SourceSpan) -> Box<Fault> {
+pub(crate) fn refused(
+    shown: &str,
+    what: &str,
+    help: &str,
+    span: SourceSpan,
+) -> Box<BlockDiagnostic> {
     let message = format!("{shown} ({what}) is not supported");
-    Fault::new(DiagnosticCode::NotSupported, span, message)
+    BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
         .because("skipping it would make another motion than the program's")
         .help(help)
 }
 
 /// A G code that is in no table.
 #[cold]
-pub(crate) fn no_g(dialect: Dialect, value: f64, span: SourceSpan) -> Box<Fault> {
+pub(crate) fn no_g(dialect: Dialect, value: f64, span: SourceSpan) -> Box<BlockDiagnostic> {
     let message = format!("there is no G{value} in the dialect {dialect}");
-    Fault::new(DiagnosticCode::UnknownGCode, span, message)
+    BlockDiagnostic::new(DiagnosticCode::UnknownGCode, span, message)
         .because("what it means on that control is not known here, and skipping it could change what the machine does")
         .help("remove it, or read the program in the dialect it is from: --dialect")
 }
 
 /// An M code that is in no table.
 #[cold]
-pub(crate) fn no_m(dialect: Dialect, value: f64, span: SourceSpan) -> Box<Fault> {
+pub(crate) fn no_m(dialect: Dialect, value: f64, span: SourceSpan) -> Box<BlockDiagnostic> {
     let message = format!("there is no M{value} in the dialect {dialect}");
-    Fault::new(DiagnosticCode::UnknownMCode, span, message)
+    BlockDiagnostic::new(DiagnosticCode::UnknownMCode, span, message)
         .because("an M code of the machine's builder could have been meant to stop something")
         .help(format!(
             "declare what it waits for by a table [m_codes.M{value}] in the configuration, or remove it"

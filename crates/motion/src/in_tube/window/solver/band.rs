@@ -49,7 +49,7 @@ impl<const D: usize> Band<D> {
     }
 
     /// Takes one axis of point `i` out: nothing acts on it, and it acts on nothing.
-    pub(super) fn pin(&mut self, i: usize, axis: usize) {
+    pub(super) fn fix(&mut self, i: usize, axis: usize) {
         let Self { rows } = self;
         for block in &mut rows[i] {
             block[axis] = [0.0; D];

@@ -1,16 +1,16 @@
 //! A primal-dual interior point method (Mehrotra 1992) for the sub-problem.
 //!
 //! Every row has two sides, v − high ≤ 0 and low − v ≤ 0. A side g ≤ 0 gets a slack s > 0, a
-//! multiplier l > 0 and, if it is elastic, an excess e > 0 at a price p:
+//! multiplier l > 0 and, if it is soft, an excess e > 0 at a price p:
 //!
 //! ```text
 //!     g + s − e = 0      s·l = μ      e·(p − l) = μ      μ → 0
 //! ```
 //!
 //! Elimination of s, l and e leaves the normal equations for the control points, in which a side
-//! weighs w = 1 / (s/l + e/(p − l)). A hard side is an elastic one of infinite price with e = 0.
+//! weighs w = 1 / (s/l + e/(p − l)). A hard side is a soft one of infinite price with e = 0.
 //!
-//! With c the aims, P the Hessian of ridges and jerk, and a the coefficients of the rows (±, by side),
+//! With c the aims, P the Hessian of attraction and jerk, and a the coefficients of the rows (±, by side),
 //! Newton's step for these conditions and stationarity, c − P·x − Σ l·a = 0, is
 //!
 //! ```text
@@ -27,11 +27,11 @@
 //! bounded in multiplications ([`Allowance`]), which are the same on every run.
 
 use super::ahead::{Ahead, Aim};
-use super::elastic_sides::ElasticSides;
+use super::constraints::Constraints;
 use super::ends::tie_end;
 use super::normal::NormalEquations;
 use super::problem::Problem;
-use super::sides::Sides;
+use super::soft_constraint::SoftConstraint;
 
 /// Share of the way to the boundary that a step may go. At 1 a slack or multiplier would be 0, and
 /// there is no step from there.
@@ -79,7 +79,7 @@ pub(in crate::in_tube::window) struct Allowance {
 /// The method, with its memory.
 #[derive(Debug, Clone)]
 pub(in crate::in_tube::window) struct Interior<const D: usize> {
-    sides: Sides,
+    sides: Constraints,
     normal: NormalEquations<D>,
     /// Multiplications so far, over all problems, as far as they grow with a problem's size: the
     /// measure of work.
@@ -94,7 +94,7 @@ pub(in crate::in_tube::window) struct Interior<const D: usize> {
 impl<const D: usize> Interior<D> {
     pub(in crate::in_tube::window) fn new() -> Self {
         Self {
-            sides: Sides::default(),
+            sides: Constraints::default(),
             normal: NormalEquations::new(),
             work: 0,
             wanted_work: 0,
@@ -177,10 +177,10 @@ impl<const D: usize> Interior<D> {
         self.sides.follow(problem, &self.normal.step)
     }
 
-    /// How much the elastic rows of the last solution are violated at most.
+    /// How much the soft rows of the last solution are violated at most.
     pub(in crate::in_tube::window) fn violation(&self) -> f64 {
-        let sides = self.sides.elastic.iter().chain(&self.sides.wide);
-        let violations = sides.map(ElasticSides::violation);
+        let sides = self.sides.soft.iter().chain(&self.sides.wide);
+        let violations = sides.map(SoftConstraint::violation);
         violations.fold(0.0, f64::max)
     }
 }

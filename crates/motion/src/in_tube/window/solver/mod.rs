@@ -4,13 +4,13 @@
 
 mod ahead;
 mod band;
-mod elastic_sides;
+mod constraints;
 mod ends;
-mod hard_sides;
+mod hard_constraint;
 mod interior;
 mod normal;
 mod problem;
-mod sides;
+mod soft_constraint;
 #[cfg(test)]
 mod tests;
 

@@ -7,11 +7,11 @@
 
 use super::ahead::Aim;
 use super::band::{Band, Block};
-use super::elastic_sides::ElasticSides;
+use super::constraints::Constraints;
 use super::ends::{fold, fold_parts, take_away};
-use super::hard_sides::HardSides;
+use super::hard_constraint::HardConstraint;
 use super::problem::{DIFFERENCES, Problem, Row, SPAN, Site, combine, dot, first_difference};
-use super::sides::Sides;
+use super::soft_constraint::SoftConstraint;
 
 /// The equations, with their memory.
 #[derive(Debug, Clone)]
@@ -61,7 +61,7 @@ impl<const D: usize> NormalEquations<D> {
     }
 
     /// Makes the Hessian from the weights of the sides, and factors it.
-    pub(super) fn factor(&mut self, problem: &Problem<D>, sides: &Sides, damping: f64) {
+    pub(super) fn factor(&mut self, problem: &Problem<D>, sides: &Constraints, damping: f64) {
         let none = [0.0; D];
         self.of_axes.clear();
         self.of_axes
@@ -74,7 +74,7 @@ impl<const D: usize> NormalEquations<D> {
         for (site, weights) in problem.sites.iter().zip(&self.of_sites) {
             let of_rows = (
                 &problem.rows[site.rows.clone()],
-                &sides.elastic[site.rows.clone()],
+                &sides.soft[site.rows.clone()],
             );
             let block = block_of(site, of_rows);
             for i in 0..SPAN {
@@ -96,16 +96,16 @@ impl<const D: usize> NormalEquations<D> {
                 }
             }
         }
-        for (k, pins) in problem.pins.iter().enumerate() {
-            for a in (0..D).filter(|&a| pins[a]) {
-                self.band.pin(k, a);
+        for (k, fixed_axes) in problem.fixed_axes.iter().enumerate() {
+            for a in (0..D).filter(|&a| fixed_axes[a]) {
+                self.band.fix(k, a);
             }
         }
         self.band.factor(problem.free());
     }
 
     /// Adds the rows on differences of `N` points.
-    fn add_differences<const N: usize>(&mut self, problem: &Problem<D>, sides: &[HardSides]) {
+    fn add_differences<const N: usize>(&mut self, problem: &Problem<D>, sides: &[HardConstraint]) {
         let order = N - 2;
         let per_square = problem.bounds[order].map(|bound| 1.0 / (bound * bound));
         let price = if order == 2 { problem.jerk } else { [0.0; D] };
@@ -135,7 +135,7 @@ impl<const D: usize> NormalEquations<D> {
         &mut self,
         problem: &Problem<D>,
         x: &[[f64; D]],
-        sides: &mut Sides,
+        sides: &mut Constraints,
         aim: Option<Aim>,
     ) {
         let last = problem.intervals;
@@ -153,9 +153,9 @@ impl<const D: usize> NormalEquations<D> {
         self.pull_differences::<3>((problem, x), acceleration, aim);
         self.pull_differences::<4>((problem, x), jerk, aim);
         for (site, weights) in problem.sites.iter().zip(&self.of_sites) {
-            let mut pull = pull_of_ridge(site, x);
+            let mut pull = pull_of_attraction(site, x);
             let rows = problem.rows[site.rows.clone()].iter();
-            for (row, side) in rows.zip(&mut sides.elastic[site.rows.clone()]) {
+            for (row, side) in rows.zip(&mut sides.soft[site.rows.clone()]) {
                 if let Some(aim) = aim {
                     side.aim_at(aim);
                 }
@@ -178,8 +178,8 @@ impl<const D: usize> NormalEquations<D> {
                 }
             }
         }
-        for (step, pins) in self.step.iter_mut().zip(&problem.pins) {
-            for a in (0..D).filter(|&a| pins[a]) {
+        for (step, fixed_axes) in self.step.iter_mut().zip(&problem.fixed_axes) {
+            for a in (0..D).filter(|&a| fixed_axes[a]) {
                 step[a] = 0.0;
             }
         }
@@ -197,7 +197,7 @@ impl<const D: usize> NormalEquations<D> {
     fn pull_differences<const N: usize>(
         &mut self,
         (problem, x): (&Problem<D>, &[[f64; D]]),
-        sides: &mut [HardSides],
+        sides: &mut [HardConstraint],
         aim: Option<Aim>,
     ) {
         let order = N - 2;
@@ -229,12 +229,12 @@ fn product<const D: usize>(a: &[f64; D], b: &[f64; D]) -> Block<D> {
     a.map(|value| b.map(|other| value * other))
 }
 
-/// What the rows of a site and its ridge add to the Hessian, where its weights are one:
-/// Σ w·n·nᵀ + ridge·(I − t·tᵀ).
+/// What the rows of a site and its attraction add to the Hessian, where its weights are one:
+/// Σ w·n·nᵀ + attraction·(I − t·tᵀ).
 #[inline]
 fn block_of<const D: usize>(
     site: &Site<D>,
-    (rows, sides): (&[Row<D>], &[ElasticSides]),
+    (rows, sides): (&[Row<D>], &[SoftConstraint]),
 ) -> Block<D> {
     let mut block: Block<D> = [[0.0; D]; D];
     for (row, side) in rows.iter().zip(sides) {
@@ -246,22 +246,22 @@ fn block_of<const D: usize>(
             }
         }
     }
-    if site.ridge > 0.0 {
+    if site.attraction > 0.0 {
         for a in 0..D {
-            block[a][a] += site.ridge;
+            block[a][a] += site.attraction;
             for b in 0..D {
-                block[a][b] -= site.ridge * site.tangent[a] * site.tangent[b];
+                block[a][b] -= site.attraction * site.tangent[a] * site.tangent[b];
             }
         }
     }
     block
 }
 
-/// How the ridge of a site pulls: the gradient of ½·ridge·|offset across t|².
+/// How the attraction of a site pulls: the gradient of ½·attraction·|offset across t|².
 #[inline]
-fn pull_of_ridge<const D: usize>(site: &Site<D>, x: &[[f64; D]]) -> [f64; D] {
+fn pull_of_attraction<const D: usize>(site: &Site<D>, x: &[[f64; D]]) -> [f64; D] {
     let mut pull = [0.0; D];
-    if site.ridge > 0.0 {
+    if site.attraction > 0.0 {
         let y = combine(x, site.first, &site.weights);
         let mut offset = [0.0; D];
         for a in 0..D {
@@ -269,7 +269,7 @@ fn pull_of_ridge<const D: usize>(site: &Site<D>, x: &[[f64; D]]) -> [f64; D] {
         }
         let along = dot(&offset, &site.tangent);
         for a in 0..D {
-            pull[a] = site.ridge * (offset[a] - along * site.tangent[a]);
+            pull[a] = site.attraction * (offset[a] - along * site.tangent[a]);
         }
     }
     pull

@@ -7,26 +7,26 @@
 //! difference, and velocity lies in the hull of first differences.
 //!
 //! ```text
-//!     maximise   Σ aim_k · x_k  −  ½ Σ ridge · |offset across the path|²  −  ½ Σ jerk · |Δ³x|²
+//!     maximise   Σ aim_k · x_k  −  ½ Σ attraction · |offset across the path|²  −  ½ Σ jerk · |Δ³x|²
 //!     subject to |Δⁿ x|  ≤ bound        every axis, n = 1, 2, 3         hard
-//!                low ≤ normal · Σ wᵢ x_{m+i} ≤ high                      elastic: at a price
-//!                low ≤ Σ partᵢ · x_{m+i} ≤ high                          elastic, for joints
+//!                low ≤ normal · Σ wᵢ x_{m+i} ≤ high                      soft: at a price
+//!                low ≤ Σ partᵢ · x_{m+i} ≤ high                          soft, for joints
 //! ```
 //!
 //! That is a convex quadratic program: of the negative objective the gradient is −aim plus the pulls
-//! of ridges and jerk, and the Hessian, Σ ridge · (I − t·tᵀ) + Σ jerk · Δ³ᵀΔ³ with t along the path, has
+//! of attraction and jerk, and the Hessian, Σ attraction · (I − t·tᵀ) + Σ jerk · Δ³ᵀΔ³ with t along the path, has
 //! no negative eigenvalue and does not depend on x. All that is round (the tube, the feed) is left
-//! outside, as planes learnt between problems ([`super::super::cuts`]); which sample belongs to which
+//! outside, as planes learnt between problems ([`super::super::cutting_planes`]); which sample belongs to which
 //! piece, which is not convex, too.
 //!
 //! Units: a coordinate is measured in tolerances, a row in the radius, bound or feed that it is for,
 //! the objective in periods of progress at the feed, averaged over the samples. So prices and
 //! tolerances below need not know the machine.
 //!
-//! Elastic rows make sure there is always a solution: the rest of the last window keeps the hard
+//! Soft rows make sure there is always a solution: the rest of the last window keeps the hard
 //! ones.
 
-/// Price of violating an elastic row by one. Progress gains at most about one by it, so a row that
+/// Price of violating a soft row by one. Progress gains at most about one by it, so a row that
 /// can be kept is kept: a penalty proportional to the violation is exact as long as the price is above
 /// the multiplier that the row would have if it were hard. With less, rows are traded for progress. No
 /// measurement of it is kept, nor of the next.
@@ -53,7 +53,7 @@ pub(in crate::in_tube::window) struct Site<const D: usize> {
     /// Its rows.
     pub(in crate::in_tube::window) rows: core::ops::Range<usize>,
     /// Pull towards the line through `center` along `tangent`, per square of the distance.
-    pub(in crate::in_tube::window) ridge: f64,
+    pub(in crate::in_tube::window) attraction: f64,
     pub(in crate::in_tube::window) center: [f64; D],
     pub(in crate::in_tube::window) tangent: [f64; D],
 }
@@ -112,7 +112,7 @@ pub(in crate::in_tube::window) struct Problem<const D: usize> {
     /// Weight of the square of third differences, by axis.
     pub(in crate::in_tube::window) jerk: [f64; D],
     /// Which control points stay where they are given, by axis.
-    pub(in crate::in_tube::window) pins: Vec<[bool; D]>,
+    pub(in crate::in_tube::window) fixed_axes: Vec<[bool; D]>,
     /// Gradient of the linear part of the objective, which is maximised, by control point.
     pub(in crate::in_tube::window) aims: Vec<[f64; D]>,
     pub(in crate::in_tube::window) sites: Vec<Site<D>>,
@@ -127,7 +127,7 @@ impl<const D: usize> Problem<D> {
             is_end_fixed: false,
             bounds: [[f64::INFINITY; D]; 3],
             jerk: [0.0; D],
-            pins: Vec::new(),
+            fixed_axes: Vec::new(),
             aims: Vec::new(),
             sites: Vec::new(),
             rows: Vec::new(),
@@ -139,8 +139,8 @@ impl<const D: usize> Problem<D> {
     pub(in crate::in_tube::window) fn clear(&mut self, intervals: usize, is_end_fixed: bool) {
         self.intervals = intervals;
         self.is_end_fixed = is_end_fixed;
-        self.pins.clear();
-        self.pins.resize(intervals + 3, [false; D]);
+        self.fixed_axes.clear();
+        self.fixed_axes.resize(intervals + 3, [false; D]);
         self.aims.clear();
         self.aims.resize(intervals + 3, [0.0; D]);
         self.sites.clear();
@@ -169,7 +169,7 @@ impl<const D: usize> Problem<D> {
             first,
             weights,
             rows: at..at,
-            ridge: 0.0,
+            attraction: 0.0,
             center: [0.0; D],
             tangent: [0.0; D],
         });
@@ -268,7 +268,7 @@ impl<const D: usize> Problem<D> {
         axis: usize,
     ) -> bool {
         let free = self.free();
-        let is_given = |k: usize| !free.contains(&k) || self.pins[k][axis];
+        let is_given = |k: usize| !free.contains(&k) || self.fixed_axes[k][axis];
         (0..SPAN).all(|k| weights[k].abs() <= 0.0 || is_given(first + k))
     }
 

@@ -1,0 +1,82 @@
+//! The state of the executor between jobs, and what every job begins with.
+
+use glidepath_gcode::{Dialect, InForce};
+use glidepath_geometry::AxisVector;
+use glidepath_link::LinkConfig;
+use glidepath_planner::{FramePublisher, ResumePoint};
+
+use crate::begun::Board;
+use crate::command::failure::Failure;
+use crate::command::run_supervisor::RunSupervisor;
+use crate::config::MachineConfig;
+
+/// Executes jobs one after the other.
+#[derive(Debug)]
+pub(in crate::command) struct JobExecutor<'c> {
+    pub(super) config: &'c MachineConfig,
+    pub(super) link: LinkConfig,
+    pub(super) board: &'c Board,
+    /// What the job before has left in force.
+    pub(super) in_force: Option<InForce>,
+    /// The program begun last.
+    pub(super) begun: Option<Begun>,
+    /// Lines were executed since that program.
+    pub(super) has_lines: bool,
+    /// Where it was left, if it ended early and lines were executed since.
+    pub(super) left: Option<ResumePoint>,
+}
+
+impl<'c> JobExecutor<'c> {
+    pub(in crate::command) const fn new(
+        config: &'c MachineConfig,
+        link: LinkConfig,
+        board: &'c Board,
+    ) -> Self {
+        Self {
+            config,
+            link,
+            board,
+            in_force: None,
+            begun: None,
+            has_lines: false,
+            left: None,
+        }
+    }
+
+    /// The configuration and the supervisor of the next job.
+    pub(super) fn set_up(
+        &self,
+        publisher: &FramePublisher<'_>,
+    ) -> Result<(MachineConfig, RunSupervisor), Failure> {
+        let mut config = self.config.clone();
+        let supervisor = RunSupervisor::new(&mut config, self.link.directory(), true)?;
+        if let Some(in_force) = self.in_force.as_ref().filter(|_| !supervisor.keeps()) {
+            config.program.offsets = in_force.work_offsets();
+            config.program.tools = in_force.tools().cloned().or(config.program.tools);
+        }
+        config.program.in_force = self.in_force.clone();
+        config.program.watch = Some(publisher.watch());
+        Ok((config, supervisor))
+    }
+}
+
+/// A program, and what it began with.
+#[derive(Debug)]
+pub(super) struct Begun {
+    pub(super) program: u64,
+    pub(super) start: AxisVector,
+    pub(super) in_force: Option<InForce>,
+}
+
+/// For the lines of senders and pages, whose language is that of `LinuxCNC`, or nearest to it.
+pub(super) fn of_sender(mut config: MachineConfig) -> MachineConfig {
+    config.program.dialect = Some(Dialect::LinuxCnc);
+    config
+}
+
+/// For reading that goes on when the job is over.
+pub(super) fn unwatched(config: &MachineConfig) -> MachineConfig {
+    let mut config = config.clone();
+    config.program.watch = None;
+    config
+}
