@@ -55,13 +55,7 @@ impl Interpreter {
             )));
         }
         if pitch <= 0.0 {
-            let message = format!("the pitch {name}{pitch} is not above zero");
-            return Err(BlockDiagnostic::new(
-                DiagnosticCode::InvalidValue,
-                block.span(letter),
-                message,
-            )
-            .help("write the way of a revolution; the axis words give its direction"));
+            return Err(no_pitch(block, letter, pitch));
         }
         let target = self.target(block)?;
         if self.open_thread.is_none() && self.state.thread_end == Some(self.state.path_end) {
@@ -269,6 +263,14 @@ impl Interpreter {
         }
         Ok(speed_v)
     }
+}
+
+/// A pitch that leads nowhere, or back.
+fn no_pitch(block: &Block, letter: u8, pitch: f64) -> Box<BlockDiagnostic> {
+    let name = char::from(letter);
+    let message = format!("the pitch {name}{pitch} is not above zero");
+    BlockDiagnostic::new(DiagnosticCode::InvalidValue, block.span(letter), message)
+        .help("write the way of a revolution; the axis words give its direction")
 }
 
 /// The letters that a SINUMERIK's thread has its lead in.
