@@ -29,7 +29,34 @@ pub(crate) struct Wiring {
     pub(crate) sizes: (usize, usize),
 }
 
-/// Why something is not where the file says.
+/// Why a device cannot be wired as the file says.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Unwired {
+    /// Something is not where the file says.
+    NotThere(NotThere),
+    /// Two outputs are the same bits, named differently.
+    Twice(At, At),
+}
+
+impl fmt::Display for Unwired {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotThere(it) => it.fmt(f),
+            Self::Twice(one, other) => write!(
+                f,
+                "output {one} and output {other} are the same bits, and an output obeys one thing"
+            ),
+        }
+    }
+}
+
+impl From<NotThere> for Unwired {
+    fn from(it: NotThere) -> Self {
+        Self::NotThere(it)
+    }
+}
+
+/// Something that is not where the file says.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct NotThere {
     /// "input" or "output".
@@ -45,7 +72,10 @@ impl fmt::Display for NotThere {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { what, at, .. } = self;
         match self.found {
-            Some(bits) => write!(f, "{what} {at} has {bits} bits, and cannot be this")?,
+            Some(bits) => write!(
+                f,
+                "{what} {at} is {bits} bits long, and cannot be what the file says"
+            )?,
             None => write!(f, "there is no {what} {at} in its process data")?,
         }
         let known: Vec<String> = self
@@ -148,7 +178,7 @@ impl Wiring {
         &mut self,
         settings: &TerminalSettings,
         windows: &[Window],
-    ) -> Result<(), NotThere> {
+    ) -> Result<(), Unwired> {
         let row = |what, is_output, from: usize| Row {
             what,
             windows,
@@ -175,7 +205,24 @@ impl Wiring {
         }
         self.sizes.0 += outputs.bytes();
         self.sizes.1 += inputs.bytes();
-        Ok(())
+        self.has_each_output_once()
+    }
+
+    /// A file can name the same output by its object and by its bit.
+    fn has_each_output_once(&self) -> Result<(), Unwired> {
+        let digital = self.outputs.iter();
+        let digital = digital.map(|wire| (wire.bit, wire.bits, wire.what.at));
+        let analog = self.analog_outputs.iter();
+        let analog = analog.map(|wire| (wire.bit, wire.bits, wire.what.at));
+        let mut all: Vec<(usize, u32, At)> = digital.chain(analog).collect();
+        all.sort_by_key(|(bit, ..)| *bit);
+        let twice = all.windows(2).find_map(|pair| match *pair {
+            [(bit, bits, one), (next, _, other)] if next < bit + bits as usize => {
+                Some(Unwired::Twice(one, other))
+            }
+            _ => None,
+        });
+        twice.map_or(Ok(()), Err)
     }
 }
 
@@ -216,6 +263,7 @@ mod tests {
 
     use super::*;
     use crate::device::SyncManager;
+    use crate::terminal::signal::Signal;
 
     fn window(number: u8, is_output: bool, entries: &[u32]) -> Window {
         Window {
@@ -291,11 +339,38 @@ mod tests {
         );
         let number = told(object(0x6000, 0x11));
         assert!(
-            number.starts_with("input 0x6000:11 has 16 bits, and cannot"),
+            number.starts_with("input 0x6000:11 is 16 bits long, and cannot"),
             "{number}"
         );
         let beyond = told(At::Bit(24));
         assert!(beyond.starts_with("there is no input bit 24"), "{beyond}");
+    }
+
+    #[test]
+    fn an_output_that_is_named_twice_in_different_ways_is_refused() {
+        let output = |at| DigitalOutput {
+            at,
+            from: Signal::Output(0),
+            is_inverted: false,
+            rest: false,
+        };
+        let told = |outputs: Vec<DigitalOutput>| {
+            let settings = TerminalSettings {
+                outputs,
+                ..TerminalSettings::default()
+            };
+            let four = [0x7000_0101, 0x7010_0101, 0x7020_0101, 0x7030_0101];
+            Wiring::default().add(&settings, &[window(0, true, &four)])
+        };
+        assert_eq!(
+            told(vec![output(object(0x7000, 1)), output(At::Bit(1))]),
+            Ok(())
+        );
+        let twice = told(vec![output(object(0x7010, 1)), output(At::Bit(1))]).unwrap_err();
+        assert_eq!(
+            twice.to_string(),
+            "output 0x7010:01 and output bit 1 are the same bits, and an output obeys one thing"
+        );
     }
 
     #[test]

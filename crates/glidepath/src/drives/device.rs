@@ -100,12 +100,15 @@ impl Devices<'_> {
         let position = self
             .judge
             .whole("device.position", &raw.position, (0, 63), help);
-        let position: usize = position.unwrap_or(0);
-        if !self.claims.take("position", position) {
+        // One that is out of range is told as that, and takes no place.
+        if let Some(position) = position
+            && !self.claims.take("position", position)
+        {
             let message = format!("two devices are at position {position}");
             let help = "every table has a place of its own in the line";
             self.tell("device.position", message, help, span);
         }
+        let position: usize = position.unwrap_or(0);
         let mut id = |key, value: &Option<Spanned<i64>>, most| {
             let help = "as `glidepath ethercat scan INTERFACE` shows it; 0 compares nothing";
             let value = value.as_ref()?;
