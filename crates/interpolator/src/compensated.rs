@@ -17,7 +17,7 @@
 use crate::config::Config;
 use crate::track::Track;
 use crate::tracker::{Bounds, Motion, Target, Tracker};
-use glidepath_geometry::{Axis, AxisVector};
+use glidepath_geometry::{AXES, Axis, AxisVector};
 use glidepath_kinematics::{JOINTS, JointCompensation, JointMotion, JointVector};
 
 /// How far a joint has to come back to have turned round, mm or degrees: more than rounding, less than anybody
@@ -89,8 +89,10 @@ struct Compensated {
     axis: Option<Axis>,
     by: &'static JointCompensation,
     side: Option<Side>,
-    /// Where its axis will be some frames ahead, if that is known.
-    ahead: Option<f64>,
+    /// How far its axis will be from here some frames ahead.
+    ahead: f64,
+    /// It follows another joint, which tells where the axis is.
+    is_second: bool,
 }
 
 impl Compensated {
@@ -117,7 +119,8 @@ impl CompensatedJoints {
             joint,
             axis: axes.get(joint).copied().flatten(),
             by,
-            ahead: None,
+            ahead: 0.0,
+            is_second: config.second_joints().any(|(second, _)| second == joint),
             side: by.has_play().then(|| {
                 Side::new(
                     by.side_limits(),
@@ -140,7 +143,7 @@ impl CompensatedJoints {
     }
 
     /// Looks ahead along the frames of a program for where joints turn round. Until the next setpoint.
-    pub(crate) fn look_ahead(&mut self, track: &Track, sequence: u64) {
+    pub(crate) fn look_ahead(&mut self, track: &Track, sequence: u64, position: &[f64; AXES]) {
         for joint in &mut self.joints {
             let (Some(side), Some(axis)) = (&joint.side, joint.axis) else {
                 continue;
@@ -148,7 +151,8 @@ impl CompensatedJoints {
             let frame = track
                 .frame(sequence + side.ahead)
                 .or_else(|| track.newest());
-            joint.ahead = frame.and_then(|frame| frame.position.get(axis.index()).copied());
+            let at = |position: &[f64; AXES]| position.get(axis.index()).copied().unwrap_or(0.0);
+            joint.ahead = frame.map_or(0.0, |frame| at(&frame.position) - at(position));
         }
     }
 
@@ -159,7 +163,7 @@ impl CompensatedJoints {
             let Some([q, v, a]) = rates(motion, joint.joint) else {
                 continue;
             };
-            let ahead = joint.ahead.take().unwrap_or(q);
+            let ahead = q + core::mem::take(&mut joint.ahead);
             let side = match &mut joint.side {
                 Some(side) => side.step(ahead, self.period_t),
                 None => Motion::default(),
@@ -208,7 +212,7 @@ impl CompensatedJoints {
                 *place = joint.by.meant(joint.by.told(*place, now), 0.0);
                 side.forget(*place);
             }
-            if let Some(axis) = joint.axis
+            if let Some(axis) = joint.axis.filter(|_| !joint.is_second)
                 && let Some(slot) = axes.get_mut(axis.index())
             {
                 *slot = *place;

@@ -53,8 +53,9 @@ impl Joints {
     }
 
     /// Looks ahead along the frames of a program for where joints turn round.
-    pub(crate) fn look_ahead(&mut self, track: &Track, sequence: u64) {
-        self.compensated.look_ahead(track, sequence);
+    pub(crate) fn look_ahead(&mut self, track: &Track, sequence: u64, setpoint: &Setpoint) {
+        self.compensated
+            .look_ahead(track, sequence, &setpoint.position);
     }
 
     /// Whether no play of a joint is being taken up.

@@ -92,7 +92,7 @@ impl Output {
         if writer.write_moving(epoch, now, track, setpoint).is_none() {
             return Written::Nothing;
         }
-        self.joints.look_ahead(track, now.time.sequence);
+        self.joints.look_ahead(track, now.time.sequence, setpoint);
         self.go_to(&setpoint.position.into())
     }
 

@@ -32,20 +32,24 @@ pub fn from_screw(
     mm_per_unit: f64,
 ) -> Result<String, ReadError> {
     let mut rows: Vec<[f64; 3]> = Vec::new();
-    let mut is_two_way = false;
-    for (line, number) in text.lines().zip(1_usize..) {
+    let mut columns = None;
+    for (line, number) in text.trim_start_matches('\u{feff}').lines().zip(1_usize..) {
         let line = line.trim();
-        if line.is_empty() || line.starts_with(|c: char| c == '#' || c == ';' || c.is_alphabetic())
-        {
+        if line.is_empty() || line.starts_with(['#', ';']) || is_heading(line, &rows) {
             continue;
         }
-        let row = row(line, values).map_err(|reason| ReadError {
+        let at = |reason| ReadError {
             place: format!("line {number}"),
             reason,
-        })?;
-        is_two_way |= row.2;
-        rows.push([row.0, row.1[0], row.1[1]].map(|value| value * mm_per_unit));
+        };
+        let (row, count) = row(line, values).map_err(at)?;
+        if *columns.get_or_insert(count) != count {
+            let reason = "another number of columns than the rows before: give every row its value down, or none";
+            return Err(at(reason.to_owned()));
+        }
+        rows.push(row.map(|value| value * mm_per_unit));
     }
+    let is_two_way = columns == Some(3);
     if rows.len() < 2 {
         return Err(ReadError {
             place: "the file".to_owned(),
@@ -74,16 +78,43 @@ fn rounded(value: f64) -> String {
     float(value + 0.0)
 }
 
-/// Position, corrections up and down, and whether both were given.
-fn row(line: &str, values: ScrewValues) -> Result<(f64, [f64; 2], bool), String> {
-    let is_between = |c: char| c.is_whitespace() || c == ',' || c == ';';
-    let words = line.split(is_between).filter(|word| !word.is_empty());
-    let numbers: Result<Vec<f64>, String> = words
-        .map(|word| {
-            let number = word.parse::<f64>().ok().filter(|number| number.is_finite());
-            number.ok_or_else(|| format!("`{word}` is no number"))
-        })
-        .collect();
+/// A line of words above the table.
+fn is_heading(line: &str, rows: &[[f64; 3]]) -> bool {
+    let mut words = line.split(|c: char| c.is_whitespace() || c == ',' || c == ';');
+    rows.is_empty()
+        && line.starts_with(char::is_alphabetic)
+        && !words.any(|word| word.parse::<f64>().is_ok())
+}
+
+/// The fields of a row: apart by semicolons, else by commas, else by spaces and tabs.
+fn fields(line: &str) -> Vec<&str> {
+    let between = [';', ','].into_iter().find(|sign| line.contains(*sign));
+    match between {
+        Some(sign) => line.split(sign).map(str::trim).collect(),
+        None => line.split_whitespace().collect(),
+    }
+}
+
+/// A number as it is written, which `003` is not: that is what a decimal comma leaves.
+fn number(word: &str) -> Result<f64, String> {
+    if word.is_empty() {
+        return Err("a field is empty".to_owned());
+    }
+    let digits = word.trim_start_matches(['+', '-']).as_bytes();
+    let is_rest = matches!(digits, [b'0', next, ..] if next.is_ascii_digit());
+    if word.contains(',') || is_rest {
+        return Err(format!(
+            "`{word}` is no number; a decimal sign is a point here"
+        ));
+    }
+    let number = word.parse::<f64>().ok().filter(|number| number.is_finite());
+    number.ok_or_else(|| format!("`{word}` is no number"))
+}
+
+/// Position and corrections up and down, and how many columns there are.
+fn row(line: &str, values: ScrewValues) -> Result<([f64; 3], usize), String> {
+    let fields = fields(line);
+    let numbers: Result<Vec<f64>, String> = fields.iter().map(|word| number(word)).collect();
     let numbers = numbers?;
     let (at, up, down) = match *numbers {
         [at, up] => (at, up, None),
@@ -100,14 +131,14 @@ fn row(line: &str, values: ScrewValues) -> Result<(f64, [f64; 2], bool), String>
         ScrewValues::Errors => -value,
         ScrewValues::Trims => value,
     };
-    let corrections = [correction(up), correction(down.unwrap_or(up))];
-    let far = corrections.iter().find(|value| value.abs() > FARTHEST);
+    let [up, down] = [correction(up), correction(down.unwrap_or(up))];
+    let far = [up, down].into_iter().find(|value| value.abs() > FARTHEST);
     if let Some(far) = far {
         return Err(format!(
             "a correction of {far} at {at}: other values than were said? (measured positions, errors or trims)"
         ));
     }
-    Ok((at, corrections, down.is_some()))
+    Ok(([at, up, down], fields.len()))
 }
 
 #[cfg(test)]
@@ -119,7 +150,7 @@ mod tests {
     #[test]
     fn the_file_of_linuxcnc_is_a_table() {
         // nominal, forward, reverse, as its documentation has it.
-        let text = "# X of the mill\n0.0 0.0 -0.0015\n100 100.003 100.001\n50,49.998;49.9965\n";
+        let text = "# X of the mill\n0.0 0.0 -0.0015\n100 100.003 100.001\n50, 49.998, 49.9965\n";
         let toml = from_screw(text, 0, ScrewValues::Measured, 1.0).unwrap();
         assert_eq!(
             toml,
@@ -146,6 +177,18 @@ mod tests {
         assert_eq!(of("0 0\n1 x\n").to_string(), "line 2: `x` is no number");
         assert!(of("0 0 0 0\n").to_string().contains("4 columns"));
         assert!(of("0 0\n").to_string().contains("two at least"));
+        for (text, words) in [
+            ("O 0.001\n0 0\n1 0\n", "`O` is no number"),
+            ("0 0 0.01\n100 0.003\n", "another number of columns"),
+            ("0;0,003\n100;0,004\n", "a decimal sign is a point"),
+            ("0,003\n100,004\n", "a decimal sign is a point"),
+            ("100,000 0.003\n", "no number"),
+            ("0,,0.001\n", "a field is empty"),
+        ] {
+            let told = of(text).to_string();
+            assert!(told.contains(words), "{text}: {told}");
+        }
+        assert!(from_screw("\u{feff}0,0\n1,0\n", 0, ScrewValues::Errors, 1.0).is_ok());
         // Measured positions given as errors.
         assert!(
             of("0 0\n100 100.003\n")

@@ -181,7 +181,7 @@ fn what_is_wrong_with_a_terminal_is_said_with_its_place() {
     };
     let value = refusal(Emulated::analog_outputs(2), value);
     assert!(
-        value.contains("0x7000:01 has 16 bits, and cannot be this"),
+        value.contains("0x7000:01 is 16 bits long, and cannot be what the file says"),
         "{value}"
     );
 }

@@ -28,6 +28,8 @@ const STEEPEST: f64 = 0.01;
 pub const MOST_POINTS: usize = 256;
 /// Less than this of a limit is no limit to plan with: the table is rough, or its points are too near each other.
 const LEAST_LEFT: f64 = 0.2;
+/// What two ways may differ by the wrong way round, mm or degrees: what a gauge is off.
+const GAUGE: f64 = 2e-3;
 /// A little of each limit, for the rounding of positions and their differences.
 const SPARE: f64 = 1e-4;
 /// Newton's steps from m to q: each squares the error, and the first guess is off by a hundredth at most.
@@ -53,6 +55,11 @@ pub enum CompensationError {
     /// The positions do not ascend.
     #[error("positions ascend; {1} comes behind {0}")]
     Order(f64, f64),
+    /// More is added on the way down than on the way up.
+    #[error(
+        "at {0} more is added on the way down than on the way up: are the two columns exchanged?"
+    )]
+    Exchanged(f64),
     /// A correction is too steep.
     #[error(
         "the corrections change by {0:.4} mm in a mm at most, and {STEEPEST} are taken: \
@@ -114,6 +121,10 @@ impl JointCompensation {
         let mut half = of(&|at| 0.5 * (at.up - at.down) + 0.5 * backlash);
         if half.is_empty() && backlash > 0.0 {
             half = vec![(0.0, 0.5 * backlash), (1.0, 0.5 * backlash)];
+        }
+        // Play makes the way up longer; what is measured without any differs by the gauge.
+        if let Some((at, _)) = half.iter().find(|(_, half)| *half < -GAUGE) {
+            return Err(CompensationError::Exchanged(*at));
         }
         let half = Spline::through(&half);
         let mut it = Self {
@@ -429,6 +440,12 @@ mod tests {
             matches!(measured, CompensationError::TooSteep(_)),
             "{measured}"
         );
+        let exchanged = [0.0, 50.0].map(|position| CompensationPoint {
+            position,
+            up: 0.0,
+            down: 0.012,
+        });
+        assert_eq!(refused(&exchanged), CompensationError::Exchanged(0.0));
         let rough: Vec<_> = (0..40)
             .map(|k| at(f64::from(k), 0.003 * f64::from(k % 2)))
             .collect();

@@ -69,7 +69,7 @@ impl Machine {
                 self.inputs.decide(at, Fate::Changed, note);
             }
             _ => {
-                let note = "no play, or not in a unit that is known";
+                let note = "not 0 to 10 mm, or not in a unit that is known";
                 self.inputs.decide(at, Fate::NoCounterpart, note);
             }
         }

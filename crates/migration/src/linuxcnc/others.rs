@@ -64,7 +64,7 @@ const JOINT_KEYS: [(&str, &str); 20] = [
     ),
     (
         "COMP_FILE",
-        "`glidepath config from-screw FILE --joint J0 --values measured` makes its table (trims, if COMP_FILE_TYPE is 1)",
+        "`glidepath config from-screw FILE --joint J0 --values measured` makes its table (`trims`, if COMP_FILE_TYPE is 1; `--unit inch`, if its units are)",
     ),
     ("TYPE", "letters say which axes turn"),
     ("UNITS", "units are those of [TRAJ]"),

@@ -101,6 +101,10 @@ impl Judge {
                 CompensationError::Points(_) | CompensationError::Order(..) => {
                     "`glidepath config from-screw --help` says how to make the table of a measurement".to_owned()
                 }
+                CompensationError::Exchanged(_) => {
+                    "what is added on the way down is less, by the play; `corrections` are those of the way up"
+                        .to_owned()
+                }
                 CompensationError::TooSteep(_) => {
                     "corrections are what is added to a position, mm or °: the position less what was measured there"
                         .to_owned()

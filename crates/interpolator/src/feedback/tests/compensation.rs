@@ -2,7 +2,8 @@
 
 use super::bench::{Bench, config};
 use super::homing::{SWITCH, joint, set_out};
-use crate::config::Config;
+use crate::config::{Config, Gantry};
+use crate::homing::JointHoming;
 use crate::testing::plan;
 use glidepath_kinematics::{CompensationPoint, JOINTS, JointCompensation, JointLimit};
 use glidepath_link::{Command, MachineState, Setpoint};
@@ -154,4 +155,53 @@ fn a_position_that_is_set_is_the_position() {
         last.position[0]
     );
     assert!((last.joint_position[0] - before[0]).abs() < 1e-9);
+}
+
+/// An axis with two joints, the second of which has another table than the first.
+fn gantry() -> Bench {
+    let mut settings = compensated(0.03, config(false));
+    settings.gantries[0] = Some(Gantry {
+        master: 0,
+        difference: 1.5,
+    });
+    let drive = *settings.compensation[0].unwrap().drive();
+    let even = [-100.0, 100.0].map(|position| CompensationPoint {
+        position,
+        up: 0.02,
+        down: 0.02,
+    });
+    let even = JointCompensation::new(&even, 0.05, &drive).unwrap();
+    settings.compensation[3] = Some(Box::leak(Box::new(even)));
+    let homing = JointHoming {
+        sequence: -1,
+        ..SWITCH
+    };
+    let joints = &mut settings.feedback.as_mut().unwrap().joints;
+    joints[0].homing = Some(homing);
+    joints[3].homing = Some(homing);
+    let others = JointSettings::default();
+    Bench::new(settings, &[joint(5.0), others, others, joint(5.2)])
+}
+
+#[test]
+fn both_joints_of_a_gantry_have_tables_and_power_moves_neither() {
+    let mut bench = gantry();
+    bench.enable(MachineState::NotHomed);
+    let told = |bench: &Bench| [0, 3].map(|joint| bench.last().joint_position[joint]);
+    let before = told(&bench);
+    for _ in 0..3 {
+        bench.command(Command::Disable).unwrap();
+        assert!(bench.run_to(MachineState::Off, 20));
+        bench.enable(MachineState::NotHomed);
+        bench.run(60);
+        for (after, before) in told(&bench).into_iter().zip(before) {
+            assert!((after - before).abs() < 1e-6, "{after} {before}");
+        }
+    }
+    bench.command(Command::Home(1)).unwrap();
+    assert!(bench.run_to(MachineState::Homing, 5));
+    let is_home = bench.run_to(MachineState::Idle, 8_000);
+    assert!(is_home, "{:?} {:?}", bench.state(), bench.fault());
+    let last = bench.last();
+    assert!((last.position[0] - SWITCH.home).abs() < 1e-9);
 }
