@@ -158,7 +158,7 @@ impl CompensatedJoints {
 
     /// Turns where joints are to be into what their drives are told, in the machine's count. One period of the
     /// take-up goes by.
-    pub(crate) fn tell(&mut self, motion: &mut JointMotion) {
+    pub(crate) fn compensate(&mut self, motion: &mut JointMotion) {
         for joint in &mut self.joints {
             let Some([q, v, a]) = rates(motion, joint.joint) else {
                 continue;
@@ -168,20 +168,22 @@ impl CompensatedJoints {
                 Some(side) => side.step(ahead, self.period_t),
                 None => Motion::default(),
             };
-            let told = joint.by.told_rates([q, v, a], [side.x, side.v, side.a]);
+            let told = joint
+                .by
+                .compensated_rates([q, v, a], [side.x, side.v, side.a]);
             set_rates(motion, joint.joint, told);
         }
     }
 
     /// Turns what joints are told that are moved each for itself into where they are, at the present sides.
-    pub(crate) fn mean(&self, motion: &mut JointMotion) {
+    pub(crate) fn restore(&self, motion: &mut JointMotion) {
         for joint in &self.joints {
             let Some([m, m_v, m_a]) = rates(motion, joint.joint) else {
                 continue;
             };
             let side = joint.now();
-            let q = joint.by.meant(m, side);
-            let [v, a] = joint.by.meant_rates(q, [m_v, m_a], side);
+            let q = joint.by.nominal(m, side);
+            let [v, a] = joint.by.nominal_rates(q, [m_v, m_a], side);
             set_rates(motion, joint.joint, [q, v, a]);
         }
     }
@@ -196,7 +198,7 @@ impl CompensatedJoints {
             if let Some(side) = &mut joint.side {
                 side.farthest = *place;
             }
-            *place = joint.by.told(*place, now);
+            *place = joint.by.compensated(*place, now);
         }
     }
 
@@ -209,7 +211,7 @@ impl CompensatedJoints {
                 continue;
             };
             if let Some(side) = &mut joint.side {
-                *place = joint.by.meant(joint.by.told(*place, now), 0.0);
+                *place = joint.by.nominal(joint.by.compensated(*place, now), 0.0);
                 side.forget(*place);
             }
             if let Some(axis) = joint.axis.filter(|_| !joint.is_second)

@@ -107,7 +107,7 @@ impl Joints {
         setpoint.joint_acceleration = motion.acceleration.into();
         let mut motion = *motion;
         motion.position += self.offset;
-        self.compensated.mean(&mut motion);
+        self.compensated.restore(&mut motion);
         // Joints are axes here, so that their rates go the same way as their positions.
         let near = AxisVector::from(setpoint.position);
         let axes = |joints: &JointVector| self.mechanism.forward(joints, &near);
@@ -157,7 +157,7 @@ impl Joints {
             velocity: JointVector::zeros(),
             acceleration: JointVector::zeros(),
         };
-        self.compensated.mean(&mut motion);
+        self.compensated.restore(&mut motion);
         self.stand(&motion.position);
     }
 
@@ -180,7 +180,7 @@ impl Joints {
                 self.add_second_joints(&mut motion);
                 let joints = motion.position;
                 if !self.compensated.is_empty() {
-                    self.compensated.tell(&mut motion);
+                    self.compensated.compensate(&mut motion);
                 }
                 self.last = if self.has_offset {
                     motion.position - self.offset

@@ -174,7 +174,7 @@ impl StatusBook {
         for (joint, by) in self.compensation.iter().enumerate() {
             if let Some(by) = by {
                 let at = &mut status.joint_actual[joint];
-                *at = by.meant(*at, report.sides[joint]);
+                *at = by.nominal(*at, report.sides[joint]);
             }
         }
         status.mode = mode(report).code();

@@ -1,7 +1,8 @@
 //! The conversion of a measured screw: a table of positions and what was measured there, to `[compensation.J0]`.
 //!
 //! The input is LinuxCNC's compensation file (`COMP_FILE`: nominal, forward, reverse), or the columns of a laser or a
-//! gauge, apart by spaces, tabs, commas or semicolons. Lines that begin with `#`, `;` or a letter are none of the table.
+//! gauge, apart by semicolons, commas, or spaces and tabs. Lines that begin with `#` or `;`, and words above the table, are none
+//! of it; every row has as many columns as the first.
 
 use crate::draft::float;
 use crate::ini::ReadError;

@@ -166,7 +166,7 @@ impl DriveMonitor {
             } else {
                 joints.position[joint]
             };
-            position[joint] = self.meant(joint, counted);
+            position[joint] = self.nominal(joint, counted);
         }
         let age_ns = self.age_ns(&joints, now_ns);
         let axes = self.mechanism.forward(&position, &self.near);
@@ -255,20 +255,20 @@ impl DriveMonitor {
     }
 
     /// Where a joint is when its drive counts so much, in the machine's count.
-    pub(super) fn meant(&self, joint: usize, counted: f64) -> f64 {
+    pub(super) fn nominal(&self, joint: usize, counted: f64) -> f64 {
         let place = counted + self.offset[joint];
-        self.compensation[joint].map_or(place, |by| by.meant(place, self.sides[joint]))
+        self.compensation[joint].map_or(place, |by| by.nominal(place, self.sides[joint]))
     }
 
     /// What is added for a place of a joint, in the middle of its play.
     pub(super) fn added(&self, joint: usize, place: f64) -> f64 {
-        self.compensation[joint].map_or(0.0, |by| by.told(place, 0.0) - place)
+        self.compensation[joint].map_or(0.0, |by| by.compensated(place, 0.0) - place)
     }
 
-    fn all_meant(&self, counted: &JointVector) -> JointVector {
+    fn all_nominal(&self, counted: &JointVector) -> JointVector {
         let mut places = counted + self.offset;
         for joint in (0..JOINTS).filter(|joint| self.compensation[*joint].is_some()) {
-            places[joint] = self.meant(joint, counted[joint]);
+            places[joint] = self.nominal(joint, counted[joint]);
         }
         places
     }
@@ -278,7 +278,7 @@ impl DriveMonitor {
         let (first, second) = pair.joints;
         let bits = 1 << first | 1 << second;
         let are_known = self.found & joints.claimed & bits == bits;
-        let place = |joint: usize| self.meant(joint, joints.position[joint]);
+        let place = |joint: usize| self.nominal(joint, joints.position[joint]);
         are_known.then(|| (place(second) - place(first)).abs())
     }
 
@@ -289,7 +289,7 @@ impl DriveMonitor {
         status.homed = self.homed(&joints);
         status.drive_faults = joints.fault;
         status.feedback_age_ns = self.age_ns(&joints, now_ns);
-        status.joint_actual = self.all_meant(&joints.position.into()).into();
+        status.joint_actual = self.all_nominal(&joints.position.into()).into();
         status.following_error = self.following.errors();
         status.following_peak = self.following.peaks();
         status.adaptive_feed = self.adaptive.told() * self.revolutions.told();
@@ -300,7 +300,7 @@ impl DriveMonitor {
         status.contact_kind = contact
             .map_or(ContactKind::None, |contact| contact.kind)
             .code();
-        let joints = contact.map(|contact| self.all_meant(&contact.joints));
+        let joints = contact.map(|contact| self.all_nominal(&contact.joints));
         if let Some(Ok(axes)) = joints.map(|joints| self.mechanism.forward(&joints, &self.near)) {
             status.contact = axes.into();
         }

@@ -173,13 +173,13 @@ impl JointCompensation {
 
     /// What the drive is told for a place of the joint, and a side.
     #[must_use]
-    pub fn told(&self, q: f64, side: f64) -> f64 {
+    pub fn compensated(&self, q: f64, side: f64) -> f64 {
         q + self.mean.at(q).value + side * self.half.at(q).value
     }
 
     /// Position, velocity and acceleration of the drive for those of the joint, and of the side.
     #[must_use]
-    pub fn told_rates(&self, [q, v, a]: [f64; 3], [d, d_v, d_a]: [f64; 3]) -> [f64; 3] {
+    pub fn compensated_rates(&self, [q, v, a]: [f64; 3], [d, d_v, d_a]: [f64; 3]) -> [f64; 3] {
         let (mean, half) = (self.mean.at(q), self.half.at(q));
         let slope = 1.0 + mean.first + d * half.first;
         [
@@ -194,7 +194,7 @@ impl JointCompensation {
 
     /// Where the joint is when its drive says that it is at m.
     #[must_use]
-    pub fn meant(&self, m: f64, side: f64) -> f64 {
+    pub fn nominal(&self, m: f64, side: f64) -> f64 {
         let mut q = m;
         for _ in 0..STEPS {
             let (mean, half) = (self.mean.at(q), self.half.at(q));
@@ -206,7 +206,7 @@ impl JointCompensation {
 
     /// Velocity and acceleration of the joint for those of its drive, at rest of the side.
     #[must_use]
-    pub fn meant_rates(&self, q: f64, [v, a]: [f64; 2], side: f64) -> [f64; 2] {
+    pub fn nominal_rates(&self, q: f64, [v, a]: [f64; 2], side: f64) -> [f64; 2] {
         let (mean, half) = (self.mean.at(q), self.half.at(q));
         let slope = 1.0 + mean.first + side * half.first;
         let own_v = v / slope;
@@ -306,10 +306,10 @@ mod tests {
         for k in -50..350 {
             let q = f64::from(k) + 0.31;
             for side in [-1.0, -0.3, 0.0, 1.0] {
-                let m = screw.told(q, side);
-                assert!((screw.meant(m, side) - q).abs() < 1e-12, "{q} {side}");
-                let [_, m_v, m_a] = screw.told_rates([q, 130.0, -900.0], [side, 0.0, 0.0]);
-                let [v, a] = screw.meant_rates(q, [m_v, m_a], side);
+                let m = screw.compensated(q, side);
+                assert!((screw.nominal(m, side) - q).abs() < 1e-12, "{q} {side}");
+                let [_, m_v, m_a] = screw.compensated_rates([q, 130.0, -900.0], [side, 0.0, 0.0]);
+                let [v, a] = screw.nominal_rates(q, [m_v, m_a], side);
                 assert!((v - 130.0).abs() < 1e-9 && (a + 900.0).abs() < 1e-7);
             }
         }
@@ -325,8 +325,8 @@ mod tests {
         let none = JointCompensation::new(&zero, 0.0, &DRIVE).unwrap();
         assert!(!none.has_play());
         for q in [-3.7, 0.1, 55.123_456, 1e3] {
-            assert_eq!(none.told(q, 0.0).to_bits(), q.to_bits());
-            assert_eq!(none.meant(q, 0.0).to_bits(), q.to_bits());
+            assert_eq!(none.compensated(q, 0.0).to_bits(), q.to_bits());
+            assert_eq!(none.nominal(q, 0.0).to_bits(), q.to_bits());
         }
     }
 
@@ -398,7 +398,7 @@ mod tests {
                 wanted[1]
             };
             side.step(back, side_limits, t);
-            let [_, v, a] = screw.told_rates(
+            let [_, v, a] = screw.compensated_rates(
                 [joint.x, joint.v, joint.a],
                 [side.x.clamp(-1.0, 1.0), side.v, side.a],
             );

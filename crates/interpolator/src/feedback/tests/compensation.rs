@@ -57,7 +57,7 @@ fn a_hand_over_moves_nothing_and_shows_where_the_axes_are() {
         let last = bench.last();
         let status = bench.status();
         for joint in 0..3 {
-            let told = made.told(last.position[joint], 0.0);
+            let told = made.compensated(last.position[joint], 0.0);
             let tolerance = if round == 0 { 1e-9 } else { 0.016 };
             assert!((last.joint_position[joint] - told).abs() < tolerance);
             assert!((status.joint_actual[joint] - last.position[joint]).abs() < 0.02);
