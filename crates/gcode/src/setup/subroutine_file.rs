@@ -111,6 +111,23 @@ impl Subroutines {
         found.insert(name.to_owned(), file.clone());
         Ok(file)
     }
+
+    /// The first file that there is of some names; where there is none, where the last was looked for.
+    pub(crate) fn first_of(
+        &self,
+        names: impl IntoIterator<Item = String>,
+    ) -> Result<SubroutineFile, NotTaken> {
+        let mut missing = NotTaken::None(NoSubroutineFile::Missing {
+            looked_in: Vec::new(),
+        });
+        for name in names {
+            match self.get(&name) {
+                Err(none @ NotTaken::None(NoSubroutineFile::Missing { .. })) => missing = none,
+                found => return found,
+            }
+        }
+        Err(missing)
+    }
 }
 
 impl fmt::Debug for Subroutines {

@@ -224,10 +224,25 @@ pub(super) fn not_returned(text: &[u8]) -> Box<BlockDiagnostic> {
         .help("write M99 at its end")
 }
 
+impl<R: BufRead> Program<R> {
+    /// Where the text of a file begins on the tape, onto which it is taken if it is not there yet.
+    pub(crate) fn start_of_file(&mut self, file: &SubroutineFile) -> Outcome<TapePlace> {
+        let text = match self.tape.text_of(&file.name) {
+            Some(text) => text,
+            None => {
+                let lines = lines_of(file).map_err(|(fault, line)| {
+                    self.origin = LineOrigin::Past(line);
+                    fault
+                })?;
+                self.tape.take_up(Arc::clone(&file.name), lines)
+            }
+        };
+        Ok(TapePlace { text, line: 0 })
+    }
+}
+
 /// The lines of a file, from percent sign to percent sign.
-pub(crate) fn lines_of(
-    file: &SubroutineFile,
-) -> Result<Vec<TapeLine>, (Box<BlockDiagnostic>, SourceLine)> {
+fn lines_of(file: &SubroutineFile) -> Result<Vec<TapeLine>, (Box<BlockDiagnostic>, SourceLine)> {
     let mut source = LineSource::new(&*file.text);
     let mut lines = Vec::new();
     loop {

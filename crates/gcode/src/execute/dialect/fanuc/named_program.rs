@@ -4,15 +4,12 @@
 //! as it is or with `.nc` behind it.
 
 use std::io::BufRead;
-use std::sync::Arc;
 
 use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::span::SourceSpan;
-use crate::execute::dialect::fanuc::call::lines_of;
 use crate::execute::dialect::tape::TapePlace;
 use crate::execute::flow::load::unusable;
-use crate::execute::line_origin::LineOrigin;
 use crate::execute::program::Program;
 use crate::setup::subroutine_file::{NoSubroutineFile, NotTaken};
 use crate::syntax::dialect::fanuc::program_name;
@@ -71,17 +68,7 @@ impl<R: BufRead> Program<R> {
         let Some(file) = found else {
             return Err(unknown(&shown, span));
         };
-        let text = match self.tape.text_of(&file.name) {
-            Some(text) => text,
-            None => {
-                let lines = lines_of(&file).map_err(|(fault, line)| {
-                    self.origin = LineOrigin::Past(line);
-                    fault
-                })?;
-                self.tape.take_up(Arc::clone(&file.name), lines)
-            }
-        };
-        Ok(TapePlace { text, line: 0 })
+        self.start_of_file(&file)
     }
 }
 

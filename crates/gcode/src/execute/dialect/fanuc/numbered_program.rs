@@ -6,18 +6,15 @@
 //! or all of them if it has none.
 
 use std::io::BufRead;
-use std::sync::Arc;
 
 use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::dialect::fanuc::arguments::CallWords;
-use crate::execute::dialect::fanuc::call::lines_of;
 use crate::execute::dialect::tape::TapePlace;
 use crate::execute::flow::load::unusable;
-use crate::execute::line_origin::LineOrigin;
 use crate::execute::program::Program;
-use crate::setup::subroutine_file::{NoSubroutineFile, NotTaken, SubroutineFile, Subroutines};
+use crate::setup::subroutine_file::{NoSubroutineFile, NotTaken};
 use crate::syntax::dialect::fanuc::{Statement, statement};
 
 /// The files that program may be in, in the order in which they are looked for.
@@ -41,20 +38,6 @@ fn file_names(program: u32) -> impl Iterator<Item = String> {
         }
     }
     names.into_iter()
-}
-
-/// The file of a program.
-fn find(subroutines: &Subroutines, program: u32) -> Result<SubroutineFile, NotTaken> {
-    let mut missing = NotTaken::None(NoSubroutineFile::Missing {
-        looked_in: Vec::new(),
-    });
-    for name in file_names(program) {
-        match subroutines.get(&name) {
-            Err(none @ NotTaken::None(NoSubroutineFile::Missing { .. })) => missing = none,
-            found => return found,
-        }
-    }
-    Err(missing)
 }
 
 impl<R: BufRead> Program<R> {
@@ -140,22 +123,15 @@ impl<R: BufRead> Program<R> {
         let Some(subroutines) = &self.interpreter.options.subroutines else {
             return Err(unknown(program, span, &[]));
         };
-        let file = find(subroutines, program).map_err(|why| match why {
-            NotTaken::None(NoSubroutineFile::Missing { looked_in }) => {
-                unknown(program, span, &looked_in)
-            }
-            why => unusable(&format!("program O{program}"), span, why),
-        })?;
-        let text = match self.tape.text_of(&file.name) {
-            Some(text) => text,
-            None => {
-                let lines = lines_of(&file).map_err(|(fault, line)| {
-                    self.origin = LineOrigin::Past(line);
-                    fault
-                })?;
-                self.tape.take_up(Arc::clone(&file.name), lines)
-            }
-        };
+        let file = subroutines
+            .first_of(file_names(program))
+            .map_err(|why| match why {
+                NotTaken::None(NoSubroutineFile::Missing { looked_in }) => {
+                    unknown(program, span, &looked_in)
+                }
+                why => unusable(&format!("program O{program}"), span, why),
+            })?;
+        let TapePlace { text, .. } = self.start_of_file(&file)?;
         let here = self.tape.place();
         self.tape.go_to(TapePlace { text, line: 0 });
         let mut others = false;

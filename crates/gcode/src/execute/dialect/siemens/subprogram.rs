@@ -6,23 +6,20 @@
 //! its text. What it leaves in force stays so, but for the modes and the frame where PROC says SAVE.
 
 use std::io::BufRead;
-use std::sync::Arc;
 
 use glidepath_geometry::AXES;
 
 use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::span::SourceSpan;
-use crate::execute::dialect::fanuc::call::lines_of;
 use crate::execute::dialect::siemens::flow::check_end;
 use crate::execute::dialect::siemens::steps::{CallState, ModalCall};
 use crate::execute::dialect::tape::{SubprogramCall, TapePlace};
 use crate::execute::flow::activation::MAX_CALLS;
 use crate::execute::flow::load::unusable;
-use crate::execute::line_origin::LineOrigin;
 use crate::execute::program::Program;
 use crate::execute::state::modal::Modal;
-use crate::setup::subroutine_file::{NoSubroutineFile, NotTaken, SubroutineFile, Subroutines};
+use crate::setup::subroutine_file::{NoSubroutineFile, NotTaken};
 use crate::syntax::dialect::siemens::callee::Callee;
 use crate::syntax::dialect::siemens::statement::{Statement, is_header_of, statement};
 use crate::syntax::dialect::siemens::variables::Variables;
@@ -45,20 +42,6 @@ fn file_names(name: &[u8]) -> Vec<String> {
     }
     names.push(format!("_N_{upper}_SPF"));
     names
-}
-
-/// The file of a subprogram.
-fn find(subroutines: &Subroutines, name: &[u8]) -> Result<SubroutineFile, NotTaken> {
-    let mut missing = NotTaken::None(NoSubroutineFile::Missing {
-        looked_in: Vec::new(),
-    });
-    for name in file_names(name) {
-        match subroutines.get(&name) {
-            Err(none @ NotTaken::None(NoSubroutineFile::Missing { .. })) => missing = none,
-            found => return found,
-        }
-    }
-    Err(missing)
 }
 
 impl<R: BufRead> Program<R> {
@@ -253,7 +236,7 @@ impl<R: BufRead> Program<R> {
                 Ok(None)
             };
         };
-        let file = match find(subroutines, &callee.name) {
+        let file = match subroutines.first_of(file_names(&callee.name)) {
             Ok(file) => file,
             Err(NotTaken::None(NoSubroutineFile::Missing { looked_in })) => {
                 return if callee.is_sure {
@@ -267,17 +250,7 @@ impl<R: BufRead> Program<R> {
                 return Err(unusable(&format!("subprogram {shown}"), span, why));
             }
         };
-        let text = match self.tape.text_of(&file.name) {
-            Some(text) => text,
-            None => {
-                let lines = lines_of(&file).map_err(|(fault, line)| {
-                    self.origin = LineOrigin::Past(line);
-                    fault
-                })?;
-                self.tape.take_up(Arc::clone(&file.name), lines)
-            }
-        };
-        Ok(Some(TapePlace { text, line: 0 }))
+        self.start_of_file(&file).map(Some)
     }
 }
 
