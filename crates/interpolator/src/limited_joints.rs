@@ -115,10 +115,13 @@ impl JointTrack {
     }
 }
 
-fn state(motion: &JointMotion) -> MotionState<'_> {
+const fn state(motion: &JointMotion) -> MotionState<'_> {
+    let [position] = &motion.position.data.0;
+    let [velocity] = &motion.velocity.data.0;
+    let [acceleration] = &motion.acceleration.data.0;
     MotionState {
-        position: motion.position.as_slice(),
-        velocity: motion.velocity.as_slice(),
-        acceleration: motion.acceleration.as_slice(),
+        position,
+        velocity,
+        acceleration,
     }
 }

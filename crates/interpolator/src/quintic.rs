@@ -4,7 +4,7 @@
 //! then five multiplications and additions an axis.
 
 use crate::pairs::{self, PAIRS, Pair};
-use glidepath_geometry::AxisVector;
+use glidepath_geometry::{AXES, AxisVector};
 use glidepath_link::SetpointFrame;
 
 /// Position and its first two derivatives by program time in periods.
@@ -28,12 +28,13 @@ pub(crate) struct Quintic([Coefficients; PAIRS]);
 /// Position, velocity and acceleration of a pair at a frame.
 type State = [Pair; 3];
 
-/// Where axes or joints are at a frame, and how they move.
+/// Where axes or joints are at a frame, and how they move. Arrays, not slices: with lengths that are
+/// known only as it runs, taking the states apart is twice the work of the coefficients.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct MotionState<'a> {
-    pub(crate) position: &'a [f64],
-    pub(crate) velocity: &'a [f64],
-    pub(crate) acceleration: &'a [f64],
+    pub(crate) position: &'a [f64; AXES],
+    pub(crate) velocity: &'a [f64; AXES],
+    pub(crate) acceleration: &'a [f64; AXES],
 }
 
 impl MotionState<'_> {

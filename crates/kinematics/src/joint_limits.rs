@@ -96,6 +96,23 @@ impl JointLimits {
     /// Relative excess that rounding may cause.
     const ROUNDING: f64 = 1e-6;
 
+    /// Whether a motion and its jerk are inside of all limits: without a branch, where nobody asks which one
+    /// it is not. Not where something is not a number.
+    pub(crate) fn plainly_keep(&self, motion: &JointMotion, jerk: &crate::JointVector) -> bool {
+        let allowed = |limit: f64| limit * (1.0 + Self::ROUNDING);
+        self.0
+            .iter()
+            .enumerate()
+            .fold(true, |kept, (joint, limit)| {
+                let position = motion.position[joint];
+                kept & (position >= limit.min_position)
+                    & (position <= limit.max_position)
+                    & (motion.velocity[joint].abs() <= allowed(limit.velocity))
+                    & (motion.acceleration[joint].abs() <= allowed(limit.acceleration))
+                    & (jerk[joint].abs() <= allowed(limit.jerk))
+            })
+    }
+
     /// The first limit a motion does not keep.
     #[must_use]
     pub fn broken_by(&self, motion: &JointMotion) -> Option<JointViolation> {

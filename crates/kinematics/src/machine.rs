@@ -121,6 +121,16 @@ pub trait Kinematics {
         Ok(JointVector::from_fn(|i, _| joints[i].value()))
     }
 
+    /// Joints at a position that the mechanism may go to: [`admit`](Self::admit) and
+    /// [`inverse`](Self::inverse) at once, where they have work in common.
+    ///
+    /// # Errors
+    /// What forbids the position.
+    fn admitted(&self, axes: &AxisVector) -> Result<JointVector, KinematicsError> {
+        self.admit(axes)?;
+        self.inverse(axes)
+    }
+
     /// Joints with rates and accelerations at one moment of a motion.
     ///
     /// # Errors

@@ -84,4 +84,8 @@ impl Kinematics for Mechanism {
     fn admit(&self, axes: &AxisVector) -> Result<(), KinematicsError> {
         each!(self, machine => machine.admit(axes))
     }
+
+    fn admitted(&self, axes: &AxisVector) -> Result<JointVector, KinematicsError> {
+        each!(self, machine => machine.admitted(axes))
+    }
 }

@@ -54,8 +54,7 @@ impl JointWatch {
     /// # Errors
     /// What forbids it.
     pub fn stand(&self, axes: &AxisVector) -> Result<JointVector, JointFault> {
-        self.mechanism.admit(axes)?;
-        let position = self.mechanism.inverse(axes)?;
+        let position = self.mechanism.admitted(axes)?;
         let motion = JointMotion {
             position,
             velocity: JointVector::zeros(),
@@ -77,7 +76,7 @@ impl JointWatch {
     /// # Errors
     /// The first thing that the mechanism cannot do.
     pub fn take(&mut self, axes: &AxisVector) -> Result<(), JointFault> {
-        let position = self.stand(axes)?;
+        let position = self.mechanism.admitted(axes)?;
         let zero = JointVector::zeros();
         let mut last = self.last.unwrap_or(Last {
             position,
@@ -121,9 +120,11 @@ impl JointWatch {
             velocity,
             acceleration,
         };
-        let broken = self.limits.broken_by(&motion);
-        if let Some(violation) = broken.or_else(|| self.limits.jerk_broken_by(&jerk)) {
-            return Err(JointFault::Limit(violation));
+        if !self.limits.plainly_keep(&motion, &jerk) {
+            let broken = self.limits.broken_by(&motion);
+            if let Some(violation) = broken.or_else(|| self.limits.jerk_broken_by(&jerk)) {
+                return Err(JointFault::Limit(violation));
+            }
         }
         *last = Last {
             position,

@@ -1,10 +1,10 @@
 //! The admission of a position to a hexapod: which poses its build and its singularities forbid.
 
-use super::struts::{Hexapod, STRUTS};
+use super::struts::{Hexapod, STRUTS, conditioning_of, lengths_mm};
 use crate::machine::MAX_CONDITION;
 use crate::{Conditioning, KinematicsError};
 use glidepath_geometry::AxisVector;
-use nalgebra::{Matrix6, Vector3};
+use nalgebra::Vector3;
 
 /// Smallest singular value of the scaled Jacobian at which the platform is moved: there struts change by a
 /// twentieth of what the platform's joints move by, so an error of a length is twenty times that there.
@@ -13,51 +13,85 @@ const MIN_SINGULAR_VALUE: f64 = 0.05;
 /// By how much a bound is to be kept for nobody to compute it exactly.
 const PLAINLY: f64 = 1e-9;
 
-/// Whether a hexapod may go to a position of the axes.
+/// The lengths of the struts at a position of the axes that a hexapod may go to, mm.
 ///
 /// A jog asks this for every place of every stop that it plays through, so what is plainly allowed
 /// costs little: singular values are computed, and angles, only where they may be beyond.
 ///
 /// # Errors
-/// What forbids it.
-pub(super) fn admit(hexapod: &Hexapod, axes: &AxisVector) -> Result<(), KinematicsError> {
+/// What forbids the position.
+pub(super) fn admitted(
+    hexapod: &Hexapod,
+    axes: &AxisVector,
+) -> Result<[f64; STRUTS], KinematicsError> {
     let pose = hexapod.pose(axes);
     let struts = hexapod.struts(&pose);
-    let jacobian = hexapod.scaled_jacobian(&pose, &struts);
+    let lengths_mm = lengths_mm(&struts);
+    let jacobian = hexapod.scaled_jacobian(&pose, &struts, &lengths_mm);
     if !is_plainly_regular(&jacobian) {
         let Conditioning {
             condition,
             smallest,
-        } = Conditioning::of(jacobian.singular_values().as_slice());
+        } = conditioning_of(&jacobian);
         // Written so that what is not a number is refused.
         if !(condition < MAX_CONDITION && smallest > MIN_SINGULAR_VALUE) {
             return Err(KinematicsError::Singular { condition });
         }
     }
-    admit_angles(&struts, &Vector3::z(), hexapod.guards.max_base_angle_deg)?;
+    let most_deg = hexapod.guards.max_base_angle_deg;
+    admit_angles(&struts, &lengths_mm, &Vector3::z(), most_deg)?;
     let platform_normal = pose.rotation * Vector3::z();
     let most_deg = hexapod.guards.max_platform_angle_deg;
-    admit_angles(&struts, &platform_normal, most_deg)?;
-    admit_distances(hexapod, &struts)
+    admit_angles(&struts, &lengths_mm, &platform_normal, most_deg)?;
+    admit_distances(hexapod, &struts)?;
+    Ok(lengths_mm)
 }
 
-/// Whether the smallest singular value σ of a matrix J is above what is asked, and so far that their
-/// ratio is, too: JᵀJ − σ² has no eigenvalue below zero then, which its Cholesky factors show, and the
-/// largest one is at most the Frobenius norm. False where that is not plain.
-fn is_plainly_regular(jacobian: &Matrix6<f64>) -> bool {
+/// Whether the smallest singular value σ of a matrix J, given by its rows, is above what is asked, and so far
+/// that their ratio is, too: JᵀJ − σ² has no eigenvalue below zero then, which the pivots of its elimination
+/// show, and the largest one is at most the Frobenius norm. False where that is not plain.
+fn is_plainly_regular(rows: &[[f64; 6]; STRUTS]) -> bool {
     let least = MIN_SINGULAR_VALUE * (1.0 + PLAINLY);
-    let shifted = jacobian.tr_mul(jacobian) - Matrix6::identity() * (least * least);
-    jacobian.norm() < MAX_CONDITION * least && shifted.cholesky().is_some()
+    // The lower half of JᵀJ.
+    let mut gram = [[0.0; 6]; 6];
+    for row in rows {
+        for i in 0..6 {
+            for j in 0..=i {
+                gram[i][j] += row[i] * row[j];
+            }
+        }
+    }
+    let square: f64 = (0..6).map(|i| gram[i][i]).sum();
+    if !(square.sqrt() < MAX_CONDITION * least) {
+        return false;
+    }
+    for (i, row) in gram.iter_mut().enumerate() {
+        row[i] -= least * least;
+    }
+    for k in 0..6 {
+        let pivot = gram[k][k];
+        if !(pivot > 0.0) {
+            return false;
+        }
+        for i in k + 1..6 {
+            let factor = gram[i][k] / pivot;
+            for j in k + 1..=i {
+                gram[i][j] -= factor * gram[j][k];
+            }
+        }
+    }
+    true
 }
 
 fn admit_angles(
     struts: &[Vector3<f64>; STRUTS],
+    lengths_mm: &[f64; STRUTS],
     normal: &Vector3<f64>,
     most_deg: f64,
 ) -> Result<(), KinematicsError> {
     let least_cos = most_deg.to_radians().cos() + PLAINLY;
-    for (joint, strut) in struts.iter().enumerate() {
-        if strut.dot(normal) > least_cos * strut.norm() {
+    for (joint, (strut, length_mm)) in struts.iter().zip(lengths_mm).enumerate() {
+        if strut.dot(normal) > least_cos * length_mm {
             continue;
         }
         let angle_deg = strut.angle(normal).to_degrees();
@@ -125,16 +159,17 @@ mod tests {
         let number = |i: u32| number(i) - number(i).floor() - 0.5;
         let (mut plain, mut not) = (0, 0);
         for case in 0..2_000_u32 {
-            let mut jacobian = Matrix6::from_fn(|row, column| {
-                2.0 * number(case * 36 + u32::try_from(6 * row + column).unwrap_or(0))
+            let mut rows: [[f64; 6]; STRUTS] = core::array::from_fn(|row| {
+                core::array::from_fn(|column| {
+                    2.0 * number(case * 36 + u32::try_from(6 * row + column).unwrap_or(0))
+                })
             });
             // Some of them are nearly singular, by two rows that are nearly the same.
             let near = [1.0, 0.1, 0.05, 0.01][case as usize % 4];
-            let row = jacobian.row(0) + jacobian.row(1) * near;
-            jacobian.set_row(1, &row);
-            let exact = Conditioning::of(jacobian.singular_values().as_slice());
+            rows[1] = core::array::from_fn(|column| rows[0][column] + rows[1][column] * near);
+            let exact = conditioning_of(&rows);
             let is_regular = exact.condition < MAX_CONDITION && exact.smallest > MIN_SINGULAR_VALUE;
-            if is_plainly_regular(&jacobian) {
+            if is_plainly_regular(&rows) {
                 assert!(is_regular, "{case}: {exact:?}");
                 plain += 1;
             } else {
@@ -146,7 +181,7 @@ mod tests {
             }
         }
         assert!(plain > 500 && not > 500, "{plain} {not}");
-        assert!(!is_plainly_regular(&(Matrix6::identity() * f64::NAN)));
+        assert!(!is_plainly_regular(&[[f64::NAN; 6]; STRUTS]));
     }
 
     #[test]

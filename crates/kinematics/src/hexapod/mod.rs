@@ -71,7 +71,16 @@ impl Kinematics for Hexapod {
     }
 
     fn admit(&self, axes: &AxisVector) -> Result<(), KinematicsError> {
-        admission::admit(self, axes)
+        admission::admitted(self, axes).map(|_| ())
+    }
+
+    fn admitted(&self, axes: &AxisVector) -> Result<JointVector, KinematicsError> {
+        let lengths_mm = admission::admitted(self, axes)?;
+        let mut joints = JointVector::zeros();
+        for (joint, length_mm) in joints.iter_mut().zip(lengths_mm) {
+            *joint = length_mm;
+        }
+        Ok(joints)
     }
 }
 

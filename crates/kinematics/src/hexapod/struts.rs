@@ -82,19 +82,23 @@ impl Hexapod {
     }
 
     pub(crate) fn rows(&self, pose: &Pose) -> Matrix6<f64> {
-        self.rows_of(pose, &self.struts(pose))
+        let struts = self.struts(pose);
+        let rows = self.rows_of(pose, &struts, &lengths_mm(&struts));
+        Matrix6::from_fn(|row, column| rows[row][column])
     }
 
-    fn rows_of(&self, pose: &Pose, struts: &[Vector3<f64>; STRUTS]) -> Matrix6<f64> {
-        let mut rows = Matrix6::zeros();
-        for (i, strut) in struts.iter().enumerate() {
-            let n = strut / strut.norm();
+    /// The rows `[nᵀ, (R b × n)ᵀ]`, as arrays: a jog asks for them at every place of every stop.
+    fn rows_of(
+        &self,
+        pose: &Pose,
+        struts: &[Vector3<f64>; STRUTS],
+        lengths_mm: &[f64; STRUTS],
+    ) -> [[f64; 6]; STRUTS] {
+        core::array::from_fn(|i| {
+            let n = struts[i] / lengths_mm[i];
             let lever = (pose.rotation * self.platform[i]).cross(&n);
-            rows.fixed_view_mut::<1, 3>(i, 0).copy_from(&n.transpose());
-            rows.fixed_view_mut::<1, 3>(i, 3)
-                .copy_from(&lever.transpose());
-        }
-        rows
+            [n.x, n.y, n.z, lever.x, lever.y, lever.z]
+        })
     }
 
     /// Mean distance of the platform joints from the platform's origin, mm.
@@ -107,19 +111,30 @@ impl Hexapod {
         &self,
         pose: &Pose,
         struts: &[Vector3<f64>; STRUTS],
-    ) -> Matrix6<f64> {
-        let mut jacobian = self.rows_of(pose, struts);
-        let mut rotations = jacobian.fixed_columns_mut::<3>(3);
-        rotations /= self.platform_radius_mm();
-        jacobian
+        lengths_mm: &[f64; STRUTS],
+    ) -> [[f64; 6]; STRUTS] {
+        let radius_mm = self.platform_radius_mm();
+        self.rows_of(pose, struts, lengths_mm)
+            .map(|[x, y, z, a, b, c]| [x, y, z, a / radius_mm, b / radius_mm, c / radius_mm])
     }
 
     /// How well the struts hold the platform.
     pub(super) fn strut_conditioning(&self, axes: &AxisVector) -> Conditioning {
         let pose = self.pose(axes);
-        let jacobian = self.scaled_jacobian(&pose, &self.struts(&pose));
-        Conditioning::of(jacobian.singular_values().as_slice())
+        let struts = self.struts(&pose);
+        conditioning_of(&self.scaled_jacobian(&pose, &struts, &lengths_mm(&struts)))
     }
+}
+
+/// How long struts are, mm.
+pub(super) fn lengths_mm(struts: &[Vector3<f64>; STRUTS]) -> [f64; STRUTS] {
+    struts.map(|strut| strut.norm())
+}
+
+/// The conditioning of a scaled Jacobian that is given by its rows.
+pub(super) fn conditioning_of(rows: &[[f64; 6]; STRUTS]) -> Conditioning {
+    let jacobian = Matrix6::from_fn(|row, column| rows[row][column]);
+    Conditioning::of(jacobian.singular_values().as_slice())
 }
 
 /// Rz(C) Ry(B) Rx(A).
