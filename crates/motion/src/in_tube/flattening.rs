@@ -192,8 +192,10 @@ fn straight_mm(chord: &FlatChord) -> Option<f64> {
     let displacement = chord.end - chord.start;
     let others = displacement.iter().skip(LINEAR_XYZ.end);
     let is_in_space = others.fold(0.0, |sum: f64, part| sum + part.abs()) <= 0.0;
-    let is_cut = !chord.rate.is_rapid() && chord.sagitta_vector.amax() <= 0.0;
-    (is_cut && is_in_space && displacement.norm() >= RULED_MM).then_some(BESIDE_MM)
+    // Of moves that were drawn together the line is beside each by so much.
+    let drawn_mm = tolerance_norm(&chord.sagitta_vector);
+    let is_cut = !chord.rate.is_rapid() && drawn_mm <= DRAWN_TOGETHER_R * BESIDE_MM;
+    (is_cut && is_in_space && displacement.norm() >= RULED_MM).then_some(BESIDE_MM - drawn_mm)
 }
 
 impl OpenChord {

@@ -25,6 +25,11 @@ const TINY_R: f64 = 1e-3;
 /// Margin between the tolerance that is planned for and the one that is promised.
 const ROUNDING_R: f64 = 1e-7;
 
+/// How far the middle of a piece may be from the program, in tolerances, for it to be a straight move or several
+/// along one line: twice what lines are drawn together with that are seen to be straight. Coordinates are
+/// rounded, by the program and here, so nothing is straight to the last bit once it was cut in two.
+const STRAIGHT_R: f64 = 0.025;
+
 /// One straight piece.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct TubePiece {
@@ -140,9 +145,9 @@ impl TubePiece {
         self.by_joints = Some(own.within_joints_each(joints, (&self.start, &along), self.length_s));
     }
 
-    /// True if it is a straight feed move of the program.
+    /// True if it is a straight feed move of the program, or several of them along one line.
     pub(crate) fn is_cut(&self) -> bool {
-        !self.is_rapid && self.sagitta_vector.amax() <= 0.0
+        !self.is_rapid && self.distance_r(&self.sagitta_vector) <= STRAIGHT_R
     }
 
     /// Speed along the path in the sense of the feed.
