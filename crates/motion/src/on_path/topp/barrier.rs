@@ -7,7 +7,9 @@
 //! ```
 //!
 //! where `used` is what of an acceleration, or of a jerk over √b, an axis is asked for: linear in b, b′
-//! and b″. At each place gradient and Hessian are collected over b, b′ and b″, and brought to the three
+//! and b″. The weight is per second, the shares are in mm. The last logarithm is that of both sides of
+//! |used| ≤ J/√b, less 2·ln J: its argument has a unit, s²/mm², which shifts the value by a constant and no
+//! step. At each place gradient and Hessian are collected over b, b′ and b″, and brought to the three
 //! coefficients at once: a third of the work that limits took which were brought there one by one.
 //!
 //! *Convexity.* Time, top speeds and accelerations are convex. The jerk is not: |used| ≤ J/√b bounds by a
@@ -56,6 +58,7 @@ pub(crate) fn solve(
     let mut x = start;
     let time_t = problem.time(&x);
     let mut weight = START * problem.count as f64 / time_t;
+    // Of the time of the start, which is longer than the least: the gap is a little wider than asked for.
     let last = LIMITS_OF_KNOT * problem.knots as f64 / (tolerances.gap_r * time_t);
     let small_step = (tolerances.small_r * problem.knots as f64).max(SMALL_STEP);
     let mut value = merit(problem, &x, weight)?;

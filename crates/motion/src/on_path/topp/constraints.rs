@@ -49,7 +49,7 @@ pub(crate) struct ConstraintPoint {
     /// b, b′ and b″ over these.
     pub(crate) taylor: Taylor,
     pub(crate) part: Part,
-    /// The square of the top speed.
+    /// The square of the top speed, mm²/s²; infinite where speed is given or kept elsewhere.
     pub(crate) cap_b: f64,
     /// The length that is driven as fast as this place, mm.
     pub(crate) share_s: f64,
@@ -144,7 +144,7 @@ impl Problem {
         problem
     }
 
-    /// Time, about: Σ h/√b.
+    /// Time, about, s: Σ h/√b.
     pub(crate) fn time(&self, x: &[f64]) -> f64 {
         let driven = self.places.iter().filter(|place| place.share_s > 0.0);
         let times = driven.map(|place| place.share_s / place.values(x)[0].sqrt());
@@ -209,7 +209,8 @@ impl Problem {
         }
     }
 
-    /// The limits along the path.
+    /// The limits along the path. s̈ is linear between two knots, so nothing of the acceleration is kept
+    /// back for what is between them; s⃛ has √b in it, which is not.
     fn path(&mut self, limits: &Limits) {
         let bounds = &limits.path;
         self.row(Row {

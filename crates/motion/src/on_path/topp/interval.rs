@@ -9,9 +9,10 @@ pub(crate) const BETWEEN_R: f64 = 1.0 - 2e-4;
 /// What bounds the speed on a piece whatever the axes can do.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Caps {
+    /// The programmed rate, or what else bounds the speed all along the piece, mm/s.
     pub(crate) rate_v: f64,
-    /// The largest acceleration across the path: that at which the chord of one period uses up the
-    /// tolerance.
+    /// The largest acceleration across the path, mm/s²: that at which the chord of one period uses up
+    /// the tolerance.
     pub(crate) chord_a: f64,
 }
 
@@ -20,13 +21,18 @@ pub(crate) struct Caps {
 pub(crate) struct Interval {
     /// The piece it is on.
     pub(crate) piece: usize,
+    /// Path position of its start, and its length, mm.
     pub(crate) from_s: f64,
     pub(crate) length_s: f64,
+    /// The axes and their derivatives by path position at its ends. Where pieces meet, those of this
+    /// piece: they jump there.
     pub(crate) start: Jet,
     pub(crate) end: Jet,
     /// The joints at start and end, where they are not the axes. Apart, because most machines have none, and
     /// slow curves very many intervals.
     pub(crate) joints: Option<Box<[Jet; 2]>>,
+    /// Top speeds at its start, in its middle and at its end, mm/s: axes, joints, the rate and the chord
+    /// error, but not what changes of speed take.
     pub(crate) start_v: f64,
     pub(crate) middle_v: f64,
     pub(crate) end_v: f64,

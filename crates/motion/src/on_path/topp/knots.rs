@@ -30,6 +30,12 @@ const REST_R: f64 = 0.25;
 const RAMP_JERK: f64 = 4.3;
 const RAMP_ACCEL: f64 = 1.4;
 
+/// Places on the S-curves are so much of the time from knot to knot apart, and each S-curve has so many at
+/// least: between two of them path position is taken to be linear in time, which tells where a knot goes, and
+/// nothing else.
+const MARK_R: f64 = 0.25;
+const LEAST_MARKS: f64 = 8.0;
+
 /// A place on the S-curves: time and path position.
 #[derive(Debug, Clone, Copy)]
 struct Mark {
@@ -53,15 +59,17 @@ pub(crate) struct KnotPath {
     marks: Vec<Mark>,
     /// Time from knot to knot, s.
     knot_t: f64,
+    /// Those of [`SolverTolerances`].
     nearest_r: f64,
     rest_growth: f64,
     /// At start and end; `None` where the motion does not rest.
     pub(crate) rests: [Option<RestPhase>; 2],
+    /// The speed of the S-curves at start and end, mm/s.
     pub(crate) ends_v: [f64; 2],
     /// How fast the motion is at start and end, in speeds of the S-curves; `None` where it is as
     /// fast as the start that the least time is sought from.
     pub(crate) ends_r: [Option<f64>; 2],
-    /// Lengths on which that goes from the one to the other.
+    /// Lengths on which that goes from the one to the other, mm.
     ramps_s: [f64; 2],
     pub(crate) length_s: f64,
 }
@@ -121,6 +129,7 @@ impl KnotPath {
     /// Path position at which the phase next to the start ends, and that where the one next to the
     /// end begins.
     pub(crate) fn inner(&self) -> [f64; 2] {
+        // A constant jerk from rest covers J·t³/6.
         let [start_s, end_s] = self
             .rests
             .map(|rest| rest.map_or(0.0, |r| r.jerk_j * r.duration_t.powi(3) / 6.0));
@@ -136,6 +145,8 @@ impl KnotPath {
             .rests
             .map(|rest| times(rest, 0.5 * duration_t, (self.knot_t, self.rest_growth)));
         back.reverse();
+        // Those from the start end before the middle, those from the end half a knot's time behind it: the two
+        // about it are no nearer to each other than that.
         let left = back.into_iter().map(|t| duration_t - t);
         times.extend(left.filter(|t| *t > 0.5 * (duration_t + self.knot_t)));
         let mut own = vec![from_s];
@@ -285,12 +296,13 @@ impl KnotPath {
         };
         let (start_b, start_a) = speed(self.rests[0], self.ends_v[0]);
         let (end_b, end_a) = speed(self.rests[1], self.ends_v[1]);
+        // The coefficient next to an end is where the tangent of b there leads to in the middle of the interval,
+        // b ± b′·h/2, and b′ is twice the acceleration. `end_a` is without its sign: there the motion slows down.
         x.push(start_b);
         for interval in &self.intervals {
             x.push(self.coefficient(interval));
         }
         x.push(end_b);
-        // b′ at the ends is twice the acceleration.
         if let (Some(first), Some(last)) = (self.intervals.first(), self.intervals.last()) {
             x[1] = start_b + start_a * first.length_s;
             x[count] = end_b + end_a * last.length_s;
@@ -397,7 +409,7 @@ fn knot_time(limits: &MachineLimits, tolerances: &SolverTolerances) -> f64 {
         .min(tolerances.knot_t)
 }
 
-/// Times of knots from an end of the motion up to some time, without the end.
+/// Times of knots from an end of the motion up to some time, without the end, s.
 fn times(rest: Option<RestPhase>, to_t: f64, (knot_t, growth): (f64, f64)) -> Vec<f64> {
     let mut times = Vec::new();
     let mut t = rest.map_or(0.0, |rest| rest.duration_t);
@@ -430,7 +442,7 @@ fn marks(legs: &[Leg], knot_t: f64) -> Vec<Mark> {
     let mut from_t = 0.0;
     for leg in legs {
         let duration_t = leg.profile.duration_t();
-        let steps = (duration_t / (0.25 * knot_t)).ceil().max(8.0);
+        let steps = (duration_t / (MARK_R * knot_t)).ceil().max(LEAST_MARKS);
         let mut k = 0.0;
         while k < steps {
             let t = duration_t * k / steps;

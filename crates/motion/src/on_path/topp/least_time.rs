@@ -86,6 +86,7 @@ fn parametrisation_of(
         builder.push_parabola(state, interval.length_s, second)?;
     }
     if let Some((jerk_j, duration_t)) = knot_path.rests[1].map(slowed) {
+        // Backward from the rest: v = ½·J·t², and a = −J·t.
         let state = PathState {
             position_s: knot_path.inner()[1],
             speed_v: 0.5 * jerk_j * duration_t * duration_t,

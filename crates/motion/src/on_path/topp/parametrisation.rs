@@ -6,13 +6,15 @@ use crate::scurve::PathState;
 /// Path position by time along some pieces.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Parametrisation {
+    /// In order; each begins where the one before ends.
     pub(crate) phases: Vec<MotionPhase>,
     pub(crate) duration_t: f64,
     end: PathState,
 }
 
 /// A part of a time parametrisation on which acceleration changes by constant jerk, or in
-/// proportion to path position.
+/// proportion to path position: one of `jerk_j` and `growth` is zero. With both, [`MotionPhase::at`]
+/// would be no solution of ẍ = a₀ + γ·(x − x₀) + J·t.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct MotionPhase {
     pub(crate) from_t: f64,
@@ -57,6 +59,8 @@ fn series(growth: f64, t: f64) -> (f64, f64) {
 impl MotionPhase {
     /// The state `t` after the start of the phase.
     pub(crate) fn at(&self, t: f64) -> PathState {
+        // The solution of ẍ = a₀ + γ·(x − x₀) or, with γ = 0, of a constant jerk. For γ > 0 `zeroth` is
+        // cosh √γ·t, and `first` and `second` are its integrals.
         let PathState {
             position_s,
             speed_v,
@@ -74,6 +78,7 @@ impl MotionPhase {
     /// The state at a path position, on a phase on which v² is a parabola.
     pub(crate) fn at_position(&self, position_s: f64) -> PathState {
         let (passed_s, start) = (position_s - self.start.position_s, &self.start);
+        // b − b₀ = b′·x + ½·b″·x², with b′ = 2·a₀ and b″ = 2·γ.
         let gained = passed_s * (2.0 * start.accel_a + self.growth * passed_s);
         PathState {
             position_s,
@@ -89,7 +94,8 @@ impl Parametrisation {
         self.phases.capacity() * size_of::<MotionPhase>()
     }
 
-    /// The same motion as some S-curves, slowed down: `rate_r` ≤ 1 times as fast.
+    /// The same motion as some S-curves, slowed down: `rate_r` ≤ 1 times as fast. Acceleration goes
+    /// with the square of that, jerk with its cube.
     pub(crate) fn slowed(legs: &[Leg], rate_r: f64) -> Option<Self> {
         let mut phases: Vec<MotionPhase> = Vec::new();
         let mut from_t = 0.0;

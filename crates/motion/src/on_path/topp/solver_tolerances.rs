@@ -15,8 +15,9 @@ pub(crate) struct SolverTolerances {
     pub(crate) rest_growth: f64,
     /// What is left to gain in the end, as a share of the time, if three limits bind at each knot.
     pub(crate) gap_r: f64,
-    /// The square of a step for each knot, in the measure of the barrier, that counts as small: about
-    /// as much is still to be gained, where three times as much are left by the gap.
+    /// The square of a step for each knot, in the measure of the barrier, that counts as small. Half of it
+    /// is still to be gained, where the gap leaves three, a limit each that binds. With 0 the step of
+    /// the whole course has to be small ([`super::barrier`]).
     pub(crate) small_r: f64,
     /// How much more firmly limits are lessened each time that they were exceeded between knots.
     pub(crate) firmer_r: f64,
@@ -26,7 +27,7 @@ pub(crate) struct SolverTolerances {
 }
 
 impl SolverTolerances {
-    /// For curves of the program.
+    /// For curves of the program. Knots are as close as they may be, so `knot_r` makes them no closer.
     pub(crate) const CLOSE: Self = Self {
         knot_t: 0.002,
         knot_r: 0.1,
