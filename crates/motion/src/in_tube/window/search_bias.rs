@@ -7,11 +7,11 @@
 /// What a search is given beside the path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct SearchBias {
-    /// What an offset of the whole radius costs at one sample. This and the next count far less
-    /// than the time that can be gained by them, and enough to be the only thing that counts where
+    /// Twice what an offset of the whole radius costs at one sample, in periods of mean progress
+    /// ([`super::tube::Style::attraction`]). This and the next count far less than the time that can be gained by them, and enough to be the only thing that counts where
     /// none can. Heavy ones lead to a motion with less work, light ones a little further.
     pub(crate) pull: f64,
-    /// What jerk at its limit costs.
+    /// Twice what jerk at its limit costs in one knot interval.
     pub(crate) jerk: f64,
     /// How many times as fast as expected the motion is first thought to be: samples that are on a
     /// piece too early for that are corrected at once, but take others with them.

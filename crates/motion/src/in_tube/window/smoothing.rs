@@ -33,8 +33,8 @@ use super::tube::{STEERING, Style};
 use super::way::at_feed_until;
 use super::window_start::WindowStart;
 
-/// What an offset of the whole radius costs at one sample, and what jerk at its limit does, in periods of
-/// mean progress: about three times what a usual search has ([`SearchBias::USUAL`]). At the feed an arc of
+/// Twice what an offset of the whole radius costs at one sample, and what jerk at its limit does, in periods
+/// of mean progress ([`Style::attraction`]): about three times what a usual search has ([`SearchBias::USUAL`]). At the feed an arc of
 /// 8 mm was 1.7 µm too small with the latter, 1 µm with these, before way counted there
 /// ([`super::shortcuts`]).
 const PULL: f64 = 0.1;

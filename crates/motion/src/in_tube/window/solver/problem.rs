@@ -52,7 +52,8 @@ pub(in crate::in_tube::window) struct Site<const D: usize> {
     pub(in crate::in_tube::window) weights: [f64; SPAN],
     /// Its rows.
     pub(in crate::in_tube::window) rows: core::ops::Range<usize>,
-    /// Pull towards the line through `center` along `tangent`, per square of the distance.
+    /// Pull towards the line through `center` along `tangent`, objective per tolerance²: ½·attraction·distance² is
+    /// what it costs.
     pub(in crate::in_tube::window) attraction: f64,
     pub(in crate::in_tube::window) center: [f64; D],
     pub(in crate::in_tube::window) tangent: [f64; D],
@@ -107,13 +108,14 @@ pub(in crate::in_tube::window) struct Problem<const D: usize> {
     pub(in crate::in_tube::window) intervals: usize,
     /// The last three control points are given, not only equal.
     pub(in crate::in_tube::window) is_end_fixed: bool,
-    /// Bounds of first, second, third differences; an infinite one is left out.
+    /// Bounds of first, second, third differences, in tolerances; an infinite one is left out.
     pub(in crate::in_tube::window) bounds: [[f64; D]; 3],
-    /// Weight of the square of third differences, by axis.
+    /// Weight of half the square of third differences, by axis, objective per tolerance².
     pub(in crate::in_tube::window) jerk: [f64; D],
     /// Which control points stay where they are given, by axis.
     pub(in crate::in_tube::window) fixed_axes: Vec<[bool; D]>,
-    /// Gradient of the linear part of the objective, which is maximised, by control point.
+    /// Gradient of the linear part of the objective, which is maximised, by control point, objective per
+    /// tolerance.
     pub(in crate::in_tube::window) aims: Vec<[f64; D]>,
     pub(in crate::in_tube::window) sites: Vec<Site<D>>,
     pub(in crate::in_tube::window) rows: Vec<Row<D>>,
