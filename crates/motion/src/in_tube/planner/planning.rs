@@ -313,6 +313,7 @@ fn leg_tail(leg: &StopLeg, leg_t: f64, grid: &Grid, intervals: usize) -> Vec<Axi
     let state = leg.at(leg_t);
     let bend = state.acceleration * (h * h / 6.0);
     let step = state.velocity * h;
+    // The three that have the state at their knot: (x₀ + 4x₁ + x₂)/6, (x₂ − x₀)/2h, (x₀ − 2x₁ + x₂)/h².
     let mut points = vec![
         state.position - step + bend * 2.0,
         state.position - bend,

@@ -71,6 +71,7 @@ impl View {
                 .ceil()
                 .min(MOST_INTERVALS as f64) as usize;
             needed = needed.max(wanted);
+            // The motion is nowhere faster, so in its time a window gets no further than at these speeds.
             let share = if end == index { 1.0 - u } else { 1.0 };
             known_t += share * piece.length_s / top_v;
             end += 1;
@@ -311,7 +312,9 @@ fn passes<const D: usize>(
         && (question == JudgeQuestion::IsValid || follower.reachable.is_at_end_of(context.end - 1))
 }
 
-/// True if a motion with no more jerk than that of each axis can lead from one state to the next.
+/// False if no motion with no more jerk than that of each axis can lead from one state to the next: a jerk of
+/// J all along adds J·t, J·t²/2 and J·t³/6 to what acceleration, velocity and position would come to without,
+/// and none adds more.
 fn keeps_jerk(jerk: &AxisVector, t: f64, [from, to]: [&State; 2]) -> bool {
     let step_a = to.acceleration - from.acceleration;
     let step_v = to.velocity - from.velocity - from.acceleration * t;

@@ -333,7 +333,9 @@ fn straightness<const D: usize>(points: &[[f64; D]], grid: &Grid, k: usize) -> f
     }
 }
 
-/// The pieces that the first difference from control point `k` on has a part in.
+/// The pieces that the first difference from control point `k` on has a part in. It is the control point of a
+/// quadratic spline, the velocity: its middle is k − ½ intervals from the first knot, and it acts on one and
+/// a half to either side.
 pub(crate) fn pieces_at(
     samples: &Samples,
     grid: &Grid,

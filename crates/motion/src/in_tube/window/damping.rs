@@ -14,7 +14,7 @@
 //! So the velocity across the path and the acceleration across it get prices, too, those that go with
 //! the other two. They are measured against what the curve that the piece stands for has of both.
 //! Near corners there are none: there the motion is off the path, and crosses it, on purpose; and
-//! none where pieces are shorter than a period's way, because their curves are as rough as the
+//! none where pieces are shorter than the way of two periods, because their curves are as rough as the
 //! points they were laid through.
 
 use super::samples::Samples;

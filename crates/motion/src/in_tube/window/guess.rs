@@ -20,7 +20,7 @@ use crate::scurve::{PathLimits, Profile, reachable_speed};
 /// Speed at and time of every vertex.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Guess {
-    /// From the start of the scaled path, one more than pieces.
+    /// From the start of the scaled path, s, one more than pieces; at rest at both ends.
     times_t: Vec<f64>,
     speeds_v: Vec<f64>,
 }
@@ -103,6 +103,7 @@ impl Guess {
         if count == 0 {
             return;
         }
+        // The place and speed that are counted from, and the weakest limits since there.
         let mut from = (end_s(count - 1), 0.0, limits(count - 1));
         for i in (0..count).rev() {
             from.2 = narrow(from.2, limits(i));
@@ -152,6 +153,7 @@ impl Guess {
         let slope = |speed_v: f64| (speed_v * span_t / segment.length).min(MONOTONE_SLOPE);
         let (m0, m1) = (slope(self.speeds_v[i]), slope(self.speeds_v[i + 1]));
         let y = 1.0 - x;
+        // Hermite's cubic from 0 to 1.
         let part = x * x * (3.0 - 2.0 * x) + m0 * x * y * y - m1 * x * x * y;
         segment.s + segment.length * part.clamp(0.0, 1.0)
     }

@@ -157,6 +157,7 @@ pub(crate) struct Optimiser<const D: usize> {
     pub(super) samples: Samples,
     pub(super) cutting_planes: CuttingPlanes<D>,
     fixed_axes: FixedAxes<D>,
+    /// For rounds in which lines keep to the path, and for those in which they stray ([`SEARCH_STRAY_R`]).
     extents: [Extents; 2],
     /// How much faster than the guess the motion has turned out to be.
     pace: f64,

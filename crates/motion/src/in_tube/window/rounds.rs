@@ -48,7 +48,7 @@ pub(crate) struct RoundState<const D: usize> {
     pub(crate) has_motion: bool,
     /// Rows were violated in the last round: samples are on pieces too early.
     pub(crate) is_exceeding: bool,
-    /// Mean progress in the last round ([`Samples::mean_t`]).
+    /// Mean progress in the last round ([`Samples::mean_t`]), s.
     pub(crate) mean_t: f64,
     /// With less of it a motion that passes is of no use, and none of the next will be.
     pub(crate) least_t: f64,

@@ -12,9 +12,28 @@ use super::scaled_path::ScaledPath;
 use super::solver::{combine, dot};
 use super::spline::Grid;
 
-/// From this part of the radius on a motion is worth a plane. Of this and the numbers of [`leads`] and
-/// [`Samples::project`] no measurement is kept.
+/// From this part of the radius on a motion is worth a plane. Of this and the numbers up to
+/// [`LEADING_TUBE_R`] no measurement is kept.
 pub(crate) const WORTH_R: f64 = 0.5;
+/// Shares of the radius from which a sample has come out at the edge of the tube, and up to which that is
+/// put right by less radius. One that is further out is left to the next giving out.
+const EDGE_R: f64 = 0.9995;
+const FAR_OUT_R: f64 = 1.5;
+/// Share of the radius at which it is to come out the next time, and the least factor of the radius to which
+/// that may lead in all.
+const INSIDE_R: f64 = 0.998;
+const LEAST_SHRINK: f64 = 0.7;
+/// A sample leads over to the next piece where the path turns by this at least, 2·sin(turn/2), where it is
+/// nearer to the corner than so many radii over the turn (of 1 at most), and in the tube of the next piece up
+/// to this share of its radius.
+const LEADING_TURN: f64 = 0.05;
+const LEADING_R: f64 = 4.0;
+const LEADING_TUBE_R: f64 = 0.98;
+/// A later piece has to be nearer by this share of the radius to be taken for the place of a sample; else the
+/// earlier one is.
+const NEARER_R: f64 = 1e-7;
+/// Share of the radius before a fold in the path from which a sample may be on its other side.
+const BEFORE_FOLD_R: f64 = 0.5;
 /// Cosine of the turn from which a corner holds samples back: without it they jump over reversals and
 /// short spikes, whose two sides are near each other.
 const FOLD_COS: f64 = 0.2;
@@ -36,7 +55,7 @@ const OF_HALVES: f64 = 0.25;
 /// Samples 0 … count of a window.
 #[derive(Debug, Default, Clone)]
 pub(crate) struct Samples {
-    /// Progress along the scaled path: where a sample is taken to be.
+    /// Progress along the scaled path, in tolerances: where a sample is taken to be.
     pub(crate) progress: Vec<f64>,
     /// Piece a sample must be given to at least.
     pub(crate) at_least: Vec<usize>,
@@ -44,7 +63,7 @@ pub(crate) struct Samples {
     pub(crate) piece: Vec<usize>,
     /// Factor of the radius: below one where a sample has come out too far off.
     pub(crate) shrink: Vec<f64>,
-    /// What the motion bulges out of the chord of the period before a sample.
+    /// What the motion bulges out of the chord of the period before a sample, in tolerances.
     bulge: Vec<f64>,
     /// Whether the tube bounds middles of periods, too: where there are several knots in each. With
     /// one, windows along short legs are refused for it more often than others gain.
@@ -186,6 +205,7 @@ impl Samples {
             self.progress[k] = s;
             self.at_least[k] = 0;
             let (site, weights) = grid.bend_site(k);
+            // A chord over a period T is off by T²/8 of the acceleration in its middle.
             let bend = across(path, piece, &combine(points, site, &weights)) / 8.0;
             self.bulge[k] = f64::max(bend, bend_before);
             bend_before = bend;
@@ -197,9 +217,8 @@ impl Samples {
                 self.at_least[k] = piece + 1;
             }
             // A sample that came out at the edge, or a little beyond, gets a smaller radius, and keeps it.
-            // One that is further out is left to the next giving out.
-            if distance_r > 0.9995 && distance_r < 1.5 {
-                self.shrink[k] = (self.shrink[k] * 0.998 / distance_r).max(0.7);
+            if distance_r > EDGE_R && distance_r < FAR_OUT_R {
+                self.shrink[k] = (self.shrink[k] * INSIDE_R / distance_r).max(LEAST_SHRINK);
             }
         }
     }
@@ -212,7 +231,7 @@ impl Samples {
         self.at_least.fill(0);
     }
 
-    /// Mean progress since the first sample, in the time that it takes at the top speeds: where the
+    /// Mean progress since the first sample, in the time that it takes at the top speeds, s: where the
     /// feed is slow, little way is much time.
     pub(crate) fn mean_t<const D: usize>(&self, path: &ScaledPath<D>) -> f64 {
         let times = self.times(path);
@@ -220,7 +239,7 @@ impl Samples {
         mean(times.iter().map(|t| t - start_t))
     }
 
-    /// Progress of each sample, in the time that it takes at the top speeds from the start of the path.
+    /// Progress of each sample, in the time that it takes at the top speeds from the start of the path, s.
     pub(crate) fn times<const D: usize>(&self, path: &ScaledPath<D>) -> Vec<f64> {
         let segments = &path.segments;
         let mut i = 0;
@@ -298,7 +317,7 @@ fn nearest<const D: usize>(
     while i < segments.len() && segments[i].s <= at.s + ahead {
         let segment = &segments[i];
         let place = SamplePlace::on(path, i, at.s, y);
-        if place.distance < best.distance - 1e-7 * segment.radius {
+        if place.distance < best.distance - NEARER_R * segment.radius {
             best = place;
         }
         // A path that folds back is not jumped over while the motion can still be before the fold.
@@ -307,7 +326,7 @@ fn nearest<const D: usize>(
             .is_some_and(|next| dot(&segment.tangent, &next.tangent) < FOLD_COS);
         if folds
             && best.distance <= segment.radius
-            && best.s < segment.s + segment.length - 0.5 * segment.radius
+            && best.s < segment.s + segment.length - BEFORE_FOLD_R * segment.radius
         {
             break;
         }
@@ -316,19 +335,19 @@ fn nearest<const D: usize>(
     best
 }
 
-/// True if a sample near the end of a piece is in the tube of the next one as well: at a corner, and nearer
-/// to it than 4 radii over the turn.
+/// True if a sample near the end of a piece is in the tube of the next one as well: at a corner, and near
+/// to it.
 fn leads<const D: usize>(path: &ScaledPath<D>, y: &[f64; D], piece: usize, s: f64) -> bool {
     let next = path.segments.get(piece + 1);
     let Some(next) = next.filter(|_| !path.changes_rate_after(piece)) else {
         return false;
     };
     let turn = path.turn(piece, piece + 1);
-    if turn <= 0.05 || next.s - s >= 4.0 * next.radius / turn.min(1.0) {
+    if turn <= LEADING_TURN || next.s - s >= LEADING_R * next.radius / turn.min(1.0) {
         return false;
     }
     let offset: [f64; D] = core::array::from_fn(|k| y[k] - next.start[k]);
     let x = dot(&offset, &next.tangent).clamp(0.0, next.length);
     let across: [f64; D] = core::array::from_fn(|k| offset[k] - x * next.tangent[k]);
-    dot(&across, &across).sqrt() < 0.98 * next.radius
+    dot(&across, &across).sqrt() < LEADING_TUBE_R * next.radius
 }

@@ -22,6 +22,12 @@ pub(crate) const SHARP: f64 = 0.3;
 /// A speed that is slower than another, in shares of it.
 pub(super) const SLOWER: f64 = 0.999;
 
+/// Length that is left of a unit vector, made perpendicular to some others, from which it is taken for another
+/// direction than theirs.
+const LEAST_REST: f64 = 1e-3;
+/// How many times the feed an axis' own velocity has to be not to bind.
+const FEED_KEEPS_R: f64 = 1.05;
+
 /// A piece of the path in the space of the window.
 #[derive(Debug, Clone)]
 pub(crate) struct ScaledSegment<const D: usize> {
@@ -31,18 +37,18 @@ pub(crate) struct ScaledSegment<const D: usize> {
     pub(crate) length: f64,
     /// Length from the start of the scaled path to the start of the piece.
     pub(crate) s: f64,
-    /// Time that all pieces before it take at their top speeds.
+    /// Time that all pieces before it take at their top speeds, s.
     pub(crate) t: f64,
-    /// Radius of the tube.
+    /// Radius of the tube: 1 where the tolerance is that of the window's first piece.
     pub(crate) radius: f64,
-    /// Speed the feed and the axes allow, per second.
+    /// Speed the feed and the axes allow, in tolerances per s.
     pub(crate) top: f64,
-    /// Limits along it.
+    /// Limits along it, in tolerances per s² and s³.
     pub(crate) limits: PathLimits,
     /// Direction in the axes of the feed, such that feed speed over programmed feed is `feed · v`.
     pub(crate) feed: [f64; D],
-    /// Per axis, one over the programmed feed where the feed counts the axis, in units of the
-    /// window.
+    /// Per axis, one over the programmed feed where the feed counts the axis, in s per tolerance; else
+    /// zero.
     pub(crate) feed_axes: [f64; D],
     /// From its middle to the program it stands for.
     pub(crate) sagitta_vector: [f64; D],
@@ -78,11 +84,13 @@ pub(crate) struct ScaledPath<const D: usize> {
     /// The moving axes, and how many they are: the rest of the `D` stays at zero.
     pub(super) axes: [usize; D],
     pub(super) moving: usize,
+    /// The tolerance of each, mm or degrees, and where the window begins, which is its zero.
     pub(super) unit: [f64; D],
     pub(super) origin: AxisVector,
     /// Coordinates at which pieces leave an axis alone, in the space of the window and as programmed,
     /// by rising order.
     levels: [Vec<(f64, f64)>; D],
+    /// Limits of the moving axes, in tolerances per s, s² and s³.
     pub(crate) velocity: [f64; D],
     pub(crate) acceleration: [f64; D],
     pub(crate) jerk: [f64; D],
@@ -91,7 +99,7 @@ pub(crate) struct ScaledPath<const D: usize> {
     pub(super) usual: [[f64; D]; 2],
     /// Ends of travel, lowest and highest, in the space of the window; infinite where there is none.
     pub(crate) walls: [[f64; 2]; D],
-    /// How far a rate may go on beyond where another one begins.
+    /// How far a rate may go on beyond where another one begins, in tolerances of the linear axes.
     pub(super) rate_change: f64,
     joints: SharedJoints,
 }
@@ -290,7 +298,7 @@ impl<const D: usize> ScaledPath<D> {
                     }
                 }
                 let size = dot(&rest, &rest).sqrt();
-                if size > 1e-3 {
+                if size > LEAST_REST {
                     normals[found] = rest.map(|value| value / size);
                     found += 1;
                 }
@@ -417,11 +425,11 @@ impl<const D: usize> ScaledPath<D> {
     }
 
     /// Limits of the axes whose own velocity may bind before the feed does; infinite for those that the feed
-    /// keeps 5 % below theirs on every piece. Rows that cannot bind are work.
+    /// keeps well below theirs on every piece. Rows that cannot bind are work.
     pub(crate) fn velocity_bounds(&self) -> [f64; D] {
         core::array::from_fn(|k| {
             let is_bounded_by_feed =
-                |segment: &ScaledSegment<D>| segment.feed_axes[k] * self.velocity[k] > 1.05;
+                |segment: &ScaledSegment<D>| segment.feed_axes[k] * self.velocity[k] > FEED_KEEPS_R;
             if self.segments.iter().all(is_bounded_by_feed) || k >= self.moving {
                 f64::INFINITY
             } else {

@@ -33,6 +33,19 @@ use super::scaled_path::{SHARP, ScaledPath};
 use super::solver::{FAR, Problem, dot};
 use super::spline::Grid;
 
+/// Part of a radius by which the path has left the line of a piece where that ends.
+const STRAY_R: f64 = 0.5;
+/// The furthest that a line goes on, in ways of a knot at the top speed. No measurement of this or of
+/// [`STRAY_R`] is kept.
+const CAP_KNOTS: f64 = 4.0;
+/// How far the line of the first piece goes on before its start, in radii. Of what was before it nothing is
+/// seen. Why .3 is not on record.
+const UNSEEN_R: f64 = 0.3;
+/// How many radii beyond an end of its line a sample is out of that row by one: to be there costs a quarter
+/// of being out of the tube by as much; why is not on record.
+const BEYOND_R: f64 = 4.0;
+/// Turn from which there is a plane half-way between two pieces, 2·sin(turn/2): a smaller one is rounding.
+const LEAST_TURN: f64 = 1e-6;
 /// Most of the radius of a corner that is left to chords that cut it off: the radius that rows have must
 /// stay well above 0, which they are divided by. No measurement of it is kept.
 const MOST_SAGITTA_R: f64 = 0.5;
@@ -62,14 +75,15 @@ pub(crate) struct Style {
     /// Part of the radius that is used: the rest is left to rounding, and to iterates that come and
     /// go.
     pub(crate) keep_r: f64,
-    /// Pull towards the programmed path: what an offset of the whole radius costs, in gains of
-    /// progress of one sample in all of the time.
+    /// Pull towards the programmed path: an offset of the whole radius costs half of this at each sample,
+    /// in periods of mean progress. Half, because such a price is that of a square, ½·price·offset²; this
+    /// is its derivative at the radius.
     pub(crate) attraction: f64,
-    /// What jerk at its limit costs, in the same measure, for each knot interval: with more knots in a
-    /// period a time costs more of it beside the pull, which counts by sample.
+    /// The same of jerk at its limit, for each knot interval: with more knots in a period a time costs more
+    /// of it beside the pull, which counts by sample.
     pub(crate) jerk: f64,
-    /// What a velocity across the path as large as the feed costs where the feed is slow, in the same
-    /// measure ([`super::feed_rows`]).
+    /// The same of a velocity across the path as large as the feed where the feed is slow, for each first
+    /// difference ([`super::feed_rows`]).
     pub(crate) steering: f64,
     /// After a corner the motion comes to the path without swinging ([`super::damping`]).
     pub(crate) is_damped: bool,
@@ -93,7 +107,7 @@ pub(crate) struct Style {
 const SETTLING: f64 = 7.5;
 
 impl Style {
-    /// The jerk of each axis that costs [`Style::jerk`], in tolerances: its limit, but no more than
+    /// The jerk of each axis that [`Style::jerk`] is for, in tolerances per s³: its limit, but no more than
     /// a tolerance per period³, about what can be seen in one. With a limit far above that the price
     /// would be none. That it is just a period is a choice, of which no measurement is kept.
     pub(crate) fn priced_jerk<const D: usize>(&self, path: &ScaledPath<D>) -> [f64; D] {
@@ -141,10 +155,9 @@ impl Extents {
         }
         let segment = &path.segments[i];
         // A line goes on until the path has left it by half a radius: half a radius beyond a sharp
-        // corner, far along gentle chords. With that, steps need no bound of their own. The cap is the way
-        // of four knots at the top speed. Of the numbers no measurement is kept.
-        let stray = 0.5 * style.stray_r * segment.radius;
-        let cap = (4.0 * segment.top * style.grid.knot_t).max(segment.radius);
+        // corner, far along gentle chords. With that, steps need no bound of their own.
+        let stray = STRAY_R * style.stray_r * segment.radius;
+        let cap = (CAP_KNOTS * segment.top * style.grid.knot_t).max(segment.radius);
         let last = path.segments.len() - 1;
         let over = if path.slows_after(i) {
             0.0
@@ -164,8 +177,7 @@ impl Extents {
                 cap,
             )
         } else {
-            // Of what was before the first piece nothing is seen. Why .3 is not on record.
-            0.3 * segment.radius
+            UNSEEN_R * segment.radius
         };
         self.spans[i] = Some([back, over]);
         [back, over]
@@ -279,8 +291,7 @@ fn add_tube<const D: usize>(
         let normal = normal.map(|n| n / radius);
         problem.add_row(normal, &segment.start, [-beside, beside]);
     }
-    // To be beyond an end costs a quarter of being out of the tube by as much; why is not on record.
-    let scale = 4.0 * radius;
+    let scale = BEYOND_R * radius;
     let end = if layout.style.keeps_progress {
         (progress - segment.s).min(segment.length + over)
     } else {
@@ -369,7 +380,7 @@ fn add_corners<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, D>,
             site.center = after.start;
         }
         let turn = path.turn(*i, i + 1);
-        let inwards = (turn > 1e-6).then(|| Plane {
+        let inwards = (turn > LEAST_TURN).then(|| Plane {
             normal: core::array::from_fn(|a| (after.tangent[a] - before.tangent[a]) / turn),
             center: after.start,
         });

@@ -50,13 +50,14 @@ pub(super) fn way_t<const D: usize>(
     dot(&counted, &counted).sqrt().max(along_t)
 }
 
-/// How much a motion turns in the period before sample `k`, rad; less than a full turn.
+/// How much a motion turns in the period before sample `k`, rad, from 0 to π.
 pub(super) fn turn_before<const D: usize>(points: &[[f64; D]], (k, grid): (usize, &Grid)) -> f64 {
     let [before, after] = [k - 1, k].map(|k| {
         let (first, weights) = grid.velocity_site(k);
         combine(points, first, &weights)
     });
     let both = dot(&before, &before) * dot(&after, &after);
+    // |a|·|b|·sin, which `atan2` takes with |a|·|b|·cos.
     let sin = (both - dot(&before, &after).powi(2)).max(0.0).sqrt();
     sin.atan2(dot(&before, &after))
 }

@@ -18,6 +18,8 @@ const SLOWING_R: f64 = 0.4;
 /// where samples go over to the next one ([`super::samples`]), and a hundredth more, so that it waits.
 const HOP_R: f64 = 0.3;
 const BEFORE_HOP_R: f64 = 1.01;
+/// Part of the radius that is used where no phase of a search says otherwise: as much as in its first one.
+const KEEP_R: f64 = 0.995;
 /// How much longer a stop at each vertex is thought to take than an S-curve from rest to rest, and how
 /// many knots: jerk changes at knots only. Too little, and no motion is in time on its pieces; too much
 /// costs time, but this is the last attempt.
@@ -59,7 +61,7 @@ impl<const D: usize> WindowStart<'_, D> {
             is_centred: false,
             aims_beyond: 0,
             aims_until: usize::MAX,
-            keep_r: 0.995,
+            keep_r: KEEP_R,
             attraction: self.bias.pull,
             jerk: self.bias.jerk,
             steering: STEERING,
