@@ -291,8 +291,9 @@ fn room(pasts: &[Past; PAIRS], quintic: &Quintic, u: f64, allowed: &AllowedPairs
         let third = sub(second, past.second);
         let scale = pairs::map(velocity, |v| v.abs().recip());
         for (difference, most) in [first, second, third].into_iter().zip(*most) {
-            // What the differences are along the velocity. An axis that stands is not limited
-            // by it.
+            // What the differences are along the velocity v: −most ≤ d + x·v ≤ most is an interval of x, whose
+            // ends are (∓most − d)/v, exchanged where v is below zero. With |v| and d's part along v no case is
+            // left. An axis that stands is not limited by it.
             let along = pairs::zip(difference, velocity, |d, v| d.copysign(d * v));
             let lowest = pairs::zip(most, along, |most, along| -most - along);
             let highest = sub(most, along);

@@ -90,6 +90,8 @@ impl Ramp {
         let released = rate + slope * slope.abs() / (2.0 * beta);
         let direction = if target >= released { 1.0 } else { -1.0 };
         let way = direction * (target - rate);
+        // Bent to a slope p and back at once a ramp covers (2p² − ṙ₀²)/2β: the slope with which that is the way,
+        // and, of the slope that there is, how much is covered by bending.
         let steepest = (0.5 * slope * slope + beta * way).max(0.0).sqrt();
         let peak = steepest.min(alpha);
         let start_slope = direction * slope;

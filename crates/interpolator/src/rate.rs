@@ -56,8 +56,9 @@
 //!
 //! A ramp to rate 1 is stretched so that it ends on the grid of the frames: from there on the
 //! setpoints are the frames, bit for bit. Between its grid points a plan may exceed its jerk limit
-//! by a little (0.53 % if jerk steps in the middle of a period): r³ makes up for that at any lower
-//! steady rate, hence [`beside_full`].
+//! by a little: where jerk steps by 2J in the middle of a period the quintic is off by J·T³/384 there, and
+//! with two such steps three periods apart a third difference is off by .52 %. r³ makes up for that at
+//! any lower steady rate, hence [`beside_full`].
 //!
 //! The files, each of which uses only those above it:
 //!

@@ -37,7 +37,8 @@ struct Approach {
     pace: f64,
 }
 
-/// Steady ticks between the two ramps: the second is cued by positions at a steady rate, three back.
+/// Steady ticks between the two ramps, and before the first, at least: each is played from three positions
+/// at a steady rate before it ([`SteadyRate::playback`]).
 const GAP: f64 = 3.0;
 
 /// What is tried: late and fast first. Nine paces of one ramp, each about .83 times the one before; then
@@ -224,7 +225,7 @@ impl ArrivalSearch {
         // needs E/p; what whole ticks leave is made up for by a pace a little below p.
         let needed = passed + fastest.elapsed_at(fastest.duration()) / approach.pace;
         let begins = ((periods(self.from.time, self.frame) - needed) / rate).floor();
-        (begins >= 3.0).then_some(Schedule { begins, first })
+        (begins >= GAP).then_some(Schedule { begins, first })
     }
 
     fn begin(&self, schedule: &Schedule, track: &Track) -> Option<Attempt> {

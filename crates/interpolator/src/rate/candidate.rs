@@ -7,7 +7,7 @@ use crate::ramp::{Bounds, Ramp};
 /// of the limits, acceleration as its pace, jerk as the square of it.
 pub(super) const PACES: [f64; 6] = [1.0, 0.8, 0.63, 0.5, 0.36, 0.22];
 
-/// The highest steady rate below 1. Its cube makes up for .6 % of jerk, and a plan may have .53 % too much
+/// The highest steady rate below 1. Its cube makes up for .6 % of jerk, and a plan may have .52 % too much
 /// between its grid points.
 const BESIDE_FULL: f64 = 0.998;
 
@@ -52,7 +52,7 @@ pub(super) const CANDIDATES: [Candidate; 18] = {
 /// is kept.
 const SET_UP: u32 = 4;
 const STRETCHING: u32 = 6;
-/// Most refinements of a stretching.
+/// Most refinements of a stretching, by regula falsi in the manner of Illinois.
 const REFINEMENTS: u32 = 16;
 /// The first guess of how much slower a ramp has to be, how fast that grows, and the most of it, at which
 /// the tick gives this candidate up.
@@ -87,7 +87,7 @@ pub(super) fn ramp_to(
     if target < 1.0 {
         return Some(ramp);
     }
-    // The frame reached at rate 1 is behind the grid by what was lost, so lose a whole number.
+    // After n ticks, at rate 1 again, program time is fraction + n − loss: on a frame if fraction − loss is whole.
     let over = (now.time.fraction - ramp.loss()).rem_euclid(1.0);
     let wanted = ramp.loss() + if over > 1.0 - ON_GRID { 0.0 } else { over };
     let on_grid = if now.slope == 0.0 {
@@ -110,7 +110,7 @@ pub(super) fn ramp_to(
 /// pace 1.
 ///
 /// From a slope the curve is not just stretched, but the loss still grows nearly in proportion to
-/// the stretching: the secant finds it in a few steps.
+/// the stretching: the secant finds it in a few steps, between two ends that enclose it.
 fn stretched(ramp: &Ramp, wanted: f64, plan: impl Fn(f64) -> Option<Ramp>) -> Option<Ramp> {
     let beyond = |stretching: f64| {
         let ramp = plan(1.0 / stretching)?;
@@ -138,7 +138,7 @@ fn stretched(ramp: &Ramp, wanted: f64, plan: impl Fn(f64) -> Option<Ramp>) -> Op
         if by.abs() < 0.5 * ON_GRID {
             break;
         }
-        // An end that stays counts half, so that it moves too.
+        // An end that stays twice counts half, so that it moves too.
         if by < 0.0 {
             (low, low_by) = (between, by);
             high_by *= if kept_low { 1.0 } else { 0.5 };

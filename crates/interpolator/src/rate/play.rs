@@ -5,6 +5,10 @@ use crate::program_time::ProgramTime;
 use crate::ramp::Ramp;
 use crate::track::Track;
 
+/// Ticks past the end of a ramp that are played: a third difference reaches back over three ticks, so from
+/// there on nothing of the ramp is in it.
+const AFTER_END: f64 = 3.0;
+
 /// What playing a ramp through has shown.
 #[derive(Debug, Clone, Copy)]
 #[allow(
@@ -54,7 +58,7 @@ pub(super) struct Playthrough {
     ramp: Ramp,
     from: ProgramTime,
     is_held: bool,
-    /// Ticks played, and the positions up to there.
+    /// Ticks played, whole, and the positions up to there.
     t: f64,
     published: Differences,
     /// The end of the ramp, once it was played so far.
@@ -85,7 +89,10 @@ impl Playthrough {
         budget: &mut u32,
     ) -> PlaythroughOutcome {
         let holding_frame = track.holding_frame().filter(|_| self.is_held);
-        let (whole, end) = (self.ramp.duration().ceil(), self.ramp.duration() + 3.0);
+        let (whole, end) = (
+            self.ramp.duration().ceil(),
+            self.ramp.duration() + AFTER_END,
+        );
         while self.t < end {
             if *budget == 0 {
                 return PlaythroughOutcome::OutOfBudget;

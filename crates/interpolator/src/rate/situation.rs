@@ -9,8 +9,9 @@ use crate::track::Track;
 
 /// What it costs to set up a stop, in samples. No measurement of it is kept.
 pub(super) const SET_UP: u32 = 6;
-/// The most samples a tick may spend: what it takes where three stops fill the track, which is the
-/// shortest period a configuration may have.
+/// The most samples a tick may spend: what [`Situation::budget`] comes to where three stops fill the track,
+/// which is the shortest period a configuration may have. Of 512 frames a stop then takes 170 ticks:
+/// 2 · (170 + 3 + 6) is 358.
 const MOST: u32 = 360;
 /// Largest bounds of a ramp, where the motion is so slow that limits allow any: a change from 0 to 1 takes
 /// at least four ticks, two to bend and two to bend back.
@@ -29,7 +30,7 @@ pub(crate) struct Situation<'a> {
     pub(crate) published: &'a Differences,
     /// The limits.
     pub(crate) allowed: &'a Allowed,
-    /// Frames a stop from full speed takes.
+    /// Frames a stop from full speed takes: half as many as ticks, for the rate is a half on average.
     pub(crate) reach: u64,
     /// Whether there are as many frames ahead as there will ever be.
     pub(crate) is_fully_supplied: bool,
@@ -41,6 +42,7 @@ impl Situation<'_> {
     /// Samples a tick may spend on what has to be done within it: so many, or what it takes to play
     /// a stop from full speed through twice. With less, at a short period, no stop would ever pass.
     pub(super) fn budget(&self, least: u32) -> u32 {
+        // In ticks, each a sample; with what it costs to set it up and the three ticks past its end.
         let stop = u32::try_from(2 * self.reach).unwrap_or(u32::MAX / 4);
         least.max(2 * (stop + 3 + SET_UP)).min(MOST)
     }
@@ -70,6 +72,7 @@ impl Situation<'_> {
     }
 }
 
+/// By q″ = Q′·ṙ and q‴ = Q′·r̈ alone, as if the plan took nothing: ṙ ≤ A·T/V and r̈ ≤ J·T²/V.
 fn fastest(stop: StopTime) -> Bounds {
     Bounds {
         alpha: FASTEST.alpha.min(1.0 / stop.by_acceleration),

@@ -27,6 +27,10 @@ const URGENT: u32 = 14;
 /// tried in vain it becomes too late, as it did where frames came in bursts of a tenth of a second.
 const SHORT: u32 = 2 * URGENT;
 
+/// Frames a stop is taken to have at least where it is asked whether a reserve begins late enough
+/// ([`Rate::enough`]). Why it is sixteen is not on record.
+const LEAST_REACH: u64 = 16;
+
 /// In the last ticks before a reserve begins it is tried to go slower instead. No measurement of it is kept.
 const SLOWER_IN_TICKS: u32 = 4;
 /// By which share of the rate, and at which pace: some of the steps of a search for a stop, the smallest
@@ -95,7 +99,7 @@ impl Rate {
     /// search begins the less of it is left to any tick; but what is found soon begins soon.
     fn enough(&self, situation: &Situation<'_>) -> u32 {
         let frames = |n: u64| u32::try_from(n).unwrap_or(u32::MAX / 8);
-        let reach = frames(situation.reach.max(16));
+        let reach = frames(situation.reach.max(LEAST_REACH));
         let ahead = situation.track.end();
         let ahead = frames(ahead.saturating_sub(self.now.time.sequence));
         // Two thirds of what is ahead of a stop, but three to four stops. No measurement of it is kept.
