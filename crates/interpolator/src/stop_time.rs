@@ -5,7 +5,8 @@ use crate::pairs::{self, PAIRS, Pair, larger};
 use glidepath_program::Limits;
 
 /// How many ticks it takes to lose the speed at a frame: at the acceleration limit, V/(A·T), and, squared,
-/// at the jerk limit, V/(J·T²), in one bend. The slowest axis counts.
+/// at the jerk limit, V/(J·T²). One over them is what slope and bend of the rate may be. The slowest axis
+/// counts.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct StopTime {
     pub(crate) by_acceleration: f64,

@@ -28,7 +28,7 @@ const URGENT: u32 = 14;
 const SHORT: u32 = 2 * URGENT;
 
 /// Frames a stop is taken to have at least where it is asked whether a reserve begins late enough
-/// ([`Rate::enough`]). Why it is sixteen is not on record.
+/// ([`Rate::enough`]).
 const LEAST_REACH: u64 = 16;
 
 /// In the last ticks before a reserve begins it is tried to go slower instead. No measurement of it is kept.

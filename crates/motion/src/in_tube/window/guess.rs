@@ -69,12 +69,12 @@ impl Guess {
             let jumps = path.corner(i - 1);
             for k in 0..D {
                 let jump = jumps[k].abs();
-                let [a, j] = path.usual.map(|of_axis| of_axis[k]);
+                let [most_a, most_j] = path.usual.map(|of_axis| of_axis[k]);
                 // As long as the tube allows: by jerk J·τ², where J·τ³/4 is the radius, and by a constant
                 // acceleration over T, which strays by A·T²/8, A·T. Both are the same where τ = 2·A/J.
                 let radius = before.radius.min(after.radius);
-                let tau_t = (4.0 * radius / j).cbrt();
-                let most_v = (j * tau_t * tau_t).min((8.0 * a * radius).sqrt());
+                let tau_t = (4.0 * radius / most_j).cbrt();
+                let most_v = (most_j * tau_t * tau_t).min((8.0 * most_a * radius).sqrt());
                 if jump * cap_v > most_v {
                     cap_v = most_v / jump;
                 }
@@ -203,11 +203,11 @@ fn curve_speed<const D: usize>(path: &ScaledPath<D>, i: usize) -> f64 {
             let curvature = angle / bend;
             for k in 0..D {
                 let share = turn[k].abs() / angle;
-                let [a, j] = path.usual.map(|of_axis| of_axis[k]);
+                let [most_a, most_j] = path.usual.map(|of_axis| of_axis[k]);
                 // Across a curve of constant speed acceleration is v²·κ, jerk v³·κ².
                 speed_v = speed_v
-                    .min((a / (curvature * share)).sqrt())
-                    .min((j / (curvature * curvature * share)).cbrt());
+                    .min((most_a / (curvature * share)).sqrt())
+                    .min((most_j / (curvature * curvature * share)).cbrt());
             }
             return speed_v;
         }

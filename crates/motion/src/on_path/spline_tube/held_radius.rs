@@ -60,24 +60,24 @@ impl HeldRadius {
         (sample, per_length6): (&Sample<D>, f64),
     ) -> f64 {
         let control = &spline.control[span..];
-        let bend = norm(&second_derivative(
+        let curvature_k = norm(&second_derivative(
             &spline.knots,
             control,
             (span, sample.foot_t),
         ));
         let feed_v = sample.feed_v;
         // |C″| is the curvature, as the parameter is nearly length: v²·κ and v³·κ².
-        let normal_a = feed_v * feed_v * bend;
-        if normal_a > self.acceleration_a || feed_v * bend * normal_a > self.jerk_j {
+        let normal_a = feed_v * feed_v * curvature_k;
+        if normal_a > self.acceleration_a || feed_v * curvature_k * normal_a > self.jerk_j {
             return 0.0;
         }
         // The floors of the module's text: of the radius, and of the window's end as 1/ℓ⁶, once with ℓ of
         // some samples, once with κ²·ℓ³ the offset. None so stiff that to swing into the curve within ℓ
         // takes more jerk than is asked for.
-        let of_radius = bend.powi(5) / self.offset_mm;
+        let of_radius = curvature_k.powi(5) / self.offset_mm;
         let of_window = REACH_R.powi(-6) * per_length6;
         let most = (self.jerk_j / (feed_v * normal_a)).powi(6);
-        let of_window = of_window.min((bend * bend / self.offset_mm).powi(2));
+        let of_window = of_window.min((curvature_k * curvature_k / self.offset_mm).powi(2));
         of_radius.max(of_window).min(most)
     }
 }

@@ -173,6 +173,7 @@ impl<const D: usize> SampleLayout<D> {
         let most_beside_t = (self.window.feed_v * self.shares.beside_line_t)
             .max(BESIDE_CORNER_R * tolerance_mm)
             .min(BESIDE_LINE_R * tolerance_mm);
+        // Where the curves beside a line are shorter than BESIDE_LINE_R, a bent chord is long sooner, by as much.
         let is_long = length_t > LONG_R * tolerance_mm
             || (is_bent && length_t > LONG_BENT_R / BESIDE_LINE_R * most_beside_t);
         let beside_t = if is_long {

@@ -22,7 +22,7 @@ const TARGET_R: f64 = 0.8;
 /// How long a curve beside a line may take at the feed, in times that an axis needs for the tolerance with all of its
 /// jerk. Beside a line it would otherwise swing from one side of the tube to the other, ever longer: a wave in a wall
 /// that the feed gains nothing by.
-const BESIDE_LINE_R: f64 = 12.0;
+const BESIDE_LINE_TIMES: f64 = 12.0;
 
 /// Longest wavelength that is smoothed away, in tolerances: 25 mm at .02. It is the least weight a sample
 /// may have whatever its spacing, or long straight runs would be tied to nothing.
@@ -69,7 +69,7 @@ impl ToleranceShares {
             allowed_mm,
             target_mm: TARGET_R * allowed_mm,
             longest_mm: LONGEST_R * tolerance_mm,
-            beside_line_t: BESIDE_LINE_R * (tolerance_mm / weakest_j).cbrt(),
+            beside_line_t: BESIDE_LINE_TIMES * (tolerance_mm / weakest_j).cbrt(),
             held_radius: HeldRadius::new(tolerance_mm, &settings.limits, feed_axes.clone()),
             feed_axes,
             travel: settings.limits.travel,

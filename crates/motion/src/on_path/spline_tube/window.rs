@@ -276,6 +276,7 @@ impl<const D: usize> Window<D> {
     /// certificate has failed only raises, most of all beside the worst chord.
     fn weigh(&mut self, worst: Option<usize>) {
         let boost = if worst.is_some() { BOOST } else { 1.0 };
+        // The weight that is followed by waves of that length and more ([`FIRST_STIFFNESS`]).
         let longest = (TAU / self.shares.longest_mm).powi(6);
         let mut span = 0;
         for sample in self.samples.iter_mut().skip(1) {
