@@ -57,9 +57,13 @@ pub(crate) fn least_horizon(config: &Config) -> u64 {
 /// Watch over the frames ahead.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct QueueLevel {
+    /// Frames ahead with which motion goes on once there were too few.
     enough: u64,
+    /// Frames a stop from full speed takes.
     reach: u64,
+    /// Frames ahead that are about as many as the planner ever publishes.
     full: u64,
+    /// What [`Self::is_short`], [`Self::is_fully_supplied`], [`Self::is_out`] and [`Self::is_barred`] say.
     short: bool,
     fully: bool,
     out: bool,
@@ -67,6 +71,7 @@ pub(crate) struct QueueLevel {
     /// Sequence after the newest frame, and for how many ticks it has been that.
     end: u64,
     quiet_ticks: u64,
+    /// For how many ticks the motion has been held up, and after how many the planner is lost.
     starved_ticks: u64,
     patience_ticks: u64,
 }
@@ -79,6 +84,7 @@ impl QueueLevel {
     )]
     pub(crate) fn new(config: &Config) -> Self {
         let stop_t = stop_t(config);
+        // Program time runs at half rate on average while it comes to rest.
         let reach = (0.5 * stop_t / config.period_t()).ceil().min(1e6);
         let enough = (STOPS_AHEAD * reach) as u64 + SPARE;
         let patience_ticks = config.planner_lost_after.map_or(u64::MAX, |patience| {

@@ -21,6 +21,7 @@ pub(super) struct DelayedRamp {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct KeptSlowDown {
     in_ticks: u32,
+    /// How many of its ticks are over, and how many there are.
     taken: u16,
     len: u16,
     /// Which of the two in [`SlowDownSlopes`].

@@ -208,10 +208,12 @@ fn latest(from: SteadyRate, situation: &Situation<'_>) -> Option<f64> {
     #[allow(clippy::cast_precision_loss, reason = "a number of frames at hand")]
     let (ahead, reach) = (last as f64 - time.fraction, situation.reach as f64);
     // The bounds of the fastest ramp depend on the speed where it begins, which depends on them: twice as
-    // many frames as a stop from full speed takes are gone back, and the highest speed from there counts.
+    // many frames as a stop from full speed takes are gone back, at the rate, and the highest speed in as many
+    // as it takes from there counts.
     let about = (ahead - 2.0 * reach * rate).max(0.0);
     let bounds = situation.fastest_from(time.after(about).sequence);
     let ramp = Ramp::plan(rate, 0.0, 0.0, bounds)?;
-    // What is left of the frames when the fastest ramp has had its part, in ticks at the steady rate.
+    // What is left of the frames when the fastest ramp has had its part, in ticks at the steady rate. Only
+    // where searches begin depends on it; what they find was played through.
     Some(((ahead - ramp.at(ramp.duration()).elapsed) / rate).floor())
 }

@@ -278,6 +278,7 @@ fn passes<const D: usize>(
     let mut follower = context.follower.to(context.end);
     let mut place = context.progress;
     let periods = context.grid.periods_in(points.len() - 3);
+    // Into the rest, too, as far as third differences look back.
     for period in 1..=periods + 3 {
         let next = context.grid.state(&points, period);
         let way = (context.reference_path, &mut follower);
