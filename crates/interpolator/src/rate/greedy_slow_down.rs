@@ -1,4 +1,4 @@
-//! Leaving a rate at which the plan is at its limits: tick by tick, as they allow.
+//! The greedy slow-down: leaving a rate at which the plan is at its limits, tick by tick, as they allow.
 //!
 //! Where one axis or another is at a limit all the time, no ramp has room: its shape is settled
 //! beforehand, and the limits leave a little now on this side, now on that. But how far the next

@@ -1,4 +1,4 @@
-//! Going on at the feed: one solve for smoothness where no time can be gained.
+//! The window that goes on at the feed: one solve for smoothness where no time can be gained.
 //!
 //! Where the motion is at the feed, and the guess stays there until it has to brake for the end of
 //! what is in view, a search has nothing to find. The problem of the second solve is solved at

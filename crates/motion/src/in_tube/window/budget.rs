@@ -1,4 +1,4 @@
-//! What planning may cost: multiplications of the solvers, which the time it takes follows.
+//! The budget of planning: multiplications of the solvers, which the time it takes follows.
 //!
 //! ```text
 //!   before a period    PLAN_WORK ── at the feed ── window: FIRST_WORK at most ── halt: what is left

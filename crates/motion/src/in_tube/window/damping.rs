@@ -1,4 +1,4 @@
-//! What keeps a smooth motion from swinging about the path when it comes back to it.
+//! The damping of a smooth motion: what keeps it from swinging about the path when it comes back to it.
 //!
 //! A pull to the path and a price on jerk by themselves make a motion that overshoots: of the six
 //! ways in which such a motion may come and go, two pairs swing, with a damping ratio of one half.

@@ -1,4 +1,4 @@
-//! A sample stays on a piece before a slower one until the motion is as slow.
+//! The holding back of samples: one stays on a piece before a slower one until the motion is as slow.
 //!
 //! ```text
 //!     rapid ───────▶───●────●──●┐      Near a corner a sample is in the tubes of both pieces. Given

@@ -1,4 +1,4 @@
-//! Which side of the program a motion may be on.
+//! The side of the program on which a motion may be.
 //!
 //! Within the tube the fastest motion swings out before a corner and beyond an end, as a car takes a
 //! bend. What is left on the inner side can be taken away by a finishing cut; what is gone on the outer

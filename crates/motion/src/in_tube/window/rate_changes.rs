@@ -1,4 +1,4 @@
-//! Where the rate changes in a wide tube.
+//! The change of a rate in a wide tube: where the motion has to be slower.
 //!
 //! ```text
 //!     rapid ─────────●╌╌╌ ┊         The faster piece is the motion's as far as that is as near as the

@@ -1,4 +1,4 @@
-//! What is carried from round to round of the optimisation of a window.
+//! The state of the rounds: what is carried from one to the next in the optimisation of a window.
 
 use super::samples::Samples;
 use super::tube::FEED_R;

@@ -1,4 +1,4 @@
-//! Which piece owns which sample of the motion: the one part of the problem that is not convex.
+//! The samples of a window, and which piece owns which: the one part of the problem that is not convex.
 //!
 //! Samples are the ends of the periods: what is handed out. With every sample given to a piece, all
 //! that is asked of the motion is convex; after a solution, the samples are given out again by

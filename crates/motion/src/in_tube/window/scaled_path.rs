@@ -1,9 +1,8 @@
-//! What a window sees of the path: the axes that move, measured in tolerances.
+//! The scaled path: what a window sees of the path, the axes that move, measured in tolerances.
 //!
 //! Dividing every axis by the tolerance of its group makes the tube round the path a round one of
-//! radius one (unless tolerances change along the path), and distances in it the larger of what the
-//! groups allow: a point within the radius in this space is within tolerance in every group. It
-//! also makes millimetres and degrees, and millimetres and micrometres, the same problem.
+//! radius one (unless tolerances change along the path), and a distance in it no less than in any of
+//! the groups: a point within the radius in this space is within tolerance in every group. It also makes millimetres and degrees, and millimetres and micrometres, the same problem.
 
 use super::sides::{Sides, Straight};
 use super::solver::dot;

@@ -1,4 +1,4 @@
-//! What decides which of many local best motions a search finds.
+//! The bias of a search: what decides which of many local best motions it finds.
 //!
 //! Convex problems in turn go downhill from where samples are first thought to be. There are many
 //! valleys, on small things some per cent apart, and no one bias leads to the deepest: whoever has

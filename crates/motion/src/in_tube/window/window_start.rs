@@ -1,4 +1,4 @@
-//! What a window starts from, and when it is first thought to be where.
+//! The start of a window: what it starts from, and when it is first thought to be where.
 
 use super::guess::{Guess, rest_to_rest_t};
 use super::scaled_path::ScaledPath;

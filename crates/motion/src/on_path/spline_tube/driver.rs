@@ -1,4 +1,4 @@
-//! What is done when the window is full: fitted, and where that fails, refined or given up.
+//! The driver of the window: full, it is fitted, and where that fails, refined or given up.
 
 use super::fit::Sample;
 use super::output::Output;

@@ -1,4 +1,4 @@
-//! Curves that can be driven at the feed keep their radius.
+//! The radius that is held: curves that can be driven at the feed keep theirs.
 //!
 //! A spline of little jerk cuts a curve short on its inside, as far as the tube lets it: of the circle
 //! that the program goes round it makes a smaller one. Where the curve binds the speed, that is what the

@@ -1,4 +1,4 @@
-//! Which block of the program a place on the path belongs to.
+//! The marks of blocks: to which of the program a place on the path belongs.
 //!
 //! Places are lengths along the merged chords of a run of blocks. Line numbers are kept for every
 //! block; rates and events only where they change, for blocks are merged only where they do not.

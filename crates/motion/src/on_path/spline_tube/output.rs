@@ -1,4 +1,4 @@
-//! What the compressor makes: lines, spans and stops, each with the blocks driven on it.
+//! The output of the compressor: lines, spans and stops, each with the blocks driven on it.
 
 use super::marks::{Cut, Marks};
 use glidepath_geometry::AxisVector;

@@ -1,4 +1,4 @@
-//! What is done where a fit stays outside the tube.
+//! The resort where a fit stays outside the tube.
 //!
 //! First samples and knots are put into the middle of the worst chord and of its neighbours, and
 //! the fit is made again. At last straight lines are drawn through the samples, with a stop at the

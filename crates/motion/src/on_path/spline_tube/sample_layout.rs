@@ -1,5 +1,5 @@
-//! From merged chords to samples: which vertices are corners, which chords are lines, and where the
-//! spline has its samples.
+//! The layout of samples on merged chords: which vertices are corners, which chords are lines, and where
+//! the spline has its samples.
 //!
 //! ```text
 //!   corner           smooth            smooth              corner

@@ -1,4 +1,4 @@
-//! What the tolerance is spent on: merging, the fit, and the chord error of one period.
+//! The shares of the tolerance: what it is spent on, merging, the fit, and the chord error of one period.
 
 use super::held_radius::HeldRadius;
 use super::thinning::MergedChord;

@@ -1,4 +1,4 @@
-//! What a time parametrisation demands of the axes between its knots, where the problem has no
+//! The demands of a time parametrisation on the axes between its knots, where the problem has no
 //! constraints.
 //!
 //! The constraints hold at knots. Where the path bends within the time from one knot to the next,

@@ -1,4 +1,4 @@
-//! Where the knots of a time parametrisation are, what the path is there, and the S-curves it
+//! The knots of a time parametrisation: where they are, what the path is there, and the S-curves it
 //! starts from.
 
 use super::interval::{Caps, Interval};

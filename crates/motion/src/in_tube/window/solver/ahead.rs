@@ -1,4 +1,4 @@
-//! What is told of a step before it is taken.
+//! The outlook of a step: how far it may go, and what products it leads to, before it is taken.
 
 /// A value of the upper side of a row, and of the lower one: both take the same way through every
 /// loop, so that one instruction does for both.
