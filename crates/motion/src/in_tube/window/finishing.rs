@@ -74,11 +74,14 @@ impl Lengths {
 
     fn go_on_from(&mut self, shortest: usize) {
         let least = least_of(self.multiple);
+        // Nothing is left between what was missed and the shortest motion. What was missed was tried from a
+        // longer one than that: all below is tried again from this one, hurried everywhere.
         if shortest - self.too_few <= self.multiple && shortest < self.missed_from {
             (self.too_few, self.missed_from) = (least, 0);
             (self.step, self.hurry) = (self.multiple, Hurry::Everywhere);
         }
         let half = (shortest - self.too_few) / 2 / self.multiple * self.multiple;
+        // Half way once something was missed, or where a longer step would go beyond that; until then steps double.
         self.count = if self.too_few > least || self.step > half {
             self.too_few + half
         } else {
@@ -122,6 +125,7 @@ impl<const D: usize> Finish<D> {
             Hurry::AtTheEnd => grid.whole_periods(arrival.max(count).min(intervals)),
             Hurry::Everywhere => intervals,
         };
+        // Of the motion the part from `from` to `left` is made shorter; what is behind that only waits.
         let step = |k: &usize| self.progress[k + 1] - self.progress[*k];
         let periods = grid.periods_in(left);
         let fastest =

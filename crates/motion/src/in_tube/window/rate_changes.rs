@@ -1,4 +1,4 @@
-//! The change of a rate in a wide tube: where the motion has to be slower.
+//! The change of the rate in a wide tube.
 //!
 //! ```text
 //!     rapid ─────────●╌╌╌ ┊         The faster piece is the motion's as far as that is as near as the

@@ -2,7 +2,8 @@
 //!
 //! Dividing every axis by the tolerance of its group makes the tube round the path a round one of
 //! radius one (unless tolerances change along the path), and a distance in it no less than in any of
-//! the groups: a point within the radius in this space is within tolerance in every group. It also makes millimetres and degrees, and millimetres and micrometres, the same problem.
+//! the groups: a point within the radius in this space is within tolerance in every group. It also
+//! makes millimetres and degrees, and millimetres and micrometres, the same problem.
 
 use super::sides::{Sides, Straight};
 use super::solver::dot;
