@@ -22,7 +22,6 @@
 //!   asked for takes as many pieces as it needs, one by one, so an arc of a thousand turns or a run
 //!   of a million blocks is never in memory as a whole, and the frames cannot depend on the chunks
 //!   in which items arrive.
-
 //!
 //! | file or folder | what it holds |
 //! |---|---|

@@ -85,7 +85,8 @@ pub(crate) struct Problem {
 /// whatever these shares are ([`super::between_knots`]); with less room that has more to mend.
 const JERK_BETWEEN_R: f64 = 1.0 - 2e-3;
 /// A limit this many times what can be asked for is none: a row less. At 1 it would lean on the
-/// path's own limits, with which that is reckoned, where these may be passed a little between places.
+/// path's own limits, with which that is reckoned, where these may be passed a little between places. Where the
+/// path has none of its own, every axis that moves along it may bind.
 const IDLE_R: f64 = 1.5;
 
 impl Problem {
