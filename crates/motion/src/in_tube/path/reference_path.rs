@@ -25,11 +25,6 @@ const TINY_R: f64 = 1e-3;
 /// Margin between the tolerance that is planned for and the one that is promised.
 const ROUNDING_R: f64 = 1e-7;
 
-/// How far the middle of a piece may be from the program, in tolerances, for it to be a straight move or several
-/// along one line: twice what lines are drawn together with that are seen to be straight. Coordinates are
-/// rounded, by the program and here, so nothing is straight to the last bit once it was cut in two.
-const STRAIGHT_R: f64 = 0.025;
-
 /// One straight piece.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct TubePiece {
@@ -55,7 +50,8 @@ pub(crate) struct TubePiece {
     pub(crate) is_rapid: bool,
     /// What every axis does along it.
     pub(crate) senses: [Sense; AXES],
-    /// The displacement of the piece before, if both are straight cuts.
+    /// The displacement of the piece before, if both are cuts: at a corner between them the motion is to stay on
+    /// the inner side, also where what follows or goes before is a line in pieces, or an arc.
     pub(crate) cut_before: Option<AxisVector>,
     pub(crate) tag: u64,
 }
@@ -143,11 +139,6 @@ impl TubePiece {
             ..own
         };
         self.by_joints = Some(own.within_joints_each(joints, (&self.start, &along), self.length_s));
-    }
-
-    /// True if it is a straight feed move of the program, or several of them along one line.
-    pub(crate) fn is_cut(&self) -> bool {
-        !self.is_rapid && self.distance_r(&self.sagitta_vector) <= STRAIGHT_R
     }
 
     /// Speed along the path in the sense of the feed.
@@ -242,7 +233,7 @@ impl ReferencePath {
             let before = self.last.map(|last| last.end - last.start);
             let senses = self.last.map_or(piece.senses, |last| last.senses);
             piece.senses = piece.geometry().senses(&senses, before.as_ref());
-            let is_cut = |last: &TubePiece| last.is_cut() && piece.is_cut();
+            let is_cut = |last: &TubePiece| !last.is_rapid && !piece.is_rapid;
             piece.cut_before = before.filter(|_| self.last.as_ref().is_some_and(is_cut));
             if let Some(machine) = &self.machine {
                 piece.ask_joints(&machine.0, &machine.1);
