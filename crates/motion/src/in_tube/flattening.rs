@@ -12,7 +12,7 @@
 
 use super::ledger::LedgerEntry;
 use super::merging::Dropped;
-use super::path::Reference;
+use super::path::{Reference, Straightness};
 use super::work_queue::{Move, WorkItem, WorkQueue};
 use crate::intake::SHORTEST_MOVE_MM;
 use crate::programmed_rate::{ProgrammedRate, axes_speed};
@@ -92,6 +92,9 @@ struct OpenChord {
     dropped: Dropped,
     /// The longest of the chords drawn together, mm.
     longest_mm: f64,
+    /// From the middle half of the first to that of the last of them that one can lay a ruler to, mm after its
+    /// start.
+    ruled_mm: Option<[f64; 2]>,
     /// Where further lines begin, mm after its start.
     lines: Vec<(f64, ProgramLine)>,
 }
@@ -147,6 +150,7 @@ impl Flattener {
         self.close();
         self.open = Some(OpenChord {
             longest_mm: chord.length_mm(),
+            ruled_mm: middle_half_mm(&chord, 0.0),
             chord,
             dropped: Dropped::default(),
             lines: Vec::new(),
@@ -158,7 +162,12 @@ impl Flattener {
         let Some(open) = self.open.take() else {
             return;
         };
-        let OpenChord { chord, lines, .. } = open;
+        let OpenChord {
+            chord,
+            lines,
+            ruled_mm,
+            ..
+        } = open;
         let segment = Segment::line(chord.start, chord.end);
         let length_s = segment.length();
         let rate = ProgrammedRate {
@@ -172,7 +181,7 @@ impl Flattener {
             tolerance_mm: left_mm,
             tolerance_deg: left_mm,
             sagitta_vector: chord.sagitta_vector,
-            straight_mm: straight_mm(&chord),
+            straight: straightness(&chord, ruled_mm),
             is_rapid: chord.rate.is_rapid(),
             tag: 0,
         };
@@ -187,15 +196,30 @@ impl Flattener {
     }
 }
 
-/// How far a motion may be beside a chord in its middle half, if the chord is a straight feed move.
-fn straight_mm(chord: &FlatChord) -> Option<f64> {
+/// Where a motion is to be straight along a chord, if the chord is a straight feed move, or several in a row:
+/// from the middle half of the first long one to that of the last, these by their place on the chord.
+fn straightness(chord: &FlatChord, ruled_mm: Option<[f64; 2]>) -> Option<Straightness> {
     let displacement = chord.end - chord.start;
     let others = displacement.iter().skip(LINEAR_XYZ.end);
     let is_in_space = others.fold(0.0, |sum: f64, part| sum + part.abs()) <= 0.0;
     // Of moves that were drawn together the line is beside each by so much.
     let drawn_mm = tolerance_norm(&chord.sagitta_vector);
     let is_cut = !chord.rate.is_rapid() && drawn_mm <= DRAWN_TOGETHER_R * BESIDE_MM;
-    (is_cut && is_in_space && displacement.norm() >= RULED_MM).then_some(BESIDE_MM - drawn_mm)
+    let length_mm = displacement.norm();
+    if !is_cut || !is_in_space || length_mm < RULED_MM {
+        return None;
+    }
+    let whole = Straightness::of_move(BESIDE_MM - drawn_mm);
+    Some(ruled_mm.map_or(whole, |ruled_mm| Straightness {
+        between_u: ruled_mm.map(|at_mm| at_mm / length_mm),
+        ..whole
+    }))
+}
+
+/// The middle half of a chord that begins so many mm along a line, if one can lay a ruler to it.
+fn middle_half_mm(chord: &FlatChord, from_mm: f64) -> Option<[f64; 2]> {
+    let length_mm = chord.length_mm();
+    (length_mm >= RULED_MM).then(|| [0.25, 0.75].map(|share| from_mm + share * length_mm))
 }
 
 impl OpenChord {
@@ -251,6 +275,11 @@ impl OpenChord {
             return false;
         }
         self.tell_line(next);
+        let next_mm = middle_half_mm(next, self.chord.length_mm());
+        self.ruled_mm = match (self.ruled_mm, next_mm) {
+            (Some([from_mm, _]), Some([_, to_mm])) => Some([from_mm, to_mm]),
+            (ruled_mm, next_mm) => ruled_mm.or(next_mm),
+        };
         let chord = &mut self.chord;
         chord.end = next.end;
         chord.error_mm = base_mm + self.dropped.error_mm;

@@ -154,7 +154,7 @@ mod tests {
             tolerance_mm: 0.02,
             tolerance_deg: 0.02,
             sagitta_vector: AxisVector::zeros(),
-            straight_mm: None,
+            straight: None,
             is_rapid: false,
             tag: 0,
         });

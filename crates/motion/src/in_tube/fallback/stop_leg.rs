@@ -147,7 +147,7 @@ impl StopLeg {
 /// The point of a straight piece next to a place that is beside it by more than is allowed in its middle, if that is
 /// not behind it.
 fn nearest_if_beside(piece: &TubePiece, from: &AxisVector) -> Option<AxisVector> {
-    let allowed_mm = piece.straight_mm?;
+    let allowed_mm = piece.straight?.within_mm;
     let along = piece.end - piece.start;
     let share = (from - piece.start).dot(&along) / along.norm_squared();
     if share >= STRAIGHT_UNTIL {

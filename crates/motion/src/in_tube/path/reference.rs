@@ -2,6 +2,25 @@
 
 use glidepath_geometry::AxisVector;
 
+/// The part of a piece that one can lay a ruler to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Straightness {
+    /// How far the motion may be beside it there, mm.
+    pub(crate) within_mm: f64,
+    /// From which share of the piece to which.
+    pub(crate) between_u: [f64; 2],
+}
+
+impl Straightness {
+    /// That of one move: its middle half.
+    pub(crate) const fn of_move(within_mm: f64) -> Self {
+        Self {
+            within_mm,
+            between_u: [0.25, 0.75],
+        }
+    }
+}
+
 /// One straight piece of the path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Reference {
@@ -18,8 +37,8 @@ pub(crate) struct Reference {
     /// From the middle of the piece to the program it stands for, which is taken to be a parabola
     /// over it: where the motion is drawn to. Within what the tolerance is smaller by.
     pub(crate) sagitta_vector: AxisVector,
-    /// How far the motion may be beside it in its middle half, mm; none where the tolerance is for all of it.
-    pub(crate) straight_mm: Option<f64>,
+    /// Where it is to be straight; nowhere if the tolerance is for all of it.
+    pub(crate) straight: Option<Straightness>,
     /// It has no feed.
     pub(crate) is_rapid: bool,
     /// Given back with each period, and asked for when rates change.

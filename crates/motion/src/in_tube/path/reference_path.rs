@@ -12,7 +12,7 @@
 //! ```
 
 use super::direction::{Bounds, directional};
-use super::reference::Reference;
+use super::reference::{Reference, Straightness};
 use super::sense::{PieceGeometry, Sense};
 use crate::feed_axes::counted_axes;
 use crate::joints::JointRows;
@@ -42,8 +42,8 @@ pub(crate) struct TubePiece {
     pub(crate) tolerance_deg: f64,
     /// From its middle to the program.
     pub(crate) sagitta_vector: AxisVector,
-    /// How far the motion may be beside it in its middle half, mm, if that is less than the tolerance.
-    pub(crate) straight_mm: Option<f64>,
+    /// Where it is to be straight, if that is asked for.
+    pub(crate) straight: Option<Straightness>,
     /// What joints that are not the axes leave along it, by feed length.
     by_joints: Option<Bounds>,
     /// It has no feed.
@@ -215,7 +215,7 @@ impl ReferencePath {
             tolerance_mm: piece.tolerance_mm * keep_r,
             tolerance_deg: piece.tolerance_deg * keep_r,
             sagitta_vector: piece.sagitta_vector,
-            straight_mm: piece.straight_mm,
+            straight: piece.straight,
             by_joints: None,
             is_rapid: piece.is_rapid,
             senses: core::array::from_fn(|axis| Sense::at_rest(self.corner[axis])),

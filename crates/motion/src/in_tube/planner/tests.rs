@@ -14,7 +14,7 @@ mod inner;
 use super::state::ActiveMotion;
 use super::*;
 use crate::in_tube::SearchBias;
-use crate::in_tube::path::Reference;
+use crate::in_tube::path::{Reference, Straightness};
 use crate::in_tube::period::Period;
 use crate::in_tube::window::PLAN_WORK;
 use glidepath_audit::{Audit, AuditReport, AuditSettings, Sample};
@@ -58,7 +58,7 @@ impl Case {
                     tolerance_mm: self.tolerance_mm,
                     tolerance_deg: self.tolerance_mm,
                     sagitta_vector: AxisVector::zeros(),
-                    straight_mm: self.straight_mm,
+                    straight: self.straight_mm.map(Straightness::of_move),
                     is_rapid: false,
                     tag: k as u64,
                 }

@@ -18,9 +18,6 @@ pub(super) const TURNING_R: f64 = 4.0;
 /// where the sides of both ends are opposite ones, the motion goes over there.
 const MIDDLE: f64 = 0.08;
 
-/// The part of the move that is the middle half.
-const MIDDLE_HALF: [f64; 2] = [0.25, 0.75];
-
 /// Where a motion is to be straight.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Straight {
@@ -33,9 +30,9 @@ pub(crate) struct Straight {
 impl Straight {
     /// That of a piece of so much `length` from `s` on, in a window with a unit of so many mm.
     pub(super) fn of(piece: &TubePiece, (s, length): (f64, f64), unit_mm: f64) -> Option<Self> {
-        piece.straight_mm.map(|straight_mm| Self {
-            between: MIDDLE_HALF.map(|share| s + share * length),
-            within: straight_mm / unit_mm,
+        piece.straight.map(|straight| Self {
+            between: straight.between_u.map(|share| s + share * length),
+            within: straight.within_mm / unit_mm,
         })
     }
 }

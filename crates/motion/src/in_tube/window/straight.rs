@@ -1,13 +1,14 @@
 //! The straight part of a straight feed move: what a machinist lays a ruler to.
 //!
 //! A tolerance is for corners and curves. So in the middle half of a move that is long enough to have
-//! one, the tube is narrow, whatever comes before and behind. Nothing is refused for it: a motion that stops
+//! one, and from the first to the last of these where such moves were drawn together, the tube is narrow,
+//! whatever comes before and behind. Nothing is refused for it: a motion that stops
 //! would be worse on the part than one that is a little beside its line.
 //!
 //! ```text
 //!   ──────────╮                                ╭──────────
 //!     radius   ╰──────────────────────────────╯   radius
-//!   ●─────────── ─ ─ ─ ─ straight_mm ─ ─ ─ ─ ─ ───────────●
+//!   ●─────────── ─ ─ ─ ─ within_mm ─ ─ ─ ─ ─ ─ ───────────●
 //!   ──────────╮                                ╭──────────
 //!              ╰──────────────────────────────╯
 //!   0         ¼                                ¾          1
