@@ -166,8 +166,15 @@ impl Flattener {
             chord,
             lines,
             ruled_mm,
+            dropped,
             ..
         } = open;
+        // How far what it was drawn together from is beside it; of a chord of a curve, the curve.
+        let drawn_mm = if dropped.is_empty() {
+            tolerance_norm(&chord.sagitta_vector)
+        } else {
+            dropped.error_mm
+        };
         let segment = Segment::line(chord.start, chord.end);
         let length_s = segment.length();
         let rate = ProgrammedRate {
@@ -181,7 +188,7 @@ impl Flattener {
             tolerance_mm: left_mm,
             tolerance_deg: left_mm,
             sagitta_vector: chord.sagitta_vector,
-            straight: straightness(&chord, ruled_mm),
+            straight: straightness(&chord, drawn_mm, ruled_mm),
             is_rapid: chord.rate.is_rapid(),
             tag: 0,
         };
@@ -198,12 +205,14 @@ impl Flattener {
 
 /// Where a motion is to be straight along a chord, if the chord is a straight feed move, or several in a row:
 /// from the middle half of the first long one to that of the last, these by their place on the chord.
-fn straightness(chord: &FlatChord, ruled_mm: Option<[f64; 2]>) -> Option<Straightness> {
+fn straightness(
+    chord: &FlatChord,
+    drawn_mm: f64,
+    ruled_mm: Option<[f64; 2]>,
+) -> Option<Straightness> {
     let displacement = chord.end - chord.start;
     let others = displacement.iter().skip(LINEAR_XYZ.end);
     let is_in_space = others.fold(0.0, |sum: f64, part| sum + part.abs()) <= 0.0;
-    // Of moves that were drawn together the line is beside each by so much.
-    let drawn_mm = tolerance_norm(&chord.sagitta_vector);
     let is_cut = !chord.rate.is_rapid() && drawn_mm <= DRAWN_TOGETHER_R * BESIDE_MM;
     let length_mm = displacement.norm();
     if !is_cut || !is_in_space || length_mm < RULED_MM {

@@ -36,6 +36,11 @@ pub(crate) struct Dropped {
 }
 
 impl Dropped {
+    /// Whether the line is one chord.
+    pub(crate) const fn is_empty(&self) -> bool {
+        self.vertices.is_empty()
+    }
+
     /// Drops the vertex `through` if the line from `start` to `end` stays within `allowed_mm` of it
     /// and of those dropped before. Changes nothing if not.
     pub(crate) fn extend(
