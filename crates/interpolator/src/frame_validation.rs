@@ -148,6 +148,10 @@ impl FrameValidator {
             return FrameVerdict::Late;
         }
         if frame.epoch > self.epoch {
+            // Out of the middle of another trajectory: no epoch is to wait, nor to be given up, for it.
+            if frame.sequence != 0 || !frame.has(FrameFlags::FIRST) {
+                return FrameVerdict::Refused(FrameRefusal::Epoch);
+            }
             let verdict = self.open(frame, machine);
             // Its planner has no other first frame: it is to hear that this epoch does not begin.
             if matches!(verdict, FrameVerdict::Refused(_)) && self.is_in_reach(frame.epoch) {
@@ -222,7 +226,7 @@ impl FrameValidator {
                 | MachineState::NotHomed
                 | MachineState::Homing
         );
-        if !can_begin || frame.sequence != 0 || !frame.has(FrameFlags::FIRST) {
+        if !can_begin {
             return FrameVerdict::Refused(FrameRefusal::Epoch);
         }
         if frame.period_ns != self.period_ns {

@@ -147,13 +147,19 @@ pub(super) struct Case {
 pub(super) fn cases(count: usize, seed: u64) -> Vec<Case> {
     let mut chance = Chance(seed);
     let mut cases = Vec::with_capacity(count);
-    let mut cells = Vec::new();
+    // Every fault once before any comes again, and of each every situation.
+    let (mut faults, mut situations) = (Vec::new(), Fault::ALL.map(|_| Vec::new()));
     while cases.len() < count {
-        if cells.is_empty() {
-            let of_fault = |fault| Situation::ALL.map(|situation| (fault, situation));
-            cells.extend(Fault::ALL.into_iter().flat_map(of_fault));
+        if faults.is_empty() {
+            faults.extend(0..Fault::ALL.len());
         }
-        let (fault, situation) = cells.swap_remove(chance.below(cells.len()));
+        let fault = faults.swap_remove(chance.below(faults.len()));
+        let left: &mut Vec<_> = &mut situations[fault];
+        if left.is_empty() {
+            left.extend(Situation::ALL);
+        }
+        let situation = left.swap_remove(chance.below(left.len()));
+        let fault = Fault::ALL[fault];
         cases.push(Case {
             fault,
             situation,

@@ -33,8 +33,8 @@ use case::cases;
 use script::{HOME, PROGRAM, Programs, waiting};
 use table::Table;
 
-/// How many cases run unless the environment says otherwise.
-const SAMPLE: usize = 12;
+/// How many cases run unless the environment says otherwise: one of every fault.
+const SAMPLE: usize = 17;
 
 /// How often a case is tried again in which this process, which has no priority, did not get to
 /// run for so long that it lost setpoints: then it cannot say what it did not hear.

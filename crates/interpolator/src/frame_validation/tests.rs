@@ -189,6 +189,28 @@ fn what_was_accepted_may_come_again() {
 }
 
 #[test]
+fn a_frame_out_of_the_middle_of_another_epoch_neither_waits_nor_ends_the_present_one() {
+    let mut frames = frames(1);
+    frames[100].epoch = 2;
+    let mut frame_validator = FrameValidator::new(&config());
+    for (i, frame) in frames.iter().enumerate() {
+        let machine = if i == 0 { idle() } else { running(1) };
+        let verdict = frame_validator.judge(frame, &machine);
+        match i {
+            0..100 => assert_eq!(verdict, FrameVerdict::Pass, "{i}"),
+            100 => assert_eq!(verdict, FrameVerdict::Refused(FrameRefusal::Epoch)),
+            // What it left behind is a gap, and that is the fault.
+            101 => assert!(
+                matches!(verdict, FrameVerdict::Fault(fault)
+                    if fault.cause == FaultCause::Frame(FrameRefusal::Sequence)),
+                "{verdict:?}"
+            ),
+            _ => break,
+        }
+    }
+}
+
+#[test]
 fn a_new_epoch_waits_until_the_machine_stands() {
     let mut frame_validator = FrameValidator::new(&config());
     assert_eq!(
