@@ -91,7 +91,7 @@ mod steady_rate;
 mod stop_choice;
 mod stop_search;
 
-pub(crate) use candidate::beside_full;
+pub(crate) use candidate::{BESIDE_FULL, beside_full};
 pub(crate) use progress::Progress;
 pub(crate) use situation::Situation;
 pub(crate) use state::Rate;

@@ -7,15 +7,13 @@
 use super::state::Interpolator;
 use crate::jog::AxesMotion;
 use crate::program_time::ProgramTime;
-use crate::rate::Situation;
+use crate::rate::{BESIDE_FULL, Situation};
 use crate::spindle::{Follow, Hole, Lead, LeadOutcome, SpindleSeen, Tap};
 use glidepath_geometry::AxisVector;
 use glidepath_link::{EventRecord, FaultCause, Setpoint, SpindleFlags};
 use glidepath_program::{Event, FrameFlags};
 use glidepath_realtime::Wake;
 
-/// The highest rate: see [`crate::rate::beside_full`].
-const MOST_RATE: f64 = 0.998;
 /// The part of what program time is off that a tick takes back, where it may.
 const TAKEN_BACK: f64 = 0.5;
 /// What is taken back is to be got rid of again before it is too much: the part of the most change
@@ -199,7 +197,7 @@ impl Interpolator<'_> {
         };
         let most = self.rate.most_change(&situation);
         let back = (TAKEN_BACK * off.abs()).min((COUNTED_ON * most * off.abs()).sqrt());
-        let wanted = (follow.step + back.copysign(off)).clamp(0.0, MOST_RATE);
+        let wanted = (follow.step + back.copysign(off)).clamp(0.0, BESIDE_FULL);
         let change = (wanted - now.rate).clamp(-most, most);
         for part in PARTS {
             if self

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! A multiplication takes 1 ns with two axes, half of that with six: with 70 million before a
-//! period, planning keeps a processor for less than 50 ms. Two or three axes need less, and are
+//! period, planning keeps a processor for 70 ms at most. Two or three axes need less, and are
 //! given up earlier: from a little further on another window is found sooner than by more work on
 //! this one.
 
