@@ -1,7 +1,7 @@
-//! Corners between straight moves, and their outer sides.
+//! Corners between feed moves, and their outer sides.
 
 use crate::follow::Move;
-use glidepath_geometry::{AxisVector, LINEAR_XYZ, Line, Segment};
+use glidepath_geometry::{AxisVector, LINEAR_XYZ, Line};
 
 /// Cosine of the least turn of a corner, 20°: what turns less may be a curve in chords, which bulges
 /// beyond them.
@@ -11,11 +11,14 @@ const REVERSAL_COS: f64 = -0.999;
 /// Sides shorter than so many tolerances are no figure: the motion may leave them out.
 const SIDE_TOLERANCES: f64 = 8.0;
 
-/// A vertex with the directions of its two sides.
+/// Cosine of how much an arc or a curve may have turned from its corner, 60°: further on the inner side of the
+/// corner is not that of the curve.
+const STILL_OF_CORNER_COS: f64 = 0.5;
+
+/// A vertex between two moves.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Corner {
-    vertex: AxisVector,
-    /// Unit vectors along the side before and behind.
+    /// Unit vectors along the moves before and behind, where they meet.
     sides: [AxisVector; 2],
 }
 
@@ -32,45 +35,53 @@ fn unit(line: &Line) -> Option<AxisVector> {
     in_space(&line.displacement()).try_normalize(1e-6)
 }
 
-/// Cosine of the turn from one move to the next, in X, Y and Z; none where either does not move there.
-pub(super) fn turn_cos(before: &Move, behind: &Move) -> Option<f64> {
+/// The directions of two moves one after the other where they meet, in X, Y and Z; none where either does not
+/// move there.
+fn directions(before: &Move, behind: &Move) -> Option<[AxisVector; 2]> {
     let ends = [
         before.programmed.jet(before.length_s).d1,
         behind.programmed.jet(0.0).d1,
     ];
     let [from, to] = ends.map(|along| in_space(&along).try_normalize(1e-6));
-    Some(from?.dot(&to?))
+    Some([from?, to?])
+}
+
+/// Cosine of the turn from one move to the next, in X, Y and Z; none where either does not move there.
+pub(super) fn turn_cos(before: &Move, behind: &Move) -> Option<f64> {
+    directions(before, behind).map(|[from, to]| from.dot(&to))
 }
 
 impl Corner {
     /// Between two feed moves one after the other; none where they are no corner of a figure.
     pub(super) fn between(before: &Move, behind: &Move) -> Option<Self> {
-        let (Segment::Line(from), Segment::Line(to)) = (before.programmed, behind.programmed)
-        else {
-            return None;
-        };
         let least_mm = SIDE_TOLERANCES * before.tolerance_mm.max(behind.tolerance_mm);
         let is_figure = |side: &Move| !side.is_rapid() && side.length_s >= least_mm;
         if !is_figure(before) || !is_figure(behind) {
             return None;
         }
-        let sides = [unit(&from)?, unit(&to)?];
-        let cos = sides[0].dot(&sides[1]);
+        let sides = directions(before, behind)?;
         (REVERSAL_COS..=LEAST_TURN_COS)
-            .contains(&cos)
-            .then_some(Self {
-                vertex: in_space(&to.start),
-                sides,
-            })
+            .contains(&sides[0].dot(&sides[1]))
+            .then_some(Self { sides })
     }
 
-    /// How far a position is on the outer side of the side that it is on, mm; 0 on the inner one.
-    pub(super) fn outside_mm(&self, position: &AxisVector, is_before: bool) -> f64 {
+    /// How far a position is on the outer side of the move that it is on, at a progress, mm; 0 on the inner one.
+    pub(super) fn outside_mm(
+        &self,
+        position: &AxisVector,
+        (here, here_s): (&Move, f64),
+        is_before: bool,
+    ) -> f64 {
         let [before, behind] = self.sides;
-        let along = if is_before { before } else { behind };
+        let at_corner = if is_before { before } else { behind };
+        let jet = here.programmed.jet(here_s);
+        let along = in_space(&jet.d1).try_normalize(1e-6).unwrap_or(at_corner);
+        if along.dot(&at_corner) < STILL_OF_CORNER_COS {
+            return 0.0;
+        }
         let turn = behind - before;
         let across = turn - along * turn.dot(&along);
-        let off = in_space(position) - self.vertex;
+        let off = in_space(&(position - jet.position));
         let inner = across.try_normalize(1e-6).unwrap_or_default();
         (-inner.dot(&off)).max(0.0)
     }

@@ -10,8 +10,8 @@
 //!
 //! * *Overshoot* of an axis: how far it goes beyond all that the program asks of it there, and comes
 //!   back. Of Z downwards it is depth that nobody programmed.
-//! * *Outside*: how far the motion is on the outer side of a corner between straight feed moves. A
-//!   rounded corner is on the inner side.
+//! * *Outside*: how far the motion is on the outer side of a corner between feed moves. A rounded
+//!   corner is on the inner side.
 //! * *Straightness*: the largest distance from the line in the middle half of a straight feed move.
 //! * *Reversals* of each axis, in the motion and in the program: each is a passage through the
 //!   backlash of its drive.
@@ -164,36 +164,14 @@ impl Shape {
         if self.corners == Corners::Inner {
             self.judge_stops(position, line, follow);
         }
-        let Segment::Line(chord) = here.programmed else {
-            return;
-        };
         if here.is_rapid() {
             return;
         }
+        self.judge_corners(position, line, follow);
+        let Segment::Line(chord) = here.programmed else {
+            return;
+        };
         let length = here.length_s;
-        let ends = [follow.previous(), follow.next()];
-        let corners = [
-            ends[0].and_then(|last| Corner::between(last, here)),
-            ends[1].and_then(|next| Corner::between(here, next)),
-        ];
-        let is_late = follow.here_s() > 0.5 * length;
-        if let Some(corner) = corners[usize::from(is_late)] {
-            let mut outside_mm = corner.outside_mm(position, is_late);
-            if is_middle(follow) {
-                let of_other = corners[usize::from(!is_late)]
-                    .map_or(0.0, |other| other.outside_mm(position, !is_late));
-                outside_mm = outside_mm.min(of_other);
-            }
-            self.outside.see(outside_mm, line);
-            if self.corners == Corners::Inner {
-                let finding = ShapeFinding {
-                    border: Border::Corner,
-                    distance_mm: outside_mm,
-                    line,
-                };
-                self.findings.see(here.number + u64::from(is_late), finding);
-            }
-        }
         let is_middle_half = (0.25 * length..=0.75 * length).contains(&follow.here_s());
         if length >= STRAIGHT_MM && is_middle_half {
             let distance_mm = corner::beside_mm(&chord, position);
@@ -208,6 +186,37 @@ impl Shape {
             }
             if self.straight.replace(here.number) != Some(here.number) {
                 self.straight_moves += 1;
+            }
+        }
+    }
+
+    /// Whether the motion is outside of the corner at the nearer end of the move at hand.
+    fn judge_corners(&mut self, position: &AxisVector, line: u32, follow: &Follow) {
+        let Some(here) = follow.here() else {
+            return;
+        };
+        let ends = [follow.previous(), follow.next()];
+        let corners = [
+            ends[0].and_then(|last| Corner::between(last, here)),
+            ends[1].and_then(|next| Corner::between(here, next)),
+        ];
+        let is_late = follow.here_s() > 0.5 * here.length_s;
+        let at = (here, follow.here_s());
+        if let Some(corner) = corners[usize::from(is_late)] {
+            let mut outside_mm = corner.outside_mm(position, at, is_late);
+            if is_middle(follow) {
+                let of_other = corners[usize::from(!is_late)]
+                    .map_or(0.0, |other| other.outside_mm(position, at, !is_late));
+                outside_mm = outside_mm.min(of_other);
+            }
+            self.outside.see(outside_mm, line);
+            if self.corners == Corners::Inner {
+                let finding = ShapeFinding {
+                    border: Border::Corner,
+                    distance_mm: outside_mm,
+                    line,
+                };
+                self.findings.see(here.number + u64::from(is_late), finding);
             }
         }
     }

@@ -12,8 +12,8 @@ use core::f64::consts::PI;
 use glidepath_audit::AuditSettings;
 use glidepath_audit::diagnosis::{Diagnosis, Summary};
 use glidepath_audit::shape::{Border, ShapeAudit, ShapeReport};
-use glidepath_geometry::{Axis, AxisVector};
-use glidepath_program::{Corners, Frame, FrameFlags, ItemKind, Limits, Rate};
+use glidepath_geometry::{Arc, Axis, AxisVector, Plane, Segment};
+use glidepath_program::{Corners, Frame, FrameFlags, Item, ItemKind, Limits, Rate};
 
 /// X, Y, Z.
 fn at(x: f64, y: f64, z: f64) -> AxisVector {
@@ -24,8 +24,13 @@ fn at(x: f64, y: f64, z: f64) -> AxisVector {
 
 /// What is told of a motion along a polygon at feed, and the largest deviation shown.
 fn told(program: &[AxisVector], motion: &[AxisVector]) -> (Summary, f64) {
+    told_of(polygon(program), motion)
+}
+
+/// The same of items.
+fn told_of(items: Vec<Item>, motion: &[AxisVector]) -> (Summary, f64) {
     let mut diagnosis = Diagnosis::new(&inside());
-    for mut item in polygon(program) {
+    for mut item in items {
         if let ItemKind::Move { rate, .. } = &mut item.kind {
             *rate = Rate::Feed(25.0);
         }
@@ -136,6 +141,35 @@ fn the_outer_side_of_a_corner_is_told_and_the_inner_one_is_not() {
         .collect();
     let wide: Vec<_> = walk(&arc, 0.1).iter().map(|p| p * 1.001).collect();
     assert!(shape(&arc, &wide).outside.distance_mm < 1e-9);
+}
+
+/// A line to (10, 0), and half a circle of 10 mm from there, which sets out upwards and bends to the left.
+#[test]
+fn a_corner_between_a_line_and_an_arc_has_an_outer_side_too() {
+    let on_arc = |angle: f64, radius: f64| point(radius * angle.cos(), radius * angle.sin());
+    let mut items = polygon(&[point(0.0, 0.0), point(10.0, 0.0), point(10.0, 5.0)]);
+    if let ItemKind::Move { segment, .. } = &mut items.last_mut().unwrap().kind {
+        *segment = Segment::Arc(Arc {
+            start: point(10.0, 0.0),
+            end: point(-10.0, 0.0),
+            plane: Plane::Xy,
+            center: [0.0, 0.0],
+            sweep_rad: PI,
+        });
+    }
+    // The tool is beside the arc by so much at its start, and on it an eighth of a turn later.
+    for (across, outside) in [(0.0, 0.0), (-0.012, 0.0), (0.012, 0.012)] {
+        let mut motion = walk(&[point(0.0, 0.0), point(10.0, 0.0)], 0.1);
+        let lanes = (1..=314_u32).map(|k| {
+            let angle = f64::from(k) * 0.01;
+            let fades = (1.0 - angle / 0.8).max(0.0);
+            on_arc(angle, 10.0 + across * fades * fades)
+        });
+        motion.extend(lanes);
+        let told = told_of(items.clone(), &motion).0.shape;
+        let off = (told.outside.distance_mm - outside).abs();
+        assert!(off < 6e-4, "{across}: {told:?}");
+    }
 }
 
 #[test]
