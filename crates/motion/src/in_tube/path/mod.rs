@@ -9,5 +9,5 @@ mod sense;
 pub(crate) use direction::{Bounds, directional};
 pub(crate) use feed::{counted_length, top_v};
 pub(crate) use reference::{Reference, Straightness};
-pub(crate) use reference_path::{Displacement, ReferencePath, TubePiece};
+pub(crate) use reference_path::{Displacement, ReferencePath, SHARP, TubePiece};
 pub(crate) use sense::{AxisDirection, Origin, WORTH_R};

@@ -25,6 +25,10 @@ const TINY_R: f64 = 1e-3;
 /// Margin between the tolerance that is planned for and the one that is promised.
 const ROUNDING_R: f64 = 1e-7;
 
+/// Turn from which the motion may run back for a moment, as a corner of less than the tolerance
+/// does: 2·sin of half the angle, 17°. No measurement of it is kept.
+pub(crate) const SHARP: f64 = 0.3;
+
 /// One straight piece.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct TubePiece {
@@ -50,10 +54,22 @@ pub(crate) struct TubePiece {
     pub(crate) is_rapid: bool,
     /// What every axis does along it.
     pub(crate) senses: [Sense; AXES],
-    /// The displacement of the piece before, if both are cuts: at a corner between them the motion is to stay on
-    /// the inner side, also where what follows or goes before is a line in pieces, or an arc.
-    pub(crate) cut_before: Option<AxisVector>,
+    /// The corner at which the run begins that it is of: pieces with feed that follow each other without another
+    /// corner, as those of an arc or of a line in many pieces do.
+    pub(crate) corner_before: Option<CornerBefore>,
+    /// Feed length from the start of the stretch to where that run begins, with a corner or without one.
+    pub(crate) run_from_s: f64,
     pub(crate) tag: u64,
+}
+
+/// A corner that pieces come from.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct CornerBefore {
+    /// Displacements of the pieces before and behind it.
+    pub(crate) along: [AxisVector; 2],
+    /// Feed length from the start of the stretch to it, and that of the run that leads to it.
+    pub(crate) at_s: f64,
+    pub(crate) run_s: f64,
 }
 
 /// How far a point is from another, by groups of axes with a tolerance together: the largest of each
@@ -111,6 +127,22 @@ impl TubePiece {
             self.tolerance_deg
         } else {
             self.tolerance_mm
+        }
+    }
+
+    /// It goes on where another one ends, at a corner or without one.
+    fn follow(&mut self, last: &Self) {
+        let along = [last.end - last.start, self.end - self.start];
+        let cos = along[0].dot(&along[1]) / (along[0].norm() * along[1].norm());
+        if (2.0 - 2.0 * cos).max(0.0).sqrt() > SHARP {
+            self.corner_before = Some(CornerBefore {
+                along,
+                at_s: self.start_s,
+                run_s: self.start_s - last.run_from_s,
+            });
+        } else {
+            self.corner_before = last.corner_before;
+            self.run_from_s = last.run_from_s;
         }
     }
 
@@ -219,7 +251,8 @@ impl ReferencePath {
             by_joints: None,
             is_rapid: piece.is_rapid,
             senses: core::array::from_fn(|axis| Sense::at_rest(self.corner[axis])),
-            cut_before: None,
+            corner_before: None,
+            run_from_s: self.corner_s,
             tag: piece.tag,
         }
     }
@@ -233,8 +266,9 @@ impl ReferencePath {
             let before = self.last.map(|last| last.end - last.start);
             let senses = self.last.map_or(piece.senses, |last| last.senses);
             piece.senses = piece.geometry().senses(&senses, before.as_ref());
-            let is_cut = |last: &TubePiece| !last.is_rapid && !piece.is_rapid;
-            piece.cut_before = before.filter(|_| self.last.as_ref().is_some_and(is_cut));
+            if let Some(last) = self.last.filter(|last| !last.is_rapid && !piece.is_rapid) {
+                piece.follow(&last);
+            }
             if let Some(machine) = &self.machine {
                 piece.ask_joints(&machine.0, &machine.1);
             }

@@ -9,10 +9,11 @@
 //! with a Hessian that does not change; planes keep it so, and most samples never need one.
 
 use super::samples::{Samples, WORTH_R, sample};
-use super::scaled_path::{SHARP, ScaledPath};
+use super::scaled_path::ScaledPath;
 use super::solver::{combine, dot};
 use super::speed::velocity_over_feed;
 use super::spline::Grid;
+use crate::in_tube::path::SHARP;
 
 /// Part of the radius from which a gentle corner gets rows: with less, every vertex of a fine polyline
 /// has some, with more a motion may come out of the ball before there is a plane.

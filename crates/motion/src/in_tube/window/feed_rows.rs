@@ -15,11 +15,11 @@
 //! ```
 
 use super::cutting_planes::{WORTH_OF_FEED, piece_at, pieces_at, sample_at, slowest_feed};
-use super::scaled_path::SHARP;
 use super::sense_rows;
 use super::solver::{FAR, Problem};
 use super::speed::velocity_over_feed;
 use super::tube::Layout;
+use crate::in_tube::path::SHARP;
 
 /// How many radii the feed goes along the path while jerk strays by one, where it is no longer slow. From
 /// there down the price of velocity across the path rises from 0; a larger number gives it to motions

@@ -53,6 +53,7 @@
 mod at_feed;
 mod attempt;
 mod budget;
+mod corner;
 mod cutting_planes;
 mod damping;
 mod feed_rows;

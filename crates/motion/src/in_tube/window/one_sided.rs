@@ -17,17 +17,13 @@
 //! turn round, its control points rise or fall with the program ([`super::sense_rows`]): else the motion would
 //! dip into the inner side behind each corner, and come back.
 
-use super::scaled_path::{SHARP, ScaledPath};
-use super::sides::{AxisSides, Corner, HalfSpace, Stop};
+use super::scaled_path::ScaledPath;
+use super::sides::{AxisSides, HalfSpace, Stop};
 use super::solver::{Problem, dot};
-use crate::in_tube::path::{AxisDirection, Origin, ReferencePath, TubePiece, WORTH_R};
+use crate::in_tube::path::{AxisDirection, Origin, ReferencePath, SHARP, TubePiece, WORTH_R};
 use glidepath_geometry::AxisVector;
 use glidepath_program::Corners;
 
-/// Pieces shorter than so many radii are no figure with corners: the motion may leave them out. With
-/// less, chords of curves and roughness become walls; with more, small figures lose their corners. No
-/// measurement of it is kept.
-const FIGURE_R: f64 = 8.0;
 /// How near to a border the path is where a row is needed, in radii. The tube keeps the motion within one
 /// of the path; along a piece samples may come out a little further on than they were given for.
 const NEAR_R: f64 = 3.0;
@@ -49,8 +45,8 @@ impl<const D: usize> ScaledPath<D> {
             for k in 0..self.moving {
                 self.segments[i].sides.axes[k] = self.axis_sides(piece, (i, k));
             }
-            self.add_corner(piece, i);
         }
+        self.add_corners(reference_path);
         self
     }
 
@@ -121,28 +117,8 @@ impl<const D: usize> ScaledPath<D> {
         }
     }
 
-    fn add_corner(&mut self, piece: &TubePiece, i: usize) {
-        let is_figure =
-            |path: &Self, i: usize| path.segments[i].length >= FIGURE_R * path.segments[i].radius;
-        let Some(before) = piece.cut_before.filter(|_| is_figure(self, i)) else {
-            return;
-        };
-        let before = self.direction(&before);
-        let length = dot(&before, &before).sqrt();
-        let segment = &self.segments[i];
-        if length < FIGURE_R * segment.radius {
-            return;
-        }
-        let along = before.map(|value| value / length);
-        let corner = Corner::between(segment.start, [&along, &segment.tangent], SHARP);
-        self.segments[i].sides.corners[0] = corner;
-        if let Some(before) = i.checked_sub(1) {
-            self.segments[before].sides.corners[1] = corner;
-        }
-    }
-
     /// A displacement in the space of the window.
-    fn direction(&self, displacement: &AxisVector) -> [f64; D] {
+    pub(super) fn direction(&self, displacement: &AxisVector) -> [f64; D] {
         let mut along = [0.0; D];
         for k in 0..self.moving {
             along[k] = displacement[self.axes[k]] / self.unit[k];
@@ -164,16 +140,16 @@ impl<const D: usize> ScaledPath<D> {
                 });
             }
         }
-        let ends = [segment.s, segment.s + segment.length];
-        if let Some(corner) = segment.sides.corner(progress, ends) {
-            for normal in corner.inner {
-                give(HalfSpace {
-                    normal,
-                    least: dot(&normal, &corner.vertex),
-                    axis: None,
-                });
-            }
-        }
+        // What a piece stands for is beside it by so much there.
+        let u = (progress - segment.s) / segment.length;
+        let height = (4.0 * u * (1.0 - u)).max(0.0);
+        segment.sides.corners.inner_sides(progress, |normal, at| {
+            give(HalfSpace {
+                normal: *normal,
+                least: dot(normal, at) + height * dot(normal, &segment.sagitta_vector),
+                axis: None,
+            });
+        });
     }
 
     /// True if the end of a period is on the sides on which the motion is to stay at a parameter of a

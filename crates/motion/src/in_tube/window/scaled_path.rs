@@ -8,16 +8,12 @@
 use super::sides::{Sides, Straight};
 use super::solver::dot;
 use crate::feed_axes::counted_axes;
-use crate::in_tube::path::{ReferencePath, TubePiece, directional};
+use crate::in_tube::path::{ReferencePath, SHARP, TubePiece, directional};
 use crate::in_tube::verify::FEED_CHANGE_MM;
 use crate::joints::{Joints, SharedJoints, alone};
 use crate::scurve::PathLimits;
 use glidepath_geometry::{AXES, Axis, AxisVector};
 use glidepath_program::Limits;
-
-/// Turn from which the motion may run back for a moment, as a corner of less than the tolerance
-/// does: 2·sin of half the angle, 17°. No measurement of it is kept.
-pub(crate) const SHARP: f64 = 0.3;
 
 /// A speed that is slower than another, in shares of it.
 pub(super) const SLOWER: f64 = 0.999;

@@ -6,17 +6,11 @@
 //!        ╱               ╲  behind        of a rest at the stop that is nearer.
 //! ```
 
-use super::solver::dot;
+use super::corner::{RunCorners, is_middle};
 use crate::in_tube::path::TubePiece;
 
-/// Cosine beyond which the path comes back on itself, and neither side of it is the outer one.
-const REVERSAL_COS: f64 = -0.999;
 /// How far from a place at which an axis turns round it may go either way, in radii.
 pub(super) const TURNING_R: f64 = 4.0;
-
-/// Share of a piece, or of a rest, on both sides of its middle in which neither end is the nearer one:
-/// where the sides of both ends are opposite ones, the motion goes over there.
-const MIDDLE: f64 = 0.08;
 
 /// Where a motion is to be straight.
 #[derive(Debug, Clone, Copy)]
@@ -64,45 +58,20 @@ pub(super) struct AxisSides {
     pub(super) behind: Stop,
 }
 
-/// A corner of the figure: its place, and directions to the inner sides of the pieces before and behind.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Corner<const D: usize> {
-    pub(super) vertex: [f64; D],
-    pub(super) inner: [[f64; D]; 2],
-}
-
-/// True if a progress is about the middle of a way.
-fn is_middle(progress: f64, [from, to]: [f64; 2]) -> bool {
-    (progress - 0.5 * (from + to)).abs() < MIDDLE * (to - from)
-}
-
 /// The sides of a piece.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Sides<const D: usize> {
     pub(super) axes: [AxisSides; D],
-    /// At its start and at its end.
-    pub(super) corners: [Option<Corner<D>>; 2],
+    /// Of the run that it is of.
+    pub(super) corners: RunCorners<D>,
 }
 
 impl<const D: usize> Sides<D> {
     pub(crate) fn none() -> Self {
         Self {
             axes: [AxisSides::default(); D],
-            corners: [None; 2],
+            corners: RunCorners::NONE,
         }
-    }
-
-    /// The corner between whose sides the motion is at a progress on a piece with these ends: the nearer
-    /// one; none where it goes over from the side of one to that of the other.
-    pub(super) fn corner(&self, progress: f64, ends: [f64; 2]) -> Option<&Corner<D>> {
-        if let [Some(start), Some(end)] = &self.corners
-            && is_middle(progress, ends)
-            && dot(&start.inner[1], &end.inner[0]) < 0.0
-        {
-            return None;
-        }
-        let is_late = progress - ends[0] > ends[1] - progress;
-        self.corners[usize::from(is_late)].as_ref()
     }
 }
 
@@ -113,30 +82,6 @@ pub(crate) struct HalfSpace<const D: usize> {
     pub(crate) least: f64,
     /// The axis whose coordinate alone counts.
     pub(crate) axis: Option<usize>,
-}
-
-impl<const D: usize> Corner<D> {
-    /// Between two directions; none where they are no corner of a figure: one that turns by more than so
-    /// much, 2·sin(turn/2).
-    pub(super) fn between(
-        vertex: [f64; D],
-        [before, behind]: [&[f64; D]; 2],
-        sharp: f64,
-    ) -> Option<Self> {
-        let cos = dot(before, behind);
-        let turn = (2.0 - 2.0 * cos).max(0.0).sqrt();
-        if turn <= sharp || cos < REVERSAL_COS {
-            return None;
-        }
-        let inner = [before, behind].map(|along| {
-            let turned: [f64; D] = core::array::from_fn(|k| behind[k] - before[k]);
-            let part = dot(&turned, along);
-            let across: [f64; D] = core::array::from_fn(|k| turned[k] - part * along[k]);
-            let size = dot(&across, &across).sqrt();
-            across.map(|value| value / size)
-        });
-        Some(Self { vertex, inner })
-    }
 }
 
 impl AxisSides {

@@ -29,9 +29,10 @@ use super::cutting_planes::{CLOSE_R, CuttingPlanes, HALF_WAY, Passing, Plane, ne
 use super::one_sided;
 use super::rate_changes;
 use super::samples::Samples;
-use super::scaled_path::{SHARP, ScaledPath};
+use super::scaled_path::ScaledPath;
 use super::solver::{FAR, Problem, dot};
 use super::spline::Grid;
+use crate::in_tube::path::SHARP;
 
 /// Part of a radius by which the path has left the line of a piece where that ends.
 const STRAY_R: f64 = 0.5;
