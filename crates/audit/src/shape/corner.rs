@@ -79,10 +79,14 @@ impl Corner {
         if along.dot(&at_corner) < STILL_OF_CORNER_COS {
             return 0.0;
         }
-        let turn = behind - before;
-        let across = turn - along * turn.dot(&along);
+        // First the inner side at the corner: further on along an arc what the path turns by there lies across it
+        // on either side.
+        let across = |vector: AxisVector, along: &AxisVector| vector - along * vector.dot(along);
+        let at_corner_inner = across(behind - before, &at_corner);
         let off = in_space(&(position - jet.position));
-        let inner = across.try_normalize(1e-6).unwrap_or_default();
+        let inner = across(at_corner_inner, &along)
+            .try_normalize(1e-6)
+            .unwrap_or_default();
         (-inner.dot(&off)).max(0.0)
     }
 }

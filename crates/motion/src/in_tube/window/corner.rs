@@ -18,6 +18,9 @@ const FIGURE_R: f64 = 8.0;
 /// Cosine of how much a run may have turned from its corner, 60°: further on the inner side of the corner is not
 /// that of the run.
 const STILL_OF_CORNER_COS: f64 = 0.5;
+/// How far outside of a piece that is not at the corner itself the border is, in radii. A motion along an arc is
+/// beside it by less: with a border on it, some windows at the feed found no motion.
+const FAR_BEYOND_R: f64 = 0.01;
 /// Cosine beyond which the path comes back on itself, and neither side of it is the outer one.
 const REVERSAL_COS: f64 = -0.999;
 /// Share of a run on both sides of its middle in which neither end is the nearer one: where the sides of both
@@ -27,9 +30,11 @@ const MIDDLE: f64 = 0.08;
 /// The side of a piece that a corner asks for.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct CornerSide<const D: usize> {
-    /// A point of the border, and the direction to the inner side.
-    at: [f64; D],
+    /// A point of the piece, and the direction to the inner side.
+    pub(super) at: [f64; D],
     inner: [f64; D],
+    /// How far outside of the piece the border is.
+    pub(super) beyond: f64,
     /// The same of the other run, at the corner itself.
     other: Option<[f64; D]>,
 }
@@ -60,10 +65,13 @@ impl<const D: usize> RunCorners<D> {
         run: [0.0; 2],
     };
 
-    /// Gives the directions to the inner sides on which the motion is to be at a progress, each with a point of
-    /// its border: those of the nearer corner; none where the motion goes over from the side of one to that of
+    /// Gives the sides on which the motion is to be at a progress, each with a direction to the inner side: those of the nearer corner; none where the motion goes over from the side of one to that of
     /// the other.
-    pub(super) fn inner_sides(&self, progress: f64, mut give: impl FnMut(&[f64; D], &[f64; D])) {
+    pub(super) fn inner_sides(
+        &self,
+        progress: f64,
+        mut give: impl FnMut(&CornerSide<D>, &[f64; D]),
+    ) {
         if let [Some(start), Some(end)] = &self.sides
             && is_middle(progress, self.run)
             && dot(&start.inner, &end.inner) < 0.0
@@ -72,9 +80,9 @@ impl<const D: usize> RunCorners<D> {
         }
         let is_late = progress - self.run[0] > self.run[1] - progress;
         if let Some(side) = &self.sides[usize::from(is_late)] {
-            give(&side.inner, &side.at);
+            give(side, &side.inner);
             if let Some(other) = &side.other {
-                give(other, &side.at);
+                give(side, other);
             }
         }
     }
@@ -89,9 +97,14 @@ impl<const D: usize> Vertex<D> {
         if dot(along, at_corner) < STILL_OF_CORNER_COS {
             return None;
         }
+        let across = |vector: &[f64; D], along: &[f64; D]| -> [f64; D] {
+            let part = dot(vector, along);
+            core::array::from_fn(|k| vector[k] - part * along[k])
+        };
+        // First the inner side at the corner: what the path turns by there is across a run that has turned as
+        // much again to the other side.
         let turned: [f64; D] = core::array::from_fn(|k| behind[k] - before[k]);
-        let part = dot(&turned, along);
-        let across: [f64; D] = core::array::from_fn(|k| turned[k] - part * along[k]);
+        let across = across(&across(&turned, at_corner), along);
         let size = dot(&across, &across).sqrt();
         Some(across.map(|value| value / size))
     }
@@ -101,7 +114,12 @@ impl<const D: usize> ScaledPath<D> {
     /// Gives every piece the corners at the ends of its run, from the last piece to the first.
     pub(super) fn add_corners(&mut self, reference_path: &ReferencePath) {
         let mut next: Option<Vertex<D>> = None;
-        let mut run_end = self.length();
+        // Where a run goes on beyond what is seen, its end is nowhere near.
+        let mut run_end = if self.is_final {
+            self.length()
+        } else {
+            f64::INFINITY
+        };
         for i in (0..self.segments.len()).rev() {
             let Some(piece) = reference_path.get(self.first + i) else {
                 continue;
@@ -119,6 +137,11 @@ impl<const D: usize> ScaledPath<D> {
                     .map(|inner| CornerSide {
                         at: segment.start,
                         inner,
+                        beyond: if is_here {
+                            0.0
+                        } else {
+                            FAR_BEYOND_R * segment.radius
+                        },
                         other: is_here
                             .then(|| vertex.inner(&vertex.along[0], false))
                             .flatten(),
@@ -131,6 +154,11 @@ impl<const D: usize> ScaledPath<D> {
                     .map(|inner| CornerSide {
                         at: self.vertex(i),
                         inner,
+                        beyond: if is_here {
+                            0.0
+                        } else {
+                            FAR_BEYOND_R * segment.radius
+                        },
                         other: is_here
                             .then(|| vertex.inner(&vertex.along[1], true))
                             .flatten(),

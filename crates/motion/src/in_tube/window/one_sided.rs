@@ -143,10 +143,11 @@ impl<const D: usize> ScaledPath<D> {
         // What a piece stands for is beside it by so much there.
         let u = (progress - segment.s) / segment.length;
         let height = (4.0 * u * (1.0 - u)).max(0.0);
-        segment.sides.corners.inner_sides(progress, |normal, at| {
+        segment.sides.corners.inner_sides(progress, |side, normal| {
+            let at = dot(normal, &side.at) + height * dot(normal, &segment.sagitta_vector);
             give(HalfSpace {
                 normal: *normal,
-                least: dot(normal, at) + height * dot(normal, &segment.sagitta_vector),
+                least: at - side.beyond,
                 axis: None,
             });
         });
