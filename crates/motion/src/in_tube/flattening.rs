@@ -37,8 +37,8 @@ const STRAIGHT_MM: f64 = 1e-9;
 /// vertex makes of it that is off by such a share of the tolerance.
 const LONG_R: f64 = 200.0;
 const TURNED_R: f64 = 0.0125;
-/// Largest turn from one chord of an arc to the next, rad.
-const LARGEST_TURN_RAD: f64 = 0.5;
+/// Largest turn from one chord of an arc to the next, rad: less than what is taken for a corner.
+const LARGEST_TURN_RAD: f64 = 0.25;
 
 /// What the program comes down to.
 #[derive(Debug, Clone)]
