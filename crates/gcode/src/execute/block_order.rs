@@ -320,20 +320,6 @@ impl Interpreter {
         Ok(())
     }
 
-    /// The motion mode that a code leaves. FANUC's cycles are a group of their own: behind G80 the
-    /// code from before them is in force.
-    fn mode_behind(&mut self, block: &Block, code: Option<Motion>) -> Option<Motion> {
-        if block.dialect != Dialect::Fanuc {
-            return code;
-        }
-        match code {
-            Some(Motion::Cycle(_)) => {}
-            Some(motion) => self.state.fanuc.before_cycles = motion,
-            None => return Some(self.state.fanuc.before_cycles),
-        }
-        code
-    }
-
     pub(crate) const fn has_corners(&self, block: &Block) -> bool {
         self.corner.is_some() || block.corner.is_some() || self.state.rounds_mm > 0.0
     }

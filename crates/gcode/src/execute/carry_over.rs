@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use glidepath_geometry::Plane;
 
+use crate::execute::power_on::motion_at_start;
 use crate::execute::program::Program;
 use crate::execute::state::coolant::Coolant;
 use crate::execute::state::fanuc_modal::FanucModal;
@@ -31,7 +32,7 @@ impl<R: BufRead> Program<R> {
                 modal.plane = Plane::Xy;
                 modal.feed_mode = FeedMode::PerMinute;
             }
-            modal.motion = Some(Motion::Linear);
+            modal.motion = Some(motion_at_start(self.block.dialect).unwrap_or(Motion::Linear));
             state.spindle = Spindle {
                 turning: None,
                 is_rigid: false,
@@ -120,6 +121,7 @@ impl<R: BufRead> Program<R> {
         let modal = &mut self.interpreter.state.modal;
         modal.diameter = at_start.diameter;
         if was_lathe || self.block.is_lathe {
+        modal.motion = motion_at_start(self.block.dialect).or(modal.motion);
             (modal.motion, modal.plane) = (at_start.motion, at_start.plane);
             (modal.feed_mode, modal.feed) = (at_start.feed_mode, at_start.feed);
             self.power_on(feed);

@@ -33,6 +33,7 @@ pub(crate) mod line_origin;
 pub(crate) mod motion;
 pub(crate) mod parameters;
 mod probing;
+mod power_on;
 pub(crate) mod program;
 mod program_end;
 mod program_view;

@@ -3,7 +3,6 @@
 use std::io::BufRead;
 use std::sync::Arc;
 
-use glidepath_geometry::Plane;
 use glidepath_program::Item;
 
 use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
@@ -21,7 +20,6 @@ use crate::execute::lathe_cycle::open::OpenLatheCycle;
 use crate::execute::line_origin::{LineOrigin, SourceLine};
 use crate::execute::parameters::Parameters;
 use crate::execute::scope::ProgramScope;
-use crate::setup::fanuc::FeedAtStart;
 use crate::setup::options::Options;
 use crate::summary::remark::Remark;
 use crate::summary::totals::Totals;
@@ -29,7 +27,6 @@ use crate::syntax::block::Block;
 use crate::syntax::cursor::Cursor;
 use crate::syntax::dialect::Dialect;
 use crate::syntax::line_source::LineSource;
-use crate::syntax::modes::{ArcFeed, FeedMode, Motion};
 use crate::syntax::straight_line::StraightLine;
 
 /// A program being read: an iterator of [`Item`]s in constant memory.
@@ -132,42 +129,6 @@ impl<R: BufRead> Program<R> {
             program.begin_with(&in_force);
         }
         program
-    }
-
-    /// What F counts on arcs beside G41 and G42 where a program begins.
-    pub(super) const fn arc_feed_at_start(&self) -> ArcFeed {
-        match self.block.dialect {
-            // MD 20150: CFC.
-            Dialect::Siemens => ArcFeed::Contour,
-            // Internal circular cutting, whatever G62 says.
-            Dialect::Fanuc if !self.block.is_lathe => ArcFeed::Inside,
-            Dialect::Fanuc | Dialect::LinuxCnc | Dialect::Marlin => ArcFeed::Center,
-        }
-    }
-
-    /// What is in force when a control of the dialect is switched on, where that is other than LinuxCNC's.
-    pub(super) fn power_on(&mut self, feed: FeedAtStart) {
-        self.interpreter.state.arc_feed = self.arc_feed_at_start();
-        let state = &mut self.interpreter.state;
-        let modal = &mut state.modal;
-        match self.block.dialect {
-            // MD 20150: G1.
-            Dialect::Siemens => modal.motion = Some(Motion::Linear),
-            // Parameter 3402#0: G0.
-            Dialect::Fanuc => modal.motion = Some(Motion::Rapid),
-            Dialect::LinuxCnc | Dialect::Marlin => {}
-        }
-        if self.block.is_lathe {
-            // X words are diameters, the plane is that of G18.
-            (modal.diameter, modal.plane) = (true, Plane::Zx);
-            let feed_mode = match feed {
-                FeedAtStart::Unsaid => None,
-                FeedAtStart::PerMinute => Some(FeedMode::PerMinute),
-                FeedAtStart::PerRevolution => Some(FeedMode::PerRevolution),
-            };
-            modal.feed_mode = feed_mode.unwrap_or(modal.feed_mode);
-            state.fanuc.is_feed_unsaid = modal.feed.is_none() && feed_mode.is_none();
-        }
     }
 
     /// The same program, of lines that come one after the other, as somebody sends them. Where the reader gives

@@ -8,7 +8,7 @@ use glidepath_gcode::{
     Tool, ToolTable,
 };
 use glidepath_geometry::AxisVector;
-use glidepath_program::{Item, ItemKind};
+use glidepath_program::{Item, ItemKind, Rate};
 
 fn options(dialect: Dialect) -> Options {
     let mut tools = ToolTable::new();
@@ -152,4 +152,42 @@ fn x_is_a_diameter_in_its_own_language_alone() {
         ..options(Dialect::LinuxCnc)
     };
     assert_eq!(xs_and_left("G90 G0 X50\n", behind).0, [50.0]);
+}
+
+#[test]
+fn a_program_of_a_control_begins_in_its_motion_code() {
+    let first_rate = |before: (&str, Dialect), dialect: Dialect| {
+        let left = left_by(before.0, before.1);
+        let found = items("X9 Y9\n", dialect, Some(left));
+        let moved = found
+            .into_iter()
+            .flatten()
+            .find_map(|item| match item.kind {
+                ItemKind::Move { rate, .. } => Some(rate),
+                _ => None,
+            });
+        moved.expect("a move")
+    };
+    let cut = "G1 X5 F600\nM30\n";
+    for before in [
+        (cut, Dialect::Fanuc),
+        (cut, Dialect::LinuxCnc),
+        ("G2 X5 I2.5 F600\nM30\n", Dialect::Siemens),
+    ] {
+        assert_eq!(
+            first_rate(before, Dialect::Fanuc),
+            Rate::Rapid,
+            "{before:?}"
+        );
+        assert_eq!(
+            first_rate(before, Dialect::Siemens),
+            Rate::Feed(10.0),
+            "{before:?}"
+        );
+    }
+    // What did not end goes on: lines that somebody sends.
+    assert_eq!(
+        first_rate(("G1 X5 F600\n", Dialect::Fanuc), Dialect::Fanuc),
+        Rate::Feed(10.0)
+    );
 }

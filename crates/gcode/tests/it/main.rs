@@ -27,6 +27,7 @@ mod fanuc_lathes;
 mod fanuc_lengths;
 mod fanuc_mill_words;
 mod fanuc_threads;
+mod fanuc_patterns;
 mod five_axes;
 mod flow;
 mod lathe_cycles;

@@ -47,7 +47,7 @@ impl Interpreter {
                 true,
             ) => Err(conflict(span)),
             (Some(Coded { code: None, .. }), false) if has_axes && fanuc => {
-                Ok(Some(self.state.fanuc.before_cycles))
+                Ok(Some(self.motion_beside_cycles()))
             }
             (Some(Coded { code: None, span }), false) if has_axes => Err(BlockDiagnostic::new(
                 DiagnosticCode::NoMotionMode,

@@ -6,7 +6,7 @@ use crate::syntax::modes::{Motion, Turning};
 /// Modes of FANUC alone.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct FanucModal {
-    /// The motion code that is in force behind cycles: G0 at first.
+    /// While a cycle is in force, the motion code from before it: G0 at first.
     pub(crate) before_cycles: Motion,
     /// The last H and D.
     pub(crate) length_offset: Option<u32>,

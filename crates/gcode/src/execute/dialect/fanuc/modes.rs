@@ -21,6 +21,8 @@ use glidepath_program::PathMode;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::state::modal::Modal;
 use crate::setup::fanuc::FanucControl;
+use crate::syntax::block::Block;
+use crate::syntax::dialect::Dialect;
 use crate::syntax::modes::{
     CannedCycle, Distance, FeedMode, Motion, Retract, Side, Turning, Units,
 };
@@ -111,8 +113,24 @@ impl Interpreter {
         })
     }
 
+    /// The motion mode that a code leaves. FANUC's cycles are a group of their own: behind G80 the
+    /// code from before them is in force.
+    pub(crate) fn mode_behind(&mut self, block: &Block, code: Option<Motion>) -> Option<Motion> {
+        if block.dialect != Dialect::Fanuc {
+            return code;
+        }
+        // Plain lines change the mode without coming here: what is in force now is asked for.
+        let beside = self.motion_beside_cycles();
+        match code {
+            Some(Motion::Cycle(_)) => self.state.fanuc.before_cycles = beside,
+            Some(_) => {}
+            None => return Some(beside),
+        }
+        code
+    }
+
     /// The code of group 1, which drilling cycles leave as it was.
-    fn motion_beside_cycles(&self) -> Motion {
+    pub(crate) fn motion_beside_cycles(&self) -> Motion {
         match self.state.modal.motion {
             Some(Motion::Cycle(_)) | None => self.state.fanuc.before_cycles,
             Some(motion) => motion,

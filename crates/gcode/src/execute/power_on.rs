@@ -1,0 +1,51 @@
+//! What is in force where a program begins, on controls where that is other than on LinuxCNC.
+
+use glidepath_geometry::Plane;
+
+use crate::execute::program::Program;
+use crate::setup::fanuc::FeedAtStart;
+use crate::syntax::dialect::Dialect;
+use crate::syntax::modes::{ArcFeed, FeedMode, Motion};
+
+/// The motion code in force where a program begins, on controls that have one.
+pub(super) const fn motion_at_start(dialect: Dialect) -> Option<Motion> {
+    match dialect {
+        // MD 20150: G1.
+        Dialect::Siemens => Some(Motion::Linear),
+        // Parameter 3402#0: G0.
+        Dialect::Fanuc => Some(Motion::Rapid),
+        Dialect::LinuxCnc | Dialect::Marlin => None,
+    }
+}
+
+impl<R> Program<R> {
+    /// What F counts on arcs beside G41 and G42 where a program begins.
+    pub(super) const fn arc_feed_at_start(&self) -> ArcFeed {
+        match self.block.dialect {
+            // MD 20150: CFC.
+            Dialect::Siemens => ArcFeed::Contour,
+            // Internal circular cutting, whatever G62 says.
+            Dialect::Fanuc if !self.block.is_lathe => ArcFeed::Inside,
+            Dialect::Fanuc | Dialect::LinuxCnc | Dialect::Marlin => ArcFeed::Center,
+        }
+    }
+
+    /// What is in force when a control of the dialect is switched on, where that is other than LinuxCNC's.
+    pub(super) fn power_on(&mut self, feed: FeedAtStart) {
+        self.interpreter.state.arc_feed = self.arc_feed_at_start();
+        let state = &mut self.interpreter.state;
+        let modal = &mut state.modal;
+        modal.motion = motion_at_start(self.block.dialect).or(modal.motion);
+        if self.block.is_lathe {
+            // X words are diameters, the plane is that of G18.
+            (modal.diameter, modal.plane) = (true, Plane::Zx);
+            let feed_mode = match feed {
+                FeedAtStart::Unsaid => None,
+                FeedAtStart::PerMinute => Some(FeedMode::PerMinute),
+                FeedAtStart::PerRevolution => Some(FeedMode::PerRevolution),
+            };
+            modal.feed_mode = feed_mode.unwrap_or(modal.feed_mode);
+            state.fanuc.is_feed_unsaid = modal.feed.is_none() && feed_mode.is_none();
+        }
+    }
+}
