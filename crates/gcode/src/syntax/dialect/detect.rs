@@ -62,6 +62,9 @@ impl Dialect {
             let of_lathe = is_lathe.then(|| lathe_mark(&bare, machine)).flatten();
             let is_fanuc = fanuc_marks::marks(&bare)
                 || has_program_number && fanuc_marks::marks_behind_number(&bare)
+                || has_program_number
+                    && !is_lathe
+                    && fanuc_marks::marks_of_mill_behind_number(&bare)
                 || of_lathe == Some(LatheMark::Fanuc)
                 || has_program_number && matches!(of_lathe, Some(LatheMark::Doubt(_)));
             let marks = [
@@ -113,6 +116,9 @@ mod tests {
             ("N1 G28*18\n", Dialect::Marlin, Some(1)),
             ("%\r\n:0097\r\nG0 X1\r\n", Dialect::Fanuc, Some(2)),
             ("O1\nN5 IF [#1 EQ 2] GOTO 10\n", Dialect::Fanuc, Some(2)),
+            ("O1\nG43 H03 Z15.\n", Dialect::Fanuc, Some(2)),
+            ("O1\nG1 G41 D1 X5. F100.\n", Dialect::Fanuc, Some(2)),
+            ("G43 H03 Z15.\nG41 D1 X5.\n", Dialect::LinuxCnc, None),
             (
                 "O100 while [#1 LT 3]\nO100 endwhile\n",
                 Dialect::LinuxCnc,

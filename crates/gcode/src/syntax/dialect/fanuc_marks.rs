@@ -24,8 +24,8 @@ pub(crate) fn marks(bare: &[u8]) -> bool {
 }
 
 /// True if a word stands somewhere in the line that no other language has: coordinates that are polar,
-/// mirrored or turned, offsets of G54.1, Haas' codes, chamfers and roundings behind a comma, measuring moves,
-/// macros behind every move, holes that are repeated by K.
+/// mirrored or turned, offsets of G54.1, Haas' codes (with patterns of holes), chamfers and roundings behind a
+/// comma, measuring moves, macros behind every move, holes that are repeated by K or that L0 leaves out.
 fn has_own_word(text: &[u8]) -> bool {
     // What FANUC prints, and names its variables.
     if [&b"DPRNT["[..], b"BPRNT[", b"SETVN"]
@@ -48,7 +48,7 @@ fn has_own_word(text: &[u8]) -> bool {
     let letter = |letter: u8| has_letter(&words, letter);
     let alone = [
         15.0, 16.0, 31.0, 44.0, 66.0, 67.0, 43.4, 43.5, 50.1, 51.1, 53.1, 68.0, 68.2, 69.0, 154.0,
-        187.0, 234.0, 254.0, 255.0,
+        150.0, 187.0, 234.0, 254.0, 255.0,
     ];
     let behind_comma = code.windows(3).any(|part| {
         let [b',', b'C' | b'R' | b'A', next] = part else {
@@ -57,7 +57,10 @@ fn has_own_word(text: &[u8]) -> bool {
         next.is_ascii_digit() || b".+-#[".contains(next)
     });
     let drills = [73.0, 81.0, 82.0, 83.0, 84.0, 85.0].into_iter().any(has);
+    let pattern = [70.0, 71.0, 72.0].into_iter().any(has);
     alone.into_iter().any(has)
+        || pattern && letter(b'I') && letter(b'J') && letter(b'L')
+        || drills && has_code(&words, b'L', 0.0)
         || has(30.0) && letter(b'P')
         || has(4.0) && letter(b'X')
         || drills && letter(b'K') && !letter(b'Q')
@@ -87,6 +90,17 @@ pub(crate) fn marks_behind_number(bare: &[u8]) -> bool {
         || [&b"G10L10"[..], b"G10L11", b"G10L12", b"G10L13"]
             .iter()
             .any(|word| has(word))
+}
+
+/// True if a line is of a FANUC mill's program, when a program number stands in front of it: the length of the
+/// tool beside the place that it is for, which needs no G0, and G41 or G42 with D, which begin and go round
+/// corners in another way than LinuxCNC's.
+pub(crate) fn marks_of_mill_behind_number(bare: &[u8]) -> bool {
+    let code = without_comments(bare.get(body(bare)..).unwrap_or_default());
+    let words = bare_words(&code);
+    let has = |number: f64| has_code(&words, b'G', number);
+    let letter = |letter: u8| has_letter(&words, letter);
+    has(43.0) && letter(b'H') && letter(b'Z') || (has(41.0) || has(42.0)) && letter(b'D')
 }
 
 /// True for a line with a program number: `O1234`.
@@ -126,6 +140,9 @@ mod tests {
             "G91G81X5.K3",
             "DPRNT[X#100[53]]",
             "POPEN",
+            "G150X5.Y5.Z-4.P21D1",
+            "N20G71I25.J0.K30.L4",
+            "G81G99Z-10.R2.F100.L0",
         ] {
             assert!(marks(line.as_bytes()), "{line}");
         }
@@ -147,6 +164,8 @@ mod tests {
             "G4P1",
             "G87X1I2J3K4",
             "M117G31",
+            "G71Q100X5Z-20D1I1R0.5",
+            "G81Z-5R2L3",
         ] {
             assert!(!marks(line.as_bytes()), "{line}");
         }

@@ -4,7 +4,7 @@ use crate::syntax::dialect::bare_words::{bare_words, has_code, without_comments}
 use crate::syntax::dialect::line_body::body;
 
 /// What a line of such a program may begin with.
-const BEGINNINGS: [&[u8]; 24] = [
+const BEGINNINGS: [&[u8]; 31] = [
     b"MSG(",
     b"PROC",
     b"DEFREAL",
@@ -29,12 +29,19 @@ const BEGINNINGS: [&[u8]; 24] = [
     b"TRANSX",
     b"TRANSY",
     b"TRANSZ",
+    b"EXTCALL",
+    b"CALL\"",
+    b"PCALL/",
+    b"BSPLINE",
+    b"ASPLINE",
+    b"CSPLINE",
+    b"GROUP_BEGIN(",
 ];
 
 /// Names that no other language has, anywhere in a line.
-const NAMES: [&[u8]; 13] = [
+const NAMES: [&[u8]; 15] = [
     b"SUPA", b"TRAORI", b"TRAFOOF", b"DIAMON", b"DIAMOF", b"DIAM90", b"STOPRE", b"FNORM", b"FFWON",
-    b"FFWOF", b"COMPCAD", b"COMPOF", b"CFTCP",
+    b"FFWOF", b"COMPCAD", b"COMPOF", b"CFTCP", b"ORIWKS", b"ORIVECT",
 ];
 
 /// Codes that no other language has.
@@ -55,10 +62,10 @@ const CYCLES: [&[u8]; 7] = [
 
 /// Words that take their value behind an equals sign, where RS274/NGC has an address and a number.
 /// Longer ones first.
-const ASSIGNED: [&[u8]; 30] = [
-    b"TURN", b"ADIS", b"RNDM", b"RND", b"CHR", b"CHF", b"FRCM", b"FRC", b"ANG", b"LIMS", b"SPOS",
-    b"CTOL", b"CR", b"AR", b"AP", b"RP", b"X", b"Y", b"Z", b"A", b"B", b"C", b"U", b"V", b"W",
-    b"I", b"J", b"K", b"T", b"F",
+const ASSIGNED: [&[u8]; 33] = [
+    b"DISR", b"DISCL", b"FAD", b"TURN", b"ADIS", b"RNDM", b"RND", b"CHR", b"CHF", b"FRCM", b"FRC",
+    b"ANG", b"LIMS", b"SPOS", b"CTOL", b"CR", b"AR", b"AP", b"RP", b"X", b"Y", b"Z", b"A", b"B",
+    b"C", b"U", b"V", b"W", b"I", b"J", b"K", b"T", b"F",
 ];
 
 /// True if a line, without blanks and in upper case, is of a SINUMERIK program.
@@ -171,6 +178,12 @@ mod tests {
             "G500",
             "G1X5RND=2",
             "N30TRAORI",
+            "N40EXTCALL\"ROUGH\"",
+            "CALL\"FINISH\"",
+            "PCALL/_N_SPF_DIR/_N_FINISH_SPF",
+            "N30BSPLINESD=3F1000",
+            "G41G147DISR=5X0Y0",
+            "N80ORIWKSORIVECT",
         ] {
             assert!(marks(line.as_bytes()), "{line}");
         }
@@ -206,6 +219,8 @@ mod tests {
             "M117G500",
             "G50",
             "G154P1",
+            "O100CALL",
+            "CALL",
         ] {
             assert!(!marks(line.as_bytes()), "{line}");
         }
