@@ -74,7 +74,8 @@ pub use execute::state::modal::{Feed, Modal};
 pub use execute::state::probe_result::Probed;
 pub use execute::state::tip::Tip;
 pub use setup::fanuc::{
-    Arctangent, BoreShift, FanucControl, FanucParameters, FeedAtStart, OffsetMemory, PointInput,
+    Arctangent, BoreShift, FanucControl, FanucParameters, FeedAtStart, OffsetMemory, OuterCorners,
+    PointInput,
 };
 pub use setup::firmware::Firmware;
 pub use setup::kept_variables::{KEPT_VARIABLES, KeptVariables};

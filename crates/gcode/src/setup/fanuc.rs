@@ -91,6 +91,18 @@ impl BoreShift {
     }
 }
 
+/// How the tool goes round outer corners with G41 and G42 (parameter 19607#2).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum OuterCorners {
+    /// Not said: in straight lines, but on arcs where the memory of offsets is that of a Haas.
+    #[default]
+    Unsaid,
+    /// In straight lines: both sides go on to where they meet, or as far as the radius, and across.
+    Lines,
+    /// On arcs about the corner.
+    Arcs,
+}
+
 /// What the parameters of a FANUC control say.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct FanucParameters {
@@ -106,4 +118,17 @@ pub struct FanucParameters {
     pub feed_at_start: FeedAtStart,
     /// The way aside of G76.
     pub bore_shift: BoreShift,
+    /// The way round outer corners.
+    pub outer_corners: OuterCorners,
+}
+
+impl FanucParameters {
+    /// True where the tool goes round outer corners in straight lines.
+    pub(crate) const fn has_corners_of_lines(&self) -> bool {
+        match self.outer_corners {
+            OuterCorners::Lines => true,
+            OuterCorners::Arcs => false,
+            OuterCorners::Unsaid => !matches!(self.offset_memory, OffsetMemory::Haas),
+        }
+    }
 }

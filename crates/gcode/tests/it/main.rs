@@ -19,6 +19,7 @@ mod dialect_programs;
 mod dialects;
 mod fanuc;
 mod fanuc_calls;
+mod fanuc_corners;
 mod fanuc_cycles;
 mod fanuc_lathe_passes;
 mod fanuc_lathe_variables;

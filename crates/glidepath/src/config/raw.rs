@@ -72,6 +72,7 @@ pub(super) struct RawProgram {
     pub(super) offset_memory: Optional<String>,
     pub(super) arctangent: Optional<String>,
     pub(super) bore_shift: Optional<String>,
+    pub(super) outer_corners: Optional<String>,
     pub(super) lathe_feed: Optional<String>,
     pub(super) tool_change: Optional<String>,
     pub(super) edge_after_change: Optional<String>,

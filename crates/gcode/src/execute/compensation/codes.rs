@@ -146,10 +146,12 @@ impl Interpreter {
         self.state.on_contour = true;
         if radius != 0.0 {
             let tool = self.state.path_end;
-            let enters_beside_next = matches!(block.dialect, Dialect::Fanuc | Dialect::Siemens);
+            let is_fanuc = block.dialect == Dialect::Fanuc;
+            let enters_beside_next = is_fanuc || block.dialect == Dialect::Siemens;
             self.compensation = Some(
                 Compensation::new(plane, side, radius, orientation, tool)
-                    .entering_beside_next(enters_beside_next),
+                    .entering_beside_next(enters_beside_next)
+                    .with_corners_of_lines(is_fanuc && self.options.fanuc.has_corners_of_lines()),
             );
         }
         Ok(())

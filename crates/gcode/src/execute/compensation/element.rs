@@ -151,6 +151,23 @@ impl Element {
     }
 }
 
+/// Where the tool turns round a convex corner in straight lines: the end of one side and the beginning of the
+/// next one, each with its tangent, are moved along these, to one point where the corner is no sharper than a
+/// right angle, else by the radius each.
+pub(super) fn corner_points(
+    (end, before): (Point, Point),
+    (start, after): (Point, Point),
+    radius: f64,
+) -> [Point; 2] {
+    let bend = turn(before, after).abs();
+    let on = if bend <= core::f64::consts::FRAC_PI_2 {
+        radius * (0.5 * bend).tan()
+    } else {
+        radius
+    };
+    [along(end, before, on), along(start, after, -on)]
+}
+
 /// Points common to the lines and circles two elements lie on.
 fn common(a: &Element, b: &Element) -> [Option<Point>; 2] {
     match (a.arc, b.arc) {

@@ -18,8 +18,8 @@
 //! * *Smooth* (the offset elements already meet): joined.
 //! * *Convex*: an arc about the corner at the feedrate of the block after it; in front of a rapid
 //!   move a straight one. Two lines that turn by so little that their extensions meet within
-//!   [`MITRE_MM`](path::MITRE_MM) of the arc are extended instead, so that dense chords do not get
-//!   an arc each.
+//!   [`MITRE_MM`](outer_corner::MITRE_MM) of the arc are extended instead, so that dense chords do not
+//!   get an arc each. On a FANUC the way round is made of straight lines ([`outer_corner`]).
 //! * *Concave*: both are cut off where they meet. If they do not, the tool does not fit, and the
 //!   block is refused: it would cut into the contour.
 //!
@@ -39,5 +39,6 @@ mod codes;
 pub(crate) mod element;
 mod entry;
 mod moves;
+mod outer_corner;
 pub(crate) mod path;
 mod tilted;

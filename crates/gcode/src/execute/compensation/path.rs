@@ -6,7 +6,7 @@ use glidepath_program::{Item, ItemKind, PathMode};
 use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::span::SourceSpan;
-use crate::execute::compensation::element::{Element, Point, distance, lines, meet, minus, turn};
+use crate::execute::compensation::element::{Element, Point, distance, meet, turn};
 use crate::execute::motion::settled::MIN_MOVE;
 use crate::execute::motion::speed::Speed;
 use crate::syntax::modes::Side;
@@ -14,8 +14,6 @@ use crate::syntax::modes::Side;
 /// Offset elements whose ends are as near as this are joined, mm: coordinates of programs are
 /// rounded, so that a tangent is none to the last digit.
 const SMOOTH_MM: f64 = 2e-3;
-/// Extensions of two lines stay this near to the arc about their corner, mm.
-const MITRE_MM: f64 = 1e-3;
 /// Directions that differ from a reversal by less are one, radians.
 const REVERSAL_RAD: f64 = 1e-6;
 /// Most events and moves outside the plane held back.
@@ -69,6 +67,8 @@ pub(crate) struct Compensation {
     pub(super) entered: bool,
     /// The first move ends beside the beginning of the second one, and not beside its own end.
     pub(super) enters_beside_next: bool,
+    /// Round convex corners the tool goes in straight lines, and not on arcs.
+    pub(super) corners_of_lines: bool,
 }
 
 impl Compensation {
@@ -108,12 +108,19 @@ impl Compensation {
             held: Vec::new(),
             entered: false,
             enters_beside_next: false,
+            corners_of_lines: false,
         }
     }
 
     /// The same, of a control whose first move ends beside the beginning of the second one.
     pub(crate) const fn entering_beside_next(mut self, is_so: bool) -> Self {
         self.enters_beside_next = is_so;
+        self
+    }
+
+    /// The same, of a control that goes round convex corners in straight lines.
+    pub(crate) const fn with_corners_of_lines(mut self, is_so: bool) -> Self {
+        self.corners_of_lines = is_so;
         self
     }
 
@@ -204,6 +211,8 @@ impl Compensation {
             last.path.end_at(corner);
             next.path.start_at(corner);
             self.give(&last, out);
+        } else if self.corners_of_lines {
+            self.go_round(last, &mut next, out);
         } else if let Some(corner) = self.mitre(&last, &next) {
             last.path.end = corner;
             next.path.start = corner;
@@ -235,45 +244,8 @@ impl Compensation {
         side * bend > 0.0
     }
 
-    /// Where two lines with a flat convex corner meet if they are extended.
-    fn mitre(&self, last: &Pending, next: &Pending) -> Option<Point> {
-        if last.path.arc.is_some() || next.path.arc.is_some() {
-            return None;
-        }
-        let corner = lines(&last.path, &next.path)?;
-        let over = distance(corner, next.of.contour.start) - self.radius();
-        (over <= MITRE_MM).then_some(corner)
-    }
-
-    /// Goes round a convex corner to the start of the next element.
-    fn round(&mut self, next: &Pending, out: &mut Vec<Item>) {
-        let center = next.of.contour.start;
-        let from = self.place();
-        let to = next.path.start;
-        let (a, b) = (minus(from, center), minus(to, center));
-        // Round the outside: clockwise for a tool on the left.
-        let mut sweep = turn(a, b);
-        let round = -self.left.signum();
-        if sweep * round < 0.0 {
-            sweep += round * core::f64::consts::TAU;
-        }
-        let arc = (next.of.speed != Speed::Rapid).then_some((center, sweep));
-        let path = Element {
-            start: from,
-            end: to,
-            arc,
-        };
-        let speed = match next.of.speed {
-            // As fast as the move behind it, which takes the time of the block.
-            Speed::Moves(per_minute) => Speed::Feed(next.path.length() * per_minute / 60.0),
-            speed => speed,
-        };
-        let of = ContourMove { speed, ..next.of };
-        self.emit(&of, &path, self.tool, out);
-    }
-
     /// Where the centre of the tool radius is, in the plane.
-    fn place(&self) -> Point {
+    pub(super) fn place(&self) -> Point {
         let (first, second) = self.plane.axes();
         [
             self.tool[first.index()] - self.tip[0],
@@ -282,7 +254,7 @@ impl Compensation {
     }
 
     /// Gives out the move held back, and what goes with it.
-    fn give(&mut self, last: &Pending, out: &mut Vec<Item>) {
+    pub(super) fn give(&mut self, last: &Pending, out: &mut Vec<Item>) {
         self.emit(&last.of, &last.path, last.of.to, out);
         for held in core::mem::take(&mut self.held) {
             match held {

@@ -6,7 +6,7 @@ use crate::config::program::ProgramConfig;
 use crate::config::raw::RawProgram;
 use glidepath_gcode::{
     Arctangent, BoreShift, Connections, Dialect, FanucControl, FanucParameters, FeedAtStart,
-    Firmware, OffsetMemory, PointInput, SiemensParameters, ToolChangeBy, WorkOffsets,
+    Firmware, OffsetMemory, OuterCorners, PointInput, SiemensParameters, ToolChangeBy, WorkOffsets,
 };
 use glidepath_geometry::Axis;
 use std::path::PathBuf;
@@ -133,6 +133,15 @@ impl Judge {
                     ("-X", BoreShift::MinusX),
                     ("+Y", BoreShift::PlusY),
                     ("-Y", BoreShift::MinusY),
+                ],
+            ),
+            outer_corners: self.choice(
+                "program.outer_corners",
+                raw.outer_corners.take(),
+                &[
+                    ("unsaid", OuterCorners::Unsaid),
+                    ("lines", OuterCorners::Lines),
+                    ("arcs", OuterCorners::Arcs),
                 ],
             ),
             feed_at_start: self.choice(

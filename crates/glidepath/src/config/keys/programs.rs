@@ -77,6 +77,15 @@ pub(super) const PROGRAM: &[Key] = &[
          setting 27); \"unsaid\": such a Q is refused",
     ),
     key(
+        "program.outer_corners",
+        Takes::Choice {
+            of: &["unsaid", "lines", "arcs"],
+        },
+        LeftOut::Value("\"unsaid\""),
+        "how the tool goes round outer corners with G41 and G42 on a FANUC (parameter 19607#2); \"unsaid\": \
+         in lines, but on arcs with offset_memory = \"haas\"",
+    ),
+    key(
         "program.tool_change",
         Takes::Choice {
             of: &["auto", "T", "M6"],
