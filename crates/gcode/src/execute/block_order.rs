@@ -333,7 +333,11 @@ impl Interpreter {
     ) -> Outcome<()> {
         if !matches!(
             motion,
-            Motion::RigidTap | Motion::TapIn | Motion::TapOut | Motion::Cycle(_)
+            Motion::RigidTap
+                | Motion::TapIn
+                | Motion::TapOut
+                | Motion::Cycle(_)
+                | Motion::HolePattern(_)
         ) {
             self.spindle_from_taps(out);
         }
@@ -379,6 +383,7 @@ impl Interpreter {
             Motion::Groove(across) => self.groove(block, across, out)?,
         }
         self.follow_surface(out);
+            Motion::HolePattern(is_arc) => self.hole_pattern(block, is_arc, out)?,
         Ok(())
     }
 }

@@ -171,6 +171,7 @@ fn taken_by_motion(block: &Block, motion: Option<Motion>) -> Letters {
         Some(Motion::Turning(_)) => Letters::of(b"RI"),
         Some(Motion::TapIn | Motion::TapOut) => Letters::of(b"IJK"),
         Some(Motion::CirclePocket(_)) => Letters::of(b"IKQLD"),
+        Some(Motion::HolePattern(_)) => Letters::of(b"IJKL"),
         Some(Motion::Groove(_)) => Letters::of(b"RPQIK"),
         Some(Motion::Thread) if block.dialect == Dialect::Siemens => Letters::of(b"IJKQ"),
         Some(Motion::Thread) => Letters::of(b"KQ"),

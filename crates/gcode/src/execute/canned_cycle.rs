@@ -36,7 +36,6 @@ use glidepath_program::{Event, Item, ItemKind, PathMode};
 
 use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::speed::Pace;
 use crate::execute::state::sticky_words::{CycleSeries, StickyWords};
@@ -44,7 +43,7 @@ use crate::execute::tapping_cycle::tap_turns;
 use crate::setup::fanuc::OffsetMemory;
 use crate::syntax::block::Block;
 use crate::syntax::dialect::Dialect;
-use crate::syntax::modes::{CannedCycle, Distance, FeedMode, Retract};
+use crate::syntax::modes::{CannedCycle, Distance, Motion, Retract};
 use crate::syntax::word_check::whole;
 
 /// How far the tool backs off from a depth it has reached, mm.
@@ -54,11 +53,11 @@ const BOTTOM_MM: f64 = 1e-6;
 /// Most pecks of one block.
 const MAX_PECKS: f64 = 10_000.0;
 /// Most holes of one block.
-const MAX_HOLES: u32 = 10_000;
+pub(super) const MAX_HOLES: u32 = 10_000;
 
 /// One hole: levels in program coordinates along the normal axis, mm.
 #[derive(Debug, Clone, Copy)]
-struct Hole {
+pub(super) struct Hole {
     sticky: StickyWords,
     r: f64,
     bottom: f64,
@@ -158,13 +157,65 @@ impl Interpreter {
             bottom,
             clear,
         };
+        let places = self.places(block, holes)?;
+        self.make_holes(block, hole, &places, out)
+    }
+
+    /// The hole that the cycle in force makes; `None` if none is, or a lathe's.
+    pub(super) fn hole_of_series(&self) -> Option<Hole> {
+        let series = &self.state.cycles;
+        let is_on = matches!(self.state.modal.motion, Some(Motion::Cycle(_)));
+        let sticky = series.last.filter(|_| is_on)?;
+        let [r, bottom] = sticky.levels_mm?;
+        let clear = match self.state.modal.retract {
+            Retract::RPlane => r,
+            Retract::Initial => series.initial?.max(r),
+        };
+        Some(Hole {
+            sticky,
+            r,
+            bottom,
+            clear,
+        })
+    }
+
+    /// Makes the holes at those places of the program, with exact corners.
+    pub(super) fn make_holes(
+        &mut self,
+        block: &Block,
+        hole: Hole,
+        places: &[[Option<f64>; AXES]],
+        out: &mut Vec<Item>,
+    ) -> Outcome<()> {
         let mode = core::mem::replace(&mut self.state.modal.path_mode, PathMode::ExactPath);
-        if !sticky.is_rigid {
+        if !hole.sticky.is_rigid {
             self.spindle_from_taps(out);
         }
-        let made = self.holes(block, hole, holes, out);
+        let made = self.holes(block, hole, places, out);
         self.state.modal.path_mode = mode;
         made
+    }
+
+    /// The places of a block's holes, program coordinates in the plane.
+    fn places(&self, block: &Block, holes: u32) -> Outcome<Vec<[Option<f64>; AXES]>> {
+        let (first, second) = self.state.modal.plane.axes();
+        let values = self.axis_values(block)?;
+        let incremental = self.state.modal.distance == Distance::Incremental;
+        let program = self.offsets.to_program(self.state.position);
+        let mut place = [None; AXES];
+        for axis in [first.index(), second.index()] {
+            place[axis] = values[axis].map(|value| if incremental { program[axis] } else { value });
+        }
+        let mut places = Vec::new();
+        for _ in 0..holes {
+            if incremental {
+                for axis in [first.index(), second.index()] {
+                    place[axis] = place[axis].zip(values[axis]).map(|(at, by)| at + by);
+                }
+            }
+            places.push(place);
+        }
+        Ok(places)
     }
 
     /// The R plane and the bottom, coordinates. A FANUC keeps them as such: words of a block before mean
@@ -199,65 +250,20 @@ impl Interpreter {
         }
     }
 
-    /// Refuses cycles that cannot be made.
-    fn check_cycle(&self, block: &Block, sticky: &StickyWords) -> Outcome<()> {
-        let (span, cycle) = (block.motion_span(), sticky.cycle);
-        let refuse = |span: SourceSpan, message: String, reason: &str, help: &str| {
-            Err(
-                BlockDiagnostic::new(DiagnosticCode::CannedCycle, span, message)
-                    .because(reason)
-                    .help(help),
-            )
-        };
-        if self.state.modal.feed_mode == FeedMode::InverseTime {
-            return refuse(
-                span,
-                "a canned cycle with inverse-time feed (G93)".to_owned(),
-                "the time of the block would be shared by several moves",
-                "write G94",
-            );
-        }
-        let plane = self.state.modal.plane;
-        let (first, second) = plane.axes();
-        let of_cycle = [first, second, plane.normal()];
-        if let Some((axis, _)) = block.axes().find(|(axis, _)| !of_cycle.contains(axis)) {
-            return refuse(
-                block.axis_span(axis),
-                format!("{axis} in a canned cycle"),
-                "a cycle moves the three axes of its plane only",
-                "move the other axes in a block of their own",
-            );
-        }
-        let wrong = match (tap_turns(cycle), self.state.spindle.turning) {
-            (Some(wanted), Some(turning)) => turning != wanted,
-            // Behind M29, and as an axis, the cycle itself lets it turn.
-            (Some(_), None) => !sticky.starts_spindle && !self.taps_by_axis(sticky),
-            (None, turning) => {
-                let stops = matches!(cycle, CannedCycle::BoreStop | CannedCycle::FineBore);
-                stops && turning.is_none()
-            }
-        };
-        if wrong {
-            let message = "the spindle does not turn as the cycle needs it";
-            let help = match cycle {
-                CannedCycle::TapLeft => "write M4 before G74",
-                CannedCycle::TapRight => "write M3 before G84",
-                _ => "write M3 or M4 before the cycle",
-            };
-            return Err(BlockDiagnostic::new(DiagnosticCode::Spindle, span, message)
-                .because("the cycle stops or reverses the spindle at the bottom")
-                .help(help));
-        }
-        Ok(())
-    }
-
-    fn holes(&mut self, block: &Block, hole: Hole, holes: u32, out: &mut Vec<Item>) -> Outcome<()> {
+    fn holes(
+        &mut self,
+        block: &Block,
+        hole: Hole,
+        places: &[[Option<f64>; AXES]],
+        out: &mut Vec<Item>,
+    ) -> Outcome<()> {
         if hole.sticky.peck > 0.0 {
             let least = if hole.sticky.least > 0.0 {
                 hole.sticky.least
             } else {
                 hole.sticky.peck
             };
+            let holes = u32::try_from(places.len()).unwrap_or(u32::MAX);
             let pecks = (hole.r - hole.bottom) / least * f64::from(holes);
             if pecks > MAX_PECKS {
                 let message = format!("the block asks for {pecks:.0} pecks");
@@ -270,11 +276,7 @@ impl Interpreter {
                 .help("write a larger Q"));
             }
         }
-        let plane = self.state.modal.plane;
-        let normal = plane.normal();
-        let (first, second) = plane.axes();
-        let values = self.axis_values(block)?;
-        let incremental = self.state.modal.distance == Distance::Incremental;
+        let normal = self.state.modal.plane.normal();
         let program = self.offsets.to_program(self.state.position);
         let mut level = program[normal.index()];
         // Up first: a rapid across below the level the cycle asks for could hit something.
@@ -287,18 +289,8 @@ impl Interpreter {
             level = safe;
             self.along(block, normal, level, Pace::Rapid, out)?;
         }
-        let mut place = [None; AXES];
-        for axis in [first, second] {
-            let i = axis.index();
-            place[i] = values[i].map(|value| if incremental { program[i] } else { value });
-        }
-        for _ in 0..holes {
-            if incremental {
-                for axis in [first.index(), second.index()] {
-                    place[axis] = place[axis].zip(values[axis]).map(|(at, by)| at + by);
-                }
-            }
-            let target = self.absolute_target(&place);
+        for place in places {
+            let target = self.absolute_target(place);
             self.straight(block, target, Pace::Rapid, out)?;
             if level > hole.r {
                 self.along(block, normal, hole.r, Pace::Rapid, out)?;

@@ -238,6 +238,8 @@ const fn motion_code(motion: Option<Motion>) -> u16 {
         Some(Motion::ThreadCycle | Motion::Turning(_) | Motion::Groove(_)) => 760,
         Some(Motion::CirclePocket(true)) => 120,
         Some(Motion::CirclePocket(false)) => 130,
+        Some(Motion::HolePattern(false)) => 700,
+        Some(Motion::HolePattern(true)) => 710,
         Some(Motion::Spline(spline)) => match spline {
             Spline::Cubic => 50,
             Spline::Quadratic => 51,

@@ -41,6 +41,8 @@ pub enum Motion {
     Groove(bool),
     /// G12 and G13 of Haas: a round pocket; true clockwise.
     CirclePocket(bool),
+    /// G70 and G71 of Haas' mills: holes of the cycle in force on a circle; true on an arc.
+    HolePattern(bool),
 }
 
 impl Motion {
@@ -50,7 +52,7 @@ impl Motion {
         self.is_arc()
             || matches!(
                 self,
-                Self::Spline(_) | Self::Lathe(_) | Self::CirclePocket(_)
+                Self::Spline(_) | Self::Lathe(_) | Self::CirclePocket(_) | Self::HolePattern(_)
             )
     }
 

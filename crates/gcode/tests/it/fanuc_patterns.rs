@@ -1,10 +1,10 @@
-//! Tests of series of holes on FANUC's and Haas' mills: what is in force behind G80. Values are
-//! computed by hand.
+//! Tests of series of holes on FANUC's and Haas' mills: what is in force behind G80, patterns of Haas. Values
+//! are computed by hand.
 
 use glidepath_gcode::Program;
 use glidepath_program::{ItemKind, Rate};
 
-use crate::fanuc_calls::options;
+use crate::fanuc_calls::{finds, options};
 
 /// Ends of moves, with `r` where they are rapids.
 fn ways(text: &str) -> Vec<String> {
@@ -51,4 +51,71 @@ fn behind_g80_moves_are_what_they_were_in_front_of_the_cycle() {
         last("G0 Z10. M8\nG1 X1. F500\nG81 X2. Z-5. R2. F100\nG80 X9."),
         "9 0 10"
     );
+}
+
+#[test]
+fn holes_on_a_circle() {
+    let head = "G0 X10. Y20. Z10.\n";
+    // Four holes of radius 5, the first one at 90 degrees; none in the middle.
+    let text = format!("{head}G81 G99 Z-3. R2. F100 L0\nG70 I5. J90. L4\nG80\nX0 Y0");
+    assert_eq!(
+        ways(&text)[1..],
+        [
+            "10 25 10r",
+            "10 25 2r",
+            "10 25 -3",
+            "10 25 2r",
+            "5 20 2r",
+            "5 20 -3",
+            "5 20 2r",
+            "10 15 2r",
+            "10 15 -3",
+            "10 15 2r",
+            "15 20 2r",
+            "15 20 -3",
+            "15 20 2r",
+            "0 0 2r",
+        ]
+    );
+    // With G98 to the initial level, with an arc of 30 degrees; the cycle is in force behind it.
+    let text = format!("{head}G81 G98 Z-3. R2. F100 L0\nG71 I10. J0 K-90. L2\nX0 Y0");
+    assert_eq!(
+        ways(&text)[1..],
+        [
+            "20 20 10r",
+            "20 20 2r",
+            "20 20 -3",
+            "20 20 10r",
+            "10 10 10r",
+            "10 10 2r",
+            "10 10 -3",
+            "10 10 10r",
+            "0 0 10r",
+            "0 0 2r",
+            "0 0 -3",
+            "0 0 10r",
+        ]
+    );
+    // In inches.
+    let text = "G20\nG0 X1. Z1.\nG81 G99 Z-.1 R.1 F10. L0\nG70 I1. L1\nG80";
+    assert_eq!(ways(text)[1], "50.8 0 25.4r");
+}
+
+#[test]
+fn patterns_that_are_refused() {
+    let cycle = "G81 G99 Z-3. R2. F100 L0\n";
+    finds("G70 I5. J0 L4", &["1:1 canned-cycle"]);
+    finds(&format!("{cycle}G80\nG70 I5. J0 L4"), &["3:1 canned-cycle"]);
+    for (text, code) in [
+        ("G70 J0 L4", "2:1 missing-word"),
+        ("G70 I5. J0", "2:1 missing-word"),
+        ("G70 I5. J0 L0", "2:1 missing-word"),
+        ("G71 I5. J0 L4", "2:1 missing-word"),
+        ("G70 I5. K5. L4", "2:9 unused-word"),
+        ("G70 I0 L4", "2:5 canned-cycle"),
+        ("G70 X5. I5. L4", "2:5 unused-word"),
+        ("G72 I5. J0 L4", "2:1 not-supported"),
+    ] {
+        finds(&format!("{cycle}{text}"), &[code]);
+    }
 }

@@ -114,7 +114,8 @@ const fn motion_code(motion: Motion) -> &'static str {
         | Motion::TapOut
         | Motion::Turning(_)
         | Motion::Groove(_)
-        | Motion::CirclePocket(_) => "G80",
+        | Motion::CirclePocket(_)
+        | Motion::HolePattern(_) => "G80",
     }
 }
 

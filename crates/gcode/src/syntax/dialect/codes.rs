@@ -121,6 +121,7 @@ impl Codes {
                 Motion::Rapid
             }
             120 | 130 => Motion::CirclePocket(tenths == 120),
+            700 | 710 => Motion::HolePattern(tenths == 710),
             _ => return self.add_fanuc_mode(tenths, span),
         };
         self.is_once = true;

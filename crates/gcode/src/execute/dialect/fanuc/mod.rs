@@ -12,6 +12,7 @@ pub(crate) mod call;
 mod circular_pocket;
 mod frames;
 mod groove;
+mod hole_pattern;
 mod increments;
 mod lathe_finish;
 mod lathe_offsets;

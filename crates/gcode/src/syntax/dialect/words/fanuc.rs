@@ -14,9 +14,10 @@ pub(crate) const fn g(tenths: u32) -> Option<Meaning> {
         | 800 | 810 | 820 | 830 | 840 | 850 | 860 | 890 | 900 | 910 | 920 | 930 | 940 | 950
         | 960 | 970 | 980 | 990 => Shared,
         // G9, G10, G12, G13, G15, G16, G30, G31, G44, G43.4, G43.5, G50, G51, G50.1, G51.1, G54.1, G60, G62, G63,
-        // G53.1, G68, G68.2, G69, G76, G154, G234, G254, G255.
+        // G53.1, G68, G68.2, G69, G70, G71, G76, G154, G234, G254, G255.
         90 | 100 | 120 | 130 | 150 | 160 | 300 | 310 | 434 | 435 | 440 | 500 | 501 | 510 | 511
-        | 531 | 541 | 600 | 620 | 630 | 680 | 682 | 690 | 760 | 1540 | 2340 | 2540 | 2550 => Own,
+        | 531 | 541 | 600 | 620 | 630 | 680 | 682 | 690 | 700 | 710 | 760 | 1540 | 2340 | 2540
+        | 2550 => Own,
         // Look-ahead and smoothness (G5 P, G5.1 Q, G8 P, G103 P, G187 P E), the end of G10 L50,
         // no stroke check (G23), no watch on the spindle's speed (G25), the end of what is refused
         // (G13.1, G54.2 P0 apart).
@@ -48,13 +49,17 @@ pub(crate) const fn g(tenths: u32) -> Option<Meaning> {
             "write G43 H where the rotary axes stand at zero",
         ),
         432 => Refused("a second tool length", "write G43 H"),
-        450 | 460 | 470 | 480 => Refused(
+        340 => Refused("a thread whose pitch changes", PLAIN_BLOCKS),
+        450 | 460 | 480 => Refused(
             "a tool offset that makes moves longer or shorter",
             "write G41 or G42 with D",
         ),
         683 | 684 | 2680 | 2690 => Refused("a tilted work plane", AXES_OF_THE_CAM),
         542 => Refused("a work offset that goes with the table", AXES_OF_THE_CAM),
-        700 | 710 | 720 => Refused("holes along a pattern", "write the position of each hole"),
+        720 => Refused(
+            "holes along a line: whether the first one is where the tool stands is not known here",
+            "write the position of each hole",
+        ),
         770 | 1560 => Refused("broaching, or a back-side cycle", PLAIN_BLOCKS),
         842 | 843 => Refused("rigid tapping in another form", "write M29 S, and G84"),
         870 => Refused(
@@ -69,13 +74,18 @@ pub(crate) const fn g(tenths: u32) -> Option<Meaning> {
             "offsets of G92 taken back",
             "write G92 with the old coordinates",
         ),
+        470 => Refused(
+            "engraving of a text, or a tool offset that makes moves longer",
+            PLAIN_BLOCKS,
+        ),
         1000 | 1010 => Refused(
             "a mirror image switched on and off",
             "write G51.1 and G50.1",
         ),
         // Those of Haas, G154 P1 to P20; two of them are codes of a C axis, too.
         1100..=1290 if tenths.is_multiple_of(10) => Own,
-        1360 | 1430 | 1500 | 1530 | 1740 | 1840 => Refused("a function of Haas", PLAIN_BLOCKS),
+        1500 => Refused("a pocket of any shape, by a subprogram", PLAIN_BLOCKS),
+        1360 | 1430 | 1530 | 1740 | 1840 => Refused("a function of Haas", PLAIN_BLOCKS),
         _ => return None,
     })
 }

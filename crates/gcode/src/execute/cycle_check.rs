@@ -1,0 +1,64 @@
+//! What a canned cycle needs: the feed, its axes, and a spindle that turns as it should.
+
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::span::SourceSpan;
+use crate::execute::interpreter::Interpreter;
+use crate::execute::state::sticky_words::StickyWords;
+use crate::execute::tapping_cycle::tap_turns;
+use crate::syntax::block::Block;
+use crate::syntax::modes::{CannedCycle, FeedMode};
+
+impl Interpreter {
+    /// Refuses cycles that cannot be made.
+    pub(super) fn check_cycle(&self, block: &Block, sticky: &StickyWords) -> Outcome<()> {
+        let (span, cycle) = (block.motion_span(), sticky.cycle);
+        let refuse = |span: SourceSpan, message: String, reason: &str, help: &str| {
+            Err(
+                BlockDiagnostic::new(DiagnosticCode::CannedCycle, span, message)
+                    .because(reason)
+                    .help(help),
+            )
+        };
+        if self.state.modal.feed_mode == FeedMode::InverseTime {
+            return refuse(
+                span,
+                "a canned cycle with inverse-time feed (G93)".to_owned(),
+                "the time of the block would be shared by several moves",
+                "write G94",
+            );
+        }
+        let plane = self.state.modal.plane;
+        let (first, second) = plane.axes();
+        let of_cycle = [first, second, plane.normal()];
+        if let Some((axis, _)) = block.axes().find(|(axis, _)| !of_cycle.contains(axis)) {
+            return refuse(
+                block.axis_span(axis),
+                format!("{axis} in a canned cycle"),
+                "a cycle moves the three axes of its plane only",
+                "move the other axes in a block of their own",
+            );
+        }
+        let wrong = match (tap_turns(cycle), self.state.spindle.turning) {
+            (Some(wanted), Some(turning)) => turning != wanted,
+            // Behind M29, and as an axis, the cycle itself lets it turn.
+            (Some(_), None) => !sticky.starts_spindle && !self.taps_by_axis(sticky),
+            (None, turning) => {
+                let stops = matches!(cycle, CannedCycle::BoreStop | CannedCycle::FineBore);
+                stops && turning.is_none()
+            }
+        };
+        if wrong {
+            let message = "the spindle does not turn as the cycle needs it";
+            let help = match cycle {
+                CannedCycle::TapLeft => "write M4 before G74",
+                CannedCycle::TapRight => "write M3 before G84",
+                _ => "write M3 or M4 before the cycle",
+            };
+            return Err(BlockDiagnostic::new(DiagnosticCode::Spindle, span, message)
+                .because("the cycle stops or reverses the spindle at the bottom")
+                .help(help));
+        }
+        Ok(())
+    }
+}
