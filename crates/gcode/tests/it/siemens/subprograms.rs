@@ -193,3 +193,72 @@ fn texts_of_messages_are_skipped_and_nothing_else() {
     );
     assert_eq!(xs("WORKPIECE(,\"\",,\"BOX\",112)\nG0 X1"), [1.0]);
 }
+
+#[test]
+fn a_text_names_a_subprogram() {
+    let rough = ("ROUGH.SPF", "G0 X7\nM17\nG0 X99");
+    for call in [
+        "EXTCALL \"ROUGH\"",
+        "EXTCALL(\"ROUGH\")",
+        "N10 EXTCALL(\"rough.spf\") ; now",
+        "EXTCALL \"/_N_WKS_DIR/_N_PART_WPD/_N_ROUGH_SPF\"",
+        "EXTCALL \"USB:NC/ROUGH_SPF\"",
+        "CALL \"ROUGH\"",
+        "CALL \"RO\"<<\"UGH\"",
+        "PCALL ROUGH",
+        "PCALL /_N_SPF_DIR/_N_ROUGH_SPF",
+        "PCALL /_N_SPF_DIR/ROUGH()",
+    ] {
+        assert_eq!(
+            xs_with(&format!("G0 X1\n{call}\nG0 X2"), &[rough]),
+            [1.0, 7.0, 2.0],
+            "{call}"
+        );
+    }
+    // The name in a variable, another one at each turn.
+    assert_eq!(
+        xs_with(
+            "DEF STRING[20] NAME\nR1=1\nA:\nNAME=\"STEP\"<<R1\nCALL NAME\nR1=R1+1\nIF R1<3 GOTOB A\nG0 X9",
+            &[("STEP1.SPF", "G0 X1"), ("STEP2.SPF", "G0 X2")]
+        ),
+        [1.0, 2.0, 9.0]
+    );
+    // The kind of the file where the text says it.
+    let both = [("PART.SPF", "G0 X5"), ("PART.MPF", "G0 X6\nM30")];
+    assert_eq!(
+        xs_with(
+            "EXTCALL \"PART\"\nEXTCALL \"PART.MPF\"\nCALL \"_N_PART_SPF\"",
+            &both
+        ),
+        [5.0, 6.0, 5.0]
+    );
+    // With arguments; behind a line of its own in the program.
+    assert_eq!(
+        xs_with(
+            "PCALL /_N_SPF_DIR/_N_HOLE_SPF(5, 2)",
+            &[("HOLE.SPF", "PROC HOLE(REAL AA, REAL BB)\nG0 X=AA+BB\nM17")]
+        ),
+        [7.0]
+    );
+    assert_eq!(
+        xs_with("CALL \"HOLE\"\nG0 X2\nM30\n%_N_HOLE_SPF\nG0 X8\nM17", &[]),
+        [8.0, 2.0]
+    );
+}
+
+#[test]
+fn texts_that_name_none() {
+    for (text, code) in [
+        ("EXTCALL \"NONE\"", "1:9 unknown-subroutine"),
+        ("CALL \"/_N_SPF_DIR/\"", "1:6 unknown-subroutine"),
+        ("CALL \"../..\"", "1:6 unknown-subroutine"),
+        ("EXTCALL", "1:1 missing-word"),
+        ("CALL 5", "1:1 missing-word"),
+        ("EXTCALL(\"A\"", "1:1 missing-word"),
+        ("CALL BLOCK A TO B", "1:6 not-supported"),
+        ("CALL \"A\" BLOCK A TO B", "1:10 not-supported"),
+        ("PCALL", "1:6 unknown-subroutine"),
+    ] {
+        found(text, &[("A.SPF", "G0 X7")], &[code]);
+    }
+}

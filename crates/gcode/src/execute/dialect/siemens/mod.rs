@@ -3,7 +3,7 @@
 //! ```text
 //! IF … ELSE … ENDIF · IF … GOTOF A · WHILE … ENDWHILE · FOR R1=1 TO 5 … ENDFOR · LOOP … ENDLOOP
 //! REPEAT … UNTIL · REPEAT A P=3 · REPEAT A B · REPEATB A · GOTO, GOTOF, GOTOB, GOTOC A · A: · N100
-//! CASE … OF … · L1 P2 · NAME(5) · PROC, EXTERN, RET, M17
+//! CASE … OF … · L1 P2 · NAME(5) · CALL, PCALL, EXTCALL · PROC, EXTERN, RET, M17
 //! DEF REAL, INT, BOOL, arrays · TRANS, ROT, MIRROR, SCALE · ATRANS, AROT, AMIRROR, ASCALE
 //! G58, G59 · $P_UIFR[n]=CTRANS(X,10) · $P_PFRAME=… · $TC_DP3[t,1]=50
 //! CYCLE81 to 89 · CYCLE840 · CYCLE71 · POCKET3, POCKET4 · MCALL · HOLES1, HOLES2, CYCLE801, CYCLE802 · CYCLE800
@@ -26,6 +26,7 @@ mod flow;
 mod frames;
 mod lines;
 mod modal_call;
+mod named_call;
 mod newer_arguments;
 mod pocket;
 mod positions;

@@ -51,12 +51,16 @@ impl<R: BufRead> Program<R> {
         let Some(callee) = callee(tail).filter(|callee| callee.start == 0) else {
             return Ok(false);
         };
-        let callee = Callee { start, ..callee };
+        let callee = Callee {
+            start,
+            end: start + callee.end,
+            ..callee
+        };
         let Some(first) = self.siemens_subprogram(&callee)? else {
             return Ok(false);
         };
         let scope = self.scope();
-        let mut input = self.evaluator(&scope, text, callee.end());
+        let mut input = self.evaluator(&scope, text, callee.end);
         let arguments = match input.next_visible() {
             Some(b'(') => input.arguments()?,
             _ => Vec::new(),

@@ -82,6 +82,10 @@ impl<R: BufRead> Program<R> {
                 self.siemens_block(number, &text)
             }
             Statement::Extern => Ok(true),
+            Statement::TextCall(call) => {
+                let called = self.siemens_named_call(call, &text, at);
+                called.inspect_err(|_| self.end()).map(|()| true)
+            }
             Statement::Procedure => {
                 let done = self.siemens_procedure(&text, at);
                 done.inspect_err(|_| self.end()).map(|()| true)

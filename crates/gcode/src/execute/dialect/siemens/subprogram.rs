@@ -1,7 +1,8 @@
 //! Subprograms: `L771 P3`, `NAME(5, 2)`, PROC, RET, M17.
 //!
 //! A subprogram is looked for in the program, behind a line `%_N_NAME_SPF`, then in a file of its
-//! own: `NAME.SPF`, `name.spf`, `_N_NAME_SPF` ([`file_names`] has the order). It has variables of its
+//! own: `NAME.SPF`, `name.spf`, `_N_NAME_SPF` ([`file_names`] has the order). What a path names
+//! ([`named_call`](super::named_call)) is of the kind that the path says. It has variables of its
 //! own, and those that PROC names have the values of the call. It ends at M17, RET, M2, M30 or with
 //! its text. What it leaves in force stays so, but for the modes and the frame where PROC says SAVE.
 
@@ -28,20 +29,45 @@ use crate::syntax::dialect::siemens::variables::Variables;
 const MAX_TURNS: f64 = 9999.0;
 
 /// The files that a subprogram may be in, in the order in which they are looked for.
-fn file_names(name: &[u8]) -> Vec<String> {
-    let written = String::from_utf8_lossy(name).into_owned();
-    let (upper, lower) = (written.to_ascii_uppercase(), written.to_ascii_lowercase());
+fn file_names(callee: &Callee) -> Vec<String> {
+    let forms = |bytes: &[u8]| {
+        let written = String::from_utf8_lossy(bytes).into_owned();
+        [
+            written.clone(),
+            written.to_ascii_uppercase(),
+            written.to_ascii_lowercase(),
+        ]
+    };
+    let stems = forms(&callee.name);
+    let ending = callee.ending.as_deref();
+    let endings = ending.map_or_else(
+        || ["SPF", "spf", "MPF", "mpf"].map(str::to_owned).to_vec(),
+        |it| forms(it).to_vec(),
+    );
     let mut names: Vec<String> = Vec::new();
-    for ending in [".SPF", ".spf", ".MPF", ".mpf"] {
-        for stem in [&written, &upper, &lower] {
-            let name = format!("{stem}{ending}");
+    for ending in &endings {
+        for stem in &stems {
+            let name = format!("{stem}.{ending}");
             if !names.contains(&name) {
                 names.push(name);
             }
         }
     }
-    names.push(format!("_N_{upper}_SPF"));
+    let kind = ending.map_or_else(|| "SPF".to_owned(), |it| forms(it)[1].clone());
+    names.push(format!("_N_{}_{kind}", stems[1]));
     names
+}
+
+/// Whether a line is in front of the program that is called: of the name, and of the kind if one is said.
+fn is_wanted(line: &[u8], callee: &Callee) -> bool {
+    let is_kind = |ending: &[u8]| {
+        let line = line.trim_ascii();
+        line.len()
+            .checked_sub(ending.len())
+            .and_then(|at| line.get(at..))
+            .is_some_and(|end| end.eq_ignore_ascii_case(ending))
+    };
+    is_header_of(line, &callee.name) && callee.ending.as_deref().is_none_or(is_kind)
 }
 
 impl<R: BufRead> Program<R> {
@@ -51,7 +77,7 @@ impl<R: BufRead> Program<R> {
             return Ok(false);
         };
         let scope = self.scope();
-        let mut input = self.evaluator(&scope, text, callee.end());
+        let mut input = self.evaluator(&scope, text, callee.end);
         let arguments = match input.next_visible() {
             Some(b'(') => input.arguments()?,
             _ => Vec::new(),
@@ -85,7 +111,7 @@ impl<R: BufRead> Program<R> {
         // () is no argument.
         let arguments = Some(arguments).filter(|all| all.as_slice() != [None]);
         let arguments = arguments.unwrap_or_default();
-        let span = SourceSpan::new(callee.start, callee.end());
+        let span = SourceSpan::new(callee.start, callee.end);
         self.siemens_enter((first, turns), arguments, None, span)?;
         Ok(true)
     }
@@ -203,13 +229,15 @@ impl<R: BufRead> Program<R> {
     /// Where a subprogram begins: its first line. `None`: there is none of that name, and the line may
     /// be something else.
     pub(super) fn siemens_subprogram(&mut self, callee: &Callee) -> Outcome<Option<TapePlace>> {
-        let name = callee.name.to_ascii_uppercase();
+        let ending = callee.ending.iter().flat_map(|it| [&b"."[..], it].concat());
+        let name: Vec<u8> = callee.name.iter().copied().chain(ending).collect();
+        let name = name.to_ascii_uppercase();
         if let Some(place) = self.tape.known_name(&name) {
             return Ok(Some(place));
         }
         let here = self.tape.place();
         self.tape.go_to(TapePlace { text: 0, line: 0 });
-        let wanted = |line: &[u8]| is_header_of(line, &name);
+        let wanted = |line: &[u8]| is_wanted(line, callee);
         let header = self.tape.search(0, &mut self.source, wanted, |_| false);
         self.tape.go_to(here);
         let place = match header? {
@@ -228,7 +256,7 @@ impl<R: BufRead> Program<R> {
 
     /// The subprogram in a file of its own.
     fn siemens_file(&mut self, callee: &Callee) -> Outcome<Option<TapePlace>> {
-        let span = SourceSpan::new(callee.start, callee.end());
+        let span = SourceSpan::new(callee.start, callee.end);
         let Some(subroutines) = &self.interpreter.options.subroutines else {
             return if callee.is_sure {
                 Err(unknown(callee, span, &[]))
@@ -236,7 +264,7 @@ impl<R: BufRead> Program<R> {
                 Ok(None)
             };
         };
-        let file = match subroutines.first_of(file_names(&callee.name)) {
+        let file = match subroutines.first_of(file_names(callee)) {
             Ok(file) => file,
             Err(NotTaken::None(NoSubroutineFile::Missing { looked_in })) => {
                 return if callee.is_sure {
@@ -257,13 +285,15 @@ impl<R: BufRead> Program<R> {
 #[cold]
 fn unknown(callee: &Callee, span: SourceSpan, looked_in: &[String]) -> Box<BlockDiagnostic> {
     let shown = String::from_utf8_lossy(&callee.name).into_owned();
+    let ending = callee.ending.as_deref().unwrap_or(b"SPF");
+    let ending = String::from_utf8_lossy(ending).to_ascii_uppercase();
     let message = format!("there is no subprogram {shown}");
     let fault = BlockDiagnostic::new(DiagnosticCode::UnknownSubroutine, span, message);
     let fault = if looked_in.is_empty() {
         fault.because("the program has no line `%_N_…_SPF` of that name, and there is no folder to look for it in")
     } else {
         fault.because(format!(
-            "the program has no line `%_N_…_SPF` of that name, and there is no file {}.SPF in {}",
+            "the program has no line `%_N_…_{ending}` of that name, and there is no file {}.{ending} in {}",
             shown.to_ascii_uppercase(),
             looked_in.join(", ")
         ))

@@ -1,5 +1,6 @@
-//! The subprogram that a line calls: `L771 P3`, `POCKET_A(5, 2)`, `DRILLING`.
+//! The subprogram that a line calls: `L771 P3`, `POCKET_A(5, 2)`, `DRILLING`, and what a path names.
 
+use crate::diagnostic::span::SourceSpan;
 use crate::syntax::dialect::siemens::statement::{label, name_at};
 use crate::syntax::dialect::words::siemens_names;
 
@@ -8,15 +9,49 @@ use crate::syntax::dialect::words::siemens_names;
 pub(crate) struct Callee {
     /// As it is written.
     pub(crate) name: Vec<u8>,
+    /// The kind of its file where a path says it: `SPF` of `HOLES.SPF` and of `_N_HOLES_SPF`.
+    pub(crate) ending: Option<Vec<u8>>,
     pub(crate) start: usize,
+    /// Where what names it ends.
+    pub(crate) end: usize,
     /// It can be nothing else: `L771`, or a name with parentheses behind it.
     pub(crate) is_sure: bool,
 }
 
 impl Callee {
-    /// Where the name ends.
-    pub(crate) const fn end(&self) -> usize {
-        self.start + self.name.len()
+    /// What the last part of a path names; `None` if that is no name.
+    pub(crate) fn of_path(path: &[u8], span: SourceSpan) -> Option<Self> {
+        let is_separator = |byte: &u8| matches!(byte, b'/' | b'\\' | b':');
+        let file = path.trim_ascii().rsplit(is_separator).next()?;
+        let (name, ending) = name_and_ending(file);
+        let is_name = !name.is_empty() && !name.starts_with(b".");
+        is_name.then(|| Self {
+            name: name.to_vec(),
+            ending: ending.map(<[u8]>::to_vec),
+            start: span.start,
+            end: span.start + span.length,
+            is_sure: true,
+        })
+    }
+}
+
+/// The name in that of a file, and its ending: `_N_HOLES_SPF`, `HOLES_SPF`, `HOLES.SPF`, `HOLES`.
+fn name_and_ending(file: &[u8]) -> (&[u8], Option<&[u8]>) {
+    let file = match file.split_at_checked(3) {
+        Some((head, rest)) if head.eq_ignore_ascii_case(b"_N_") => rest,
+        _ => file,
+    };
+    let tail = file.len().saturating_sub(4);
+    if let Some((name, [b'_', ending @ ..])) = file.split_at_checked(tail)
+        && [&b"SPF"[..], b"MPF"]
+            .iter()
+            .any(|kind| ending.eq_ignore_ascii_case(kind))
+    {
+        return (name, Some(ending));
+    }
+    match file.iter().rposition(|byte| *byte == b'.') {
+        Some(point) => (&file[..point], file.get(point + 1..)),
+        None => (file, None),
     }
 }
 
@@ -49,7 +84,9 @@ pub(crate) fn callee(text: &[u8]) -> Option<Callee> {
     };
     (is_sure || name.len() > 1 && next != Some(&b'=')).then(|| Callee {
         name: name.to_vec(),
+        ending: None,
         start,
+        end: start + name.len(),
         is_sure,
     })
 }
@@ -86,6 +123,34 @@ mod tests {
             "T1",
         ] {
             assert_eq!(callee(text.as_bytes()), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn a_path_names_its_last_part() {
+        for (path, name, ending) in [
+            ("ROUGH", "ROUGH", None),
+            ("/_N_WKS_DIR/_N_PART_WPD/_N_ROUGH_SPF", "ROUGH", Some("SPF")),
+            ("_N_ROUGH_1_MPF", "ROUGH_1", Some("MPF")),
+            ("C:\\NC\\Rough.1.mpf", "Rough.1", Some("mpf")),
+            ("LOCAL_DRIVE:ROUGH.SPF ", "ROUGH", Some("SPF")),
+            ("_N_AB", "AB", None),
+            ("PART_SPF", "PART", Some("SPF")),
+            ("PART_XYZ", "PART_XYZ", None),
+        ] {
+            let found = Callee::of_path(path.as_bytes(), SourceSpan::new(8, 20)).expect(path);
+            assert_eq!(
+                (found.name, found.ending, found.start, found.end),
+                (name.into(), ending.map(Into::into), 8, 20),
+                "{path}"
+            );
+        }
+        for path in ["", "/", "../..", ".SPF", "_N_"] {
+            assert_eq!(
+                Callee::of_path(path.as_bytes(), SourceSpan::default()),
+                None,
+                "{path}"
+            );
         }
     }
 }

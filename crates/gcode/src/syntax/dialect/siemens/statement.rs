@@ -16,6 +16,27 @@ pub(crate) enum Direction {
     IfAny,
 }
 
+/// A call of a subprogram that a text or a path names.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum TextCall {
+    /// EXTCALL: a file beside the control's own programs.
+    External,
+    /// CALL.
+    ByName,
+    /// PCALL.
+    ByPath,
+}
+
+impl TextCall {
+    pub(crate) const fn word(self) -> &'static str {
+        match self {
+            Self::External => "EXTCALL",
+            Self::ByName => "CALL",
+            Self::ByPath => "PCALL",
+        }
+    }
+}
+
 /// The kinds of statements.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Statement {
@@ -61,6 +82,7 @@ pub(crate) enum Statement {
     Swivel,
     /// MCALL.
     ModalCall,
+    TextCall(TextCall),
 }
 
 impl Statement {
@@ -250,5 +272,8 @@ pub(crate) fn statement(text: &[u8]) -> (Statement, usize) {
         b"MCALL" => Statement::ModalCall,
         _ => return (Statement::Block, at),
     };
+        b"EXTCALL" => Statement::TextCall(TextCall::External),
+        b"CALL" => Statement::TextCall(TextCall::ByName),
+        b"PCALL" => Statement::TextCall(TextCall::ByPath),
     (statement, behind)
 }

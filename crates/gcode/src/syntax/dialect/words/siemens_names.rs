@@ -68,7 +68,6 @@ const READ_OVER: &[&str] = &[
     "COMPPATH",
     "CP",
     "ORIWKS",
-    "ORIAXES",
     "MSG",
     "WORKPIECE",
     "GROUP_BEGIN",
@@ -84,7 +83,7 @@ const MADE: &[&str] = &[
     "SUPA", "CIP", "CT", "DIAMON", "DIAMOF", "DIAM90", "CFC", "CFIN", "CFTCP", "TRAORI", "TRAFOOF",
     "CYCLE800", "CYCLE832", "CTOL", "RET", "AP", "RP", "AR", "ANG", "ANG1", "ANG2", "CR", "TURN",
     "RND", "RNDM", "CHR", "CHF", "FRC", "FRCM", "FB", "ADIS", "LIMS", "SPOS", "SETMS", "SF",
-    "FGROUP",
+    "FGROUP", "CALL", "PCALL", "EXTCALL", "ORIVECT", "ORIPLANE", "ORIAXES",
 ];
 
 /// Names that are refused: what they are, and what to do instead.
@@ -99,19 +98,16 @@ const REFUSED: &[(&[&str], &str, &str)] = &[
         "orientation in the machine's coordinates",
         "write ORIWKS",
     ),
-    (
-        &["ORIVECT", "ORIPLANE"],
-        "orientation on a great circle",
-        "write ORIAXES",
-    ),
     (&["CYCLE60"], "engraving", PLAIN),
-    (&["CYCLE61"], "face milling", "write CYCLE71"),
+    (
+        &["CYCLE61"],
+        "face milling with borders: what the digits of its last arguments mean is not known here",
+        "write CYCLE71",
+    ),
     (&["CYCLE62"], "a contour that is called", PLAIN),
     (&["CYCLE63", "CYCLE64"], "a contour pocket", PLAIN),
     (&["CYCLE70", "CYCLE90"], "thread milling", PLAIN),
     (&["CYCLE72"], "contour milling", PLAIN),
-    (&["CYCLE76"], "a rectangular spigot", PLAIN),
-    (&["CYCLE77"], "a circular spigot", PLAIN),
     (&["CYCLE79"], "a polygon", PLAIN),
     (&["CYCLE93", "CYCLE930"], "a groove", PLAIN),
     (&["CYCLE94", "CYCLE940"], "an undercut", PLAIN),
@@ -134,22 +130,25 @@ const REFUSED: &[(&[&str], &str, &str)] = &[
         "remove it",
     ),
     (&["CYCLE978"], "a measurement", "write G38.3"),
-    (&["SLOT1", "SLOT2"], "slots", PLAIN),
-    (&["LONGHOLE"], "long holes", PLAIN),
+    (
+        &["SLOT1", "SLOT2"],
+        "slots on a circle: where RAD leads, to their beginning or to their middle, is not known here",
+        PLAIN,
+    ),
+    (
+        &["LONGHOLE"],
+        "long holes on a circle: where RAD leads, to their beginning or to their middle, is not known here",
+        PLAIN,
+    ),
+    (
+        &["POCKET1", "POCKET2"],
+        "a pocket of older controls",
+        "write POCKET3 or POCKET4",
+    ),
     (
         &["GOTOS"],
         "a program that begins again for ever",
         "write LOOP and ENDLOOP",
-    ),
-    (
-        &["CALL"],
-        "a subprogram whose name is computed",
-        "write the name itself, which calls it",
-    ),
-    (
-        &["PCALL", "EXTCALL"],
-        "a subprogram by its path",
-        "write its name, and give its folder",
     ),
     (&["BLOCK"], "a part of a program", "write REPEAT"),
     (
@@ -234,7 +233,7 @@ const REFUSED: &[(&[&str], &str, &str)] = &[
     (&["ORIRPY", "ORIRPY2"], "orientation by angles", VECTOR),
     (
         &["TOFRAME", "TOROT"],
-        "a frame along the tool",
+        "a frame along the tool, whose turn about it is machine data",
         "write CYCLE800",
     ),
     (
@@ -254,8 +253,8 @@ const REFUSED: &[(&[&str], &str, &str)] = &[
     ),
     (
         &["TCARR", "TCOABS", "TCOFR"],
-        "a tool carrier with orientation",
-        "write CYCLE800",
+        "a tool carrier with orientation, whose axes are machine data",
+        "write CYCLE800, or TRAORI",
     ),
 ];
 
