@@ -309,6 +309,9 @@ impl Interpreter {
         if let Some(Coded { code, .. }) = block.codes.arc_feed {
             self.state.arc_feed = code;
         }
+        if let Some(Coded { code, .. }) = block.codes.turns_on_circles {
+            self.state.turns_on_circles = code;
+        }
         if block.dialect == Dialect::Siemens {
             let before = self.place_names();
             self.choose_edge(block)?;
@@ -380,10 +383,10 @@ impl Interpreter {
             Motion::ThreadCycle => self.thread_cycle(block, out)?,
             Motion::Turning(cycle) => self.turning(block, cycle, out)?,
             Motion::CirclePocket(is_clockwise) => self.circle_pocket(block, is_clockwise, out)?,
+            Motion::HolePattern(is_arc) => self.hole_pattern(block, is_arc, out)?,
             Motion::Groove(across) => self.groove(block, across, out)?,
         }
         self.follow_surface(out);
-            Motion::HolePattern(is_arc) => self.hole_pattern(block, is_arc, out)?,
         Ok(())
     }
 }

@@ -73,6 +73,7 @@ impl<R: BufRead> Program<R> {
         interpreter.state.fanuc = FanucModal::default();
         interpreter.state.edge = None;
         interpreter.state.tip = interpreter.options.first_tip();
+        interpreter.state.turns_on_circles = false;
         interpreter.state.tilted = None;
         interpreter.state.contour_plane = None;
         interpreter.state.rounds_mm = 0.0;
@@ -120,8 +121,8 @@ impl<R: BufRead> Program<R> {
         );
         let modal = &mut self.interpreter.state.modal;
         modal.diameter = at_start.diameter;
-        if was_lathe || self.block.is_lathe {
         modal.motion = motion_at_start(self.block.dialect).or(modal.motion);
+        if was_lathe || self.block.is_lathe {
             (modal.motion, modal.plane) = (at_start.motion, at_start.plane);
             (modal.feed_mode, modal.feed) = (at_start.feed_mode, at_start.feed);
             self.power_on(feed);

@@ -142,6 +142,7 @@ impl Interpreter {
                 edge: None,
                 fanuc: FanucModal::default(),
                 tip,
+                turns_on_circles: false,
                 tilted: None,
                 contour_plane: None,
                 untraversed: Untraversed::default(),

@@ -111,6 +111,8 @@ pub(crate) struct Codes {
     pub(crate) tip: Option<Coded<bool>>,
     /// CFC, CFIN and CFTCP of SINUMERIK.
     pub(crate) arc_feed: Option<Coded<ArcFeed>>,
+    /// ORIVECT and ORIAXES of SINUMERIK: true where the tool turns on great circles.
+    pub(crate) turns_on_circles: Option<Coded<bool>>,
     /// M428 to M430 of LinuxCNC's five-axis machines: which kinematics.
     pub(crate) kinematics: Option<Coded<u32>>,
     /// G43.5 of FANUC: I, J and K of straight moves are the direction of the tool.
@@ -204,6 +206,7 @@ impl Codes {
             || self.diameter.is_some()
             || self.diameter_by_distance.is_some()
             || self.arc_feed.is_some()
+            || self.turns_on_circles.is_some()
             || self.system.is_some()
             || self.path_mode.is_some()
             || self.tool_change.is_some()

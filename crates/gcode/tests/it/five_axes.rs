@@ -50,7 +50,7 @@ pub(crate) fn joints(axes: &AxisVector) -> [f64; 3] {
 }
 
 /// The moves: where each begins and ends, with its rate and length.
-fn moves(dialect: Dialect, text: &str) -> Vec<(AxisVector, AxisVector, Rate, f64)> {
+pub(crate) fn moves(dialect: Dialect, text: &str) -> Vec<(AxisVector, AxisVector, Rate, f64)> {
     Program::new(text.as_bytes(), options(dialect))
         .map(|item| item.unwrap_or_else(|d| panic!("{text}\n{d}")))
         .filter_map(|item| match item.kind {

@@ -1,18 +1,22 @@
 //! The mapping of a program's moves to those of the axes, on a machine with five axes.
 
 use glidepath_geometry::{Arc, AxisVector, NurbsPath, Segment};
+use glidepath_kinematics::FiveAxis;
 use glidepath_program::{Event, Item, ItemKind, Rate};
 
 use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::arc_in_space::SpaceArc;
+use crate::execute::motion::great_circle::{GreatCircle, NoCircle};
 use crate::execute::motion::tip_map::TipMap;
 use crate::execute::state::tip::Tip;
 use crate::syntax::block::Block;
 
 /// How far a chord may be from the curve it stands for, mm.
 const CHORD_MM: f64 = 1e-4;
+/// How far a rotary axis may be from where it should be within a chord, degrees.
+const CHORD_DEG: f64 = 1e-3;
 /// Most that a rotary axis turns in a chord, degrees.
 const MOST_TURN_DEG: f64 = 30.0;
 /// Most times a move is halved.
@@ -87,7 +91,11 @@ impl Interpreter {
     /// Makes the moves of a block, from the item of that index on, those of the axes.
     pub(crate) fn map_moves(&mut self, block: &Block, out: &mut Vec<Item>) -> Outcome<()> {
         let from = self.mapped_items.min(out.len());
-        let Some(map) = self.tip_map() else {
+        let circles = self.turns_on_circles();
+        let map = self.tip_map();
+        let Some(map) =
+            map.or_else(|| circles.map(|machine| TipMap::of_axes(machine, self.state.tip)))
+        else {
             self.mapped_items = out.len();
             return Ok(());
         };
@@ -99,8 +107,20 @@ impl Interpreter {
                     rate,
                     mode,
                 } => {
-                    let pieces =
-                        map_move(&map, &segment, rate, self.axes_end, self.piece_error_mm());
+                    let circle = circle_of(circles, &segment, block)?;
+                    if !self.is_mapped {
+                        if circle.is_none() {
+                            out.push(item);
+                            continue;
+                        }
+                        self.axes_end = segment.start();
+                    }
+                    let way = Way {
+                        map: &map,
+                        segment: &segment,
+                        circle,
+                    };
+                    let pieces = map_move(&way, rate, self.axes_end, self.piece_error_mm());
                     for (segment, rate) in pieces {
                         let (low, high) = segment.bounding_box();
                         self.check_travel(block, &low, &high, &self.axes_end, "a point")?;
@@ -123,6 +143,13 @@ impl Interpreter {
         }
         self.mapped_items = out.len();
         Ok(())
+    }
+
+    /// The machine whose moves turn the tool on great circles.
+    pub(super) fn turns_on_circles(&self) -> Option<FiveAxis> {
+        let state = &self.state;
+        let is_so = state.turns_on_circles && state.tip.follows() && state.tilted.is_none();
+        self.options.five_axis.filter(|_| is_so)
     }
 
     /// Refuses probing where a contact would be at another place than the program's.
@@ -150,14 +177,54 @@ fn behind_spindle(block: &Block) -> Box<BlockDiagnostic> {
         .help("tap with the rotary axes at zero, or by a spindle that is an axis")
 }
 
-/// The pieces of a move, and how fast each is.
-fn map_move(
-    map: &TipMap,
+/// The turn of a move where the tool turns on great circles.
+fn circle_of(
+    circles: Option<FiveAxis>,
     segment: &Segment,
-    rate: Rate,
-    start: AxisVector,
-    error_mm: f64,
-) -> Vec<(Segment, Rate)> {
+    block: &Block,
+) -> Outcome<Option<GreatCircle>> {
+    let Some(machine) = circles else {
+        return Ok(None);
+    };
+    GreatCircle::between(machine, &segment.start(), &segment.end()).map_err(|why| {
+        let (message, reason) = match why {
+            NoCircle::ByPole => (
+                "a turn of the tool by the pole, with ORIVECT",
+                "within 2 degrees of the axis of C that axis cannot follow the direction",
+            ),
+            NoCircle::Farther => (
+                "a turn of C by more than the direction of the tool needs, with ORIVECT",
+                "on a great circle the tool turns the short way",
+            ),
+        };
+        BlockDiagnostic::new(DiagnosticCode::NotSupported, block.motion_span(), message)
+            .because(reason)
+            .help("write ORIAXES, with which the angles change evenly, or blocks in between")
+    })
+}
+
+/// A move, and the map that makes it one of the axes.
+#[derive(Clone, Copy)]
+struct Way<'a> {
+    map: &'a TipMap,
+    segment: &'a Segment,
+    circle: Option<GreatCircle>,
+}
+
+impl Way<'_> {
+    /// The axes at a place of the path, whose length is given.
+    fn axes(&self, s: f64, length: f64) -> AxisVector {
+        let mut place = self.segment.jet(s).position;
+        if let Some(circle) = &self.circle {
+            circle.turn(s / length, &mut place);
+        }
+        self.map.axes(&place)
+    }
+}
+
+/// The pieces of a move, and how fast each is.
+fn map_move(way: &Way<'_>, rate: Rate, start: AxisVector, error_mm: f64) -> Vec<(Segment, Rate)> {
+    let (map, segment) = (way.map, way.segment);
     let (from, to) = (segment.start(), segment.end());
     let turns = map.angles(&from).into_iter().zip(map.angles(&to));
     let is_turning = turns.into_iter().any(|(from, to)| (to - from).abs() > 0.0);
@@ -179,7 +246,7 @@ fn map_move(
     }
     let length = segment.length();
     let mut chords = Vec::new();
-    halve(map, segment, (start, 0.0), (end, length), 0, &mut chords);
+    halve(way, length, (start, 0.0), (end, length), 0, &mut chords);
     let mut pieces = Vec::with_capacity(chords.len());
     let (mut at, mut path) = (start, 0.0);
     for (place, s) in chords {
@@ -237,33 +304,30 @@ fn with_ends(segment: &Segment, start: AxisVector, end: AxisVector) -> Segment {
 
 /// Halves a part of a move until its chords are as near to the curve as they have to be.
 fn halve(
-    map: &TipMap,
-    segment: &Segment,
+    way: &Way<'_>,
+    length: f64,
     (from, from_s): Chord,
     (to, to_s): Chord,
     depth: u32,
     chords: &mut Vec<Chord>,
 ) {
-    let at = |share: f64| map.axes(&segment.jet(from_s + share * (to_s - from_s)).position);
-    let off = |share: f64| {
+    let at = |share: f64| way.axes(from_s + share * (to_s - from_s), length);
+    let is_off = |share: f64| {
         let place = at(share) - (from + (to - from) * share);
-        place.fixed_rows::<3>(0).norm()
+        place.fixed_rows::<3>(0).norm() > CHORD_MM || place.fixed_rows::<3>(3).amax() > CHORD_DEG
     };
     // A turn by whole rounds is back where it began.
     let turn = (0..3)
         .map(|i| (to[3 + i] - from[3 + i]).abs())
         .fold(0.0, f64::max);
-    let is_near = turn <= MOST_TURN_DEG
-        && [0.25, 0.5, 0.75]
-            .into_iter()
-            .all(|share| off(share) <= CHORD_MM);
+    let is_near = turn <= MOST_TURN_DEG && ![0.25, 0.5, 0.75].into_iter().any(is_off);
     if is_near || depth >= MOST_HALVES {
         chords.push((to, to_s));
         return;
     }
     let middle = (at(0.5), 0.5 * (from_s + to_s));
-    halve(map, segment, (from, from_s), middle, depth + 1, chords);
-    halve(map, segment, middle, (to, to_s), depth + 1, chords);
+    halve(way, length, (from, from_s), middle, depth + 1, chords);
+    halve(way, length, middle, (to, to_s), depth + 1, chords);
 }
 
 /// A rate of a piece whose path is that many times as long as the move's was.

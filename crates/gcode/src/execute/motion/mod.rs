@@ -9,6 +9,7 @@ pub(crate) mod corner;
 mod corner_geometry;
 mod curve;
 mod feedrate;
+mod great_circle;
 mod kinematics_switch;
 mod length_on_way;
 mod limits;

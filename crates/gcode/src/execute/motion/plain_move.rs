@@ -144,6 +144,7 @@ impl Interpreter {
             && modal.feed_mode == FeedMode::PerMinute
             && !modal.diameter
             && !self.is_mapped
+            && self.turns_on_circles().is_none()
             // F counts in the unit of lengths.
             && !(state.feeds_in_mm && modal.units == Units::Inch)
             && state.tilted.is_none()

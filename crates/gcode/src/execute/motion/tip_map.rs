@@ -41,6 +41,15 @@ impl TipMap {
         })
     }
 
+    /// The map of places that may be the axes themselves.
+    pub(super) const fn of_axes(machine: FiveAxis, tip: Tip) -> Self {
+        Self {
+            machine,
+            tip,
+            plane: None,
+        }
+    }
+
     /// The map of places in a tilted plane.
     pub(crate) const fn of_plane(machine: FiveAxis, tip: Tip, plane: Frame) -> Self {
         Self {

@@ -86,6 +86,9 @@ pub(crate) struct State {
     /// What X, Y and Z are of, on a machine with five axes.
     #[serde(skip)]
     pub(crate) tip: Tip,
+    /// The tool turns on great circles where its tip is followed (ORIVECT of SINUMERIK).
+    #[serde(skip)]
+    pub(crate) turns_on_circles: bool,
     /// The program has tilted the plane.
     #[serde(skip)]
     pub(crate) tilted: Option<Tilt>,

@@ -201,6 +201,7 @@ impl Codes {
             Some(161) => set(&mut self.arc_feed, ArcFeed::Contour, span),
             Some(162) => set(&mut self.arc_feed, ArcFeed::Center, span),
             Some(163) => set(&mut self.arc_feed, ArcFeed::Inside, span),
+            Some(code @ (164 | 165)) => set(&mut self.turns_on_circles, code == 164, span),
             Some(971) => set(
                 &mut self.spindle_mode,
                 SpindleMode::UnlimitedRevolutions,

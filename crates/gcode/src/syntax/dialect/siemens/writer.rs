@@ -61,6 +61,8 @@ const fn code_named(name: &[u8]) -> Option<&'static [u8]> {
         b"CFC" => b"G16.1",
         b"CFTCP" => b"G16.2",
         b"CFIN" => b"G16.3",
+        b"ORIVECT" | b"ORIPLANE" => b"G16.4",
+        b"ORIAXES" => b"G16.5",
         b"SUPA" => b"G53",
         _ => return None,
     })
