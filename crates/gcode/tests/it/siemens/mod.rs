@@ -12,6 +12,7 @@ mod lathes;
 mod motion;
 mod program_frame;
 mod programs;
+mod spigots;
 mod subprograms;
 mod texts;
 

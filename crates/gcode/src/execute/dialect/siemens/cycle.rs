@@ -13,6 +13,8 @@
 //! | `CYCLE89` | RTP, RFP, SDIS, DP, DPR, DTB |
 //! | `CYCLE840` | RTP, RFP, SDIS, DP, DPR, DTB, SDR, SDAC, ENC, MPIT, PIT, AXN, PITA, TECHNO |
 //! | `CYCLE71` | RTP, RFP, SDIS, DP, PA, PO, LENG, WID, STA, MID, MIDA, FDP, FALD, FFP1, VARI, FDP1 |
+//! | `CYCLE76` | RTP, RFP, SDIS, DP, DPR, LENG, WID, CRAD, PA, PO, STA, MID, FAL, FALD, FFP1, FFD, CDIR, VARI, AP1, AP2 |
+//! | `CYCLE77` | RTP, RFP, SDIS, DP, DPR, PRAD, PA, PO, MID, FAL, FALD, FFP1, FFD, CDIR, VARI, AP1 |
 //! | `POCKET3` | RTP, RFP, SDIS, DP, LENG, WID, CRAD, PA, PO, STA, MID, FAL, FALD, FFP1, FFD, CDIR, VARI, MIDA, AP1, AP2, AD, RAD1, DP1 |
 //! | `POCKET4` | RTP, RFP, SDIS, DP, PRAD, PA, PO, MID, FAL, FALD, FFP1, FFD, CDIR, VARI, MIDA, AP1, AD, RAD1, DP1 |
 //!
@@ -36,7 +38,7 @@ use crate::execute::program::Program;
 use crate::syntax::modes::FeedMode;
 
 /// Names of cycles, and how many arguments each takes.
-const CYCLES: [(&str, usize); 13] = [
+const CYCLES: [(&str, usize); 15] = [
     ("CYCLE81", 5),
     ("CYCLE82", 6),
     ("CYCLE83", 12),
@@ -48,6 +50,8 @@ const CYCLES: [(&str, usize); 13] = [
     ("CYCLE89", 6),
     ("CYCLE840", 14),
     ("CYCLE71", 16),
+    ("CYCLE76", 20),
+    ("CYCLE77", 16),
     ("POCKET3", 23),
     ("POCKET4", 19),
 ];
@@ -181,6 +185,8 @@ impl<R: BufRead> Program<R> {
             "CYCLE89" => interpreter.bore_both_ways(arguments),
             "CYCLE840" => interpreter.tap_with_chuck(arguments),
             "CYCLE71" => interpreter.mill_face(arguments),
+            "CYCLE76" => interpreter.rectangular_spigot(arguments),
+            "CYCLE77" => interpreter.circular_spigot(arguments),
             "POCKET3" => interpreter.rectangular_pocket(arguments),
             _ => interpreter.circular_pocket(arguments),
         }

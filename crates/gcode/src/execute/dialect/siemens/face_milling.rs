@@ -97,7 +97,7 @@ impl Face {
 }
 
 /// Into how many parts, all alike and none greater than a step, a way is divided; 0: one.
-fn parts(way: f64, step: f64) -> f64 {
+pub(super) fn parts(way: f64, step: f64) -> f64 {
     if step > 0.0 {
         (way / step - 1e-9).ceil().max(1.0)
     } else {

@@ -66,10 +66,15 @@ pub(super) struct Pocket {
     pub(super) tool_radius: f64,
 }
 
+/// `G2` or `G3`.
+pub(super) const fn arc_code(is_clockwise: bool) -> &'static str {
+    if is_clockwise { "G2" } else { "G3" }
+}
+
 impl Pocket {
     /// `G2` or `G3` along the edge.
     pub(super) const fn arc(&self) -> &'static str {
-        if self.is_clockwise { "G2" } else { "G3" }
+        arc_code(self.is_clockwise)
     }
 
     /// The levels from the surface down to `bottom`, alike.
@@ -272,7 +277,7 @@ impl Interpreter {
     }
 
     /// True for clockwise.
-    fn pocket_direction(&self, arguments: Arguments<'_>, index: usize) -> Outcome<bool> {
+    pub(super) fn pocket_direction(&self, arguments: Arguments<'_>, index: usize) -> Outcome<bool> {
         let direction = arguments.choice(index, "CDIR", &[0, 1, 2, 3])?;
         if direction >= 2 {
             return Ok(direction == 2);

@@ -3,7 +3,8 @@
 use crate::diagnostic::block_diagnostic::Outcome;
 use crate::execute::dialect::siemens::arguments::Arguments;
 use crate::execute::dialect::siemens::lines::Lines;
-use crate::execute::dialect::siemens::pocket::{Insertion, Places, Pocket};
+use crate::execute::dialect::siemens::pocket::{Insertion, Places};
+use crate::execute::dialect::siemens::rectangle::{Rectangle, Ring};
 use crate::execute::interpreter::Interpreter;
 
 const PLACES: Places = Places {
@@ -12,72 +13,6 @@ const PLACES: Places = Places {
     premachined: 18..21,
     helix: 21,
 };
-
-/// The rectangle, turned by STA about its centre.
-#[derive(Debug, Clone, Copy)]
-struct Rectangle<'a> {
-    pocket: &'a Pocket,
-    /// Cosine and sine of STA.
-    turn: [f64; 2],
-}
-
-/// A ring: half its length and width, and the radius of its corners.
-#[derive(Debug, Clone, Copy)]
-struct Ring {
-    half: [f64; 2],
-    corner: f64,
-}
-
-impl Ring {
-    /// The same ring, farther inside.
-    fn inside(self, by: f64) -> Self {
-        Self {
-            half: self.half.map(|half| (half - by).max(0.0)),
-            corner: (self.corner - by).max(0.0),
-        }
-    }
-}
-
-impl Rectangle<'_> {
-    /// A way along length and width, in the plane; against the sense of counting it is mirrored.
-    fn turned(&self, [u, v]: [f64; 2]) -> [f64; 2] {
-        let v = if self.pocket.is_clockwise { -v } else { v };
-        let [cos, sin] = self.turn;
-        [u * cos - v * sin, u * sin + v * cos]
-    }
-
-    fn point(&self, place: [f64; 2]) -> [f64; 2] {
-        let [x, y] = self.turned(place);
-        [self.pocket.center[0] + x, self.pocket.center[1] + y]
-    }
-
-    fn line_to(&self, lines: &mut Lines, place: [f64; 2]) {
-        lines.across("G1", self.point(place));
-    }
-
-    fn arc_to(&self, lines: &mut Lines, place: [f64; 2], center: [f64; 2]) {
-        let code = self.pocket.arc();
-        lines.arc(code, self.point(place), None, self.turned(center), 1);
-    }
-
-    /// Once around, from the middle of the side at the end of the length, where the tool stands.
-    fn around(&self, lines: &mut Lines, ring: Ring) {
-        let ([a, b], c) = (ring.half, ring.corner);
-        // Corner by corner: where it begins, where it ends, and its centre from its beginning.
-        for (from, to, center) in [
-            ([a, b - c], [a - c, b], [-c, 0.0]),
-            ([c - a, b], [-a, b - c], [0.0, -c]),
-            ([-a, c - b], [c - a, -b], [c, 0.0]),
-            ([a - c, -b], [a, c - b], [0.0, c]),
-        ] {
-            self.line_to(lines, from);
-            if c > 0.0 {
-                self.arc_to(lines, to, center);
-            }
-        }
-        self.line_to(lines, [a, 0.0]);
-    }
-}
 
 impl Interpreter {
     pub(super) fn rectangular_pocket(&self, arguments: Arguments<'_>) -> Outcome<Lines> {
@@ -122,7 +57,8 @@ impl Interpreter {
         }
         let (sin, cos) = angle.to_radians().sin_cos();
         let rectangle = Rectangle {
-            pocket: &pocket,
+            center: pocket.center,
+            is_clockwise: pocket.is_clockwise,
             turn: [cos, sin],
         };
         let last = if pocket.finishes { outermost } else { rough };

@@ -108,7 +108,7 @@ impl Statement {
 }
 
 /// Cycles that are made.
-const CYCLES: [&[u8]; 13] = [
+const CYCLES: [&[u8]; 15] = [
     b"CYCLE81",
     b"CYCLE82",
     b"CYCLE83",
@@ -120,6 +120,8 @@ const CYCLES: [&[u8]; 13] = [
     b"CYCLE89",
     b"CYCLE840",
     b"CYCLE71",
+    b"CYCLE76",
+    b"CYCLE77",
     b"POCKET3",
     b"POCKET4",
 ];
@@ -270,10 +272,10 @@ pub(crate) fn statement(text: &[u8]) -> (Statement, usize) {
         b"EXTERN" => Statement::Extern,
         b"PROC" => Statement::Procedure,
         b"MCALL" => Statement::ModalCall,
-        _ => return (Statement::Block, at),
-    };
         b"EXTCALL" => Statement::TextCall(TextCall::External),
         b"CALL" => Statement::TextCall(TextCall::ByName),
         b"PCALL" => Statement::TextCall(TextCall::ByPath),
+        _ => return (Statement::Block, at),
+    };
     (statement, behind)
 }
