@@ -57,6 +57,17 @@ fn deep_holes_are_drilled_in_strokes() {
         "-30.5", "-33", "20r",
     ];
     assert_eq!(levels(&text), expected);
+    // Back by VRT; a dwell of its own at the last depth.
+    let text = format!("{head}CYCLE83(20,0,2,-10,,-5,,0,0.2,,1,0,,5,0.4,0.7)");
+    assert_eq!(levels(&text), ["20r", "2r", "-5", "-4.6", "-10", "20r"]);
+    let dwells: Vec<f64> = items(&text)
+        .into_iter()
+        .filter_map(|item| match item.kind {
+            ItemKind::Dwell(seconds) => Some(seconds),
+            _ => None,
+        })
+        .collect();
+    assert_eq!(dwells, [0.2, 0.7]);
     let text = format!("{head}CYCLE83(20,0,2,-30,,,15,0,,,0.5,1)");
     let expected = ["20r", "2r", "-15", "2r", "-14.4r", "-30", "20r"];
     assert_eq!(levels(&text), expected);

@@ -255,10 +255,29 @@ fn texts_that_name_none() {
         ("EXTCALL", "1:1 missing-word"),
         ("CALL 5", "1:1 missing-word"),
         ("EXTCALL(\"A\"", "1:1 missing-word"),
-        ("CALL BLOCK A TO B", "1:6 not-supported"),
+        ("CALL BLOCK A TO B", "1:11 flow-structure"),
+        ("CALL BLOCK A", "1:6 missing-word"),
+        ("CALL BLOCK TO", "1:6 missing-word"),
         ("CALL \"A\" BLOCK A TO B", "1:10 not-supported"),
         ("PCALL", "1:6 unknown-subroutine"),
     ] {
         found(text, &[("A.SPF", "G0 X7")], &[code]);
     }
+}
+
+#[test]
+fn parts_of_the_program_are_called() {
+    // As posts write them, each part ending at a label of the same name.
+    let text = "G0 X1\nN10 CALL BLOCK LABEL2 TO LABEL0\nCALL BLOCK LABEL1 TO LABEL0 ; again\nG0 X4\nM30\n\n\
+                LABEL1: ;FIRST\nG0 X2\nLABEL0:\n\nLABEL2:\nG0 X3\nG91\nX5\nG90\nLABEL0:\n";
+    assert_eq!(xs(text), [1.0, 3.0, 8.0, 2.0, 4.0]);
+    // The last block is executed, too; labels in texts.
+    assert_eq!(
+        xs("GOTOF B\nA: G0 X1\nX2\nC: X3\nB: G0 X9\nCALL BLOCK \"A\" TO \"C\"\nX5"),
+        [9.0, 1.0, 2.0, 3.0, 5.0]
+    );
+    assert_eq!(
+        xs("GOTOF B\nA1: G0 X1\nE: X2\nA2: X3\nE: X4\nB:\nREPEAT A2 E P=2\nREPEAT A1 E\nX5"),
+        [3.0, 4.0, 3.0, 4.0, 1.0, 2.0, 5.0]
+    );
 }

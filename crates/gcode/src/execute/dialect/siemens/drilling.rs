@@ -9,7 +9,7 @@
 //! | 85 | feed FFR | dwell DTB | feed RFF to SDIS, rapid from there |
 //! | 86 | feed, with the spindle on (SDIR 3 or 4) | dwell DTB, the spindle stops at POSS, rapid by RPA, RPO, RPAP | rapid, and back in the plane |
 //!
-//! Behind each stroke CYCLE83 breaks the chip (VARI 0: 1 mm back) or clears it (VARI 1: out to SDIS,
+//! Behind each stroke CYCLE83 breaks the chip (VARI 0: VRT back, or 1 mm) or clears it (VARI 1: out to SDIS,
 //! dwell DTS, and back to 0.6 mm above the depth reached, or a fiftieth of the depth where that is
 //! more, 7 mm at most). Of strokes as long as DAM the last two are alike. Of DAM below zero the
 //! negative is the part of a stroke that the next one has.
@@ -23,6 +23,9 @@ use crate::syntax::modes::FeedMode;
 
 /// Most strokes of a hole.
 const MAX_STROKES: usize = 10_000;
+/// Newer arguments of CYCLE83: the way back that breaks a chip, and the dwell at the last depth.
+const VRT: usize = 14;
+const DTD: usize = 15;
 /// How far the tool goes back to break a chip, mm.
 const CHIP_BREAK_MM: f64 = 1.0;
 /// Depths as near to the bottom as this are the bottom, in the units in force.
@@ -76,6 +79,15 @@ impl Interpreter {
         } else {
             (depth / 50.0).min(7.0 / unit)
         };
+        let back = match arguments.not_negative(VRT, "VRT", "how far to go back to break a chip")? {
+            0.0 => CHIP_BREAK_MM / unit,
+            back => back,
+        };
+        let meaning = "seconds at the last depth; turns are not counted";
+        let dwell_last = match arguments.not_negative(DTD, "DTD", meaning)? {
+            0.0 => dwell,
+            dwell => dwell,
+        };
         let mut lines = self.above(arguments, levels)?;
         let seconds = match self.state.modal.feed_mode {
             FeedMode::PerRevolution => 1.0,
@@ -93,7 +105,7 @@ impl Interpreter {
         let last = strokes.len().saturating_sub(1);
         for (index, level) in strokes.into_iter().enumerate() {
             lines.along("G1", level);
-            lines.dwell(dwell);
+            lines.dwell(if index == last { dwell_last } else { dwell });
             if let Some(feed) = feed.filter(|_| index == 0 && factor < 1.0) {
                 lines.feed(feed);
             }
@@ -105,7 +117,7 @@ impl Interpreter {
                 lines.dwell(dwell_out);
                 lines.along("G0", (level + ahead).min(levels.clear));
             } else {
-                lines.along("G1", (level + CHIP_BREAK_MM / unit).min(levels.clear));
+                lines.along("G1", (level + back).min(levels.clear));
             }
         }
         lines.along("G0", levels.retract);

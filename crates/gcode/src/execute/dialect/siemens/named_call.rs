@@ -3,6 +3,7 @@
 //! ```text
 //! EXTCALL("ROUGH")   EXTCALL "/_N_WKS_DIR/_N_PART_WPD/_N_ROUGH_SPF"   EXTCALL("ROUGH.MPF")
 //! CALL "FINISH"      CALL NAME<<R1                                    PCALL /_N_SPF_DIR/_N_HOLES_SPF(5, 2)
+//! CALL BLOCK A TO B
 //! ```
 //!
 //! On the control a path leads to a folder of its own, or to a drive beside it. Here subprograms are looked
@@ -39,9 +40,6 @@ fn path_ahead(input: &mut Evaluator<'_>) -> Vec<u8> {
 fn text_ahead(input: &mut Evaluator<'_>, name: &str, span: SourceSpan) -> Outcome<Vec<u8>> {
     let has_parentheses = input.eat(b'(');
     if !input.is_text_next() {
-        if input.name_ahead() == b"BLOCK" {
-            return Err(a_part(input.at));
-        }
         return Err(missing(
             span,
             name,
@@ -55,27 +53,28 @@ fn text_ahead(input: &mut Evaluator<'_>, name: &str, span: SourceSpan) -> Outcom
         return Err(missing(span, name, ")", "the end of its parentheses"));
     }
     if input.eat_name(b"BLOCK") {
-        return Err(a_part(input.at - b"BLOCK".len()));
+        let span = SourceSpan::new(input.at - b"BLOCK".len(), input.at);
+        let help = "write CALL BLOCK, with a part of this program";
+        return Err(refused("BLOCK", "a part of another program", help, span));
     }
     Ok(text)
 }
 
-#[cold]
-fn a_part(at: usize) -> Box<BlockDiagnostic> {
-    let span = SourceSpan::new(at, at + b"BLOCK".len());
-    refused("BLOCK", "a part of a program", "write REPEAT", span)
-}
-
 impl<R: BufRead> Program<R> {
-    /// A call by a text or a path; `at` is behind its word.
+    /// A call by a text or a path, in that line; `at` is behind its word.
     pub(super) fn siemens_named_call(
         &mut self,
         call: TextCall,
+        index: usize,
         text: &[u8],
         at: usize,
     ) -> Outcome<()> {
         let scope = self.scope();
         let mut input = self.evaluator(&scope, text, at);
+        if call == TextCall::ByName && input.eat_name(b"BLOCK") {
+            let behind = input.at;
+            return self.siemens_call_block(index, text, behind);
+        }
         input.next_visible();
         let start = input.at;
         let word = SourceSpan::new(at.saturating_sub(call.word().len()), at);

@@ -30,7 +30,6 @@ const HOLES: [(&str, Option<usize>); 8] = [
 /// What AMODE of CYCLE83 may say of its other depths and dwells, without ones and tens: nothing, or what
 /// its arguments mean by themselves.
 const OTHERS_OF_83: [i32; 2] = [0, 10_011];
-/// RFP, DP, DPR and DAM.
 /// Places of arguments that all of them have.
 const RFP: usize = 1;
 const DP: usize = 3;
@@ -126,8 +125,8 @@ impl Newer {
         Ok(())
     }
 
-    /// The axis of CYCLE83, and its least depth, which counts where depths become less, by DAM; the others in front of
-    /// GMODE are 0.
+    /// The axis of CYCLE83, its least depth, which counts where depths become less, by DAM, VRT and DTD, which the
+    /// cycle reads; DIS1 in front of GMODE is 0.
     fn are_others_known(self, arguments: &[Option<f64>]) -> bool {
         let get = |index: usize| arguments.get(index).copied().flatten().unwrap_or(0.0);
         if self.name != "CYCLE83" {
@@ -136,7 +135,7 @@ impl Newer {
         let first = self.most;
         let axis = [0.0, 3.0].contains(&get(first));
         let least = get(first + 1) == 0.0 || get(DAM) == 0.0;
-        axis && least && (2..5).all(|index| get(first + index) == 0.0)
+        axis && least && get(first + 4) == 0.0
     }
 
     #[cold]

@@ -83,7 +83,7 @@ impl<R: BufRead> Program<R> {
             }
             Statement::Extern => Ok(true),
             Statement::TextCall(call) => {
-                let called = self.siemens_named_call(call, &text, at);
+                let called = self.siemens_named_call(call, index, &text, at);
                 called.inspect_err(|_| self.end()).map(|()| true)
             }
             Statement::Procedure => {

@@ -1,15 +1,16 @@
-//! REPEAT and REPEATB: parts of the program that are executed again.
+//! REPEAT and REPEATB: parts of the program that are executed again; CALL BLOCK: a part that is executed.
 
 use std::io::BufRead;
 
 use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::span::SourceSpan;
+use crate::execute::dialect::siemens::flow::check_end;
 use crate::execute::dialect::tape::Repetition;
 use crate::execute::flow::activation::MAX_CALLS;
 use crate::execute::program::Program;
 use crate::syntax::dialect::siemens::expression::Evaluator;
-use crate::syntax::dialect::siemens::statement::is_target;
+use crate::syntax::dialect::siemens::statement::{is_header, is_target};
 use crate::syntax::word_check::missing;
 
 /// Most turns of one repetition.
@@ -24,6 +25,15 @@ fn label_ahead(input: &mut Evaluator<'_>) -> Option<Vec<u8>> {
         input.at += name.len();
         name
     })
+}
+
+/// A label of CALL BLOCK, which a text may name.
+fn label_or_text(input: &mut Evaluator<'_>, span: SourceSpan) -> Outcome<Vec<u8>> {
+    if input.is_text_next() {
+        return input.text_value();
+    }
+    let meaning = "where the part begins and ends: CALL BLOCK first TO last";
+    label_ahead(input).ok_or_else(|| missing(span, "CALL BLOCK", "a label", meaning))
 }
 
 impl<R: BufRead> Program<R> {
@@ -56,9 +66,49 @@ impl<R: BufRead> Program<R> {
         let start = self.siemens_target(index, &first, 2, at)?;
         let end = match &last {
             _ if is_block => start + 1,
-            Some(last) => self.siemens_target(index, last, 3, at)? + 1,
+            Some(last) => self.siemens_last_line(index, start, last, at)? + 1,
             None => self.siemens_part_end(index, start, span)?,
         };
+        self.siemens_begin_part(index, (start, end), turns, span)
+    }
+
+    /// `CALL BLOCK A TO B`: the part from one label to another, once; `at` is behind BLOCK.
+    pub(super) fn siemens_call_block(
+        &mut self,
+        index: usize,
+        text: &[u8],
+        at: usize,
+    ) -> Outcome<()> {
+        let span = SourceSpan::new(at.saturating_sub(b"BLOCK".len()), at);
+        let (first, last) = {
+            let scope = self.scope();
+            let mut input = self.evaluator(&scope, text, at);
+            let first = label_or_text(&mut input, span)?;
+            if !input.eat_name(b"TO") {
+                return Err(missing(
+                    span,
+                    "CALL BLOCK",
+                    "TO",
+                    "the label of the last block",
+                ));
+            }
+            let last = label_or_text(&mut input, span)?;
+            check_end(&mut input)?;
+            (first, last)
+        };
+        let start = self.siemens_target(index, &first, 2, at)?;
+        let end = self.siemens_last_line(index, start, &last, at)? + 1;
+        self.siemens_begin_part(index, (start, end), 1, span)
+    }
+
+    /// Goes to a part of the program, which is executed a number of times.
+    fn siemens_begin_part(
+        &mut self,
+        index: usize,
+        (start, end): (usize, usize),
+        turns: u32,
+        span: SourceSpan,
+    ) -> Outcome<()> {
         if end <= start || (start..end).contains(&index) {
             let message = "a part that ends before it begins, or repeats itself";
             return Err(
@@ -131,6 +181,32 @@ impl<R: BufRead> Program<R> {
         )]
         let turns = turns as u32;
         Ok((first, last, turns))
+    }
+
+    /// The last line of a part: the first one with that label from its beginning on, since parts may end at
+    /// labels of one name.
+    fn siemens_last_line(
+        &mut self,
+        index: usize,
+        start: usize,
+        label: &[u8],
+        at: usize,
+    ) -> Outcome<usize> {
+        if let Some(line) = self.tape.known_jump(index, 3) {
+            return Ok(line);
+        }
+        let wanted = |line: &[u8]| is_target(line, label);
+        let found = self
+            .tape
+            .search(start, &mut self.source, wanted, is_header)?;
+        match found {
+            Some(line) => {
+                self.tape.remember_jump(index, 3, line);
+                Ok(line)
+            }
+            // Says where labels are looked for, or that it is in front of the first one.
+            None => self.siemens_target(index, label, 3, at),
+        }
     }
 
     /// The line behind a part that has one label: ENDLABEL, or REPEAT itself.

@@ -150,7 +150,6 @@ const REFUSED: &[(&[&str], &str, &str)] = &[
         "a program that begins again for ever",
         "write LOOP and ENDLOOP",
     ),
-    (&["BLOCK"], "a part of a program", "write REPEAT"),
     (
         &["MEAS"],
         "a measurement that leaves out the rest of the way",
