@@ -22,6 +22,7 @@
 //! |---|---|---|---|
 //! | G73 | Q at a time, 0.254 mm back after each | – | rapid |
 //! | G76 of FANUC | feed | dwell P, spindle stops at its angle (M19), aside | rapid, back, spindle on |
+//! | G87 of FANUC | beside the wall, rapid | back, spindle on, feed up to Z, dwell P | as G76, to the initial level |
 //! | G74, G84 | feed, overrides off | spindle reversed, dwell P | feed, then reversed again |
 //! | the same, rigidly | behind the spindle | – | behind the spindle to R, rapid from there |
 //! | G81 | feed | – | rapid |
@@ -40,7 +41,6 @@ use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::speed::Pace;
 use crate::execute::state::sticky_words::{CycleSeries, StickyWords};
 use crate::execute::tapping_cycle::tap_turns;
-use crate::setup::fanuc::OffsetMemory;
 use crate::syntax::block::Block;
 use crate::syntax::dialect::Dialect;
 use crate::syntax::modes::{CannedCycle, Distance, Motion, Retract};
@@ -91,7 +91,7 @@ impl Interpreter {
         let mut sticky = self.keep(block, cycle)?;
         self.check_cycle(block, &sticky)?;
         // Beside I of depths, K is the least depth of Haas.
-        let depths = block.get(b'I').filter(|_| cycle != CannedCycle::FineBore);
+        let depths = block.get(b'I').filter(|_| !cycle.goes_aside());
         let repeats = match depths {
             None => whole(block, b'K', MAX_HOLES)?.or(whole(block, b'L', MAX_HOLES)?),
             Some(_) => whole(block, b'L', MAX_HOLES)?,
@@ -127,7 +127,9 @@ impl Interpreter {
             self.levels(block, &sticky, initial)
         };
         sticky.levels_mm = Some([r, bottom]);
-        if r < bottom {
+        if cycle == CannedCycle::BackBore {
+            self.check_back_bore(block, [r, bottom])?;
+        } else if r < bottom {
             let message = "the R plane is below the bottom of the hole";
             return Err(BlockDiagnostic::new(
                 DiagnosticCode::CannedCycle,
@@ -148,7 +150,7 @@ impl Interpreter {
             return Ok(());
         }
         let clear = match self.state.modal.retract {
-            Retract::RPlane if !block.has_increments() => r,
+            Retract::RPlane if !block.has_increments() && cycle != CannedCycle::BackBore => r,
             _ => initial.max(r),
         };
         let hole = Hole {
@@ -168,8 +170,8 @@ impl Interpreter {
         let sticky = series.last.filter(|_| is_on)?;
         let [r, bottom] = sticky.levels_mm?;
         let clear = match self.state.modal.retract {
-            Retract::RPlane => r,
-            Retract::Initial => series.initial?.max(r),
+            Retract::RPlane if sticky.cycle != CannedCycle::BackBore => r,
+            _ => series.initial?.max(r),
         };
         Some(Hole {
             sticky,
@@ -239,17 +241,6 @@ impl Interpreter {
         [r, bottom]
     }
 
-    /// The R plane of a lathe of system A: R is the way from the initial level, to FANUC. To Haas it is the
-    /// place; a way that would lead away from the hole is one, too.
-    fn r_of_lathe(&self, initial: f64, sticky: &StickyWords) -> f64 {
-        let is_haas = self.options.fanuc.offset_memory == OffsetMemory::Haas;
-        if sticky.says_r && (is_haas || sticky.r > 0.0) {
-            sticky.r
-        } else {
-            initial + sticky.r
-        }
-    }
-
     fn holes(
         &mut self,
         block: &Block,
@@ -292,6 +283,12 @@ impl Interpreter {
         for place in places {
             let target = self.absolute_target(place);
             self.straight(block, target, Pace::Rapid, out)?;
+            if hole.sticky.cycle == CannedCycle::BackBore {
+                let levels = [hole.r, hole.bottom, hole.clear];
+                self.bore_back(block, &hole.sticky, levels, out)?;
+                level = hole.clear;
+                continue;
+            }
             if level > hole.r {
                 self.along(block, normal, hole.r, Pace::Rapid, out)?;
             }

@@ -44,7 +44,7 @@ impl Interpreter {
             // Behind M29, and as an axis, the cycle itself lets it turn.
             (Some(_), None) => !sticky.starts_spindle && !self.taps_by_axis(sticky),
             (None, turning) => {
-                let stops = matches!(cycle, CannedCycle::BoreStop | CannedCycle::FineBore);
+                let stops = cycle == CannedCycle::BoreStop || cycle.goes_aside();
                 stops && turning.is_none()
             }
         };

@@ -6,7 +6,7 @@ use crate::execute::auxiliary::order::fanuc_dwell;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::state::sticky_words::StickyWords;
 use crate::execute::tapping_cycle::tap_turns;
-use crate::setup::fanuc::PointInput;
+use crate::setup::fanuc::{OffsetMemory, PointInput};
 use crate::syntax::block::Block;
 use crate::syntax::dialect::Dialect;
 use crate::syntax::modes::{CannedCycle, Units};
@@ -75,7 +75,9 @@ impl Interpreter {
                     |l: &StickyWords| matches!(l.cycle, CannedCycle::ChipBreak | CannedCycle::Peck);
                 self.peck_words(block, peck_scale, stays.filter(pecks), &mut sticky)?;
             }
-            CannedCycle::FineBore => sticky.shift_mm = self.bore_shift(block, last)?,
+            CannedCycle::FineBore | CannedCycle::BackBore => {
+                sticky.shift_mm = self.bore_shift(block, cycle, last)?;
+            }
             CannedCycle::Drill | CannedCycle::Bore => {}
         }
         check_haas_words(block, cycle)?;
@@ -152,6 +154,17 @@ impl Interpreter {
         )
     }
 
+    /// The R plane of a lathe of system A: R is the way from the initial level, to FANUC. To Haas it is the
+    /// place; a way that would lead away from the hole is one, too.
+    pub(super) fn r_of_lathe(&self, initial: f64, sticky: &StickyWords) -> f64 {
+        let is_haas = self.options.fanuc.offset_memory == OffsetMemory::Haas;
+        if sticky.says_r && (is_haas || sticky.r > 0.0) {
+            sticky.r
+        } else {
+            initial + sticky.r
+        }
+    }
+
     /// What Q counts: lengths, and on a FANUC without a point least increments where all coordinates
     /// do, and on lathes.
     pub(super) fn peck_unit(&self, block: &Block) -> Outcome<f64> {
@@ -183,7 +196,7 @@ impl Interpreter {
 
 /// Refuses I and J in cycles that do not have them.
 fn check_haas_words(block: &Block, cycle: CannedCycle) -> Outcome<()> {
-    let shifts = cycle == CannedCycle::FineBore;
+    let shifts = cycle.goes_aside();
     let takes_i = shifts || matches!(cycle, CannedCycle::ChipBreak | CannedCycle::Peck);
     let takes_j = shifts || takes_i && block.get(b'I').is_some() || tap_turns(cycle).is_some();
     for (letter, is_taken) in [(b'I', takes_i), (b'J', takes_j)] {
@@ -205,6 +218,7 @@ pub(crate) const fn name(cycle: CannedCycle) -> &'static str {
         CannedCycle::TapRight => "G84",
         CannedCycle::Bore => "G85",
         CannedCycle::BoreStop => "G86",
+        CannedCycle::BackBore => "G87",
         CannedCycle::BoreDwell => "G89",
     }
 }

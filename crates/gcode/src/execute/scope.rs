@@ -263,6 +263,7 @@ const fn motion_code(motion: Option<Motion>) -> u16 {
             CannedCycle::TapRight => 840,
             CannedCycle::Bore => 850,
             CannedCycle::BoreStop => 860,
+            CannedCycle::BackBore => 870,
             CannedCycle::BoreDwell => 890,
         },
         Some(Motion::Lathe(cycle)) => {

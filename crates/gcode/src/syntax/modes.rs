@@ -45,6 +45,14 @@ pub enum Motion {
     HolePattern(bool),
 }
 
+impl CannedCycle {
+    /// True where the spindle stops at an angle, and the tool goes aside.
+    #[must_use]
+    pub const fn goes_aside(self) -> bool {
+        matches!(self, Self::FineBore | Self::BackBore)
+    }
+}
+
 impl Motion {
     /// True if a block of this mode may do without axis words: arcs, splines, lathe cycles.
     #[must_use]
@@ -110,6 +118,8 @@ pub enum CannedCycle {
     Bore,
     /// G86: boring, spindle stop, rapid out.
     BoreStop,
+    /// G87 of FANUC's mills: boring upwards, from below a bore that the tip passes beside its wall.
+    BackBore,
     /// G89: boring with a dwell, feed out.
     BoreDwell,
 }

@@ -1,16 +1,19 @@
 //! Tests of series of holes on FANUC's and Haas' mills: what is in force behind G80, patterns of Haas. Values
 //! are computed by hand.
 
-use glidepath_gcode::Program;
-use glidepath_program::{ItemKind, Rate};
+use glidepath_gcode::{FanucParameters, OffsetMemory, Options, Program, check};
+use glidepath_program::{Event, ItemKind, Rate};
 
 use crate::fanuc_calls::{finds, options};
+use crate::support::listed;
 
-/// Ends of moves, with `r` where they are rapids.
-fn ways(text: &str) -> Vec<String> {
+/// Ends of moves, with `r` where they are rapids; dwells and M codes beside them.
+fn steps(text: &str) -> Vec<String> {
     Program::new(text.as_bytes(), options())
         .map(|item| item.unwrap_or_else(|d| panic!("{text}\n{d}")))
         .filter_map(|item| match item.kind {
+            ItemKind::Dwell(seconds) => Some(format!("{seconds}s")),
+            ItemKind::Event(Event::MCode(code)) => Some(format!("M{code}")),
             ItemKind::Move { segment, rate, .. } => {
                 let end = segment.end();
                 let [x, y, z] = [0, 1, 2].map(|axis| (end[axis] * 1e3).round() / 1e3 + 0.0);
@@ -20,6 +23,12 @@ fn ways(text: &str) -> Vec<String> {
             _ => None,
         })
         .collect()
+}
+
+/// The moves alone.
+fn ways(text: &str) -> Vec<String> {
+    let all = steps(text).into_iter();
+    all.filter(|step| step.contains(' ')).collect()
 }
 
 #[test]
@@ -118,4 +127,62 @@ fn patterns_that_are_refused() {
     ] {
         finds(&format!("{cycle}{text}"), &[code]);
     }
+}
+
+#[test]
+fn the_far_side_of_a_bore() {
+    let head = "G0 X10. Y20. Z30. S500 M3\n";
+    // Aside by -0.5 in X past the wall to -12, up to -8 at feed, out to where the series began, also with G99.
+    let hole = |x: f64| {
+        let beside = x - 0.5;
+        [
+            "M19".to_owned(),
+            format!("{beside} 20 30r"),
+            format!("{beside} 20 -12r"),
+            format!("{x} 20 -12r"),
+            "M3".to_owned(),
+            format!("{x} 20 -8"),
+            "0.2s".to_owned(),
+            "M19".to_owned(),
+            format!("{beside} 20 -8r"),
+            format!("{beside} 20 30r"),
+            format!("{x} 20 30r"),
+            "M3".to_owned(),
+        ]
+    };
+    let text = format!("{head}G99 G87 X10. Z-8. R-12. I-.5 P200 F100\nX40.\nG80\nX0");
+    let found = steps(&text);
+    assert_eq!(found[2..14], hole(10.0));
+    assert_eq!(found[14], "40 20 30r");
+    assert_eq!(found[15..27], hole(40.0));
+    assert_eq!(found[27..], ["0 20 30r"]);
+    // With G91 R counts from the initial level, Z from R.
+    let text = format!("{head}G91 G87 X0 Z4. R-42. I-.5 P200 F100");
+    assert_eq!(steps(&text)[2..], hole(10.0));
+    for (words, expected) in [
+        // That of other controls.
+        ("G87 Z-8. R2. I.5 F100", "2:1 canned-cycle"),
+        ("G87 Z-8. R-12. F100", "2:1 missing-word"),
+        ("G87 Z-8. R-12. Q.5 F100", "2:16 ambiguous-word"),
+        ("M5\nG87 Z-8. R-12. I.5 F100", "3:1 spindle"),
+        (
+            "G68 X0 Y0 R90.\nG87 X1. Z-8. R-12. I.5 F100",
+            "3:1 canned-cycle",
+        ),
+    ] {
+        finds(&format!("{head}{words}"), &[expected]);
+    }
+    let haas = FanucParameters {
+        offset_memory: OffsetMemory::Haas,
+        ..FanucParameters::default()
+    };
+    let options = Options {
+        fanuc: haas,
+        ..options()
+    };
+    let text = format!("{head}G87 X1. Z-8. R-12. I.5 F100");
+    assert_eq!(
+        listed(&check(text.as_bytes(), options)),
+        ["2:1 canned-cycle"]
+    );
 }

@@ -94,6 +94,7 @@ const fn motion_code(motion: Motion) -> &'static str {
             CannedCycle::TapRight => "G84",
             CannedCycle::Bore => "G85",
             CannedCycle::BoreStop => "G86",
+            CannedCycle::BackBore => "G87",
             CannedCycle::BoreDwell => "G89",
         },
         Motion::Probe(probe) => probe_code(probe),

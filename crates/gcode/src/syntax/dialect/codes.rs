@@ -133,6 +133,7 @@ impl Codes {
             90 => set(&mut self.exact_stop, (), span),
             100 => set(&mut self.non_modal, NonModal::SetData, span),
             760 => self.set_motion(Some(Motion::Cycle(CannedCycle::FineBore)), span),
+            870 => self.set_motion(Some(Motion::Cycle(CannedCycle::BackBore)), span),
             150 | 160 => set(&mut self.polar_mode, tenths == 160, span),
             300 => set(&mut self.non_modal, NonModal::GoToReference(1), span),
             531 | 682 => {

@@ -194,6 +194,7 @@ const fn cycle_code(modal: &Modal) -> f64 {
             CannedCycle::TapRight => 84.0,
             CannedCycle::Bore => 85.0,
             CannedCycle::BoreStop => 86.0,
+            CannedCycle::BackBore => 87.0,
             CannedCycle::BoreDwell => 89.0,
         },
         _ => 80.0,
