@@ -21,10 +21,13 @@ use crate::syntax::block::{Block, CornerKind, CornerWord};
 use crate::syntax::codes::Codes;
 use crate::syntax::dialect::Dialect;
 use crate::syntax::letters::Letters;
-use crate::syntax::modes::{FeedMode, Motion};
+use crate::syntax::modes::{FeedMode, Motion, NonModal, Stop};
 
 /// Most items of blocks between the two moves of a corner.
 const MOST_BEHIND: usize = 8;
+
+/// Most blocks without a move between the two moves of a corner on a SINUMERIK.
+const MOST_BETWEEN: u8 = 3;
 
 /// A move in the plane that begins where the tool is, or at a corner.
 #[derive(Debug, Clone, Copy)]
@@ -49,18 +52,20 @@ impl Interpreter {
             self.state.rounds_mm = word.value * self.state.modal.units.mm();
         }
         self.take_corner_feeds(block)?;
-        let Some(corner) = &self.corner else {
+        let changes_path = self.changes_path(block);
+        let Some(corner) = &mut self.corner else {
             return Ok(());
         };
         let is_move = matches!(
             motion,
             Some(Motion::Linear | Motion::ArcClockwise | Motion::ArcCounterclockwise)
         );
-        let changes_path = self.changes_path(block);
         if is_move && block.codes.non_modal.is_none() && !changes_path {
             return Ok(());
         }
-        if corner.behind.len() < MOST_BEHIND && says_codes_alone(block) {
+        let may_wait = corner.behind.len() < MOST_BEHIND && corner.between < MOST_BETWEEN;
+        if may_wait && !changes_path && leaves_path(block, motion) {
+            corner.between += 1;
             return Ok(());
         }
         if corner.may_stay {
@@ -157,6 +162,7 @@ impl Interpreter {
             corner_feed,
             line: self.line,
             may_stay,
+            between: 0,
             behind: Vec::new(),
         }));
         self.state.position = target;
@@ -246,10 +252,10 @@ impl Interpreter {
         let broken = match broken {
             Ok(Some(broken)) => broken,
             Ok(None) => return self.make_held(block, corner, corner.at, corner.arc, out),
-            Err(_) if corner.may_stay => {
+            Err(fault) if corner.may_stay && !fault.is_of_size() => {
                 return self.make_held(block, corner, corner.at, corner.arc, out);
             }
-            Err(why) => return Err(cannot_break(span, why)),
+            Err(fault) => return Err(cannot_break(span, fault.why())),
         };
         let place = |flat: [f64; 2]| {
             let mut place = corner.at;
@@ -305,19 +311,29 @@ impl Interpreter {
     }
 }
 
-/// True for a block of a SINUMERIK with M codes alone that change nothing of the path: the move behind it is the
-/// second one of the corner.
-fn says_codes_alone(block: &Block) -> bool {
+/// True for a block of a SINUMERIK that neither moves nor changes anything of the path: the move behind it is
+/// the second one of the corner.
+fn leaves_path(block: &Block, motion: Option<Motion>) -> bool {
     let codes = &block.codes;
-    let says = codes.coolant.is_some() || codes.user.is_some();
+    let non_modal = codes.non_modal.map(|coded| coded.code);
+    let sets_pole = matches!(non_modal, Some(NonModal::SetPole(_)));
+    let stop = codes.stop.map(|coded| coded.code);
+    let pauses = matches!(non_modal, Some(NonModal::Dwell))
+        || matches!(stop, Some(Stop::Program(_) | Stop::Optional));
     let others = Codes {
+        non_modal: codes.non_modal.filter(|_| !sets_pole && !pauses),
+        stop: codes.stop.filter(|_| !pauses),
+        motion: None,
+        distance: None,
+        path_mode: None,
+        spindle: None,
         coolant: None,
         user: None,
         ..*codes
     };
-    let has_words = block.unused(Letters::of(b"")).is_some();
-    let is_alone = !others.any() && !has_words && block.corner.is_none();
-    block.dialect == Dialect::Siemens && says && is_alone
+    let has_words = !sets_pole && block.unused(Letters::of(b"FSP")).is_some();
+    let is_silent = motion.is_none() && !others.any() && !has_words && block.corner.is_none();
+    block.dialect == Dialect::Siemens && is_silent
 }
 
 #[cold]

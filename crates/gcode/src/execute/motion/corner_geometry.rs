@@ -28,22 +28,49 @@ pub(super) struct Broken {
     pub(super) behind: Element,
 }
 
+/// Why a corner cannot be broken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum CornerFault {
+    ChamferAtArc,
+    ArcTooLarge,
+    LegTooLong,
+    NoMove,
+    Back,
+}
+
+impl CornerFault {
+    pub(super) const fn why(self) -> &'static str {
+        match self {
+            Self::ChamferAtArc => "a chamfer is made between straight moves alone",
+            Self::ArcTooLarge => "the arc does not fit between the moves",
+            Self::LegTooLong => "one of the moves is shorter than what it takes away",
+            Self::NoMove => "one of the moves goes nowhere",
+            Self::Back => "the second move goes back where the first one came from",
+        }
+    }
+
+    /// A smaller one would fit.
+    pub(super) const fn is_of_size(self) -> bool {
+        matches!(self, Self::ArcTooLarge | Self::LegTooLong)
+    }
+}
+
 /// How a corner is broken; `None`: the moves go on straight. Else why it cannot be.
 pub(super) fn broken(
     mut before: Element,
     mut behind: Element,
     kind: CornerKind,
     size_mm: f64,
-) -> Result<Option<Broken>, &'static str> {
+) -> Result<Option<Broken>, CornerFault> {
     if before.arc.is_none() && behind.arc.is_none() {
         return between_lines([before.start, before.end, behind.end], kind, size_mm);
     }
     let is_arc = matches!(kind, CornerKind::Round | CornerKind::RoundAll);
     if !is_arc {
-        return Err("a chamfer is made between straight moves alone");
+        return Err(CornerFault::ChamferAtArc);
     }
     match cut(&mut before, &mut behind, EdgeBreak::Fillet(size_mm)) {
-        None => Err("the arc does not fit between the moves"),
+        None => Err(CornerFault::ArcTooLarge),
         Some(None) => Ok(None),
         Some(Some(between)) => Ok(Some(Broken {
             before,
@@ -58,13 +85,13 @@ fn between_lines(
     [a, b, c]: [Point; 3],
     kind: CornerKind,
     size_mm: f64,
-) -> Result<Option<Broken>, &'static str> {
+) -> Result<Option<Broken>, CornerFault> {
     let way = |to: [f64; 2]| [to[0] - b[0], to[1] - b[1]];
     let length = |v: [f64; 2]| v[0].hypot(v[1]);
     let (to_a, to_c) = (way(a), way(c));
     let (before, behind) = (length(to_a), length(to_c));
     if before <= MIN_MOVE || behind <= MIN_MOVE {
-        return Err("one of the moves goes nowhere");
+        return Err(CornerFault::NoMove);
     }
     let u = to_a.map(|part| part / before);
     let v = to_c.map(|part| part / behind);
@@ -74,7 +101,7 @@ fn between_lines(
         return Ok(None);
     }
     if angle < STRAIGHT_RAD {
-        return Err("the second move goes back where the first one came from");
+        return Err(CornerFault::Back);
     }
     let leg = match kind {
         CornerKind::Chamfer => size_mm,
@@ -82,7 +109,7 @@ fn between_lines(
         CornerKind::Round | CornerKind::RoundAll => size_mm / (0.5 * angle).tan(),
     };
     if leg > before + MIN_MOVE || leg > behind + MIN_MOVE {
-        return Err("one of the moves is shorter than what it takes away");
+        return Err(CornerFault::LegTooLong);
     }
     let along = |way: Point| [b[0] + leg * way[0], b[1] + leg * way[1]];
     let arc = matches!(kind, CornerKind::Round | CornerKind::RoundAll).then(|| {

@@ -25,6 +25,8 @@ pub(crate) struct OpenCorner {
     pub(crate) line: u32,
     /// Broken only where two such moves meet (RNDM); else the next move has to be one.
     pub(crate) may_stay: bool,
+    /// Blocks behind the move that move nothing.
+    pub(crate) between: u8,
     /// What the next blocks give out before they move: it comes behind the held move.
     pub(crate) behind: Vec<Item>,
 }

@@ -71,6 +71,55 @@ fn arcs_have_corners_too() {
     );
 }
 
+#[test]
+fn up_to_three_blocks_without_a_move_leave_a_corner() {
+    let round = flat("F600\nG1 X20 RND=2\nY20");
+    assert_eq!(round, [[18.0, 0.0], [20.0, 2.0], [20.0, 20.0]]);
+    for between in [
+        "R1=5",
+        "F600",
+        "S500 M3",
+        "G90\nG64\nG1",
+        "G4 F0.5",
+        "M0",
+        "IF R1==0\nR2=1\nENDIF\nM8\nM9",
+    ] {
+        for corner in ["RND=2", "RNDM=2"] {
+            let text = format!("F600\nG1 X20 {corner}\n{between}\nY20 RNDM=0");
+            assert_eq!(flat(&text), round, "{text}");
+        }
+    }
+    // A pole counts from the corner itself.
+    let text = "F600\nG1 X20 RND=2\nG110 X0 Y0\nAP=90 RP=20";
+    let found = flat(text);
+    let near_all = found.iter().zip(&round).all(|(a, b)| near(*a, *b));
+    assert!(near_all && found.len() == 3, "{found:?}");
+    // Feed and mode of the move before stay its own.
+    assert_eq!(
+        rates("F600\nG1 X20 RND=2\nF100\nY20"),
+        [600.0, 100.0, 100.0]
+    );
+    // The fourth is one too many: RNDM leaves the corner.
+    let four = "R1=1\nR2=2\nM8\nF600";
+    assert_eq!(
+        flat(&format!("F600 RNDM=2\nG1 X20\n{four}\nY20 RNDM=0")),
+        [[20.0, 0.0], [20.0, 20.0]]
+    );
+    let text = format!("F600\nG1 X20 RND=2\n{four}\nY20");
+    finds(&text, &["6:1 not-supported"]);
+}
+
+#[test]
+fn a_corner_too_large_for_its_moves_is_refused() {
+    // The control makes it smaller, and does not say how much.
+    let text = "F600 RNDM=20\nG1 X10\nY10 RNDM=0";
+    finds(text, &["3:1 invalid-value"]);
+    let text = "F600\nG1 X10 RNDM=50\nG2 X20 Y10 CR=10 RNDM=0";
+    finds(text, &["3:1 invalid-value"]);
+    // Back on itself there is none.
+    assert_eq!(flat("F600 RNDM=2\nG1 X10\nX0 RNDM=0").len(), 2);
+}
+
 proptest! {
     /// A rounded corner of a line and an arc leaves and meets both along their own directions.
     #[test]
