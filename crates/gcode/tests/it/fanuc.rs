@@ -231,6 +231,17 @@ fn coordinates_are_turned_scaled_and_mirrored() {
     assert_eq!(last("G51 X0 Y0 I-1. J1.\nG0 X15 Y3"), [-15.0, 3.0, 0.0]);
     assert_eq!(last("G51.1 X20\nG0 X5 Y1\nG50.1 X0\nX5"), [5.0, 1.0, 0.0]);
     assert_eq!(ends("G51.1 X20\nG0 X5 Y1")[0], [35.0, 1.0, 0.0]);
+    // A mirror image turns the other way round, about the image of the centre: (15, 1) is turned to (9, 5),
+    // and mirrored to (31, 5).
+    let mirrored = ends("G51.1 X20\nG68 X10 Y0 R90.\nG0 X15 Y1");
+    assert!((mirrored[0][0] - 31.0).abs() < 1e-9 && (mirrored[0][1] - 5.0).abs() < 1e-9);
+    assert_eq!(
+        last("G51.1 X20\nG68 X10 Y0 R90.\nG0 X15 Y1\nG69\nG50.1\nX5 Y1"),
+        [5.0, 1.0, 0.0]
+    );
+    finds("G68 X0 Y0 R90.\nG51.1 X20", &["2:1 not-supported"]);
+    finds("G51.1 X20\nG51 X0 Y0 P2.\nG50.1", &["3:1 not-supported"]);
+    assert_eq!(last("G51 X0 Y0 P2.\nG50.1\nG0 X5"), [10.0, 0.0, 0.0]);
     finds("G68 R90.\nG52 X1", &["2:1 not-supported"]);
     finds("G51 X0", &["1:1 missing-word"]);
 }

@@ -104,19 +104,12 @@ fn about(point: [f64; 3], frame: &Frame) -> Frame {
 }
 
 impl FanucFrames {
-    /// What they make of the program's coordinates: they are mirrored first, then scaled, then
-    /// turned.
+    /// What they make of the program's coordinates: they are scaled first, then turned about a centre that is
+    /// scaled too. What a mirror image makes of it goes the other way round, its turn included.
     pub(crate) fn frame(&self) -> Frame {
         let mut frame = Frame::default();
-        for (axis, at) in self.mirror.into_iter().enumerate() {
-            if let Some(at) = at {
-                let (mut point, mut factors) = ([0.0; 3], [1.0; 3]);
-                (point[axis], factors[axis]) = (at, -1.0);
-                frame = about(point, &Frame::scaled(factors)).with(&frame);
-            }
-        }
         if let Some(scale) = self.scale {
-            frame = about(scale.about, &Frame::scaled(scale.factors)).with(&frame);
+            frame = about(scale.about, &Frame::scaled(scale.factors));
         }
         if let Some(turn) = self.turn {
             let mut point = AxisVector::zeros();
@@ -127,11 +120,29 @@ impl FanucFrames {
             let mut degrees = [0.0; 3];
             let normal: Axis = turn.plane.normal();
             if let Some(slot) = degrees.get_mut(normal.index()) {
-                *slot = turn.degrees;
+                *slot = turn.degrees * self.sense(turn.plane);
             }
             frame = about([point[0], point[1], point[2]], &Frame::turned(degrees)).with(&frame);
         }
+        for (axis, at) in self.mirror.into_iter().enumerate() {
+            if let Some(at) = at {
+                let (mut point, mut factors) = ([0.0; 3], [1.0; 3]);
+                (point[axis], factors[axis]) = (at, -1.0);
+                frame = about(point, &Frame::scaled(factors)).with(&frame);
+            }
+        }
         frame
+    }
+
+    /// Below zero where a scale below zero mirrors one axis of a plane.
+    fn sense(&self, plane: Plane) -> f64 {
+        let factor = |axis: Axis| {
+            let factors = self.scale.map(|scale| scale.factors);
+            let factor = factors.and_then(|factors| factors.get(axis.index()).copied());
+            factor.unwrap_or(1.0).signum()
+        };
+        let (first, second) = plane.axes();
+        factor(first) * factor(second)
     }
 }
 
@@ -171,5 +182,33 @@ mod tests {
             ..FanucFrames::default()
         };
         assert_eq!(frames.frame().apply(point(5.0, 3.0)), point(35.0, 3.0));
+    }
+
+    #[test]
+    fn a_mirror_image_turns_the_other_way_round() {
+        let turn = Some(Turn {
+            plane: Plane::Xy,
+            about: [10.0, 0.0, 0.0],
+            degrees: 90.0,
+        });
+        let mirrored = FanucFrames {
+            mirror: [Some(20.0), None, None],
+            turn,
+            ..FanucFrames::default()
+        };
+        // (15, 1) is mirrored to (25, 1), and turned by −90° about (30, 0), the image of the centre.
+        let made = mirrored.frame().apply(point(15.0, 1.0));
+        assert!((made - point(31.0, 5.0)).norm() < 1e-12, "{made}");
+        // The same by a scale below zero.
+        let scaled = FanucFrames {
+            scale: Some(Scale {
+                about: [20.0, 0.0, 0.0],
+                factors: [-1.0, 1.0, 1.0],
+            }),
+            turn,
+            ..FanucFrames::default()
+        };
+        let made = scaled.frame().apply(point(15.0, 1.0));
+        assert!((made - point(31.0, 5.0)).norm() < 1e-12, "{made}");
     }
 }

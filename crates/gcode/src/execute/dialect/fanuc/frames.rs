@@ -33,6 +33,10 @@ impl Interpreter {
             FrameCode::Scale(true) => frames.scale = Some(self.scale_words(block, coded)?),
             FrameCode::Scale(false) => frames.scale = None,
             FrameCode::Mirror(begins) => {
+                let changes = begins || frames.mirror.iter().any(Option::is_some);
+                if changes && (frames.scale.is_some() || frames.turn.is_some()) {
+                    return Err(mirrors_inside(coded));
+                }
                 self.mirror_words(block, coded, begins, &mut frames.mirror)?;
             }
             FrameCode::Turn(true) => frames.turn = Some(self.turn_words(block, coded)?),
@@ -182,4 +186,12 @@ impl Interpreter {
             degrees: base + degrees,
         })
     }
+}
+
+#[cold]
+fn mirrors_inside(coded: Coded<FrameCode>) -> Box<BlockDiagnostic> {
+    let message = "a mirror image that begins or ends with G51 or G68 in force";
+    BlockDiagnostic::new(DiagnosticCode::NotSupported, coded.span, message)
+        .because("mirror image, scale and turn begin in this order, and end in the other")
+        .help("write G69 and G50 before it")
 }
