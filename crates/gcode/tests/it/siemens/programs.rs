@@ -274,3 +274,8 @@ fn compensation_begins_beside_the_second_move() {
         assert_eq!(ends(&text)[1], [-2.0, 0.0, 0.0], "{from}");
     }
 }
+
+#[test]
+fn programs_of_steps_are_refused_at_their_head() {
+    finds("E_HEAD(0,100,0)", &["1:1 not-supported"]);
+}

@@ -4,7 +4,7 @@ use crate::syntax::dialect::bare_words::{bare_words, has_code, without_comments}
 use crate::syntax::dialect::line_body::body;
 
 /// What a line of such a program may begin with.
-const BEGINNINGS: [&[u8]; 31] = [
+const BEGINNINGS: [&[u8]; 33] = [
     b"MSG(",
     b"PROC",
     b"DEFREAL",
@@ -36,6 +36,8 @@ const BEGINNINGS: [&[u8]; 31] = [
     b"ASPLINE",
     b"CSPLINE",
     b"GROUP_BEGIN(",
+    b"E_HEAD(",
+    b"F_HEAD(",
 ];
 
 /// Names that no other language has, anywhere in a line.
@@ -184,6 +186,7 @@ mod tests {
             "N30BSPLINESD=3F1000",
             "G41G147DISR=5X0Y0",
             "N80ORIWKSORIVECT",
+            "N10E_HEAD(0,100,0)",
         ] {
             assert!(marks(line.as_bytes()), "{line}");
         }

@@ -160,7 +160,8 @@ impl Writer<'_> {
         let name = self.input.name_ahead();
         let length = name.len();
         let is_assigned = self.is_assigned(length);
-        let is_name = name.get(1).is_some_and(u8::is_ascii_alphabetic);
+        let second = name.get(1);
+        let is_name = second.is_some_and(|byte| byte.is_ascii_alphabetic() || *byte == b'_');
         match is_name.then(|| siemens_names::meaning(&name)).flatten() {
             Some(Meaning::ReadOver) => return self.read_over(length, is_assigned),
             Some(Meaning::Refused(what, help)) => {

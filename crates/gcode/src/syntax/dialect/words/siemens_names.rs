@@ -98,6 +98,11 @@ const REFUSED: &[(&[&str], &str, &str)] = &[
         "orientation in the machine's coordinates",
         "write ORIWKS",
     ),
+    (
+        &["E_HEAD", "F_HEAD"],
+        "the head of a program of ShopMill or ShopTurn, whose steps the control alone knows",
+        PLAIN,
+    ),
     (&["CYCLE60"], "engraving", PLAIN),
     (
         &["CYCLE61"],
