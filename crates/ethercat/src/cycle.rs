@@ -204,7 +204,8 @@ impl<W: Wire, S: Subscriber<Setpoint>> Run<'_, '_, W, S> {
         let mut tell = |event| ends.tell(event);
         let meant_ns = beat.sync_ns.saturating_sub(self.settings.bus.delay_ns);
         self.bridge.cycle(now_ns, meant_ns, since_ns, &mut tell);
-        self.bridge.outputs(now_ns, meant_ns, self.op.outputs());
+        self.bridge
+            .outputs((now_ns, meant_ns), self.op.outputs(), &mut tell);
         let is_sent = self.op.send(self.bridge.targets()).is_ok();
         let played = self.bridge.played();
         if let Some(demands) = &mut self.ends.demands {

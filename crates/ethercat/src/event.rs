@@ -3,6 +3,7 @@
 use crate::bus_fault::BusFault;
 use crate::{al_status, fault_text};
 use core::fmt;
+use glidepath_link::{FaultCause, FaultReport};
 
 /// An event that an operator is told. A number is that of a joint, where nothing else is said.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,8 +42,8 @@ pub enum Event {
     FrameLost,
     /// Too many frames were lost in a row.
     BusLost,
-    /// Setpoints stay away: the joints stop by themselves.
-    Silence,
+    /// Setpoints stayed away for so long, ns: joints stop by themselves, outputs come to rest.
+    Silence(u64),
     /// A setpoint jumped: the joints stop by themselves.
     Jump(usize),
     /// The joints stop because a drive failed, and the motion goes on.
@@ -102,10 +103,11 @@ impl fmt::Display for Event {
                 "the bus is lost: no answer of all drives for several cycles; every drive stops by \
                  itself, and the bus is brought up again"
             ),
-            Self::Silence => write!(
+            Self::Silence(silent_ns) => write!(
                 f,
-                "no setpoints: the joints stopped by themselves; `glidepath reset` and `enable` take \
-                 the position over anew"
+                "{}: joints stop by themselves, outputs come to rest; `glidepath reset` and `enable` take the \
+                 position over anew",
+                silence(*silent_ns)
             ),
             Self::Jump(joint) => write!(f, "J{joint}: a setpoint jumped, the joints stop"),
             Self::NobodyStops => {
@@ -116,5 +118,19 @@ impl fmt::Display for Event {
             }
             Self::Restart => write!(f, "the interpolator was started anew"),
         }
+    }
+}
+
+/// That setpoints stayed away, as the interpolator says it.
+#[allow(clippy::cast_precision_loss, reason = "some milliseconds")]
+fn silence(silent_ns: u64) -> FaultReport {
+    FaultReport {
+        cause: FaultCause::SetpointsLost,
+        axis: None,
+        joint: None,
+        drive_fault: 0,
+        value: silent_ns as f64 * 1e-9,
+        limit: 0.0,
+        line: 0,
     }
 }

@@ -212,6 +212,15 @@ pub(crate) struct TickReport {
 }
 
 impl TickReport {
+    /// Line and sequence of what is executed; none without a program.
+    pub(crate) const fn place(&self) -> (u32, u64) {
+        if matches!(self.end_of_epoch, EndOfEpoch::Open) {
+            (self.setpoint.line, self.setpoint.sequence)
+        } else {
+            (0, 0)
+        }
+    }
+
     /// The report before the first tick.
     pub(crate) fn blank() -> Self {
         Self {

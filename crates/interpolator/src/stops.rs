@@ -4,6 +4,7 @@
 //! ```text
 //!   abort, fault ──► the motion comes to rest ──► M5, M9, a setpoint each ──► idle, faulted
 //!   power lost ─────────────────────────────────► likewise, at once
+//!   setpoints, a device or the bus lost ────────► as a fault, whatever the configuration leaves on
 //! ```
 //!
 //! The spindle turns until the motion rests: a tool that moves on in the material without it breaks. What
@@ -30,6 +31,7 @@ impl StopSettings {
             StopCause::Abort => self.abort,
             StopCause::Fault => self.fault,
             StopCause::Disable => self.disable,
+            StopCause::Loss => true,
         }
     }
 }
@@ -51,6 +53,9 @@ pub(crate) enum StopCause {
     Abort,
     Fault,
     Disable,
+    /// A servo stack has lost something, and has stopped them itself: what is told and latched is to say
+    /// so, whatever the configuration leaves on.
+    Loss,
 }
 
 /// What is on, and what of it is still to be stopped.

@@ -75,10 +75,10 @@ pub use record::{
     EVENTS_MOST, EndOfEpoch, EventId, EventKind, EventRecord, FRAME_REFUSALS, FaultCause, Feedback,
     FrameRefusal, Grants, JobKind, JobPhase, JobReply, JobRequest, JobStage, JobState, JobWish,
     JogDemand, JogMode, LATCHES, Latch, LatchKind, LinesReply, LinesRequest, LinesState, LinesWish,
-    LongText, MachineState, ModeCode, MotionMode, OVERRIDE_MAX, PERIOD_NS_MAX, PlaneCode, Power,
-    Quantiles, Record, RecordError, RequestKind, SegmentOutcome, SegmentRefusal, SegmentReply,
-    SegmentRequest, Setpoint, SetpointFrame, SetpointMarks, SpindleFlags, SpindleState, Status,
-    StreamItem, TOLD_SYSTEMS, Text, decode,
+    LongText, Loss, MachineState, ModeCode, MotionMode, OVERRIDE_MAX, PERIOD_NS_MAX, PlaneCode,
+    Power, Quantiles, Record, RecordError, RequestKind, SegmentOutcome, SegmentRefusal,
+    SegmentReply, SegmentRequest, Setpoint, SetpointFrame, SetpointMarks, SpindleFlags,
+    SpindleState, Status, StreamItem, TOLD_SYSTEMS, Text, decode,
 };
 pub use service::Capacity;
 pub use stall::STALL;

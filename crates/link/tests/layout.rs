@@ -65,12 +65,12 @@ layout!(auxiliary, Auxiliary, "glidepath.Auxiliary.v2", 656, {
 layout!(command_reply, CommandReply, "glidepath.CommandReply.v3", 152, {
     boot_id: 0, number: 8, refusal: 16, state: 20, message: 24,
 });
-layout!(feedback, Feedback, "glidepath.Feedback.v1", 808, {
+layout!(feedback, Feedback, "glidepath.Feedback.v2", 816, {
     boot_id: 0, number: 8, sample_ns: 16, reference: 24, setpoint_number: 32, joints: 40,
     enabled: 44, homed: 48, homing: 52, fault: 56, limit_low: 60, limit_high: 64, home_switch: 68,
     position: 72, velocity: 144, drive_state: 216, fault_code: 252, digital_in: 288, analog_in: 296,
-    spindle_angle: 360, spindle_v: 368, spindle_index_count: 376, spindle_flags: 384, reserved: 388,
-    latch: 392,
+    spindle_angle: 360, spindle_v: 368, spindle_index_count: 376, spindle_flags: 384, loss: 388,
+    loss_value: 392, latch: 400,
 });
 layout!(jog_demand, JogDemand, "glidepath.JogDemand.v2", 136, {
     client: 0, number: 8, sent_ns: 16, asked_ns: 24, mode: 32, mask: 36, by_joint: 40, reserved: 44,

@@ -4,8 +4,8 @@ use super::own::{Stopped, TooMuch};
 use crate::failure::Code;
 use glidepath_link::{
     CommandKind, CommandRefusal, ContactKind, DriveState, EndOfEpoch, EventKind, FaultCause,
-    Grants, JobStage, JogMode, LatchKind, MachineState, ModeCode, MotionMode, PlaneCode, Power,
-    RequestKind, SegmentRefusal, SetpointMarks, SpindleFlags,
+    Grants, JobStage, JogMode, LatchKind, Loss, MachineState, ModeCode, MotionMode, PlaneCode,
+    Power, RequestKind, SegmentRefusal, SetpointMarks, SpindleFlags,
 };
 use glidepath_program::FrameFlags;
 
@@ -135,6 +135,7 @@ pub(super) fn codes() -> Vec<Codes> {
             "What a drive does, by the states of CiA 402.",
             DriveState
         ),
+        all!("LOSS", "What a servo stack has lost.", Loss),
         all!("LATCH", "How a latched position was found.", LatchKind),
         bits(
             "FLAG",

@@ -339,7 +339,7 @@ structure! {
 
 structure! {
     /// What a servo stack knows of the joints it drives, at one moment.
-    FEEDBACK: "gp_feedback" = Feedback, Feedback::NAME, 808 {
+    FEEDBACK: "gp_feedback" = Feedback, Feedback::NAME, 816 {
         /// Identifies one life of the stack: another stack, or the same started again, has another.
         boot_id: u64,
         /// Counts the records of this life, without gaps. A gap seen by a reader is loss.
@@ -387,8 +387,12 @@ structure! {
         spindle_index_count: u64,
         /// Bits of GP_SPINDLE_.
         spindle_flags: u32,
-        /// Must be zero.
-        reserved: u32,
+        /// A GP_LOSS_: what the stack has lost, for which it does not obey any more. What it stopped for
+        /// that it tells until a fault of the interpolator is reset, or another interpolator is there.
+        loss: u32,
+        /// Of setpoints, how long none came, s. Of a device, its place in the line from 0, or -1 where
+        /// none says that it is missing. 0 otherwise.
+        loss_value: f64,
         /// The inputs that are latched.
         latch: [Latch; LATCHES],
     }

@@ -1,6 +1,8 @@
 //! The bridge between setpoints and drives: what each drive is to be told in a cycle, and what is
 //! said of it.
 
+mod loss;
+mod losses;
 mod outputs;
 mod report;
 
@@ -14,6 +16,7 @@ use crate::terminal::Terminals;
 use glidepath_geometry::AXES;
 use glidepath_link::servo::{JointStates, OwnStop, Servo, ServoCounts};
 use glidepath_link::{DriveState, MachineState, Setpoint, Subscriber};
+use loss::BridgeLoss;
 
 /// Over how many cycles a velocity is taken: a count is not to look like a motion.
 const WINDOW: usize = 16;
@@ -73,6 +76,8 @@ pub struct Bridge<S: Subscriber<Setpoint>> {
     patience_ns: u64,
     /// Too many frames were lost, and none has come since.
     is_bus_lost: bool,
+    /// What was lost, and stopped something.
+    loss: Option<BridgeLoss>,
 }
 
 impl<S: Subscriber<Setpoint>> Bridge<S> {
@@ -108,6 +113,7 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
                 .then(|| Terminals::new(settings.bus.lost_frames)),
             patience_ns: settings.servo.patience_ns,
             is_bus_lost: false,
+            loss: None,
         }
     }
 
@@ -283,14 +289,18 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
         }
     }
 
-    /// A fault was taken note of: the drives' own are to be reset.
+    /// A fault was taken note of: the drives' own are to be reset, and what was lost is known.
     fn look_at_state(&mut self) {
         let Some(setpoint) = self.servo.last() else {
             return;
         };
         let (before, state) = (self.state, (setpoint.boot_id, setpoint.state));
         let was_faulted = before == Some((state.0, MachineState::Faulted.code()));
-        self.resets |= was_faulted && state.1 != MachineState::Faulted.code();
+        let resets = was_faulted && state.1 != MachineState::Faulted.code();
+        self.resets |= resets;
+        if resets || before.is_some_and(|(boot_id, _)| boot_id != state.0) {
+            self.loss = None;
+        }
         self.state = Some(state);
     }
 
@@ -319,7 +329,7 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
         if counts.stops > self.stops_told {
             self.stops_told = counts.stops;
             match self.servo.stopped() {
-                Some(OwnStop::Silence) => tell(Event::Silence),
+                Some(OwnStop::Silence) => self.lose_setpoints(tell),
                 Some(OwnStop::Jump(jump)) => tell(Event::Jump(jump.joint)),
                 Some(OwnStop::Asked) | None => {}
             }

@@ -32,18 +32,25 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
 
     /// Writes what outputs are to be, for the setpoints of `meant_ns`, after the cycle of the drives.
     ///
-    /// Nobody is to be obeyed without setpoints, when the bridge ends, without the bus, or without
-    /// one of the devices: as soon as no joint is told to move, because a tool that moves on in the
-    /// material with its spindle at rest breaks.
-    pub(crate) fn outputs(&mut self, now_ns: u64, meant_ns: u64, image: &mut [u8]) {
+    /// Nobody is to be obeyed without setpoints, when the bridge ends, without the bus, without
+    /// one of the devices, and after that as long as what was lost is not known: as soon as no joint is told
+    /// to move, because a tool that moves on in the material with its spindle at rest breaks.
+    pub(crate) fn outputs(
+        &mut self,
+        (now_ns, meant_ns): (u64, u64),
+        image: &mut [u8],
+        tell: &mut dyn FnMut(Event),
+    ) {
         let Some(terminals) = &mut self.terminals else {
             return;
         };
         let last = self.servo.last();
         let is_silent =
             last.is_none_or(|last| meant_ns > last.apply_ns.saturating_add(self.patience_ns));
-        let is_alone = is_silent || self.ends || terminals.has_lost();
+        let is_alone = is_silent || self.ends || terminals.has_lost() || self.loss.is_some();
         let is_safe = self.is_bus_lost || (is_alone && self.rests);
-        terminals.obey((now_ns, meant_ns), is_safe, image);
+        if terminals.obey((now_ns, meant_ns), is_safe, image) {
+            self.note_dropped_outputs(tell);
+        }
     }
 }

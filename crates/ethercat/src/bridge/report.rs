@@ -53,6 +53,7 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
         if let Some(terminals) = &self.terminals {
             terminals.tell(&mut feedback);
         }
+        self.tell_loss(&mut feedback);
         self.number += 1;
         self.cycles = self.cycles.wrapping_add(1);
         feedback

@@ -3,7 +3,7 @@
 //! ```text
 //!  obeyed ──(nobody is to be obeyed)──► spindle at rest ──a cycle──► all at rest
 //!    ▲                                                                   │
-//!    └── outputs of programs: when somebody is again ────────────────────┤
+//!    └── outputs of programs: when somebody is to be again ──────────────┤
 //!    └── spindle and coolant: when they were switched off, or anew ──────┘
 //! ```
 
@@ -21,6 +21,8 @@ struct Driven<T> {
     waits: bool,
     /// What it obeys was on in the cycle before.
     was_on: bool,
+    /// It was obeyed in the cycle before, and was not as it is at rest.
+    was_away: bool,
 }
 
 impl<T> Driven<T> {
@@ -29,6 +31,7 @@ impl<T> Driven<T> {
             wired,
             waits: false,
             was_on: false,
+            was_away: false,
         }
     }
 
@@ -41,6 +44,16 @@ impl<T> Driven<T> {
         self.waits &= is_on && !matches!(of, Of::Program);
         self.was_on = is_on;
         self.waits || is_safe
+    }
+}
+
+impl<T> Driven<T> {
+    /// What it is now: at rest or not, and as it is at rest or not. Returns whether it came to rest because
+    /// nobody is to be obeyed.
+    const fn drops(&mut self, rests: bool, is_as_at_rest: bool, cycle: Cycle) -> bool {
+        let drops = self.was_away && rests && cycle.safe > 0;
+        self.was_away = !rests && !is_as_at_rest;
+        drops
     }
 }
 
@@ -74,19 +87,21 @@ impl DrivenOutputs {
                 .copied()
                 .map(Driven::new)
                 .collect(),
-            safe: 0,
+            // They come to rest when somebody has been obeyed, and are so before.
+            safe: 1,
             is_fresh: true,
         }
     }
 
-    /// Takes up what is commanded until `meant_ns`, and writes what outputs are to be.
+    /// Takes up what is commanded until `meant_ns`, and writes what outputs are to be. Returns whether one
+    /// that was not at rest came to rest because nobody is to be obeyed.
     pub(super) fn obey(
         &mut self,
         commands: &mut Commands,
         (now_ns, meant_ns): (u64, u64),
         is_safe: bool,
         image: &mut [u8],
-    ) {
+    ) -> bool {
         let is_news = commands.advance(now_ns, meant_ns, &mut |event| self.command(event));
         self.safe = if is_safe {
             self.safe.saturating_add(1)
@@ -98,7 +113,7 @@ impl DrivenOutputs {
             is_old_news: is_news && self.is_fresh,
         };
         self.is_fresh = is_safe || (self.is_fresh && !is_news);
-        self.put(commands.now(), cycle, image);
+        self.put(commands.now(), cycle, image)
     }
 
     fn command(&mut self, event: Event) {
@@ -110,25 +125,32 @@ impl DrivenOutputs {
         }
     }
 
-    fn put(&mut self, record: &Auxiliary, cycle: Cycle, image: &mut [u8]) {
+    fn put(&mut self, record: &Auxiliary, cycle: Cycle, image: &mut [u8]) -> bool {
+        let mut has_dropped = false;
         for output in &mut self.digital {
             let what = output.wired.what;
             let is_on = what.from.is_on(record);
-            let level = if output.rests(is_on, (what.from.of(), cycle)) {
+            let rests = output.rests(is_on, (what.from.of(), cycle));
+            let level = if rests {
                 what.rest
             } else {
                 is_on != what.is_inverted
             };
+            has_dropped |= output.drops(rests, level == what.rest, cycle);
             put_bit(image, output.wired.bit, level);
         }
         for output in &mut self.analog {
             let what = output.wired.what;
             let mut value = what.from.value(record);
-            if output.rests(value.abs() > 0.0, (what.from.of(), cycle)) {
+            let rests = output.rests(value.abs() > 0.0, (what.from.of(), cycle));
+            if rests {
                 value = what.rest;
             }
+            let is_as_at_rest = (value - what.rest).abs() <= 0.0;
+            has_dropped |= output.drops(rests, is_as_at_rest, cycle);
             put_value(image, &output.wired, value);
         }
+        has_dropped
     }
 }
 
@@ -206,6 +228,8 @@ mod tests {
         commands: Commands,
         image: Vec<u8>,
         now_ns: u64,
+        /// Cycles in which outputs came to rest.
+        dropped: u32,
     }
 
     impl Desk {
@@ -216,6 +240,7 @@ mod tests {
                 commands: Commands::new(),
                 image: at_rest(&wiring),
                 now_ns: 1_000_000_000,
+                dropped: 0,
             }
         }
 
@@ -237,7 +262,8 @@ mod tests {
                 self.now_ns += 1_000_000;
                 let times = (self.now_ns, self.now_ns);
                 let image = &mut self.image;
-                self.outputs.obey(&mut self.commands, times, is_safe, image);
+                self.dropped +=
+                    u32::from(self.outputs.obey(&mut self.commands, times, is_safe, image));
             }
             let image = &self.image;
             (bit(image, 0), bit(image, 1), number(image, 8, 16))
@@ -261,8 +287,32 @@ mod tests {
         assert_eq!(desk.cycles(2, true), (false, true, 0));
         desk.say(&TURN);
         assert_eq!(desk.cycles(1, false), (true, false, HALF));
+        assert_eq!(desk.dropped, 0);
         assert_eq!(desk.cycles(1, true), (false, false, 0));
         assert_eq!(desk.cycles(1, true), (false, true, 0));
+        // One cycle for those of the spindle, one for all others.
+        assert_eq!(desk.dropped, 2);
+        desk.cycles(5, true);
+        desk.cycles(5, false);
+        assert_eq!(desk.dropped, 2);
+    }
+
+    #[test]
+    fn outputs_that_are_as_they_are_at_rest_do_not_come_to_rest() {
+        let mut desk = Desk::new();
+        let lamp = |on| [Event::DigitalOutput { number: 5, on }];
+        for _ in 0..3 {
+            desk.say(&lamp(true));
+            desk.cycles(5, false);
+            desk.cycles(5, true);
+            assert_eq!(desk.dropped, 0);
+        }
+        desk.say(&lamp(false));
+        desk.cycles(5, false);
+        // Commanded by the program, whatever it is at rest.
+        desk.say(&lamp(true));
+        desk.cycles(5, false);
+        assert_eq!(desk.dropped, 0);
     }
 
     #[test]

@@ -8,9 +8,6 @@ use crate::device_state::DeviceState;
 use crate::event::Event;
 use glidepath_link::{Auxiliary, Feedback, Setpoint};
 
-/// Added to the position of a device that is lost, in the place of a drive's own fault.
-const LOST_CODE: u32 = 0x2_0000;
-
 /// The answers of all devices in one cycle.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Answered<'a> {
@@ -102,7 +99,7 @@ impl Terminals {
     }
 
     /// The first device that is not in OP.
-    fn missing(&self) -> Option<usize> {
+    pub(crate) fn missing(&self) -> Option<usize> {
         let mut told = self.told.iter();
         told.find(|(_, state)| !state.is_in_op())
             .map(|(position, _)| *position)
@@ -114,14 +111,18 @@ impl Terminals {
     }
 
     /// Writes what the outputs are to be, for what is commanded until `meant_ns`; at rest where
-    /// nobody is to be obeyed.
-    pub(crate) fn obey(&mut self, (now_ns, meant_ns): (u64, u64), is_safe: bool, image: &mut [u8]) {
+    /// nobody is to be obeyed. Returns whether an output that was not at rest came to rest by that.
+    pub(crate) fn obey(
+        &mut self,
+        (now_ns, meant_ns): (u64, u64),
+        is_safe: bool,
+        image: &mut [u8],
+    ) -> bool {
         let times = (now_ns, meant_ns);
-        self.outputs.obey(&mut self.commands, times, is_safe, image);
+        self.outputs.obey(&mut self.commands, times, is_safe, image)
     }
 
-    /// Adds what they know. A device that is lost is a fault of all joints: what their switches are
-    /// is not known any more.
+    /// Adds what they know.
     pub(crate) fn tell(&self, feedback: &mut Feedback) {
         for wired in &self.wiring.inputs {
             let what = &wired.what;
@@ -138,19 +139,6 @@ impl Terminals {
             if let Some(place) = feedback.analog_in.get_mut(wired.what.number) {
                 *place = value(&self.inputs, wired);
             }
-        }
-        if self.has_lost() {
-            let position = self
-                .missing()
-                .and_then(|position| u32::try_from(position).ok());
-            let code = LOST_CODE + position.unwrap_or(0xffff);
-            for (joint, own) in feedback.fault_code.iter_mut().enumerate() {
-                let bit = 1 << joint;
-                if feedback.joints & bit != 0 && feedback.fault & bit == 0 {
-                    *own = code;
-                }
-            }
-            feedback.fault |= feedback.joints;
         }
     }
 }
@@ -249,7 +237,7 @@ mod tests {
     }
 
     #[test]
-    fn a_device_that_is_lost_is_a_fault_of_all_joints() {
+    fn a_device_is_lost_when_it_says_so_or_frames_are_short() {
         let mut terminals = terminals();
         let mut events = Vec::new();
         let (op, gone) = (DeviceState::in_op(), DeviceState::default());
@@ -260,31 +248,27 @@ mod tests {
                 states: &states,
             };
             terminals.hear(answered, &mut |event| events.push(event));
-            let said = told(&terminals);
             (
-                said.digital_in,
-                said.fault,
-                said.fault_code[0],
-                said.fault_code[1],
+                told(&terminals).digital_in,
+                terminals.has_lost(),
+                terminals.missing(),
             )
         };
         let both = 0b11 << 60;
-        assert_eq!(hear(true, [op; 2], &[1, 0, 0]), (both, 2, 0, 0x8611));
+        assert_eq!(hear(true, [op; 2], &[1, 0, 0]), (both, false, None));
         // A frame or two without one of them is no loss, and its inputs stay.
         for _ in 0..2 {
-            assert_eq!(hear(false, [op; 2], &[0, 0, 0]), (both, 2, 0, 0x8611));
+            assert_eq!(hear(false, [op; 2], &[0, 0, 0]), (both, false, None));
         }
-        let unknown = LOST_CODE + 0xffff;
-        assert_eq!(hear(false, [op; 2], &[0; 3]), (both, 7, unknown, 0x8611));
-        let second = LOST_CODE + 6;
-        assert_eq!(hear(false, [op, gone], &[0; 3]), (both, 7, second, 0x8611));
-        assert_eq!(hear(true, [op; 2], &[0, 0, 0]).1, 2);
+        assert_eq!(hear(false, [op; 2], &[0; 3]), (both, true, None));
+        assert_eq!(hear(false, [op, gone], &[0; 3]), (both, true, Some(6)));
+        assert!(!hear(true, [op; 2], &[0, 0, 0]).1);
         let left = DeviceState {
             state: 4,
             has_error: true,
             code: 0x1b,
         };
-        assert_eq!(hear(true, [left, op], &[0, 0, 0]).2, LOST_CODE + 4);
+        assert_eq!(hear(true, [left, op], &[0, 0, 0]).2, Some(4));
         let expected = [
             Event::TerminalsShort,
             Event::TerminalGone(6),

@@ -258,6 +258,8 @@ pub(crate) struct Hands<'m> {
     pub(crate) events: &'m [Event],
     /// What the bridge said of the joints last.
     pub(crate) feedback: Option<Feedback>,
+    /// What the interpolator says that spindle and outputs are to be.
+    pub(crate) auxiliary: Option<Auxiliary>,
     pub(crate) wants: Wants,
 }
 
@@ -269,6 +271,8 @@ pub(crate) struct Wants {
     pub(crate) program: Option<&'static str>,
     /// The interpolator is killed, or started anew.
     pub(crate) interpolator: Option<bool>,
+    /// The host does not let it run for so many ticks.
+    pub(crate) pause: Option<u64>,
     /// The bridge is to end in good order.
     pub(crate) end: bool,
     /// Its process is killed: it does nothing any more.
@@ -300,6 +304,8 @@ struct Reality<'c, 's> {
     last: Option<Setpoint>,
     status: Option<Status>,
     feedback: Option<Feedback>,
+    said: Option<Auxiliary>,
+    paused: u64,
     setpoints: Rc<RefCell<Vec<Setpoint>>>,
 }
 
@@ -330,12 +336,17 @@ impl World for Reality<'_, '_> {
             status: self.status,
             events: &events,
             feedback: self.feedback,
+            auxiliary: self.said,
             wants: Wants::default(),
         };
         self.case.tick(&mut hands, segment);
         let wants = hands.wants;
         self.obey(wants);
-        self.interpolate(now_ns);
+        if self.paused > 0 {
+            self.paused -= 1;
+        } else {
+            self.interpolate(now_ns);
+        }
         self.start_ns + self.tick * PERIOD_NS
     }
 
@@ -361,6 +372,7 @@ impl Reality<'_, '_> {
             self.killed.set(true);
             self.stop.store(true, Ordering::Relaxed);
         }
+        self.paused += wants.pause.unwrap_or(0);
         match wants.interpolator {
             Some(false) => self.lives_now = false,
             Some(true) => {
@@ -411,6 +423,7 @@ impl Reality<'_, '_> {
         while let Some(record) = life.auxiliary.take().unwrap() {
             // Who has no terminals does not listen.
             let _ = self.auxiliary.push(record);
+            self.said = Some(record);
         }
         while let Some(setpoint) = life.setpoints.take().unwrap() {
             self.queue.borrow_mut().push_back(setpoint);
@@ -504,6 +517,8 @@ fn with_bridge(
         last: None,
         status: None,
         feedback: None,
+        said: None,
+        paused: 0,
         setpoints: Rc::clone(&setpoints),
     };
     let mut wire = MemoryWire::new(segment, reality, start_ns);

@@ -16,6 +16,7 @@ mod captures;
 mod ending;
 mod judge;
 mod life;
+mod losses;
 mod machine;
 mod maps;
 mod matrix;

@@ -16,15 +16,15 @@ use glidepath_interpolator::{JointHoming, ProbeInput};
 use glidepath_link::{Command, ContactKind, MachineState};
 use glidepath_program::Event as Told;
 
-const INPUTS: usize = 4;
-const OUTPUTS: usize = 5;
+pub(crate) const INPUTS: usize = 4;
+pub(crate) const OUTPUTS: usize = 5;
 const SPEED: usize = 6;
-const LEVEL: usize = 7;
+pub(crate) const LEVEL: usize = 7;
 /// Bits of the outputs: forward, reverse, flood, output 5, and one that is on at rest.
-const FORWARD: u8 = 1;
-const FLOOD: u8 = 4;
-const FIFTH: u8 = 8;
-const LAMP: u8 = 16;
+pub(crate) const FORWARD: u8 = 1;
+pub(crate) const FLOOD: u8 = 4;
+pub(crate) const FIFTH: u8 = 8;
+pub(crate) const LAMP: u8 = 16;
 /// Where the home switch of J0 closes and the part begins, as the drives count, mm.
 const EDGE: f64 = -10.0;
 const PART_Z: f64 = -7.25;
@@ -123,7 +123,7 @@ fn terminals() -> Vec<TerminalSettings> {
 }
 
 /// Three axes and the terminals; J0 is brought home by its switch.
-fn setup() -> Setup {
+pub(crate) fn setup() -> Setup {
     let mut setup = Setup::absolute(2_000_000);
     setup.emulated.extend([
         Emulated::terminal("COUPLER", ClockKind::Bits64),
@@ -167,6 +167,8 @@ enum Part {
     Unplugged(&'static str, u64),
     /// They are plugged in again.
     Plugged,
+    /// The fault is reset.
+    Reset,
     /// The interpolator dies so many ticks after it began.
     Orphaned(&'static str, u64),
     /// The bridge dies.
@@ -176,9 +178,9 @@ enum Part {
 }
 
 /// What outputs were when a part was over: digital ones, and counts of the speed.
-type Pins = (u8, u16);
+pub(crate) type Pins = (u8, u16);
 
-fn pins(segment: &Segment) -> Pins {
+pub(crate) fn pins(segment: &Segment) -> Pins {
     let (bits, speed) = (segment.outputs(OUTPUTS), segment.outputs(SPEED));
     (bits[0], u16::from_le_bytes([speed[2], speed[3]]))
 }
@@ -232,6 +234,7 @@ impl Shift {
         match part {
             Part::Unplugged(..) => since > 200 && state == Some(MachineState::Faulted),
             Part::Plugged => since > 600,
+            Part::Reset => since > 25 && state == Some(MachineState::Off),
             Part::Orphaned(_, ticks) | Part::Killed(_, ticks) => since > ticks + 100,
             Part::Adopted => since > 100,
             // Behind a contact nobody says how the program goes on.
@@ -254,6 +257,7 @@ impl Shift {
                 hands.wants.program = Some(text);
             }
             Part::Adopted => hands.wants.interpolator = Some(true),
+            Part::Reset => hands.wants.command = Some(Command::Reset),
             Part::Plugged => segment.unplug(INPUTS..LEVEL + 1, false, hands.now_ns),
         }
     }
@@ -338,7 +342,7 @@ const MARKED: &str =
 const TOUCH: &str = "G21 G90 F300\nG38.2 Z-20\n";
 const LONG: &str = "G21 G90 G64 P0.02 F3000\nM3 S6000\nM8\nM62 P5\nG1 X50\nM2\n";
 /// 6000 of 24 000 rev/min.
-const QUARTER: u16 = 8192;
+pub(crate) const QUARTER: u16 = 8192;
 
 /// The changes of a bit of the outputs, from the first on.
 fn changes(records: &[OutputRecord], bit: u8) -> Vec<(u64, bool)> {
@@ -466,7 +470,7 @@ fn inputs_are_told_with_the_joints() {
 #[test]
 fn without_the_cable_behind_the_coupler_everything_comes_to_rest() {
     let setup = setup();
-    let mut shift = Shift::new(&[Part::Unplugged(LONG, 60), Part::Plugged]);
+    let mut shift = Shift::new(&[Part::Unplugged(LONG, 60), Part::Plugged, Part::Reset]);
     let mut outcome = run(&setup, &mut shift);
     let running = FORWARD | FLOOD | FIFTH;
     assert_eq!(shift.during[0], (running, QUARTER));
@@ -496,9 +500,9 @@ fn without_the_cable_behind_the_coupler_everything_comes_to_rest() {
     assert!(!outcome.events.contains(&Event::NobodyStops));
     let status = outcome.setpoints.iter().rfind(|s| s.enable != 0).unwrap();
     assert!(status.velocity[0].abs() < 1e-9, "{status:?}");
-    // The bus comes up again; outputs of programs come back, and the spindle does not.
+    // The bus comes up again; outputs of programs come back when the fault is reset, and the spindle does not.
     assert!(outcome.counts.restarts > 0);
-    assert_eq!(shift.after[1], (FIFTH, 0));
+    assert_eq!(shift.after[1..], [(LAMP, 0), (FIFTH, 0)]);
 }
 
 #[test]

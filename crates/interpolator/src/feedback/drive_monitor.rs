@@ -62,6 +62,8 @@ pub(crate) struct DriveMonitor {
     pub(super) why: Option<(FaultCause, String)>,
     /// Whether an error was ordered for and the thread has not yet latched it.
     pub(super) ordered: bool,
+    /// The first setpoint of which no fault is latched any more, or not yet.
+    pub(super) cleared_from: u64,
 }
 
 impl DriveMonitor {
@@ -107,6 +109,7 @@ impl DriveMonitor {
             was_on: false,
             why: None,
             ordered: false,
+            cleared_from: 0,
         }
     }
 
@@ -138,6 +141,7 @@ impl DriveMonitor {
         self.was_on = is_on;
         self.unhomed &= !self.search.note(report);
         self.ordered &= report.fault.is_none() && is_on;
+        self.note_fault(report);
         self.demands.push(&report.setpoint);
         self.sides = report.sides;
         self.probe.note(report);
@@ -189,7 +193,7 @@ impl DriveMonitor {
             enabled: joints.enabled,
             homed: self.homed(&joints) | self.found_by_drives(&joints),
             homing: joints.homing,
-            faults: joints.fault,
+            faults: joints.fault | self.lost(&joints, report),
             limits: joints.limits & !self.sequencer.ignores_limits(),
             fault_code: joints.fault_code.get(lowest_fault).copied().unwrap_or(0),
             handover: self.handover,

@@ -6,7 +6,7 @@
 //! that takes itself to drive somebody else's joint is set up wrongly.
 
 use glidepath_kinematics::JOINTS;
-use glidepath_link::{Feedback, Latch, Record as _, SpindleFlags};
+use glidepath_link::{FaultCause, Feedback, Latch, Loss, Record as _, SpindleFlags};
 
 /// The joints as all stacks together report them.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,6 +32,8 @@ pub(super) struct Joints {
     pub(super) spindle: SpindleFlags,
     /// Number of the last setpoint that every stack has played.
     pub(super) played: u64,
+    /// What a stack has lost.
+    pub(super) loss: Option<LossTold>,
 }
 
 /// Where the home switch of a joint first closed and opened since that was forgotten last, as the
@@ -64,7 +66,30 @@ impl Joints {
         digital_in: 0,
         spindle: SpindleFlags(0),
         played: 0,
+        loss: None,
     };
+}
+
+/// What a stack has lost.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct LossTold {
+    pub(super) cause: FaultCause,
+    /// See [`Feedback::loss_value`].
+    pub(super) value: f64,
+    /// The number of the setpoint that the stack had heard last when it told that.
+    pub(super) heard: u64,
+}
+
+impl LossTold {
+    /// The loss that a record tells of, if it does.
+    fn of(said: &Feedback) -> Option<Self> {
+        let loss = Loss::from_code(said.loss)?;
+        Some(Self {
+            cause: FaultCause::of_loss(loss)?,
+            value: said.loss_value,
+            heard: said.setpoint_number,
+        })
+    }
 }
 
 #[derive(Debug)]
@@ -257,6 +282,7 @@ impl JointOwnership {
             joints.fault |= said.fault & claimed;
             joints.home_switch |= said.home_switch & claimed;
             joints.digital_in |= said.digital_in;
+            joints.loss = joints.loss.or_else(|| LossTold::of(said));
             joints.spindle = SpindleFlags(joints.spindle.0 | said.spindle_flags);
             joints.limits |= (said.limit_low | said.limit_high) & claimed;
             for joint in (0..JOINTS).filter(|joint| claimed & (1 << joint) != 0) {

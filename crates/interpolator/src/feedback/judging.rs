@@ -8,7 +8,7 @@ use crate::fault::Fault;
 use crate::homing::{HomingInputs, Outcome, Seen};
 use crate::message::{Order, TickReport};
 use glidepath_kinematics::JOINTS;
-use glidepath_link::{EndOfEpoch, FaultCause, Power, Setpoint};
+use glidepath_link::{FaultCause, Power};
 
 /// After a hand-over, joints are not judged for so long.
 const SETTLING_NS: u64 = 100_000_000;
@@ -16,19 +16,9 @@ const SETTLING_NS: u64 = 100_000_000;
 /// Share of what is allowed by which two joints of an axis may be apart before power goes.
 const APART_CUT_R: f64 = 2.0;
 
-/// Line and sequence of what is executed; none without a program.
-const fn place(report: &TickReport) -> (u32, u64) {
-    let Setpoint { line, sequence, .. } = report.setpoint;
-    if matches!(report.end_of_epoch, EndOfEpoch::Open) {
-        (line, sequence)
-    } else {
-        (0, 0)
-    }
-}
-
 /// Two joints of an axis are apart.
 fn apart_fault(joint: usize, difference: f64, allowed: f64, report: &TickReport) -> Fault {
-    let (line, sequence) = place(report);
+    let (line, sequence) = report.place();
     Fault {
         joint: Some(joint),
         value: difference,
@@ -42,6 +32,10 @@ impl DriveMonitor {
     /// be told.
     pub(crate) fn judge(&mut self, report: &TickReport) -> (Option<Order>, Option<String>) {
         let joints = self.ownership.joints();
+        let loss = self.judge_loss(&joints, report);
+        if loss.is_some() {
+            return (loss, None);
+        }
         if report.power != Power::On {
             self.following.rest();
             return (None, None);
@@ -49,7 +43,7 @@ impl DriveMonitor {
         let is_stopping = report.fault.is_some() || self.ordered;
         let judged = self.all & joints.enabled & !report.setpoint.home;
         let (mut order, mut told) = (None, None);
-        let (line, sequence) = place(report);
+        let (line, sequence) = report.place();
         for joint in (0..JOINTS).filter(|joint| judged & (1 << joint) != 0) {
             let sample_ns = joints.sample_ns[joint];
             if sample_ns < self.demands.since_ns().saturating_add(SETTLING_NS) {
@@ -93,7 +87,7 @@ impl DriveMonitor {
     /// Whether the probe touched something that nobody looked for.
     fn judge_contact(&mut self, report: &TickReport) -> Option<Order> {
         let is_touched = self.probe.take_touched() && report.fault.is_none();
-        let (line, sequence) = place(report);
+        let (line, sequence) = report.place();
         is_touched.then(|| Order::Fault(Fault::new(FaultCause::ProbeContact, line, sequence)))
     }
 

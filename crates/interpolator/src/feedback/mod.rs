@@ -18,6 +18,7 @@ mod drive_search;
 mod following;
 mod joint_ownership;
 mod judging;
+mod losses;
 mod observation;
 mod probe;
 mod revolutions;

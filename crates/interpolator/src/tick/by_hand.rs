@@ -27,6 +27,7 @@ impl Interpolator<'_> {
                     let stands = self.may_move_joints().then(|| *self.output.joints());
                     self.joint_mover.take(&order, stands.as_ref());
                 }
+                Order::Fault(fault) if fault.cause.is_loss() => self.stops.ask(StopCause::Loss),
                 Order::Fault(_) | Order::Prepare(_) => {}
             }
             if let Order::Command(command) = order

@@ -48,6 +48,21 @@ coded! {
     }
 }
 
+coded! {
+    /// What a servo stack has lost, for which it does not obey any more: joints that it was to lead stand,
+    /// and outputs that it works are at rest.
+    pub enum Loss {
+        /// Nothing.
+        None = 0,
+        /// Setpoints stayed away for longer than its patience.
+        Setpoints = 1,
+        /// A device on its bus.
+        Device = 2,
+        /// Its bus, which came up again since.
+        Bus = 3,
+    }
+}
+
 /// The state of the spindle, one bit each.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct SpindleFlags(pub u32);
@@ -103,7 +118,7 @@ pub struct Latch {
 /// To be sent once a period or more often; 1 kHz is good.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.Feedback.v1")]
+#[type_name("glidepath.Feedback.v2")]
 pub struct Feedback {
     /// Identifies one life of the stack: another stack, or the same started again, has another.
     pub boot_id: u64,
@@ -154,8 +169,12 @@ pub struct Feedback {
     pub spindle_index_count: u64,
     /// Bits of [`SpindleFlags`].
     pub spindle_flags: u32,
-    /// Must be zero.
-    pub reserved: u32,
+    /// Code of a [`Loss`]: what the stack has lost. What it stopped for that it tells until a fault of the
+    /// interpolator is reset, or another interpolator is there; nothing that stopped by it begins again before.
+    pub loss: u32,
+    /// Of setpoints, how long none came, s. Of a device, its place in the line from 0, or -1 where none
+    /// says that it is missing. 0 otherwise.
+    pub loss_value: f64,
     /// The inputs that are latched.
     pub latch: [Latch; LATCHES],
 }
@@ -169,7 +188,7 @@ impl Feedback {
 }
 
 impl Record for Feedback {
-    const NAME: &'static str = "glidepath.Feedback.v1";
+    const NAME: &'static str = "glidepath.Feedback.v2";
 
     fn check(&self) -> Result<(), RecordError> {
         let fields = Fields(Self::NAME);
@@ -194,7 +213,8 @@ impl Record for Feedback {
         fields.finite("spindle_angle", self.spindle_angle)?;
         fields.finite("spindle_v", self.spindle_v)?;
         fields.flags("spindle_flags", self.spindle_flags, SpindleFlags::KNOWN)?;
-        fields.zero("reserved", self.reserved)?;
+        fields.code::<Loss>("loss", self.loss)?;
+        fields.finite("loss_value", self.loss_value)?;
         for latch in &self.latch {
             fields.all_finite("latch.position", &latch.position)?;
             fields.range("latch.input", f64::from(latch.input), 0.0, 63.0)?;

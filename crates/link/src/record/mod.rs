@@ -40,7 +40,7 @@ pub use command::{
     CommandRequest, EventId,
 };
 pub use event::{EventKind, EventRecord};
-pub use feedback::{DriveState, Feedback, LATCHES, Latch, LatchKind, SpindleFlags};
+pub use feedback::{DriveState, Feedback, LATCHES, Latch, LatchKind, Loss, SpindleFlags};
 pub use frame::{PERIOD_NS_MAX, SetpointFrame};
 pub use glidepath_program::EVENTS_MOST;
 pub use job::{JobKind, JobPhase, JobReply, JobRequest, JobStage, JobState, JobWish};

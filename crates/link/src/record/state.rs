@@ -1,6 +1,7 @@
 //! The states and codes of a status: what the interpolator is doing, and why it stopped.
 
 use super::code::coded;
+use super::feedback::Loss;
 
 coded! {
     /// The state of the machine: what the interpolator is doing.
@@ -203,6 +204,12 @@ pub enum FaultCause {
     ProbeContact,
     /// A rigid tap went on into its hole as far as it may: the spindle did not turn back in time.
     TapOvertravel,
+    /// A servo stack heard no setpoints for longer than its patience.
+    SetpointsLost,
+    /// A device on the bus of a servo stack is lost.
+    DeviceLost,
+    /// The bus of a servo stack was lost, and outputs that were on with it.
+    BusLost,
 }
 
 impl FaultCause {
@@ -231,6 +238,9 @@ impl FaultCause {
             Self::ThreadLost => 16,
             Self::ProbeContact => 17,
             Self::TapOvertravel => 18,
+            Self::SetpointsLost => 19,
+            Self::DeviceLost => 20,
+            Self::BusLost => 21,
             Self::Frame(refusal) => Self::FRAME + refusal.code(),
         }
     }
@@ -257,12 +267,33 @@ impl FaultCause {
             16 => Some(Self::ThreadLost),
             17 => Some(Self::ProbeContact),
             18 => Some(Self::TapOvertravel),
+            19 => Some(Self::SetpointsLost),
+            20 => Some(Self::DeviceLost),
+            21 => Some(Self::BusLost),
             Self::FRAME.. => match FrameRefusal::from_code(code - Self::FRAME) {
                 Some(refusal) => Some(Self::Frame(refusal)),
                 None => None,
             },
             _ => None,
         }
+    }
+
+    /// The cause that a loss of a servo stack is; `None` if nothing was lost.
+    #[must_use]
+    pub const fn of_loss(loss: Loss) -> Option<Self> {
+        match loss {
+            Loss::None => None,
+            Loss::Setpoints => Some(Self::SetpointsLost),
+            Loss::Device => Some(Self::DeviceLost),
+            Loss::Bus => Some(Self::BusLost),
+        }
+    }
+
+    /// Whether it is the loss of a servo stack, by which spindle and coolant are at rest, whatever else stops
+    /// them.
+    #[must_use]
+    pub const fn is_loss(self) -> bool {
+        matches!(self, Self::SetpointsLost | Self::DeviceLost | Self::BusLost)
     }
 }
 

@@ -43,6 +43,9 @@ impl FaultCause {
             }
             Self::LimitSwitch => "a joint stands at its limit switch",
             Self::Homing => "a joint did not find its home",
+            Self::SetpointsLost => "the drives heard no setpoints",
+            Self::DeviceLost => "a device on the bus of the drives is lost",
+            Self::BusLost => "the bus of the drives was lost",
         }
     }
 
@@ -106,6 +109,16 @@ impl FaultCause {
                 "look at the joint's switch, and at the direction of its search; `glidepath reset`, \
                  then `glidepath enable` where the power is gone, and `glidepath home`"
             }
+            Self::SetpointsLost => {
+                "`glidepath doctor` says what holds this host up; `glidepath reset`, `glidepath enable`"
+            }
+            Self::DeviceLost => {
+                "look at its supply, and at the cable before it; `glidepath reset`, `glidepath enable`"
+            }
+            Self::BusLost => {
+                "look at the supply of its devices, and at the cable to them; `glidepath reset`, \
+                 `glidepath enable`"
+            }
         }
     }
 
@@ -143,7 +156,10 @@ impl FaultCause {
             | Self::SpindleAngle
             | Self::ThreadLost
             | Self::ProbeContact
-            | Self::TapOvertravel => "",
+            | Self::TapOvertravel
+            | Self::SetpointsLost
+            | Self::DeviceLost
+            | Self::BusLost => "",
         }
     }
 
@@ -185,7 +201,8 @@ pub struct FaultReport {
     pub joint: Option<usize>,
     /// What the drive of the joint says about it, 0 for nothing.
     pub drive_fault: u32,
-    /// What was found, in the unit of the limit.
+    /// What was found, in the unit of the limit. Of setpoints that were lost how long there were none, s; of a
+    /// device that is lost its place in the line, below 0 where that is not known.
     pub value: f64,
     /// What is allowed, mm or degrees by the time that the cause has, s for an age, or a count; 0 for nothing.
     pub limit: f64,
@@ -196,6 +213,7 @@ pub struct FaultReport {
 impl fmt::Display for FaultReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.cause.text())?;
+        self.write_loss(f)?;
         if let Some(joint) = self.joint {
             write!(f, ", joint J{joint}")?;
         }
@@ -215,7 +233,7 @@ impl fmt::Display for FaultReport {
             // Counts, which are whole.
             let (missed, allowed) = (self.value, self.limit);
             write!(f, ": {missed} within a second, where {allowed} are allowed")?;
-        } else if self.limit != 0.0 {
+        } else if self.limit != 0.0 && !self.cause.is_loss() {
             let (value, limit) = apart(self.value, self.limit);
             // Which joints turn is known to the mechanism alone.
             let (unit, per_time) = (self.axis.map(unit), self.cause.per_time());
@@ -229,6 +247,22 @@ impl fmt::Display for FaultReport {
             write!(f, ", line {}", self.line)?;
         }
         Ok(())
+    }
+}
+
+impl FaultReport {
+    /// What a servo stack has lost, in its own unit.
+    fn write_loss(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (cause, value) = (self.cause, self.value);
+        if cause == FaultCause::SetpointsLost && value > 0.0 {
+            write!(f, " for {:.0} ms", value * 1e3)
+        } else if cause == FaultCause::DeviceLost && value >= 0.0 {
+            write!(f, ": the one at position {value:.0} of the line")
+        } else if cause == FaultCause::DeviceLost {
+            f.write_str(": one that says that it is in OP")
+        } else {
+            Ok(())
+        }
     }
 }
 
@@ -268,82 +302,4 @@ impl Status {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::record::Text;
-
-    #[test]
-    fn faults_have_texts_of_their_own_and_say_what_clears_them() {
-        let all: Vec<FaultCause> = FaultCause::all().collect();
-        assert_eq!(all.len(), 18 + FrameRefusal::ALL.len());
-        for (i, cause) in all.iter().enumerate() {
-            assert!(all[..i].iter().all(|other| other.text() != cause.text()));
-            assert!(cause.remedy().contains("`glidepath "), "{cause:?}");
-        }
-    }
-
-    #[test]
-    fn a_fault_is_one_clause_with_its_place_and_rounded_numbers_with_units() {
-        let mut report = FaultReport {
-            cause: FaultCause::Frame(FrameRefusal::Velocity),
-            axis: Some(Axis::X),
-            joint: None,
-            drive_fault: 0,
-            value: 210.345_678_901_234_5,
-            limit: 200.0,
-            line: 12,
-        };
-        assert_eq!(
-            report.to_string(),
-            "a frame was refused: it is above the velocity limit, axis X, 210 where 200 mm/s is \
-             allowed, line 12"
-        );
-        (report.cause, report.axis, report.joint) = (FaultCause::FollowingError, None, Some(1));
-        (report.value, report.limit, report.line) = (3.214_159_265_358_979, 0.5, 0);
-        assert_eq!(
-            report.to_string(),
-            "a joint is too far from where it is to be, joint J1, 3.21 where 0.5 mm or ° is allowed"
-        );
-        (report.cause, report.joint) = (FaultCause::MissedTicks, None);
-        for allowed in [0.0, 3.0] {
-            (report.value, report.limit) = (7.0, allowed);
-            assert_eq!(
-                report.to_string(),
-                format!(
-                    "too many ticks were missed: 7 within a second, where {allowed} are allowed"
-                )
-            );
-        }
-        (report.cause, report.joint) = (FaultCause::FeedbackLost, None);
-        (report.value, report.limit, report.line) = (0.016_000_1, 0.012, 7);
-        assert_eq!(
-            report.to_string(),
-            "the drives no longer say where they are: what they said last is 0.016 s old, where 0.012 s \
-             is allowed, line 7"
-        );
-    }
-
-    #[test]
-    fn what_somebody_said_of_a_fault_is_told_with_it_and_nothing_is_told_twice() {
-        let mut status: Status = bytemuck::Zeroable::zeroed();
-        assert_eq!(status.fault_text(), None);
-        status.fault = FaultCause::AuxFailed.code();
-        status.last_error = Text::new("no tool 7 in the magazine");
-        assert_eq!(
-            status.fault_text().as_deref(),
-            Some("what an event asked for has failed: no tool 7 in the magazine")
-        );
-        status.last_error = Text::new(FaultCause::AuxFailed.text());
-        assert_eq!(
-            status.fault_text().as_deref(),
-            Some(FaultCause::AuxFailed.text())
-        );
-        // What was said last may be of something else.
-        status.fault = FaultCause::Drive.code();
-        status.last_error = Text::new("joint J0 follows with an error of 0.1");
-        assert_eq!(
-            status.fault_text().as_deref(),
-            Some(FaultCause::Drive.text())
-        );
-    }
-}
+mod tests;

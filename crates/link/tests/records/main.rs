@@ -6,7 +6,7 @@ use glidepath_geometry::{AXES, AxisVector, Segment};
 use glidepath_link::{
     Command, CommandKind, CommandRefusal, CommandReply, CommandRequest, ContactKind, DriveState,
     EndOfEpoch, EventKind, EventRecord, FRAME_REFUSALS, FaultCause, Feedback, FrameRefusal,
-    JogDemand, JogMode, LatchKind, MachineState, MotionMode, OVERRIDE_MAX, Power, Record,
+    JogDemand, JogMode, LatchKind, Loss, MachineState, MotionMode, OVERRIDE_MAX, Power, Record,
     RecordError, RequestKind, SegmentRefusal, SegmentReply, SegmentRequest, Setpoint,
     SetpointFrame, Status, StreamItem, Text, decode, printable,
 };
@@ -189,7 +189,7 @@ fn numbers_that_are_not_finite_are_refused() {
     refuses_not_finite(&SegmentReply::zeroed(), &[(32, 104)]);
     refuses_not_finite(
         &Feedback::zeroed(),
-        &[(72, 216), (296, 376), (408, 480), (512, 584)],
+        &[(72, 216), (296, 376), (392, 400), (416, 488), (520, 592)],
     );
     refuses_not_finite(&JogDemand::zeroed(), &[(48, 136)]);
 }
@@ -298,7 +298,7 @@ fn unknown_codes_and_bits_are_refused() {
         refused(good_setpoint(), |s| s.state = 0),
         refused(good_setpoint(), |s| s.state = 17),
         refused(good_status(), |s| s.state = 0),
-        refused(good_status(), |s| s.fault = 19),
+        refused(good_status(), |s| s.fault = 22),
         refused(good_status(), |s| s.fault_axis = 10),
         refused(good_status(), |s| s.fault_axis = u32::MAX),
         refused(good_status(), |s| s.end_of_epoch = 6),
@@ -308,6 +308,7 @@ fn unknown_codes_and_bits_are_refused() {
         refused(good_status(), |s| s.mode = 6),
         refused(Feedback::zeroed(), |f| f.drive_state[8] = 9),
         refused(Feedback::zeroed(), |f| f.latch[3].kind = 4),
+        refused(Feedback::zeroed(), |f| f.loss = 4),
         refused(JogDemand::zeroed(), |j| j.mode = 5),
         refused(CommandRequest::new(1, 1, Command::Ping), |c| c.kind = 0),
         refused(CommandRequest::new(1, 1, Command::Ping), |c| c.kind = 23),
@@ -405,6 +406,7 @@ fn codes_are_consecutive_and_known() {
     in_sequence(MotionMode::ALL.iter().map(|code| code.code()), 0, 5);
     in_sequence(JogMode::ALL.iter().map(|code| code.code()), 0, 4);
     in_sequence(LatchKind::ALL.iter().map(|code| code.code()), 0, 3);
+    in_sequence(Loss::ALL.iter().map(|code| code.code()), 0, 3);
     in_sequence(DriveState::ALL.iter().map(|code| code.code()), 0, 8);
     in_sequence(EventKind::ALL.iter().map(|code| code.code()), 0, 14);
     assert_eq!(FrameRefusal::ALL.len(), FRAME_REFUSALS);
@@ -417,7 +419,7 @@ fn codes_are_consecutive_and_known() {
     let faults: Vec<u32> = (0..0x200)
         .filter(|code| FaultCause::from_code(*code).is_some())
         .collect();
-    assert_eq!(faults, (1..=18).chain(0x101..=0x10c).collect::<Vec<_>>());
+    assert_eq!(faults, (1..=21).chain(0x101..=0x10c).collect::<Vec<_>>());
     for code in faults {
         assert_eq!(FaultCause::from_code(code).unwrap().code(), code);
     }

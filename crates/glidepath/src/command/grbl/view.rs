@@ -127,7 +127,7 @@ fn fault(status: &Status) -> Option<(Alarm, String)> {
         FaultCause::Homing => Alarm::Homing,
         FaultCause::EnableLost => Alarm::EmergencyStop,
         FaultCause::AuxTimeout | FaultCause::AuxFailed | FaultCause::SpindleSpeed => Alarm::Spindle,
-        FaultCause::Drive => Alarm::Motor,
+        FaultCause::Drive | FaultCause::DeviceLost | FaultCause::BusLost => Alarm::Motor,
         FaultCause::ProbeContact => Alarm::ProbeAtFirst,
         FaultCause::Frame(_)
         | FaultCause::PlannerLost
@@ -137,6 +137,7 @@ fn fault(status: &Status) -> Option<(Alarm, String)> {
         | FaultCause::RealTime
         | FaultCause::FeedbackLost
         | FaultCause::FollowingError
+        | FaultCause::SetpointsLost
         | FaultCause::SpindleAngle
         | FaultCause::ThreadLost
         | FaultCause::TapOvertravel => Alarm::Stopped,

@@ -1,0 +1,26 @@
+//! What a bridge has lost, as feedback has it.
+
+use glidepath_link::{Feedback, Loss};
+
+/// What was lost.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum BridgeLoss {
+    /// Setpoints, for so long, ns.
+    Setpoints(u64),
+    /// A device, at this place of the line if one says that it is missing.
+    Device(Option<usize>),
+    /// The bus.
+    Bus,
+}
+
+impl BridgeLoss {
+    #[allow(clippy::cast_precision_loss, reason = "some milliseconds, and a place")]
+    pub(super) fn tell(self, feedback: &mut Feedback) {
+        let (loss, value) = match self {
+            Self::Setpoints(silent_ns) => (Loss::Setpoints, silent_ns as f64 * 1e-9),
+            Self::Device(position) => (Loss::Device, position.map_or(-1.0, |at| at as f64)),
+            Self::Bus => (Loss::Bus, 0.0),
+        };
+        (feedback.loss, feedback.loss_value) = (loss.code(), value);
+    }
+}
