@@ -47,9 +47,9 @@ extern "C" {
 
 /* layout: begin, written by a test of the library */
 /* The version of the ABI: functions and structures. */
-#define GP_ABI 7u
+#define GP_ABI 8u
 /* What the structures of this header are, as one number. */
-#define GP_LAYOUT UINT64_C(0x12b0f764a4d409a7)
+#define GP_LAYOUT UINT64_C(0xd34bb82785475326)
 /* Axes X Y Z A B C U V W, and joints J0 to J8. */
 #define GP_AXES 9
 
@@ -153,6 +153,10 @@ enum {
     GP_FAULT_THREAD_LOST = 16,
     GP_FAULT_PROBE_CONTACT = 17,
     GP_FAULT_TAP_OVERTRAVEL = 18,
+    GP_FAULT_SETPOINTS_LOST = 19,
+    GP_FAULT_DEVICE_LOST = 20,
+    GP_FAULT_BUS_LOST = 21,
+    GP_FAULT_SPINDLE_DRIVE = 22,
     GP_FAULT_FRAME_NOT_FINITE = 0x101,
     GP_FAULT_FRAME_MALFORMED = 0x102,
     GP_FAULT_FRAME_PERIOD = 0x103,
@@ -235,14 +239,6 @@ enum {
     GP_DRIVE_FAULT = 8
 };
 
-/* How a latched position was found. */
-enum {
-    GP_LATCH_NONE = 0,
-    GP_LATCH_DRIVE = 1,
-    GP_LATCH_INTERPOLATED = 2,
-    GP_LATCH_SAMPLED = 3
-};
-
 /* Properties of a frame. */
 enum {
     GP_FLAG_FIRST = 0x1,
@@ -278,7 +274,8 @@ enum {
     GP_SPINDLE_ORIENTED = 0x4,
     GP_SPINDLE_FAULT = 0x8,
     GP_SPINDLE_ANGLE = 0x10,
-    GP_SPINDLE_INDEX = 0x20
+    GP_SPINDLE_INDEX = 0x20,
+    GP_SPINDLE_SPEED = 0x40
 };
 
 /* Why a servo stopped the joints by itself. */
@@ -294,6 +291,23 @@ enum {
     GP_JUMP_NONE = 0,
     GP_JUMP_VELOCITY = 1,
     GP_JUMP_ACCELERATION = 2
+};
+
+/* What a servo stack has lost. */
+enum {
+    GP_LOSS_NONE = 0,
+    GP_LOSS_SETPOINTS = 1,
+    GP_LOSS_DEVICE = 2,
+    GP_LOSS_BUS = 3,
+    GP_LOSS_SPINDLE = 4
+};
+
+/* How a latched position was found. */
+enum {
+    GP_LATCH_NONE = 0,
+    GP_LATCH_DRIVE = 1,
+    GP_LATCH_INTERPOLATED = 2,
+    GP_LATCH_SAMPLED = 3
 };
 
 /* How a jog moves the machine. */
@@ -553,7 +567,7 @@ GP_FIELD(gp_setpoint, away, 576, 72);
 GP_FIELD(gp_setpoint, events, 648, 512);
 
 /* What the interpolator does and how well. Counts are of this life of it. The record
-   glidepath.Status.v12. */
+   glidepath.Status.v13. */
 typedef struct gp_status {
     /* Identifies one life of the interpolator. */
     uint64_t boot_id;
@@ -728,8 +742,15 @@ typedef struct gp_status {
     uint64_t jog_client;
     /* The number of that demand. */
     uint64_t jog_number;
+    /* Speed of the spindle as it was measured last, rev/s, negative if it turns backwards;
+       means something if GP_SPINDLE_SPEED is set. */
+    double spindle_v;
+    /* Bits of GP_SPINDLE_. */
+    uint32_t spindle_flags;
+    /* Must be zero. */
+    uint32_t reserved;
 } gp_status;
-GP_ASSERT(sizeof(gp_status) == 1792, "gp_status has another size");
+GP_ASSERT(sizeof(gp_status) == 1808, "gp_status has another size");
 GP_FIELD(gp_status, boot_id, 0, 8);
 GP_FIELD(gp_status, updated_ns, 8, 8);
 GP_FIELD(gp_status, period_ns, 16, 8);
@@ -811,9 +832,12 @@ GP_FIELD(gp_status, job, 1520, 128);
 GP_FIELD(gp_status, job_end, 1648, 128);
 GP_FIELD(gp_status, jog_client, 1776, 8);
 GP_FIELD(gp_status, jog_number, 1784, 8);
+GP_FIELD(gp_status, spindle_v, 1792, 8);
+GP_FIELD(gp_status, spindle_flags, 1800, 4);
+GP_FIELD(gp_status, reserved, 1804, 4);
 
 /* What a servo stack knows of the joints it drives, at one moment. The record
-   glidepath.Feedback.v1. */
+   glidepath.Feedback.v2. */
 typedef struct gp_feedback {
     /* Identifies one life of the stack: another stack, or the same started again, has
        another. */
@@ -864,12 +888,18 @@ typedef struct gp_feedback {
     uint64_t spindle_index_count;
     /* Bits of GP_SPINDLE_. */
     uint32_t spindle_flags;
-    /* Must be zero. */
-    uint32_t reserved;
+    /* A GP_LOSS_: what the stack has lost, for which it does not obey any more. What it
+       stopped for that it tells until a fault of the interpolator is reset, or another
+       interpolator is there. */
+    uint32_t loss;
+    /* Of setpoints, how long none came, s. Of a device, its place in the line from 0, or -1
+       where none says that it is missing. Of a spindle the number of its fault, 0 without
+       power. 0 otherwise. */
+    double loss_value;
     /* The inputs that are latched. */
     gp_latch latch[4];
 } gp_feedback;
-GP_ASSERT(sizeof(gp_feedback) == 808, "gp_feedback has another size");
+GP_ASSERT(sizeof(gp_feedback) == 816, "gp_feedback has another size");
 GP_FIELD(gp_feedback, boot_id, 0, 8);
 GP_FIELD(gp_feedback, number, 8, 8);
 GP_FIELD(gp_feedback, sample_ns, 16, 8);
@@ -893,8 +923,9 @@ GP_FIELD(gp_feedback, spindle_angle, 360, 8);
 GP_FIELD(gp_feedback, spindle_v, 368, 8);
 GP_FIELD(gp_feedback, spindle_index_count, 376, 8);
 GP_FIELD(gp_feedback, spindle_flags, 384, 4);
-GP_FIELD(gp_feedback, reserved, 388, 4);
-GP_FIELD(gp_feedback, latch, 392, 416);
+GP_FIELD(gp_feedback, loss, 388, 4);
+GP_FIELD(gp_feedback, loss_value, 392, 8);
+GP_FIELD(gp_feedback, latch, 400, 416);
 
 /* The answer to a command. The record glidepath.CommandReply.v3. */
 typedef struct gp_reply {

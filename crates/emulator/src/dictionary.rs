@@ -169,7 +169,8 @@ impl Dictionary {
         set(0x60c2, 0, 1, 2);
         set(0x60c2, 1, 1, 1);
         set(0x60c2, 2, 1, 0xfd);
-        set(0x6502, 0, 4, 1 << 7 | 1 << 5);
+        // Cyclic position and velocity, homing, profile velocity, velocity.
+        set(0x6502, 0, 4, 1 << 8 | 1 << 7 | 1 << 5 | 1 << 2 | 1 << 1);
         Self(objects)
     }
 

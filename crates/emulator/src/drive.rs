@@ -10,6 +10,7 @@ use crate::dictionary::{
 use crate::injected_fault::InjectedFault;
 use crate::power::Power;
 use crate::settings::{DriveSettings, HomeSwitch};
+use crate::spindle::SpindleMotor;
 
 const CYCLIC_POSITION: i8 = 8;
 const HOMING: i8 = 6;
@@ -27,6 +28,10 @@ pub(crate) struct Outputs {
     pub(crate) control: u16,
     pub(crate) target: i32,
     pub(crate) mode: i8,
+    /// 0x60FF, counts/s.
+    pub(crate) velocity: i32,
+    /// 0x6042, rev/min.
+    pub(crate) speed_rpm: i16,
 }
 
 /// The inputs of the master from the drive.
@@ -36,6 +41,10 @@ pub(crate) struct Inputs {
     pub(crate) actual: i32,
     pub(crate) mode: i8,
     pub(crate) fault: u16,
+    /// 0x606C, counts/s.
+    pub(crate) velocity: i32,
+    /// 0x6044, rev/min.
+    pub(crate) speed_rpm: i16,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -52,6 +61,7 @@ pub(crate) struct Drive {
     lag_t: f64,
     brake_t: f64,
     home: Option<HomeSwitch>,
+    spindle: Option<SpindleMotor>,
     power: Power,
     /// Where the motor is, counts from zero of its encoder.
     place: f64,
@@ -77,6 +87,7 @@ impl Drive {
             lag_t: settings.lag_t,
             brake_t: settings.brake_t,
             home: settings.home,
+            spindle: settings.spindle,
             power: Power::SwitchOnDisabled,
             place: settings.start_counts.get(axis).copied().unwrap_or(0).into(),
             offset: 0.0,
@@ -137,7 +148,8 @@ impl Drive {
     }
 
     /// What it tells.
-    pub(crate) const fn inputs(&self) -> Inputs {
+    #[allow(clippy::cast_possible_truncation, reason = "it saturates")]
+    pub(crate) fn inputs(&self) -> Inputs {
         let follows = matches!(self.power, Power::Enabled) && self.outputs.mode == CYCLIC_POSITION;
         let mut status = self.power.status() | 0x200;
         if self.has_voltage {
@@ -159,7 +171,15 @@ impl Drive {
             actual: self.actual(),
             mode: self.outputs.mode,
             fault: self.fault,
+            velocity: self.velocity.round() as i32,
+            speed_rpm: self.speed_rpm().round() as i16,
         }
+    }
+
+    /// How fast a spindle turns, rev/min.
+    fn speed_rpm(&self) -> f64 {
+        let motor = self.spindle.as_ref();
+        motor.map_or(0.0, |motor| self.velocity / motor.of_rpm(1.0))
     }
 
     /// A step of `step_t` seconds, with what the master said last.
@@ -171,6 +191,10 @@ impl Drive {
             self.fault = 0;
         }
         self.change_power(step_t, resets);
+        if self.spindle.is_some() {
+            self.turn(step_t, objects);
+            return;
+        }
         let before = self.place;
         let ramp = f64::from(objects.value(QUICK_STOP)).max(1.0);
         match self.power {
@@ -187,6 +211,28 @@ impl Drive {
         }
         self.velocity = (self.place - before) / step_t;
         self.watch_following(step_t, objects);
+    }
+
+    /// A spindle turns, and comes to rest by its own torque where it is told to stop.
+    fn turn(&mut self, step_t: f64, objects: AxisObjects<'_>) {
+        let Some(motor) = self.spindle else {
+            return;
+        };
+        let told = match self.power {
+            _ if self.is_stuck || objects.value(MOST_TORQUE) == 0 => None,
+            Power::Enabled => {
+                let Outputs { mode, control, .. } = self.outputs;
+                let targets = (self.outputs.velocity, self.outputs.speed_rpm);
+                motor.told((mode, control), targets)
+            }
+            Power::QuickStop | Power::FaultReaction => Some(0.0),
+            _ => None,
+        };
+        self.velocity = motor.next(self.velocity, told, step_t);
+        self.place += self.velocity * step_t;
+        if self.power == Power::FaultReaction && self.velocity == 0.0 {
+            self.power = Power::Fault;
+        }
     }
 
     fn change_power(&mut self, step_t: f64, resets: bool) {

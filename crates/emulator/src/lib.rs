@@ -4,7 +4,7 @@
 //! ```text
 //!   frame ─► device 0 ─► device 1 ─► … ─► frame, with answers and working counters
 //!              │ registers, EEPROM, mailbox, clock          (this crate does no I/O)
-//!              ├ drive: CiA 402 at every SYNC0, motor with lag
+//!              ├ drive: CiA 402 at every SYNC0, motor with lag, or a spindle with inertia
 //!              └ terminal: pins that follow frames, and fall with the watchdog
 //! ```
 //!
@@ -53,6 +53,7 @@ mod power;
 mod process;
 mod segment;
 mod settings;
+mod spindle;
 mod states;
 
 pub use cable::Cable;
@@ -62,3 +63,4 @@ pub use injected_fault::InjectedFault;
 pub use pins::OutputRecord;
 pub use segment::{Segment, SyncRecord};
 pub use settings::{DriveSettings, HomeSwitch, ImageAccess, Maps, OutputWatchdog, SyncType};
+pub use spindle::SpindleMotor;

@@ -29,7 +29,9 @@ pub(crate) fn outputs(
             (of, 0x6040) if of == axis => outputs.control = value as u16,
             (of, 0x607a) if of == axis => outputs.target = value as u32 as i32,
             (of, 0x6060) if of == axis => outputs.mode = value as u8 as i8,
-            (_, 0x6040 | 0x607a | 0x6060) => {}
+            (of, 0x60ff) if of == axis => outputs.velocity = value as u32 as i32,
+            (of, 0x6042) if of == axis => outputs.speed_rpm = value as u16 as i16,
+            (_, 0x6040 | 0x607a | 0x6060 | 0x60ff | 0x6042) => {}
             _ => objects.set((object.index, object.sub), value as u32),
         }
     }
@@ -48,6 +50,8 @@ pub(crate) fn put_inputs(memory: &mut Memory, mapped: &[Mapped], inputs: Inputs,
             0x6064 => memory.put(at, &inputs.actual.to_le_bytes()),
             0x6061 => memory.put(at, &inputs.mode.to_le_bytes()),
             0x603f => memory.put(at, &inputs.fault.to_le_bytes()),
+            0x606c => memory.put(at, &inputs.velocity.to_le_bytes()),
+            0x6044 => memory.put(at, &inputs.speed_rpm.to_le_bytes()),
             _ => {}
         }
     }

@@ -2,6 +2,7 @@
 
 use crate::channels::Channels;
 use crate::clock::ClockKind;
+use crate::spindle::SpindleMotor;
 
 /// A switch at which a drive finds its home.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -103,6 +104,8 @@ pub struct DriveSettings {
     pub has_mailbox: bool,
     /// Its inputs and outputs, if it is no drive.
     pub channels: Option<Channels>,
+    /// What it turns, if that is a spindle, in a mode of velocity.
+    pub spindle: Option<SpindleMotor>,
     /// Its whole EEPROM; `None` for one that says what is said here.
     pub eeprom: Option<Vec<u8>>,
 }
@@ -211,6 +214,7 @@ impl Default for DriveSettings {
             clock: ClockKind::Bits64,
             has_mailbox: true,
             channels: None,
+            spindle: None,
             eeprom: None,
         }
     }

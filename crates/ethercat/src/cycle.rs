@@ -33,7 +33,8 @@ const LAST_CYCLES: u32 = 10;
 const PAUSE_NS: u64 = 500_000_000;
 /// How long nothing may come back until the bus is brought up anew.
 const SILENCE_NS: u64 = 200_000_000;
-/// How long the joints may take to come to rest and to lose their power at the end.
+/// How long the joints may take to come to rest and to lose their power at the end, and what a spindle may
+/// take longer than its ramp.
 const FAREWELL_NS: u64 = 5_000_000_000;
 
 /// The ends of the rings in which the thread puts what others wait for.
@@ -168,7 +169,8 @@ impl<W: Wire, S: Subscriber<Setpoint>> Run<'_, '_, W, S> {
                 let now_ns = self.op.wire().now_ns();
                 self.bridge.end();
                 // Outputs hear it, too.
-                (ends_ns, off) = (Some(now_ns + FAREWELL_NS), 0);
+                let farewell_ns = FAREWELL_NS + self.settings.spindle_ramp_ns();
+                (ends_ns, off) = (Some(now_ns + farewell_ns), 0);
             }
             let now_ns = self.cycle(&mut clock);
             off = if self.bridge.is_off() { off + 1 } else { 0 };

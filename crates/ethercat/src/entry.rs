@@ -1,4 +1,14 @@
-//! The entries of process data: which object, and how many bits.
+//! The entries of process data: which object, and how many bits; and who says which there are.
+
+/// Who says what is in the process data of a drive.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Mapping {
+    /// The master maps what it needs.
+    #[default]
+    Written,
+    /// The drive's own maps stay as they are.
+    Kept,
+}
 
 /// An entry of a map: an object, or a gap of index 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,5 +1,6 @@
 //! The errors of a bus, as an operator is told.
 
+use crate::terminal::At;
 use crate::{abort_text, al_status};
 use std::io;
 
@@ -67,6 +68,20 @@ pub enum BusError {
         /// What it lacks, and what to do.
         what: String,
     },
+    /// An input or output is not where the file says.
+    #[error("device {device} ({name}): {what}")]
+    Unwired {
+        /// Counted from the master, from 0.
+        device: usize,
+        /// Its name.
+        name: String,
+        /// Where it is said to be.
+        at: At,
+        /// Whether it is an output.
+        is_output: bool,
+        /// What is there.
+        what: String,
+    },
     /// All that is to be exchanged in a cycle is too long.
     #[error(
         "what is exchanged in a cycle takes {needed} bytes, and a frame has {most}: leave devices out of \
@@ -118,4 +133,46 @@ pub enum BusError {
     /// It was asked to end.
     #[error("ended while the bus came up")]
     Ended,
+}
+
+/// What of `drives.toml` is refused: a device, or one of its inputs or outputs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct RefusedPart {
+    /// The place in the line, from 0.
+    pub position: usize,
+    /// The input or output, and whether it is an output; `None` for the whole device.
+    pub at: Option<(At, bool)>,
+}
+
+impl RefusedPart {
+    /// The device that it is of.
+    #[must_use]
+    pub const fn of_device(self) -> Self {
+        Self { at: None, ..self }
+    }
+}
+
+impl BusError {
+    /// What of the file it is about; `None` where the file is not what has to be mended.
+    #[must_use]
+    pub const fn refused_part(&self) -> Option<RefusedPart> {
+        let (position, at) = match self {
+            Self::Missing { position, .. } | Self::Other { position, .. } => (*position, None),
+            Self::Unfit { device, .. } | Self::Object { device, .. } => (*device, None),
+            Self::Unwired {
+                device,
+                at,
+                is_output,
+                ..
+            } => (*device, Some((*at, *is_output))),
+            Self::Wire { .. }
+            | Self::Nobody
+            | Self::NoAnswer { .. }
+            | Self::Room { .. }
+            | Self::State { .. }
+            | Self::Clocks { .. }
+            | Self::Ended => return None,
+        };
+        Some(RefusedPart { position, at })
+    }
 }

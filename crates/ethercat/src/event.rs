@@ -1,9 +1,9 @@
 //! The events on the bus, for the log.
 
 use crate::bus_fault::BusFault;
-use crate::{al_status, fault_text};
+use crate::{al_status, fault_text, state};
 use core::fmt;
-use glidepath_link::{FaultCause, FaultReport};
+use glidepath_link::{DriveState, FaultCause, FaultReport};
 
 /// An event that an operator is told. A number is that of a joint, where nothing else is said.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,6 +30,10 @@ pub enum Event {
     TerminalLeftOp(usize, u16),
     /// It has sent an emergency.
     TerminalEmergency(usize, u16),
+    /// The drive of the spindle reports a fault.
+    SpindleFault(u16),
+    /// The drive of the spindle does not get power, or lost it; this is how far it came.
+    SpindleWithoutPower(DriveState),
     /// Devices that are no drives do not take part in the process data, and say nothing.
     TerminalsShort,
     /// A drive looks for its home.
@@ -89,6 +93,14 @@ impl fmt::Display for Event {
                     "the device at position {position}: emergency message {code:#06x}"
                 )
             }
+            Self::SpindleFault(code) => {
+                write!(f, "the spindle: fault {}", fault_text::text(*code))
+            }
+            Self::SpindleWithoutPower(state) => write!(
+                f,
+                "the spindle has no power: its drive is \"{}\"",
+                state::name(*state)
+            ),
             Self::TerminalsShort => write!(
                 f,
                 "a device that is no drive does not take part, and says that it is in OP: its inputs and \

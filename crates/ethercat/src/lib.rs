@@ -76,16 +76,16 @@ pub use cycle::{Ends, drive_bus};
 pub use demand::Demand;
 pub use device::{ClockKind, Device, Identity, SyncManager, Window};
 pub use device_state::DeviceState;
-pub use entry::Entry;
-pub use error::BusError;
+pub use entry::{Entry, Mapping};
+pub use error::{BusError, RefusedPart};
 pub use event::Event;
 pub use fault_text::text as fault_text;
 pub use frame::{Address, Answer, Command, Frame, Slot};
 pub use image::{Inputs, Outputs};
 pub use run::{Listeners, RunError, RunSettings, run};
-pub use settings::{BusSettings, DEVICE_AXES, DriveSettings, HomingSettings, Mapping, Settings};
+pub use settings::{BusSettings, DEVICE_AXES, DriveSettings, HomingSettings, Settings};
 pub use terminal::{
     ANALOG_INPUTS, AnalogInput, AnalogOutput, At, DIGITAL_INPUTS, DigitalInput, DigitalOutput,
-    Parameter, Quantity, Signal, TerminalSettings,
+    Parameter, Quantity, Signal, SpindleMode, SpindleSettings, TerminalSettings,
 };
 pub use wire::{MAX_FRAME, PacketWire, Wire, WireError};

@@ -1,5 +1,6 @@
 //! The settings of the bus and of its drives.
 
+use crate::entry::Mapping;
 use crate::terminal::TerminalSettings;
 use glidepath_geometry::AXES;
 use glidepath_link::servo::ServoSettings;
@@ -47,16 +48,6 @@ pub struct HomingSettings {
     pub acceleration_a: f64,
     /// Joints of a lower number are home before those of a higher one begin.
     pub sequence: u32,
-}
-
-/// Who says what is in the process data of a drive.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Mapping {
-    /// The master maps what it needs.
-    #[default]
-    Written,
-    /// The drive's own maps stay as they are.
-    Kept,
 }
 
 /// Axes that a device has at most: their objects are from 0x6000 to 0x9FFF.
@@ -169,6 +160,12 @@ pub struct Settings {
 }
 
 impl Settings {
+    /// How long the spindle takes along its ramp at most, ns; 0 without one on a drive.
+    pub(crate) fn spindle_ramp_ns(&self) -> u64 {
+        let spindles = self.terminals.iter().filter_map(|device| device.spindle);
+        spindles.map(|spindle| spindle.ramp_ns()).max().unwrap_or(0)
+    }
+
     /// The joints that have a drive, one bit each.
     #[must_use]
     pub fn joints(&self) -> u32 {

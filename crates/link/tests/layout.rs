@@ -36,7 +36,7 @@ layout!(setpoint, Setpoint, "glidepath.Setpoint.v4", 1160, {
     acceleration: 288, joint_position: 360, joint_velocity: 432, joint_acceleration: 504,
     away: 576, events: 648,
 });
-layout!(status, Status, "glidepath.Status.v12", 1792, {
+layout!(status, Status, "glidepath.Status.v13", 1808, {
     boot_id: 0, updated_ns: 8, period_ns: 16, tick: 24, epoch: 32, frames_received: 40,
     frames_executed: 48, queue_depth: 56, queue_capacity: 60, pid: 64, state: 68, end_of_epoch: 72,
     fault: 76, fault_line: 80, fault_axis: 84, fault_joint: 88, drive_fault: 92,
@@ -52,7 +52,7 @@ layout!(status, Status, "glidepath.Status.v12", 1792, {
     frames_refused: 888, lateness: 984, work: 1016, latency: 1048, response: 1080,
     job_number: 1112, next_epoch: 1120, job_stage: 1128, job_held: 1132, last_error: 1136,
     last_event: 1264, message: 1392, job: 1520, job_end: 1648,
-    jog_client: 1776, jog_number: 1784,
+    jog_client: 1776, jog_number: 1784, spindle_v: 1792, spindle_flags: 1800, reserved: 1804,
 });
 layout!(command_request, CommandRequest, "glidepath.CommandRequest.v7", 200, {
     client: 0, number: 8, value: 16, kind: 24, joints: 28, event: 32, job: 56, asked_ns: 64, text: 72,

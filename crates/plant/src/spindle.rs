@@ -134,6 +134,7 @@ impl Spindle {
         SpindleFlags(
             flag(is_near, SpindleFlags::AT_SPEED)
                 | flag(self.speed.abs() < NEAR, SpindleFlags::STOPPED)
+                | SpindleFlags::SPEED.0
                 | SpindleFlags::ANGLE.0
                 | SpindleFlags::INDEX.0,
         )

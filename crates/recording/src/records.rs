@@ -130,6 +130,9 @@ message!(Status, "glidepath.Status", {
     79 job_end,
     80 jog_client,
     81 jog_number,
+    82 spindle_v,
+    83 spindle_flags,
+    84 reserved,
 });
 
 #[cfg(test)]

@@ -6,8 +6,8 @@ Written by a test of the library: do not change it here.
 import ctypes
 import enum
 
-ABI = 7
-LAYOUT = 0x12b0f764a4d409a7
+ABI = 8
+LAYOUT = 0xd34bb82785475326
 AXES = 9
 
 
@@ -117,6 +117,10 @@ class Fault(enum.IntEnum):
     THREAD_LOST = 16
     PROBE_CONTACT = 17
     TAP_OVERTRAVEL = 18
+    SETPOINTS_LOST = 19
+    DEVICE_LOST = 20
+    BUS_LOST = 21
+    SPINDLE_DRIVE = 22
     FRAME_NOT_FINITE = 257
     FRAME_MALFORMED = 258
     FRAME_PERIOD = 259
@@ -205,15 +209,6 @@ class Drive(enum.IntEnum):
     FAULT = 8
 
 
-class Latch(enum.IntEnum):
-    """How a latched position was found."""
-
-    NONE = 0
-    DRIVE = 1
-    INTERPOLATED = 2
-    SAMPLED = 3
-
-
 class Flag(enum.IntFlag):
     """Properties of a frame."""
 
@@ -254,6 +249,7 @@ class Spindle(enum.IntFlag):
     FAULT = 8
     ANGLE = 16
     INDEX = 32
+    SPEED = 64
 
 
 class Stopped(enum.IntEnum):
@@ -271,6 +267,25 @@ class Jump(enum.IntEnum):
     NONE = 0
     VELOCITY = 1
     ACCELERATION = 2
+
+
+class Loss(enum.IntEnum):
+    """What a servo stack has lost."""
+
+    NONE = 0
+    SETPOINTS = 1
+    DEVICE = 2
+    BUS = 3
+    SPINDLE = 4
+
+
+class Latch(enum.IntEnum):
+    """How a latched position was found."""
+
+    NONE = 0
+    DRIVE = 1
+    INTERPOLATED = 2
+    SAMPLED = 3
 
 
 class JogMode(enum.IntEnum):
@@ -513,6 +528,9 @@ class StatusRecord(ctypes.Structure):
         ("job_end", ctypes.c_char * 128),
         ("jog_client", ctypes.c_uint64),
         ("jog_number", ctypes.c_uint64),
+        ("spindle_v", ctypes.c_double),
+        ("spindle_flags", ctypes.c_uint32),
+        ("reserved", ctypes.c_uint32),
     ]
 
 
@@ -543,7 +561,8 @@ class FeedbackRecord(ctypes.Structure):
         ("spindle_v", ctypes.c_double),
         ("spindle_index_count", ctypes.c_uint64),
         ("spindle_flags", ctypes.c_uint32),
-        ("reserved", ctypes.c_uint32),
+        ("loss", ctypes.c_uint32),
+        ("loss_value", ctypes.c_double),
         ("latch", LatchRecord * 4),
     ]
 
@@ -767,7 +786,7 @@ PLACES = {
         "away": 576,
         "events": 648,
     }),
-    StatusRecord: (1792, {
+    StatusRecord: (1808, {
         "boot_id": 0,
         "updated_ns": 8,
         "period_ns": 16,
@@ -849,8 +868,11 @@ PLACES = {
         "job_end": 1648,
         "jog_client": 1776,
         "jog_number": 1784,
+        "spindle_v": 1792,
+        "spindle_flags": 1800,
+        "reserved": 1804,
     }),
-    FeedbackRecord: (808, {
+    FeedbackRecord: (816, {
         "boot_id": 0,
         "number": 8,
         "sample_ns": 16,
@@ -874,8 +896,9 @@ PLACES = {
         "spindle_v": 368,
         "spindle_index_count": 376,
         "spindle_flags": 384,
-        "reserved": 388,
-        "latch": 392,
+        "loss": 388,
+        "loss_value": 392,
+        "latch": 400,
     }),
     ReplyRecord: (152, {
         "boot_id": 0,

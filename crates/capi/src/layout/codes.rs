@@ -107,6 +107,14 @@ fn of_demands() -> Vec<Codes> {
     ]
 }
 
+/// What is in feedback alone.
+fn of_feedback() -> Vec<Codes> {
+    vec![
+        all!("LOSS", "What a servo stack has lost.", Loss),
+        all!("LATCH", "How a latched position was found.", LatchKind),
+    ]
+}
+
 /// All that the library knows.
 pub(super) fn codes() -> Vec<Codes> {
     let mut codes = vec![
@@ -135,8 +143,6 @@ pub(super) fn codes() -> Vec<Codes> {
             "What a drive does, by the states of CiA 402.",
             DriveState
         ),
-        all!("LOSS", "What a servo stack has lost.", Loss),
-        all!("LATCH", "How a latched position was found.", LatchKind),
         bits(
             "FLAG",
             "Properties of a frame.",
@@ -181,12 +187,14 @@ pub(super) fn codes() -> Vec<Codes> {
                 ("FAULT", SpindleFlags::FAULT.0),
                 ("ANGLE", SpindleFlags::ANGLE.0),
                 ("INDEX", SpindleFlags::INDEX.0),
+                ("SPEED", SpindleFlags::SPEED.0),
             ],
         ),
         own!("STOPPED", "Why a servo stopped the joints by itself.", Stopped:
             Not, Silence, Asked, Jump),
         own!("JUMP", "What of a jump is too much.", TooMuch: None, Velocity, Acceleration),
     ];
+    codes.extend(of_feedback());
     codes.extend(of_demands());
     codes
 }

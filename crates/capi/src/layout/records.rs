@@ -162,7 +162,7 @@ structure! {
 
 structure! {
     /// What the interpolator does and how well. Counts are of this life of it.
-    STATUS: "gp_status" = Status, Status::NAME, 1792 {
+    STATUS: "gp_status" = Status, Status::NAME, 1808 {
         /// Identifies one life of the interpolator.
         boot_id: u64,
         /// When this was true, ns of CLOCK_MONOTONIC. A reader takes an old one for a dead
@@ -334,6 +334,13 @@ structure! {
         jog_client: u64,
         /// The number of that demand.
         jog_number: u64,
+        /// Speed of the spindle as it was measured last, rev/s, negative if it turns backwards; means
+        /// something if GP_SPINDLE_SPEED is set.
+        spindle_v: f64,
+        /// Bits of GP_SPINDLE_.
+        spindle_flags: u32,
+        /// Must be zero.
+        reserved: u32,
     }
 }
 
@@ -391,7 +398,8 @@ structure! {
         /// that it tells until a fault of the interpolator is reset, or another interpolator is there.
         loss: u32,
         /// Of setpoints, how long none came, s. Of a device, its place in the line from 0, or -1 where
-        /// none says that it is missing. 0 otherwise.
+        /// none says that it is missing. Of a spindle the number of its fault, 0 without power. 0
+        /// otherwise.
         loss_value: f64,
         /// The inputs that are latched.
         latch: [Latch; LATCHES],

@@ -1,4 +1,4 @@
-//! The losses of a bridge: setpoints, a device, the bus.
+//! The losses of a bridge: setpoints, a device, the bus, the drive of the spindle.
 //!
 //! One rule for all: joints that stopped and outputs that came to rest by a loss stay so until the fault
 //! that came of it was reset, or another interpolator is there. Until then feedback tells the first loss.
@@ -6,6 +6,7 @@
 use super::Bridge;
 use super::loss::BridgeLoss;
 use crate::event::Event;
+use crate::terminal::Terminals;
 use glidepath_link::{Feedback, Setpoint, Subscriber};
 
 impl<S: Subscriber<Setpoint>> Bridge<S> {
@@ -27,6 +28,14 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
             self.loss.get_or_insert(BridgeLoss::Bus);
         } else if !self.ends {
             self.lose_setpoints(tell);
+        }
+    }
+
+    /// The drive of the spindle has failed.
+    pub(super) fn note_spindle(&mut self) {
+        let fault = self.terminals.as_ref().and_then(Terminals::spindle_fault);
+        if let Some(code) = fault {
+            self.loss.get_or_insert(BridgeLoss::Spindle(code));
         }
     }
 

@@ -62,6 +62,8 @@ pub struct Bridge<S: Subscriber<Setpoint>> {
     /// The state of the setpoint before.
     state: Option<(u64, u32)>,
     resets: bool,
+    /// The same for the drive of the spindle.
+    resets_spindle: bool,
     /// No drive gets power before it was taken from all, and asked for anew.
     is_latched: bool,
     ends: bool,
@@ -103,6 +105,7 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
             cycles: 0,
             state: None,
             resets: true,
+            resets_spindle: true,
             is_latched: true,
             ends: false,
             rests: false,
@@ -179,9 +182,14 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
         self.ends = true;
     }
 
-    /// Whether no drive has power.
+    /// Whether no drive has power, that of the spindle among them.
     #[must_use]
     pub fn is_off(&self) -> bool {
+        let terminals = self.terminals.as_ref();
+        self.are_drives_off() && terminals.is_none_or(Terminals::is_spindle_off)
+    }
+
+    fn are_drives_off(&self) -> bool {
         self.drives.iter().all(|drive| drive.axis.is_off())
     }
 
@@ -298,6 +306,7 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
         let was_faulted = before == Some((state.0, MachineState::Faulted.code()));
         let resets = was_faulted && state.1 != MachineState::Faulted.code();
         self.resets |= resets;
+        self.resets_spindle |= resets;
         if resets || before.is_some_and(|(boot_id, _)| boot_id != state.0) {
             self.loss = None;
         }

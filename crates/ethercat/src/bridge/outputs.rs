@@ -1,6 +1,7 @@
 //! The devices of a bridge that are no drives: what they tell, and when their outputs are obeyed.
 
 use super::Bridge;
+use super::loss::BridgeLoss;
 use crate::event::Event;
 use crate::terminal::{Answered, Wiring};
 use glidepath_link::{Auxiliary, Setpoint, Subscriber};
@@ -41,16 +42,24 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
         image: &mut [u8],
         tell: &mut dyn FnMut(Event),
     ) {
+        // Then the bus is brought up anew, which takes everything that is on.
+        let ends_with_drive = self.has_lost_drive() && self.are_drives_off();
         let Some(terminals) = &mut self.terminals else {
             return;
         };
         let last = self.servo.last();
         let is_silent =
             last.is_none_or(|last| meant_ns > last.apply_ns.saturating_add(self.patience_ns));
-        let is_alone = is_silent || self.ends || terminals.has_lost() || self.loss.is_some();
+        let is_alone = is_silent
+            || self.ends
+            || ends_with_drive
+            || terminals.has_lost()
+            || self.loss.is_some_and(BridgeLoss::stops_outputs);
         let is_safe = self.is_bus_lost || (is_alone && self.rests);
-        if terminals.obey((now_ns, meant_ns), is_safe, image) {
+        let resets = core::mem::take(&mut self.resets_spindle);
+        if terminals.obey((now_ns, meant_ns), (is_safe, resets), image, tell) {
             self.note_dropped_outputs(tell);
         }
+        self.note_spindle();
     }
 }

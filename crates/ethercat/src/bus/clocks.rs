@@ -13,7 +13,6 @@ use crate::device::{ClockKind, Device};
 use crate::error::BusError;
 use crate::exchange::{Exchange, station};
 use crate::frame::{Address, Command};
-use crate::layout::DriveDevice;
 use crate::registers::{
     FEATURES, LATCHED_TIME, PORT_TIMES, SYNC_ACTIVATION, SYNC_START, SYNC0_CYCLE, SYSTEM_TIME,
     TIME_DELAY, TIME_DIFFERENCE, TIME_OFFSET,
@@ -176,21 +175,21 @@ pub(super) fn settle<W: Wire>(
     }
 }
 
-/// Starts SYNC0 of every device with drives; returns when the first one is, by the time of the bus.
+/// Starts SYNC0 of these devices; returns when the first one is, by the time of the bus.
 pub(super) fn start_sync<W: Wire>(
     bus: &mut Exchange<'_, W>,
-    drives: &[DriveDevice],
+    devices: &[&Device],
     bus_time_ns: u64,
     period_ns: u64,
 ) -> Result<u64, BusError> {
     // Activating takes a few frames for each drive.
-    let ahead_ns = START_NS + 20_000_000 * drives.len() as u64;
+    let ahead_ns = START_NS + 20_000_000 * devices.len() as u64;
     let start_ns = (bus_time_ns + ahead_ns).next_multiple_of(period_ns.max(1));
     let cycle = u32::try_from(period_ns).unwrap_or(u32::MAX);
-    for drive in drives.iter().map(|led| &led.device) {
-        let nth = drive.position;
+    for device in devices {
+        let nth = device.position;
         bus.write(nth, SYNC_ACTIVATION, &[0], ACTION)?;
-        write_time(bus, drive, SYNC_START, start_ns)?;
+        write_time(bus, device, SYNC_START, start_ns)?;
         bus.write(nth, SYNC0_CYCLE, &cycle.to_le_bytes(), ACTION)?;
         bus.write(nth, SYNC_ACTIVATION, &[3], ACTION)?;
     }

@@ -3,11 +3,11 @@
 use crate::abort_text;
 use crate::coe::{Object, object, read, write};
 use crate::device::Device;
-use crate::entry::{Entry, bytes};
+use crate::entry::{Entry, Mapping, bytes};
 use crate::error::BusError;
 use crate::exchange::Exchange;
 use crate::layout::Layout;
-use crate::settings::{DriveSettings, Mapping};
+use crate::settings::DriveSettings;
 use crate::wire::Wire;
 
 /// What is mapped: index, subindex and bits of each object.
@@ -93,7 +93,7 @@ fn of_axis(drive: &DriveSettings) -> String {
 
 /// Fills in what is not led with what the drive has: a limit of torque that is mapped is not to become
 /// none.
-fn keep<W: Wire>(
+pub(super) fn keep<W: Wire>(
     bus: &mut Exchange<'_, W>,
     device: &Device,
     outputs: &[Entry],
@@ -148,16 +148,47 @@ fn count<W: Wire>(bus: &mut Exchange<'_, W>, device: &Device, index: u16) -> Res
 /// Maps: the index and the entries of each.
 type Maps = Vec<(u16, Vec<u32>)>;
 
-/// Maps what is needed: outputs and inputs of each drive into one map each, or, where the device does not
-/// take that, into maps of 8 bytes and an even length each. Returns both.
+/// How entries are spread over maps.
+type Split = fn(&[u32]) -> Vec<Vec<u32>>;
+
+/// Maps what is needed of each drive. Returns both ways.
 fn map<W: Wire>(
     bus: &mut Exchange<'_, W>,
     device: &Device,
     drives: &[&DriveSettings],
 ) -> Result<(Vec<Entry>, Vec<Entry>), BusError> {
-    let mut try_both = |split: fn(&[u32]) -> Vec<Vec<u32>>| {
-        let outputs = of_all(drives, OUTPUT_MAP, &OUTPUTS, split);
-        let inputs = of_all(drives, INPUT_MAP, &INPUTS, split);
+    map_as(bus, device, &|split| {
+        (
+            of_all(drives, OUTPUT_MAP, &OUTPUTS, split),
+            of_all(drives, INPUT_MAP, &INPUTS, split),
+        )
+    })
+}
+
+/// Maps these outputs and inputs.
+pub(super) fn map_entries<W: Wire>(
+    bus: &mut Exchange<'_, W>,
+    device: &Device,
+    (outputs, inputs): (&[u32], &[u32]),
+) -> Result<(), BusError> {
+    map_as(bus, device, &|split| {
+        (
+            (OUTPUT_MAP..).zip(split(outputs)).collect(),
+            (INPUT_MAP..).zip(split(inputs)).collect(),
+        )
+    })?;
+    Ok(())
+}
+
+/// Maps outputs and inputs into one map each, or, where the device does not take that, into maps of 8 bytes
+/// and an even length each. Returns both.
+fn map_as<W: Wire>(
+    bus: &mut Exchange<'_, W>,
+    device: &Device,
+    maps: &dyn Fn(Split) -> (Maps, Maps),
+) -> Result<(Vec<Entry>, Vec<Entry>), BusError> {
+    let mut try_both = |split: Split| {
+        let (outputs, inputs) = maps(split);
         try_maps(bus, device, OUTPUT_ASSIGNMENT, &outputs)?;
         try_maps(bus, device, INPUT_ASSIGNMENT, &inputs)?;
         Ok((told(&outputs), told(&inputs)))
@@ -184,12 +215,7 @@ fn map<W: Wire>(
 }
 
 /// The maps of all drives of a device, with the objects that are each one's own.
-fn of_all(
-    drives: &[&DriveSettings],
-    first: u16,
-    entries: &[u32],
-    split: fn(&[u32]) -> Vec<Vec<u32>>,
-) -> Maps {
+fn of_all(drives: &[&DriveSettings], first: u16, entries: &[u32], split: Split) -> Maps {
     let of = |drive: &&DriveSettings| {
         let first = first + drive.map_step * drive.axis;
         let entries: Vec<u32> = entries

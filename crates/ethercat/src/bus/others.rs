@@ -3,17 +3,18 @@
 //! A device without a mailbox says in its EEPROM what is in which of its windows. One with CoE is asked,
 //! after it was given its parameters and told which maps to take.
 
-use super::mapping::{INPUT_ASSIGNMENT, OUTPUT_ASSIGNMENT, mapped};
+use super::mapping::{self, INPUT_ASSIGNMENT, OUTPUT_ASSIGNMENT, mapped};
+use super::parameters;
 use super::state::{self, PRE_OP};
 use super::watchdog;
 use super::windows::{WATCHED, manager, window};
 use crate::coe::{object, write};
 use crate::device::{Device, SyncManager, Window};
-use crate::entry::bytes;
+use crate::entry::{Mapping, bytes};
 use crate::error::BusError;
 use crate::exchange::Exchange;
 use crate::registers::{FMMU, SYNC_MANAGER};
-use crate::terminal::{TerminalSettings, Wiring};
+use crate::terminal::{SpindleSettings, TerminalSettings, Wiring};
 use crate::wire::Wire;
 
 /// Windows onto the memory of a device that it has: fewer than 8 at some, and then fewer are used.
@@ -29,6 +30,8 @@ pub(super) struct Others {
     pub(super) wiring: Wiring,
     /// Devices with outputs, and devices with inputs.
     pub(super) counts: (u16, u16),
+    /// Those that work with SYNC0.
+    pub(super) with_sync: Vec<Device>,
 }
 
 fn unfit(device: &Device, what: String) -> BusError {
@@ -46,6 +49,7 @@ impl Others {
         bus: &mut Exchange<'_, W>,
         device: &Device,
         settings: &TerminalSettings,
+        period_ns: u64,
     ) -> Result<(), BusError> {
         if device.mailbox.is_none() {
             state::request(bus, device, PRE_OP)?;
@@ -53,10 +57,11 @@ impl Others {
         let has_dictionary = device.mailbox.is_some() && device.has_coe;
         let is_set = !settings.parameters.is_empty()
             || settings.assign_outputs.is_some()
-            || settings.assign_inputs.is_some();
+            || settings.assign_inputs.is_some()
+            || settings.spindle.is_some();
         if is_set && !has_dictionary {
-            let what = "it has no mailbox with CoE: leave parameters, assign_outputs and assign_inputs out \
-                        of its table in drives.toml";
+            let what = "it has no mailbox with CoE: leave parameters, assign_outputs, assign_inputs and \
+                        spindle out of its table in drives.toml";
             return Err(unfit(device, what.to_owned()));
         }
         let has_data = device.windows.iter().any(|w| !w.entries.is_empty());
@@ -68,6 +73,9 @@ impl Others {
         for parameter in &settings.parameters {
             let object = object(parameter.index, parameter.sub, parameter.size);
             write(bus, device, object, parameter.value)?;
+        }
+        if let Some(spindle) = &settings.spindle {
+            lead_spindle(bus, device, spindle, period_ns)?;
         }
         let windows = if has_dictionary {
             assign(
@@ -96,14 +104,45 @@ impl Others {
                 "it has more windows than can be led".to_owned(),
             ));
         }
-        self.wiring
-            .add(settings, &filled)
-            .map_err(|why| unfit(device, why.to_string()))?;
+        self.wiring.add(settings, &filled).map_err(|why| {
+            let (at, is_output) = why.at();
+            BusError::Unwired {
+                device: device.position,
+                name: device.name.clone(),
+                at,
+                is_output,
+                what: why.to_string(),
+            }
+        })?;
+        if let Some(spindle) = &settings.spindle {
+            self.keep_outputs(bus, device, &filled)?;
+            if spindle.mode.is_cyclic() {
+                self.with_sync.push(device.clone());
+            }
+        }
         self.counts.0 += u16::from(filled.iter().any(|window| window.is_output));
         self.counts.1 += u16::from(filled.iter().any(|window| !window.is_output));
         self.devices.push(device.clone());
         self.windows.push(filled);
         Ok(())
+    }
+
+    /// What a drive's own maps have besides stays as it is there: a limit of torque is not to become none.
+    fn keep_outputs<W: Wire>(
+        &mut self,
+        bus: &mut Exchange<'_, W>,
+        device: &Device,
+        windows: &[Window],
+    ) -> Result<(), BusError> {
+        let outputs = windows.iter().filter(|window| window.is_output);
+        let entries: Vec<_> = outputs
+            .flat_map(|window| &window.entries)
+            .copied()
+            .collect();
+        let image = &mut self.wiring.unwired;
+        let from = image.len().saturating_sub(bytes(&entries));
+        let own = image.get_mut(from..).unwrap_or_default();
+        mapping::keep(bus, device, &entries, own)
     }
 
     /// Writes where the process data of all is, in an image that begins at a logical address, and how
@@ -141,6 +180,25 @@ impl Others {
         }
         Ok(())
     }
+}
+
+/// Maps the process data of the drive of the spindle, and gives it its mode.
+fn lead_spindle<W: Wire>(
+    bus: &mut Exchange<'_, W>,
+    device: &Device,
+    spindle: &SpindleSettings,
+    period_ns: u64,
+) -> Result<(), BusError> {
+    if spindle.mode.is_cyclic() && !device.clock.is_clock() {
+        let what = "it has no distributed clock, without which there is no cyclic velocity: give it mode = \
+                    \"profile-velocity\" or \"velocity\"";
+        return Err(unfit(device, what.to_owned()));
+    }
+    if spindle.mapping == Mapping::Written {
+        let (outputs, inputs) = spindle.entries();
+        mapping::map_entries(bus, device, (&outputs, &inputs))?;
+    }
+    parameters::write_spindle(bus, device, period_ns, spindle.mode)
 }
 
 /// The sync manager of a window, as long as what is in it.

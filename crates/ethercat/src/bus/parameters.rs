@@ -5,6 +5,7 @@ use crate::device::Device;
 use crate::error::BusError;
 use crate::exchange::Exchange;
 use crate::settings::{BusSettings, DriveSettings};
+use crate::terminal::SpindleMode;
 use crate::wire::Wire;
 
 /// The synchronization types of outputs and of inputs, and what they can be.
@@ -50,6 +51,35 @@ pub(super) fn write_all<W: Wire>(
     for (option, value) in [
         (own(0x605a, 0, 2), BY_RAMP),
         (own(0x605e, 0, 2), BY_RAMP),
+        (SYNC_OUTPUTS, BY_SYNC0),
+        (SYNC_INPUTS, BY_SYNC0),
+    ] {
+        where_possible(write(bus, device, option, value))?;
+    }
+    Ok(())
+}
+
+/// Gives the drive of the spindle its mode, and tells one that works with SYNC0 its period.
+pub(super) fn write_spindle<W: Wire>(
+    bus: &mut Exchange<'_, W>,
+    device: &Device,
+    period_ns: u64,
+    mode: SpindleMode,
+) -> Result<(), BusError> {
+    #[allow(clippy::cast_sign_loss, reason = "the object is a signed byte")]
+    write(
+        bus,
+        device,
+        object(0x6060, 0, 1),
+        u32::from(mode.code() as u8),
+    )?;
+    if !mode.is_cyclic() {
+        return Ok(());
+    }
+    let (count, exponent) = interpolation_time(period_ns);
+    for (option, value) in [
+        (object(0x60c2, 1, 1), count),
+        (object(0x60c2, 2, 1), exponent),
         (SYNC_OUTPUTS, BY_SYNC0),
         (SYNC_INPUTS, BY_SYNC0),
     ] {

@@ -172,21 +172,29 @@ impl<'w, W: Wire> PreOp<'w, W> {
         for wanted in &settings.terminals {
             let ids = [wanted.vendor, wanted.product, wanted.alias.into()];
             let device = self.expected(wanted.position, ids)?.clone();
-            others.add(&mut self.bus, &device, wanted)?;
+            others.add(&mut self.bus, &device, wanted, settings.bus.period_ns)?;
         }
         others.place(&mut self.bus, outputs + inputs, settings.bus.watchdog_ns)?;
         check_room(&drives, &others)?;
         let reference = clocks::reference(&self.devices).unwrap_or(0);
         let time = clocks::settle(&mut self.bus, &self.devices, reference)?;
         let period_ns = settings.bus.period_ns;
-        let start_ns =
-            clocks::start_sync(&mut self.bus, &drives.devices, time.now_ns(), period_ns)?;
+        let with_sync: Vec<&Device> = drives
+            .devices
+            .iter()
+            .map(|led| &led.device)
+            .chain(&others.with_sync)
+            .collect();
+        let start_ns = clocks::start_sync(&mut self.bus, &with_sync, time.now_ns(), period_ns)?;
         for led in &drives.devices {
             state::request(&mut self.bus, &led.device, SAFE_OP)?;
             parameters::check_sync(&mut self.bus, &led.device)?;
         }
         for device in &others.devices {
             state::request(&mut self.bus, device, SAFE_OP)?;
+        }
+        for device in &others.with_sync {
+            parameters::check_sync(&mut self.bus, device)?;
         }
         let reference = (reference, time);
         Ok(SafeOp::new(self.bus, (drives, others), reference, start_ns))

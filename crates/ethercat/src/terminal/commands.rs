@@ -5,6 +5,7 @@
 //! for who came late or lost one, and counts where it has said something else for a while in which
 //! there were no events.
 
+use super::signal::is_of_spindle;
 use glidepath_link::{Auxiliary, EventRecord, Setpoint};
 use glidepath_program::Event;
 use std::collections::VecDeque;
@@ -41,6 +42,11 @@ impl Commands {
     /// What is commanded now.
     pub(crate) const fn now(&self) -> &Auxiliary {
         &self.now
+    }
+
+    /// Whether the spindle is to turn otherwise, and the time of that has not come.
+    pub(crate) fn has_due_of_spindle(&self) -> bool {
+        self.due.iter().any(|(_, event)| is_of_spindle(*event))
     }
 
     /// Another interpolator has other outputs, and none of them is on.

@@ -7,17 +7,24 @@
 //!    └── spindle and coolant: when they were switched off, or anew ──────┘
 //! ```
 
+use super::bits::{put_bit, put_number};
 use super::commands::Commands;
 use super::settings::{AnalogOutput, DigitalOutput};
-use super::signal::Of;
-use super::wiring::{Wired, Wiring, put_bit, put_number};
+use super::signal::{Of, Quantity};
+use super::wiring::{Wired, Wiring};
 use glidepath_link::Auxiliary;
 use glidepath_program::Event;
 
-/// An output, and whether it is to be commanded anew before it is obeyed.
+/// An output.
 #[derive(Debug, Clone, Copy)]
 struct Driven<T> {
     wired: Wired<T>,
+    gate: Gate,
+}
+
+/// Whether an output is obeyed, or is to be commanded anew before it is.
+#[derive(Debug, Clone, Copy, Default)]
+struct Gate {
     waits: bool,
     /// What it obeys was on in the cycle before.
     was_on: bool,
@@ -29,12 +36,16 @@ impl<T> Driven<T> {
     const fn new(wired: Wired<T>) -> Self {
         Self {
             wired,
-            waits: false,
-            was_on: false,
-            was_away: false,
+            gate: Gate {
+                waits: false,
+                was_on: false,
+                was_away: false,
+            },
         }
     }
+}
 
+impl Gate {
     /// What it obeys is on or off now; returns whether it is to be at rest all the same. An output of
     /// programs is obeyed whatever has been.
     const fn rests(&mut self, is_on: bool, (of, cycle): (Of, Cycle)) -> bool {
@@ -47,7 +58,7 @@ impl<T> Driven<T> {
     }
 }
 
-impl<T> Driven<T> {
+impl Gate {
     /// What it is now: at rest or not, and as it is at rest or not. Returns whether it came to rest because
     /// nobody is to be obeyed.
     const fn drops(&mut self, rests: bool, is_as_at_rest: bool, cycle: Cycle) -> bool {
@@ -71,6 +82,10 @@ struct Cycle {
 pub(super) struct DrivenOutputs {
     digital: Vec<Driven<DigitalOutput>>,
     analog: Vec<Driven<AnalogOutput>>,
+    /// The drive of the spindle, and the speed at which it is to turn, rev/min.
+    spindle: Gate,
+    spindle_rpm: f64,
+    has_spindle: bool,
     safe: u32,
     /// Nothing was heard of the record since nobody was to be obeyed.
     is_fresh: bool,
@@ -90,6 +105,8 @@ impl DrivenOutputs {
             // They come to rest when somebody has been obeyed, and are so before.
             safe: 1,
             is_fresh: true,
+            has_spindle: wiring.spindle.is_some(),
+            ..Self::default()
         }
     }
 
@@ -118,11 +135,12 @@ impl DrivenOutputs {
 
     fn command(&mut self, event: Event) {
         for output in &mut self.digital {
-            output.waits &= !output.wired.what.from.is_commanded_by(event);
+            output.gate.waits &= !output.wired.what.from.is_commanded_by(event);
         }
         for output in &mut self.analog {
-            output.waits &= !output.wired.what.from.is_commanded_by(event);
+            output.gate.waits &= !output.wired.what.from.is_commanded_by(event);
         }
+        self.spindle.waits &= !Quantity::SpindleVelocity.is_commanded_by(event);
     }
 
     fn put(&mut self, record: &Auxiliary, cycle: Cycle, image: &mut [u8]) -> bool {
@@ -130,33 +148,48 @@ impl DrivenOutputs {
         for output in &mut self.digital {
             let what = output.wired.what;
             let is_on = what.from.is_on(record);
-            let rests = output.rests(is_on, (what.from.of(), cycle));
+            let rests = output.gate.rests(is_on, (what.from.of(), cycle));
             let level = if rests {
                 what.rest
             } else {
                 is_on != what.is_inverted
             };
-            has_dropped |= output.drops(rests, level == what.rest, cycle);
+            has_dropped |= output.gate.drops(rests, level == what.rest, cycle);
             put_bit(image, output.wired.bit, level);
         }
         for output in &mut self.analog {
             let what = output.wired.what;
             let mut value = what.from.value(record);
-            let rests = output.rests(value.abs() > 0.0, (what.from.of(), cycle));
+            let rests = output
+                .gate
+                .rests(value.abs() > 0.0, (what.from.of(), cycle));
             if rests {
                 value = what.rest;
             }
             let is_as_at_rest = (value - what.rest).abs() <= 0.0;
-            has_dropped |= output.drops(rests, is_as_at_rest, cycle);
+            has_dropped |= output.gate.drops(rests, is_as_at_rest, cycle);
             put_value(image, &output.wired, value);
         }
-        has_dropped
+        let wanted_rpm = Quantity::SpindleVelocity.value(record);
+        let is_on = wanted_rpm.abs() > 0.0;
+        let rests = self.spindle.rests(is_on, (Of::Spindle, cycle));
+        self.spindle_rpm = if rests { 0.0 } else { wanted_rpm };
+        has_dropped | (self.has_spindle && self.spindle.drops(rests, !is_on, cycle))
+    }
+
+    /// The speed at which the drive of the spindle is to turn, rev/min.
+    pub(super) const fn spindle_rpm(&self) -> f64 {
+        self.spindle_rpm
     }
 }
 
 /// The outputs of all devices at rest.
 pub(crate) fn at_rest(wiring: &Wiring) -> Vec<u8> {
-    let mut image = vec![0; wiring.sizes.0];
+    let mut image = wiring.unwired.clone();
+    image.resize(wiring.sizes.0, 0);
+    if let Some(spindle) = &wiring.spindle {
+        spindle.put(&mut image, 0, 0);
+    }
     for output in &wiring.outputs {
         put_bit(&mut image, output.bit, output.what.rest);
     }
@@ -184,9 +217,9 @@ fn put_value(image: &mut [u8], output: &Wired<AnalogOutput>, value: f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::terminal::bits::{bit, number};
     use crate::terminal::settings::At;
-    use crate::terminal::signal::{Quantity, Signal};
-    use crate::terminal::wiring::{bit, number};
+    use crate::terminal::signal::Signal;
     use bytemuck::Zeroable as _;
     use glidepath_link::{EventRecord, Setpoint};
 

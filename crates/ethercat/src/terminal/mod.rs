@@ -5,14 +5,19 @@
 //! | `settings` | what the file says of them |
 //! | `signal` | what outputs obey |
 //! | `commands` | what is commanded, and when |
-//! | `wiring` | where in the process data everything is |
+//! | `bits`, `wiring` | where in the process data everything is |
 //! | `driven` | outputs, cycle by cycle |
+//! | `spindle_settings`, `spindle_wiring`, `spindle_drive` | a spindle on a drive in velocity mode |
 //! | `worked` | all of it at work |
 
+mod bits;
 mod commands;
 mod driven;
 mod settings;
 mod signal;
+mod spindle_drive;
+mod spindle_settings;
+mod spindle_wiring;
 mod wiring;
 mod worked;
 
@@ -21,6 +26,7 @@ pub use settings::{
     Parameter, TerminalSettings,
 };
 pub use signal::{Quantity, Signal};
+pub use spindle_settings::{SpindleMode, SpindleSettings};
 
 pub(crate) use driven::at_rest;
 pub(crate) use wiring::Wiring;

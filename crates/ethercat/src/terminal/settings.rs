@@ -1,6 +1,7 @@
 //! The settings of a device that is no drive: what its inputs mean, and what its outputs obey.
 
 use super::signal::{Quantity, Signal};
+use super::spindle_settings::SpindleSettings;
 use core::fmt;
 
 /// Digital inputs that feedback has room for.
@@ -130,4 +131,6 @@ pub struct TerminalSettings {
     pub outputs: Vec<DigitalOutput>,
     /// Its analog outputs.
     pub analog_outputs: Vec<AnalogOutput>,
+    /// It is the drive of the spindle: of one device at most.
+    pub spindle: Option<SpindleSettings>,
 }

@@ -59,6 +59,11 @@ const SPINDLE: [u32; 5] = [3, 4, 5, 6, 19];
 /// M codes of coolant.
 const COOLANT: [u32; 3] = [7, 8, 9];
 
+/// Whether an event says how the spindle is to turn.
+pub(crate) fn is_of_spindle(event: Event) -> bool {
+    matches!(event, Event::SpindleSpeed(_)) || is_code(event, &SPINDLE)
+}
+
 fn turns(record: &Auxiliary, way: SpindleState) -> bool {
     record.spindle == way.code()
 }

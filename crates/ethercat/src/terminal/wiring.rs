@@ -3,6 +3,8 @@
 use super::settings::{
     AnalogInput, AnalogOutput, At, DigitalInput, DigitalOutput, TerminalSettings,
 };
+use super::spindle_settings::SpindleSettings;
+use super::spindle_wiring::WiredSpindle;
 use crate::device::Window;
 use crate::entry::{Entry, bits, bytes};
 use core::fmt;
@@ -25,8 +27,14 @@ pub(crate) struct Wiring {
     pub(crate) analog_inputs: Vec<Wired<AnalogInput>>,
     pub(crate) outputs: Vec<Wired<DigitalOutput>>,
     pub(crate) analog_outputs: Vec<Wired<AnalogOutput>>,
+    /// The drive of the spindle.
+    pub(crate) spindle: Option<WiredSpindle>,
     /// Bytes of the outputs and of the inputs.
     pub(crate) sizes: (usize, usize),
+    /// What is put out where nothing is wired.
+    pub(crate) unwired: Vec<u8>,
+    /// Devices so far.
+    pub(crate) devices: usize,
 }
 
 /// Why a device cannot be wired as the file says.
@@ -46,6 +54,16 @@ impl fmt::Display for Unwired {
                 f,
                 "output {one} and output {other} are the same bits, and an output obeys one thing"
             ),
+        }
+    }
+}
+
+impl Unwired {
+    /// Where the file says that it is, and whether it is an output.
+    pub(crate) fn at(&self) -> (At, bool) {
+        match self {
+            Self::NotThere(it) => (it.at, it.what == "output"),
+            Self::Twice(_, other) => (*other, true),
         }
     }
 }
@@ -164,6 +182,33 @@ impl Row<'_> {
     }
 }
 
+/// The drive of the spindle, in the image.
+fn spindle_of(
+    spindle: (SpindleSettings, usize),
+    outputs: &Row<'_>,
+    inputs: &Row<'_>,
+) -> Result<WiredSpindle, NotThere> {
+    let at = |index| At::Object { index, sub: 0 };
+    let place = |row: &Row<'_>, index| {
+        let (bit, bits) = row.place(at(index))?;
+        Some((row.from + bit, bits))
+    };
+    let (of_outputs, of_inputs) = (|index| place(outputs, index), |index| place(inputs, index));
+    WiredSpindle::find(spindle, of_outputs, of_inputs).map_err(|(index, is_output)| {
+        let row = if is_output { outputs } else { inputs };
+        NotThere {
+            what: row.what,
+            at: at(index),
+            found: row.place(at(index)).map(|(_, bits)| bits),
+            known: row
+                .windows()
+                .flat_map(|window| &window.entries)
+                .copied()
+                .collect(),
+        }
+    })
+}
+
 const fn is_bit(_: usize, bits: u32) -> bool {
     bits == 1
 }
@@ -203,7 +248,12 @@ impl Wiring {
             let wire = outputs.find(output.at, *output, fits)?;
             self.analog_outputs.push(wire);
         }
+        if let Some(spindle) = settings.spindle {
+            self.spindle = Some(spindle_of((spindle, self.devices), &outputs, &inputs)?);
+        }
+        self.devices += 1;
         self.sizes.0 += outputs.bytes();
+        self.unwired.resize(self.sizes.0, 0);
         self.sizes.1 += inputs.bytes();
         self.has_each_output_once()
     }
@@ -223,37 +273,6 @@ impl Wiring {
             _ => None,
         });
         twice.map_or(Ok(()), Err)
-    }
-}
-
-/// Whether a bit of an image is set.
-pub(crate) fn bit(image: &[u8], bit: usize) -> bool {
-    image
-        .get(bit / 8)
-        .is_some_and(|byte| byte >> (bit % 8) & 1 == 1)
-}
-
-/// Sets or clears a bit of an image.
-pub(crate) fn put_bit(image: &mut [u8], bit: usize, is_on: bool) {
-    if let Some(byte) = image.get_mut(bit / 8) {
-        let mask = 1 << (bit % 8);
-        *byte = if is_on { *byte | mask } else { *byte & !mask };
-    }
-}
-
-/// A number of up to four bytes that begins with a byte.
-pub(crate) fn number(image: &[u8], bit: usize, bits: u32) -> u32 {
-    let bytes = image.iter().skip(bit / 8).take(bits as usize / 8);
-    bytes.zip(0..).fold(0, |number, (byte, nth)| {
-        number | u32::from(*byte) << (8 * nth)
-    })
-}
-
-/// Writes such a number.
-pub(crate) fn put_number(image: &mut [u8], bit: usize, bits: u32, number: u32) {
-    let places = image.iter_mut().skip(bit / 8).take(bits as usize / 8);
-    for (place, byte) in places.zip(number.to_le_bytes()) {
-        *place = byte;
     }
 }
 
@@ -371,18 +390,5 @@ mod tests {
             twice.to_string(),
             "output 0x7010:01 and output bit 1 are the same bits, and an output obeys one thing"
         );
-    }
-
-    #[test]
-    fn bits_and_numbers_are_where_they_were_put() {
-        let mut image = [0xff, 0, 0, 0];
-        put_bit(&mut image, 3, false);
-        put_bit(&mut image, 8, true);
-        put_bit(&mut image, 99, true);
-        assert_eq!(image, [0xf7, 1, 0, 0]);
-        assert!(bit(&image, 8) && !bit(&image, 3) && !bit(&image, 99));
-        put_number(&mut image, 16, 16, 0xffff_8001);
-        assert_eq!(image, [0xf7, 1, 1, 0x80]);
-        assert_eq!(number(&image, 16, 16), 0x8001);
     }
 }

@@ -1,9 +1,11 @@
 //! Devices at work: their inputs as feedback has them, and their outputs.
 
+use super::bits::{bit, number};
 use super::commands::Commands;
 use super::driven::DrivenOutputs;
 use super::settings::AnalogInput;
-use super::wiring::{Wired, Wiring, bit, number};
+use super::spindle_drive::{SpindleCycle, SpindleDrive};
+use super::wiring::{Wired, Wiring};
 use crate::device_state::DeviceState;
 use crate::event::Event;
 use glidepath_link::{Auxiliary, Feedback, Setpoint};
@@ -24,6 +26,7 @@ pub(crate) struct Answered<'a> {
 pub(crate) struct Terminals {
     commands: Commands,
     outputs: DrivenOutputs,
+    spindle: Option<SpindleDrive>,
     wiring: Wiring,
     inputs: Vec<u8>,
     /// Place in the line of each, and the state that was told last.
@@ -40,6 +43,7 @@ impl Terminals {
         Self {
             commands: Commands::new(),
             outputs: DrivenOutputs::default(),
+            spindle: None,
             wiring: Wiring::default(),
             inputs: Vec::new(),
             told: Vec::new(),
@@ -53,6 +57,7 @@ impl Terminals {
     pub(crate) fn begin(&mut self, wiring: &Wiring, positions: impl Iterator<Item = usize>) {
         self.wiring = wiring.clone();
         self.outputs = DrivenOutputs::new(wiring);
+        self.spindle = wiring.spindle.map(SpindleDrive::new);
         self.inputs = vec![0; wiring.sizes.1];
         let told = positions.map(|position| (position, DeviceState::in_op()));
         self.told = told.collect();
@@ -115,11 +120,36 @@ impl Terminals {
     pub(crate) fn obey(
         &mut self,
         (now_ns, meant_ns): (u64, u64),
-        is_safe: bool,
+        (is_safe, resets): (bool, bool),
         image: &mut [u8],
+        tell: &mut dyn FnMut(Event),
     ) -> bool {
         let times = (now_ns, meant_ns);
-        self.outputs.obey(&mut self.commands, times, is_safe, image)
+        let has_dropped = self.outputs.obey(&mut self.commands, times, is_safe, image);
+        if let Some(spindle) = &mut self.spindle {
+            let device = self.told.get(spindle.nth());
+            let is_in_op = device.is_some_and(|(_, state)| state.is_in_op());
+            let cycle = SpindleCycle {
+                now_ns,
+                wanted_rpm: self.outputs.spindle_rpm(),
+                is_present: is_in_op,
+                is_heard: self.short == 0,
+                resets,
+                is_due: self.commands.has_due_of_spindle(),
+            };
+            spindle.cycle(cycle, &self.inputs, image, tell);
+        }
+        has_dropped
+    }
+
+    /// The number of the fault of the spindle's drive, 0 if it has no power; `None` without.
+    pub(crate) fn spindle_fault(&self) -> Option<u16> {
+        self.spindle.as_ref()?.failed()
+    }
+
+    /// Whether the spindle stands without power, or nobody can take it.
+    pub(crate) fn is_spindle_off(&self) -> bool {
+        self.spindle.as_ref().is_none_or(SpindleDrive::is_off)
     }
 
     /// Adds what they know.
@@ -134,6 +164,9 @@ impl Terminals {
             feedback.home_switch |= of_joint(what.home);
             feedback.limit_low |= of_joint(what.limit_low);
             feedback.limit_high |= of_joint(what.limit_high);
+        }
+        if let Some(spindle) = &self.spindle {
+            spindle.tell(feedback);
         }
         for wired in &self.wiring.analog_inputs {
             if let Some(place) = feedback.analog_in.get_mut(wired.what.number) {

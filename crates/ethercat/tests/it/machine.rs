@@ -12,7 +12,8 @@ use glidepath_ethercat::{
 use glidepath_gcode::{Connections, Options};
 use glidepath_geometry::{AXES, Axis, AxisVector};
 use glidepath_interpolator::{
-    Config, FeedbackSettings, JointFeedback, JointHoming, ProbeInput, Served, served,
+    Config, FeedbackSettings, JointFeedback, JointHoming, MCodeWait, MCodeWaits, ProbeInput,
+    Served, served,
 };
 use glidepath_kinematics::{AxisList, Mechanism, Trivial};
 use glidepath_link::servo::{JumpLimits, ServoSettings, StopLimits};
@@ -98,6 +99,8 @@ pub(crate) struct Setup {
     /// The first joint is brought home by the controller.
     pub(crate) homing: Option<JointHoming>,
     pub(crate) probe: Option<ProbeInput>,
+    /// M codes that are waited for.
+    pub(crate) waits: Vec<MCodeWait>,
 }
 
 impl Setup {
@@ -117,6 +120,7 @@ impl Setup {
             terminals: Vec::new(),
             homing: None,
             probe: None,
+            waits: Vec::new(),
         }
     }
 
@@ -160,6 +164,7 @@ fn config(setup: &Setup) -> Config {
             ),
             ..feedback
         }),
+        m_code_waits: MCodeWaits::new(&setup.waits).unwrap(),
         mechanism: Mechanism::Trivial(Trivial {
             axes: AxisList::new(&[Axis::X, Axis::Y, Axis::Z]),
         }),

@@ -1,10 +1,10 @@
 //! Tests of the way of terminals into operation, and of what is said where that does not work.
 
 use crate::wire::{MemoryWire, Quiet};
-use glidepath_emulator::{ClockKind, DriveSettings as Emulated, OutputWatchdog, Segment};
+use glidepath_emulator::{ClockKind, DriveSettings as Emulated, Maps, OutputWatchdog, Segment};
 use glidepath_ethercat::{
-    AnalogOutput, At, BusError, BusSettings, DigitalInput, DigitalOutput, Init, Parameter,
-    Quantity, Settings, Signal, TerminalSettings,
+    AnalogOutput, At, BusError, BusSettings, DigitalInput, DigitalOutput, Init, Mapping, Parameter,
+    Quantity, Settings, Signal, SpindleMode, SpindleSettings, TerminalSettings,
 };
 use glidepath_link::servo::ServoSettings;
 
@@ -66,6 +66,57 @@ fn come_up(wire: &mut MemoryWire<Quiet>, terminals: Vec<TerminalSettings>) -> Re
     let bus = Init::find(wire)?.into_pre_op()?;
     bus.into_safe_op(&settings)?.into_op(&settings.bus)?;
     Ok(())
+}
+
+const fn spindle(mode: SpindleMode, mapping: Mapping) -> SpindleSettings {
+    SpindleSettings {
+        mode,
+        units_per_rpm: 1.0,
+        is_inverted: false,
+        max_rpm: 24_000.0,
+        ramp_rpm_per_s: 8000.0,
+        at_speed_r: 0.03,
+        mapping,
+    }
+}
+
+#[test]
+fn what_cannot_be_a_spindle_is_refused_with_what_it_is() {
+    let with = |spindle| TerminalSettings {
+        spindle: Some(spindle),
+        ..at(2)
+    };
+    let told = refusal(
+        Emulated::inputs(4),
+        with(spindle(SpindleMode::Velocity, Mapping::Written)),
+    );
+    assert!(told.contains("it has no mailbox with CoE"), "{told}");
+    let inverter = Emulated {
+        clock: ClockKind::ReceiveTimes,
+        maps: Maps::Fixed {
+            outputs: vec![0x6040_0010, 0x6042_0010],
+            inputs: vec![0x6041_0010],
+        },
+        ..Emulated::default()
+    };
+    let told = refusal(
+        inverter.clone(),
+        with(spindle(SpindleMode::CyclicVelocity, Mapping::Kept)),
+    );
+    assert!(told.contains("it has no distributed clock"), "{told}");
+    let told = refusal(
+        inverter.clone(),
+        with(spindle(SpindleMode::Velocity, Mapping::Written)),
+    );
+    assert!(told.contains("map = \"keep\" in its table"), "{told}");
+    let kept = with(spindle(SpindleMode::Velocity, Mapping::Kept));
+    let told = refusal(inverter, kept);
+    assert!(
+        told.ends_with(
+            "there is no input 0x6044:00 in its process data, which has 0x6041:00 (16 bit)"
+        ),
+        "{told}"
+    );
 }
 
 fn refusal(terminal: Emulated, settings: TerminalSettings) -> String {

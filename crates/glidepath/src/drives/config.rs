@@ -1,5 +1,6 @@
 //! The configuration of what hangs on the bus, judged.
 
+use super::source::DrivesSource;
 use glidepath_ethercat::{BusSettings, DriveSettings, TerminalSettings};
 
 /// The content of `drives.toml`.
@@ -13,4 +14,6 @@ pub struct DrivesConfig {
     pub drives: Vec<DriveSettings>,
     /// All other devices that are led.
     pub terminals: Vec<TerminalSettings>,
+    /// Where all that is said.
+    pub source: DrivesSource,
 }

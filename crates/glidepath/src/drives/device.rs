@@ -1,22 +1,26 @@
 //! The judgement of devices that are no drives: what their inputs are, and what their outputs obey.
 
 use super::raw_device::{
-    RawAnalogInput, RawAnalogOutput, RawDevice, RawInput, RawOutput, RawParameter,
+    RawAnalogInput, RawAnalogOutput, RawDevice, RawInput, RawOutput, RawParameter, RawSpindle,
 };
+use super::source::Place;
+use super::spindle::spindle;
 use super::words::{OBJECT, QUANTITIES, SIGNALS, object, quantity, signal};
 use crate::config::{ConfigDiagnostic, Judge, Range};
 use core::ops::Range as Span;
 use glidepath_ethercat::{
     ANALOG_INPUTS, AnalogInput, AnalogOutput, At, DIGITAL_INPUTS, DigitalInput, DigitalOutput,
-    DriveSettings, Parameter, TerminalSettings,
+    DriveSettings, Parameter, RefusedPart, SpindleSettings, TerminalSettings,
 };
 use toml::Spanned;
 
+/// Of its magnitude.
 const SCALE: Range = Range {
-    min: -1e9,
+    min: 1e-9,
     max: 1e9,
     unit: "a count",
-    help: "what a count is in the unit that programs have: 10.0 / 32768 for ± 10 V in 16 bits",
+    help: "what a count is in the unit that programs have, below 0 if it falls: 10.0 / 32768 for ± 10 V in \
+           16 bits",
 };
 const OFFSET: Range = Range {
     min: -1e9,
@@ -30,11 +34,12 @@ const FULL: Range = Range {
     unit: "units",
     help: "the value at full counts: the speed of the spindle at 10 V",
 };
+/// As far as `full` goes.
 const REST: Range = Range {
     min: -1e9,
     max: 1e9,
     unit: "units",
-    help: "the value while nobody is to be obeyed",
+    help: "the value while nobody is to be obeyed, no more than full either way",
 };
 /// Maps that can be assigned.
 const MAPS: usize = 16;
@@ -61,6 +66,8 @@ struct Devices<'j> {
     /// Joints of the machine.
     joints: usize,
     claims: Claims,
+    /// Where each of them is in the file, and its inputs and outputs.
+    places: Vec<Place>,
 }
 
 /// Judges all devices that are no drives.
@@ -69,18 +76,19 @@ pub(super) fn devices(
     raw: Vec<Spanned<RawDevice>>,
     drives: &[DriveSettings],
     joints: usize,
-) -> Vec<TerminalSettings> {
+) -> (Vec<TerminalSettings>, Vec<Place>) {
     let mut devices = Devices {
         judge,
         joints,
         claims: Claims::default(),
+        places: Vec::new(),
     };
     for drive in drives {
         // Those of one device are at the same.
         devices.claims.take("position", drive.position);
     }
-    let each = raw.into_iter().map(|raw| devices.device(raw));
-    each.collect()
+    let each = raw.into_iter().map(|raw| devices.device(raw)).collect();
+    (each, devices.places)
 }
 
 impl Devices<'_> {
@@ -91,6 +99,12 @@ impl Devices<'_> {
             help: Some(help.to_owned()),
             span: Some(span),
         });
+    }
+
+    /// Keeps where something is in the file.
+    fn note(&mut self, position: usize, at: Option<(At, bool)>, span: Span<usize>) {
+        let part = RefusedPart { position, at };
+        self.places.push(Place { part, span });
     }
 
     fn device(&mut self, raw: Spanned<RawDevice>) -> TerminalSettings {
@@ -106,9 +120,10 @@ impl Devices<'_> {
         {
             let message = format!("two devices are at position {position}");
             let help = "every table has a place of its own in the line";
-            self.tell("device.position", message, help, span);
+            self.tell("device.position", message, help, span.clone());
         }
         let position: usize = position.unwrap_or(0);
+        self.note(position, None, span);
         let mut id = |key, value: &Option<Spanned<i64>>, most| {
             let help = "as `glidepath ethercat scan INTERFACE` shows it; 0 compares nothing";
             let value = value.as_ref()?;
@@ -132,14 +147,21 @@ impl Devices<'_> {
         };
         let parameters = raw.parameters.iter().filter_map(|p| self.parameter(p));
         terminal.parameters = parameters.collect();
-        let inputs = raw.inputs.into_iter().filter_map(|input| self.input(input));
-        terminal.inputs = inputs.collect();
-        let inputs = raw
-            .analog_inputs
-            .iter()
-            .filter_map(|i| self.analog_input(i));
-        terminal.analog_inputs = inputs.collect();
+        for raw in raw.inputs {
+            let span = raw.span();
+            if let Some(input) = self.input(raw) {
+                self.note(position, Some((input.at, false)), span);
+                terminal.inputs.push(input);
+            }
+        }
+        for raw in &raw.analog_inputs {
+            if let Some(input) = self.analog_input(raw) {
+                self.note(position, Some((input.at, false)), raw.at.span());
+                terminal.analog_inputs.push(input);
+            }
+        }
         self.outputs(&mut terminal, raw.outputs, &raw.analog_outputs);
+        terminal.spindle = raw.spindle.and_then(|raw| self.spindle(&raw));
         terminal
     }
 
@@ -164,6 +186,9 @@ impl Devices<'_> {
                 terminal.analog_outputs.push(output);
             }
         }
+        for (at, span) in &places {
+            self.note(terminal.position, Some((*at, true)), span.clone());
+        }
         for (nth, (at, span)) in places.iter().enumerate() {
             if places[..nth].iter().any(|(other, _)| other == at) {
                 let message = format!("two outputs are at {at}");
@@ -171,6 +196,20 @@ impl Devices<'_> {
                 self.tell("device.outputs", message, help, span.clone());
             }
         }
+    }
+
+    /// The drive of the spindle, which one device is.
+    fn spindle(&mut self, raw: &Spanned<RawSpindle>) -> Option<SpindleSettings> {
+        if !self.claims.take("spindle", 0) {
+            let message = "two devices are the drive of the spindle".to_owned();
+            self.tell(
+                "device.spindle",
+                message,
+                "programs have one spindle",
+                raw.span(),
+            );
+        }
+        spindle(self.judge, raw.as_ref())
     }
 
     fn maps(&mut self, key: &str, raw: Option<Vec<Spanned<i64>>>, first: i64) -> Option<Vec<u16>> {
@@ -308,7 +347,7 @@ impl Devices<'_> {
         let number = ("device.analog_inputs.number", "analog input");
         let number = self.claimed(number, Some(&raw.number), ANALOG_INPUTS);
         let judge = &mut *self.judge;
-        let scale = judge.number("device.analog_inputs.scale", &raw.scale, &SCALE);
+        let scale = signed_number(judge, "device.analog_inputs.scale", &raw.scale, &SCALE);
         let offset = judge.number_or("device.analog_inputs.offset", &raw.offset, &OFFSET, 0.0);
         let (index, sub) = at?;
         Some(AnalogInput {
@@ -354,7 +393,12 @@ impl Devices<'_> {
         let from = self.from(key, &raw.from, (quantity, QUANTITIES));
         let judge = &mut *self.judge;
         let full = judge.number("device.analog_outputs.full", &raw.full, &FULL);
-        let rest = judge.number_or("device.analog_outputs.rest", &raw.rest, &REST, 0.0);
+        let most = Range {
+            min: -full,
+            max: full,
+            ..REST
+        };
+        let rest = judge.number_or("device.analog_outputs.rest", &raw.rest, &most, 0.0);
         let help = "counts at full: 32767 for 10 V in 16 bits";
         let key = "device.analog_outputs.counts";
         let counts = judge.whole(key, &raw.counts, (1, u32::MAX.into()), help);
@@ -367,4 +411,13 @@ impl Devices<'_> {
             rest,
         })
     }
+}
+
+/// A number whose magnitude is in a range, which 0 is not.
+fn signed_number(judge: &mut Judge, key: &str, value: &Spanned<f64>, range: &Range) -> f64 {
+    let number = *value.as_ref();
+    if (range.min..=range.max).contains(&number.abs()) {
+        return number;
+    }
+    judge.number(key, value, range)
 }

@@ -3,10 +3,13 @@
 
 use super::config::DrivesConfig;
 use super::device;
-use super::raw::{RawBus, RawDrive, RawDrives, RawHoming, RawMap};
+use super::raw::{RawBus, RawDrive, RawDrives, RawHoming};
+use super::source::{DrivesSource, Place};
 use crate::config::{ConfigDiagnostic, HomingBy, Judge, MachineConfig, Range};
 use core::ops::Range as Span;
-use glidepath_ethercat::{BusSettings, DEVICE_AXES, DriveSettings, HomingSettings, Mapping};
+use glidepath_ethercat::{
+    BusSettings, DEVICE_AXES, DriveSettings, HomingSettings, Mapping, RefusedPart,
+};
 use glidepath_geometry::AXES;
 use toml::Spanned;
 
@@ -75,10 +78,58 @@ pub(super) fn judge(
     let interface = raw.bus.interface.clone();
     let bus = bus(&mut judge, &raw.bus);
     let velocities = joint_velocities(machine);
+    let drives = drives(&mut judge, raw.drive, machine, &velocities);
+    let missing =
+        (0..velocities.len()).find(|joint| !drives.iter().any(|(d, _)| d.joint == *joint));
+    if let Some(joint) = missing {
+        judge.diagnostics.push(ConfigDiagnostic {
+            key: "drive".to_owned(),
+            message: format!("J{joint} of the machine has no drive"),
+            help: Some(format!("add a table [[drive]] with joint = {joint}")),
+            span: None,
+        });
+    }
+    let mut places: Vec<Place> = drives
+        .iter()
+        .map(|(drive, span)| Place {
+            part: RefusedPart {
+                position: drive.position,
+                at: None,
+            },
+            span: span.clone(),
+        })
+        .collect();
+    let drives: Vec<_> = drives.into_iter().map(|(drive, _)| drive).collect();
+    let (terminals, of_devices) =
+        device::devices(&mut judge, raw.device, &drives, velocities.len());
+    places.extend(of_devices);
+    if judge.diagnostics.is_empty() {
+        Ok(DrivesConfig {
+            interface,
+            bus,
+            drives,
+            terminals,
+            source: DrivesSource {
+                places,
+                ..DrivesSource::default()
+            },
+        })
+    } else {
+        Err(judge.diagnostics)
+    }
+}
+
+/// Judges all drives, and whether they go together.
+fn drives(
+    judge: &mut Judge,
+    raw: Vec<Spanned<RawDrive>>,
+    machine: &MachineConfig,
+    velocities: &[f64],
+) -> Vec<(DriveSettings, Span<usize>)> {
     let mut drives: Vec<(DriveSettings, Span<usize>)> = Vec::new();
-    for drive in raw.drive {
+    for drive in raw {
         let span = drive.span();
-        let settings = self::drive(&mut judge, drive.into_inner(), &velocities);
+        let settings = self::drive(judge, drive.into_inner(), velocities);
         if machine.feedback.homing == HomingBy::Drive {
             // An absolute encoder knows where it is, too.
         } else if settings.homing.is_some() {
@@ -130,28 +181,7 @@ pub(super) fn judge(
         }
         drives.push((settings, span));
     }
-    let missing =
-        (0..velocities.len()).find(|joint| !drives.iter().any(|(d, _)| d.joint == *joint));
-    if let Some(joint) = missing {
-        judge.diagnostics.push(ConfigDiagnostic {
-            key: "drive".to_owned(),
-            message: format!("J{joint} of the machine has no drive"),
-            help: Some(format!("add a table [[drive]] with joint = {joint}")),
-            span: None,
-        });
-    }
-    let drives: Vec<_> = drives.into_iter().map(|(drive, _)| drive).collect();
-    let terminals = device::devices(&mut judge, raw.device, &drives, velocities.len());
-    if judge.diagnostics.is_empty() {
-        Ok(DrivesConfig {
-            interface,
-            bus,
-            drives,
-            terminals,
-        })
-    } else {
-        Err(judge.diagnostics)
-    }
+    drives
 }
 
 /// Where a drive is.
@@ -297,10 +327,7 @@ fn drive(judge: &mut Judge, raw: RawDrive, velocities: &[f64]) -> DriveSettings 
         product,
         alias: u16::try_from(alias).unwrap_or(0),
         process_at,
-        mapping: match raw.map {
-            RawMap::Write => Mapping::Written,
-            RawMap::Keep => Mapping::Kept,
-        },
+        mapping: raw.map.into(),
         counts_per_unit: counts,
         is_inverted: raw.invert,
         home_offset: judge.number_or("drive.home_offset", &raw.home_offset, &PLACE, 0.0),

@@ -7,6 +7,8 @@ mod device;
 mod judge;
 mod raw;
 mod raw_device;
+mod source;
+mod spindle;
 mod tables;
 #[cfg(test)]
 mod tests;
@@ -15,6 +17,7 @@ mod written;
 
 pub use config::DrivesConfig;
 pub(crate) use judge::joint_velocities;
+pub use source::DrivesSource;
 pub use written::{Found, written};
 
 use crate::config::{ConfigError, MachineConfig, parse_as};
@@ -41,7 +44,9 @@ pub fn load(path: &Path, machine: &MachineConfig) -> Result<DrivesConfig, Config
 /// # Errors
 /// Everything in the text that has to be mended.
 pub fn parse(path: &str, text: &str, machine: &MachineConfig) -> Result<DrivesConfig, ConfigError> {
-    parse_as(path, text, "docs/drives.md", |raw, found| {
+    let mut config: DrivesConfig = parse_as(path, text, "docs/drives.md", |raw, found| {
         judge::judge(raw, found, machine)
-    })
+    })?;
+    (config.source.path, config.source.text) = (path.to_owned(), text.to_owned());
+    Ok(config)
 }

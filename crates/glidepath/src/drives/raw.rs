@@ -1,6 +1,6 @@
 //! The raw `drives.toml`, as it is written, before any value is judged.
 
-use super::raw_device::{Optional, RawDevice};
+use super::raw_device::{Optional, RawDevice, RawMap};
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -49,15 +49,6 @@ pub(super) struct RawDrive {
     pub(super) enable_window: Optional<f64>,
     pub(super) quick_stop: Spanned<f64>,
     pub(super) homing: Optional<RawHoming>,
-}
-
-/// Who says what is in the process data of a drive.
-#[derive(Debug, Clone, Copy, Default, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub(super) enum RawMap {
-    #[default]
-    Write,
-    Keep,
 }
 
 #[derive(Debug, Deserialize)]

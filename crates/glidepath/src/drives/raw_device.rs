@@ -1,5 +1,6 @@
-//! The raw tables of devices that are no drives.
+//! The raw tables of devices that move no joint.
 
+use glidepath_ethercat::Mapping;
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -24,6 +25,40 @@ pub(super) struct RawDevice {
     pub(super) outputs: Vec<Spanned<RawOutput>>,
     #[serde(default)]
     pub(super) analog_outputs: Vec<RawAnalogOutput>,
+    pub(super) spindle: Optional<RawSpindle>,
+}
+
+/// The drive of the spindle.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawSpindle {
+    pub(super) mode: Spanned<String>,
+    pub(super) units_per_rpm: Optional<f64>,
+    pub(super) max_rpm: Spanned<f64>,
+    pub(super) ramp: Spanned<f64>,
+    pub(super) at_speed: Optional<f64>,
+    #[serde(default)]
+    pub(super) invert: bool,
+    #[serde(default)]
+    pub(super) map: RawMap,
+}
+
+/// Who says what is in the process data of a drive.
+#[derive(Debug, Clone, Copy, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum RawMap {
+    #[default]
+    Write,
+    Keep,
+}
+
+impl From<RawMap> for Mapping {
+    fn from(raw: RawMap) -> Self {
+        match raw {
+            RawMap::Write => Self::Written,
+            RawMap::Keep => Self::Kept,
+        }
+    }
 }
 
 #[derive(Debug, Deserialize)]

@@ -5,7 +5,7 @@ use crate::machine_options::complete;
 use core::fmt::{self, Write as _};
 use glidepath_geometry::{AXES, Axis};
 use glidepath_interpolator::AnswerSource;
-use glidepath_link::{MotionMode, Power, Status};
+use glidepath_link::{MotionMode, Power, SpindleFlags, Status};
 use glidepath_program::{CodeWord, Event};
 use serde_json::{Map, Value, json};
 
@@ -165,6 +165,13 @@ pub(super) fn awaited_text(status: &Status, asked: &AwaitedEvent) -> Option<Stri
     })
 }
 
+/// Speed of the spindle, rev/min; nothing where nobody measures it.
+fn spindle_rpm(status: &Status) -> Option<f64> {
+    let is_measured = status.spindle().contains(SpindleFlags::SPEED);
+    // Not -0.
+    is_measured.then_some(60.0 * status.spindle_v + 0.0)
+}
+
 /// What a status says about drives and joints.
 pub(super) fn machine_object(status: &Status, asked: &AwaitedEvent) -> Map<String, Value> {
     let object = json!({
@@ -180,6 +187,8 @@ pub(super) fn machine_object(status: &Status, asked: &AwaitedEvent) -> Map<Strin
         "joint_actual": by_joint(status, &status.joint_actual),
         "following_error": by_joint(status, &status.following_error),
         "following_peak": by_joint(status, &status.following_peak),
+        "spindle_rpm": spindle_rpm(status),
+        "spindle_at_speed": status.spindle().contains(SpindleFlags::AT_SPEED),
         "awaited": awaited(status, asked),
     });
     match object {
@@ -215,6 +224,9 @@ pub(super) fn power_text(status: &Status) -> String {
             let _ = write!(text, ", feedback {age_ms:.1} ms old");
         }
         None => text.push_str(", no feedback yet"),
+    }
+    if let Some(rpm) = spindle_rpm(status) {
+        let _ = write!(text, ", spindle at {:.0} rev/min", rpm.round() + 0.0);
     }
     text
 }

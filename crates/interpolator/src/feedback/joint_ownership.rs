@@ -30,6 +30,8 @@ pub(super) struct Joints {
     /// Digital inputs and spindle, of all stacks together.
     pub(super) digital_in: u64,
     pub(super) spindle: SpindleFlags,
+    /// Speed of the spindle, of a stack that measures it, rev/s.
+    pub(super) spindle_v: f64,
     /// Number of the last setpoint that every stack has played.
     pub(super) played: u64,
     /// What a stack has lost.
@@ -65,6 +67,7 @@ impl Joints {
         }; JOINTS],
         digital_in: 0,
         spindle: SpindleFlags(0),
+        spindle_v: 0.0,
         played: 0,
         loss: None,
     };
@@ -284,6 +287,9 @@ impl JointOwnership {
             joints.digital_in |= said.digital_in;
             joints.loss = joints.loss.or_else(|| LossTold::of(said));
             joints.spindle = SpindleFlags(joints.spindle.0 | said.spindle_flags);
+            if said.spindle().contains(SpindleFlags::SPEED) {
+                joints.spindle_v = said.spindle_v;
+            }
             joints.limits |= (said.limit_low | said.limit_high) & claimed;
             for joint in (0..JOINTS).filter(|joint| claimed & (1 << joint) != 0) {
                 joints.position[joint] = said.position[joint];

@@ -27,7 +27,8 @@ impl DriveMonitor {
     /// The joints that are not led any more because of a loss: as soon as that is the fault, or another is,
     /// their power is to go. Before, the power would be the reason.
     pub(super) fn lost(&self, joints: &Joints, report: &TickReport) -> u32 {
-        let is_lost = report.fault.is_some() && self.loss(joints, report).is_some();
+        let loss = self.loss(joints, report).filter(|_| report.fault.is_some());
+        let is_lost = loss.is_some_and(|loss| loss.cause.is_loss_of_joints());
         if is_lost { self.all } else { 0 }
     }
 

@@ -60,6 +60,8 @@ coded! {
         Device = 2,
         /// Its bus, which came up again since.
         Bus = 3,
+        /// The drive of its spindle, which reports a fault or has no power.
+        Spindle = 4,
     }
 }
 
@@ -81,7 +83,10 @@ impl SpindleFlags {
     /// [`Feedback::spindle_index_count`] is counted, and the angle is whole at the index.
     pub const INDEX: Self = Self(1 << 5);
 
-    const KNOWN: u32 = (1 << 6) - 1;
+    /// [`Feedback::spindle_v`] is measured.
+    pub const SPEED: Self = Self(1 << 6);
+
+    pub(super) const KNOWN: u32 = (1 << 7) - 1;
 
     /// True if all of `other` are set.
     #[must_use]
@@ -173,7 +178,7 @@ pub struct Feedback {
     /// interpolator is reset, or another interpolator is there; nothing that stopped by it begins again before.
     pub loss: u32,
     /// Of setpoints, how long none came, s. Of a device, its place in the line from 0, or -1 where none
-    /// says that it is missing. 0 otherwise.
+    /// says that it is missing. Of a spindle the number of its fault, 0 without power. 0 otherwise.
     pub loss_value: f64,
     /// The inputs that are latched.
     pub latch: [Latch; LATCHES],

@@ -210,6 +210,8 @@ pub enum FaultCause {
     DeviceLost,
     /// The bus of a servo stack was lost, and outputs that were on with it.
     BusLost,
+    /// The drive of the spindle reports a fault, or has no power.
+    SpindleDrive,
 }
 
 impl FaultCause {
@@ -241,6 +243,7 @@ impl FaultCause {
             Self::SetpointsLost => 19,
             Self::DeviceLost => 20,
             Self::BusLost => 21,
+            Self::SpindleDrive => 22,
             Self::Frame(refusal) => Self::FRAME + refusal.code(),
         }
     }
@@ -270,6 +273,7 @@ impl FaultCause {
             19 => Some(Self::SetpointsLost),
             20 => Some(Self::DeviceLost),
             21 => Some(Self::BusLost),
+            22 => Some(Self::SpindleDrive),
             Self::FRAME.. => match FrameRefusal::from_code(code - Self::FRAME) {
                 Some(refusal) => Some(Self::Frame(refusal)),
                 None => None,
@@ -286,6 +290,7 @@ impl FaultCause {
             Loss::Setpoints => Some(Self::SetpointsLost),
             Loss::Device => Some(Self::DeviceLost),
             Loss::Bus => Some(Self::BusLost),
+            Loss::Spindle => Some(Self::SpindleDrive),
         }
     }
 
@@ -293,6 +298,15 @@ impl FaultCause {
     /// them.
     #[must_use]
     pub const fn is_loss(self) -> bool {
+        matches!(
+            self,
+            Self::SetpointsLost | Self::DeviceLost | Self::BusLost | Self::SpindleDrive
+        )
+    }
+
+    /// Whether joints are not led any more by that: their power goes as soon as they rest.
+    #[must_use]
+    pub const fn is_loss_of_joints(self) -> bool {
         matches!(self, Self::SetpointsLost | Self::DeviceLost | Self::BusLost)
     }
 }

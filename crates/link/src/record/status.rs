@@ -3,7 +3,7 @@
 use super::check::{Fields, RecordError};
 use super::{
     ALL_JOINTS, CodeWords, ContactKind, EndOfEpoch, FRAME_REFUSALS, FaultCause, JobStage,
-    MachineState, MotionMode, OVERRIDE_MAX, Power, Record, Text, event,
+    MachineState, MotionMode, OVERRIDE_MAX, Power, Record, SpindleFlags, Text, event,
 };
 use glidepath_geometry::{AXES, Axis};
 use glidepath_program::Event;
@@ -61,7 +61,7 @@ pub struct Quantiles {
 /// The status of the interpolator: what it does and how well. Counts are of this life of it.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.Status.v12")]
+#[type_name("glidepath.Status.v13")]
 pub struct Status {
     /// Identifies one life of the interpolator.
     pub boot_id: u64,
@@ -236,6 +236,13 @@ pub struct Status {
     pub jog_client: u64,
     /// The number of that demand: what this client asked for with it has begun, or has been done.
     pub jog_number: u64,
+    /// Speed of the spindle as it was measured last, rev/s, negative if it turns backwards; means something
+    /// if [`SpindleFlags::SPEED`] is set.
+    pub spindle_v: f64,
+    /// Bits of [`SpindleFlags`].
+    pub spindle_flags: u32,
+    /// Must be zero.
+    pub reserved: u32,
 }
 
 /// Drives that have said nothing for so long are silent: nobody knows where they are, ns.
@@ -327,6 +334,12 @@ impl Status {
         Fields(Self::NAME).code("contact_kind", self.contact_kind)
     }
 
+    /// The state of the spindle, as its drive tells.
+    #[must_use]
+    pub const fn spindle(&self) -> SpindleFlags {
+        SpindleFlags(self.spindle_flags)
+    }
+
     /// The stage of the job that a planner has told of last.
     ///
     /// # Errors
@@ -344,7 +357,7 @@ impl Status {
 }
 
 impl Record for Status {
-    const NAME: &'static str = "glidepath.Status.v12";
+    const NAME: &'static str = "glidepath.Status.v13";
 
     fn check(&self) -> Result<(), RecordError> {
         let fields = Fields(Self::NAME);
@@ -409,6 +422,9 @@ impl Record for Status {
         self.message.check(Self::NAME, "message")?;
         self.job_stage()?;
         fields.flags("job_held", self.job_held, 1)?;
+        fields.finite("spindle_v", self.spindle_v)?;
+        fields.flags("spindle_flags", self.spindle_flags, SpindleFlags::KNOWN)?;
+        fields.zero("reserved", self.reserved)?;
         self.job.check(Self::NAME, "job")?;
         self.job_end.check(Self::NAME, "job_end")?;
         self.last_error.check(Self::NAME, "last_error")

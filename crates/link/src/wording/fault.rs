@@ -46,6 +46,7 @@ impl FaultCause {
             Self::SetpointsLost => "the drives heard no setpoints",
             Self::DeviceLost => "a device on the bus of the drives is lost",
             Self::BusLost => "the bus of the drives was lost",
+            Self::SpindleDrive => "the drive of the spindle has failed",
         }
     }
 
@@ -119,6 +120,7 @@ impl FaultCause {
                 "look at the supply of its devices, and at the cable to them; `glidepath reset`, \
                  `glidepath enable`"
             }
+            Self::SpindleDrive => "mend what the drive reports; `glidepath reset`",
         }
     }
 
@@ -159,7 +161,8 @@ impl FaultCause {
             | Self::TapOvertravel
             | Self::SetpointsLost
             | Self::DeviceLost
-            | Self::BusLost => "",
+            | Self::BusLost
+            | Self::SpindleDrive => "",
         }
     }
 
@@ -260,6 +263,10 @@ impl FaultReport {
             write!(f, ": the one at position {value:.0} of the line")
         } else if cause == FaultCause::DeviceLost {
             f.write_str(": one that says that it is in OP")
+        } else if cause == FaultCause::SpindleDrive && value > 0.0 {
+            write!(f, ": its number {value:.0}")
+        } else if cause == FaultCause::SpindleDrive {
+            f.write_str(": it has no power")
         } else {
             Ok(())
         }

@@ -182,6 +182,7 @@ fn numbers_that_are_not_finite_are_refused() {
             (632, 640),
             (648, 664),
             (672, 744),
+            (1792, 1800),
         ],
     );
     refuses_not_finite(&good_segment(), &[(48, 248)]);
@@ -298,7 +299,7 @@ fn unknown_codes_and_bits_are_refused() {
         refused(good_setpoint(), |s| s.state = 0),
         refused(good_setpoint(), |s| s.state = 17),
         refused(good_status(), |s| s.state = 0),
-        refused(good_status(), |s| s.fault = 22),
+        refused(good_status(), |s| s.fault = 23),
         refused(good_status(), |s| s.fault_axis = 10),
         refused(good_status(), |s| s.fault_axis = u32::MAX),
         refused(good_status(), |s| s.end_of_epoch = 6),
@@ -308,7 +309,7 @@ fn unknown_codes_and_bits_are_refused() {
         refused(good_status(), |s| s.mode = 6),
         refused(Feedback::zeroed(), |f| f.drive_state[8] = 9),
         refused(Feedback::zeroed(), |f| f.latch[3].kind = 4),
-        refused(Feedback::zeroed(), |f| f.loss = 4),
+        refused(Feedback::zeroed(), |f| f.loss = 5),
         refused(JogDemand::zeroed(), |j| j.mode = 5),
         refused(CommandRequest::new(1, 1, Command::Ping), |c| c.kind = 0),
         refused(CommandRequest::new(1, 1, Command::Ping), |c| c.kind = 23),
@@ -325,13 +326,14 @@ fn unknown_codes_and_bits_are_refused() {
         refused(good_setpoint(), |s| s.flags = 256),
         refused(good_status(), |s| s.grants = 64),
         refused(good_status(), |s| s.unanswered = 2),
+        refused(good_status(), |s| s.spindle_flags = 128),
         refused(good_status(), |s| s.awaited_words.given = 4),
         refused(good_status(), |s| s.homed = 1 << 9),
         refused(good_setpoint(), |s| s.enable = 1 << 9),
         refused(good_setpoint(), |s| s.home = 1 << 9),
         refused(Feedback::zeroed(), |f| f.joints = 1 << 9),
         refused(Feedback::zeroed(), |f| f.home_switch = 1 << 31),
-        refused(Feedback::zeroed(), |f| f.spindle_flags = 64),
+        refused(Feedback::zeroed(), |f| f.spindle_flags = 128),
         refused(JogDemand::zeroed(), |j| j.mask = 1 << 9),
         refused(CommandRequest::new(1, 1, Command::Home(1)), |c| {
             c.joints = 1 << 9;
@@ -406,7 +408,7 @@ fn codes_are_consecutive_and_known() {
     in_sequence(MotionMode::ALL.iter().map(|code| code.code()), 0, 5);
     in_sequence(JogMode::ALL.iter().map(|code| code.code()), 0, 4);
     in_sequence(LatchKind::ALL.iter().map(|code| code.code()), 0, 3);
-    in_sequence(Loss::ALL.iter().map(|code| code.code()), 0, 3);
+    in_sequence(Loss::ALL.iter().map(|code| code.code()), 0, 4);
     in_sequence(DriveState::ALL.iter().map(|code| code.code()), 0, 8);
     in_sequence(EventKind::ALL.iter().map(|code| code.code()), 0, 14);
     assert_eq!(FrameRefusal::ALL.len(), FRAME_REFUSALS);
@@ -419,7 +421,7 @@ fn codes_are_consecutive_and_known() {
     let faults: Vec<u32> = (0..0x200)
         .filter(|code| FaultCause::from_code(*code).is_some())
         .collect();
-    assert_eq!(faults, (1..=21).chain(0x101..=0x10c).collect::<Vec<_>>());
+    assert_eq!(faults, (1..=22).chain(0x101..=0x10c).collect::<Vec<_>>());
     for code in faults {
         assert_eq!(FaultCause::from_code(code).unwrap().code(), code);
     }

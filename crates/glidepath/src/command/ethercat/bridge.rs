@@ -4,12 +4,14 @@ use crate::cli::EthercatArgs;
 use crate::command::failure::Failure;
 use crate::command::{servo, session};
 use crate::config::MachineConfig;
-use crate::drives;
+use crate::drives::{self, DrivesSource};
 use crate::exit::Exit;
 use crate::interrupt::{Interrupt, end_with};
 use crate::output;
 use crate::report::grouped;
-use glidepath_ethercat::{Counts, Demand, Listeners, PacketWire, RunSettings, Settings, run};
+use glidepath_ethercat::{
+    Counts, Demand, Listeners, PacketWire, RunError, RunSettings, Settings, run,
+};
 use glidepath_link::{Ipc, Transport};
 use glidepath_realtime::{Histogram, Mode, Request};
 use serde_json::{Value, json};
@@ -45,9 +47,19 @@ pub(super) fn drive(args: &EthercatArgs, config: &MachineConfig) -> Result<Exit,
     };
     let mut wire = PacketWire::open(&drives.interface)?;
     let interrupt = interrupt(args)?;
-    let counts = bridge(args, config, &mut wire, &settings, &interrupt, None)?;
+    let counts = bridge(args, config, &mut wire, &settings, &interrupt, None)
+        .map_err(|failure| in_file(failure, &drives.source))?;
     report(args, &counts);
     Ok(interrupt.exit())
+}
+
+/// What the bus refuses of a file is something to mend there.
+pub(super) fn in_file(failure: Failure, source: &DrivesSource) -> Failure {
+    let refusal = match &failure {
+        Failure::Bus(RunError::Bus(error)) => source.refusal(error),
+        _ => None,
+    };
+    refusal.map_or(failure, Failure::Configuration)
 }
 
 /// Ends with Ctrl-C, or with the process that started this one.

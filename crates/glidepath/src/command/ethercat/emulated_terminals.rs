@@ -1,34 +1,30 @@
 //! Emulated devices that are no drives: each has what the file names, and nothing to set.
 
-use glidepath_emulator::{Channels, ClockKind, DriveSettings as Emulated};
-use glidepath_ethercat::{At, TerminalSettings};
+use glidepath_emulator::{Channels, ClockKind, DriveSettings as Emulated, SpindleMotor};
+use glidepath_ethercat::{At, Mapping, SpindleMode, SpindleSettings, TerminalSettings};
 
 /// Bits of an entry at most.
 const MOST_BITS: u32 = 248;
+/// Counts of a revolution, where nobody is told.
+const COUNTS_PER_REV: f64 = 10_000.0;
 /// Counts of a number of 16 bits.
 const SHORT: u32 = 0xffff;
 
 /// A device that has what a file names.
 pub(super) fn emulated(settings: &TerminalSettings) -> Emulated {
-    let digital = settings.inputs.iter().map(|input| input.at);
-    let analog = settings.analog_inputs.iter().map(|input| (input.at, 16));
-    let inputs = maps(digital.collect(), analog.collect());
+    let inputs = input_maps(settings);
     let digital = settings.outputs.iter().map(|output| output.at);
     let analog = settings.analog_outputs.iter().map(|output| {
         let bits = if output.full_counts > SHORT { 32 } else { 16 };
         (output.at, bits)
     });
     let outputs = maps(digital.collect(), analog.collect());
+    if let Some(spindle) = &settings.spindle {
+        return emulated_spindle(settings, spindle);
+    }
     let like = Emulated::terminal("EMULATED", ClockKind::ReceiveTimes);
-    let or = |id: u32, other: u32| if id == 0 { other } else { id };
-    let [vendor, product, revision, serial] = like.identity;
     Emulated {
-        identity: [
-            or(settings.vendor, vendor),
-            or(settings.product, product),
-            revision,
-            serial,
-        ],
+        identity: identity(settings, &like),
         channels: Some(Channels {
             output_windows: 1,
             outputs,
@@ -39,12 +35,70 @@ pub(super) fn emulated(settings: &TerminalSettings) -> Emulated {
     }
 }
 
+/// Who the file says that it is.
+fn identity(settings: &TerminalSettings, like: &Emulated) -> [u32; 4] {
+    let or = |id: u32, other: u32| if id == 0 { other } else { id };
+    let [vendor, product, revision, serial] = like.identity;
+    [
+        or(settings.vendor, vendor),
+        or(settings.product, product),
+        revision,
+        serial,
+    ]
+}
+
+/// The drive of a spindle that is twice as strong as its ramp takes, and runs out within seconds.
+fn emulated_spindle(settings: &TerminalSettings, spindle: &SpindleSettings) -> Emulated {
+    let like = Emulated::default();
+    let counts_per_rev = match spindle.mode {
+        SpindleMode::CyclicVelocity | SpindleMode::ProfileVelocity => 60.0 * spindle.units_per_rpm,
+        SpindleMode::Velocity => COUNTS_PER_REV,
+    };
+    Emulated {
+        identity: identity(settings, &like),
+        name: "SPINDLE".to_owned(),
+        spindle: Some(SpindleMotor {
+            counts_per_rev,
+            torque_rpm_per_s: 2.0 * spindle.ramp_rpm_per_s,
+            coast_t: 2.0,
+        }),
+        ..like
+    }
+}
+
+/// Where a device that has what a file names has an input, bits.
+pub(super) fn input_place(settings: &TerminalSettings, at: At) -> Option<usize> {
+    let (index, sub) = match at {
+        At::Bit(bit) => return Some(bit as usize),
+        At::Object { index, sub } => (u32::from(index), u32::from(sub)),
+    };
+    let entries = input_maps(settings);
+    let mut bits = 0;
+    for entry in entries.iter().flatten() {
+        if entry >> 8 == index << 8 | sub {
+            return Some(bits);
+        }
+        bits += (entry & 0xff) as usize;
+    }
+    None
+}
+
+fn input_maps(settings: &TerminalSettings) -> Vec<Vec<u32>> {
+    let digital = settings.inputs.iter().map(|input| input.at);
+    let analog = settings.analog_inputs.iter().map(|input| (input.at, 16));
+    maps(digital.collect(), analog.collect())
+}
+
 /// The settings without what an emulated device does not have: other maps, and parameters.
 pub(super) fn plain(settings: &TerminalSettings) -> TerminalSettings {
     TerminalSettings {
         parameters: Vec::new(),
         assign_outputs: None,
         assign_inputs: None,
+        spindle: settings.spindle.map(|spindle| SpindleSettings {
+            mapping: Mapping::Written,
+            ..spindle
+        }),
         ..settings.clone()
     }
 }

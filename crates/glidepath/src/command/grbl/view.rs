@@ -126,7 +126,10 @@ fn fault(status: &Status) -> Option<(Alarm, String)> {
         FaultCause::Frame(FrameRefusal::SoftLimit) => Alarm::SoftLimit,
         FaultCause::Homing => Alarm::Homing,
         FaultCause::EnableLost => Alarm::EmergencyStop,
-        FaultCause::AuxTimeout | FaultCause::AuxFailed | FaultCause::SpindleSpeed => Alarm::Spindle,
+        FaultCause::AuxTimeout
+        | FaultCause::AuxFailed
+        | FaultCause::SpindleSpeed
+        | FaultCause::SpindleDrive => Alarm::Spindle,
         FaultCause::Drive | FaultCause::DeviceLost | FaultCause::BusLost => Alarm::Motor,
         FaultCause::ProbeContact => Alarm::ProbeAtFirst,
         FaultCause::Frame(_)

@@ -2,7 +2,9 @@
 
 use super::{found, machine, wrong};
 use crate::drives::{Found, parse, written};
-use glidepath_ethercat::{At, Entry, OutputWatchdog, Quantity, Signal, Window};
+use glidepath_ethercat::{
+    At, BusError, Entry, Mapping, OutputWatchdog, Quantity, Signal, SpindleMode, Window,
+};
 
 fn terminal(position: usize, windows: &[(bool, &[u32])]) -> Found {
     let entry = |entry: &u32| Entry {
@@ -64,12 +66,15 @@ analog_outputs = [{ at = "0x7000:01", from = "spindle.speed", full = 24000.0, co
 position = 7
 assign_inputs = [0x1a00, 0x1a02]
 analog_inputs = [{ at = "0x6000:11", number = 0, scale = 0.00030519, signed = false }]
+[[device]]
+position = 8
+spindle = { mode = "cyclic-velocity", units_per_rpm = 1000.0, max_rpm = 24000.0, ramp = 8000.0, map = "keep" }
 "#;
 
 #[test]
 fn devices_that_are_no_drives_have_inputs_and_outputs() {
     let drives = parse("drives.toml", &with(DEVICES), &machine("none")).unwrap();
-    let [inputs, outputs, speed, level] = &drives.terminals[..] else {
+    let [inputs, outputs, speed, level, spindle] = &drives.terminals[..] else {
         panic!("{:?}", drives.terminals)
     };
     let object = |index, sub| At::Object { index, sub };
@@ -93,10 +98,82 @@ fn devices_that_are_no_drives_have_inputs_and_outputs() {
     assert_eq!(speed.analog_outputs[0].from, Quantity::SpindleSpeed);
     assert_eq!(level.assign_inputs, Some(vec![0x1a00, 0x1a02]));
     assert!(!level.analog_inputs[0].is_signed);
+    let spindle = spindle.spindle.unwrap();
+    assert_eq!(spindle.mode, SpindleMode::CyclicVelocity);
+    assert_eq!(
+        (spindle.mapping, spindle.is_inverted),
+        (Mapping::Kept, false)
+    );
+    assert!((spindle.at_speed_r - 0.03).abs() < 1e-12);
+    // Below 0 it falls.
+    let falls = with(DEVICES).replace("scale = 0", "scale = -0");
+    let drives = parse("drives.toml", &falls, &machine("none")).unwrap();
+    assert!(drives.terminals[3].analog_inputs[0].scale < 0.0);
+}
+
+#[test]
+fn a_machine_has_one_spindle_and_an_inverter_counts_its_revolutions() {
+    let spindle = |position| {
+        format!(
+            "[[device]]\nposition = {position}\nspindle = {{ mode = \"velocity\", max_rpm = 24000.0, ramp = \
+             8000.0 }}\n"
+        )
+    };
+    let drives = parse("drives.toml", &with(&spindle(4)), &machine("none")).unwrap();
+    let units = drives.terminals[0].spindle.unwrap().units_per_rpm;
+    assert!((units - 1.0).abs() < 1e-12);
+    let told = wrong(&with(&(spindle(4) + &spindle(5))));
+    assert_eq!(told[0].1, "two devices are the drive of the spindle");
+    // 0x6042 has 16 bits.
+    let fast = spindle(4).replace("24000.0", "33000.0");
+    assert!(
+        wrong(&with(&fast))[0]
+            .1
+            .contains("more than its drive can be told")
+    );
+}
+
+#[test]
+fn what_the_bus_refuses_is_told_by_its_place_in_the_file() {
+    let text = with(DEVICES);
+    let drives = parse("drives.toml", &text, &machine("none")).unwrap();
+    let told = |error: &BusError| {
+        let refusal = drives.source.refusal(error)?;
+        let diagnostic = refusal.diagnostics().first()?.clone();
+        let (line, _) = refusal.line_and_column(&diagnostic)?;
+        Some((
+            text.lines().nth(line - 1)?.trim().to_owned(),
+            diagnostic.message,
+        ))
+    };
+    let unwired = |at, is_output| BusError::Unwired {
+        device: 5,
+        name: "EL2004".to_owned(),
+        at,
+        is_output,
+        what: "there is none".to_owned(),
+    };
+    let (line, message) = told(&unwired(At::Bit(1), true)).unwrap();
+    assert!(line.starts_with("{ bit = 1, from = \"output 5\""), "{line}");
+    assert_eq!(message, "device 5 (EL2004): there is none");
+    // What is not named there is the device's.
+    let (line, _) = told(&unwired(At::Bit(1), false)).unwrap();
+    assert_eq!(line, "[[device]]");
+    let missing = BusError::Missing {
+        position: 2,
+        found: 2,
+    };
+    assert_eq!(told(&missing).unwrap().0, "[[drive]]");
+    assert_eq!(told(&BusError::Nobody), None);
+    let elsewhere = BusError::Missing {
+        position: 60,
+        found: 2,
+    };
+    assert_eq!(told(&elsewhere), None);
 }
 
 /// What is changed in the tables, into what, and what is said of it.
-const WRONG: [(&str, &str, &str); 18] = [
+const WRONG: [(&str, &str, &str); 26] = [
     (
         "position = 4",
         "position = 2",
@@ -179,6 +256,42 @@ const WRONG: [(&str, &str, &str); 18] = [
         "the key `from` is missing",
     ),
     ("signed = false", "sign = false", "unknown key `sign`"),
+    (
+        "scale = 0.00030519",
+        "scale = 0.0",
+        "device.analog_inputs.scale = 0 a count is out of range",
+    ),
+    (
+        "scale = 0.00030519",
+        "scale = -1e10",
+        "device.analog_inputs.scale = -10000000000 a count is out of range",
+    ),
+    (
+        "counts = 32767",
+        "counts = 32767, rest = 24001.0",
+        "device.analog_outputs.rest = 24001 units is out of range",
+    ),
+    (
+        "\"cyclic-velocity\"",
+        "\"cyclic\"",
+        "device.spindle.mode = \"cyclic\" is not known",
+    ),
+    ("units_per_rpm = 1000.0, ", "", "units_per_rpm is missing"),
+    (
+        "max_rpm = 24000.0",
+        "max_rpm = 24000000.0",
+        "device.spindle.max_rpm = 24000000 rev/min is out of range",
+    ),
+    (
+        "units_per_rpm = 1000.0",
+        "units_per_rpm = 100000.0",
+        "device.spindle.max_rpm = 24000 rev/min is more than its drive can be told",
+    ),
+    (
+        "ramp = 8000.0",
+        "ramp = 0.0",
+        "device.spindle.ramp = 0 rev/min per s is out of range",
+    ),
 ];
 
 #[test]
@@ -199,7 +312,7 @@ fn what_is_wrong_with_a_device_is_told_with_its_place() {
             told.iter().any(is_told),
             "{from} → {to}, line {line}: {told:?}"
         );
-        let last = place(&text, "position = 7");
+        let last = place(&text, "position = 8");
         assert!(told.iter().all(|(at, _)| *at <= last + 2), "{told:?}");
     }
 }
@@ -271,4 +384,12 @@ fn the_tables_of_the_manual_are_right() {
     assert_eq!((inputs.inputs.len(), outputs.outputs.len()), (3, 3));
     let analog = (speed.analog_outputs.len(), level.analog_inputs.len());
     assert_eq!((analog, speed.parameters.len()), ((1, 1), 1));
+    let (_, section) = section.split_once("\n### A spindle\n").unwrap();
+    let (_, example) = section.split_once("```toml\n").unwrap();
+    let (example, _) = example.split_once("```").unwrap();
+    let drives = parse("drives.toml", &with(example), &machine("none")).unwrap();
+    assert_eq!(
+        drives.terminals[0].spindle.unwrap().mode,
+        SpindleMode::Velocity
+    );
 }

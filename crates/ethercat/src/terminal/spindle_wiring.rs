@@ -1,0 +1,89 @@
+//! Where in the process data the objects of a spindle's drive are.
+
+use super::bits::{number, put_number};
+use super::spindle_settings::SpindleSettings;
+
+/// The image of a spindle's drive: bits from the beginning of the outputs or inputs of all.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct WiredSpindle {
+    pub(crate) settings: SpindleSettings,
+    /// Which of the devices that are no drives it is.
+    pub(crate) nth: usize,
+    control: usize,
+    target: usize,
+    /// Where the mode is; `None` if it is not mapped, and was set as a parameter.
+    mode: Option<usize>,
+    status: usize,
+    actual: usize,
+    fault: Option<usize>,
+}
+
+/// What the drive of a spindle tells.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct SpindleInputs {
+    pub(crate) status: u16,
+    pub(crate) actual: i32,
+    /// Its error code, if it tells one.
+    pub(crate) fault: Option<u16>,
+}
+
+impl WiredSpindle {
+    /// Finds its objects: `outputs` and `inputs` give where one is, and how many bits it has there.
+    ///
+    /// # Errors
+    /// The object that is missing, or not where a byte begins.
+    pub(super) fn find(
+        (settings, nth): (SpindleSettings, usize),
+        outputs: impl Fn(u16) -> Option<(usize, u32)>,
+        inputs: impl Fn(u16) -> Option<(usize, u32)>,
+    ) -> Result<Self, (u16, bool)> {
+        let place = |found: Option<(usize, u32)>, bits: u32| {
+            let found = found.filter(|(bit, found)| bit.is_multiple_of(8) && *found == bits);
+            found.map(|(bit, _)| bit)
+        };
+        let output = |index, bits| place(outputs(index), bits);
+        let input = |index, bits| place(inputs(index), bits);
+        let (target, actual) = (settings.mode.target(), settings.mode.actual());
+        Ok(Self {
+            settings,
+            nth,
+            control: output(0x6040, 16).ok_or((0x6040, true))?,
+            target: output(target.0, target.1).ok_or((target.0, true))?,
+            mode: output(0x6060, 8),
+            status: input(0x6041, 16).ok_or((0x6041, false))?,
+            actual: input(actual.0, actual.1).ok_or((actual.0, false))?,
+            fault: input(0x603f, 16),
+        })
+    }
+
+    /// What it tells.
+    #[allow(
+        clippy::cast_possible_wrap,
+        clippy::cast_possible_truncation,
+        reason = "the bits of numbers of that size"
+    )]
+    pub(super) fn take(&self, image: &[u8]) -> SpindleInputs {
+        let word = |bit| number(image, bit, 16) as u16;
+        let bits = self.settings.mode.actual().1;
+        let unused = 32 - bits;
+        SpindleInputs {
+            status: word(self.status),
+            actual: (number(image, self.actual, bits) << unused) as i32 >> unused,
+            fault: self.fault.map(word),
+        }
+    }
+
+    /// Writes what it is told.
+    #[allow(
+        clippy::cast_sign_loss,
+        reason = "a negative number is written as its bits"
+    )]
+    pub(super) fn put(&self, image: &mut [u8], control: u16, target: i32) {
+        put_number(image, self.control, 16, control.into());
+        let bits = self.settings.mode.target().1;
+        put_number(image, self.target, bits, target as u32);
+        if let Some(mode) = self.mode {
+            put_number(image, mode, 8, self.settings.mode.code() as u8 as u32);
+        }
+    }
+}
