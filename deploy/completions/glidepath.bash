@@ -845,7 +845,7 @@ _glidepath() {
             return 0
             ;;
         glidepath__subcmd__ethercat)
-            opts="-c -h --drives --config --json --instance --best-effort --cpu --priority --emulated --emulated-period-us --emulated-record --in-namespace --end-with --help scan help"
+            opts="-c -h --drives --config --json --instance --best-effort --cpu --priority --emulated --emulated-period-us --emulated-record --emulated-inputs --in-namespace --end-with --help scan help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -880,6 +880,10 @@ _glidepath() {
                     return 0
                     ;;
                 --emulated-record)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --emulated-inputs)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;

@@ -41,6 +41,11 @@ pub struct EthercatArgs {
     /// Write what the emulated drives recorded at every SYNC0 as CSV
     #[arg(long, value_name = "CSV", requires = "emulated")]
     pub emulated_record: Option<PathBuf>,
+    /// What stands at the inputs of the emulated devices: a file with lines like `input 3 on`, `home 0 on`,
+    /// `limit_high 1 off` and `analog 0 2.5`, looked at while they run. Without --drives there is a device
+    /// that has inputs of every kind
+    #[arg(long, value_name = "FILE", requires = "emulated")]
+    pub emulated_inputs: Option<PathBuf>,
     /// It is in its namespace already
     #[arg(long, hide = true)]
     pub in_namespace: bool,

@@ -45,6 +45,14 @@ pub(super) enum Failure {
         /// What is wrong.
         error: ReadError,
     },
+    /// The file of the inputs of emulated devices has something to mend.
+    #[error("{file}:{error}")]
+    Inputs {
+        /// The file.
+        file: String,
+        /// Where, and what is wrong.
+        error: String,
+    },
     /// LinuxCNC's parameter file has something to mend.
     #[error("{file}, {error}")]
     Var {

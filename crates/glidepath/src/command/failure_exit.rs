@@ -14,6 +14,7 @@ use glidepath_planner::{self as planner, FeedError, Refusal};
 impl Failure {
     /// The exit code.
     #[must_use]
+    #[allow(clippy::too_many_lines, reason = "a line for each failure")]
     pub(super) const fn exit(&self) -> Exit {
         match self {
             Self::NoFeedback
@@ -40,6 +41,7 @@ impl Failure {
             | Self::NotEmulated(_)
             | Self::Mirror(MirrorError::Root { .. })
             | Self::Word(..)
+            | Self::Inputs { .. }
             | Self::Var { .. }
             | Self::Foreign { .. }
             | Self::NoFeed

@@ -1,13 +1,14 @@
 //! The bridge to emulated drives, together with them.
 
 use super::bridge;
+use super::emulated_inputs::{self, InputFile, Level, Pins};
 use super::emulated_terminals;
 use super::namespace::{self, DRIVES, MASTER};
 use crate::cli::EthercatArgs;
 use crate::command::failure::Failure;
 use crate::command::servo;
 use crate::config::{HomingBy, MachineConfig};
-use crate::drives;
+use crate::drives::{self, DrivesSource};
 use crate::exit::Exit;
 use crate::file_error::FileError;
 use core::sync::atomic::{AtomicBool, Ordering};
@@ -20,6 +21,7 @@ use glidepath_realtime::{Mode, Request, enter};
 use std::fs::File;
 use std::io::{BufWriter, Write as _};
 use std::path::Path;
+use std::sync::mpsc::{Receiver, channel};
 
 /// A 23 bit encoder on a spindle of 5 mm, counts a mm.
 const COUNTS: f64 = 8_388_608.0 / 5.0;
@@ -48,7 +50,13 @@ const MAP_STEP: u16 = 0x10;
 pub(super) fn drive(args: &EthercatArgs, config: &MachineConfig) -> Result<Exit, Failure> {
     let interrupt = bridge::interrupt(args)?;
     namespace::make_interfaces()?;
-    let (drives, terminals, emulated) = machine(args, config)?;
+    let Machine {
+        drives,
+        terminals,
+        emulated,
+        source,
+        pins,
+    } = machine(args, config)?;
     let period_ns = u64::from(args.emulated_period_us) * 1000;
     let mut settings = Settings {
         bus: BusSettings {
@@ -75,8 +83,21 @@ pub(super) fn drive(args: &EthercatArgs, config: &MachineConfig) -> Result<Exit,
     }
     let is_over = AtomicBool::new(false);
     let mut demanded = Vec::new();
+    let (changed, changes) = channel();
+    let file = args.emulated_inputs.as_deref();
+    let mut file = match file.map(|path| InputFile::open(path, pins)).transpose()? {
+        Some((file, levels)) => {
+            put(&mut segment, &levels);
+            Some(file)
+        }
+        None => None,
+    };
     let counts = std::thread::scope(|scope| {
-        let answers = scope.spawn(|| answer(&mut there, &mut segment, &is_over));
+        let (wire, devices, over) = (&mut there, &mut segment, &is_over);
+        let answers = scope.spawn(move || answer(wire, devices, &changes, over));
+        if let Some(file) = &mut file {
+            scope.spawn(|| file.watch(&changed, &is_over));
+        }
         let mut note = |demand: Demand| demanded.push(demand);
         let demands = record.map(|_| &mut note as &mut dyn FnMut(Demand));
         let counts = bridge::bridge(args, config, &mut master, &settings, &interrupt, demands);
@@ -84,7 +105,7 @@ pub(super) fn drive(args: &EthercatArgs, config: &MachineConfig) -> Result<Exit,
         answers
             .join()
             .map_err(|_| Failure::Thread("the emulated drives"))?;
-        counts
+        counts.map_err(|failure| bridge::in_file(failure, &source))
     })?;
     if let Some(path) = record {
         write(path, &settings, &mut segment, &demanded).map_err(|source| {
@@ -99,8 +120,23 @@ pub(super) fn drive(args: &EthercatArgs, config: &MachineConfig) -> Result<Exit,
     Ok(interrupt.exit())
 }
 
+/// Something else stands at inputs.
+fn put(segment: &mut Segment, levels: &[Level]) {
+    for level in levels {
+        match level {
+            Level::Bit(device, bit, is_high) => segment.set_input(*device, *bit, *is_high),
+            Level::Number(device, from, bytes) => segment.set_input_bytes(*device, *from, bytes),
+        }
+    }
+}
+
 /// The drives answer frames until it is over.
-fn answer(wire: &mut PacketWire, segment: &mut Segment, is_over: &AtomicBool) {
+fn answer(
+    wire: &mut PacketWire,
+    segment: &mut Segment,
+    changes: &Receiver<Vec<Level>>,
+    is_over: &AtomicBool,
+) {
     let request = Request {
         priority: Some(PRIORITY),
         ..Request::default()
@@ -112,6 +148,9 @@ fn answer(wire: &mut PacketWire, segment: &mut Segment, is_over: &AtomicBool) {
         let until_ns = wire.now_ns() + POLL_NS;
         if let Ok(Some(length)) = wire.receive(&mut frame, until_ns) {
             let frame = &mut frame[..length];
+            while let Ok(levels) = changes.try_recv() {
+                put(segment, &levels);
+            }
             segment.pass(frame, wire.now_ns());
             // A frame that is lost is lost.
             let _ = wire.send(frame);
@@ -119,8 +158,18 @@ fn answer(wire: &mut PacketWire, segment: &mut Segment, is_over: &AtomicBool) {
     }
 }
 
-/// Drives and other devices as the bridge knows them, and all of them as they are.
-type Machine = (Vec<DriveSettings>, Vec<TerminalSettings>, Vec<Emulated>);
+/// The devices of a machine.
+struct Machine {
+    /// Drives and other devices as the bridge knows them.
+    drives: Vec<DriveSettings>,
+    terminals: Vec<TerminalSettings>,
+    /// All of them as they are.
+    emulated: Vec<Emulated>,
+    /// Where each is said to be.
+    source: DrivesSource,
+    /// Their inputs.
+    pins: Pins,
+}
 
 /// The drives of a machine, as the bridge and as they themselves know them.
 fn machine(args: &EthercatArgs, config: &MachineConfig) -> Result<Machine, Failure> {
@@ -166,18 +215,23 @@ fn machine(args: &EthercatArgs, config: &MachineConfig) -> Result<Machine, Failu
         quick_stop_a: 4000.0,
         max_v,
     };
-    let (drives, terminals): (Vec<_>, _) = given.map_or_else(
+    let (drives, terminals, source): (Vec<_>, Vec<_>, _) = given.map_or_else(
         || {
-            (
-                velocities.into_iter().enumerate().map(drive).collect(),
-                Vec::new(),
-            )
+            let joints = velocities.len();
+            let desk = || emulated_inputs::desk(joints, joints);
+            let terminals = args.emulated_inputs.iter().map(|_| desk()).collect();
+            let drives = velocities.into_iter().enumerate().map(drive).collect();
+            (drives, terminals, DrivesSource::default())
         },
-        |given| (given.drives, given.terminals),
+        |given| (given.drives, given.terminals, given.source),
     );
     let mut emulated = as_they_are(&drives, &terminals, &begins);
+    let mut pins = Pins::default();
     for terminal in &terminals {
         emulated[terminal.position] = emulated_terminals::emulated(terminal);
+        pins.add(terminal, &|at| {
+            emulated_terminals::input_place(terminal, at)
+        });
     }
     let terminals = terminals.iter().map(emulated_terminals::plain).collect();
     let drives = drives.into_iter();
@@ -185,7 +239,13 @@ fn machine(args: &EthercatArgs, config: &MachineConfig) -> Result<Machine, Failu
         map_step: MAP_STEP,
         ..drive
     });
-    Ok((drives.collect(), terminals, emulated))
+    Ok(Machine {
+        drives: drives.collect(),
+        terminals,
+        emulated,
+        source,
+        pins,
+    })
 }
 
 /// All devices, the drives among them as they begin.

@@ -2,6 +2,7 @@
 
 mod bridge;
 mod emulated;
+mod emulated_inputs;
 mod emulated_terminals;
 mod namespace;
 mod scan;
