@@ -92,6 +92,44 @@ fn a_machine_is_switched_on_homed_used_and_recovers_from_the_loss_of_its_drives(
 }
 
 #[test]
+fn a_pause_of_the_interpolator_is_told_as_what_it_is_and_blames_no_joint() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let machine = Operated::new(&instance, &[], "");
+    let interpolator = machine.process(&["interpolator", "--best-effort"]);
+    let servo = machine.process(&["servo"]);
+    let _off = machine.wait_for_drives();
+    // Without power nothing stops by it.
+    for has_power in [false, true] {
+        if has_power {
+            machine.operate(&["enable"]);
+            let _idle = machine.wait_for(MachineState::Idle);
+        }
+        interpolator.signal(Signal::STOP);
+        std::thread::sleep(Duration::from_secs(1));
+        interpolator.signal(Signal::CONT);
+        if has_power {
+            let status = machine.wait_for(MachineState::Faulted);
+            assert_eq!(status.fault(), Ok(Some(FaultCause::SetpointsLost)));
+            let text = status.fault_text().unwrap_or_default();
+            assert!(
+                text.starts_with("the drives heard no setpoints for "),
+                "{text}"
+            );
+        } else {
+            std::thread::sleep(Duration::from_millis(500));
+            let _off = machine.wait_for(MachineState::Off);
+        }
+    }
+    let _cut = machine.wait(|status| status.power() == Ok(Power::Off));
+    machine.operate(&["reset"]);
+    machine.operate(&["enable"]);
+    let _idle = machine.wait_for(MachineState::Idle);
+    machine.operate(&["jog", "X2"]);
+    let _servo = servo.end().expect(0);
+    let _interpolator = interpolator.end().expect(0);
+}
+
+#[test]
 fn joints_that_are_not_homed_are_jogged_and_what_ends_a_motion_by_hand_is_told() {
     let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
     let machine = Operated::new(&instance, &[LOOKS_FOR_HOME], "");

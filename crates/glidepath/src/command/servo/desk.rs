@@ -10,8 +10,8 @@ use crate::interrupt::Interrupt;
 use glidepath_geometry::AXES;
 use glidepath_interpolator::JointHoming;
 use glidepath_kinematics::Kinematics as _;
-use glidepath_link::servo::{Servo, ServoCounts};
-use glidepath_link::{Setpoint, Transport as _};
+use glidepath_link::servo::{OwnStop, Servo, ServoCounts};
+use glidepath_link::{Feedback, Loss, Setpoint, Subscriber, Transport as _};
 use glidepath_plant::{HomeSettings, JointSettings, Plant, SwitchSettings};
 use glidepath_realtime::{Clock as _, Monotonic};
 use std::time::Duration;
@@ -35,7 +35,8 @@ pub(super) fn play(
     mut take: impl FnMut(Told<'_>) -> Result<bool, Failure>,
 ) -> Result<ServoCounts, Failure> {
     let transport = session::join(&args.instance, config)?;
-    let mut servo = Servo::new(transport.setpoint_source()?, settings(config));
+    let settings = settings(config);
+    let mut servo = Servo::new(transport.setpoint_source()?, settings);
     // What only passes setpoints on leaves the drives to somebody else.
     let mut feedback = (!args.listens)
         .then(|| transport.feedback_sink())
@@ -45,6 +46,7 @@ pub(super) fn play(
         plant = plant.with_probe(joint, position);
     }
     let mut notices = Notices::new(args.relay);
+    let mut silence = Silence::default();
     'playing: while !interrupt.is_set() {
         // The time from before it looks for setpoints: where a busy host lets it wait in between, what came meanwhile
         // is no silence.
@@ -62,12 +64,49 @@ pub(super) fn play(
             break;
         }
         plant.step(now_ns, servo.last(), demand.as_ref());
-        if let (Some(measured), Some(feedback)) = (plant.feedback(), &mut feedback) {
+        silence.look(&servo);
+        if let (Some(mut measured), Some(feedback)) = (plant.feedback(), &mut feedback) {
+            silence.tell(&servo, settings.patience_ns, &mut measured);
             feedback.publish(&measured)?;
         }
         std::thread::sleep(POLL);
     }
     Ok(*servo.counts())
+}
+
+/// The setpoints that stayed away until the joints stopped by themselves.
+#[derive(Debug, Default)]
+struct Silence {
+    /// Own stops so far.
+    stops: u64,
+    /// The life of the interpolator that was silent last.
+    of: Option<u64>,
+}
+
+impl Silence {
+    fn look<S: Subscriber<Setpoint>>(&mut self, servo: &Servo<S>) {
+        let stops = servo.counts().stops;
+        if stops > self.stops {
+            self.stops = stops;
+            self.of = servo.last().map(|last| last.boot_id);
+        }
+    }
+
+    /// Tells that to the one that was silent, until the position is taken over anew. Another one has lost
+    /// nothing.
+    #[allow(clippy::cast_precision_loss, reason = "some milliseconds")]
+    fn tell<S: Subscriber<Setpoint>>(
+        &self,
+        servo: &Servo<S>,
+        patience_ns: u64,
+        feedback: &mut Feedback,
+    ) {
+        let is_same = servo.last().map(|last| last.boot_id) == self.of;
+        if is_same && matches!(servo.stopped(), Some(OwnStop::Silence)) {
+            feedback.loss = Loss::Setpoints.code();
+            feedback.loss_value = patience_ns as f64 * 1e-9;
+        }
+    }
 }
 
 /// How far away the home switch of a joint is that has one, mm or degrees.
