@@ -95,31 +95,32 @@ fn a_machine_is_switched_on_homed_used_and_recovers_from_the_loss_of_its_drives(
 fn a_pause_of_the_interpolator_is_told_as_what_it_is_and_blames_no_joint() {
     let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
     let machine = Operated::new(&instance, &[], "");
+    let program = instance.file("program.ngc", "G21 G90 G1 X50 F600\nX0\nM2\n");
     let interpolator = machine.process(&["interpolator", "--best-effort"]);
     let servo = machine.process(&["servo"]);
     let _off = machine.wait_for_drives();
-    // Without power nothing stops by it.
-    for has_power in [false, true] {
-        if has_power {
-            machine.operate(&["enable"]);
-            let _idle = machine.wait_for(MachineState::Idle);
-        }
+    machine.operate(&["enable"]);
+    let _idle = machine.wait_for(MachineState::Idle);
+    let pause = || {
         interpolator.signal(Signal::STOP);
         std::thread::sleep(Duration::from_secs(1));
         interpolator.signal(Signal::CONT);
-        if has_power {
-            let status = machine.wait_for(MachineState::Faulted);
-            assert_eq!(status.fault(), Ok(Some(FaultCause::SetpointsLost)));
-            let text = status.fault_text().unwrap_or_default();
-            assert!(
-                text.starts_with("the drives heard no setpoints for "),
-                "{text}"
-            );
-        } else {
-            std::thread::sleep(Duration::from_millis(500));
-            let _off = machine.wait_for(MachineState::Off);
-        }
-    }
+    };
+    // At rest nothing stops by it.
+    pause();
+    std::thread::sleep(Duration::from_millis(500));
+    let _idle = machine.wait_for(MachineState::Idle);
+    let planner = machine.process(&["planner", &program]);
+    let running = MachineState::Running.code();
+    let _under_way = machine.wait(|status| status.state == running && status.position[0] > 2.0);
+    pause();
+    let status = machine.wait_for(MachineState::Faulted);
+    assert_eq!(status.fault(), Ok(Some(FaultCause::SetpointsLost)));
+    let text = status.fault_text().unwrap_or_default();
+    let told = "the drives heard no setpoints for ";
+    assert!(text.starts_with(told), "{text}");
+    let ended = planner.wait().expect(5);
+    assert!(ended.stderr.contains(told), "{ended:?}");
     let _cut = machine.wait(|status| status.power() == Ok(Power::Off));
     machine.operate(&["reset"]);
     machine.operate(&["enable"]);

@@ -10,6 +10,12 @@ use crate::terminal::Terminals;
 use glidepath_link::{Feedback, Setpoint, Subscriber};
 
 impl<S: Subscriber<Setpoint>> Bridge<S> {
+    /// Whether no setpoint is near the time that is played, and none was for as long as the drives wait.
+    pub(super) fn is_silent(&self, meant_ns: u64) -> bool {
+        let last = self.servo.last();
+        last.is_none_or(|last| meant_ns > last.apply_ns.saturating_add(self.patience_ns))
+    }
+
     /// Setpoints stayed away for longer than the drives' patience, and something stopped by that.
     pub(super) fn lose_setpoints(&mut self, tell: &mut dyn FnMut(Event)) {
         if self.loss.is_none() {

@@ -254,10 +254,10 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
             .iter()
             .all(|drive| drive.axis.is_ready(&drive.inputs));
         // Who wants them to look for their home is to be there as long as they do.
-        let home = match self.servo.stopped() {
-            Some(OwnStop::Silence) => 0,
-            _ => home,
-        };
+        if home != 0 && self.is_silent(meant_ns) {
+            self.lose_setpoints(tell);
+        }
+        let home = if self.loss.is_some() { 0 } else { home };
         let looks = self.next_to_home(home);
         let resets = core::mem::take(&mut self.resets);
         let mut latches = false;

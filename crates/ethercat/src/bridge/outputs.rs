@@ -44,12 +44,10 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
     ) {
         // Then the bus is brought up anew, which takes everything that is on.
         let ends_with_drive = self.has_lost_drive() && self.are_drives_off();
+        let is_silent = self.is_silent(meant_ns);
         let Some(terminals) = &mut self.terminals else {
             return;
         };
-        let last = self.servo.last();
-        let is_silent =
-            last.is_none_or(|last| meant_ns > last.apply_ns.saturating_add(self.patience_ns));
         let is_alone = is_silent
             || self.ends
             || ends_with_drive

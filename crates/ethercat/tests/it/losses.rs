@@ -192,6 +192,20 @@ fn without_power_a_pause_is_told_where_outputs_were_on_and_nowhere_else() {
         (seen[2].state, seen[2].pins),
         (Some(MachineState::Off), (FIFTH, 0))
     );
+    // With power and nothing on, nothing stops by it, and the machine goes on as if nothing had been.
+    let mut setup = machine();
+    setup.terminals[2].outputs.pop();
+    let mut script = Script::new(&[
+        (400, Do::Command(Command::Enable)),
+        (100, Do::Pause),
+        (PAUSE + 20, Do::Look),
+        (1, Do::Program(NEXT)),
+        (300, Do::Look),
+    ]);
+    run(&setup, &mut script);
+    for seen in script.seen {
+        assert_eq!((seen.state, seen.fault), (Some(MachineState::Idle), None));
+    }
     // A lamp that is on at rest is switched off by whoever is obeyed, and is on again without.
     let mut setup = machine();
     setup.terminals[2].outputs.pop();

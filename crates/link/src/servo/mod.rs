@@ -3,8 +3,8 @@
 //! A servo stack does three things. [`Servo::receive`] takes what has arrived and counts what has
 //! not. [`Servo::demand`] says what the joints are to do at any moment, between two setpoints too:
 //! setpoints carry the time at which they are to be applied, one period after they are computed, so
-//! delivery may be late by nearly a period without harm. And if setpoints stay away for longer than
-//! the servo's patience, it stops the joints by itself, with limits of its own, and stays stopped
+//! delivery may be late by nearly a period without harm. And if setpoints stay away in motion for longer
+//! than the servo's patience, it stops the joints by itself, with limits of its own, and stays stopped
 //! until [`Servo::rearm`]: neither the path nor the interpolator is known any more.
 //!
 //! Where the interpolator takes the position from the drives, setpoints with a new

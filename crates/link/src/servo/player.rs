@@ -5,7 +5,8 @@
 //!   from ─────┼────── to ───── queue …     quintic between the two
 //!   from ──┼─ ─ ─ ─                        nothing newer: constant acceleration, for a while
 //!                  ·                       a newer one, half a period ahead: back to it
-//!   from ─ ─ ─ ─ ─ ─ ─ ─ ┼ ╲_              nothing for too long: the joints' own stop, latched
+//!   from ─ ─ ─ ─ ─ ─ ─ ─ ┼ ╲_              nothing for too long: the joints' own stop, latched; joints that
+//!                                          rest stay where they are, and go on from there
 //!   from ─────┼ ╲_       × to              the next one jumps: likewise, at once
 //! ```
 //!
@@ -61,6 +62,11 @@ impl Knot {
             is_coasted: false,
             home: setpoint.home,
         }
+    }
+
+    fn is_at_rest(&self) -> bool {
+        let mut joints = self.joints.iter();
+        joints.all(|joint| joint.velocity == 0.0 && joint.acceleration == 0.0)
     }
 
     fn coast(mut self, now_ns: u64) -> Self {
@@ -321,11 +327,14 @@ impl Player {
         if now_ns <= from.at_ns {
             return from.joints;
         }
-        // The stop begins when patience ends, whenever this is called.
-        let patience_ends_ns = from
-            .heard_ns
-            .saturating_add(self.patience_ns)
-            .max(from.at_ns);
+        // The stop begins when patience ends, whenever this is called. At rest there is nothing to stop.
+        let patience_ends_ns = if from.is_at_rest() {
+            now_ns
+        } else {
+            from.heard_ns
+                .saturating_add(self.patience_ns)
+                .max(from.at_ns)
+        };
         let coasted = from.coast(now_ns.min(patience_ends_ns));
         if now_ns <= patience_ends_ns {
             self.mode = Mode::Playing {

@@ -292,3 +292,22 @@ fn a_servo_that_knows_its_drives_begins_where_they_stand() {
     let goes = |number| standing(number, 0, MachineState::Idle, 3.08);
     assert!(tell(&mut bench, &goes).last().unwrap().1.position > 3.07);
 }
+
+#[test]
+fn silence_stops_nothing_where_nothing_moves() {
+    let mut bench = guarded();
+    let mut joints = Vec::new();
+    // A quarter of a second without any, which is far more than its patience.
+    for number in (0..50).chain(112..150) {
+        joints.extend(bench.run_to(ns_of(number), &[]));
+        bench.publish(&standing(number, 1, MachineState::Idle, 2.0));
+    }
+    joints.extend(bench.run_to(ns_of(150), &[]));
+    let first = joints.first().unwrap().1;
+    assert!(joints.iter().all(|(_, joint)| *joint == first), "it stays");
+    assert_eq!(
+        (bench.servo.counts().stops, bench.servo.stopped()),
+        (0, None)
+    );
+    assert!(bench.servo.is_armed());
+}
