@@ -1326,9 +1326,12 @@ int gp_jog_open(gp_link *link, gp_jog_sink **sink);
 
 /* Asks for something new: a velocity for as long as it is kept, steps of some length once, or what a
  * wheel counts; GP_JOG_MODE_NONE lets go. client, number and sent_ns are filled in. Whether it is
- * obeyed, the state of setpoints and status tells; another client's jog comes first until it has come
- * to rest. GP_E_RECORD: a field is not finite or out of range, and nothing was sent. */
+ * obeyed, gp_jog_is_followed tells; another client's jog comes first until it has come to rest. GP_E_RECORD: a field is not finite or out of range, and nothing was sent. */
 int gp_jog_send(gp_jog_sink *sink, const gp_jog *jog, size_t size);
+
+/* Whether what was asked for last moves the machine by this status, or was the last that did: 1 or 0. What a state
+ * alone tells may be another client's jog. The step is done when this is 1 and the state is not jogging any more. */
+int gp_jog_is_followed(gp_jog_sink *sink, const gp_status *status, size_t size);
 
 /* Says that the client lives and wants what it wanted: every 50 ms or more often. The interpolator
  * stops a jog of which it hears nothing for 150 ms (dead_man_ms of its configuration). */

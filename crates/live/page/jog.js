@@ -3,7 +3,7 @@
 // dies in between, the axes come to rest.
 
 const SIGN = 50, STALL = 150;
-const JOG = { gesture: null, step: 0, part: 0.2, timer: 0 };
+const JOG = { gesture: null, step: 0, part: 0.2, timer: 0, mine: null };
 const jogVelocity = name => (SETUP.jog && SETUP.jog.velocity[name] || 0) * JOG.part;
 const canJog = () => ['idle', 'held', 'program-stop', 'jogging', 'not-homed'].includes(S.state);
 function whyNoJog() { return notOperating() || (canJog() ? '' : 'not now'); }
@@ -16,7 +16,7 @@ function beginJog(ways, button) {
     const axes = {};
     // A step is what it is of the numbers that are shown: of the diameter, where that is.
     for (const name of names) axes[name] = ways[name] * JOG.step * scaleOf(axisOf(name));
-    order('jog-step', { axes, feed: Math.max(1, Math.min(...names.map(jogVelocity))) });
+    takeStep(axes, Math.max(1, Math.min(...names.map(jogVelocity))), `${names.map(name => `${nameOf(name)}${ways[name] < 0 ? '−' : '+'}`).join(' ')} ${JOG.step}`);
     return;
   }
   const axes = {};
@@ -25,6 +25,24 @@ function beginJog(ways, button) {
   if (button) button.classList.add('down');
   tellJog();
   JOG.timer = setInterval(tellJog, SIGN);
+}
+/* A step is known by the number that it is given: what the machine does may be another client's doing. */
+async function takeStep(axes, feed, label) {
+  const mine = JOG.mine = { number: 0, label, state: 'asked', text: '' }, said = await order('jog-step', { axes, feed });
+  if (said.accepted) mine.number = said.number; else { mine.state = 'not'; mine.text = buttonWords(said.reason); }
+  if (JOG.mine === mine) paintStep();
+}
+/* How the last step from here stands, by its own result. */
+function paintStep() {
+  const mine = JOG.mine, told = mine && S.status && (S.status.page_steps || []).find(step => step.number === mine.number);
+  if (told && mine.state !== told.state) {
+    mine.state = told.state; mine.text = buttonWords(told.text);
+    if (told.state === 'not') refuse(`${mine.label}: ${mine.text}`);
+  }
+  const words = mine && { asked: 'is asked for', 'under-way': 'under way', done: 'done', not: `not done, or not to its end: ${mine.text}` }[mine.state];
+  const dead = SETUP.jog ? SETUP.jog.dead_man_ms : 150, v = AXES().length ? jogVelocity(AXES()[0].name) : 0;
+  const slip = `Contact lost: the axes begin to stop within ${lengthText(v / 60 * dead / 1000, 1)} ${lengthUnit()}.`;
+  put($('#jogslip'), JOG.step ? mine ? `${mine.label}: ${words}.` : 'One step for each press.' : slip);
 }
 async function tellJog() {
   const gesture = JOG.gesture;
@@ -84,7 +102,7 @@ function layPad() {
   if (isLathe()) html += `<div class="cross"><i></i>${jogKey({ X: 1 }, '▲', 'X+')}<i></i>${jogKey({ Z: -1 }, '◀', 'Z−')}<span class="hint">press and keep pressed</span>${jogKey({ Z: 1 }, '▶', 'Z+')}<i></i>${jogKey({ X: -1 }, '▼', 'X−')}<i></i></div>`;
   const inCross = has('X') && has('Y') ? 'XY' : isLathe() ? 'XZ' : '', rest = names.filter(name => !inCross.includes(name));
   html += `<div class="columns">${rest.map(name => `<div>${jogKey({ [name]: 1 }, '▲', `${name}+`)}${jogKey({ [name]: -1 }, '▼', `${name}−`)}</div>`).join('')}</div>`;
-  html += `<div class="speed"><label><span class="lab">Jog speed</span><b id="jogpart"></b><input type="range" id="jogspeed" min="1" max="100" aria-label="jog speed, percent"></label><span id="jogmm"></span><p id="jogslip" class="lab-text"></p></div>`;
+  html += `<div class="speed"><label><span class="lab">Jog speed</span><b id="jogpart"></b><input type="range" id="jogspeed" min="1" max="100" aria-label="jog speed, percent"></label><span id="jogmm"></span><p id="jogslip" class="lab-text" role="status"></p></div>`;
   html += '<div class="steps" id="steps" role="radiogroup" aria-label="how far"></div>';
   fill($('#pad'), html);
   const slider = $('#jogspeed');
@@ -97,9 +115,9 @@ function paintPad() {
   if (!$('#steps')) return;
   fill($('#steps'), [0, ...steps()].map(step => `<button role="radio" aria-checked="${JOG.step === step}" data-step="${step}">${step || 'while pressed'}</button>`).join(''));
   $$('#steps button').forEach(b => { b.onclick = () => { JOG.step = +b.dataset.step; paintPad(); }; });
-  const v = AXES().length ? jogVelocity(AXES()[0].name) : 0, dead = SETUP.jog ? SETUP.jog.dead_man_ms : 150;
+  const v = AXES().length ? jogVelocity(AXES()[0].name) : 0;
   put($('#jogpart'), `${Math.round(JOG.part * 100)} %`); put($('#jogmm'), `${feedText(v)} ${feedUnit()}`);
-  put($('#jogslip'), `Contact lost: the axes begin to stop within ${lengthText(v / 60 * dead / 1000, 1)} ${lengthUnit()}.`);
+  paintStep();
   const why = whyNoJog();
   $$('.jog').forEach(b => { if (why) b.setAttribute('aria-disabled', 'true'); else b.removeAttribute('aria-disabled'); });
 }

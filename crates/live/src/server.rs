@@ -35,8 +35,8 @@ const MAY: &str = "/api/may";
 /// The site: what there is to show and to command. Requests come from several threads, all of them
 /// judged.
 pub trait Site: Send + Sync {
-    /// What is at a path below `/api/`, with its query; `None` if there is nothing.
-    fn document(&self, path: &str, query: &str) -> Option<Response>;
+    /// What is at a path below `/api/` for the caller, with its query; `None` if there is nothing.
+    fn document(&self, caller: Caller, path: &str, query: &str) -> Option<Response>;
     /// Does what the body asks for, if the caller may.
     fn command(&self, caller: Caller, body: &[u8]) -> Response;
     /// Takes a piece of a program, which the query tells more about, if the caller may.
@@ -296,7 +296,7 @@ fn answer_page(
         ("POST", COMMAND) => work.site.command(caller, &request.body),
         ("POST", UPLOAD) => work.site.upload(caller, query, &request.body),
         ("GET", path) => {
-            let found = work.site.document(path, query);
+            let found = work.site.document(caller, path, query);
             found.unwrap_or_else(not_found)
         }
         _ => not_found(),

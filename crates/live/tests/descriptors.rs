@@ -14,7 +14,7 @@ use std::time::Duration;
 struct Nothing;
 
 impl Site for Nothing {
-    fn document(&self, _path: &str, _query: &str) -> Option<Response> {
+    fn document(&self, _caller: Caller, _path: &str, _query: &str) -> Option<Response> {
         None
     }
 

@@ -124,20 +124,31 @@ fn pages_that_look_at_different_programs_see_all_of_them() {
     for (browser, name) in [(&mut first, "a.ngc"), (&mut second, "b.ngc")] {
         assert_eq!(browser.evaluate("LOOK.info.program.name"), name);
     }
-    // A few are remembered. Of one that was given up the page says so, and has it planned again only if somebody wants it.
+    // The first page operates: what it looks at is there however much others look at, also where they say that they
+    // are the page that operates.
     for name in ["c.ngc", "d.ngc", "e.ngc"] {
         second.press(&format!("[data-name=\"{name}\"]"));
         second.wait(&format!("{has_all} || (LOOK.info && LOOK.info.report && LOOK.lines.length === 3 && LOOK.info.program.name === '{name}')"));
     }
-    let _looked_at_b = live.get("/api/preview?name=b.ngc");
-    let count = live.get("/api/preview?name=e.ngc&look=again")["generation"].clone();
-    first.evaluate("lookAtChosen()");
-    first.wait("document.querySelector('#found').textContent.includes('was given up')");
-    assert_eq!(first.evaluate("whyNoRun() !== ''"), true);
-    let again = live.get("/api/preview?name=e.ngc&look=again")["generation"].clone();
+    let operates = first.evaluate("S.operates && PAGE");
+    let same = format!("X-Glidepath-Page: {}\r\n", operates.as_str().unwrap());
+    let only_looks = format!("{}{same}", live.token_for("look"));
+    for name in ["b", "c", "d", "b", "c", "d"] {
+        let path = format!("/api/preview?name={name}.ngc&look=");
+        let _looked = live.get_with(&only_looks, path.trim_end_matches("&look="));
+        let _looked = live.get_with(&only_looks, &format!("{path}anew"));
+    }
+    let still = first.evaluate("lookAtChosen().then(() => [LOOK.lost, !!LOOK.motion, whyNoRun()])");
+    assert_eq!(still, json!(["", true, ""]), "nothing was taken from it");
+    // Others have a few. Of one that was given up the page says so, and has it planned again only if somebody wants it.
+    let count = live.get("/api/preview?name=d.ngc&look=again")["generation"].clone();
+    second.evaluate("lookAtChosen()");
+    second.wait("document.querySelector('#found').textContent.includes('was given up')");
+    assert_eq!(second.evaluate("whyNoRun() !== ''"), true);
+    let again = live.get("/api/preview?name=d.ngc&look=again")["generation"].clone();
     assert_eq!(count, again, "the others are left alone");
-    first.press("#found [data-do=choose]");
-    first.wait(has_all);
+    second.press("#found [data-do=choose]");
+    second.wait("LOOK.info && LOOK.info.report && LOOK.lines.length === 3");
     drop(live);
     drop(services.end());
 }

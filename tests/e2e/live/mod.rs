@@ -8,6 +8,7 @@ mod life;
 mod looked_at;
 mod says;
 mod screens;
+mod steps;
 mod touch;
 mod units;
 mod way;
@@ -90,9 +91,14 @@ impl Live {
 
     /// What is at a path, as a page asks for it.
     fn get(&self, path: &str) -> Value {
+        self.get_with(&self.token(), path)
+    }
+
+    /// The same with header fields of whoever asks.
+    fn get_with(&self, fields: &str, path: &str) -> Value {
         let mut stream = TcpStream::connect(("127.0.0.1", self.port)).unwrap();
-        let (port, token) = (self.port, self.token());
-        let head = format!("GET {path} HTTP/1.1\r\nHost: localhost:{port}\r\n{token}\r\n");
+        let port = self.port;
+        let head = format!("GET {path} HTTP/1.1\r\nHost: localhost:{port}\r\n{fields}\r\n");
         stream.write_all(head.as_bytes()).unwrap();
         let mut answer = String::new();
         stream.read_to_string(&mut answer).unwrap();

@@ -224,6 +224,11 @@ class Jog(_Handle):
         """Says that the client lives and wants what it wanted: every 50 ms or more often."""
         call("gp_jog_keep", self._handle)
 
+    def is_followed(self, status: StatusRecord):
+        """Whether what was asked for last moves the machine by this status, or was the last that did."""
+        size = ctypes.sizeof(status)
+        return call("gp_jog_is_followed", self._handle, ctypes.byref(status), size) == 1
+
     def move(self, velocities, by_joint=False):
         """At these velocities, mm/s or degrees/s, for as long as it is kept."""
         self.send(_jog(JogMode.CONTINUOUS, velocities, by_joint))

@@ -77,6 +77,7 @@ _FUNCTIONS = {
     "gp_feedback_close": (ctypes.c_int, [_pointer]),
     "gp_jog_open": (ctypes.c_int, [_pointer, _handle]),
     "gp_jog_send": (ctypes.c_int, [_pointer, _pointer, _size]),
+    "gp_jog_is_followed": (ctypes.c_int, [_pointer, _pointer, _size]),
     "gp_jog_keep": (ctypes.c_int, [_pointer]),
     "gp_jog_close": (ctypes.c_int, [_pointer]),
     "gp_segments_open": (ctypes.c_int, [_pointer, _handle]),

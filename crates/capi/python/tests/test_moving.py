@@ -26,6 +26,8 @@ def jog(link):
         ):
             ask()
             time.sleep(0.05)
+        # Nobody follows here: what another client is told is no result of this one.
+        assert not hand.is_followed(glidepath.StatusRecord(jog_client=1, jog_number=4))
         try:
             hand.send(glidepath.JogRecord(mode=1, velocity_v=math.nan))
         except glidepath.Error as error:

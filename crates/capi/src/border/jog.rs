@@ -1,13 +1,13 @@
 //! The functions for moving by hand: demands on their way to the interpolator.
 
-use super::call::NONE;
+use super::call::{NONE, code_of};
 use super::handle::{Handle, Held};
 use super::link::Link;
 use super::pointer::{Given, Room, check_size};
 use super::text::gp_now_ns;
 use crate::failure::Failure;
 use bytemuck::Zeroable as _;
-use glidepath_link::{JogDemand, Publisher, Record as _, Transport as _};
+use glidepath_link::{JogDemand, Publisher, Record as _, Status, Transport as _};
 
 /// A client that moves the machine by hand.
 pub(super) struct JogSink {
@@ -71,6 +71,24 @@ extern "C" fn gp_jog_send(sink: Handle<JogSink>, jog: Given<JogDemand>, size: us
     })
 }
 
+/// Whether what was asked for last is what moves the machine, or was the last that did.
+const fn is_followed(asked: &JogDemand, status: &Status) -> bool {
+    asked.number != 0 && status.jog_client == asked.client && status.jog_number == asked.number
+}
+
+#[unsafe(no_mangle)]
+extern "C" fn gp_jog_is_followed(
+    sink: Handle<JogSink>,
+    status: Given<Status>,
+    size: usize,
+) -> i32 {
+    sink.with(|sink| {
+        check_size::<Status>("gp_status", size)?;
+        let status = status.get("status: NULL, what the machine says")?;
+        Ok(code_of(is_followed(&sink.asked, &status)))
+    })
+}
+
 #[unsafe(no_mangle)]
 extern "C" fn gp_jog_keep(sink: Handle<JogSink>) -> i32 {
     sink.with(|sink| {
@@ -93,4 +111,25 @@ extern "C" fn gp_jog_close(sink: Handle<JogSink>) -> i32 {
         }
         Ok(())
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_another_client_is_told_is_no_result_of_this_one() {
+        let asked = |client, number| JogDemand {
+            client,
+            number,
+            ..JogDemand::zeroed()
+        };
+        let mut status = Status::zeroed();
+        assert!(!is_followed(&asked(0, 0), &status), "nothing was asked for");
+        (status.jog_client, status.jog_number) = (7, 3);
+        assert!(is_followed(&asked(7, 3), &status));
+        for (client, number) in [(8, 3), (7, 2), (7, 4)] {
+            assert!(!is_followed(&asked(client, number), &status));
+        }
+    }
 }

@@ -29,7 +29,7 @@ struct Counted {
 struct Shared(Arc<Counted>);
 
 impl Site for Shared {
-    fn document(&self, path: &str, query: &str) -> Option<Response> {
+    fn document(&self, _caller: Caller, path: &str, query: &str) -> Option<Response> {
         self.0.documents.fetch_add(1, Ordering::Relaxed);
         let text = format!("{path} {query}").into_bytes();
         (path == "/api/plan").then(|| Response::new(ContentType::Json, text))

@@ -50,7 +50,7 @@ impl Hands {
         Ok(Self {
             commands,
             refusals,
-            jogger: Jogger::start(link)?,
+            jogger: Jogger::start(config, link)?,
             joints,
             all: (1 << config.drives()) - 1,
             untold: Vec::new(),
@@ -86,7 +86,7 @@ impl Hands {
             },
             Act::Jog { by, most_v } => {
                 let (by, most_v) = (*by, *most_v);
-                self.hand(Hand::Step { by, most_v }, act);
+                self.hand(Hand::Step { number: None, by, most_v }, act);
                 return;
             }
             Act::LetGo => {

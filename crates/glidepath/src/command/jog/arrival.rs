@@ -17,7 +17,7 @@ use std::time::Instant;
 /// Between two looks at the drives.
 const POLL: Duration = Duration::from_millis(10);
 /// How long the drives may take to come to where they were told to be, once they are told to rest.
-const PATIENCE: Duration = Duration::from_millis(1_500);
+pub(in crate::command) const PATIENCE: Duration = Duration::from_millis(1_500);
 /// Nearer than this a joint has followed, mm or degrees.
 const FOLLOWED: f64 = 0.05;
 /// Less than this is rounding, mm or degrees.
@@ -46,7 +46,7 @@ enum Followed {
 
 /// The outcome of a jog by steps.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Arrival {
+pub(in crate::command) struct Arrival {
     short: Vec<Short>,
     followed: Followed,
     /// What ended it, if it was not at its end.
@@ -66,28 +66,41 @@ impl Arrival {
         interrupt: &Interrupt,
     ) -> Result<Self, Failure> {
         let waits_from = Instant::now();
-        let followed = loop {
-            let followed = followed(panel.status()?, config.drives());
-            let has_failed = ending::failure(panel.status()?).is_some();
-            let is_over = has_failed || interrupt.is_set() || waits_from.elapsed() > PATIENCE;
-            if followed == Followed::Yes || is_over {
-                break followed;
+        loop {
+            let is_over = interrupt.is_set() || waits_from.elapsed() > PATIENCE;
+            if Self::is_settled(panel.status()?, config) || is_over {
+                break;
             }
             std::thread::sleep(POLL);
-        };
-        let end = panel.position();
+        }
+        let mut arrival = Self::at(panel.status()?, config, (start, asked));
+        arrival.ended_by = arrival.ended_by.filter(|_| !interrupt.is_set());
+        Ok(arrival)
+    }
+
+    /// Whether the drives are where the axes rest, or will not come there any more.
+    pub(in crate::command) fn is_settled(status: &Status, config: &MachineConfig) -> bool {
+        followed(status, config.drives()) == Followed::Yes || ending::failure(status).is_some()
+    }
+
+    /// The outcome by a status of axes at rest, as in [`Self::of`].
+    pub(in crate::command) fn at(
+        status: &Status,
+        config: &MachineConfig,
+        (start, asked): (&[(Axis, f64)], Option<&[f64; AXES]>),
+    ) -> Self {
+        let end = positions(status, config);
         let short = asked.map_or_else(Vec::new, |asked| shorts(start, asked, &end, config));
-        let ended_by = ended_by(panel.status()?, &short).filter(|_| !interrupt.is_set());
-        Ok(Self {
+        Self {
+            ended_by: ended_by(status, &short),
+            followed: followed(status, config.drives()),
             short,
-            followed,
-            ended_by,
-        })
+        }
     }
 
     /// Done; a fault where the drives are elsewhere, or something ended the jog; short where an axis did not go
     /// as far as it was asked to.
-    pub(super) fn exit(&self) -> Exit {
+    pub(in crate::command) fn exit(&self) -> Exit {
         if !self.have_followed() || self.ended_by.is_some() {
             Exit::Fault
         } else if self.short.is_empty() {
@@ -130,7 +143,7 @@ impl Arrival {
     }
 
     /// For people, a line each; nothing where all went as asked.
-    pub(super) fn text(&self) -> String {
+    pub(in crate::command) fn text(&self) -> String {
         let mut text = String::new();
         // Writing to a String does not fail.
         for Short { axis, by, at_end } in &self.short {
@@ -167,6 +180,13 @@ impl Arrival {
     }
 }
 
+/// Positions of the axes that the machine has.
+pub(in crate::command) fn positions(status: &Status, config: &MachineConfig) -> Vec<(Axis, f64)> {
+    let axes = config.axis_names().into_iter();
+    axes.filter_map(|axis| Some((axis, *status.position.get(axis.index())?)))
+        .collect()
+}
+
 /// What ended a jog before its end: whatever stopped the machine, or somebody where axes did not go
 /// as far as they could.
 fn ended_by(status: &Status, short: &[Short]) -> Option<String> {
@@ -179,7 +199,7 @@ fn ended_by(status: &Status, short: &[Short]) -> Option<String> {
 }
 
 /// Why nothing can move, if every axis that is asked to stands where its travel ends that way.
-pub(super) fn at_end_already(
+pub(in crate::command) fn at_end_already(
     start: &[(Axis, f64)],
     asked: &[f64; AXES],
     config: &MachineConfig,

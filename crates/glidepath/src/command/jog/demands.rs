@@ -12,6 +12,16 @@ pub(in crate::command) struct Asked {
 }
 
 impl Asked {
+    #[cfg(test)]
+    pub(in crate::command) const fn of(client: u64, number: u64) -> Self {
+        Self { client, number }
+    }
+
+    /// Whether one from `first` to this one moves the axes, or was the last that did.
+    pub(in crate::command) fn is_one_since(&self, first: &Self, status: &Status) -> bool {
+        status.jog_client == self.client && (first.number..=self.number).contains(&status.jog_number)
+    }
+
     /// Whether it moves the axes, or was the last that did.
     pub(in crate::command) const fn is_followed(&self, status: &Status) -> bool {
         status.jog_client == self.client && status.jog_number == self.number

@@ -13,9 +13,10 @@ use super::session;
 use crate::cli::JogArgs;
 use crate::config::MachineConfig;
 use crate::exit::Exit;
-pub(super) use demands::Demands;
+pub(super) use arrival::{Arrival, PATIENCE, at_end_already, positions};
+pub(super) use demands::{Asked, Demands};
 pub(super) use lift::lift;
-use panel::Panel;
+pub(super) use panel::Panel;
 
 /// Moves the axes by hand.
 ///

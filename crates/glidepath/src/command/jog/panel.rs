@@ -18,7 +18,7 @@ const PATIENCE: Duration = Duration::from_secs(1);
 const POLL: Duration = Duration::from_millis(2);
 
 /// The panel of one who jogs.
-pub(super) struct Panel {
+pub(in crate::command) struct Panel {
     pub(super) demands: Demands,
     status: Box<dyn Subscriber<Status>>,
     last: Status,
@@ -101,7 +101,7 @@ impl Panel {
     }
 
     /// Why the machine cannot be jogged as it is, if it cannot.
-    pub(super) const fn precondition(state: MachineState) -> Option<UnmetPrecondition> {
+    pub(in crate::command) const fn precondition(state: MachineState) -> Option<UnmetPrecondition> {
         match state {
             MachineState::Idle
             | MachineState::NotHomed

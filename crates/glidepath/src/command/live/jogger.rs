@@ -9,11 +9,16 @@
 //! here, the interpolator hears no more and brings the axes to rest.
 
 use super::gesture::{Gesture, Heard};
-use crate::command::jog::Demands;
+use super::steps::{Seen, Step, StepEnd, Steps, why_not};
+use crate::command::jog::{Demands, positions};
+use crate::config::MachineConfig;
 use glidepath_geometry::AXES;
-use glidepath_link::{Ipc, JogMode, LinkConfig, LinkError, Transport as _};
+use glidepath_link::{
+    Ipc, JogMode, LinkConfig, LinkError, Record as _, Status, Subscriber, Transport as _,
+};
 use glidepath_realtime::{Clock as _, Monotonic};
 use std::collections::VecDeque;
+use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::time::{Duration, Instant};
 
@@ -23,6 +28,12 @@ const LOOK: Duration = Duration::from_millis(10);
 const STEP_SAID: Duration = Duration::from_millis(200);
 /// Between two of that.
 const STEP_EVERY: Duration = Duration::from_millis(30);
+/// A status that is older tells nothing of the machine any more, ns.
+const OLD_NS: u64 = 1_000_000_000;
+/// How long a step waits for the one before to set out: on a busy host some statuses.
+const WAITS: Duration = Duration::from_millis(500);
+/// Steps that wait for the one before to set out.
+const MOST_WAITING: usize = 8;
 /// Gestures that are over, and are remembered.
 const REMEMBERED: usize = 64;
 
@@ -38,49 +49,80 @@ pub(in crate::command) enum Hand {
     },
     /// The finger is up.
     Up { gesture: u64 },
-    /// One step, mm or degrees by axis, at most so many mm/s.
-    Step { by: [f64; AXES], most_v: f64 },
+    /// One step, mm or degrees by axis, at most so many mm/s. With the number by which its result is told.
+    Step {
+        number: Option<u64>,
+        by: [f64; AXES],
+        most_v: f64,
+    },
     /// Whatever moves by a page is let go.
     LetGo,
 }
 
 /// The way to the thread that jogs.
 #[derive(Debug)]
-pub(in crate::command) struct Jogger(Sender<(Hand, Instant)>);
+pub(in crate::command) struct Jogger {
+    hands: Sender<(Hand, Instant)>,
+    steps: Arc<Steps>,
+}
 
 impl Jogger {
     /// Starts the thread, which ends with this.
-    pub(in crate::command) fn start(link: &LinkConfig) -> Result<Self, std::io::Error> {
-        let (sender, receiver) = channel();
-        let link = link.clone();
+    pub(in crate::command) fn start(
+        config: &MachineConfig,
+        link: &LinkConfig,
+    ) -> Result<Self, std::io::Error> {
+        let (hands, receiver) = channel();
+        let (link, config, steps) = (link.clone(), config.clone(), Arc::<Steps>::default());
         let thread = std::thread::Builder::new().name("live-jog".to_owned());
-        thread.spawn(move || serve(&link, &receiver))?;
-        Ok(Self(sender))
+        let told = Arc::clone(&steps);
+        thread.spawn(move || serve(&link, &receiver, &(config, told)))?;
+        Ok(Self { hands, steps })
+    }
+
+    /// Has axes moved once, and the result told by a number. `None` if nobody is there to do it.
+    pub(super) fn step(&self, by: [f64; AXES], most_v: f64) -> Option<u64> {
+        let number = self.steps.begin();
+        let wanted = Some(number);
+        let step = Hand::Step {
+            number: wanted,
+            by,
+            most_v,
+        };
+        self.hand(step).then_some(number)
+    }
+
+    /// The steps of the pages, each with its result.
+    pub(super) fn steps(&self) -> Arc<Steps> {
+        Arc::clone(&self.steps)
     }
 
     /// Has axes moved. Returns whether there is anybody to do it.
     pub(in crate::command) fn hand(&self, hand: Hand) -> bool {
-        self.0.send((hand, Instant::now())).is_ok()
+        self.hands.send((hand, Instant::now())).is_ok()
     }
 }
 
 /// Serves until nobody can ask any more. A port that fails is made anew for the next gesture.
-fn serve(link: &LinkConfig, hands: &Receiver<(Hand, Instant)>) {
+fn serve(link: &LinkConfig, hands: &Receiver<(Hand, Instant)>, told: &(MachineConfig, Arc<Steps>)) {
     let mut next = None;
     loop {
-        let served = Ipc::connect(link)
-            .and_then(|transport| Ok((transport.jog_sink()?, transport)))
-            .and_then(|(sink, _transport)| {
-                Hands::new(Demands::new(sink)).follow(hands, next.take())
-            });
+        let served = Ipc::connect(link).and_then(|transport| {
+            let demands = Demands::new(transport.jog_sink()?);
+            let statuses = transport.status_source()?;
+            Hands::new(demands, statuses, told).follow(hands, next.take())
+        });
         match served {
             Ok(()) => return,
-            Err(_) => match hands.recv() {
-                // What was asked of a port that failed is not done later.
-                Ok((Hand::Up { .. } | Hand::LetGo, _)) => {}
-                Ok(hand) => next = Some(hand),
-                Err(_) => return,
-            },
+            Err(error) => {
+                told.1.end_all(&StepEnd::Not(error.to_string()));
+                match hands.recv() {
+                    // What was asked of a port that failed is not done later.
+                    Ok((Hand::Up { .. } | Hand::LetGo, _)) => {}
+                    Ok(hand) => next = Some(hand),
+                    Err(_) => return,
+                }
+            }
         }
     }
 }
@@ -92,8 +134,15 @@ fn ns_of(at: Instant) -> u64 {
 }
 
 /// What moves, and by whom.
-struct Hands {
+struct Hands<'a> {
     demands: Demands,
+    statuses: Box<dyn Subscriber<Status>>,
+    status: Option<Status>,
+    config: &'a MachineConfig,
+    steps: &'a Steps,
+    /// The step whose result is to be told, and those that wait until it has set out.
+    told: Option<Step>,
+    waiting: VecDeque<(u64, [f64; AXES], f64, Instant)>,
     gesture: Option<Gesture>,
     /// What the gesture asks for.
     velocity: [f64; AXES],
@@ -102,10 +151,20 @@ struct Hands {
     step: Option<(Instant, Instant)>,
 }
 
-impl Hands {
-    fn new(demands: Demands) -> Self {
+impl<'a> Hands<'a> {
+    fn new(
+        demands: Demands,
+        statuses: Box<dyn Subscriber<Status>>,
+        (config, steps): &'a (MachineConfig, Arc<Steps>),
+    ) -> Self {
         Self {
             demands,
+            statuses,
+            status: None,
+            config,
+            steps,
+            told: None,
+            waiting: VecDeque::new(),
             gesture: None,
             velocity: [0.0; AXES],
             over: VecDeque::new(),
@@ -147,14 +206,123 @@ impl Hands {
                 Ok(())
             }
             Hand::LetGo => self.release(),
-            Hand::Step { by, most_v } => {
-                if self.gesture.is_some() || at.elapsed() > super::gesture::SILENCE {
-                    return Ok(());
-                }
-                self.step = Some((at + STEP_SAID, Instant::now()));
-                let demands = &mut self.demands;
-                demands.ask(ns_of(at), JogMode::Incremental, by, most_v, false)
+            Hand::Step { number, by, most_v } => self.step(number, (by, most_v), at),
+        }
+    }
+
+    fn step(
+        &mut self,
+        number: Option<u64>,
+        (by, most_v): ([f64; AXES], f64),
+        at: Instant,
+    ) -> Result<(), LinkError> {
+        let is_late = at.elapsed() > super::gesture::SILENCE;
+        let Some(number) = number else {
+            if self.gesture.is_some() || is_late {
+                return Ok(());
             }
+            return self.say(by, most_v, at);
+        };
+        let why = if self.gesture.is_some() {
+            "a finger moves the axes"
+        } else if is_late {
+            "it came late, and does not count"
+        } else if self.waiting.len() >= MOST_WAITING {
+            "too many steps are asked for at once"
+        } else {
+            self.waiting.push_back((number, by, most_v, at));
+            return self.begin_waiting();
+        };
+        self.steps.end(number, StepEnd::Not(why.to_owned()));
+        Ok(())
+    }
+
+    /// Begins the steps that can be begun now. One that comes before the last was seen to set out waits for that: else
+    /// the last might be missed, and would be told by this one's result.
+    fn begin_waiting(&mut self) -> Result<(), LinkError> {
+        self.hear()?;
+        let Some(status) = self.status else {
+            return Ok(());
+        };
+        while self.told.as_ref().is_none_or(Step::takes_more) {
+            let Some((number, by, most_v, at)) = self.waiting.pop_front() else {
+                break;
+            };
+            let now = Instant::now();
+            if let Some(mut step) = self.told.take() {
+                self.say(by, most_v, at)?;
+                step.add(number, self.demands.asked(), &by, now);
+                self.told = Some(step);
+                continue;
+            }
+            let start = positions(&status, self.config);
+            if let Some(why) = why_not(&status, (&start, &by), self.config) {
+                self.steps.end(number, StepEnd::Not(why));
+                continue;
+            }
+            self.say(by, most_v, at)?;
+            let asked = self.demands.asked();
+            self.told = Some(Step::new(number, asked, (start, by), now));
+        }
+        Ok(())
+    }
+
+    fn say(&mut self, by: [f64; AXES], most_v: f64, at: Instant) -> Result<(), LinkError> {
+        self.step = Some((at + STEP_SAID, Instant::now()));
+        let demands = &mut self.demands;
+        demands.ask(ns_of(at), JogMode::Incremental, by, most_v, false)
+    }
+
+    /// Hears what the machine says, and what that is to the step whose result is to be told.
+    fn hear(&mut self) -> Result<(), LinkError> {
+        while let Some(status) = self.statuses.take()? {
+            status.check()?;
+            self.status = Some(status);
+            let now = Instant::now();
+            let seen = self.told.as_mut().map(|step| step.see(&status, self.config, now));
+            match seen {
+                Some(Seen::Over(end)) => self.end_step(&end),
+                Some(Seen::LetGo) => {
+                    self.step = None;
+                    self.demands.let_go()?;
+                }
+                Some(Seen::UnderWay) | None => {}
+            }
+        }
+        let age_ns = |status: Status| Monotonic.now_ns().saturating_sub(status.updated_ns);
+        if self.status.is_some_and(|status| age_ns(status) > OLD_NS) {
+            self.status = None;
+            self.end_steps("nothing is heard of the machine any more");
+        }
+        Ok(())
+    }
+
+    fn end_step(&mut self, end: &StepEnd) {
+        let step = self.told.take();
+        for number in step.into_iter().flat_map(|step| step.numbers) {
+            self.steps.end(number, end.clone());
+        }
+    }
+
+    /// Ends the one under way, and those that wait.
+    fn end_steps(&mut self, why: &str) {
+        self.end_step(&StepEnd::Not(why.to_owned()));
+        self.drop_waiting(why);
+    }
+
+    /// A step that waited for too long does not count any more.
+    fn waiting_is_over(&mut self, now: Instant) {
+        let is_late = |(.., at): &(u64, [f64; AXES], f64, Instant)| {
+            now.saturating_duration_since(*at) > WAITS
+        };
+        if self.waiting.front().is_some_and(is_late) {
+            self.drop_waiting("it came too soon behind another one, and does not count");
+        }
+    }
+
+    fn drop_waiting(&mut self, why: &str) {
+        for (number, ..) in self.waiting.drain(..) {
+            self.steps.end(number, StepEnd::Not(why.to_owned()));
         }
     }
 
@@ -181,6 +349,9 @@ impl Hands {
             }
         };
         self.step = None;
+        if is_new {
+            self.end_steps("a finger moves the axes since");
+        }
         if is_new || velocity.map(f64::to_bits) != self.velocity.map(f64::to_bits) {
             self.velocity = velocity;
             let demands = &mut self.demands;
@@ -191,7 +362,9 @@ impl Hands {
 
     /// Lets go where the gesture is over, and says a step again.
     fn look(&mut self) -> Result<(), LinkError> {
+        self.begin_waiting()?;
         let now = Instant::now();
+        self.waiting_is_over(now);
         let is_over = self.gesture.as_mut().is_some_and(|it| it.is_over(now));
         if is_over {
             return self.release();
@@ -212,6 +385,7 @@ impl Hands {
             self.forget(gesture.id());
         }
         self.step = None;
+        self.drop_waiting("it was let go");
         self.demands.let_go()
     }
 

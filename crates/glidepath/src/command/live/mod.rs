@@ -13,6 +13,7 @@ mod asked;
 mod batch;
 mod certificates;
 mod day;
+mod documents;
 mod folder;
 mod following;
 mod gesture;
@@ -28,6 +29,8 @@ mod query;
 mod receivers;
 mod set_up;
 mod shown;
+mod status;
+mod steps;
 mod witness;
 
 use super::persistent_offsets::PersistentOffsets;
@@ -40,31 +43,29 @@ use crate::file_error::FileError;
 use crate::interrupt::Interrupt;
 use crate::output;
 use crate::page::machine_object;
-use crate::report::{AwaitedEvent, View, active_object, status_object, view_object};
 use asked::Asked;
 use batch::Batch;
 use certificates::Certificates;
-use day::{Day, now_ms};
+use day::Day;
 use folder::Folder;
 use following::Following;
 use glidepath_link::{
-    ActiveProgram, Auxiliary, Coolant, InterpolatorProcess, Ipc, LinkConfig, Record as _, Setpoint,
-    SpindleState, Status, Subscriber, Transport as _,
+    Auxiliary, Ipc, LinkConfig, Record as _, Setpoint, Status, Subscriber, Transport as _,
 };
 use glidepath_live::{Feed, Message, Role, Seat, Server, ServerError};
-use glidepath_realtime::{Clock as _, Monotonic};
 use job_submitter::JobSubmitter;
 use jogger::Jogger;
 use lateness::Histogram;
 use log::Log;
-use pages::{Pages, clock_ms};
+use pages::Pages;
 use preview::Preview;
 use receivers::receivers;
 use serde_json::{Map, Value, json};
 use set_up::SetUp;
 use shown::Shown;
+use steps::Steps;
 use std::sync::atomic::AtomicU64;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 use witness::Witness;
 
@@ -105,7 +106,9 @@ pub(super) fn live(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Fail
     let operates = role == Role::Operate;
     let jobs = operates.then(|| JobSubmitter::start(&link)).transpose();
     let jobs = jobs.map_err(ServerError::Thread)?.map(Arc::new);
-    let jogger = operates.then(|| Jogger::start(&link)).transpose();
+    let jogger = operates.then(|| Jogger::start(config, &link)).transpose();
+    let jogger = jogger.map_err(ServerError::Thread)?;
+    let steps = jogger.as_ref().map(Jogger::steps);
     let pages = Pages {
         config: config.clone(),
         link: link.clone(),
@@ -114,7 +117,7 @@ pub(super) fn live(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Fail
         seat: Arc::default(),
         folder: folder.transpose()?,
         preview: Preview::new(config),
-        jogger: jogger.map_err(ServerError::Thread)?,
+        jogger,
         jobs: jobs.clone(),
         certificates: Arc::default(),
         number: AtomicU64::new(0),
@@ -140,6 +143,7 @@ pub(super) fn live(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Fail
         set_up,
         seat,
         jobs,
+        steps,
         day: Day::default(),
         certificates,
         witness: Witness::new(config),
@@ -208,6 +212,7 @@ struct Machine<'a> {
     set_up: Arc<SetUp>,
     seat: Arc<Mutex<Seat>>,
     jobs: Option<Arc<JobSubmitter>>,
+    steps: Option<Arc<Steps>>,
     day: Day,
     certificates: Arc<Certificates>,
     witness: Witness,
@@ -283,112 +288,4 @@ impl Machine<'_> {
         self.witness.take(setpoint);
         self.histogram.push(setpoint.lateness_ns);
     }
-
-    /// What the page is told; nothing while nobody knows what the machine does.
-    fn object(&mut self) -> Result<Option<Value>, Failure> {
-        let now_ns = Monotonic.now_ns();
-        let fresh = self
-            .status
-            .filter(|status| now_ns.saturating_sub(status.updated_ns) < OLD_NS);
-        let Some(status) = fresh else {
-            let lives = match InterpolatorProcess::find(&self.link)? {
-                Some(process) => process.lives()?,
-                None => false,
-            };
-            // One that lives and says nothing is told by the age of what it said last.
-            return Ok((!lives).then(|| {
-                self.log.ended();
-                json!({
-                    "state": "none",
-                    "clock_ms": clock_ms(),
-                    "version": self.shown.version(),
-                    "place": Value::Null,
-                    "log": self.log.object(),
-                })
-            }));
-        };
-        self.following.look(&status);
-        let place = self.following.place(&status);
-        let in_plan = place.as_ref().and_then(|place| place.elapsed_t);
-        let planned = self.following.frames();
-        let view = View {
-            instance: &self.instance,
-            status: &status,
-            auxiliary: self.auxiliary.as_ref(),
-            asked: AwaitedEvent::default(),
-            axes: &self.config.axis_names(),
-            not_homed: &self.config.axes_not_homed(&status),
-            place,
-            offsets: self.offsets.look(),
-            events: Vec::new(),
-        };
-        let period_t = self.config.period_t();
-        #[allow(clippy::cast_precision_loss, reason = "counts of frames are exact")]
-        let planned_t = planned as f64 * period_t;
-        let mut object = status_object(&self.instance, &status, &view.asked);
-        if let Value::Object(object) = &mut object {
-            object.extend(view_object(&view));
-            object.remove("events");
-            let boot = format!("{:016x}", status.boot_id);
-            object.insert("boot".to_owned(), boot.into());
-            object.insert("clock_ms".to_owned(), clock_ms().into());
-            object.insert("seat".to_owned(), self.seat_object());
-            object.insert("set_up".to_owned(), self.set_up.version().into());
-            let jobs = self.jobs.as_ref().map(|jobs| jobs.object());
-            object.insert("page_jobs".to_owned(), jobs.unwrap_or_default());
-            let name = self.following.active().map(ActiveProgram::name);
-            if let Some(ended) = self.day.take(&status, name.as_deref(), now_ms()) {
-                let seen = self.witness.object(&ended.epochs);
-                self.certificates
-                    .certify(ended, seen, self.following.plan(&status));
-            }
-            object.insert("day".to_owned(), self.day.object());
-            object.insert("version".to_owned(), self.shown.version().into());
-            object.insert("generation".to_owned(), self.shown.generation().into());
-            let place = in_plan.map(|elapsed_t| elapsed_t / period_t);
-            object.insert("place".to_owned(), place.into());
-            object.insert("planned_so_far_s".to_owned(), planned_t.into());
-            let spindle = self.auxiliary.as_ref().map(spindle);
-            object.insert("spindle".to_owned(), spindle.unwrap_or(Value::Null));
-            object.insert("lateness_histogram".to_owned(), self.histogram.object());
-            object.insert("receivers".to_owned(), self.receivers.clone());
-            object.insert("log".to_owned(), self.log.object());
-            let active = active_object(self.following.active());
-            object.insert("active_program".to_owned(), active);
-            let is_shown = self.following.is_of(&status);
-            object.insert("program_is_shown".to_owned(), is_shown.into());
-            object.insert("asked".to_owned(), self.asked.object(&status));
-        }
-        Ok(Some(object))
-    }
-}
-
-impl Machine<'_> {
-    /// Whether a page operates, and whether another one wants to. Which ones is nobody else's business.
-    fn seat_object(&self) -> Value {
-        let mut seat = self.seat.lock().unwrap_or_else(PoisonError::into_inner);
-        let [holder, asking] = seat.who(Instant::now());
-        json!({ "is_taken": holder.is_some(), "is_asked_for": asking.is_some() })
-    }
-}
-
-/// What spindle and coolant were told.
-fn spindle(told: &Auxiliary) -> Value {
-    let turns = match told.spindle() {
-        Ok(SpindleState::Clockwise) => "clockwise",
-        Ok(SpindleState::Counterclockwise) => "counterclockwise",
-        Ok(SpindleState::Oriented) => "oriented",
-        Ok(SpindleState::Stopped) | Err(_) => "off",
-    };
-    let (mist, flood) = (Coolant::MIST, Coolant::FLOOD);
-    let coolant = match (
-        told.coolant().contains(mist),
-        told.coolant().contains(flood),
-    ) {
-        (false, false) => "",
-        (true, false) => "mist",
-        (false, true) => "flood",
-        (true, true) => "mist and flood",
-    };
-    json!({ "speed": told.spindle_speed, "turns": turns, "coolant": coolant })
 }

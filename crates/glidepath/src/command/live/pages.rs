@@ -5,7 +5,7 @@ use super::folder::{Folder, FolderError, Piece};
 use super::job_submitter::{Handed, JobSubmitter, Wanted};
 use super::jogger::{Hand, Jogger};
 use super::order::{Given, Order, by_axis};
-use super::preview::{Look, Preview};
+use super::preview::Preview;
 use super::query::{decoded, fingerprint, parameter};
 use super::set_up::SetUp;
 use super::shown::Shown;
@@ -20,9 +20,6 @@ use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
-
-/// Lines that are given out at once.
-const MOST_LINES: usize = 500;
 
 /// What the server gives out, and has done.
 pub(super) struct Pages {
@@ -52,8 +49,12 @@ pub(super) fn clock_ms() -> f64 {
     (Monotonic.now_ns() / 1_000_000) as f64
 }
 
-fn not_now(text: impl Into<String>) -> (Status, String) {
+pub(super) fn not_now(text: impl Into<String>) -> (Status, String) {
     (Status::Conflict, complete(&text.into()))
+}
+
+fn nobody_jogs() -> (Status, String) {
+    not_now("nobody jogs for this page any more: start it anew")
 }
 
 fn malformed() -> (Status, String) {
@@ -62,7 +63,7 @@ fn malformed() -> (Status, String) {
 }
 
 impl Pages {
-    fn seat(&self) -> MutexGuard<'_, Seat> {
+    pub(super) fn seat(&self) -> MutexGuard<'_, Seat> {
         // Who has it is one word.
         self.seat.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -195,10 +196,12 @@ impl Pages {
                 at_ms: *at_ms,
                 velocity: vector(axes)?.map(|v| v / 60.0),
             },
-            Order::JogStep { axes, feed } if *feed > 0.0 && feed.is_finite() => Hand::Step {
-                by: vector(axes)?,
-                most_v: feed / 60.0,
-            },
+            Order::JogStep { axes, feed } if *feed > 0.0 && feed.is_finite() => {
+                let (by, most_v) = (vector(axes)?, feed / 60.0);
+                let number = self.jogger.as_ref().and_then(|it| it.step(by, most_v));
+                let number = number.ok_or_else(nobody_jogs)?;
+                return Ok(json!({ "number": number }));
+            }
             Order::JogEnd { gesture } => Hand::Up { gesture: *gesture },
             _ => return Err(malformed()),
         };
@@ -206,7 +209,7 @@ impl Pages {
         if is_served {
             Ok(json!({}))
         } else {
-            Err(not_now("nobody jogs for this page any more: start it anew"))
+            Err(nobody_jogs())
         }
     }
 
@@ -233,44 +236,12 @@ impl Pages {
         Ok(file.display().to_string())
     }
 
-    fn folder(&self) -> Result<&Folder, (Status, String)> {
+    pub(super) fn folder(&self) -> Result<&Folder, (Status, String)> {
         let none = || {
             let text = "this page has no folder of programs: `glidepath live --programs FOLDER`";
             not_now(text)
         };
         self.folder.as_ref().ok_or_else(none)
-    }
-
-    fn preview(&self, query: &str) -> Option<Response> {
-        let name = decoded(parameter(query, "name")?)?;
-        let look = match parameter(query, "look") {
-            None => Look::First,
-            Some("again") => Look::Again,
-            Some("anew") => Look::Anew,
-            Some(_) => return None,
-        };
-        let found = self.folder().map(|folder| folder.file(&name));
-        Some(match found {
-            Ok(Ok(file)) => {
-                let version = self.set_up.version();
-                let known = self.preview.object((&file, &name), version, look);
-                known.map_or_else(
-                    |given_up| refusal(&(Status::NotFound, given_up.to_string())),
-                    |known| object(&known),
-                )
-            }
-            Ok(Err(error)) => refusal(&not_now(error.to_string())),
-            Err(refused) => refusal(&refused),
-        })
-    }
-
-    fn programs(&self) -> Response {
-        let listed = self.folder().map(Folder::object);
-        match listed {
-            Ok(Ok(listed)) => object(&listed),
-            Ok(Err(error)) => refusal(&not_now(error.to_string())),
-            Err(refused) => refusal(&refused),
-        }
     }
 
     fn take(&self, caller: Caller, query: &str, bytes: &[u8]) -> Done {
@@ -319,45 +290,9 @@ fn sequence(name: String, lines: &[String]) -> Result<Wanted, (Status, String)> 
     wanted.ok_or_else(malformed)
 }
 
-/// Numbers and lines of a program.
-fn part(shown: &Shown, what: &str, query: &str) -> Option<Response> {
-    let number = |name: &str| parameter(query, name)?.parse::<u64>().ok();
-    let of = number("of")?;
-    let numbers = |bytes| Response::new(ContentType::Binary, bytes);
-    match what {
-        "program.bin" => shown.program_path(of).map(numbers),
-        "columns.bin" => shown.columns(of).map(numbers),
-        "path.bin" => shown.path(of).map(numbers),
-        "lines" => {
-            let count = |name| usize::try_from(number(name)?).ok();
-            let (from, count) = (count("from")?, count("count")?.min(MOST_LINES));
-            Some(object(&shown.lines(of, from, count)?))
-        }
-        _ => None,
-    }
-}
-
 impl Site for Pages {
-    fn document(&self, path: &str, query: &str) -> Option<Response> {
-        match path.strip_prefix("/api/")? {
-            "plan" => Some(object(&self.shown.object())),
-            "set-up" => Some(object(&self.set_up.object())),
-            "programs" => Some(self.programs()),
-            "preview" => self.preview(query),
-            "certificate" => {
-                let job = u64::from_str_radix(parameter(query, "job")?, 16).ok()?;
-                self.certificates
-                    .of(job)
-                    .map(|certificate| object(&certificate))
-            }
-            what => match what.strip_prefix("preview/") {
-                Some(what) => {
-                    let of = parameter(query, "of")?.parse().ok()?;
-                    part(&*self.preview.shown(of)?, what, query)
-                }
-                None => part(&self.shown, what, query),
-            },
-        }
+    fn document(&self, caller: Caller, path: &str, query: &str) -> Option<Response> {
+        self.told(caller, path.strip_prefix("/api/")?, query)
     }
 
     fn command(&self, caller: Caller, body: &[u8]) -> Response {
@@ -379,10 +314,10 @@ fn answer(done: Done) -> Response {
     }
 }
 
-fn refusal((status, reason): &(Status, String)) -> Response {
+pub(super) fn refusal((status, reason): &(Status, String)) -> Response {
     object(&json!({ "accepted": false, "reason": reason })).with(*status)
 }
 
-fn object(value: &Value) -> Response {
+pub(super) fn object(value: &Value) -> Response {
     Response::new(ContentType::Json, value.to_string().into_bytes())
 }

@@ -1,10 +1,10 @@
 //! Previews of programs of the folder before they run: their texts, their paths, how long they take,
 //! and what is wrong with them.
 //!
-//! A program is planned once, for all pages that look at it. A few are remembered; the one that nobody has
-//! asked for for the longest time is given up for another one. A page that looks at it is told so, and does
-//! not have it planned again: else pages that look at different programs would have each other's planned for
-//! ever.
+//! A program is planned once, for all pages that look at it. A few are remembered for the operator's seat, and a
+//! few for all others, so that nobody who only looks has given up what is about to run; of either, the one that
+//! was asked for least recently is given up for another one. A page that looks at it is told so, and does not have
+//! it planned again: else pages that look at different programs would have each other's planned for ever.
 
 use super::planned::{self, Planned, Reading};
 use super::shown::Shown;
@@ -16,9 +16,11 @@ use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::SystemTime;
 
-/// Programs that are remembered.
-const MOST: usize = 4;
-/// Text of all of them, bytes. The one that was asked for last is remembered whatever its length.
+/// Programs that are remembered for the operator's seat.
+const MOST_OF_SEAT: usize = 4;
+/// Programs that are remembered for all others.
+const MOST_OF_OTHERS: usize = 2;
+/// Text of all of either, bytes. The one that was asked for last is remembered whatever its length.
 const MOST_TEXT: usize = 64 << 20;
 
 /// The program is not looked at any more.
@@ -36,8 +38,18 @@ pub(super) struct Preview {
 struct Known {
     /// How many programs were looked at.
     count: u64,
-    /// The one asked for last is the first.
-    looked_at: VecDeque<LookedAt>,
+    /// Those that the operator's seat has looked at, and those of all others. The one asked for last is the first.
+    of_seat: VecDeque<LookedAt>,
+    of_others: VecDeque<LookedAt>,
+}
+
+/// Who looks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Looker {
+    /// The page that operates.
+    Seat,
+    /// A page that only looks, or waits for the seat.
+    Other,
 }
 
 /// A file as it was when it was looked at.
@@ -64,7 +76,7 @@ pub(super) enum Look {
     First,
     /// It is looked at already, and asked how far it is.
     Again,
-    /// What is known of it is not true any more.
+    /// What is known of it is not true any more. Of others than the seat it is not believed.
     Anew,
 }
 
@@ -83,7 +95,7 @@ impl Preview {
     /// Where numbers and lines of a program are, by its generation; `None` if it was given up.
     pub(super) fn shown(&self, generation: u64) -> Option<Arc<Shown>> {
         let known = self.known();
-        let mut all = known.looked_at.iter();
+        let mut all = known.of_seat.iter().chain(&known.of_others);
         let found = all.find(|it| it.shown.generation() == generation);
         found.map(|it| Arc::clone(&it.shown))
     }
@@ -96,7 +108,7 @@ impl Preview {
         &self,
         (file, name): (&Path, &str),
         set_up: u64,
-        look: Look,
+        (looker, look): (Looker, Look),
     ) -> Result<Value, GivenUp> {
         let about = file.metadata().ok();
         let stamp = Stamp {
@@ -106,12 +118,12 @@ impl Preview {
             set_up,
         };
         let mut known = self.known();
-        let at = known.looked_at.iter().position(|it| it.stamp.name == name);
-        let before = at.and_then(|at| known.looked_at.remove(at));
+        let (before, place) = known.take(name, looker);
         if before.is_none() && look == Look::Again {
             return Err(GivenUp);
         }
-        let is_known = |it: &LookedAt| it.stamp == stamp && look != Look::Anew;
+        let is_doubted = (looker, look) == (Looker::Seat, Look::Anew);
+        let is_known = |it: &LookedAt| it.stamp == stamp && !is_doubted;
         let (looked_at, given_up) = match before {
             Some(it) if is_known(&it) => (it, None),
             before => {
@@ -120,7 +132,7 @@ impl Preview {
             }
         };
         let object = looked_at.object();
-        known.looked_at.push_front(looked_at);
+        known.put(looked_at, place);
         let given_up: Vec<LookedAt> = given_up.into_iter().chain(known.beyond()).collect();
         drop(known);
         if !given_up.is_empty() {
@@ -155,18 +167,54 @@ impl Preview {
     }
 }
 
+/// Where a program that is looked at is remembered.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Place {
+    OfSeat(usize),
+    OfOthers,
+}
+
 impl Known {
-    /// Takes out what is not remembered any more.
-    fn beyond(&mut self) -> VecDeque<LookedAt> {
-        let mut bytes = 0;
-        let too_long = self.looked_at.iter().position(|it| {
-            let before = bytes;
-            bytes += it.bytes();
-            before > 0 && bytes > MOST_TEXT
-        });
-        let keep = too_long.unwrap_or(MOST).min(MOST);
-        self.looked_at.split_off(keep.min(self.looked_at.len()))
+    /// Takes out what is known of a program, and says where it is put again. What others look at leaves those of the
+    /// seat in their order.
+    fn take(&mut self, name: &str, looker: Looker) -> (Option<LookedAt>, Place) {
+        let at = |all: &VecDeque<LookedAt>| all.iter().position(|it| it.stamp.name == name);
+        let of_others = at(&self.of_others);
+        if let Some(at) = at(&self.of_seat) {
+            let place = Place::OfSeat(if looker == Looker::Seat { 0 } else { at });
+            return (self.of_seat.remove(at), place);
+        }
+        let place = match looker {
+            Looker::Seat => Place::OfSeat(0),
+            Looker::Other => Place::OfOthers,
+        };
+        (of_others.and_then(|at| self.of_others.remove(at)), place)
     }
+
+    fn put(&mut self, looked_at: LookedAt, place: Place) {
+        match place {
+            Place::OfSeat(at) => self.of_seat.insert(at, looked_at),
+            Place::OfOthers => self.of_others.push_front(looked_at),
+        }
+    }
+
+    /// Takes out what is not remembered any more.
+    fn beyond(&mut self) -> impl Iterator<Item = LookedAt> + use<> {
+        let of_seat = beyond(&mut self.of_seat, MOST_OF_SEAT);
+        let of_others = beyond(&mut self.of_others, MOST_OF_OTHERS);
+        of_seat.into_iter().chain(of_others)
+    }
+}
+
+fn beyond(all: &mut VecDeque<LookedAt>, most: usize) -> VecDeque<LookedAt> {
+    let mut bytes = 0;
+    let too_long = all.iter().position(|it| {
+        let before = bytes;
+        bytes += it.bytes();
+        before > 0 && bytes > MOST_TEXT
+    });
+    let keep = too_long.unwrap_or(most).min(most);
+    all.split_off(keep.min(all.len()))
 }
 
 impl LookedAt {
@@ -214,8 +262,12 @@ mod tests {
         }
 
         fn look(&self, name: &str, look: Look) -> Result<u64, GivenUp> {
+            self.look_as(Looker::Seat, name, look)
+        }
+
+        fn look_as(&self, looker: Looker, name: &str, look: Look) -> Result<u64, GivenUp> {
             let file = self.place.path().join(name);
-            let object = self.preview.object((&file, name), 1, look)?;
+            let object = self.preview.object((&file, name), 1, (looker, look))?;
             Ok(object["generation"].as_u64().unwrap())
         }
     }
@@ -263,6 +315,34 @@ mod tests {
     }
 
     #[test]
+    fn nobody_who_only_looks_has_given_up_what_the_seat_looks_at() {
+        let of_seat = ["a", "b", "c", "d"];
+        let of_others = ["e", "f", "g", "h"];
+        let desk = Desk::new(&[of_seat, of_others].concat());
+        let other = |name, look| desk.look_as(Looker::Other, name, look);
+        // One that another page looks at already is the seat's from now on.
+        let shared = other("a", Look::First).unwrap();
+        let seen = of_seat.map(|name| desk.look(name, Look::First).unwrap());
+        assert_eq!(seen[0], shared, "it is planned once");
+        for _ in 0..3 {
+            for name in of_others {
+                let _looked = other(name, Look::First).unwrap();
+                let _looked = other(name, Look::Anew).unwrap();
+            }
+        }
+        assert_eq!(other("e", Look::Again), Err(GivenUp), "others have few");
+        // Nor is what the seat looks at planned again because another page says so.
+        for (name, generation) in of_seat.into_iter().zip(seen) {
+            assert_eq!(other(name, Look::Anew), Ok(generation), "{name}");
+            assert!(desk.preview.shown(generation).is_some(), "{name}");
+        }
+        // Whoever looked last is the seat, whatever others have asked for since.
+        let _fifth = desk.look("e", Look::First).unwrap();
+        assert_eq!(desk.look("a", Look::Again), Err(GivenUp));
+        assert_eq!(desk.look("b", Look::Again), Ok(seen[1]));
+    }
+
+    #[test]
     fn long_texts_are_remembered_one_at_a_time() {
         let desk = Desk::new(&["short"]);
         let long = "(a remark)\n".repeat(MOST_TEXT / 2 / 11 + 1);
@@ -284,7 +364,7 @@ mod tests {
             let file = desk.place.path().join(name);
             let begun = std::time::Instant::now();
             let fingerprint = loop {
-                let look = Look::First;
+                let look = (Looker::Seat, Look::First);
                 let object = desk.preview.object((&file, name), 1, look).unwrap();
                 if let Some(fingerprint) = object["fingerprint"].as_str() {
                     break fingerprint.to_owned();
