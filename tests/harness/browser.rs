@@ -162,6 +162,15 @@ impl Browser {
         place
     }
 
+    /// Moves a finger that is down, by px to the right of where it came down.
+    pub fn finger_moved(&mut self, place: &Value, by: f64) {
+        let x = place[0].as_f64().unwrap() + by;
+        let event = json!({
+            "type": "mouseMoved", "x": x, "y": place[1], "button": "left", "buttons": 1,
+        });
+        let _done = self.call("Input.dispatchMouseEvent", &event);
+    }
+
     /// Takes a finger up.
     pub fn finger_up(&mut self, place: &Value) {
         self.mouse("mouseReleased", place);

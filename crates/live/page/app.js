@@ -7,7 +7,7 @@ let TOKEN = '';
 /* ---- the server */
 async function api(path, kind) {
   try {
-    const answer = await fetch(path, { headers: { 'X-Glidepath-Token': TOKEN } });
+    const answer = await fetch(path, { headers: { 'X-Glidepath-Token': TOKEN, 'X-Glidepath-Page': PAGE } });
     if (!answer.ok) { if (answer.status === 403) S.refused = true; return null; }
     return kind === 'json' ? await answer.json() : await answer.arrayBuffer();
   } catch { return null; }
@@ -30,7 +30,7 @@ async function takePlan() {
   // What did not come is asked for again.
   version = isAll ? info.version : -1;
   COME = { plan: whole ? new Plan(columns) : null, motion: whole ? new Track(path) : null, program: program ? new Track(program) : null };
-  if (info.generation !== INFO.generation) LINES.forget();
+  if (info.generation !== INFO.generation) { LINES.forget(); forgetWhy(); }
   setInfo(info); usePlan();
   if (!isAll) await new Promise(done => setTimeout(done, 300));
 }
@@ -91,7 +91,7 @@ function heard(kind, payload) {
     const shows = status.end_of_epoch !== 'open' || (status.program_is_shown && status.generation === INFO.generation);
     if (shows !== S.shows) { S.shows = shows; usePlan(); }
     if (status.version !== version) fetchPlan();
-    if (S.may === 'operate' && status.set_up !== undefined) fetchSetUp(status.set_up);
+    if (S.may === 'operate' && status.set_up !== undefined) { fetchSetUp(status.set_up); loadNext(); judgeShuttle(); }
     // A browser lets the timers of a page that nobody sees come late, by up to a minute.
     if (document.hidden) callPerson();
   } else if (kind === 2 && RINGED && S.status) {
@@ -182,17 +182,22 @@ $('#tools').addEventListener('click', e => {
 /* ---- what held the motion back, and where */
 function paintTune() {
   const report = INFO.report;
+  $('#tune').dataset.why = report && WHY.place && PLAN && S.box !== 'spec' ? 1 : 0;
   if (!report) { fill($('#bindbox'), ''); fill($('#slowbox'), `<div class="h"><b>No plan yet</b><button data-box="spec">frequencies</button></div><p class="lab-text">${safe(emptyRibbon())}</p>`); return; }
   const sum = kind => Object.entries(report.binding).filter(([name]) => name.startsWith(kind)).reduce((all, [, part]) => all + part, 0);
   const parts = LIMITS.filter(kind => kind !== 'rest' && kind !== 'none').concat(['none', 'rest']).map(kind => [kind, sum(kind)]).filter(([kind, part]) => part > 0 || kind === 'feed');
   fill($('#bindbox'), `<div class="h"><b>What held the motion back</b><span>% of the time</span></div><div class="stack">${parts.map(([kind]) => `<i class="k-${kind.replace(' ', '-')}"></i>`).join('')}</div><div class="keys">${parts.map(([kind, part]) => `<div><i class="k-${kind.replace(' ', '-')}"></i>${LIMIT_WORDS[kind]}<span class="n">${(part * 100).toFixed(1)}</span></div>`).join('')}</div>`);
   $$('#bindbox .stack i').forEach((element, k) => { element.style.flex = `${parts[k][1]} 0 2px`; });
+  if (WHY.place && PLAN) { fill($('#slowbox'), whyBox()); return; }
   const rows = innerHeight < 820 ? 4 : 6;
   fill($('#slowbox'), `<div class="h"><b>Where most time is lost</b><button data-box="spec">frequencies</button></div><table class="slow"><tr><th>line</th><th>lost, s</th><th>slowest, mm/s</th><th>of</th><th>limit</th></tr>${report.slowest.slice(0, rows).map((place, n) => `<tr tabindex="0" data-n="${n}"><td class="n">${place.line}</td><td class="n">${num(place.lost_s, 3)}</td><td class="n">${num(place.speed_mm_s, 1)}</td><td class="n">${num(place.feed_mm_s, 0)}</td><td><i class="dot k-${/^(velocity|acceleration|jerk)/.test(place.limit) ? place.limit.split(' ')[0] : place.limit.replace(' ', '-')}"></i>${safe(place.limit)}</td></tr>`).join('')}</table>`);
 }
 $('#tune .l').addEventListener('click', e => {
   const b = e.target.closest('[data-box]');
-  if (b) { S.box = $('#tune').dataset.box = b.dataset.box; SPACE.stale = true; redraw(); }
+  if (!b) return;
+  if (b.dataset.box === 'plan-again') { planAgain(); return; }
+  WHY.place = null;
+  S.box = $('#tune').dataset.box = b.dataset.box; paintTune(); SPACE.stale = true; redraw();
 });
 const placeOfRow = row => { const place = INFO.report.slowest[row.dataset.n]; return { p: (place.start_s + place.duration_s / 2) / DT(), width: Math.max(0.4, place.duration_s * 6) }; };
 $('#slowbox').addEventListener('click', e => {
@@ -200,8 +205,7 @@ $('#slowbox').addEventListener('click', e => {
   if (!row || !PLAN) return;
   const { p, width } = placeOfRow(row), t = timeOf(p);
   if (t !== null) lookAt(t, width);
-  hover(p); SPACE.lookAt(p);
-  $$('#slowbox tr').forEach(other => other.classList.toggle('on', other === row));
+  hover(p); SPACE.lookAt(p); showWhy(p);
 });
 $('#slowbox').addEventListener('pointerover', e => { const row = e.target.closest('tr[data-n]'); if (row && PLAN) hover(placeOfRow(row).p); });
 $('#slowbox').addEventListener('pointerleave', () => hover(null));
@@ -342,7 +346,7 @@ function start() {
   $('[data-prog]', overMode).onclick = () => { SPACE.showProgram = !SPACE.showProgram; paintLegend(); redraw(); };
   $$('button', overView).forEach(b => { b.onclick = () => SPACE.view(b.dataset.c); });
   SPACE.onhover = p => { if (S.view === 'tune') hover(p); };
-  SPACE.onclick = p => { if (p !== null && PLAN && S.view === 'tune') { const t = timeOf(p); if (t !== null) lookAt(t); } };
+  SPACE.onclick = p => { if (p !== null && PLAN && S.view === 'tune') { const t = timeOf(p); if (t !== null) lookAt(t); showWhy(p); } };
   stripHands(hover); ribbonHands(hover);
   let kept = null;
   try { kept = localStorage.getItem('glidepath-theme'); } catch { /* none */ }
@@ -366,7 +370,7 @@ function startLive() {
   try { if (TOKEN) sessionStorage.setItem('glidepath-token', TOKEN); else TOKEN = sessionStorage.getItem('glidepath-token') || ''; } catch { /* none */ }
   // The token leaves the address, so that it is in no picture of the screen.
   if (hash.get('token')) { hash.delete('token'); history.replaceState(null, '', hash.toString() ? `#${hash}` : location.pathname); }
-  layBar(); layBell(); layOverrides(); layLine(); layPrograms();
+  layBar(); layBell(); layOverrides(); layLine(); layPrograms(); layShuttle();
   S.phone = isPhone();
   setView(S.phone ? 'glance' : hash.get('view') || 'operate');
   startHands();

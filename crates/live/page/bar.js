@@ -9,8 +9,8 @@ function layBar() {
 }
 function layDeeds() {
   // Nothing that another finger is about to begin begins behind a stop.
-  DEEDS.hold = () => { if (PRESSED.button !== BAR.abort) letGo(); endJog(); order('hold'); };
-  DEEDS.abort = () => { endJog(); order('abort'); };
+  DEEDS.hold = () => { if (PRESSED.button !== BAR.abort) letGo(); endJog(); endShuttle(); order('hold'); };
+  DEEDS.abort = () => { endJog(); endShuttle(); order('abort'); };
   DEEDS.unit = () => { const before = touchDefaults(); changeUnit(); paintUnits(); for (const [name, x] of Object.entries(before)) if (TOUCH[name] === x) TOUCH[name] = touchDefaults()[name]; SPACE.stale = true; if (JOG.step) JOG.step = steps()[steps().length - 1]; S.editing = null; redraw(); paintLegend(); paintTables(); paintPad(); paintSetUp(); paintPrograms(); };
   DEEDS.single = () => order('single-block', { on: !(S.status && S.status.single_block) });
   DEEDS.go = async () => {
@@ -94,6 +94,8 @@ function paintSays() {
 /* The way back along the path, where the program is held. */
 function paintWay() {
   const s = S.status, isBack = s && s.mode === 'backwards', held = S.state === 'held' && !isAway(s);
+  const next = S.may === 'operate' && S.view === 'operate' ? nextPanel() : '';
+  if (next) { fill($('#way'), next); return; }
   if (S.may !== 'operate' || !s || !(held || (S.state === 'running' && isBack))) { fill($('#way'), ''); return; }
   const not = notOperating();
   fill($('#way'), held ? `${key('back', `${icon('back')}Back`, { press: SHORT, why: not, sub: 'press ½ s' })}<p>Goes back along the path, for at most a minute of it, until you press Hold. ${isBack ? 'Forward goes on to the end.' : ''}</p>` : '<p>It goes back along the path. Press Hold where it is to rest.</p>');

@@ -3,6 +3,8 @@
 // motion advances; tool, tail and marks are on a second canvas above it.
 
 const TAIL_S = 1;
+/* How wide a path is, px. */
+const TO_COME = 1.3, DONE = { width: 3.6, rapid: 2 };
 /* X, Y and Z of something that is known by axis of the machine; 0 for an axis that it has not. */
 const inSpace = of => ['X', 'Y', 'Z'].map(name => { const k = AXES().findIndex(axis => axis.name === name); return k < 0 ? 0 : of(k); });
 /* A lathe is looked at as in its drawings: Z to the right, X up, and the spindle's axis in sight. */
@@ -16,7 +18,7 @@ class Path3D {
     this.box = document.createElement('div'); this.box.className = 'space';
     this.base = document.createElement('canvas'); this.over = document.createElement('canvas');
     this.box.append(this.base, this.over);
-    this.stale = true; this.moved = 0; this.drawn = { p: -1 };
+    this.stale = true; this.moved = 0; this.drawn = { p: -1, at: 0 };
     this.onhover = () => {}; this.onclick = () => {};
     this.hands();
   }
@@ -115,8 +117,11 @@ class Path3D {
     if (!w || !h) return;
     const track = this.track(), done = track && track === MOTION ? p : -1, start = performance.now();
     const key = [w, h, this.yaw, this.pitch, this.zoom, ...this.pan, this.mode, T.dark, this.showProgram, devicePixelRatio].join();
+    // What was done is taken back now and then: all of the path is drawn for that, and a finger that is down must be heard meanwhile.
+    const isBack = done < this.drawn.p && start - this.drawn.at > 500;
+    if (isBack) this.moved = start;
     const level = track ? this.level(track) : 0;
-    const anew = this.stale || key !== this.drawn.key || track !== this.drawn.track || done < this.drawn.p || (level !== this.drawn.level && performance.now() - this.moved > 180);
+    const anew = this.stale || key !== this.drawn.key || track !== this.drawn.track || isBack || (level !== this.drawn.level && performance.now() - this.moved > 180);
     this.project(w, h);
     if (anew) {
       const [c] = fit(this.base);
@@ -124,18 +129,17 @@ class Path3D {
       this.grid(c);
       if (track) {
         if (this.showProgram && this.scale * INFO.machine.tolerance_mm > 0.5 && track === MOTION && PROGRAM && PROGRAM.count > 1) this.segments(c, PROGRAM, Math.min(level, PROGRAM.levels.length - 1), -1, Infinity, { width: 1, rapid: 0.01 }, w, h);
-        c.globalAlpha = S.file || track === PROGRAM ? 1 : 0.4;
-        this.segments(c, track, level, -1, Infinity, { width: S.file ? 2 : 1.7, rapid: 1 }, w, h);
-        c.globalAlpha = 1;
-        if (!S.file && done > 0) this.segments(c, track, level, -1, done, { width: 2.6, rapid: 1.2 }, w, h);
+        // To come is thin and done is thick, both in full colour; rapids are dashed.
+        this.segments(c, track, level, -1, Infinity, { width: S.file ? 2 : TO_COME, rapid: 1 }, w, h);
+        if (!S.file && done > 0) this.segments(c, track, level, -1, done, DONE, w, h);
       }
-      this.drawn = { key, track, level, p: done };
+      this.drawn = { key, track, level, p: done, at: performance.now() };
       this.stale = false;
       // Finer, once the view rests.
       if (track && level < track.levels.length - 1) setTimeout(() => { dirty.path = true; }, 200);
     } else if (track && track === MOTION && !S.file && done > this.drawn.p) {
       const c = this.base.getContext('2d');
-      this.segments(c, track, this.drawn.level, this.drawn.p, done, { width: 2.6, rapid: 1.2 }, w, h);
+      this.segments(c, track, this.drawn.level, this.drawn.p, done, DONE, w, h);
       const first = track.before(done);
       this.drawn.p = track.sequence[first];
     }

@@ -3,7 +3,7 @@
 // line, and the jobs that the machine has had.
 
 const FOLDER = { list: [], folder: '', trouble: '', chosen: null, search: '', sending: '', wanted: [] };
-const LOOK = { info: null, lost: '', timer: 0, plan: null, motion: null, program: null, lines: [], key: '', at: {} };
+const LOOK = { info: null, lost: '', timer: 0, plan: null, motion: null, program: null, lines: [], key: '', at: {}, ratio: 1, times: {} };
 S.agree = null;
 async function fetchPrograms() {
   try {
@@ -27,7 +27,7 @@ function paintPrograms() {
 /* Nothing of the program before is shown with the name of this one. */
 function choose(name) {
   FOLDER.chosen = name; S.agree = null; $('#programs').dataset.jobs = 0;
-  Object.assign(LOOK, { info: null, lost: '', plan: null, motion: null, program: null, lines: [], key: '', at: {} });
+  Object.assign(LOOK, { info: null, lost: '', plan: null, motion: null, program: null, lines: [], key: '', at: {}, ratio: 1, times: {} });
   usePlan(); lookAtChosen('first'); paintPrograms();
 }
 /* On small screens the jobs have no place beside a program. */
@@ -64,14 +64,15 @@ async function lookAtChosen(look = LOOK.info ? 'again' : 'first') {
       LOOK.plan = whole ? new Plan(columns) : null; LOOK.motion = whole ? new Track(path) : null; LOOK.program = program ? new Track(program) : null;
       LOOK.lines = lines || [];
       usePlan();
-      LOOK.at = {};
+      Object.assign(LOOK, { at: {}, ratio: 1, times: {} });
       if (info.failed) fetchFindings(info);
     }
     if (!LOOK.key || (!info.report && !info.failed)) LOOK.timer = setTimeout(lookAtChosen, 400);
   }
   paintChosen();
 }
-const whyNoRun = () => notOperating() || (LOOK.info && LOOK.info.fingerprint ? '' : LOOK.lost ? 'look at it first' : 'it is read') || (S.state === 'idle' ? '' : S.state === 'off' ? 'power first' : S.state === 'not-homed' ? 'home first' : S.state === 'faulted' ? 'reset first' : 'not now');
+const whyNotReady = () => S.state === 'idle' ? '' : S.state === 'off' ? 'power first' : S.state === 'not-homed' ? 'home first' : S.state === 'faulted' ? 'reset first' : 'not now';
+const whyNoRun = () => notOperating() || (LOOK.info && LOOK.info.fingerprint ? '' : LOOK.lost ? 'look at it first' : 'it is read') || whyNotReady();
 function paintChosen() {
   const name = FOLDER.chosen, info = LOOK.info, why = whyNoRun();
   $('#programs').dataset.chosen = name ? 1 : 0;
@@ -79,10 +80,27 @@ function paintChosen() {
   if (!name) { fill($('#title'), '<span class="lab-text">Choose a program.</span>'); fill($('#runkeys'), ''); fill($('#found'), ''); return; }
   // What changes while it is planned stands by itself, so that a finger on a key is not lost.
   fill($('#title'), `<b>${safe(name)}</b><span class="lab">${info && info.program ? `${grouped(info.program.lines)} lines` : ''}${info && info.seconds ? `, ${span(info.seconds)} of motion at 100 %` : info && !info.failed ? `, is planned: ${span(info.planned_so_far_s || 0)} so far` : ''}</span>`);
-  fill($('#runkeys'), `${key('from-line', 'From line…', { why: notOperating() })}${key('run', 'Run', { press: SHORT, why, sub: 'press ½ s', data: `data-of="${safe(name)}"`, kind: why || (info && info.failed) ? '' : 'main' })}`);
+  fill($('#runkeys'), `${key('queue-add', 'Queue', { why: notOperating(), data: `data-name="${safe(name)}"` })}${key('from-line', 'From line…', { why: notOperating() })}${key('run', 'Run', { press: SHORT, why, sub: 'press ½ s', data: `data-of="${safe(name)}"`, kind: why || (info && info.failed) ? '' : 'main' })}`);
   const failed = info && info.failed;
-  fill($('#found'), S.agree ? agreement() : failed ? `<div class="h"><b>${icon('warn', 'warn')} What was found</b></div>${findings(failed)}` : `<div class="h"><b>${info && info.report ? `${icon('ok', 'ok')} Nothing was found` : LOOK.lost ? safe(sentence(plain(LOOK.lost))) : 'It is read'}</b>${LOOK.lost ? key('choose', 'Look at it', { data: `data-name="${safe(name)}"` }) : ''}</div><pre class="lines">${safe((LOOK.lines || []).slice(0, 6).join('\n'))}</pre>`);
+  fill($('#found'), S.agree ? agreement() : failed ? `<div class="h"><b>${icon('warn', 'warn')} What was found</b></div>${findings(failed)}` : `<div class="h"><b>${info && info.report ? `${icon('ok', 'ok')} Nothing was found` : LOOK.lost ? safe(sentence(plain(LOOK.lost))) : 'It is read'}</b>${LOOK.lost ? key('choose', 'Look at it', { data: `data-name="${safe(name)}"` }) : ''}</div>${tolerances()}<pre class="lines">${safe((LOOK.lines || []).slice(0, 6).join('\n'))}</pre>`);
 }
+/* How long it would take with another tolerance, before it runs: what runs is planned as it is configured. */
+const TOLERANCES = [[0.5, '× ½'], [1, 'as it is'], [2, '× 2'], [5, '× 5']];
+function tolerances() {
+  const info = LOOK.info, report = info && info.report;
+  if (!report || !info.seconds) return '';
+  const mm = report.tolerance_mm, answer = LOOK.times[LOOK.ratio], less = answer && answer.seconds ? info.seconds - answer.seconds : 0;
+  const keys = TOLERANCES.map(([ratio, name]) => `<button role="radio" class="choice" aria-checked="${ratio === LOOK.ratio}" data-do="try-tolerance" data-ratio="${ratio}">${name}<span class="lab">${num(mm * ratio, 3)} mm</span></button>`).join('');
+  const said = LOOK.ratio === 1 ? `${span(info.seconds)}` : !answer ? 'is planned' : answer.failed ? safe(answer.failed) : answer.seconds === null ? `is planned: ${span(answer.so_far_s)} so far` : `${span(answer.seconds)}, ${Math.abs(less) < 0.05 ? 'the same' : `${num(Math.abs(less), 1)} s ${less > 0 ? 'less' : 'more'}`}`;
+  return `<div class="tolerances"><div class="choices" role="radiogroup" aria-label="tolerance">${keys}</div><p>Cycle time: <b>${said}</b>.<br><span class="lab">Only a look: Run is planned with ${num(mm, 3)} mm.</span></p></div>`;
+}
+DEEDS['try-tolerance'] = async b => {
+  const ratio = LOOK.ratio = +b.dataset.ratio, info = LOOK.info;
+  paintChosen();
+  if (ratio === 1 || (LOOK.times[ratio] && LOOK.times[ratio].seconds)) return;
+  const isWanted = () => LOOK.ratio === ratio && LOOK.info && LOOK.info.generation === info.generation && S.view === 'programs', times = LOOK.times;
+  await whatIf('/api/preview/what-if', info.generation, 'tolerance', ratio, answer => { times[ratio] = answer; paintChosen(); }, isWanted);
+};
 /* What is wrong with a program, each with its line of the text. */
 const MOST_FINDINGS = 100;
 function findings(failed) {
@@ -111,11 +129,13 @@ async function runLooked(name, more, info) {
   if (!isSame || said.status === 412) {
     refuse(`${name} is looked at anew: it, or what it is planned with, may have changed; look at it, and press again`);
     if (name === FOLDER.chosen) { S.agree = null; lookAtChosen(isSame ? 'anew' : 'first'); }
-    return;
+    return 'anew';
   }
-  if (name !== FOLDER.chosen) return;
-  if (said.to_confirm) { S.agree = { ...more, name, info, text: said.to_confirm }; paintChosen(); fetchAround(); return; }
+  if (said.accepted && more.queued) { setView('operate'); return ''; }
+  if (name !== FOLDER.chosen) return '';
+  if (said.to_confirm) { S.agree = { ...more, name, info, text: said.to_confirm }; paintChosen(); fetchAround(); return ''; }
   if (said.accepted) { S.agree = null; if (S.view === 'programs') setView('operate'); }
+  return '';
 }
 /* ---- from a line: what is different there, and what happens, before anything does */
 DEEDS['from-line'] = () => { S.agree = S.agree ? null : { asks: true }; paintChosen(); const input = $('#fromline'); if (input) input.focus(); };
@@ -196,5 +216,6 @@ function layPrograms() {
 const ENDS = { done: ['ok', 'ok'], aborted: ['abort', ''], fault: ['fault', 'bad'], over: ['dot', ''] };
 function paintDay() {
   const jobs = S.status && S.status.day || [];
-  fill($('#day'), `<div class="h"><b>Jobs</b><span>since this page is served</span></div>${jobs.slice(0, 30).map(job => { const [sign, kind] = ENDS[job.end] || ['running', '']; return `<div class="job"><span class="n lab">${clock(job.begun_ms)}</span>${icon(sign, kind)}<span>${safe(job.name)}</span><span class="lab">${job.end === 'done' ? `done in ${span((job.ended_ms - job.begun_ms) / 1000)}` : job.end ? `${job.end}${job.line ? ` at line ${job.line}` : ''}` : 'runs'}</span>${job.end ? key('certificate', 'Certificate', { data: `data-job="${job.number}"` }) : ''}</div>`; }).join('') || '<p class="lab-text">None yet.</p>'}`);
+  fill($('#queue'), queueList());
+  fill($('#dayjobs'), `<div class="h"><b>Jobs</b><span>since this page is served</span></div>${jobs.slice(0, 30).map(job => { const [sign, kind] = ENDS[job.end] || ['running', '']; return `<div class="job"><span class="n lab">${clock(job.begun_ms)}</span>${icon(sign, kind)}<span>${safe(job.name)}</span><span class="lab">${job.end === 'done' ? `done in ${span((job.ended_ms - job.begun_ms) / 1000)}` : job.end ? `${job.end}${job.line ? ` at line ${job.line}` : ''}` : 'runs'}</span>${job.end ? key('certificate', 'Certificate', { data: `data-job="${job.number}"` }) : ''}</div>`; }).join('') || '<p class="lab-text">None yet.</p>'}`);
 }

@@ -35,11 +35,17 @@ function ribbon() {
   const isDone = S.status && S.status.end_of_epoch === 'completed', p = S.file ? -1 : isDone ? PLAN.samples - 1 : S.p, list = ribbonColumns(Math.floor(width));
   list.forEach(([most, kind], x) => {
     const high = Math.max(1, Math.sqrt(most / PLAN.mostFeed) * tall);
-    c.globalAlpha = S.file || x / width * PLAN.samples <= p ? 1 : 0.36;
-    c.fillStyle = T.limit[kind]; c.fillRect(left + x, bottom - high, 1, high);
+    // To come: an outline over pale ground. Rapids have gaps.
+    const isDone = S.file || x / width * PLAN.samples <= p, isGap = kind === 'rapid' && x % 6 < 2;
+    c.fillStyle = T.limit[kind];
+    if (isDone) { if (!isGap) c.fillRect(left + x, bottom - high, 1, high); return; }
+    c.globalAlpha = 0.22; c.fillRect(left + x, bottom - high, 1, high); c.globalAlpha = 1;
+    if (!isGap) c.fillRect(left + x, bottom - high, 1, Math.min(2, high));
   });
   c.globalAlpha = 1; c.fillStyle = T.css.line; c.fillRect(left, bottom, width, 1);
+  let says = '';
   if (!S.file) {
+    if (S.may === 'operate') says = drawShuttle(c, X, { top, bottom, p });
     const x = X(p);
     c.fillStyle = T.css.ink; c.fillRect(left, bottom, x - left, 3); c.fillRect(x - 1, top - 5, 2, bottom - top + 8);
     c.beginPath(); c.moveTo(x, top + 1); c.lineTo(x - 7, top - 9); c.lineTo(x + 7, top - 9); c.fill();
@@ -56,7 +62,8 @@ function ribbon() {
   c.textAlign = 'left'; c.fillStyle = T.css.ink; c.font = `bold ${em}px B612`; c.fillText(name, left, y);
   const wide = c.measureText(name).width;
   c.font = `${em}px B612`; c.fillStyle = T.css.quiet;
-  if (S.view !== 'glance') c.fillText(S.file ? `   ${wayText(way)}` : `   ${Math.floor(p / Math.max(1, PLAN.samples - 1) * 100)} % of the time, ${wayText(PLAN.way[PLAN.bin(p)], way)}`, left + wide, y);
+  if (says) c.fillText(`   ${says}`, left + wide, y);
+  else if (S.view !== 'glance') c.fillText(S.file ? `   ${wayText(way)}` : `   ${Math.floor(p / Math.max(1, PLAN.samples - 1) * 100)} % of the time, ${wayText(PLAN.way[PLAN.bin(p)], way)}`, left + wide, y);
   c.textAlign = 'right'; c.fillText(`${span(PLAN.seconds)} at 100 %`, w - left, y);
 }
 /* Writes a text about a height, in as many lines as it takes. */
@@ -85,5 +92,5 @@ function ribbonHands(onhover) {
   const element = $('#ribbon'), place = e => { const f = (e.offsetX - RIBBON.left) / RIBBON.width; return PLAN && f >= 0 && f <= 1 ? f * (PLAN.samples - 1) : null; };
   element.addEventListener('pointermove', e => { if (S.view !== 'operate') onhover(place(e)); });
   element.addEventListener('pointerleave', () => onhover(null));
-  element.addEventListener('pointerdown', e => { const p = place(e); if (p === null || S.view !== 'tune') return; const t = timeOf(p); if (t !== null) lookAt(t); });
+  element.addEventListener('pointerdown', e => { const p = place(e); if (p === null || S.view !== 'tune') return; const t = timeOf(p); if (t !== null) lookAt(t); showWhy(p); });
 }

@@ -10,7 +10,7 @@ pub(crate) const STYLE: &str = include_str!("../page/style.css");
 const HANDS_STYLE: &str = include_str!("../page/hands.css");
 
 /// What shows a motion, in the order in which the page names it.
-const SHOWING: [(&str, &str); 10] = [
+const SHOWING: [(&str, &str); 11] = [
     ("/base.js", include_str!("../page/base.js")),
     ("/units.js", include_str!("../page/units.js")),
     ("/plan.js", include_str!("../page/plan.js")),
@@ -21,10 +21,11 @@ const SHOWING: [(&str, &str); 10] = [
     ("/spectrum.js", include_str!("../page/spectrum.js")),
     ("/words.js", include_str!("../page/words.js")),
     ("/health.js", include_str!("../page/health.js")),
+    ("/why.js", include_str!("../page/why.js")),
 ];
 
 /// What operates a machine, behind that.
-const HANDS: [(&str, &str); 8] = [
+const HANDS: [(&str, &str); 10] = [
     ("/orders.js", include_str!("../page/orders.js")),
     ("/bar.js", include_str!("../page/bar.js")),
     ("/bell.js", include_str!("../page/bell.js")),
@@ -33,6 +34,8 @@ const HANDS: [(&str, &str); 8] = [
     ("/touch.js", include_str!("../page/touch.js")),
     ("/programs.js", include_str!("../page/programs.js")),
     ("/certificate.js", include_str!("../page/certificate.js")),
+    ("/queue.js", include_str!("../page/queue.js")),
+    ("/shuttle.js", include_str!("../page/shuttle.js")),
 ];
 
 /// The page as a whole.

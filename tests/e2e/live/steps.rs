@@ -43,7 +43,8 @@ fn a_step_is_told_by_its_own_result() {
 
     // Another client moves: the step of the page is not done, and nothing of what moves is its result.
     let other = Process::join(&instance, &["jog", "X20", "--feed", "300"]);
-    let _moving = services.wait(|status| status.state == MachineState::Jogging.code() && x(status) > 3.0);
+    let _moving =
+        services.wait(|status| status.state == MachineState::Jogging.code() && x(status) > 3.0);
     let refused = end_of(&live, step(&page, 20.0, 300.0));
     assert_eq!(refused["state"], "not", "{refused}");
     let why = refused["text"].as_str().unwrap();
@@ -59,7 +60,10 @@ fn a_step_is_told_by_its_own_result() {
     let _held = page.order(&json!({ "kind": "hold" }));
     let end = end_of(&live, long);
     assert_eq!(end["state"], "not", "{end}");
-    assert!(end["text"].as_str().unwrap().contains("was not moved"), "{end}");
+    assert!(
+        end["text"].as_str().unwrap().contains("was not moved"),
+        "{end}"
+    );
     drop(live);
     drop(services.end());
 }
@@ -91,7 +95,10 @@ fn the_jog_pad_says_what_became_of_its_step() {
     let begun = Instant::now();
     while begun.elapsed() < Duration::from_millis(500) {
         let says = browser.evaluate("document.querySelector('#jogslip').textContent");
-        assert!(says.as_str().unwrap().starts_with("X+ 1: not done"), "{says}");
+        assert!(
+            says.as_str().unwrap().starts_with("X+ 1: not done"),
+            "{says}"
+        );
     }
     drop(live);
     drop(services.end());

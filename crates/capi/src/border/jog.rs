@@ -77,11 +77,7 @@ const fn is_followed(asked: &JogDemand, status: &Status) -> bool {
 }
 
 #[unsafe(no_mangle)]
-extern "C" fn gp_jog_is_followed(
-    sink: Handle<JogSink>,
-    status: Given<Status>,
-    size: usize,
-) -> i32 {
+extern "C" fn gp_jog_is_followed(sink: Handle<JogSink>, status: Given<Status>, size: usize) -> i32 {
     sink.with(|sink| {
         check_size::<Status>("gp_status", size)?;
         let status = status.get("status: NULL, what the machine says")?;

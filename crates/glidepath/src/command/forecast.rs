@@ -1,6 +1,7 @@
 //! The forecast of a program: how far it is, and how long it takes yet. It is planned beside the
 //! machine, since planned time is run time.
 
+use super::changed::{Change, Changed};
 use super::fitting::{is_all_that_is_wrong, without_travel};
 use super::program_diagnostics::refusal_text;
 use super::reading::for_program;
@@ -9,12 +10,11 @@ use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::file_error::FileError;
 use crate::persistence::read::{read, set_up, set_up_as_begun};
-use crate::plan_steps::PlanSteps;
 use crate::program_file::ProgramFile;
 use crate::report::ProgramPlace;
 use glidepath_gcode::ReadingWatch;
 use glidepath_link::Status;
-use glidepath_planner::{FileSource, Refusal, Step};
+use glidepath_planner::{FileSource, Pipeline, Refusal, Step};
 use glidepath_program::{Frame, Item};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -98,6 +98,17 @@ impl Forecast {
         path: &Path,
         config: &MachineConfig,
         planned_for: PlannedFor,
+        spectator: impl Spectator + 'static,
+    ) -> Result<Self, Failure> {
+        Self::changed(path, config, planned_for, Change::NONE, spectator)
+    }
+
+    /// The same with something changed, to see what that would bring.
+    pub(super) fn changed(
+        path: &Path,
+        config: &MachineConfig,
+        planned_for: PlannedFor,
+        change: Change,
         mut spectator: impl Spectator + 'static,
     ) -> Result<Self, Failure> {
         let size = std::fs::metadata(path)
@@ -117,6 +128,7 @@ impl Forecast {
                 let _known = set_up_as_begun(&mut machine, &kept, program);
             }
         }
+        change.machine(&mut machine);
         let watch = ReadingWatch::default();
         machine.program.watch = Some(watch.clone());
         let plan = Plan {
@@ -127,7 +139,8 @@ impl Forecast {
         let planner = {
             let (path, plan, over) = (path.to_owned(), Arc::clone(&plan), Arc::clone(&over));
             std::thread::spawn(move || {
-                let trouble = work(&path, &machine, (&plan, &over), &mut spectator);
+                let machine = (&machine, change);
+                let trouble = work(&path, machine, (&plan, &over), &mut spectator);
                 spectator.end(trouble.as_deref());
             })
         };
@@ -214,7 +227,7 @@ impl Drop for Forecast {
 /// Plans to the end; tells why it could not.
 fn work(
     path: &Path,
-    config: &MachineConfig,
+    (config, change): (&MachineConfig, Change),
     (plan, over): (&Mutex<Plan>, &AtomicBool),
     spectator: &mut impl Spectator,
 ) -> Option<String> {
@@ -238,7 +251,9 @@ fn work(
         // The planner said what is wrong with it.
         Err(refusal) => return Some(refusal_text(&refusal)),
     };
-    let mut steps = PlanSteps::on_one_core(source, config, config.home());
+    let changed = Changed { source, change };
+    let steps = Pipeline::new(changed, config.settings(), config.home());
+    let mut steps = steps.with_joints(config.limited_mechanism());
     while !over.load(Ordering::Relaxed) {
         let step = steps.step();
         let mut plan = plan.lock().unwrap_or_else(PoisonError::into_inner);

@@ -5,6 +5,7 @@ mod active_program;
 mod attention;
 mod audit;
 mod bench;
+mod changed;
 mod check;
 mod configuration;
 mod differences;

@@ -86,7 +86,14 @@ impl Hands {
             },
             Act::Jog { by, most_v } => {
                 let (by, most_v) = (*by, *most_v);
-                self.hand(Hand::Step { number: None, by, most_v }, act);
+                self.hand(
+                    Hand::Step {
+                        number: None,
+                        by,
+                        most_v,
+                    },
+                    act,
+                );
                 return;
             }
             Act::LetGo => {

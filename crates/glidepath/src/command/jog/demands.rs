@@ -19,7 +19,8 @@ impl Asked {
 
     /// Whether one from `first` to this one moves the axes, or was the last that did.
     pub(in crate::command) fn is_one_since(&self, first: &Self, status: &Status) -> bool {
-        status.jog_client == self.client && (first.number..=self.number).contains(&status.jog_number)
+        status.jog_client == self.client
+            && (first.number..=self.number).contains(&status.jog_number)
     }
 
     /// Whether it moves the axes, or was the last that did.

@@ -5,6 +5,7 @@ use super::pages::{Pages, not_now, object, refusal};
 use super::preview::{Look, Looker};
 use super::query::{decoded, parameter};
 use super::shown::Shown;
+use crate::command::changed::Change;
 use glidepath_live::{Caller, ContentType, Response, Role, Status};
 
 /// Lines that are given out at once.
@@ -18,6 +19,11 @@ impl Pages {
             "set-up" => Some(object(&self.set_up.object())),
             "programs" => Some(self.programs()),
             "preview" => self.preview(caller, query),
+            "what-if" => self.what_if(caller, &self.shown, query),
+            "preview/what-if" => {
+                let of = parameter(query, "of")?.parse().ok()?;
+                self.what_if(caller, &*self.preview.shown(of)?, query)
+            }
             "certificate" => {
                 let job = u64::from_str_radix(parameter(query, "job")?, 16).ok()?;
                 self.certificates
@@ -56,6 +62,25 @@ impl Pages {
             Ok(Err(error)) => refusal(&not_now(error.to_string())),
             Err(refused) => refusal(&refused),
         })
+    }
+
+    /// How long a program would take with something changed.
+    fn what_if(&self, caller: Caller, shown: &Shown, query: &str) -> Option<Response> {
+        let ratio = |name| match parameter(query, name) {
+            Some(text) => text.parse::<f64>().ok(),
+            None => Some(1.0),
+        };
+        let change = Change {
+            tolerance: ratio("tolerance")?,
+            jerk: ratio("jerk")?,
+            feed: ratio("feed")?,
+        };
+        let file = shown.file(parameter(query, "of")?.parse().ok()?)?;
+        if !change.is_in_range() {
+            return None;
+        }
+        let (looker, set_up) = (self.looker(caller), self.set_up.version());
+        Some(object(&self.what_if.object(looker, &file, change, set_up)))
     }
 
     /// Whether a page that looks is the one that operates.

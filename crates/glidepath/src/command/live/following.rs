@@ -85,6 +85,7 @@ impl Following {
         let planned = Planned::new(&self.config, board.clone());
         let begun = fingerprint.and_then(|program| begun(&self.config, program));
         let planned_for = PlannedFor::Following(fingerprint);
+        board.file(path, planned_for);
         let forecast = Forecast::start(path, &self.config, planned_for, planned)?;
         board.text(forecast.lines());
         let reading = planned::read(path, &self.config, board);

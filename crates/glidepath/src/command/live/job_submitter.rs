@@ -164,6 +164,17 @@ impl JobSubmitter {
         let _sent = self.asked.send(Asked::Cancel);
     }
 
+    /// How a job ended: nothing of it if it is not remembered, no end while it goes on.
+    #[expect(
+        clippy::option_option,
+        reason = "not remembered is not the same as under way"
+    )]
+    pub(super) fn end(&self, number: u64) -> Option<Option<Handed>> {
+        let seen = lock(&self.seen);
+        let of = seen.iter().find(|past| past.number == number);
+        of.map(|past| past.end.clone())
+    }
+
     /// The jobs of the pages, the last one first.
     pub(super) fn object(&self) -> Value {
         let seen = lock(&self.seen);

@@ -279,7 +279,10 @@ impl<'a> Hands<'a> {
             status.check()?;
             self.status = Some(status);
             let now = Instant::now();
-            let seen = self.told.as_mut().map(|step| step.see(&status, self.config, now));
+            let seen = self
+                .told
+                .as_mut()
+                .map(|step| step.see(&status, self.config, now));
             match seen {
                 Some(Seen::Over(end)) => self.end_step(&end),
                 Some(Seen::LetGo) => {

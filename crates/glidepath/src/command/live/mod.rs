@@ -26,11 +26,14 @@ mod pages;
 mod planned;
 mod preview;
 mod query;
+mod queue;
 mod receivers;
 mod set_up;
 mod shown;
+mod shuttle;
 mod status;
 mod steps;
+mod what_if;
 mod witness;
 
 use super::persistent_offsets::PersistentOffsets;
@@ -59,14 +62,17 @@ use lateness::Histogram;
 use log::Log;
 use pages::Pages;
 use preview::Preview;
+use queue::Queue;
 use receivers::receivers;
 use serde_json::{Map, Value, json};
 use set_up::SetUp;
 use shown::Shown;
-use steps::Steps;
+use shuttle::Shuttle;
 use std::sync::atomic::AtomicU64;
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
+use steps::Steps;
+use what_if::WhatIf;
 use witness::Witness;
 
 /// Between two looks for setpoints.
@@ -108,6 +114,9 @@ pub(super) fn live(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Fail
     let jobs = jobs.map_err(ServerError::Thread)?.map(Arc::new);
     let jogger = operates.then(|| Jogger::start(config, &link)).transpose();
     let jogger = jogger.map_err(ServerError::Thread)?;
+    let moves = operates.then(|| Shuttle::start(&link)).transpose();
+    let moves = moves.map_err(ServerError::Thread)?.map(Arc::new);
+    let queue = Arc::<Queue>::default();
     let steps = jogger.as_ref().map(Jogger::steps);
     let pages = Pages {
         config: config.clone(),
@@ -117,7 +126,10 @@ pub(super) fn live(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Fail
         seat: Arc::default(),
         folder: folder.transpose()?,
         preview: Preview::new(config),
+        what_if: WhatIf::new(config),
         jogger,
+        moves: moves.clone(),
+        queue: Arc::clone(&queue),
         jobs: jobs.clone(),
         certificates: Arc::default(),
         number: AtomicU64::new(0),
@@ -144,6 +156,8 @@ pub(super) fn live(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Fail
         seat,
         jobs,
         steps,
+        moves,
+        queue,
         day: Day::default(),
         certificates,
         witness: Witness::new(config),
@@ -213,6 +227,8 @@ struct Machine<'a> {
     seat: Arc<Mutex<Seat>>,
     jobs: Option<Arc<JobSubmitter>>,
     steps: Option<Arc<Steps>>,
+    moves: Option<Arc<Shuttle>>,
+    queue: Arc<Queue>,
     day: Day,
     certificates: Arc<Certificates>,
     witness: Witness,

@@ -86,6 +86,33 @@ pub(super) enum Order {
         agreed: bool,
         #[serde(default)]
         resume: bool,
+        /// Which of the queue it is.
+        queued: Option<u64>,
+    },
+    /// A program of the folder, at the end of the queue.
+    QueueAdd {
+        name: String,
+    },
+    /// One of the queue is the one behind so many.
+    QueueMove {
+        entry: u64,
+        to: usize,
+    },
+    QueueRemove {
+        entry: u64,
+    },
+    /// Moves along the path that is held, for as long as it is sent again and again: see [`super::shuttle`].
+    Shuttle {
+        gesture: u64,
+        number: u64,
+        /// The clock of the page, ms.
+        at_ms: f64,
+        /// Part of the speed of the plan, negative to go back.
+        speed: f64,
+    },
+    /// The finger is up.
+    ShuttleEnd {
+        gesture: u64,
     },
     /// The page is there.
     Here {},
@@ -164,6 +191,7 @@ impl Order {
                 | Self::Abort {}
                 // Whoever lets go is always heard.
                 | Self::JogEnd { .. }
+                | Self::ShuttleEnd { .. }
                 | Self::Here {}
                 | Self::AskSeat {}
                 | Self::AnswerSeat { .. }
@@ -173,7 +201,16 @@ impl Order {
 
     /// Whether it may set something in motion, so that it must not be done late.
     const fn counts_at_once_or_never(&self) -> bool {
-        self.takes_the_seat() && !matches!(self, Self::Disable {} | Self::Jog { .. })
+        self.takes_the_seat()
+            && !matches!(
+                self,
+                Self::Disable {}
+                    | Self::Jog { .. }
+                    | Self::Shuttle { .. }
+                    | Self::QueueAdd { .. }
+                    | Self::QueueMove { .. }
+                    | Self::QueueRemove { .. }
+            )
     }
 
     /// How old what its page has heard may be, ns: as old as what a page shows before it says that it is old. A
@@ -340,8 +377,12 @@ mod tests {
                 (Role::Operate, true)
             );
         }
-        let let_go = Order::JogEnd { gesture: 1 };
-        assert!(!let_go.takes_the_seat());
+        for let_go in [
+            Order::JogEnd { gesture: 1 },
+            Order::ShuttleEnd { gesture: 1 },
+        ] {
+            assert!(!let_go.takes_the_seat());
+        }
     }
 
     #[test]

@@ -7,8 +7,11 @@ use super::jogger::{Hand, Jogger};
 use super::order::{Given, Order, by_axis};
 use super::preview::Preview;
 use super::query::{decoded, fingerprint, parameter};
+use super::queue::Queue;
 use super::set_up::SetUp;
 use super::shown::Shown;
+use super::shuttle::{Drag, Shuttle};
+use super::what_if::WhatIf;
 use crate::command::operator::PATIENCE;
 use crate::config::MachineConfig;
 use crate::machine_options::complete;
@@ -30,8 +33,12 @@ pub(super) struct Pages {
     pub(super) seat: Arc<Mutex<Seat>>,
     pub(super) folder: Option<Folder>,
     pub(super) preview: Preview,
+    pub(super) what_if: WhatIf,
     /// Whoever jogs and hands jobs in, where pages may operate.
     pub(super) jogger: Option<Jogger>,
+    /// Whoever moves along the path.
+    pub(super) moves: Option<Arc<Shuttle>>,
+    pub(super) queue: Arc<Queue>,
     pub(super) jobs: Option<Arc<JobSubmitter>>,
     pub(super) certificates: Arc<Certificates>,
     pub(super) number: AtomicU64,
@@ -102,7 +109,9 @@ impl Pages {
                 pass,
                 agreed,
                 resume,
+                queued,
             } => {
+                self.may_start(queued, &name)?;
                 let wanted = Wanted::File {
                     path: self.program(&name)?,
                     program: fingerprint(&program).ok_or_else(malformed)?,
@@ -111,10 +120,57 @@ impl Pages {
                     agreed,
                     resumes: resume,
                 };
-                self.hand_in(wanted, asked_ns)
+                let done = self.hand_in(wanted, asked_ns)?;
+                if let (Some(entry), Some(job)) = (queued, done["number"].as_u64()) {
+                    self.queue.started(entry, job);
+                }
+                Ok(done)
             }
+            order @ (Order::QueueAdd { .. }
+            | Order::QueueMove { .. }
+            | Order::QueueRemove { .. }) => self.queue(order),
+            order @ (Order::Shuttle { .. } | Order::ShuttleEnd { .. }) => self.shuttle(&order),
             order => self.command(&order, asked_ns),
         }
+    }
+
+    /// Whether a program of the queue may be started; one beside it may.
+    fn may_start(&self, queued: Option<u64>, name: &str) -> Result<(), (Status, String)> {
+        let may = queued.map_or(Ok(()), |entry| self.queue.may_start(entry, name));
+        may.map_err(|error| not_now(error.to_string()))
+    }
+
+    fn queue(&self, order: Order) -> Done {
+        let done = match order {
+            Order::QueueAdd { name } => {
+                let _there = self.program(&name)?;
+                self.queue.add(name).map(|entry| json!({ "entry": entry }))
+            }
+            Order::QueueMove { entry, to } => self.queue.put(entry, to).map(|()| json!({})),
+            Order::QueueRemove { entry } => self.queue.remove(entry).map(|()| json!({})),
+            _ => return Err(malformed()),
+        };
+        done.map_err(|error| not_now(error.to_string()))
+    }
+
+    fn shuttle(&self, order: &Order) -> Done {
+        let drag = match *order {
+            Order::Shuttle {
+                gesture,
+                number,
+                at_ms,
+                speed,
+            } if (-1.0..=1.0).contains(&speed) => Drag::Down {
+                gesture,
+                number,
+                at_ms,
+                speed,
+            },
+            Order::ShuttleEnd { gesture } => Drag::Up { gesture },
+            _ => return Err(malformed()),
+        };
+        let is_served = self.moves.as_ref().is_some_and(|it| it.drag(drag));
+        is_served.then(|| json!({})).ok_or_else(nobody_jogs)
     }
 
     fn sit(&self, caller: Caller, order: &Order) -> Value {
@@ -146,6 +202,7 @@ impl Pages {
         if matches!(command, Command::Hold | Command::Abort) {
             // What moves by a page rests, whatever the interpolator says to it.
             self.jogger.as_ref().map(|jogger| jogger.hand(Hand::LetGo));
+            self.moves.as_ref().map(|moves| moves.drag(Drag::LetGo));
         }
         if command == Command::Abort {
             // One that has not begun is known to nobody but its service.

@@ -145,6 +145,7 @@ impl Preview {
     fn look_at(&self, file: &Path, stamp: Stamp, number: u64) -> LookedAt {
         let shown = Arc::new(Shown::new(Value::Null));
         let board = shown.begin_with(number, &stamp.name);
+        board.file(file, PlannedFor::Preview);
         let planned = Planned::new(&self.config, board.clone());
         let (forecast, reading) =
             match Forecast::start(file, &self.config, PlannedFor::Preview, planned) {

@@ -1,11 +1,20 @@
 //! The state that pages can ask for, as far as it is known: of one program at a time.
 
+use crate::command::forecast::PlannedFor;
 use crate::command::text_lines::TextLines;
 use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// Numbers as the page reads them.
 pub(super) type Numbers = Arc<[u8]>;
+
+/// The file of a program, and what it is planned for.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct File {
+    pub(super) path: PathBuf,
+    pub(super) planned_for: PlannedFor,
+}
 
 #[derive(Debug, Default)]
 struct Known {
@@ -14,6 +23,7 @@ struct Known {
     /// Which program of those that were shown it is.
     generation: u64,
     name: Option<String>,
+    file: Option<File>,
     text: TextLines,
     program_path: Option<Numbers>,
     columns: Option<Numbers>,
@@ -109,6 +119,11 @@ impl Shown {
         self.of(of, |known| known.program_path.clone())
     }
 
+    /// Where the program is.
+    pub(super) fn file(&self, of: u64) -> Option<File> {
+        self.of(of, |known| known.file.clone())
+    }
+
     pub(super) fn columns(&self, of: u64) -> Option<Numbers> {
         self.of(of, |known| known.columns.clone())
     }
@@ -140,6 +155,12 @@ impl Board {
             put(&mut known);
             known.version += 1;
         }
+    }
+
+    /// Where the program is.
+    pub(super) fn file(&self, path: &Path, planned_for: PlannedFor) {
+        let path = path.to_owned();
+        self.put(|known| known.file = Some(File { path, planned_for }));
     }
 
     /// The text of the program.

@@ -65,6 +65,10 @@ impl Machine<'_> {
             object.insert("set_up".to_owned(), self.set_up.version().into());
             let jobs = self.jobs.as_ref().map(|jobs| jobs.object());
             object.insert("page_jobs".to_owned(), jobs.unwrap_or_default());
+            let moves = self.moves.as_ref().map(|moves| moves.object());
+            object.insert("shuttle".to_owned(), moves.unwrap_or_default());
+            self.jobs.iter().for_each(|jobs| self.queue.look(jobs));
+            object.insert("queue".to_owned(), self.queue.object());
             let steps = self.steps.as_ref().map(|steps| steps.object());
             object.insert("page_steps".to_owned(), steps.unwrap_or_default());
             let name = self.following.active().map(ActiveProgram::name);

@@ -241,8 +241,8 @@ fn why_nothing_moved(status: &Status, is_anothers: bool) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use super::super::super::jog::positions;
+    use super::*;
 
     struct Desk {
         config: MachineConfig,
@@ -276,7 +276,11 @@ mod tests {
         }
 
         fn see(&self, step: &mut Step, ms: u64) -> Seen {
-            step.see(&self.status, &self.config, self.start + Duration::from_millis(ms))
+            step.see(
+                &self.status,
+                &self.config,
+                self.start + Duration::from_millis(ms),
+            )
         }
     }
 
@@ -298,7 +302,10 @@ mod tests {
         let Seen::Over(StepEnd::Not(why)) = desk.see(&mut step, 60) else {
             panic!("it is short");
         };
-        assert!(why.contains("X stopped before the end of its step: 0.7000 mm"), "{why}");
+        assert!(
+            why.contains("X stopped before the end of its step: 0.7000 mm"),
+            "{why}"
+        );
     }
 
     #[test]
@@ -311,7 +318,12 @@ mod tests {
         assert!(step.takes_more());
         let mut by = [0.0; AXES];
         by[0] = 1.0;
-        step.add(8, Asked::of(5, 4), &by, desk.start + Duration::from_millis(20));
+        step.add(
+            8,
+            Asked::of(5, 4),
+            &by,
+            desk.start + Duration::from_millis(20),
+        );
         // What was asked for first is still followed, or rests by now: that is the end of neither.
         for (state, ms) in [(MachineState::Jogging, 30), (MachineState::Idle, 40)] {
             desk.is(state, (5, 3), 1.0);
@@ -341,13 +353,18 @@ mod tests {
         desk.is(MachineState::Jogging, (5, 3), 0.9);
         assert_eq!(desk.see(&mut step, 20), Seen::UnderWay);
         desk.is(MachineState::Idle, (9, 2), 1.0);
-        assert!(matches!(desk.see(&mut step, 40), Seen::Over(StepEnd::Not(_))));
+        assert!(matches!(
+            desk.see(&mut step, 40),
+            Seen::Over(StepEnd::Not(_))
+        ));
         // It was let go, and had been begun all the same.
         let mut desk = Desk::new();
         let mut step = desk.step();
         assert_eq!(desk.see(&mut step, 1001), Seen::LetGo);
         desk.is(MachineState::Idle, (5, 3), 0.0);
-        assert!(matches!(desk.see(&mut step, 1040), Seen::Over(StepEnd::Not(why)) if why.contains("1.0000 mm")));
+        assert!(
+            matches!(desk.see(&mut step, 1040), Seen::Over(StepEnd::Not(why)) if why.contains("1.0000 mm"))
+        );
     }
 
     #[test]
@@ -366,7 +383,9 @@ mod tests {
         let mut step = desk.step();
         assert_eq!(desk.see(&mut step, 1001), Seen::LetGo);
         desk.is(MachineState::Idle, (0, 0), 0.0);
-        assert!(matches!(desk.see(&mut step, 1102), Seen::Over(StepEnd::Not(why)) if why.starts_with("nothing moved")));
+        assert!(
+            matches!(desk.see(&mut step, 1102), Seen::Over(StepEnd::Not(why)) if why.starts_with("nothing moved"))
+        );
     }
 
     #[test]
@@ -376,8 +395,14 @@ mod tests {
         steps.end(second, StepEnd::Done);
         steps.end(first, StepEnd::Not("why".to_owned()));
         let told = steps.object();
-        assert_eq!(told[0], json!({ "number": second, "state": "done", "text": "" }));
-        assert_eq!(told[1], json!({ "number": first, "state": "not", "text": "why" }));
+        assert_eq!(
+            told[0],
+            json!({ "number": second, "state": "done", "text": "" })
+        );
+        assert_eq!(
+            told[1],
+            json!({ "number": first, "state": "not", "text": "why" })
+        );
         for _ in 0..100 {
             let _number = steps.begin();
         }
