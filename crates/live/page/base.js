@@ -8,7 +8,7 @@ const hash = new URLSearchParams(location.hash.slice(1));
 /* The page: `file` if it is one of `plan --plot`. `hover` and `p` are places in the plan, in samples. */
 const S = {
   file: !!window.GLIDEPATH_FILE, view: 'operate', state: 'stale', hover: null, p: 0,
-  shows: true, follow: true, span: 6, end: 0, status: null, heard: 0, refusal: '',
+  shows: true, follow: true, drags: false, span: 6, end: 0, status: null, heard: 0, refusal: '',
   axes: {}, parts: { p: true, v: true, a: true, j: true }, box: 'slow',
 };
 /* The machine and its program, as `/api/plan` tells. */

@@ -99,7 +99,7 @@ class Path3D {
       if (!run.length) return;
       const rapid = kind === 0;
       c.strokeStyle = styles[kind]; c.lineWidth = rapid ? style.rapid : style.width;
-      c.setLineDash(rapid && run.length < 3000 ? [5, 4] : []);
+      c.setLineDash(rapid && run.length < 10000 ? [5, 4] : []);
       let open = 0, before = -2;
       c.beginPath();
       for (const k of run) {
@@ -117,8 +117,8 @@ class Path3D {
     if (!w || !h) return;
     const track = this.track(), done = track && track === MOTION ? p : -1, start = performance.now();
     const key = [w, h, this.yaw, this.pitch, this.zoom, ...this.pan, this.mode, T.dark, this.showProgram, devicePixelRatio].join();
-    // What was done is taken back now and then: all of the path is drawn for that, and a finger that is down must be heard meanwhile.
-    const isBack = done < this.drawn.p && start - this.drawn.at > 500;
+    // What was done is taken back now and then, since all of the path is drawn for that, and never while a finger has to be heard.
+    const isBack = done < this.drawn.p && !S.drags && start - this.drawn.at > 500;
     if (isBack) this.moved = start;
     const level = track ? this.level(track) : 0;
     const anew = this.stale || key !== this.drawn.key || track !== this.drawn.track || isBack || (level !== this.drawn.level && performance.now() - this.moved > 180);

@@ -32,6 +32,7 @@ function pressShuttle(e) {
 function beginShuttle() {
   if (!canShuttle()) { endShuttle(); return; }
   SHUTTLE.gesture = { id: Math.floor(Math.random() * 2 ** 48), number: 0, at: S.p, target: S.p, told: performance.now(), under_way: 0, is_heard: false };
+  S.drags = true;
   SHUTTLE.from = SHUTTLE.now === undefined ? SHUTTLE.from : SHUTTLE.now;
   SHUTTLE.timer = setInterval(tellShuttle, SIGN);
   dirty.ribbon = true;
@@ -67,7 +68,8 @@ function endShuttle() {
   clearTimeout(SHUTTLE.press); clearInterval(SHUTTLE.timer);
   const gesture = SHUTTLE.gesture;
   SHUTTLE.gesture = SHUTTLE.pointer = null; SHUTTLE.now = undefined;
-  dirty.ribbon = true;
+  S.drags = false;
+  dirty.ribbon = dirty.path = true;
   if (gesture) order('shuttle-end', { gesture: gesture.id }, true);
 }
 /* What the server could not do is told once. */

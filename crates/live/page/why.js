@@ -31,7 +31,7 @@ function whyBox() {
   const { line, speed, feed, limit, lost_s } = WHY.place, text = (LINES.get(line) || '').trim();
   const of = feed > 1e9 || !feed ? 'mm/s in a rapid' : `of ${num(feed, 1)} mm/s programmed`;
   const rows = CHANGES.map(([what, times, name]) => `<tr><td class="l">${name}</td>${answerCells(WHY.answers[`${what} ${times}`], PLAN.samples * DT())}</tr>`).join('');
-  const asks = S.file ? '' : `<table class="what"><tr><th class="l">what if</th><th>whole program</th><th></th></tr><tr><td class="l">as it is</td><td class="n">${span(PLAN.samples * DT())}</td><td></td></tr>${rows}</table><p class="lab-text"><button data-box="plan-again">Plan again</button> Nothing of this changes what runs.</p>`;
+  const asks = S.file ? '' : `<p class="lab-text"><button data-box="plan-again">Plan again</button> Only a look: what runs stays.</p><table class="what"><tr><th class="l">what if</th><th>whole program</th><th></th></tr><tr><td class="l">as it is</td><td class="n">${span(PLAN.samples * DT())}</td><td></td></tr>${rows}</table>`;
   return `<div class="h"><b>Line ${line}: ${num(speed, 1)} ${of}</b><button data-box="slow">list</button></div><pre class="lines">${safe(text) || ' '}</pre><p class="lab-text">Bound by <b>${safe(limitWords(limit))}</b>.${lost_s ? ` ${num(lost_s, 3)} s are lost there.` : ''}</p>${asks}`;
 }
 /* How long it would take, and how much less that is. */

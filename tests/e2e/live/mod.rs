@@ -2,6 +2,7 @@
 //! may.
 
 mod certificate;
+mod colours;
 mod following;
 mod hands;
 mod life;
@@ -14,6 +15,7 @@ mod steps;
 mod touch;
 mod units;
 mod way;
+mod why;
 
 use std::io::{BufRead as _, BufReader, Read as _, Write as _};
 use std::net::TcpStream;
