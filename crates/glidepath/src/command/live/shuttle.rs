@@ -157,17 +157,18 @@ impl<'a> Hands<'a> {
 
     fn follow(&mut self, drags: &Receiver<(Drag, Instant)>) -> Result<(), LinkError> {
         loop {
-            match drags.recv_timeout(LOOK) {
+            let drag = drags.recv_timeout(LOOK);
+            while let Some(status) = self.statuses.take()? {
+                status.check()?;
+                self.status = Some(status);
+            }
+            match drag {
                 Ok((drag, at)) => self.take(drag, at),
                 Err(RecvTimeoutError::Timeout) => {}
                 Err(RecvTimeoutError::Disconnected) => {
                     self.let_go();
                     return Ok(());
                 }
-            }
-            while let Some(status) = self.statuses.take()? {
-                status.check()?;
-                self.status = Some(status);
             }
             self.look(Instant::now());
         }
@@ -204,6 +205,10 @@ impl<'a> Hands<'a> {
             // One hand at a time: another finger waits until the first is up.
             Some(_) => return,
             None => {
+                if self.status.is_none_or(|status| status.updated_ns <= self.ended_ns) {
+                    // What is known is of before the last gesture's end: the next message may know more.
+                    return;
+                }
                 let Some(status) = self.held() else {
                     self.forget(id);
                     return say(self.told, "the path is not held");
@@ -223,9 +228,7 @@ impl<'a> Hands<'a> {
 
     /// The status of a machine that is held on its path.
     fn held(&self) -> Option<Status> {
-        let is_held = |status: &Status| {
-            status.state() == Ok(MachineState::Held) && status.updated_ns > self.ended_ns
-        };
+        let is_held = |status: &Status| status.state() == Ok(MachineState::Held);
         self.status.filter(is_held)
     }
 
@@ -298,6 +301,7 @@ impl<'a> Hands<'a> {
         if rests && let Some(before) = self.before.take() {
             // Where it is refused, the machine is not what it was, and has an override of its own.
             let _given_back = self.send(Command::FeedOverride(before), now);
+            self.ended_ns = Monotonic.now_ns();
         }
     }
 
