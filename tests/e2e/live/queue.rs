@@ -22,6 +22,44 @@ fn is(live: &Live, wanted: &[(&str, &str)]) {
     });
 }
 
+const START: &str = "#way [data-do=queue-start]";
+
+/// Starts the first one, which ends well, and the second, which does not.
+fn started_by_a_person(browser: &mut Browser, live: &Live, services: &Services<'_>) {
+    // It is pressed for half a second, and nothing begins without that.
+    browser.evaluate("setView('operate')");
+    browser.wait(&format!(
+        "document.querySelector('{START}:not([aria-disabled=true])')"
+    ));
+    browser.press(START);
+    std::thread::sleep(HALF);
+    let _still_idle = services.wait_for(MachineState::Idle);
+    press(browser, START, HALF);
+    let _there = services.wait(|status| (status.position[0] - 3.0).abs() < 1e-9);
+    // It ended well: the next one is looked at, and waits for a person.
+    is(live, &[("b.ngc", "waits")]);
+    browser.wait("S.state === 'idle' && queued().length === 1 && QUEUE.info && QUEUE.info.program.name === 'b.ngc' && QUEUE.info.fingerprint");
+    browser.wait(&format!(
+        "document.querySelector('{START}').textContent.includes('b.ngc')"
+    ));
+    std::thread::sleep(WHOLE);
+    let rests = services.wait_for(MachineState::Idle);
+    assert!(
+        (rests.position[0] - 3.0).abs() < 1e-9,
+        "nothing begins by itself"
+    );
+
+    // What did not end well stays, and says so.
+    press(browser, START, HALF);
+    browser.wait("S.state === 'running' && S.status.program_is_shown");
+    is(live, &[("b.ngc", "runs")]);
+    press(browser, "[data-c=abort]", WHOLE);
+    is(live, &[("b.ngc", "ended")]);
+    browser.wait(
+        "S.state === 'idle' && document.querySelector('#way').textContent.includes('It has ended')",
+    );
+}
+
 #[test]
 fn programs_of_the_queue_are_started_one_by_one_by_a_person() {
     let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
@@ -89,39 +127,7 @@ fn programs_of_the_queue_are_started_one_by_one_by_a_person() {
         "{refused}"
     );
 
-    // It is pressed for half a second, and nothing begins without that.
-    browser.evaluate("setView('operate')");
-    let start = "#way [data-do=queue-start]";
-    browser.wait(&format!(
-        "document.querySelector('{start}:not([aria-disabled=true])')"
-    ));
-    browser.press(start);
-    std::thread::sleep(HALF);
-    let _still_idle = services.wait_for(MachineState::Idle);
-    press(&mut browser, start, HALF);
-    let _there = services.wait(|status| (status.position[0] - 3.0).abs() < 1e-9);
-    // It ended well: the next one is looked at, and waits for a person.
-    is(&live, &[("b.ngc", "waits")]);
-    browser.wait("S.state === 'idle' && queued().length === 1 && QUEUE.info && QUEUE.info.program.name === 'b.ngc' && QUEUE.info.fingerprint");
-    browser.wait(&format!(
-        "document.querySelector('{start}').textContent.includes('b.ngc')"
-    ));
-    std::thread::sleep(WHOLE);
-    let rests = services.wait_for(MachineState::Idle);
-    assert!(
-        (rests.position[0] - 3.0).abs() < 1e-9,
-        "nothing begins by itself"
-    );
-
-    // What did not end well stays, and says so.
-    press(&mut browser, start, HALF);
-    browser.wait("S.state === 'running' && S.status.program_is_shown");
-    is(&live, &[("b.ngc", "runs")]);
-    press(&mut browser, "[data-c=abort]", WHOLE);
-    is(&live, &[("b.ngc", "ended")]);
-    browser.wait(
-        "S.state === 'idle' && document.querySelector('#way').textContent.includes('It has ended')",
-    );
+    started_by_a_person(&mut browser, &live, &services);
     drop((live, service));
     drop(services.end());
 }

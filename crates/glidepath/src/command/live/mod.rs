@@ -32,6 +32,7 @@ mod set_up;
 mod shown;
 mod shuttle;
 mod status;
+mod step;
 mod steps;
 mod what_if;
 mod witness;

@@ -205,7 +205,10 @@ impl<'a> Hands<'a> {
             // One hand at a time: another finger waits until the first is up.
             Some(_) => return,
             None => {
-                if self.status.is_none_or(|status| status.updated_ns <= self.ended_ns) {
+                if self
+                    .status
+                    .is_none_or(|status| status.updated_ns <= self.ended_ns)
+                {
                     // What is known is of before the last gesture's end: the next message may know more.
                     return;
                 }
