@@ -189,5 +189,5 @@ fn the_library_gives_out_its_functions_and_its_name() {
         );
         count += 1;
     }
-    assert_eq!(count, 37);
+    assert_eq!(count, 38);
 }

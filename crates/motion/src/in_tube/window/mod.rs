@@ -66,6 +66,7 @@ mod one_sided;
 mod optimiser;
 mod rate_changes;
 mod rounds;
+mod run_corners;
 mod sample_place;
 mod samples;
 mod scaled_path;
