@@ -2,6 +2,7 @@
 
 use super::notices::Notices;
 use super::settings::settings;
+use super::silence::Silence;
 use crate::cli::ServoArgs;
 use crate::command::failure::Failure;
 use crate::command::session;
@@ -10,8 +11,8 @@ use crate::interrupt::Interrupt;
 use glidepath_geometry::AXES;
 use glidepath_interpolator::JointHoming;
 use glidepath_kinematics::Kinematics as _;
-use glidepath_link::servo::{OwnStop, Servo, ServoCounts};
-use glidepath_link::{Feedback, Loss, Setpoint, Subscriber, Transport as _};
+use glidepath_link::servo::{Servo, ServoCounts};
+use glidepath_link::{Setpoint, Transport as _};
 use glidepath_plant::{HomeSettings, JointSettings, Plant, SwitchSettings};
 use glidepath_realtime::{Clock as _, Monotonic};
 use std::time::Duration;
@@ -46,7 +47,7 @@ pub(super) fn play(
         plant = plant.with_probe(joint, position);
     }
     let mut notices = Notices::new(args.relay);
-    let mut silence = Silence::default();
+    let mut silence = Silence::new(&settings);
     'playing: while !interrupt.is_set() {
         // The time from before it looks for setpoints: where a busy host lets it wait in between, what came meanwhile
         // is no silence.
@@ -66,47 +67,12 @@ pub(super) fn play(
         plant.step(now_ns, servo.last(), demand.as_ref());
         silence.look(&servo);
         if let (Some(mut measured), Some(feedback)) = (plant.feedback(), &mut feedback) {
-            silence.tell(&servo, settings.patience_ns, &mut measured);
+            silence.tell(&servo, &mut measured);
             feedback.publish(&measured)?;
         }
         std::thread::sleep(POLL);
     }
     Ok(*servo.counts())
-}
-
-/// The setpoints that stayed away until the joints stopped by themselves.
-#[derive(Debug, Default)]
-struct Silence {
-    /// Own stops so far.
-    stops: u64,
-    /// The life of the interpolator that was silent last.
-    of: Option<u64>,
-}
-
-impl Silence {
-    fn look<S: Subscriber<Setpoint>>(&mut self, servo: &Servo<S>) {
-        let stops = servo.counts().stops;
-        if stops > self.stops {
-            self.stops = stops;
-            self.of = servo.last().map(|last| last.boot_id);
-        }
-    }
-
-    /// Tells that to the one that was silent, until the position is taken over anew. Another one has lost
-    /// nothing.
-    #[allow(clippy::cast_precision_loss, reason = "some milliseconds")]
-    fn tell<S: Subscriber<Setpoint>>(
-        &self,
-        servo: &Servo<S>,
-        patience_ns: u64,
-        feedback: &mut Feedback,
-    ) {
-        let is_same = servo.last().map(|last| last.boot_id) == self.of;
-        if is_same && matches!(servo.stopped(), Some(OwnStop::Silence)) {
-            feedback.loss = Loss::Setpoints.code();
-            feedback.loss_value = patience_ns as f64 * 1e-9;
-        }
-    }
 }
 
 /// How far away the home switch of a joint is that has one, mm or degrees.

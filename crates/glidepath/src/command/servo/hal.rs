@@ -2,6 +2,7 @@
 
 use super::notices::Notices;
 use super::settings::settings;
+use super::silence::Silence;
 use crate::cli::{HalArgs, ServoArgs};
 use crate::command::failure::Failure;
 use crate::command::session;
@@ -106,7 +107,8 @@ pub(super) fn play(
     check(&args.hal, config)?;
     let layout = Layout::new(config.drives())?;
     let transport = session::join(&args.instance, config)?;
-    let servo = Servo::new(transport.setpoint_source()?, settings(config));
+    let settings = settings(config);
+    let servo = Servo::new(transport.setpoint_source()?, settings);
     let mut sink = transport.feedback_sink()?;
     let hal = Hal::open(
         layout,
@@ -130,6 +132,7 @@ pub(super) fn play(
         period_ns: period_ns(&args.hal),
         behind_ns: wait_ns(&args.hal, config),
         played_ns: 0,
+        silence: Silence::new(&settings),
     };
     let mut send = |feedback: &Feedback| Ok::<(), Failure>(sink.publish(feedback)?);
     let mut notices = Notices::new(false);
@@ -161,6 +164,7 @@ struct Stack<S: Subscriber<Setpoint>> {
     behind_ns: u64,
     /// The time of the last demand.
     played_ns: u64,
+    silence: Silence,
 }
 
 impl<S: Subscriber<Setpoint>> Stack<S> {
@@ -168,8 +172,17 @@ impl<S: Subscriber<Setpoint>> Stack<S> {
     fn turn(
         &mut self,
         instead: Option<&Setpoint>,
-        send: impl FnMut(&Feedback) -> Result<(), Failure>,
+        mut send: impl FnMut(&Feedback) -> Result<(), Failure>,
     ) -> Result<(), Failure> {
+        self.silence.look(&self.servo);
+        let (silence, is_silent) = (self.silence, self.silence.is_told(&self.servo));
+        let send = |feedback: &Feedback| {
+            let mut feedback = *feedback;
+            if is_silent {
+                silence.put(&mut feedback);
+            }
+            send(&feedback)
+        };
         let now_ns = Monotonic.now_ns().saturating_sub(self.behind_ns);
         let last = self.servo.last().copied();
         let (servo, played_ns) = (&mut self.servo, &mut self.played_ns);

@@ -5,6 +5,7 @@ mod desk;
 mod hal;
 mod notices;
 mod settings;
+mod silence;
 
 pub(super) use desk::begins;
 pub(super) use settings::settings;
