@@ -95,6 +95,8 @@ fn from_a_line(browser: &mut Browser) {
     press(browser, "#runkeys [data-do=from-line]", Duration::ZERO);
     browser.evaluate("document.querySelector('#fromline').value = '100'");
     press(browser, "[data-do=compare]", Duration::ZERO);
+    // The key is painted anew with the text around the line.
+    browser.wait("document.querySelectorAll('.agree .around div').length === 5");
     press(browser, "[data-do=begin-there]", WHOLE);
     browser.wait("S.state === 'running' && S.status.line >= 100");
     press(browser, "[data-c=abort]", WHOLE);
