@@ -47,10 +47,10 @@ fn in_pieces(seed: u64) -> String {
         let mut z = state;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        let share = f64::from(u32::try_from((z ^ (z >> 31)) >> 32).unwrap()) / 2f64.powi(32);
+        let share = f64::from(u32::try_from((z ^ (z >> 31)) >> 32).unwrap()) / 2_f64.powi(32);
         share * most
     };
-    let tolerance_mm = 0.01 * 10f64.powf(below(1.0));
+    let tolerance_mm = 0.01 * 10_f64.powf(below(1.0));
     let mut program = format!(
         "G21 G90 G64 P{tolerance_mm:.3}\nF{:.0}\n",
         1500.0 + below(4500.0)

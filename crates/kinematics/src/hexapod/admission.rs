@@ -62,21 +62,27 @@ fn is_plainly_regular(rows: &[[f64; 6]; STRUTS]) -> bool {
         }
     }
     let square: f64 = (0..6).map(|i| gram[i][i]).sum();
-    if !(square.sqrt() < MAX_CONDITION * least) {
-        return false;
-    }
     for (i, row) in gram.iter_mut().enumerate() {
         row[i] -= least * least;
     }
+    // What is not a number fails both comparisons.
+    square.sqrt() < MAX_CONDITION * least && has_positive_pivots(gram)
+}
+
+/// Whether elimination of a symmetric matrix, given by its lower half, meets positive pivots alone: it has no
+/// eigenvalue below zero then.
+fn has_positive_pivots(mut lower: [[f64; 6]; 6]) -> bool {
     for k in 0..6 {
-        let pivot = gram[k][k];
-        if !(pivot > 0.0) {
+        let column: [f64; 6] = core::array::from_fn(|i| lower[i][k]);
+        let pivot = column[k];
+        // Not a number is no pivot.
+        if pivot.partial_cmp(&0.0) != Some(core::cmp::Ordering::Greater) {
             return false;
         }
-        for i in k + 1..6 {
-            let factor = gram[i][k] / pivot;
-            for j in k + 1..=i {
-                gram[i][j] -= factor * gram[j][k];
+        for (i, row) in lower.iter_mut().enumerate().skip(k + 1) {
+            let factor = column[i] / pivot;
+            for (value, other) in row.iter_mut().zip(column).take(i + 1).skip(k + 1) {
+                *value -= factor * other;
             }
         }
     }
