@@ -89,7 +89,7 @@ const CASES: [Case; 9] = [
     },
     Case {
         is_hard: true,
-        ..case("hard, operator", Operator::Busy, 33_200, 169_100)
+        ..case("hard, operator", Operator::Busy, 33_560, 175_200)
     },
     Case {
         has_joints: true,

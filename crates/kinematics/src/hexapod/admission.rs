@@ -71,18 +71,21 @@ fn is_plainly_regular(rows: &[[f64; 6]; STRUTS]) -> bool {
 
 /// Whether elimination of a symmetric matrix, given by its lower half, meets positive pivots alone: it has no
 /// eigenvalue below zero then.
+#[allow(
+    clippy::needless_range_loop,
+    reason = "with iterators over parts of rows it takes half as many instructions again"
+)]
 fn has_positive_pivots(mut lower: [[f64; 6]; 6]) -> bool {
     for k in 0..6 {
-        let column: [f64; 6] = core::array::from_fn(|i| lower[i][k]);
-        let pivot = column[k];
+        let pivot = lower[k][k];
         // Not a number is no pivot.
         if pivot.partial_cmp(&0.0) != Some(core::cmp::Ordering::Greater) {
             return false;
         }
-        for (i, row) in lower.iter_mut().enumerate().skip(k + 1) {
-            let factor = column[i] / pivot;
-            for (value, other) in row.iter_mut().zip(column).take(i + 1).skip(k + 1) {
-                *value -= factor * other;
+        for i in k + 1..6 {
+            let factor = lower[i][k] / pivot;
+            for j in k + 1..=i {
+                lower[i][j] -= factor * lower[j][k];
             }
         }
     }
