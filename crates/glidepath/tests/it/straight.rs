@@ -90,3 +90,24 @@ fn a_line_in_pieces_is_straight_and_its_corners_are_passed_inside() {
         assert_eq!(report["shape"]["finding_count"], 0, "{seed}: {findings}");
     }
 }
+
+#[test]
+fn a_corner_between_a_line_and_an_arc_is_passed_inside() {
+    for program in [
+        "circle_behind_a_line",
+        "line_behind_a_circle",
+        "lines_and_arcs",
+    ] {
+        for machine in ["mill", "seed"] {
+            let file = format!("{ROOT}/tests/data/corners/{program}.ngc");
+            let config = format!("{ROOT}/config/{machine}.toml");
+            let output = glidepath(&["plan", &file, "--config", &config, "--json"]);
+            assert!(output.status.success(), "{program}, {machine}");
+            let report = object(&output);
+            assert_eq!(report["violation_count"], 0, "{program}, {machine}");
+            let findings = &report["shape"]["findings"];
+            let count = &report["shape"]["finding_count"];
+            assert_eq!(*count, 0, "{program}, {machine}: {findings}");
+        }
+    }
+}

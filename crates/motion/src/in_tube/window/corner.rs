@@ -5,8 +5,8 @@ use super::solver::dot;
 /// Cosine of how much a run may have turned from its corner, 60°: further on the inner side of the corner is not
 /// that of the run.
 const STILL_OF_CORNER_COS: f64 = 0.5;
-/// Share of a run on both sides of its middle in which neither end is the nearer one: where the sides of both
-/// ends are opposite ones, the motion goes over there.
+/// Share of a run, or of a rest of an axis, on both sides of its middle in which neither end is the nearer one:
+/// where the sides of both ends are opposite ones, the motion goes over there.
 const MIDDLE: f64 = 0.08;
 
 /// The side of a piece that a corner asks for.
