@@ -35,7 +35,11 @@ const stem = path => String(path).split('/').pop();
 
 /* Sets what changed only, so that nothing is laid out anew for nothing. */
 function put(element, text) { if (element.textContent !== text) element.textContent = text; }
-function fill(element, html) { if (element.kept !== html) { element.kept = html; element.innerHTML = html; } }
+function fill(element, html) {
+  if (element.kept === html) return;
+  element.kept = html;
+  if (!fillAroundPressed(element, html)) element.innerHTML = html;
+}
 
 /* ---- icons, 24 × 24 */
 const ICONS = {

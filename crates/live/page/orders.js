@@ -57,6 +57,25 @@ function press(button) {
   }, wait);
   return true;
 }
+/* What is seen of a button, and what it would do. */
+const looks = button => [button.className.replace(' down', ''), button.textContent, button.getAttribute('aria-disabled'), JSON.stringify(button.dataset)].join('\n');
+/* Fills an element around the key in it that a finger is on, where that key stays the same: a time beside it that goes on, say, takes
+   nothing from the finger. False where there is no such key, or it becomes another one. */
+function fillAroundPressed(element, html) {
+  const pressed = PRESSED.button;
+  if (!pressed || !element.contains(pressed)) return false;
+  const fresh = document.createElement(element.tagName);
+  fresh.innerHTML = html;
+  let twin = $$('[data-do]', fresh).find(button => looks(button) === looks(pressed)), kept = pressed;
+  while (twin && kept !== element && twin !== fresh) {
+    while (kept.previousSibling) kept.previousSibling.remove();
+    while (kept.nextSibling) kept.nextSibling.remove();
+    while (twin.previousSibling) kept.parentNode.prepend(twin.previousSibling);
+    while (twin.nextSibling) kept.parentNode.append(twin.nextSibling);
+    kept = kept.parentNode; twin = twin.parentNode;
+  }
+  return kept === element && twin === fresh;
+}
 /* Says beside the buttons why something was not done. */
 function refuse(text) { S.refusal = text; S.refused_at = performance.now(); paintBar(); }
 function letGo() {
