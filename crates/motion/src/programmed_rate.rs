@@ -7,7 +7,8 @@ use glidepath_program::{Limits, Override, Rate};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct ProgrammedRate {
     pub rate: Rate,
-    /// The speed at which some axis reaches its velocity limit, mm/s: what a rapid is driven at.
+    /// The speed at which some axis reaches its velocity limit, mm/s: what a rapid is driven at. On a piece of a curve
+    /// in a tube less, where chords bound it.
     pub axes_v: f64,
 }
 

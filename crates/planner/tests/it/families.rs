@@ -238,3 +238,32 @@ fn corners_between_arcs_are_never_slower_than_stops() {
         }
     }
 }
+
+/// A circle behind a line of some seconds, so that the stretch is planned as it goes.
+fn circle_behind_a_line(radius_mm: f64, tolerance: &str) -> String {
+    format!(
+        "G21 G90 G94 G17 {tolerance} F1200\nG1 X-180\nG1 X0 F6000\nG3 X0 Y0 I{radius_mm}\nG1 Y10\n"
+    )
+}
+
+#[test]
+fn a_circle_is_driven_without_stops_however_tight_the_tolerance_is() {
+    for (radius_mm, tolerance) in [
+        (3.0, "G64 P0.001"),
+        (3.0, "G64 P0.002"),
+        (1.0, "G64 P0.0005"),
+    ] {
+        let settings = settings(MILL, 0.004);
+        let text = circle_behind_a_line(radius_mm, tolerance);
+        let stopping = stopping(&text, tolerance);
+        let [passing_t, stopping_t] =
+            [&text, &stopping].map(|text| cycle_time("circle", text, settings));
+        // A few chords at its corners with the lines may be driven one by one; driven so all along, a circle took two
+        // to four times as long.
+        let line_t = 10.8;
+        assert!(
+            passing_t - line_t <= 1.3 * (stopping_t - line_t),
+            "{radius_mm} mm, {tolerance}: {passing_t} s, with stops {stopping_t} s"
+        );
+    }
+}

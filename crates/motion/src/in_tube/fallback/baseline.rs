@@ -155,6 +155,7 @@ mod tests {
             tolerance_deg: 0.02,
             sagitta_vector: AxisVector::zeros(),
             straight: None,
+            beyond_mm: 0.0,
             is_rapid: false,
             tag: 0,
         });

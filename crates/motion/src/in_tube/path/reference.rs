@@ -39,6 +39,9 @@ pub(crate) struct Reference {
     pub(crate) sagitta_vector: AxisVector,
     /// Where it is to be straight; nowhere if the tolerance is for all of it.
     pub(crate) straight: Option<Straightness>,
+    /// How far the motion may be beyond a border that it has to stay within, mm or degrees, where a small share of
+    /// the tolerance is less.
+    pub(crate) beyond_mm: f64,
     /// It has no feed.
     pub(crate) is_rapid: bool,
     /// Given back with each period, and asked for when rates change.

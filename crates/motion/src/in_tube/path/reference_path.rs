@@ -50,6 +50,8 @@ pub(crate) struct TubePiece {
     pub(crate) straight: Option<Straightness>,
     /// What joints that are not the axes leave along it, by feed length.
     by_joints: Option<Bounds>,
+    /// How far the motion may be beyond a border of it, at least.
+    pub(crate) beyond_mm: f64,
     /// It has no feed.
     pub(crate) is_rapid: bool,
     /// What every axis does along it.
@@ -249,6 +251,7 @@ impl ReferencePath {
             sagitta_vector: piece.sagitta_vector,
             straight: piece.straight,
             by_joints: None,
+            beyond_mm: piece.beyond_mm,
             is_rapid: piece.is_rapid,
             senses: core::array::from_fn(|axis| Sense::at_rest(self.corner[axis])),
             corner_before: None,

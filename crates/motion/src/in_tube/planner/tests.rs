@@ -31,6 +31,7 @@ struct Case {
     feed_v: f64,
     corners: Corners,
     straight_mm: Option<f64>,
+    beyond_mm: f64,
     points: Vec<AxisVector>,
 }
 
@@ -43,6 +44,7 @@ impl Case {
             feed_v: 100.0,
             corners: Corners::default(),
             straight_mm: None,
+            beyond_mm: 2e-4,
             points,
         }
     }
@@ -59,6 +61,7 @@ impl Case {
                     tolerance_deg: self.tolerance_mm,
                     sagitta_vector: AxisVector::zeros(),
                     straight: self.straight_mm.map(Straightness::of_move),
+                    beyond_mm: self.beyond_mm,
                     is_rapid: false,
                     tag: k as u64,
                 }
@@ -238,6 +241,7 @@ fn random_case(seed: u64, is_light: bool) -> Case {
         tolerance_mm: if is_light { 0.03 } else { 0.02 },
         corners: Corners::default(),
         straight_mm: None,
+        beyond_mm: 2e-4,
         feed_v: if is_light { 83.333 } else { 100.0 },
         points,
     }

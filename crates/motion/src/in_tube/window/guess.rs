@@ -15,6 +15,7 @@
 
 use super::scaled_path::ScaledPath;
 use super::solver::dot;
+use crate::in_tube::path::SHARP;
 use crate::scurve::{PathLimits, Profile, reachable_speed};
 
 /// Speed at and time of every vertex.
@@ -23,6 +24,10 @@ pub(crate) struct Guess {
     /// From the start of the scaled path, s, one more than pieces; at rest at both ends.
     times_t: Vec<f64>,
     speeds_v: Vec<f64>,
+    /// The speed at every vertex at which the chord of a period is as high as the tube is wide.
+    chords_v: Vec<f64>,
+    /// The most speed on every piece, however fast the guess is played.
+    tops_v: Vec<f64>,
 }
 
 /// Between two speeds whose S-curve does not fit, a piece is taken to be driven at their mean, and at
@@ -35,8 +40,9 @@ const MONOTONE_SLOPE: f64 = 3.0;
 const BISECTIONS: usize = 40;
 
 impl Guess {
-    pub(crate) fn make<const D: usize>(&mut self, path: &ScaledPath<D>) {
-        self.caps(path);
+    pub(crate) fn make<const D: usize>(&mut self, path: &ScaledPath<D>, period_t: f64) {
+        self.caps(path, period_t);
+        self.tops(path, period_t);
         let count = path.segments.len();
         self.slow_down(
             count,
@@ -59,10 +65,12 @@ impl Guess {
         }
     }
 
-    fn caps<const D: usize>(&mut self, path: &ScaledPath<D>) {
+    fn caps<const D: usize>(&mut self, path: &ScaledPath<D>, period_t: f64) {
         let segments = &path.segments;
         self.speeds_v.clear();
         self.speeds_v.push(0.0);
+        self.chords_v.clear();
+        self.chords_v.push(f64::INFINITY);
         for i in 1..segments.len() {
             let (before, after) = (&segments[i - 1], &segments[i]);
             let mut cap_v = before.top.min(after.top);
@@ -79,9 +87,30 @@ impl Guess {
                     cap_v = most_v / jump;
                 }
             }
-            self.speeds_v.push(cap_v.min(curve_speed(path, i)));
+            let (curve_v, chord_v) = curve_speeds(path, i, period_t);
+            // A sharp corner is no bend.
+            let is_bend = path.turn(i - 1, i) <= SHARP;
+            let chord_v = if is_bend { chord_v } else { f64::INFINITY };
+            self.speeds_v.push(cap_v.min(curve_v).min(chord_v));
+            self.chords_v.push(chord_v);
         }
         self.speeds_v.push(0.0);
+        self.chords_v.push(f64::INFINITY);
+    }
+
+    /// The feed on every piece, and what the chords of periods allow on those of a bend. A piece that a period
+    /// does not get across is no part of one: the chord is along it but at its ends.
+    fn tops<const D: usize>(&mut self, path: &ScaledPath<D>, period_t: f64) {
+        let chords_v = self.chords_v.windows(2).map(|ends| ends[0].min(ends[1]));
+        let pieces = path.segments.iter().zip(chords_v);
+        self.tops_v.clear();
+        self.tops_v.extend(pieces.map(|(segment, chord_v)| {
+            if segment.length <= chord_v * period_t {
+                segment.top.min(chord_v)
+            } else {
+                segment.top
+            }
+        }));
     }
 
     /// Lowers the caps to what can be slowed down from and reached, counting from the last vertex
@@ -125,6 +154,11 @@ impl Guess {
                 self.speeds_v[i + 1] = reach;
             }
         }
+    }
+
+    /// The most speed on piece `i`.
+    pub(crate) fn top_v(&self, i: usize) -> f64 {
+        self.tops_v[i]
     }
 
     /// Where the guess is at a time; `hint` is the piece to look at first. Along a piece it is the cubic
@@ -180,8 +214,9 @@ pub(crate) fn rest_to_rest_t(length: f64, top: f64, limits: PathLimits) -> f64 {
 
 /// The speed at which the path can be driven round a vertex as a curve: many gentle corners in a
 /// row are one bend, and the room that the tube gives is there for all of them once. Without it every
-/// chord of an arc would be a corner with a cap of its own.
-fn curve_speed<const D: usize>(path: &ScaledPath<D>, i: usize) -> f64 {
+/// chord of an arc would be a corner with a cap of its own. And the speed at which the chord of a period
+/// there is as high as the tube is wide.
+fn curve_speeds<const D: usize>(path: &ScaledPath<D>, i: usize, period_t: f64) -> (f64, f64) {
     let segments = &path.segments;
     let at = segments[i].s;
     let middle = |i: usize| segments[i].s + 0.5 * segments[i].length;
@@ -201,6 +236,8 @@ fn curve_speed<const D: usize>(path: &ScaledPath<D>, i: usize) -> f64 {
             // is within the reach.
             let bend = (middle(high) - middle(low)).min(2.0 * reach);
             let curvature = angle / bend;
+            // The chord of a period is v²·T²·κ/8 high.
+            let chord_v = (8.0 * room / curvature).sqrt() / period_t;
             for k in 0..D {
                 let share = turn[k].abs() / angle;
                 let [most_a, most_j] = path.usual.map(|of_axis| of_axis[k]);
@@ -209,7 +246,7 @@ fn curve_speed<const D: usize>(path: &ScaledPath<D>, i: usize) -> f64 {
                     .min((most_a / (curvature * share)).sqrt())
                     .min((most_j / (curvature * curvature * share)).cbrt());
             }
-            return speed_v;
+            return (speed_v, chord_v);
         }
         let (before, after) = (
             at - segments[low].s,
@@ -217,12 +254,12 @@ fn curve_speed<const D: usize>(path: &ScaledPath<D>, i: usize) -> f64 {
         );
         if before <= after {
             if low == 0 {
-                return speed_v;
+                return (speed_v, f64::INFINITY);
             }
             low -= 1;
         } else {
             if high + 1 == segments.len() {
-                return speed_v;
+                return (speed_v, f64::INFINITY);
             }
             high += 1;
         }

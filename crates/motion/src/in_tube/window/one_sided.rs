@@ -29,7 +29,7 @@ use glidepath_program::Corners;
 const NEAR_R: f64 = 3.0;
 /// Share of a piece by which the place of a motion on it may be taken to be another.
 const SHIFT: f64 = 0.02;
-/// What a motion may be beyond a border, in radii: a fifth of a micrometre of the usual tolerance.
+/// What a motion may be beyond a border at least, in radii.
 const BEYOND_R: f64 = 0.01;
 
 impl<const D: usize> ScaledPath<D> {
@@ -167,7 +167,7 @@ impl<const D: usize> ScaledPath<D> {
         let (place, progress) = (self.inside(to), segment.s + u * segment.length);
         let step = self.direction(&(to - from));
         let way = dot(&step, &step).sqrt().min(SHIFT * segment.length);
-        let allowed = BEYOND_R * segment.radius;
+        let allowed = (BEYOND_R * segment.radius).max(segment.beyond);
         let ends = [segment.s, segment.s + segment.length];
         [0.0, -way, way].into_iter().any(|shift| {
             // Where on the piece the period belongs is only known to within its way: one place is enough.

@@ -242,7 +242,7 @@ impl<const D: usize> Optimiser<D> {
 
     /// A new window, with samples where the tail is.
     pub(super) fn begin(&mut self, path: &ScaledPath<D>, window_start: &WindowStart<'_, D>) {
-        self.guess.make(path);
+        self.guess.make(path, window_start.period_t);
         for extents in &mut self.extents {
             extents.clear(path.segments.len());
         }

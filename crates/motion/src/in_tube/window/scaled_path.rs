@@ -56,6 +56,8 @@ pub(crate) struct ScaledSegment<const D: usize> {
     pub(crate) sides: Sides<D>,
     /// Where it is to be straight.
     pub(super) straight: Option<Straight>,
+    /// How far a motion may be beyond a border of it, at least.
+    pub(super) beyond: f64,
     /// It has no feed.
     pub(crate) is_rapid: bool,
 }
@@ -265,6 +267,7 @@ impl<const D: usize> ScaledPath<D> {
             normals: [[0.0; D]; D],
             sides: Sides::none(),
             straight: Straight::of(piece, (s, length), unit_mm),
+            beyond: piece.beyond_mm / unit_mm,
             is_rapid: piece.is_rapid,
         });
     }

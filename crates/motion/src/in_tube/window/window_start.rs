@@ -102,8 +102,7 @@ impl<const D: usize> WindowStart<'_, D> {
         for k in from + 1..progress.len() {
             let t = start_t + pace * self.periods_t(k - from);
             let s = guess.s_at(path, t, &mut hint);
-            // However fast the guess is played, the feed holds.
-            let most = progress[k - 1] + path.segments[hint].top * self.period_t;
+            let most = progress[k - 1] + guess.top_v(hint) * self.period_t;
             progress[k] = s.min(most).max(progress[k]).max(progress[k - 1]);
         }
     }

@@ -90,6 +90,7 @@ fn in_smaller_unit(case: &Case, factor: f64) -> Case {
     }
     scaled.tolerance_mm *= factor;
     scaled.feed_v *= factor;
+    scaled.beyond_mm *= factor;
     scaled.straight_mm = scaled.straight_mm.map(|beside_mm| beside_mm * factor);
     for point in &mut scaled.points {
         *point *= factor;
