@@ -15,6 +15,7 @@ mod programs;
 mod spigots;
 mod subprograms;
 mod texts;
+mod thread_cutting;
 
 use std::sync::Arc;
 

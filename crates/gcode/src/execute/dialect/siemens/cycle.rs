@@ -13,14 +13,15 @@
 //! | `CYCLE89` | RTP, RFP, SDIS, DP, DPR, DTB |
 //! | `CYCLE840` | RTP, RFP, SDIS, DP, DPR, DTB, SDR, SDAC, ENC, MPIT, PIT, AXN, PITA, TECHNO |
 //! | `CYCLE71` | RTP, RFP, SDIS, DP, PA, PO, LENG, WID, STA, MID, MIDA, FDP, FALD, FFP1, VARI, FDP1 |
+//! | `CYCLE97` | PIT, MPIT, SPL, FPL, DM1, DM2, APP, ROP, TDEP, FAL, IANG, NSP, NRC, NID, VARI, NUMT, _VRT |
 //! | `CYCLE76` | RTP, RFP, SDIS, DP, DPR, LENG, WID, CRAD, PA, PO, STA, MID, FAL, FALD, FFP1, FFD, CDIR, VARI, AP1, AP2 |
 //! | `CYCLE77` | RTP, RFP, SDIS, DP, DPR, PRAD, PA, PO, MID, FAL, FALD, FFP1, FFD, CDIR, VARI, AP1 |
 //! | `POCKET3` | RTP, RFP, SDIS, DP, LENG, WID, CRAD, PA, PO, STA, MID, FAL, FALD, FFP1, FFD, CDIR, VARI, MIDA, AP1, AP2, AD, RAD1, DP1 |
 //! | `POCKET4` | RTP, RFP, SDIS, DP, PRAD, PA, PO, MID, FAL, FALD, FFP1, FFD, CDIR, VARI, MIDA, AP1, AD, RAD1, DP1 |
 //!
 //! RTP is the plane to retract to, RFP the surface, SDIS the clearance above it, DP the bottom, all
-//! coordinates but SDIS, and DPR the depth below RFP. The cycles work along the axis normal to the
-//! plane, downwards.
+//! coordinates but SDIS, and DPR the depth below RFP. These cycles work along the axis normal to the
+//! plane, downwards; those of lathes in Z and X.
 
 use std::io::BufRead;
 
@@ -38,7 +39,7 @@ use crate::execute::program::Program;
 use crate::syntax::modes::FeedMode;
 
 /// Names of cycles, and how many arguments each takes.
-const CYCLES: [(&str, usize); 15] = [
+const CYCLES: [(&str, usize); 16] = [
     ("CYCLE81", 5),
     ("CYCLE82", 6),
     ("CYCLE83", 12),
@@ -50,6 +51,7 @@ const CYCLES: [(&str, usize); 15] = [
     ("CYCLE89", 6),
     ("CYCLE840", 14),
     ("CYCLE71", 16),
+    ("CYCLE97", 17),
     ("CYCLE76", 20),
     ("CYCLE77", 16),
     ("POCKET3", 23),
@@ -185,6 +187,7 @@ impl<R: BufRead> Program<R> {
             "CYCLE89" => interpreter.bore_both_ways(arguments),
             "CYCLE840" => interpreter.tap_with_chuck(arguments),
             "CYCLE71" => interpreter.mill_face(arguments),
+            "CYCLE97" => interpreter.cut_thread(arguments),
             "CYCLE76" => interpreter.rectangular_spigot(arguments),
             "CYCLE77" => interpreter.circular_spigot(arguments),
             "POCKET3" => interpreter.rectangular_pocket(arguments),

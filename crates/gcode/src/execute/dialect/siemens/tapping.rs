@@ -169,7 +169,7 @@ impl Interpreter {
     }
 
     /// The same, where the arguments MPIT and PIT are.
-    fn metric_pitch_at(
+    pub(super) fn metric_pitch_at(
         &self,
         arguments: Arguments<'_>,
         size_at: usize,

@@ -108,7 +108,7 @@ impl Statement {
 }
 
 /// Cycles that are made.
-const CYCLES: [&[u8]; 15] = [
+const CYCLES: [&[u8]; 16] = [
     b"CYCLE81",
     b"CYCLE82",
     b"CYCLE83",
@@ -120,6 +120,7 @@ const CYCLES: [&[u8]; 15] = [
     b"CYCLE89",
     b"CYCLE840",
     b"CYCLE71",
+    b"CYCLE97",
     b"CYCLE76",
     b"CYCLE77",
     b"POCKET3",

@@ -118,8 +118,8 @@ const REFUSED: &[(&[&str], &str, &str)] = &[
     (&["CYCLE94", "CYCLE940"], "an undercut", PLAIN),
     (&["CYCLE95", "CYCLE952"], "roughing along a contour", PLAIN),
     (
-        &["CYCLE97", "CYCLE99"],
-        "a thread",
+        &["CYCLE99"],
+        "a thread: what the digits of its arguments mean is not known here",
         "write G33 for each pass",
     ),
     (

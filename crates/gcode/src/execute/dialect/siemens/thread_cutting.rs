@@ -1,0 +1,242 @@
+//! CYCLE97: a thread along Z, outside or inside, in passes of G33.
+//!
+//! ```text
+//!            FPL               SPL          X is DM1 at SPL, DM2 at FPL: diameters in every mode
+//!    ROP ◄──┤   ├───────────────┤ ├── APP
+//!           ●◄──────────────────────● _VRT (1 mm) off the thread
+//!                 TDEP deep
+//! ```
+//!
+//! | VARI | passes down to TDEP less FAL |
+//! |---|---|
+//! | 1, 2 | outside, inside; each as deep as the one before |
+//! | 3, 4 | outside, inside; each of the same cross-section: the depth grows with the root of their number |
+//!
+//! NRC passes lead there, one takes FAL, NID more cut nothing. With IANG the passes go down along the flank
+//! behind the tool, the first one where the program says; below zero along both flanks by turns. The thread
+//! starts at NSP degrees; NUMT threads lie beside each other, one after the other.
+
+use glidepath_geometry::{Axis, Plane};
+
+use crate::diagnostic::block_diagnostic::Outcome;
+use crate::execute::dialect::siemens::arguments::Arguments;
+use crate::execute::dialect::siemens::lines::Lines;
+use crate::execute::interpreter::Interpreter;
+
+/// How far off the thread the tool goes back where _VRT does not say so, mm.
+const OFF_MM: f64 = 1.0;
+/// Most passes of one kind, and threads beside each other.
+const MOST: f64 = 1000.0;
+/// Lines of a pass.
+const LINES: f64 = 4.0;
+/// Steepest slope of the infeed, degrees.
+const STEEPEST: f64 = 60.0;
+
+/// A thread, in the units in force; X is a radius.
+struct Thread {
+    /// Z and X of its surface, run-in and run-out included.
+    from: [f64; 2],
+    to: [f64; 2],
+    /// 1 outside, -1 inside.
+    out: f64,
+    /// Where the tool goes back, X.
+    off: f64,
+    /// Along the axis that goes further.
+    pitch: f64,
+    /// How far a pass is shifted along the thread for its depth; below zero on both flanks by turns.
+    slope: f64,
+    depth: f64,
+}
+
+impl Thread {
+    /// How far along the thread a pass lies that is so deep.
+    fn shift(&self, index: usize, deep: f64) -> f64 {
+        let slope = self.slope.abs();
+        let aside = slope * (self.depth - deep);
+        if self.slope >= 0.0 || index % 2 == 0 {
+            slope * self.depth - aside
+        } else {
+            slope * self.depth + aside
+        }
+    }
+
+    /// All passes of a thread that starts at an angle.
+    fn cut(&self, lines: &mut Lines, depths: &[f64], angle: f64) {
+        let forward = (self.to[0] - self.from[0]).signum();
+        for (index, deep) in depths.iter().enumerate() {
+            let aside = forward * self.shift(index, *deep);
+            let slant = (self.to[1] - self.from[1]) / (self.to[0] - self.from[0]);
+            // The end is that of the thread for every pass.
+            let z = self.from[0] + aside;
+            let x = self.from[1] + slant * aside - self.out * deep;
+            lines.go("G0", [Some(z), None, None]);
+            lines.go("G0", [None, Some(x), None]);
+            let end = [Some(self.to[0]), Some(self.to[1] - self.out * deep), None];
+            lines.go(&format!("G33 K[{}] Q[{angle}]", self.pitch), end);
+            lines.go("G0", [None, Some(self.off), None]);
+        }
+    }
+}
+
+impl Interpreter {
+    /// CYCLE97.
+    pub(super) fn cut_thread(&self, arguments: Arguments<'_>) -> Outcome<Lines> {
+        if self.state.modal.plane != Plane::Zx {
+            return Err(arguments
+                .refused(
+                    "a plane other than G18",
+                    "the thread is one of a lathe, along Z",
+                )
+                .help("write G18 before it"));
+        }
+        let thread = self.thread_of_cycle(arguments)?;
+        let depths = depths(arguments, thread.depth)?;
+        let beside = count(
+            arguments,
+            15,
+            "NUMT",
+            "how many threads lie beside each other",
+        )?;
+        let beside = beside.max(1.0);
+        let angle = arguments.or_zero(11);
+        if !(0.0..360.0).contains(&angle) {
+            return Err(arguments
+                .refused(format!("NSP is {angle}"), "it is an angle of the spindle")
+                .help("write 0 or more, and less than 360 degrees"));
+        }
+        let passes = f64::from(u32::try_from(depths.len()).unwrap_or(u32::MAX));
+        Lines::check_count(beside * passes * LINES + 3.0, arguments)?;
+        let mut lines = Lines::new([Axis::Z, Axis::X, Axis::Y]);
+        lines.go("G0", [Some(thread.from[0]), Some(thread.off), None]);
+        let mut number = 0.0;
+        while number < beside {
+            let start = (angle + 360.0 * number / beside) % 360.0;
+            thread.cut(&mut lines, &depths, start);
+            number += 1.0;
+        }
+        lines.go("G0", [Some(thread.from[0]), None, None]);
+        Ok(lines)
+    }
+
+    fn thread_of_cycle(&self, arguments: Arguments<'_>) -> Outcome<Thread> {
+        let pitch = self.metric_pitch_at(arguments, 1, 0)?.abs();
+        let begin = arguments.need(2, "SPL", "where the thread begins, along Z")?;
+        let end = arguments.need(3, "FPL", "where the thread ends, along Z")?;
+        let first = arguments.positive(4, "DM1", "the diameter at the beginning")?;
+        let last = arguments.positive(5, "DM2", "the diameter at the end")?;
+        let run_in = arguments.not_negative(6, "APP", "the run-in")?;
+        let run_out = arguments.not_negative(7, "ROP", "the run-out")?;
+        let depth = arguments.positive(8, "TDEP", "the depth of the thread")?;
+        let variant = arguments.choice(14, "VARI", &[1, 2, 3, 4])?;
+        let off =
+            arguments.not_negative(16, "_VRT", "how far off the thread the tool goes back")?;
+        let off = if off > 0.0 {
+            off
+        } else {
+            OFF_MM / self.state.modal.units.mm()
+        };
+        let way = end - begin;
+        let rise = 0.5 * (last - first);
+        if way == 0.0 || rise.abs() > way.abs() {
+            return Err(arguments
+                .refused(
+                    "a thread steeper than 45 degrees",
+                    "it is one of the face, whose depth goes along Z: not made here",
+                )
+                .help("write a G33 with I for each pass"));
+        }
+        let out = if variant % 2 == 1 { 1.0 } else { -1.0 };
+        // The cone goes on over run-in and run-out.
+        let forward = way.signum();
+        let at = |z: f64| [z, 0.5 * first + rise * (z - begin) / way];
+        let (from, to) = (at(begin - forward * run_in), at(end + forward * run_out));
+        let surface = if out > 0.0 {
+            from[1].max(to[1])
+        } else {
+            from[1].min(to[1])
+        };
+        let back = surface + out * off;
+        let bottom = from[1].min(to[1]) - out * depth;
+        if back <= 0.0 || bottom <= 0.0 {
+            return Err(arguments
+                .refused(
+                    "the tool would go through the axis of the spindle",
+                    "the thread, or the way back beside it, is wider than there is room",
+                )
+                .help("check DM1, DM2, TDEP and _VRT"));
+        }
+        let angle = arguments.or_zero(10);
+        if angle.abs() > STEEPEST || (angle < 0.0 && rise != 0.0) {
+            return Err(arguments
+                .refused(
+                    format!("IANG is {angle}"),
+                    "it is the slope of one flank, below zero of both by turns, which a cone does not have",
+                )
+                .help(format!("write an angle up to {STEEPEST} degrees, not below zero of a cone")));
+        }
+        let slope = angle.to_radians().tan();
+        if 2.0 * slope.abs() * depth >= (to[0] - from[0]).abs() {
+            return Err(arguments
+                .refused(
+                    "a thread that IANG shifts beyond its end",
+                    "the passes begin ever later",
+                )
+                .help("write a smaller IANG, or a longer run-in"));
+        }
+        Ok(Thread {
+            from,
+            to,
+            out,
+            off: back,
+            pitch,
+            slope,
+            depth,
+        })
+    }
+}
+
+/// A whole number that an argument counts.
+fn count(arguments: Arguments<'_>, index: usize, name: &str, meaning: &str) -> Outcome<f64> {
+    let value = arguments.not_negative(index, name, meaning)?;
+    if value.fract() == 0.0 && value <= MOST {
+        return Ok(value);
+    }
+    Err(arguments
+        .refused(format!("{name} is {value}"), meaning)
+        .help(format!("write a whole number up to {MOST}")))
+}
+
+/// The depths of all passes.
+fn depths(arguments: Arguments<'_>, depth: f64) -> Outcome<Vec<f64>> {
+    let left = arguments.not_negative(9, "FAL", "what the last pass takes")?;
+    if left >= depth {
+        return Err(arguments
+            .refused(
+                "FAL is as much as the depth",
+                "nothing would be left for the other passes",
+            )
+            .help("check FAL and TDEP"));
+    }
+    let rough = count(arguments, 12, "NRC", "how many passes lead to the depth")?;
+    let empty = count(arguments, 13, "NID", "how many passes cut nothing")?;
+    if rough < 1.0 {
+        return Err(arguments
+            .refused("NRC is 0", "it says how many passes lead to the depth")
+            .help("write 1 or more"));
+    }
+    let is_even = arguments.or_zero(14) <= 2.0;
+    let mut depths = Vec::new();
+    let mut pass = 1.0;
+    while pass <= rough {
+        let share: f64 = pass / rough;
+        let share = if is_even { share } else { share.sqrt() };
+        depths.push((depth - left) * share);
+        pass += 1.0;
+    }
+    let mut more = if left > 0.0 { empty + 1.0 } else { empty };
+    while more > 0.0 {
+        depths.push(depth);
+        more -= 1.0;
+    }
+    Ok(depths)
+}
