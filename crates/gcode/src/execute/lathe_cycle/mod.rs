@@ -32,6 +32,7 @@
 //! * codes in the profile that would give its words another meaning are refused, not skipped.
 
 pub(crate) mod begin;
+pub(crate) mod contour_passes;
 pub(crate) mod edge_break;
 mod moves;
 pub(crate) mod offset;

@@ -24,7 +24,7 @@ const SHORT_ARC_MM: f64 = 2e-6;
 
 impl Interpreter {
     /// Machine coordinates of Z and X; the other axes stay.
-    pub(super) fn lathe_target(&self, [z, x]: Point) -> AxisVector {
+    pub(crate) fn lathe_target(&self, [z, x]: Point) -> AxisVector {
         let mut values = [None; AXES];
         values[Axis::Z.index()] = Some(z);
         values[Axis::X.index()] = Some(x);

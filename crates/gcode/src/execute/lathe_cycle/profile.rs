@@ -34,7 +34,7 @@ const SHORT_MM: f64 = 1e-6;
 pub(crate) struct LatheProfile {
     pub(super) elements: Vec<Element>,
     /// Where the last block ended, first the start of the cycle.
-    pub(super) at: Point,
+    pub(crate) at: Point,
     /// True once the first point is known.
     begun: bool,
     pub(crate) motion: Option<Motion>,
@@ -75,8 +75,12 @@ impl LatheProfile {
         }
     }
 
+    pub(crate) fn elements(&self) -> &[Element] {
+        &self.elements
+    }
+
     /// True if a fillet or chamfer has no element behind it.
-    pub(super) const fn is_open(&self) -> bool {
+    pub(crate) const fn is_open(&self) -> bool {
         self.corner.is_some()
     }
 
@@ -155,7 +159,8 @@ impl LatheProfile {
         if !self.begun {
             self.begun = true;
             self.begins_at_feed = motion == Motion::Linear;
-            if motion.is_arc() || block.has_any(Letters::of(b"ACIKR")) {
+            let has_more = block.corner.is_some() || block.has_any(Letters::of(b"ACIKR"));
+            if motion.is_arc() || has_more {
                 let message = "a profile that does not begin with a point";
                 return Err(refused(span, message)
                     .help("write G0 or G1 with X and Z, and nothing else, first"));

@@ -13,6 +13,7 @@ mod motion;
 mod program_frame;
 mod programs;
 mod spigots;
+mod stock_removal;
 mod subprograms;
 mod texts;
 mod thread_cutting;

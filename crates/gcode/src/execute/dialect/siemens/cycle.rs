@@ -13,6 +13,7 @@
 //! | `CYCLE89` | RTP, RFP, SDIS, DP, DPR, DTB |
 //! | `CYCLE840` | RTP, RFP, SDIS, DP, DPR, DTB, SDR, SDAC, ENC, MPIT, PIT, AXN, PITA, TECHNO |
 //! | `CYCLE71` | RTP, RFP, SDIS, DP, PA, PO, LENG, WID, STA, MID, MIDA, FDP, FALD, FFP1, VARI, FDP1 |
+//! | `CYCLE95` | NPP, MID, FALZ, FALX, FAL, FF1, FF2, FF3, VARI, DT, DAM, _VRT |
 //! | `CYCLE97` | PIT, MPIT, SPL, FPL, DM1, DM2, APP, ROP, TDEP, FAL, IANG, NSP, NRC, NID, VARI, NUMT, _VRT |
 //! | `CYCLE76` | RTP, RFP, SDIS, DP, DPR, LENG, WID, CRAD, PA, PO, STA, MID, FAL, FALD, FFP1, FFD, CDIR, VARI, AP1, AP2 |
 //! | `CYCLE77` | RTP, RFP, SDIS, DP, DPR, PRAD, PA, PO, MID, FAL, FALD, FFP1, FFD, CDIR, VARI, AP1 |
@@ -36,6 +37,7 @@ use crate::execute::dialect::siemens::newer_arguments::Newer;
 use crate::execute::dialect::siemens::steps::{Before, CycleCall, Step};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::program::Program;
+use crate::syntax::dialect::siemens::statement::name_at;
 use crate::syntax::modes::FeedMode;
 
 /// Names of cycles, and how many arguments each takes.
@@ -103,6 +105,9 @@ impl Interpreter {
 impl<R: BufRead> Program<R> {
     /// A call of a cycle in a line of its own.
     pub(super) fn siemens_cycle(&mut self, text: &[u8], at: usize) -> Outcome<()> {
+        if name_at(text, at).eq_ignore_ascii_case(b"CYCLE95") {
+            return self.siemens_stock_removal(text, at);
+        }
         let (call, span) = self.siemens_call(text, at)?;
         self.siemens_begin(&call, span)
     }
@@ -141,6 +146,12 @@ impl<R: BufRead> Program<R> {
 
     pub(super) fn siemens_begin(&mut self, call: &CycleCall, span: SourceSpan) -> Outcome<()> {
         let lines = self.cycle_lines(Arguments { call, span })?;
+        self.siemens_give(lines);
+        Ok(())
+    }
+
+    /// The lines come next, and behind them what is in force now.
+    pub(super) fn siemens_give(&mut self, lines: Lines) {
         let state = &self.interpreter.state;
         let before = Before {
             modal: state.modal,
@@ -151,12 +162,11 @@ impl<R: BufRead> Program<R> {
         self.siemens
             .steps
             .push_back(Step::Restore(Box::new(before)));
-        Ok(())
     }
 
-    pub(super) fn cycle_lines(&self, arguments: Arguments<'_>) -> Outcome<Lines> {
-        let interpreter = &self.interpreter;
-        let state = &interpreter.state;
+    /// Refuses a cycle where its moves would not be what they are meant to be.
+    pub(super) fn check_cycle(&self, arguments: Arguments<'_>) -> Outcome<()> {
+        let state = &self.interpreter.state;
         if state.on_contour || state.leaving_contour {
             return Err(arguments
                 .refused(
@@ -173,6 +183,13 @@ impl<R: BufRead> Program<R> {
                 )
                 .help("write G94 or G95 before it"));
         }
+        Ok(())
+    }
+
+    pub(super) fn cycle_lines(&self, arguments: Arguments<'_>) -> Outcome<Lines> {
+        self.check_cycle(arguments)?;
+        let interpreter = &self.interpreter;
+        let state = &interpreter.state;
         if interpreter.counts_diameters() && state.modal.plane.normal() == Axis::X {
             return Err(diameters(arguments, "along X"));
         }

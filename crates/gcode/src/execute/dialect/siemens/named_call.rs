@@ -99,7 +99,7 @@ impl<R: BufRead> Program<R> {
 }
 
 #[cold]
-fn no_name(path: &[u8], span: SourceSpan) -> Box<BlockDiagnostic> {
+pub(super) fn no_name(path: &[u8], span: SourceSpan) -> Box<BlockDiagnostic> {
     let shown = String::from_utf8_lossy(path).into_owned();
     let message = format!("\"{shown}\" names no subprogram");
     BlockDiagnostic::new(DiagnosticCode::UnknownSubroutine, span, message)

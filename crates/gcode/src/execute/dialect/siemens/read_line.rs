@@ -15,7 +15,7 @@ use crate::syntax::dialect::siemens::writer::rewrite;
 use crate::syntax::modes::Distance;
 
 /// A main block, whose number stands behind a colon, with the letter of other blocks.
-fn with_block_number(mut text: Box<[u8]>) -> Box<[u8]> {
+pub(super) fn with_block_number(mut text: Box<[u8]>) -> Box<[u8]> {
     let colon = text.iter().position(|byte| !byte.is_ascii_whitespace());
     if let Some(colon) = colon
         && text.get(colon) == Some(&b':')
@@ -27,7 +27,7 @@ fn with_block_number(mut text: Box<[u8]>) -> Box<[u8]> {
 }
 
 /// The text with blanks in the place of its label, which keeps the columns of the rest.
-fn without_label(text: &[u8]) -> Vec<u8> {
+pub(super) fn without_label(text: &[u8]) -> Vec<u8> {
     let (found, behind) = label(text);
     let mut text = text.to_vec();
     if found.is_some() {

@@ -185,7 +185,7 @@ impl<R: BufRead> Program<R> {
 
     /// The last line of a part: the first one with that label from its beginning on, since parts may end at
     /// labels of one name.
-    fn siemens_last_line(
+    pub(super) fn siemens_last_line(
         &mut self,
         index: usize,
         start: usize,

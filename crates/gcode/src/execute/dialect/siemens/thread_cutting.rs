@@ -53,7 +53,7 @@ impl Thread {
     fn shift(&self, index: usize, deep: f64) -> f64 {
         let slope = self.slope.abs();
         let aside = slope * (self.depth - deep);
-        if self.slope >= 0.0 || index % 2 == 0 {
+        if self.slope >= 0.0 || index.is_multiple_of(2) {
             slope * self.depth - aside
         } else {
             slope * self.depth + aside

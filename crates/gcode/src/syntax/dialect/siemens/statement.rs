@@ -108,7 +108,7 @@ impl Statement {
 }
 
 /// Cycles that are made.
-const CYCLES: [&[u8]; 16] = [
+const CYCLES: [&[u8]; 17] = [
     b"CYCLE81",
     b"CYCLE82",
     b"CYCLE83",
@@ -120,6 +120,7 @@ const CYCLES: [&[u8]; 16] = [
     b"CYCLE89",
     b"CYCLE840",
     b"CYCLE71",
+    b"CYCLE95",
     b"CYCLE97",
     b"CYCLE76",
     b"CYCLE77",

@@ -116,7 +116,7 @@ const REFUSED: &[(&[&str], &str, &str)] = &[
     (&["CYCLE79"], "a polygon", PLAIN),
     (&["CYCLE93", "CYCLE930"], "a groove", PLAIN),
     (&["CYCLE94", "CYCLE940"], "an undercut", PLAIN),
-    (&["CYCLE95", "CYCLE952"], "roughing along a contour", PLAIN),
+    (&["CYCLE952"], "roughing along a contour", PLAIN),
     (
         &["CYCLE99"],
         "a thread: what the digits of its arguments mean is not known here",
