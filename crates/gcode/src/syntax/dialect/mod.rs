@@ -31,7 +31,7 @@ use serde::{Deserialize, Serialize};
 /// | subprograms in files | `o<name> call` | – | `M98 P`, `G65 P` | – |
 /// | flow | O words | – | `IF` `GOTO` `THEN`, `WHILE` `DO` `END`, `G65`, `M98`, `M99` | `IF` … `ENDIF`, `WHILE`, `FOR`, `LOOP`, `REPEAT`, `GOTO…` |
 /// | frames | `G10 L2 R`, `G52`, `G92` | the same | the same | `TRANS`, `ROT`, `MIRROR`, `SCALE`, `A…` |
-/// | cycles by name | – | – | – | `CYCLE81` … `83`, `85`, `86`, `POCKET3`, `POCKET4`, `MCALL` |
+/// | cycles by name | – | – | – | `CYCLE81` … `83`, `85`, `86`, `POCKET1` … `4`, `MCALL` |
 /// | dwell | `G4 P` s | `G4 P` ms, `S` s | `G4 P` ms, `X` s | `G4 F` s |
 /// | G0 | rapid | at feed | rapid | rapid |
 /// | extruder | – | E: the axis [`Options::extruder`](crate::Options); `M82`, `M83`, `G92 E` | – | – |

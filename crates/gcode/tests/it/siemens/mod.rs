@@ -10,6 +10,7 @@ mod increments;
 mod kept_data;
 mod lathes;
 mod motion;
+mod older_pockets;
 mod program_frame;
 mod programs;
 mod spigots;

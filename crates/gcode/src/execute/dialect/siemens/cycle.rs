@@ -17,6 +17,8 @@
 //! | `CYCLE97` | PIT, MPIT, SPL, FPL, DM1, DM2, APP, ROP, TDEP, FAL, IANG, NSP, NRC, NID, VARI, NUMT, _VRT |
 //! | `CYCLE76` | RTP, RFP, SDIS, DP, DPR, LENG, WID, CRAD, PA, PO, STA, MID, FAL, FALD, FFP1, FFD, CDIR, VARI, AP1, AP2 |
 //! | `CYCLE77` | RTP, RFP, SDIS, DP, DPR, PRAD, PA, PO, MID, FAL, FALD, FFP1, FFD, CDIR, VARI, AP1 |
+//! | `POCKET1` | RTP, RFP, SDIS, DP, DPR, LENG, WID, CRAD, CPA, CPO, STA1, FFD, FFP1, MID, CDIR, FAL, VARI, MIDF, FFP2, SSF |
+//! | `POCKET2` | RTP, RFP, SDIS, DP, DPR, PRAD, CPA, CPO, FFD, FFP1, MID, CDIR, FAL, VARI, MIDF, FFP2, SSF |
 //! | `POCKET3` | RTP, RFP, SDIS, DP, LENG, WID, CRAD, PA, PO, STA, MID, FAL, FALD, FFP1, FFD, CDIR, VARI, MIDA, AP1, AP2, AD, RAD1, DP1 |
 //! | `POCKET4` | RTP, RFP, SDIS, DP, PRAD, PA, PO, MID, FAL, FALD, FFP1, FFD, CDIR, VARI, MIDA, AP1, AD, RAD1, DP1 |
 //!
@@ -41,7 +43,7 @@ use crate::syntax::dialect::siemens::statement::name_at;
 use crate::syntax::modes::FeedMode;
 
 /// Names of cycles, and how many arguments each takes.
-const CYCLES: [(&str, usize); 16] = [
+const CYCLES: [(&str, usize); 18] = [
     ("CYCLE81", 5),
     ("CYCLE82", 6),
     ("CYCLE83", 12),
@@ -56,6 +58,8 @@ const CYCLES: [(&str, usize); 16] = [
     ("CYCLE97", 17),
     ("CYCLE76", 20),
     ("CYCLE77", 16),
+    ("POCKET1", 20),
+    ("POCKET2", 17),
     ("POCKET3", 23),
     ("POCKET4", 19),
 ];
@@ -121,7 +125,18 @@ impl<R: BufRead> Program<R> {
         let known = CYCLES
             .into_iter()
             .find(|(known, _)| known.as_bytes() == name);
-        let (name, most) = known.unwrap_or(("CYCLE81", 0));
+        let Some((name, most)) = known else {
+            let span = SourceSpan::new(at, input.at);
+            let message = format!(
+                "MCALL of {} is not supported",
+                String::from_utf8_lossy(&name)
+            );
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
+                    .because("this cycle works along a contour, at one place")
+                    .help("write it without MCALL"),
+            );
+        };
         let mut arguments = input.arguments()?;
         let span = SourceSpan::new(at, input.at);
         Newer {
@@ -207,6 +222,8 @@ impl<R: BufRead> Program<R> {
             "CYCLE97" => interpreter.cut_thread(arguments),
             "CYCLE76" => interpreter.rectangular_spigot(arguments),
             "CYCLE77" => interpreter.circular_spigot(arguments),
+            "POCKET1" => interpreter.older_rectangular_pocket(arguments),
+            "POCKET2" => interpreter.older_circular_pocket(arguments),
             "POCKET3" => interpreter.rectangular_pocket(arguments),
             _ => interpreter.circular_pocket(arguments),
         }

@@ -6,7 +6,7 @@
 //! CASE … OF … · L1 P2 · NAME(5) · CALL, PCALL, EXTCALL · PROC, EXTERN, RET, M17
 //! DEF REAL, INT, BOOL, arrays · TRANS, ROT, MIRROR, SCALE · ATRANS, AROT, AMIRROR, ASCALE
 //! G58, G59 · $P_UIFR[n]=CTRANS(X,10) · $P_PFRAME=… · $TC_DP3[t,1]=50
-//! CYCLE81 to 89 · CYCLE840 · CYCLE71, CYCLE76, CYCLE77, CYCLE95, CYCLE97 · POCKET3, POCKET4 · MCALL · HOLES1, HOLES2, CYCLE801, CYCLE802 · CYCLE800
+//! CYCLE81 to 89 · CYCLE840 · CYCLE71, CYCLE76, CYCLE77, CYCLE95, CYCLE97 · POCKET1 to POCKET4 · MCALL · HOLES1, HOLES2, CYCLE801, CYCLE802 · CYCLE800
 //! ```
 //!
 //! A line of a cycle becomes several ones in RS274/NGC's words, which are executed one after the
@@ -29,6 +29,7 @@ mod lines;
 mod modal_call;
 mod named_call;
 mod newer_arguments;
+mod older_pocket;
 mod pocket;
 mod positions;
 mod procedure;

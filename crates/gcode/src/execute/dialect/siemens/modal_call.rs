@@ -34,7 +34,7 @@ impl<R: BufRead> Program<R> {
             let message = format!("MCALL of {shown} is not supported");
             return Err(BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
                 .because(
-                    "CYCLE81 to 86, POCKET3, POCKET4 and subprograms can be called at every move",
+                    "cycles of holes, pockets and spigots, and subprograms can be called at every move",
                 )
                 .help("use one of these"));
         }

@@ -25,7 +25,7 @@ use crate::execute::interpreter::Interpreter;
 use crate::execute::state::spindle::SpindleDirection;
 
 /// Rings farther apart than this part of the tool's diameter would leave islands in corners.
-const MAX_WIDTH: f64 = 0.8;
+pub(super) const MAX_WIDTH: f64 = 0.8;
 
 /// Where the arguments of a pocket are, behind DP: the two cycles have them in other places.
 pub(super) struct Places {
@@ -51,13 +51,13 @@ pub(super) struct Pocket {
     pub(super) axes: [Axis; 3],
     pub(super) center: [f64; 2],
     /// How deep a level is at most; zero: all at once.
-    step: f64,
+    pub(super) step: f64,
     /// What is left at the edge.
     pub(super) edge: f64,
     /// What is left on the bottom.
     pub(super) floor: f64,
-    feed: f64,
-    plunge: f64,
+    pub(super) feed: f64,
+    pub(super) plunge: f64,
     pub(super) is_clockwise: bool,
     pub(super) insertion: Insertion,
     pub(super) finishes: bool,
@@ -244,7 +244,7 @@ impl Interpreter {
     }
 
     /// The centre, in the axes of the plane: where the tool stands, if it is left out.
-    fn pocket_center(
+    pub(super) fn pocket_center(
         &self,
         arguments: Arguments<'_>,
         first: usize,

@@ -1,9 +1,9 @@
-//! POCKET3: a rectangular pocket with round corners, cleared in rings from its middle outwards.
+//! POCKET3 and POCKET1: a rectangular pocket with round corners, cleared in rings from its middle outwards.
 
 use crate::diagnostic::block_diagnostic::Outcome;
 use crate::execute::dialect::siemens::arguments::Arguments;
 use crate::execute::dialect::siemens::lines::Lines;
-use crate::execute::dialect::siemens::pocket::{Insertion, Places};
+use crate::execute::dialect::siemens::pocket::{Insertion, Places, Pocket};
 use crate::execute::dialect::siemens::rectangle::{Rectangle, Ring};
 use crate::execute::interpreter::Interpreter;
 
@@ -14,13 +14,34 @@ const PLACES: Places = Places {
     helix: 21,
 };
 
-impl Interpreter {
-    pub(super) fn rectangular_pocket(&self, arguments: Arguments<'_>) -> Outcome<Lines> {
-        let pocket = self.pocket(arguments, &PLACES)?;
-        let length = arguments.positive(4, "LENG", "the length of the pocket")?;
-        let width = arguments.positive(5, "WID", "the width of the pocket")?;
-        let corner = arguments.need(6, "CRAD", "the radius of the corners")?;
-        let angle = arguments.or_zero(9);
+/// Its size, and the angle of its length to the first axis.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Size {
+    pub(super) length: f64,
+    pub(super) width: f64,
+    pub(super) corner: f64,
+    pub(super) angle: f64,
+}
+
+impl Size {
+    /// The arguments `first`, LENG, WID and CRAD, and STA.
+    pub(super) fn read(arguments: Arguments<'_>, first: usize, angle: usize) -> Outcome<Self> {
+        Ok(Self {
+            length: arguments.positive(first, "LENG", "the length of the pocket")?,
+            width: arguments.positive(first + 1, "WID", "the width of the pocket")?,
+            corner: arguments.need(first + 2, "CRAD", "the radius of the corners")?,
+            angle: arguments.or_zero(angle),
+        })
+    }
+
+    /// The lines of `pocket`.
+    pub(super) fn machined(self, pocket: &Pocket, arguments: Arguments<'_>) -> Outcome<Lines> {
+        let Self {
+            length,
+            width,
+            corner,
+            angle,
+        } = self;
         let tool = pocket.tool_radius;
         if corner < tool * (1.0 - 1e-9) || 2.0 * corner > length.min(width) * (1.0 + 1e-9) {
             let message = format!("corners with a radius of {corner}");
@@ -90,5 +111,12 @@ impl Interpreter {
             rectangle.arc_to(lines, [a - quarter, quarter], [-quarter, 0.0]);
         };
         pocket.machined(arguments, 10.0 * rings + 4.0, clear, finish)
+    }
+}
+
+impl Interpreter {
+    pub(super) fn rectangular_pocket(&self, arguments: Arguments<'_>) -> Outcome<Lines> {
+        let pocket = self.pocket(arguments, &PLACES)?;
+        Size::read(arguments, 4, 9)?.machined(&pocket, arguments)
     }
 }

@@ -108,7 +108,7 @@ impl Statement {
 }
 
 /// Cycles that are made.
-const CYCLES: [&[u8]; 17] = [
+const CYCLES: [&[u8]; 19] = [
     b"CYCLE81",
     b"CYCLE82",
     b"CYCLE83",
@@ -124,6 +124,8 @@ const CYCLES: [&[u8]; 17] = [
     b"CYCLE97",
     b"CYCLE76",
     b"CYCLE77",
+    b"POCKET1",
+    b"POCKET2",
     b"POCKET3",
     b"POCKET4",
 ];

@@ -146,11 +146,6 @@ const REFUSED: &[(&[&str], &str, &str)] = &[
         PLAIN,
     ),
     (
-        &["POCKET1", "POCKET2"],
-        "a pocket of older controls",
-        "write POCKET3 or POCKET4",
-    ),
-    (
         &["GOTOS"],
         "a program that begins again for ever",
         "write LOOP and ENDLOOP",
