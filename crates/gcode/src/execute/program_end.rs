@@ -13,13 +13,15 @@ use crate::syntax::block::Block;
 impl Interpreter {
     /// Makes what was held back for a next block, and refuses what needs one.
     pub(crate) fn end_open(&mut self, block: &Block, out: &mut Vec<Item>) -> Outcome<()> {
+        self.mapped_items = out.len();
         self.check_spline_complete()?;
         self.check_line_complete()?;
         self.check_tap_complete()?;
         self.check_plane_complete(SourceSpan::default())?;
         self.make_thread(block, SourceSpan::default(), out)?;
         self.end_corner(block, out)?;
-        self.end_compensation(out)
+        self.end_compensation(out)?;
+        self.map_moves(block, out)
     }
 
     /// The end of a program: as LinuxCNC does, the next one begins in G54.

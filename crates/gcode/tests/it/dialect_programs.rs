@@ -1,8 +1,9 @@
 //! A seeded sample of what the fuzz targets of the dialects try.
 
-use glidepath_gcode::Dialect;
+use glidepath_gcode::{Dialect, Program};
+use glidepath_program::ItemKind;
 
-use crate::dialect_program::{judge, program};
+use crate::dialect_program::{judge, options, program};
 
 /// Programs of each dialect.
 const PROGRAMS: u64 = 600;
@@ -45,4 +46,38 @@ fn fanuc_programs_are_judged_soundly() {
 #[test]
 fn siemens_programs_are_judged_soundly() {
     sample(Dialect::Siemens);
+}
+
+#[test]
+fn a_way_home_begins_where_the_last_move_ended() {
+    // The turned frame makes the programmed Y another one by a rounding; G28 leaves the tip and its frame.
+    let text =
+        "G0 X0 Y-0.5 Z10\nG234 H0\nM3 S500 G97\nG1 X90 ,A11\nG51.1 X20\nG68 X20 Y-10 R20\nG28 Z3\n";
+    judge(Dialect::Fanuc, text);
+}
+
+#[test]
+fn an_arc_of_a_swivelled_plane_begins_where_the_last_move_ended() {
+    let text = "CYCLE800(0,\"\",0,57,1,11,0.001,2.5,5,-10,-1,100,-1,-1)\nG3 I=270\n";
+    judge(Dialect::Siemens, text);
+}
+
+#[test]
+fn what_is_held_back_at_the_end_is_a_move_of_the_turned_axes() {
+    let ends = |text: &str| {
+        judge(Dialect::Fanuc, text);
+        let items = Program::new(text.as_bytes(), options(Dialect::Fanuc));
+        let moves = items.filter_map(|item| match item.expect("a program").kind {
+            ItemKind::Move { segment, .. } => Some(segment.end()),
+            _ => None,
+        });
+        moves.collect::<Vec<_>>()
+    };
+    // A compensated move, and one behind a corner.
+    for text in ["C11\nG41 D1\nX7\n", "C11\nG1 X5 F100\nY5 ,R1\nX2\n"] {
+        let found = ends(text);
+        assert_eq!(found, ends(&format!("{text}M30\n")), "{text}");
+        let last = found.last().expect("a move");
+        assert!((last[5] - 11.0).abs() < 1e-12 && last[0] > 0.5, "{text}");
+    }
 }

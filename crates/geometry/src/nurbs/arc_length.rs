@@ -14,8 +14,8 @@
 //! more Newton steps.
 
 use super::{Nurbs, Span};
-use crate::Jet;
 use crate::quadrature::gauss_12;
+use crate::{Jet, LINEAR_XYZ};
 
 /// Largest error of a piece's quintic before correction, mm. Newton's step leaves about the square of it
 /// over the length on which |C′| changes. With more, one step is not enough; with less, there are more
@@ -36,6 +36,8 @@ pub struct NurbsPath {
     curve: Nurbs,
     pieces: Vec<LengthPiece>,
     length: f64,
+    /// No other axes than X, Y, Z move.
+    is_in_space: bool,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -75,6 +77,7 @@ impl NurbsPath {
             length.add(piece.length);
         }
         Self {
+            is_in_space: is_in_space(&curve),
             curve,
             pieces,
             length: length.value(),
@@ -85,6 +88,12 @@ impl NurbsPath {
     #[must_use]
     pub const fn curve(&self) -> &Nurbs {
         &self.curve
+    }
+
+    /// True if no other axes than X, Y, Z move.
+    #[must_use]
+    pub const fn is_in_space(&self) -> bool {
+        self.is_in_space
     }
 
     /// Feed length, > 0.
@@ -128,6 +137,16 @@ impl NurbsPath {
         }
         (span, piece.u_at(span, s - piece.from_s))
     }
+}
+
+fn is_in_space(curve: &Nurbs) -> bool {
+    let points = curve.control_points();
+    let moves = |axis: usize| {
+        points
+            .iter()
+            .any(|p| p[axis].to_bits() != points[0][axis].to_bits())
+    };
+    curve.feed_axes() == LINEAR_XYZ && !(LINEAR_XYZ.end..points[0].len()).any(moves)
 }
 
 impl LengthPiece {

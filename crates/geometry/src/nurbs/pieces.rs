@@ -10,7 +10,7 @@
 //! are straight lines instead.
 
 use super::{NurbsPath, Span};
-use crate::{AxisVector, Jet, LINEAR_XYZ, Line, Quintic, Segment, feed_length};
+use crate::{AxisVector, Jet, Line, Quintic, Segment, feed_length};
 
 /// Halvings of a knot span, at most.
 const MAX_HALVINGS: u32 = 24;
@@ -87,18 +87,6 @@ impl NurbsPath {
             self.cut_span(index, at, tolerance_mm, &mut out);
         }
         out
-    }
-
-    /// True if no other axes than X, Y, Z move.
-    #[must_use]
-    pub fn is_in_space(&self) -> bool {
-        let points = self.curve().control_points();
-        let moves = |axis: usize| {
-            points
-                .iter()
-                .any(|p| p[axis].to_bits() != points[0][axis].to_bits())
-        };
-        self.curve().feed_axes() == LINEAR_XYZ && !(LINEAR_XYZ.end..points[0].len()).any(moves)
     }
 }
 

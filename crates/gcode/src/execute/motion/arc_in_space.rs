@@ -211,7 +211,16 @@ impl Interpreter {
         self.check_no_compensation(block)?;
         let arc = SpaceArc::in_plane(plane, ends, center, sweep_rad);
         let offsets = self.offsets.clone();
-        self.push_space_arc(block, &arc, |point| offsets.to_machine(point), out)
+        // Its start is where the last move ended, to the last bit.
+        let here = self.state.path_end;
+        let map = |point: AxisVector| {
+            if point == ends.0 {
+                here
+            } else {
+                offsets.to_machine(point)
+            }
+        };
+        self.push_space_arc(block, &arc, map, out)
     }
 }
 

@@ -48,11 +48,16 @@ impl Interpreter {
 
     /// Another meaning of the coordinates: the machine stays where it is.
     pub(crate) fn set_tip(&mut self, tip: Tip) {
-        let axes = *self.axes_place();
+        // The programmed place and the tool's: they differ by a rounding, and beside a contour.
+        let (programmed, axes) = if self.is_mapped {
+            (self.axes_end, self.axes_end)
+        } else {
+            (self.state.position, self.state.path_end)
+        };
         self.state.tip = tip;
         let map = self.tip_map();
-        let place = map.map_or(axes, |map| map.place(&axes));
-        (self.state.position, self.state.path_end) = (place, place);
+        let place = |axes: &AxisVector| map.map_or(*axes, |map| map.place(axes));
+        (self.state.position, self.state.path_end) = (place(&programmed), place(&axes));
         (self.axes_end, self.is_mapped) = (axes, map.is_some());
     }
 
