@@ -114,8 +114,16 @@ const REFUSED: &[(&[&str], &str, &str)] = &[
     (&["CYCLE70", "CYCLE90"], "thread milling", PLAIN),
     (&["CYCLE72"], "contour milling", PLAIN),
     (&["CYCLE79"], "a polygon", PLAIN),
-    (&["CYCLE93", "CYCLE930"], "a groove", PLAIN),
-    (&["CYCLE94", "CYCLE940"], "an undercut", PLAIN),
+    (
+        &["CYCLE93", "CYCLE930"],
+        "a groove: how wide the tool is, which its edges D1 and D2 say there, is not known here",
+        PLAIN,
+    ),
+    (
+        &["CYCLE94", "CYCLE940", "CYCLE96"],
+        "an undercut, whose size is in tables of the control",
+        PLAIN,
+    ),
     (&["CYCLE952"], "roughing along a contour", PLAIN),
     (
         &["CYCLE99"],
