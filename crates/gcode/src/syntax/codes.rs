@@ -229,6 +229,9 @@ impl Codes {
             || self.kept_place.is_some()
             || self.dynamic.is_some()
             || self.extended_system.is_some()
+            || self.extruder.is_some()
+            || self.function.is_some()
+            || self.thread_end.is_some()
     }
 
     /// G80 may stand beside another motion code, as in the first line of many programs; that
@@ -378,3 +381,6 @@ pub(super) fn set<T>(slot: &mut Option<Coded<T>>, code: T, span: SourceSpan) -> 
     *slot = Some(Coded { code, span });
     Ok(())
 }
+
+#[cfg(test)]
+mod tests;

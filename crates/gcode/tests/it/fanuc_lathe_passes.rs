@@ -111,6 +111,11 @@ fn m24_takes_the_way_out_of_threads_away() {
     assert_eq!(thread(""), with_exit);
     assert_eq!(thread("M24"), straight);
     assert_eq!(thread("M24\nM23"), with_exit);
+    // The block of a cycle along a profile has no other code.
+    finds(
+        "G98\nG0 X62 Z2\nG71 P10 Q20 U0.6 D10. F300 M24\nN10 G0 X20\nN20 G1 Z-20",
+        &["3:1 not-supported"],
+    );
     // They are no codes of mills.
     let mill = FanucParameters {
         control: Some(FanucControl::Mill),

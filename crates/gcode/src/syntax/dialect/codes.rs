@@ -161,7 +161,8 @@ impl Codes {
                 span,
             ),
             1100..=1290 => set(&mut self.extended_system, Some(tenths / 10 - 109), span),
-            _ => set(&mut self.extended_system, None, span),
+            541 | 1540 => set(&mut self.extended_system, None, span),
+            _ => Err(no_g(Dialect::Fanuc, f64::from(tenths) / 10.0, span)),
         }
     }
 
@@ -179,17 +180,18 @@ impl Codes {
         if let Some(number) = number.filter(|number| declared.is_own(*number)) {
             return set(&mut self.user, number, span);
         }
-        if let Some(number) = number.filter(|number| is_lathe && fanuc_lathe::m(*number).is_some())
-        {
-            return set(&mut self.thread_end, number == 24, span);
+        match number.filter(|number| is_lathe && fanuc_lathe::m(*number).is_some()) {
+            Some(number @ (23 | 24)) => return set(&mut self.thread_end, number == 24, span),
+            Some(_) => return Err(no_m(Dialect::Fanuc, value, span)),
+            None => {}
         }
         match number.and_then(fanuc::m) {
-            Some(Meaning::Own) => set(&mut self.rigid_tapping, 29, span),
+            Some(Meaning::Own) if number == Some(29) => set(&mut self.rigid_tapping, 29, span),
             Some(Meaning::Refused(what, help)) => {
                 Err(refused(&format!("M{value}"), what, help, span))
             }
-            Some(_) => self.add_m_beside(value, span, declared),
-            None => Err(no_m(Dialect::Fanuc, value, span)),
+            Some(Meaning::Shared) => self.add_m_beside(value, span, declared),
+            Some(Meaning::Own | Meaning::ReadOver) | None => Err(no_m(Dialect::Fanuc, value, span)),
         }
     }
 
@@ -274,8 +276,11 @@ impl Codes {
             Some(Meaning::Own) if matches!(code_number(value), Some(60 | 61)) => {
                 set(&mut self.kept_place, code_number(value) == Some(60), span)
             }
-            Some(_) => self.add_g(value, span),
-            None => Err(no_g(Dialect::Marlin, value, span)),
+            Some(Meaning::Own) if matches!(code_number(value), Some(28)) => self.add_g(value, span),
+            Some(Meaning::Shared) => self.add_g(value, span),
+            Some(Meaning::Own | Meaning::ReadOver) | None => {
+                Err(no_g(Dialect::Marlin, value, span))
+            }
         }
     }
 
@@ -301,8 +306,10 @@ impl Codes {
             Some(Meaning::Refused(what, help)) => {
                 Err(refused(&format!("M{value}"), what, help, span))
             }
-            Some(_) => self.add_m(value, span, declared),
-            None => Err(no_m(Dialect::Marlin, value, span)),
+            Some(Meaning::Shared) => self.add_m(value, span, declared),
+            Some(Meaning::Own | Meaning::ReadOver) | None => {
+                Err(no_m(Dialect::Marlin, value, span))
+            }
         }
     }
 }

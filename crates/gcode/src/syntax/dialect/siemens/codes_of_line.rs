@@ -156,7 +156,8 @@ impl Writer<'_> {
             (Some(Meaning::Own), 973) => b"G97.1 G95",
             (Some(Meaning::Own), 58 | 59) => return Err(beside_offset(number, span)),
             (Some(Meaning::ReadOver), _) => b"",
-            (Some(Meaning::Shared | Meaning::Own), _) => {
+            (Some(Meaning::Shared), _)
+            | (Some(Meaning::Own), 70 | 71 | 110..=112 | 331 | 332 | 505..=599) => {
                 self.replace(span.start, 0, format!("G{number}").as_bytes());
                 self.input.at = span.start + length;
                 return Ok(());
@@ -164,7 +165,9 @@ impl Writer<'_> {
             (Some(Meaning::Refused(what, help)), _) => {
                 return Err(refused(&format!("G{number}"), what, help, span));
             }
-            (None, _) => return Err(no_g(Dialect::Siemens, f64::from(number), span)),
+            (None | Some(Meaning::Own), _) => {
+                return Err(no_g(Dialect::Siemens, f64::from(number), span));
+            }
         };
         self.replace(span.start, length, with);
         Ok(())
