@@ -3,9 +3,9 @@
 
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_kinematics::{
-    AxisList, AxisRates, AxisShare, CoreXy, Elbow, FiveAxis, Hexapod, JointLimit, JointLimits,
-    JointVector, LimitedMechanism, LinearDelta, Mechanism, Rotaries, RotaryDelta, Scara, Tilt,
-    TranslationalHexapod,
+    AxisList, AxisRates, AxisShare, CoreXy, Elbow, FiveAxis, FiveBar, Hexapod, JointLimit,
+    JointLimits, JointVector, LimitedMechanism, LinearDelta, Mechanism, Rotaries, RotaryDelta,
+    Scara, Tilt, TranslationalHexapod,
 };
 use glidepath_link::{Command, MachineState, Setpoint};
 use glidepath_program::{Effort, Limits};
@@ -56,6 +56,16 @@ G1 X250 Y-150
 G3 X350 Y-50 I50 J50
 G1 X351
 G1 Y0
+M2
+";
+const IN_FRONT: &str = "G21 G90 G64 P0.05 F60000
+G1 X60 Y420
+G1 Y330
+G2 X20 Y370 I0 J40
+G1 X17 Y371
+G1 X-80 Y360
+G1 Y460 Z10
+G0 X0 Y400 Z0
 M2
 ";
 const TURNING: &str = "G21 G90 G64 P0.05 F60000
@@ -115,6 +125,7 @@ fn arms() -> Vec<Machine> {
         height_mm: 200.0,
         elbow: Elbow::Positive,
     });
+    let five_bar = FiveBar::new(200.0, 250.0, 350.0, &xyz);
     let belt = joint(300.0, 3000.0, 60_000.0);
     let arm = joint(400.0, 4000.0, 80_000.0);
     let stretched = [400.0, 0.0, 0.0, 0.0, 0.0, 0.0];
@@ -133,6 +144,12 @@ fn arms() -> Vec<Machine> {
             IN_THE_PLANE,
         ),
         machine(("SCARA", scara), belt, stretched, ROUND_THE_SHOULDER),
+        machine(
+            ("five-bar", Mechanism::FiveBar(five_bar)),
+            arm,
+            [0.0, 400.0, 0.0, 0.0, 0.0, 0.0],
+            IN_FRONT,
+        ),
     ]
 }
 

@@ -20,7 +20,7 @@
 //! In the pipeline it is met in three places: the configuration builds a [`Mechanism`] with its
 //! [`JointLimits`] (both together a [`LimitedMechanism`]); the planner keeps these along a path by the exact rates
 //! of joints ([`PathRates`]), beside it by how they change with a curve ([`CurveRates`]), and judges each plan ([`JointWatch`]); the interpolator maps every setpoint to joints. The mechanisms are [`Trivial`], [`CoreXy`], [`LinearDelta`],
-//! [`RotaryDelta`], [`Scara`], [`FiveAxis`], [`Hexapod`] and [`TranslationalHexapod`].
+//! [`RotaryDelta`], [`Scara`], [`FiveBar`], [`FiveAxis`], [`Hexapod`] and [`TranslationalHexapod`].
 //!
 //! What always holds:
 //!
@@ -54,6 +54,7 @@ mod core_xy;
 mod curve_rates;
 mod error;
 mod five_axis;
+mod five_bar;
 mod hexapod;
 mod joint_limits;
 mod limited_mechanism;
@@ -77,6 +78,7 @@ pub use core_xy::CoreXy;
 pub use curve_rates::CurveRates;
 pub use error::KinematicsError;
 pub use five_axis::{FiveAxis, Rotaries, Tilt};
+pub use five_bar::FiveBar;
 pub use hexapod::{Guards, Hexapod};
 pub use joint_limits::{JointLimit, JointLimits, JointViolation, Quantity};
 pub use limited_mechanism::LimitedMechanism;

@@ -2,7 +2,7 @@
 
 use crate::machine::{AxisSeries, Conditioning, JointMotion, JointSeries, JointVector, Kinematics};
 use crate::{
-    CoreXy, FiveAxis, Hexapod, KinematicsError, LinearDelta, RotaryDelta, Scara,
+    CoreXy, FiveAxis, FiveBar, Hexapod, KinematicsError, LinearDelta, RotaryDelta, Scara,
     TranslationalHexapod, Trivial,
 };
 use glidepath_geometry::AxisVector;
@@ -25,6 +25,8 @@ pub enum Mechanism {
     RotaryDelta(RotaryDelta),
     /// Two arms in the plane.
     Scara(Scara),
+    /// Two arms side by side in the plane.
+    FiveBar(FiveBar),
     /// Two rotary axes with tool centre point.
     FiveAxis(FiveAxis),
     /// Six struts, six degrees of freedom.
@@ -41,6 +43,7 @@ macro_rules! each {
             Mechanism::LinearDelta($machine) => $call,
             Mechanism::RotaryDelta($machine) => $call,
             Mechanism::Scara($machine) => $call,
+            Mechanism::FiveBar($machine) => $call,
             Mechanism::FiveAxis($machine) => $call,
             Mechanism::Hexapod($machine) => $call,
             Mechanism::Translational($machine) => $call,

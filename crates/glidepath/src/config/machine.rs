@@ -202,6 +202,7 @@ impl MachineConfig {
             Mechanism::LinearDelta(_) => "linear-delta",
             Mechanism::RotaryDelta(_) => "rotary-delta",
             Mechanism::Scara(_) => "scara",
+            Mechanism::FiveBar(_) => "five-bar",
             Mechanism::FiveAxis(_) => "five-axis",
             Mechanism::Hexapod(_) => "hexapod",
             Mechanism::Translational(_) => "translational-hexapod",

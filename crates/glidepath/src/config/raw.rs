@@ -254,6 +254,7 @@ pub(super) struct RawMachine {
     pub(super) linear_delta: Optional<RawLinearDelta>,
     pub(super) rotary_delta: Optional<RawRotaryDelta>,
     pub(super) scara: Optional<RawScara>,
+    pub(super) five_bar: Optional<RawFiveBar>,
     pub(super) five_axis: Optional<RawFiveAxis>,
 }
 
@@ -303,6 +304,14 @@ pub(super) struct RawScara {
     pub(super) tool: Optional<f64>,
     pub(super) height: Optional<f64>,
     pub(super) elbow: Optional<String>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawFiveBar {
+    pub(super) shoulder_distance: Spanned<f64>,
+    pub(super) upper_arm: Spanned<f64>,
+    pub(super) forearm: Spanned<f64>,
 }
 
 #[derive(Debug, Deserialize)]

@@ -1,4 +1,4 @@
-//! Tests of machines whose joints turn in place of their axes, SCARA arms and rotary deltas:
+//! Tests of machines whose joints turn in place of their axes, SCARA arms, five-bar linkages and rotary deltas:
 //! configuration, plans inside the limits of the joints, and what is refused.
 
 #![allow(
@@ -20,6 +20,10 @@ const ROTARY_DELTA: &str = include_str!(concat!(
     env!("CARGO_MANIFEST_DIR"),
     "/../../config/rotary-delta.toml"
 ));
+const FIVE_BAR: &str = include_str!(concat!(
+    env!("CARGO_MANIFEST_DIR"),
+    "/../../config/five-bar.toml"
+));
 const PERIOD_T: f64 = 0.004;
 
 /// A program with corners, an arc and rapids that a SCARA of the shipped size can run.
@@ -28,6 +32,10 @@ const BESIDE_THE_SHOULDER: &str = "G21 G90 G64\nG0 X300 Y-100 Z50\nG1 X400 F9000
 /// The same of a rotary delta.
 const BELOW_THE_BASE: &str = "G21 G90 G64\nG0 X-60 Y-40 Z-240\nG1 X60 F9000\nY20\n\
                               G3 X20 Y60 I-40\nG1 X-50 Y0 Z-210\nG0 X0 Y0\nM2\n";
+
+/// The same of a five-bar linkage.
+const BEYOND_THE_KNEES: &str = "G21 G90 G64\nG0 X-80 Y300\nG1 X80 F9000\nY420 Z10\n\
+                                G3 X20 Y480 I-60\nG1 X-100 Y350 Z-20\nG0 X0 Y300\nM2\n";
 
 /// Runs a command on a program and a configuration.
 fn glidepath(command: &str, program: &str, config: &str, more: &[&str]) -> Output {
@@ -155,8 +163,24 @@ fn a_rotary_delta_is_where_its_arms_say() {
 }
 
 #[test]
+fn a_five_bar_is_where_its_arms_say() {
+    let rows = planned(BEYOND_THE_KNEES, FIVE_BAR, &["X", "Y", "Z"]);
+    for (axes, joints) in &rows {
+        for (joint, shoulder) in joints.iter().zip([-100.0, 100.0]) {
+            // From each knee to the tool it is one forearm.
+            let (sin, cos) = joint.to_radians().sin_cos();
+            let away = (axes[0] - shoulder - 250.0 * cos).hypot(axes[1] - 250.0 * sin);
+            assert!((away - 350.0).abs() < 1e-9, "{away}");
+        }
+        assert!((axes[2] - joints[2]).abs() < 1e-12);
+    }
+    assert_inside_limits(&rows, FIVE_BAR);
+}
+
+#[test]
 fn motion_is_as_slow_as_its_arms() {
     for (program, config, velocity, acceleration, jerk) in [
+        (BEYOND_THE_KNEES, FIVE_BAR, "300.0", "3000.0", "60000.0"),
         (BESIDE_THE_SHOULDER, SCARA, "300.0", "3000.0", "60000.0"),
         (BELOW_THE_BASE, ROTARY_DELTA, "400.0", "4000.0", "80000.0"),
     ] {
@@ -215,6 +239,16 @@ fn places_out_of_reach_are_refused_with_line_and_reason() {
         said.contains("p.ngc:1:1") && said.contains("joint J1 cannot reach the position"),
         "{said}"
     );
+
+    // Both arms are stretched at a reach of 600 mm, Y = 591.6.
+    let far = FIVE_BAR.replace("max_position = 500.0", "max_position = 600.0");
+    let said = refused("G21 G90\nG0 Y300\nG1 Y591.6 F6000\nM2\n", &far);
+    assert!(
+        said.contains("p.ngc:3:1") && said.contains("near a singularity"),
+        "{said}"
+    );
+    let said = refused("G21 G90\nG0 Y300\nG0 Y595\nM2\n", &far);
+    assert!(said.contains("p.ngc:3:1"), "{said}");
 
     let deep = ROTARY_DELTA.replace("min_position = -280.0", "min_position = -500.0");
     let said = refused("G21 G90\nG1 Z-240 F6000\nZ-450\nM2\n", &deep);
@@ -283,6 +317,28 @@ fn a_scara_is_described_completely_or_refused() {
         told(&SCARA.replace("[joint.J3]", "[joint.J4]")),
         [
             "the machine has no joint J4 of its own",
+            "the table [joint.J3] is missing"
+        ]
+    );
+}
+
+#[test]
+fn a_five_bar_is_described_completely_or_refused() {
+    let config = config::parse("five-bar.toml", FIVE_BAR).unwrap();
+    assert_eq!(config.joints(), 3);
+    assert_eq!(config.home()[1], 280.0);
+    assert_eq!(
+        told(&FIVE_BAR.replace("shoulder_distance = 200.0", "shoulder_distance = 1200.0")),
+        ["arms of 600 mm do not meet, with shoulders 1200 mm apart"]
+    );
+    assert_eq!(
+        told(&FIVE_BAR.replace("forearm = 350.0", "forearm = 0.0")),
+        ["machine.five-bar.forearm = 0 mm is out of range"]
+    );
+    assert_eq!(
+        told(&FIVE_BAR.replace("[axis.X]", "[axis.U]")),
+        [
+            "the axis X of this mechanism is missing",
             "the table [joint.J3] is missing"
         ]
     );

@@ -4,11 +4,13 @@
 #![allow(clippy::expect_used, reason = "a test that fails may panic")]
 
 use glidepath::config;
+use glidepath::config::keys::{self, Takes};
+use std::collections::BTreeSet;
 use std::sync::mpsc;
 use std::time::Duration;
 
 /// The shipped machines, between them with every mechanism that has lengths.
-const MACHINES: [&str; 4] = ["mill", "hexapod", "scara", "rotary-delta"];
+const MACHINES: [&str; 5] = ["mill", "hexapod", "scara", "five-bar", "rotary-delta"];
 
 /// Numbers that are in no range, at the end of many, or nearly zero.
 const HOSTILE: [&str; 12] = [
@@ -119,4 +121,24 @@ fn no_number_hangs_the_configuration() {
         }
     }
     assert!(tried > 1000, "{tried}");
+}
+
+#[test]
+fn every_mechanism_is_tried() {
+    let kinds = MACHINES.iter().map(|name| {
+        let machine = config::parse("m.toml", &shipped(name)).expect("a shipped machine");
+        machine.kinematics()
+    });
+    // It has no numbers.
+    let all = kinds.chain(OTHERS.map(|(name, _)| name)).chain(["corexy"]);
+    assert_eq!(
+        all.collect::<BTreeSet<_>>(),
+        keys::all()
+            .filter_map(|key| match (key.name, &key.takes) {
+                ("machine.kinematics", Takes::Choice { of }) => Some(of.iter().copied()),
+                _ => None,
+            })
+            .flatten()
+            .collect()
+    );
 }

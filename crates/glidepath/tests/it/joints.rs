@@ -8,6 +8,7 @@
 )]
 
 use glidepath::config;
+use glidepath::config::keys::{self, Takes};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -328,41 +329,63 @@ fn every_mechanism_can_be_configured() {
             .collect()
     };
     let machines = [
-        ("\"corexy\"", "", "XYZ", 3),
+        ("corexy", "", "XYZ", 3),
         (
-            "\"linear-delta\"",
+            "linear-delta",
             "[machine.linear-delta]\nrod = 269\nradius = 130.25\n",
             "XYZ",
             3,
         ),
         (
-            "\"five-axis\"",
+            "five-axis",
             "[machine.five-axis]\nlayout = \"table-table\"\ntilt = \"A\"\ntool = 80\n\
              tilt_point = [0, 0, -50]\nrotary_point = [0, 20, 0]\n",
             "XYZAC",
             5,
         ),
         (
-            "\"translational-hexapod\"",
+            "translational-hexapod",
             "[machine.translational-hexapod]\nradius_difference = 250\nbase_z = -500\n",
             "XYZ",
             6,
         ),
     ];
-    for (kind, table, axes, count) in machines {
+    let texts = machines.map(|(kind, table, axes, count)| {
         let axes: String = axes.chars().map(|c| axis(&c.to_string())).collect();
-        let text = format!(
-            "[machine]\nkinematics = {kind}\n{table}{axes}{}",
-            joints(count)
-        );
+        let joints = joints(count);
+        let text = format!("[machine]\nkinematics = \"{kind}\"\n{table}{axes}{joints}");
+        (kind, text, count)
+    });
+    // Zero is out of the reach of these.
+    let shipped = [
+        ("hexapod", 6),
+        ("scara", 4),
+        ("five-bar", 3),
+        ("rotary-delta", 3),
+    ];
+    let shipped = shipped.map(|(kind, count)| {
+        let path = format!("{}/../../config/{kind}.toml", env!("CARGO_MANIFEST_DIR"));
+        (kind, std::fs::read_to_string(path).unwrap(), count)
+    });
+    let mut seen = vec!["trivial"];
+    for (kind, text, count) in texts.into_iter().chain(shipped) {
         let config = config::parse("m.toml", &text).expect(kind);
-        assert_eq!(config.joints(), count);
+        assert_eq!((config.kinematics(), config.joints()), (kind, count));
         let output = glidepath(
             "plan",
-            "G21 G90\nG1 X20 Y10 F600\nG0 X0 Y0\nM2\n",
+            "G21 G91\nG1 X20 Y10 F600\nG0 X-20 Y-10\nM2\n",
             &text,
             &["--json"],
         );
         assert_eq!(output.status.code(), Some(0), "{kind}: {}", stderr(&output));
+        seen.push(kind);
     }
+    let key = keys::all().find(|key| key.name == "machine.kinematics");
+    let Some(Takes::Choice { of }) = key.map(|key| &key.takes) else {
+        panic!("a choice")
+    };
+    let (mut seen, mut all) = (seen, of.to_vec());
+    seen.sort_unstable();
+    all.sort_unstable();
+    assert_eq!(seen, all, "a mechanism is missing here");
 }

@@ -66,7 +66,7 @@ fn machine_with(key: &str) -> Table {
         return machine;
     }
     match key.split('.').nth(1) {
-        Some(name @ ("scara" | "rotary-delta" | "hexapod")) => shipped(name),
+        Some(name @ ("scara" | "five-bar" | "rotary-delta" | "hexapod")) => shipped(name),
         Some("J0") => shipped("scara"),
         _ => shipped("mill"),
     }

@@ -3,6 +3,7 @@
 mod caps;
 mod curve_rates;
 mod five_axis;
+mod five_bar;
 mod mechanisms;
 mod support;
 mod vectors;

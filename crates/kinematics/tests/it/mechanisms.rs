@@ -53,6 +53,11 @@ fn arms() -> Vec<Boxed> {
             [350.0, 0.0, 100.0, 0.0, 0.0, 0.0],
             [100.0, 150.0, 90.0, 0.0, 0.0, 80.0],
         ),
+        (
+            Mechanism::FiveBar(five_bar()),
+            [0.0, 390.0, 50.0, 0.0, 0.0, 0.0],
+            [120.0, 110.0, 100.0, 0.0, 0.0, 0.0],
+        ),
     ]
 }
 
@@ -171,7 +176,10 @@ fn out_of_reach_is_an_error_not_a_number() {
     let far = axes(&[1000.0, 0.0, 0.0]);
     for (machine, _, _) in machines() {
         match machine {
-            Mechanism::LinearDelta(_) | Mechanism::RotaryDelta(_) | Mechanism::Scara(_) => {
+            Mechanism::LinearDelta(_)
+            | Mechanism::RotaryDelta(_)
+            | Mechanism::Scara(_)
+            | Mechanism::FiveBar(_) => {
                 assert!(matches!(
                     machine.inverse(&far),
                     Err(KinematicsError::Unreachable { .. })

@@ -293,6 +293,16 @@ fn deltas() {
 }
 
 #[test]
+fn five_bars() {
+    for v in vectors("five_bar") {
+        let at = |key: &str| number(&v.input[key]);
+        let machine = FiveBar::new(at("d"), at("a"), at("f"), &[Axis::X, Axis::Y]);
+        let joints = machine.inverse(&axes(&[at("x"), at("y")])).unwrap();
+        v.close(&first::<2>(&joints), &v.expect["joints"]);
+    }
+}
+
+#[test]
 fn scara_both_elbows() {
     for v in vectors("scara") {
         let at = |key: &str| number(&v.input[key]);

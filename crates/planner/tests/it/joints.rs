@@ -11,7 +11,7 @@
 use glidepath_gcode::Options;
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_kinematics::{
-    Elbow, FiveAxis, Hexapod, JointLimit, JointLimits, JointVector, Kinematics as _,
+    Elbow, FiveAxis, FiveBar, Hexapod, JointLimit, JointLimits, JointVector, Kinematics as _,
     LimitedMechanism, LinearDelta, Mechanism, Rotaries, RotaryDelta, Scara, Tilt,
 };
 use glidepath_planner::{Output, Pipeline, ProgramSource};
@@ -62,6 +62,24 @@ fn xyz(half: f64, (low, high): (f64, f64)) -> Vec<(Axis, f64, f64)> {
         (Axis::Y, -half, half),
         (Axis::Z, low, high),
     ]
+}
+
+fn five_bar() -> Machine {
+    Machine {
+        mechanism: Mechanism::FiveBar(FiveBar::new(
+            200.0,
+            250.0,
+            350.0,
+            &[Axis::X, Axis::Y, Axis::Z],
+        )),
+        travel: vec![
+            (Axis::X, -100.0, 100.0),
+            (Axis::Y, 300.0, 480.0),
+            (Axis::Z, -50.0, 50.0),
+        ],
+        limits: limits([300.0, 3000.0, 60_000.0], [1.0; 3]),
+        joint: joint(90.0, 1000.0, 25_000.0),
+    }
 }
 
 fn machines() -> Vec<Machine> {
@@ -118,6 +136,7 @@ fn machines() -> Vec<Machine> {
             limits: limits([300.0, 3000.0, 60_000.0], [120.0, 1200.0, 24_000.0]),
             joint: joint(90.0, 1000.0, 25_000.0),
         },
+        five_bar(),
         Machine {
             mechanism: Mechanism::FiveAxis(FiveAxis {
                 rotaries: Rotaries::TableTable {

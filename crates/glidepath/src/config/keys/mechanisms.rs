@@ -29,10 +29,11 @@ const DIRECTIONS: Takes = Takes::ThreeNumbers {
 };
 const ORIGIN: LeftOut = LeftOut::Value("[0, 0, 0]");
 
-pub(super) const TABLES: [&[Key]; 6] = [
+pub(super) const TABLES: [&[Key]; 7] = [
     LINEAR_DELTA,
     ROTARY_DELTA,
     SCARA,
+    FIVE_BAR,
     FIVE_AXIS,
     HEXAPOD,
     TRANSLATIONAL_HEXAPOD,
@@ -124,6 +125,27 @@ const SCARA: &[Key] = &[
         },
         LeftOut::Value("\"positive\""),
         "which way the elbow bends; \"positive\": J1 above zero",
+    ),
+];
+
+const FIVE_BAR: &[Key] = &[
+    key(
+        "machine.five-bar.shoulder_distance",
+        LENGTH,
+        LeftOut::Refused,
+        "from the axis of one shoulder to that of the other, along X",
+    ),
+    key(
+        "machine.five-bar.upper_arm",
+        LENGTH,
+        LeftOut::Refused,
+        "from a shoulder's axis to the knee's, of both arms",
+    ),
+    key(
+        "machine.five-bar.forearm",
+        LENGTH,
+        LeftOut::Refused,
+        "from a knee's axis to the tool, of both arms",
     ),
 ];
 

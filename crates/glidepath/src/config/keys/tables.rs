@@ -11,6 +11,7 @@ pub(super) const MACHINE: &[Key] = &[key(
             "linear-delta",
             "rotary-delta",
             "scara",
+            "five-bar",
             "five-axis",
             "hexapod",
             "translational-hexapod",

@@ -151,6 +151,10 @@ pub(crate) fn rotary_delta() -> RotaryDelta {
     }
 }
 
+pub(crate) fn five_bar() -> FiveBar {
+    FiveBar::new(200.0, 250.0, 350.0, &[Axis::X, Axis::Y, Axis::Z])
+}
+
 pub(crate) fn scara(elbow: Elbow) -> Scara {
     Scara {
         upper_arm_mm: 340.0,

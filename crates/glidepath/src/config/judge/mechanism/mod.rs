@@ -2,6 +2,7 @@
 
 mod deltas;
 mod five_axis;
+mod five_bar;
 mod hexapods;
 mod ranges;
 mod scara;
@@ -21,17 +22,19 @@ enum Kind {
     LinearDelta,
     RotaryDelta,
     Scara,
+    FiveBar,
     FiveAxis,
     Hexapod,
     Translational,
 }
 
-const KINDS: [(&str, Kind); 8] = [
+const KINDS: [(&str, Kind); 9] = [
     ("trivial", Kind::Trivial),
     ("corexy", Kind::CoreXy),
     ("linear-delta", Kind::LinearDelta),
     ("rotary-delta", Kind::RotaryDelta),
     ("scara", Kind::Scara),
+    ("five-bar", Kind::FiveBar),
     ("five-axis", Kind::FiveAxis),
     ("hexapod", Kind::Hexapod),
     ("translational-hexapod", Kind::Translational),
@@ -86,6 +89,7 @@ impl Judge {
                 .map(|raw| self.linear_delta(raw, axes)),
             Kind::RotaryDelta => raw.rotary_delta.as_ref().map(|raw| self.rotary_delta(raw)),
             Kind::Scara => raw.scara.as_ref().map(|raw| self.scara(raw)),
+            Kind::FiveBar => raw.five_bar.as_ref().map(|raw| self.five_bar(raw, axes)),
             Kind::FiveAxis => raw.five_axis.as_ref().map(|raw| self.five_axis(raw)),
             Kind::Hexapod => raw.hexapod.as_ref().map(|raw| self.hexapod(raw)),
             Kind::Translational => raw
@@ -105,7 +109,7 @@ impl Judge {
         use Axis::{A, B, C, X, Y, Z};
         let (wanted, may_have_more): (&[Axis], bool) = match mechanism {
             Mechanism::Trivial(_) => return,
-            Mechanism::CoreXy(_) => (&[X, Y], true),
+            Mechanism::CoreXy(_) | Mechanism::FiveBar(_) => (&[X, Y], true),
             Mechanism::LinearDelta(_) => (&[X, Y, Z], true),
             Mechanism::FiveAxis(machine) => match machine.tilt {
                 Tilt::A => (&[X, Y, Z, A, C], false),
