@@ -331,6 +331,13 @@ fn a_five_bar_is_described_completely_or_refused() {
         told(&FIVE_BAR.replace("shoulder_distance = 200.0", "shoulder_distance = 1200.0")),
         ["arms of 600 mm do not meet, with shoulders 1200 mm apart"]
     );
+    let bare = without(FIVE_BAR, "[machine.five-bar]", "# The knees are outside");
+    assert_eq!(told(&bare)[0], "the table [machine.five-bar] is missing");
+    let other = FIVE_BAR.replace("= \"five-bar\"", "= \"corexy\"");
+    assert_eq!(
+        told(&other),
+        ["[machine.five-bar] describes another machine"]
+    );
     assert_eq!(
         told(&FIVE_BAR.replace("forearm = 350.0", "forearm = 0.0")),
         ["machine.five-bar.forearm = 0 mm is out of range"]

@@ -9,7 +9,7 @@ mod scara;
 
 use super::values::Judge;
 use crate::config::diagnostic::ConfigDiagnostic;
-use crate::config::raw::RawMachine;
+use crate::config::raw::{Optional, RawMachine};
 use core::ops::Range as Bytes;
 use glidepath_geometry::Axis;
 use glidepath_kinematics::{AxisList, CoreXy, Mechanism, Tilt, Trivial};
@@ -40,46 +40,39 @@ const KINDS: [(&str, Kind); 9] = [
     ("translational-hexapod", Kind::Translational),
 ];
 
+/// The table of a mechanism in a file.
+enum Table {
+    Given(Bytes<usize>),
+    LeftOut,
+    /// The mechanism has no dimensions.
+    NotNeeded,
+}
+
+impl Kind {
+    fn table(self, raw: &RawMachine) -> Table {
+        fn of<T>(table: &Optional<T>) -> Table {
+            let span = table.as_ref().map(Spanned::span);
+            span.map_or(Table::LeftOut, Table::Given)
+        }
+        match self {
+            Self::Trivial | Self::CoreXy => Table::NotNeeded,
+            Self::LinearDelta => of(&raw.linear_delta),
+            Self::RotaryDelta => of(&raw.rotary_delta),
+            Self::Scara => of(&raw.scara),
+            Self::FiveBar => of(&raw.five_bar),
+            Self::FiveAxis => of(&raw.five_axis),
+            Self::Hexapod => of(&raw.hexapod),
+            Self::Translational => of(&raw.translational_hexapod),
+        }
+    }
+}
+
 impl Judge {
     /// The mechanism; one of its own choice, with a diagnostic, if the file describes none.
     pub(super) fn mechanism(&mut self, raw: &RawMachine, axes: &[Axis]) -> Mechanism {
         let at = raw.kinematics.as_ref().map(Spanned::span);
         let kind = self.choice("machine.kinematics", raw.kinematics.clone(), &KINDS);
-        let tables = [
-            (Kind::Hexapod, raw.hexapod.as_ref().map(Spanned::span)),
-            (
-                Kind::Translational,
-                raw.translational_hexapod.as_ref().map(Spanned::span),
-            ),
-            (
-                Kind::LinearDelta,
-                raw.linear_delta.as_ref().map(Spanned::span),
-            ),
-            (
-                Kind::RotaryDelta,
-                raw.rotary_delta.as_ref().map(Spanned::span),
-            ),
-            (Kind::Scara, raw.scara.as_ref().map(Spanned::span)),
-            (Kind::FiveAxis, raw.five_axis.as_ref().map(Spanned::span)),
-        ];
-        for (of, span) in tables {
-            let name = KINDS.iter().find(|(_, k)| *k == of).map_or("", |k| k.0);
-            match span {
-                Some(span) if of != kind => self.diagnostics.push(ConfigDiagnostic {
-                    key: format!("machine.{name}"),
-                    message: format!("[machine.{name}] describes another machine"),
-                    help: Some(format!("remove it, or choose it: kinematics = \"{name}\"")),
-                    span: Some(span),
-                }),
-                None if of == kind => self.diagnostics.push(ConfigDiagnostic {
-                    key: format!("machine.{name}"),
-                    message: format!("the table [machine.{name}] is missing"),
-                    help: Some("add it with the lengths of the mechanism".to_owned()),
-                    span: at.clone(),
-                }),
-                _ => {}
-            }
-        }
+        self.tables_of(raw, kind, at.clone());
         let found = match kind {
             Kind::Trivial => None,
             Kind::CoreXy => Some(Mechanism::CoreXy(CoreXy::new(axes))),
@@ -102,6 +95,27 @@ impl Judge {
         }));
         self.axes_of(&mechanism, axes, at);
         mechanism
+    }
+
+    /// Whether the file has the table of its mechanism, and none of another.
+    fn tables_of(&mut self, raw: &RawMachine, kind: Kind, at: Option<Bytes<usize>>) {
+        for (name, of) in KINDS {
+            match of.table(raw) {
+                Table::Given(span) if of != kind => self.diagnostics.push(ConfigDiagnostic {
+                    key: format!("machine.{name}"),
+                    message: format!("[machine.{name}] describes another machine"),
+                    help: Some(format!("remove it, or choose it: kinematics = \"{name}\"")),
+                    span: Some(span),
+                }),
+                Table::LeftOut if of == kind => self.diagnostics.push(ConfigDiagnostic {
+                    key: format!("machine.{name}"),
+                    message: format!("the table [machine.{name}] is missing"),
+                    help: Some("add it with the lengths of the mechanism".to_owned()),
+                    span: at.clone(),
+                }),
+                Table::Given(_) | Table::LeftOut | Table::NotNeeded => {}
+            }
+        }
     }
 
     /// Whether the machine has the axes its mechanism moves, and no others.
