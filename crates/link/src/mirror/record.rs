@@ -39,4 +39,32 @@ mod tests {
         assert_eq!(size_of::<SetpointMirror>(), size_of::<Setpoint>());
         assert_eq!(size_of::<StatusMirror>(), size_of::<Status>());
     }
+
+    /// Readers take the names from the manual and from the examples.
+    #[test]
+    fn the_manual_and_the_examples_have_the_versions_of_today() {
+        const MANUAL: &str = include_str!("../../../glidepath/docs/consumers.md");
+        const EXAMPLES: [&str; 2] = [
+            include_str!("../../examples/onlooker.rs"),
+            include_str!("../../examples/onlooker.py"),
+        ];
+        // SAFETY: it only names a type.
+        let setpoint = unsafe { SetpointMirror::type_name() };
+        // SAFETY: likewise.
+        let status = unsafe { StatusMirror::type_name() };
+        let row = |name: &str| {
+            let mut rows = MANUAL.lines();
+            rows.find(|row| row.contains(&format!("| `{name}` |")))
+        };
+        assert!(row(status).is_some(), "consumers.md has no {status}");
+        let of_setpoints = row(setpoint).expect("a row of consumers.md for setpoints");
+        let size = size_of::<Setpoint>();
+        assert!(
+            of_setpoints.contains(&format!("{size} bytes")),
+            "{of_setpoints}"
+        );
+        for example in EXAMPLES {
+            assert!(example.contains(&format!("\"{setpoint}\"")), "{example}");
+        }
+    }
 }

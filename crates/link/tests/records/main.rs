@@ -16,8 +16,6 @@ use strategies::{command, frame, item};
 
 mod strategies;
 
-const NOT_FINITE: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
-
 fn bits(vector: &AxisVector) -> [u64; AXES] {
     <[f64; AXES]>::from(*vector).map(f64::to_bits)
 }
@@ -145,54 +143,6 @@ fn good_segment() -> SegmentRequest {
             kind,
         }),
     )
-}
-
-/// Every number of a good record, from the given offsets on, made not finite in turn.
-fn refuses_not_finite<R: Record>(good: &R, numbers: &[(usize, usize)]) {
-    good.check().unwrap();
-    for offset in numbers
-        .iter()
-        .flat_map(|(first, end)| (*first..*end).step_by(8))
-    {
-        for bad in NOT_FINITE {
-            let mut bytes = bytemuck::bytes_of(good).to_vec();
-            bytes
-                .get_mut(offset..offset + 8)
-                .unwrap()
-                .copy_from_slice(&bad.to_ne_bytes());
-            let error = decode::<R>(&bytes).unwrap_err();
-            assert!(
-                matches!(error, RecordError::NotFinite { .. }),
-                "{offset}: {error}"
-            );
-        }
-    }
-}
-
-#[test]
-fn numbers_that_are_not_finite_are_refused() {
-    refuses_not_finite(&good_frame(), &[(40, 64), (72, 288)]);
-    refuses_not_finite(&good_setpoint(), &[(80, 88), (120, 648)]);
-    refuses_not_finite(
-        &good_status(),
-        &[
-            (104, 120),
-            (144, 360),
-            (400, 616),
-            (632, 640),
-            (648, 664),
-            (672, 744),
-            (1792, 1800),
-        ],
-    );
-    refuses_not_finite(&good_segment(), &[(48, 248)]);
-    refuses_not_finite(&CommandRequest::new(1, 1, Command::Ping), &[(16, 24)]);
-    refuses_not_finite(&SegmentReply::zeroed(), &[(32, 104)]);
-    refuses_not_finite(
-        &Feedback::zeroed(),
-        &[(72, 216), (296, 376), (392, 400), (416, 488), (520, 592)],
-    );
-    refuses_not_finite(&JogDemand::zeroed(), &[(48, 136)]);
 }
 
 #[test]
