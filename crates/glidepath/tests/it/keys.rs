@@ -6,6 +6,9 @@
     reason = "a test that fails may panic"
 )]
 
+mod effects;
+mod told;
+
 use glidepath::config::keys::{self, Key, LeftOut, Takes};
 use glidepath::config::{self, ConfigDiagnostic, MachineConfig};
 use std::collections::{BTreeMap, BTreeSet};
@@ -321,36 +324,6 @@ fn float(takes: &Takes, value: Value) -> Value {
             Value::Array(list.into_iter().map(|value| float(takes, value)).collect())
         }
         (_, value) => value,
-    }
-}
-
-#[test]
-fn every_key_that_the_built_in_machine_may_have_is_named_and_explained_in_it() {
-    let text = config::EMBEDDED;
-    for key in keys::all().filter(|key| key.name.split('.').count() == 2) {
-        let name = last(key.name);
-        let is_there = text.lines().any(|line| {
-            let line = line.trim_start_matches("# ");
-            line.strip_prefix(name)
-                .is_some_and(|rest| rest.trim_start().starts_with('='))
-        });
-        assert!(is_there, "{} is not in the default", key.name);
-    }
-}
-
-#[test]
-fn the_manual_names_every_key() {
-    let manual = include_str!("../../docs/configuration.md");
-    for key in keys::all() {
-        let row = |line: &str| {
-            line.starts_with("| `")
-                && line
-                    .split('|')
-                    .nth(1)
-                    .is_some_and(|names| names.contains(last(key.name)))
-        };
-        let in_table = key.name == "machine.kinematics" || manual.lines().any(row);
-        assert!(in_table, "{} is not in the manual", key.name);
     }
 }
 
