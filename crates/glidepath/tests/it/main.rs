@@ -2,6 +2,7 @@
 
 mod arms;
 mod command_line;
+mod command_options;
 mod config_command;
 mod config_stages;
 mod configuration;
