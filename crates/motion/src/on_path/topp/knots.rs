@@ -1,54 +1,24 @@
-//! The knots of a time parametrisation: where they are, what the path is there, and the S-curves it
+//! The knots of a time parametrisation: where they are, what the path is there, and the coefficients that it
 //! starts from.
 
 use super::interval::{Caps, Interval};
+use super::knot_times::{Mark, RestPhase, knot_time, marks, position_at, rest_phase, times};
 use super::parabola::Parabola;
 use super::solver_tolerances::SolverTolerances;
 use crate::joints::MachineLimits;
 use crate::on_path::pieces::{Piece, Shape};
 use crate::on_path::speed::{Leg, PieceSequence};
-use crate::scurve::PathState;
 use glidepath_geometry::{AxisVector, Jet, Segment};
-use glidepath_program::Limits;
 
 /// Most knots. A piece that is driven for longer than these last, at a feed of micrometres, has
 /// them farther apart: its speed is the feed then, and memory does not grow with the time.
 const MOST_KNOTS: f64 = 30_000.0;
-/// Time from knot to knot on the S-curves, at least, s. No share of a machine's ramp makes it less: the
-/// work is linear in the knots.
-const LEAST_KNOT_T: f64 = 0.002;
-/// Time of the phase of constant jerk next to a rest, and its largest share of the S-curve's. At a rest
-/// b ~ s^(4/3) has a second derivative beyond all bounds, which no spline follows; the shorter the
-/// phase, the more knots next to it ([`SolverTolerances::rest_growth`]). No measurement of either is
-/// kept.
-const REST_T: f64 = 0.001;
-const REST_R: f64 = 0.25;
 /// The time in which a start goes over from the speed of the S-curves, squared, in speeds for the
 /// jerk of an axis; and that in speeds for its acceleration: a fifth of either is asked for. A quintic
 /// from 1 to .85 of the speed ([`crate::on_path::refining::RATE_R`]) has slopes of up to 1.875 · .15 and
 /// second derivatives of up to 5.77 · .15 of it; five times as much is 1.4 and 4.3.
 const RAMP_JERK: f64 = 4.3;
 const RAMP_ACCEL: f64 = 1.4;
-
-/// Places on the S-curves are so much of the time from knot to knot apart, and each S-curve has so many at
-/// least: between two of them path position is taken to be linear in time, which tells where a knot goes, and
-/// nothing else.
-const MARK_R: f64 = 0.25;
-const LEAST_MARKS: f64 = 8.0;
-
-/// A place on the S-curves: time and path position.
-#[derive(Debug, Clone, Copy)]
-struct Mark {
-    t: f64,
-    s: f64,
-}
-
-/// The phase of constant jerk next to a rest.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct RestPhase {
-    pub(crate) jerk_j: f64,
-    pub(crate) duration_t: f64,
-}
 
 /// Knots, path and S-curves.
 #[derive(Debug)]
@@ -150,7 +120,11 @@ impl KnotPath {
         let left = back.into_iter().map(|t| duration_t - t);
         times.extend(left.filter(|t| *t > 0.5 * (duration_t + self.knot_t)));
         let mut own = vec![from_s];
-        own.extend(times.into_iter().map(|t| self.position_at(t)));
+        own.extend(
+            times
+                .into_iter()
+                .map(|t| position_at(&self.marks, t, self.length_s)),
+        );
         own.push(to_s);
         // Where pieces meet there is a knot in any case, for derivatives of the path jump there; those of
         // the time that are too near to one are left out, or intervals of very different lengths meet.
@@ -174,16 +148,6 @@ impl KnotPath {
         knots.extend(next);
         knots.push(to_s);
         knots
-    }
-
-    /// Path position of the S-curves at a time.
-    fn position_at(&self, t: f64) -> f64 {
-        let after = self.marks.partition_point(|mark| mark.t <= t);
-        let before = after.saturating_sub(1);
-        match (self.marks.get(before), self.marks.get(after)) {
-            (Some(a), Some(b)) => a.s + (b.s - a.s) * (t - a.t) / (b.t - a.t),
-            _ => self.length_s,
-        }
     }
 
     /// The coefficient of b on an interval, as the S-curves have it: where the tangents of b at the
@@ -392,74 +356,4 @@ fn ramp_length(speed_v: f64, sequence: &PieceSequence<'_>, limits: &MachineLimit
         * (RAMP_JERK * speed_v / jerk_j)
             .sqrt()
             .max(RAMP_ACCEL * speed_v / accel_a)
-}
-
-/// Time from knot to knot.
-fn knot_time(limits: &MachineLimits, tolerances: &SolverTolerances) -> f64 {
-    let limits = limits
-        .joints
-        .as_ref()
-        .map_or(&limits.axes, |joints| &joints.limits);
-    let axes = limits.acceleration.iter().zip(&limits.jerk);
-    let limited = axes.filter(|(_, jerk_j)| **jerk_j < Limits::UNLIMITED);
-    let rises_t = limited.map(|(accel_a, jerk_j)| accel_a / jerk_j);
-    let least_t = rises_t.fold(f64::INFINITY, f64::min);
-    (tolerances.knot_r * least_t)
-        .max(LEAST_KNOT_T)
-        .min(tolerances.knot_t)
-}
-
-/// Times of knots from an end of the motion up to some time, without the end, s.
-fn times(rest: Option<RestPhase>, to_t: f64, (knot_t, growth): (f64, f64)) -> Vec<f64> {
-    let mut times = Vec::new();
-    let mut t = rest.map_or(0.0, |rest| rest.duration_t);
-    loop {
-        t += match rest {
-            Some(_) => ((growth - 1.0) * t).min(knot_t),
-            None => knot_t,
-        };
-        let is_before = t > 0.0 && t < to_t;
-        if !is_before {
-            return times;
-        }
-        times.push(t);
-    }
-}
-
-/// The phase next to a rest, from the phases of an S-curve in the order away from it.
-fn rest_phase(mut phases: impl Iterator<Item = (f64, PathState, f64)>) -> RestPhase {
-    let first = phases.find(|(duration_t, ..)| *duration_t > 0.0);
-    let (duration_t, jerk_j) = first.map_or((0.0, 0.0), |(t, _, jerk_j)| (t, jerk_j));
-    RestPhase {
-        jerk_j: jerk_j.abs(),
-        duration_t: (REST_R * duration_t).min(REST_T),
-    }
-}
-
-/// Places on some S-curves, four between two knots.
-fn marks(legs: &[Leg], knot_t: f64) -> Vec<Mark> {
-    let mut marks = Vec::new();
-    let mut from_t = 0.0;
-    for leg in legs {
-        let duration_t = leg.profile.duration_t();
-        let steps = (duration_t / (MARK_R * knot_t)).ceil().max(LEAST_MARKS);
-        let mut k = 0.0;
-        while k < steps {
-            let t = duration_t * k / steps;
-            let state = leg.profile.at(t);
-            marks.push(Mark {
-                t: from_t + t,
-                s: leg.from_s + state.position_s,
-            });
-            k += 1.0;
-        }
-        from_t += duration_t;
-    }
-    if let Some(last) = legs.last() {
-        marks.push(Mark {
-            t: from_t,
-            s: last.from_s + last.profile.length_s(),
-        });
-    }
-    marks
 }

@@ -3,7 +3,8 @@
 use super::barrier::solve;
 use super::between_knots::lessen;
 use super::constraints::Problem;
-use super::knots::{KnotPath, RestPhase};
+use super::knot_times::RestPhase;
+use super::knots::KnotPath;
 use super::parametrisation::{Builder, Parametrisation};
 use super::solver_tolerances::SolverTolerances;
 use crate::joints::MachineLimits;

@@ -45,6 +45,7 @@ mod barrier;
 mod between_knots;
 mod constraints;
 mod interval;
+mod knot_times;
 mod knots;
 mod least_time;
 mod parabola;
