@@ -6,24 +6,22 @@
 //! published. The first frame of an open epoch that does not pass is a fault, and the epoch gets no
 //! more: the motion stops on the frames that did pass.
 
+mod differences;
+
 use crate::config::{Config, SoftLimits};
 use crate::fault::Fault;
 use crate::m_code_waits::MCodeWaits;
 use crate::rest::{SAME_POSITION, is_at_rest};
-use glidepath_geometry::{AXES, Axis, AxisVector};
+use differences::{above, jump, outside};
+use glidepath_geometry::AxisVector;
 use glidepath_kinematics::{JointFault, JointViolation, JointWatch, Quantity};
 use glidepath_link::{FaultCause, FrameRefusal, MachineState, Record, RecordError, SetpointFrame};
-use glidepath_program::{Event, FrameFlags, Limits, Travel};
+use glidepath_program::{Event, FrameFlags, Limits};
 
-/// Share of a limit that may be exceeded: what an audit allows.
-const ALLOWANCE: f64 = 1e-6;
 /// By how much the number of an epoch may be above that of the last. Planners count by one; a frame
 /// that took the highest number of all would leave none for the planners after it.
 const EPOCH_STEP_MAX: u64 = 1 << 16;
 const SYNC: FrameFlags = FrameFlags::SYNC;
-/// Rounding of positions and their differences, mm.
-const ROUNDING: f64 = 1e-12;
-
 /// What became of a frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum FrameVerdict {
@@ -238,7 +236,7 @@ impl FrameValidator {
         if (AxisVector::from(frame.position) - machine.position).amax() > SAME_POSITION {
             return FrameVerdict::Refused(FrameRefusal::Elsewhere);
         }
-        if self.outside(frame).is_some() {
+        if outside(frame, &self.soft_limits).is_some() {
             return FrameVerdict::Refused(FrameRefusal::SoftLimit);
         }
         if let Some(joints) = &mut self.joints {
@@ -285,7 +283,7 @@ impl FrameValidator {
             limit,
             ..fault(refusal)
         };
-        if let Some(found) = self.outside(frame) {
+        if let Some(found) = outside(frame, &self.soft_limits) {
             return Err(on_axis(FrameRefusal::SoftLimit, found));
         }
         let t = self.period_t;
@@ -306,7 +304,7 @@ impl FrameValidator {
                 return Err(on_axis(refusal, found));
             }
         }
-        if let Some((refusal, found)) = self.jump(frame, &last.frame) {
+        if let Some((refusal, found)) = jump([&last.frame, frame], &self.limits, t) {
             return Err(on_axis(refusal, found));
         }
         Ok(Last {
@@ -344,70 +342,11 @@ impl FrameValidator {
                 }
             })
     }
-
-    /// The first axis outside its soft limits.
-    fn outside(&self, frame: &SetpointFrame) -> Option<Found> {
-        let SoftLimits { lowest, highest } = &self.soft_limits;
-        Axis::ALL
-            .iter()
-            .zip(frame.position)
-            .zip(lowest.iter().zip(highest))
-            .find_map(|((&axis, position), (&low, &high))| {
-                let nearest = position.max(low).min(high);
-                ((position - nearest).abs() > Travel::ROUNDING).then_some((
-                    Some(axis),
-                    position,
-                    nearest,
-                ))
-            })
-    }
-
-    /// The first axis whose velocity or acceleration does not belong to its positions: with jerk
-    /// inside its limit J, Taylor's formula leaves no more than these remainders over a period. Where
-    /// velocity and position are what the acceleration makes of them, it is the jerk that is too high.
-    #[allow(clippy::indexing_slicing, reason = "the index runs over the axes")]
-    fn jump(&self, frame: &SetpointFrame, last: &SetpointFrame) -> Option<(FrameRefusal, Found)> {
-        let t = self.period_t;
-        (0..AXES).find_map(|i| {
-            let (p0, v0, a0) = (last.position[i], last.velocity[i], last.acceleration[i]);
-            let (p1, v1, a1) = (frame.position[i], frame.velocity[i], frame.acceleration[i]);
-            // The mean of jerk over a period may exceed that of its neighbours' average, which is
-            // what the differences limit: hence twice the limit.
-            let j = 2.0 * self.limits.jerk[i] * (1.0 + ALLOWANCE);
-            let of_a = (a1 - a0).abs() - j * t;
-            let of_v = (v1 - v0 - 0.5 * t * (a0 + a1)).abs() - 0.25 * j * t * t;
-            let of_p = (p1 - p0 - 0.5 * t * (v0 + v1) + t * t * (a1 - a0) / 12.0).abs()
-                - 0.065 * j * t * t * t;
-            let axis = Axis::ALL.get(i).copied();
-            if of_v > ROUNDING / t || of_p > ROUNDING {
-                Some((FrameRefusal::Discontinuous, (axis, 0.0, 0.0)))
-            } else if of_a > ROUNDING / (t * t) {
-                let found = (axis, (a1 - a0) / t, self.limits.jerk[i]);
-                Some((FrameRefusal::Jerk, found))
-            } else {
-                None
-            }
-        })
-    }
 }
 
 /// Whether the motion behind a frame is to follow the spindle.
 fn announces_pass(frame: &SetpointFrame) -> bool {
     matches!(frame.event(), Ok(Some(Event::Synchronise { .. })))
-}
-
-/// Axis, value found, value allowed.
-type Found = (Option<Axis>, f64, f64);
-
-/// The first axis whose difference is above its limit.
-fn above(difference: &AxisVector, scale: f64, limit: &AxisVector) -> Option<Found> {
-    Axis::ALL
-        .iter()
-        .zip(difference.iter().zip(limit))
-        .find_map(|(&axis, (&d, &limit))| {
-            let allowed = limit * scale * (1.0 + ALLOWANCE) + ROUNDING;
-            (d.abs() > allowed).then_some((Some(axis), d / scale, limit))
-        })
 }
 
 const fn refusal_of(error: &RecordError) -> FrameRefusal {

@@ -8,6 +8,7 @@
 
 use super::*;
 use crate::testing::{lines, mill, records};
+use glidepath_geometry::Axis;
 use glidepath_kinematics::{CoreXy, JointLimit, Mechanism};
 
 const PERIOD_NS: u64 = 4_000_000;
