@@ -1,46 +1,19 @@
 //! The judgement of devices that are no drives: what their inputs are, and what their outputs obey.
 
-use super::raw_device::{
-    RawAnalogInput, RawAnalogOutput, RawDevice, RawInput, RawOutput, RawParameter, RawSpindle,
-};
+mod inputs;
+mod outputs;
+
+use super::raw_device::{RawDevice, RawParameter, RawSpindle};
 use super::source::Place;
 use super::spindle::spindle;
-use super::words::{OBJECT, QUANTITIES, SIGNALS, object, quantity, signal};
-use crate::config::{ConfigDiagnostic, Judge, Range};
+use super::words::{OBJECT, object};
+use crate::config::{ConfigDiagnostic, Judge};
 use core::ops::Range as Span;
 use glidepath_ethercat::{
-    ANALOG_INPUTS, AnalogInput, AnalogOutput, At, DIGITAL_INPUTS, DigitalInput, DigitalOutput,
-    DriveSettings, Parameter, RefusedPart, SpindleSettings, TerminalSettings,
+    At, DriveSettings, Parameter, RefusedPart, SpindleSettings, TerminalSettings,
 };
 use toml::Spanned;
 
-/// Of its magnitude.
-const SCALE: Range = Range {
-    min: 1e-9,
-    max: 1e9,
-    unit: "a count",
-    help: "what a count is in the unit that programs have, below 0 if it falls: 10.0 / 32768 for ± 10 V in \
-           16 bits",
-};
-const OFFSET: Range = Range {
-    min: -1e9,
-    max: 1e9,
-    unit: "units",
-    help: "what the input is at 0 counts",
-};
-const FULL: Range = Range {
-    min: 1e-9,
-    max: 1e9,
-    unit: "units",
-    help: "the value at full counts: the speed of the spindle at 10 V",
-};
-/// As far as `full` goes.
-const REST: Range = Range {
-    min: -1e9,
-    max: 1e9,
-    unit: "units",
-    help: "the value while nobody is to be obeyed, no more than full either way",
-};
 /// Maps that can be assigned.
 const MAPS: usize = 16;
 /// Bits of process data that a frame could have.
@@ -165,39 +138,6 @@ impl Devices<'_> {
         terminal
     }
 
-    /// All outputs of a device, no two of which are at the same place.
-    fn outputs(
-        &mut self,
-        terminal: &mut TerminalSettings,
-        digital: Vec<Spanned<RawOutput>>,
-        analog: &[RawAnalogOutput],
-    ) {
-        let mut places = Vec::new();
-        for raw in digital {
-            let span = raw.span();
-            if let Some(output) = self.output(raw) {
-                places.push((output.at, span));
-                terminal.outputs.push(output);
-            }
-        }
-        for raw in analog {
-            if let Some(output) = self.analog_output(raw) {
-                places.push((output.at, raw.at.span()));
-                terminal.analog_outputs.push(output);
-            }
-        }
-        for (at, span) in &places {
-            self.note(terminal.position, Some((*at, true)), span.clone());
-        }
-        for (nth, (at, span)) in places.iter().enumerate() {
-            if places[..nth].iter().any(|(other, _)| other == at) {
-                let message = format!("two outputs are at {at}");
-                let help = "an output obeys one thing";
-                self.tell("device.outputs", message, help, span.clone());
-            }
-        }
-    }
-
     /// The drive of the spindle, which one device is.
     fn spindle(&mut self, raw: &Spanned<RawSpindle>) -> Option<SpindleSettings> {
         if !self.claims.take("spindle", 0) {
@@ -292,132 +232,4 @@ impl Devices<'_> {
             }
         }
     }
-
-    /// The number of something that there is once.
-    fn claimed(
-        &mut self,
-        (key, what): (&str, &'static str),
-        raw: Option<&Spanned<i64>>,
-        most: usize,
-    ) -> Option<usize> {
-        let raw = raw?;
-        let most = i64::try_from(most).unwrap_or(i64::MAX) - 1;
-        let number = self.judge.whole(key, raw, (0, most), what)?;
-        if !self.claims.take(what, number) {
-            let message = format!("two inputs are {what} {number}");
-            let help = "each is one input of one device";
-            self.tell(key, message, help, raw.span());
-        }
-        Some(number)
-    }
-
-    fn input(&mut self, raw: Spanned<RawInput>) -> Option<DigitalInput> {
-        let (span, key) = (raw.span(), "device.inputs");
-        let raw = raw.into_inner();
-        let at = self.at(key, (raw.at.as_ref(), raw.bit.as_ref()), span.clone());
-        let joints = self.joints;
-        let number = ("device.inputs.number", "digital input");
-        let number = self.claimed(number, raw.number.as_ref(), DIGITAL_INPUTS);
-        let home = ("device.inputs.home", "home switch of joint");
-        let home = self.claimed(home, raw.home.as_ref(), joints);
-        let low = ("device.inputs.limit_low", "lower limit switch of joint");
-        let limit_low = self.claimed(low, raw.limit_low.as_ref(), joints);
-        let high = ("device.inputs.limit_high", "upper limit switch of joint");
-        let limit_high = self.claimed(high, raw.limit_high.as_ref(), joints);
-        let is_something = [&raw.number, &raw.home, &raw.limit_low, &raw.limit_high]
-            .into_iter()
-            .any(Option::is_some);
-        if !is_something {
-            let message = "nothing is said of what this input is".to_owned();
-            let help = "give number, home, limit_low or limit_high, or several of them";
-            self.tell(key, message, help, span);
-        }
-        Some(DigitalInput {
-            at: at?,
-            number,
-            home,
-            limit_low,
-            limit_high,
-            is_inverted: raw.invert,
-        })
-    }
-
-    fn analog_input(&mut self, raw: &RawAnalogInput) -> Option<AnalogInput> {
-        let at = self.object("device.analog_inputs.at", &raw.at);
-        let number = ("device.analog_inputs.number", "analog input");
-        let number = self.claimed(number, Some(&raw.number), ANALOG_INPUTS);
-        let judge = &mut *self.judge;
-        let scale = signed_number(judge, "device.analog_inputs.scale", &raw.scale, &SCALE);
-        let offset = judge.number_or("device.analog_inputs.offset", &raw.offset, &OFFSET, 0.0);
-        let (index, sub) = at?;
-        Some(AnalogInput {
-            at: At::Object { index, sub },
-            number: number?,
-            scale,
-            offset,
-            is_signed: raw.signed,
-        })
-    }
-
-    /// What an output obeys.
-    fn from<T>(
-        &mut self,
-        key: &str,
-        text: &Spanned<String>,
-        (find, known): (fn(&str) -> Option<T>, &str),
-    ) -> Option<T> {
-        let found = find(text.as_ref());
-        if found.is_none() {
-            let message = format!("{key} = \"{}\" is not known", text.as_ref());
-            self.tell(key, message, known, text.span());
-        }
-        found
-    }
-
-    fn output(&mut self, raw: Spanned<RawOutput>) -> Option<DigitalOutput> {
-        let (span, key) = (raw.span(), "device.outputs");
-        let raw = raw.into_inner();
-        let at = self.at(key, (raw.at.as_ref(), raw.bit.as_ref()), span);
-        let from = self.from("device.outputs.from", &raw.from, (signal, SIGNALS));
-        Some(DigitalOutput {
-            at: at?,
-            from: from?,
-            is_inverted: raw.invert,
-            rest: raw.rest.unwrap_or(raw.invert),
-        })
-    }
-
-    fn analog_output(&mut self, raw: &RawAnalogOutput) -> Option<AnalogOutput> {
-        let at = self.object("device.analog_outputs.at", &raw.at);
-        let key = "device.analog_outputs.from";
-        let from = self.from(key, &raw.from, (quantity, QUANTITIES));
-        let judge = &mut *self.judge;
-        let full = judge.number("device.analog_outputs.full", &raw.full, &FULL);
-        let most = Range {
-            min: -full,
-            max: full,
-            ..REST
-        };
-        let rest = judge.number_or("device.analog_outputs.rest", &raw.rest, &most, 0.0);
-        let help = "counts at full: 32767 for 10 V in 16 bits";
-        let key = "device.analog_outputs.counts";
-        let counts = judge.whole(key, &raw.counts, (1, u32::MAX.into()), help);
-        let (index, sub) = at?;
-        Some(AnalogOutput {
-            at: At::Object { index, sub },
-            from: from?,
-            full,
-            full_counts: counts?,
-            rest,
-        })
-    }
-}
-
-/// A number whose magnitude is in a range, which 0 is not.
-fn signed_number(judge: &mut Judge, key: &str, value: &Spanned<f64>, range: &Range) -> f64 {
-    let number = *value.as_ref();
-    if (range.min..=range.max).contains(&number.abs()) {
-        return number;
-    }
-    judge.number(key, value, range)
 }
