@@ -1,11 +1,12 @@
 //! The test of the certificate of a job: its figures are those of what was executed, and the page that is kept has them with
 //! their hash.
 
-use glidepath_tests::{Browser, Instance, Process, Services, Watchdog};
+use glidepath_tests::{Browser, Instance, Process, Watchdog};
 use serde_json::{Value, json};
 
+use super::PATIENCE;
 use super::life::{HALF, press};
-use super::{Live, PATIENCE};
+use super::operated_page::operated_page;
 
 /// The page to keep has the figures, and their hash.
 fn is_kept_with_its_hash(browser: &mut Browser, told: &Value) {
@@ -37,19 +38,12 @@ fn is_kept_with_its_hash(browser: &mut Browser, told: &Value) {
 #[test]
 fn a_job_that_is_over_has_a_certificate() {
     let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
-    let Some(mut browser) = Browser::start(1440, 900) else {
-        return;
-    };
-    let folder = instance.path("programs");
-    std::fs::create_dir(&folder).unwrap();
     let moves = "X20 Y7\nX0 Y0\n".repeat(20);
     let program = format!("G21 G90 G64 P0.02 F3000\nG1 X0\n{moves}M2\n");
-    std::fs::write(format!("{folder}/part.ngc"), program).unwrap();
-    let services = Services::start(&instance);
-    let service = Process::join(&instance, &["planner", "--listen"]);
-    let live = Live::start(&instance, &["--may", "operate", "--programs", &folder]);
-    browser.open(&live.url);
-    browser.wait("typeof S !== 'undefined' && S.operates && S.state === 'idle' && SETUP.jog");
+    let page = operated_page(&instance, (1440, 900), &[("part.ngc", &program)], &[]);
+    let Some((mut browser, live, service, services)) = page else {
+        return;
+    };
     browser.evaluate("setView('programs')");
     browser.wait("document.querySelector('[data-name=\"part.ngc\"]')");
     browser.press("[data-name=\"part.ngc\"]");

@@ -7,6 +7,7 @@ mod following;
 mod hands;
 mod life;
 mod looked_at;
+mod operated_page;
 mod queue;
 mod says;
 mod screens;

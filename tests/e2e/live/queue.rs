@@ -3,11 +3,12 @@
 use std::time::Duration;
 
 use glidepath_link::MachineState;
-use glidepath_tests::{Browser, Instance, Process, Services, Watchdog};
+use glidepath_tests::{Browser, Instance, Services, Watchdog};
 use serde_json::{Value, json};
 
 use super::hands::Page;
 use super::life::{HALF, WHOLE, press};
+use super::operated_page::operated_page;
 use super::{Live, PATIENCE};
 
 /// Waits until the queue has these programs in these states.
@@ -67,24 +68,16 @@ fn started_by_a_person(browser: &mut Browser, live: &Live, services: &Services<'
 #[test]
 fn programs_of_the_queue_are_started_one_by_one_by_a_person() {
     let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
-    let Some(mut browser) = Browser::start(1024, 768) else {
-        return;
-    };
-    let folder = instance.path("programs");
-    std::fs::create_dir(&folder).unwrap();
     let long = format!("G21 G90 F600\n{}M2\n", "G1 X10\nX0\n".repeat(50));
-    for (name, text) in [
+    let programs = [
         ("a.ngc", "G21 G90 F1200\nG1 X3\nM2\n"),
         ("b.ngc", long.as_str()),
         ("c.ngc", "G21 G90 F1200\nG1 X5\nM2\n"),
-    ] {
-        std::fs::write(format!("{folder}/{name}"), text).unwrap();
-    }
-    let services = Services::start(&instance);
-    let service = Process::join(&instance, &["planner", "--listen"]);
-    let live = Live::start(&instance, &["--may", "operate", "--programs", &folder]);
-    browser.open(&live.url);
-    browser.wait("typeof S !== 'undefined' && S.operates && S.state === 'idle' && SETUP.jog");
+    ];
+    let page = operated_page(&instance, (1024, 768), &programs, &[]);
+    let Some((mut browser, live, service, services)) = page else {
+        return;
+    };
 
     // Another page, which does not operate, puts nothing there, and starts nothing.
     let other = Page(&live, 77);

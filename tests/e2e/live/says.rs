@@ -1,10 +1,11 @@
 //! The test of what a program says: it stands in one place, until somebody has read it.
 
-use glidepath_tests::{Browser, Instance, Process, Services, Watchdog};
+use glidepath_tests::{Browser, Instance, Watchdog};
 use serde_json::json;
 
+use super::PATIENCE;
 use super::life::{HALF, WHOLE, press};
-use super::{Live, PATIENCE};
+use super::operated_page::operated_page;
 
 /// Moves of a second each between what is said.
 const PROGRAM: &str = "G21 G90 F600\n(MSG, look at the clamps)\nG1 X10\nM0\nG1 X0\nX10\nX0\nX10\n\
@@ -21,17 +22,10 @@ fn places(browser: &mut Browser, words: &str) -> serde_json::Value {
 #[test]
 fn what_a_program_says_is_said_once() {
     let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
-    let Some(mut browser) = Browser::start(1024, 768) else {
+    let page = operated_page(&instance, (1024, 768), &[("says.ngc", PROGRAM)], &[]);
+    let Some((mut browser, live, service, services)) = page else {
         return;
     };
-    let folder = instance.path("programs");
-    std::fs::create_dir(&folder).unwrap();
-    std::fs::write(format!("{folder}/says.ngc"), PROGRAM).unwrap();
-    let services = Services::start(&instance);
-    let service = Process::join(&instance, &["planner", "--listen"]);
-    let live = Live::start(&instance, &["--may", "operate", "--programs", &folder]);
-    browser.open(&live.url);
-    browser.wait("typeof S !== 'undefined' && S.operates && S.state === 'idle' && SETUP.jog");
     browser.evaluate("setView('programs')");
     browser.wait("document.querySelector('[data-name=\"says.ngc\"]')");
     browser.press("[data-name=\"says.ngc\"]");

@@ -3,11 +3,12 @@
 use std::time::Duration;
 
 use glidepath_link::MachineState;
-use glidepath_tests::{Browser, Instance, Process, Services, Watchdog};
+use glidepath_tests::{Browser, Instance, Services, Watchdog};
 use serde_json::json;
 
+use super::PATIENCE;
 use super::life::{HALF, WHOLE, press};
-use super::{Live, PATIENCE};
+use super::operated_page::operated_page;
 
 /// Lines that take about a second each, one of them with a text that would be an element.
 fn program() -> String {
@@ -153,23 +154,16 @@ fn a_person_is_called(browser: &mut Browser) {
 #[test]
 fn a_program_goes_back_and_on_and_from_a_line() {
     let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
-    let Some(mut browser) = Browser::start(1024, 768) else {
-        return;
-    };
-    let folder = instance.path("programs");
-    std::fs::create_dir(&folder).unwrap();
-    for (name, text) in [
-        ("way.ngc", program().as_str()),
+    let way = program();
+    let programs = [
+        ("way.ngc", way.as_str()),
         ("wrong.ngc", "G21 G90\nG0 X5\nG2 X3 Y4 (<i id=evil>)\nM2\n"),
         ("stop.ngc", "G21 G90 F600\nG1 X1\nM0 (look)\nG1 X2\nM2\n"),
-    ] {
-        std::fs::write(format!("{folder}/{name}"), text).unwrap();
-    }
-    let services = Services::start(&instance);
-    let service = Process::join(&instance, &["planner", "--listen"]);
-    let live = Live::start(&instance, &["--may", "operate", "--programs", &folder]);
-    browser.open(&live.url);
-    browser.wait("typeof S !== 'undefined' && S.operates && S.state === 'idle' && SETUP.jog");
+    ];
+    let page = operated_page(&instance, (1024, 768), &programs, &[]);
+    let Some((mut browser, live, service, services)) = page else {
+        return;
+    };
     browser.evaluate("setView('programs')");
     browser.wait("document.querySelector('[data-name=\"way.ngc\"]')");
     back_and_forward(&mut browser, &services);

@@ -1,10 +1,11 @@
 //! Tests of why a place is slow, and of what a change would bring: it is said as `plan` says it, planned again, and never run.
 
 use glidepath_link::MachineState;
-use glidepath_tests::{Browser, Instance, Process, Services, Watchdog};
+use glidepath_tests::{Instance, Process, Watchdog};
 use serde_json::{Value, json};
 
-use super::{Live, PATIENCE};
+use super::PATIENCE;
+use super::operated_page::{operated_page, programs_of};
 
 /// Corners of a fine zigzag between long sides: slow in its middle.
 fn program() -> String {
@@ -25,19 +26,14 @@ fn planned(instance: &Instance, program: &str, options: &[&str]) -> f64 {
 #[test]
 fn a_slow_place_says_why_and_what_a_change_would_bring() {
     let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
-    let Some(mut browser) = Browser::start(1024, 768) else {
+    let file = format!("{}/slow.ngc", programs_of(&instance));
+    let program = program();
+    let programs = [("slow.ngc", program.as_str())];
+    let page = operated_page(&instance, (1024, 768), &programs, &[&file]);
+    let Some((mut browser, live, service, services)) = page else {
         return;
     };
-    let folder = instance.path("programs");
-    std::fs::create_dir(&folder).unwrap();
-    let file = format!("{folder}/slow.ngc");
-    std::fs::write(&file, program()).unwrap();
-    let services = Services::start(&instance);
-    let service = Process::join(&instance, &["planner", "--listen"]);
-    let arguments = ["--may", "operate", "--programs", &folder, &file];
-    let live = Live::start(&instance, &arguments);
-    browser.open(&live.url);
-    browser.wait("typeof S !== 'undefined' && S.operates && S.state === 'idle' && SETUP.jog && PLAN && INFO.report");
+    browser.wait("PLAN && INFO.report");
 
     // The list, and the ribbon.
     browser.evaluate("setView('tune')");
