@@ -18,6 +18,7 @@ mod check;
 mod code;
 mod code_words;
 mod command;
+mod command_reply;
 mod event;
 mod feedback;
 mod frame;
@@ -35,10 +36,8 @@ mod text;
 pub use auxiliary::{ANALOG_OUTPUTS, Auxiliary, Coolant, SpindleState};
 pub use check::{RecordError, decode};
 pub use code_words::CodeWords;
-pub use command::{
-    COMMAND_KINDS, Command, CommandKind, CommandOutcome, CommandRefusal, CommandReply,
-    CommandRequest, EventId,
-};
+pub use command::{COMMAND_KINDS, Command, CommandKind, CommandRequest, EventId};
+pub use command_reply::{CommandOutcome, CommandRefusal, CommandReply};
 pub use event::{EventKind, EventRecord};
 pub use feedback::{DriveState, Feedback, LATCHES, Latch, LatchKind, Loss, SpindleFlags};
 pub use frame::{PERIOD_NS_MAX, SetpointFrame};
