@@ -18,6 +18,7 @@ mod parse;
 mod probe;
 mod program;
 mod raw;
+mod settings;
 mod spindle;
 mod tree;
 
@@ -26,12 +27,12 @@ pub use diagnostic::{ConfigDiagnostic, ConfigError, DiagnosticReport};
 pub use instance::{INSTANCE_RULE, is_instance_name};
 pub(crate) use judge::{Judge, Range};
 pub use judge::{MAX_FRAMES_AHEAD, effort, tolerance};
-pub use machine::{
-    AxisConfig, FeedbackConfig, HomingBy, InterpolatorConfig, JogConfig, MCodeRule, MachineConfig,
-    PathConfig,
-};
+pub use machine::MachineConfig;
 pub use probe::ProbeConfig;
 pub use program::ProgramConfig;
+pub use settings::{
+    AxisConfig, FeedbackConfig, HomingBy, InterpolatorConfig, JogConfig, MCodeRule, PathConfig,
+};
 pub use spindle::SpindleConfig;
 
 use crate::text_file;

@@ -3,8 +3,8 @@
 use super::axis_share::travel_of;
 use super::values::{Judge, Range};
 use crate::config::diagnostic::ConfigDiagnostic;
-use crate::config::machine::{AxisConfig, MOST_OF_AXES};
 use crate::config::raw::{Optional, RawAxis};
+use crate::config::settings::{AxisConfig, MOST_OF_AXES};
 use glidepath_geometry::Axis;
 use glidepath_kinematics::{AloneLimits, JointLimits, Mechanism};
 use toml::Spanned;

@@ -1,7 +1,7 @@
 //! The share of the axes' accelerations and jerks that the joints leave.
 
 use super::values::Judge;
-use crate::config::machine::AxisConfig;
+use crate::config::settings::AxisConfig;
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_kinematics::{AxisRates, AxisShare, JointLimits, Mechanism};
 

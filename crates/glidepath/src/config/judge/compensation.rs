@@ -3,8 +3,8 @@
 use super::values::{Judge, Range};
 use crate::config::compensation::Compensation;
 use crate::config::diagnostic::ConfigDiagnostic;
-use crate::config::machine::AxisConfig;
 use crate::config::raw::{Optional, RawAxis, RawCompensation};
+use crate::config::settings::AxisConfig;
 use glidepath_geometry::Axis;
 use glidepath_kinematics::{
     CompensationError, CompensationPoint, JOINTS, JointCompensation, JointLimit, Mechanism,

@@ -1,8 +1,8 @@
 //! `[feedback]`: what the drives say of themselves.
 
 use super::values::{Judge, Range};
-use crate::config::machine::{FeedbackConfig, HomingBy};
 use crate::config::raw::RawFeedback;
+use crate::config::settings::{FeedbackConfig, HomingBy};
 
 impl Judge {
     pub(super) fn feedback(&mut self, raw: RawFeedback) -> FeedbackConfig {

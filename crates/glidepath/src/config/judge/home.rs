@@ -2,8 +2,8 @@
 
 use super::values::{Judge, Range};
 use crate::config::diagnostic::ConfigDiagnostic;
-use crate::config::machine::{AxisConfig, HomingBy};
 use crate::config::raw::{Optional, RawAxis, RawHome};
+use crate::config::settings::{AxisConfig, HomingBy};
 use core::ops::Range as Bytes;
 use glidepath_geometry::Axis;
 use glidepath_interpolator::{JointBounds, JointHoming};

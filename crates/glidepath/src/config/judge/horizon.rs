@@ -6,7 +6,7 @@
 //! stop on, one for what comes in while it stops, one to go on with.
 
 use crate::config::diagnostic::ConfigDiagnostic;
-use crate::config::machine::{AxisConfig, InterpolatorConfig};
+use crate::config::settings::{AxisConfig, InterpolatorConfig};
 use glidepath_kinematics::JointLimits;
 
 /// Most frames published ahead of the machine: fewer than the interpolator can hold.

@@ -3,8 +3,8 @@
 use super::horizon::{self, LONGEST_PERIOD_US};
 use super::stops;
 use super::values::{Judge, Range};
-use crate::config::machine::{AxisConfig, InterpolatorConfig};
 use crate::config::raw::{RawAxis, RawInterpolator};
+use crate::config::settings::{AxisConfig, InterpolatorConfig};
 use glidepath_kinematics::JointLimits;
 use toml::Spanned;
 

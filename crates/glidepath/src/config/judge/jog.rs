@@ -1,8 +1,8 @@
 //! `[jog]`: how the machine is moved by hand.
 
 use super::values::{Judge, Range};
-use crate::config::machine::JogConfig;
 use crate::config::raw::{RawAxis, RawJog};
+use crate::config::settings::JogConfig;
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_program::Limits;
 use toml::Spanned;

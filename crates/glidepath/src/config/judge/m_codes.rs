@@ -2,8 +2,8 @@
 
 use super::values::{Judge, Range};
 use crate::config::diagnostic::ConfigDiagnostic;
-use crate::config::machine::MCodeRule;
 use crate::config::raw::{Optional, RawMCode};
+use crate::config::settings::MCodeRule;
 use glidepath_gcode::{MCodes, WaitsAt};
 use glidepath_interpolator::{AnswerSource, MAX_M_CODE_WAITS, MCodeWait};
 use std::collections::BTreeMap;

@@ -30,8 +30,9 @@ pub use path_words::{effort, tolerance};
 pub(crate) use values::{Judge, Range};
 
 use super::diagnostic::ConfigDiagnostic;
-use super::machine::{AxisConfig, MachineConfig};
+use super::machine::MachineConfig;
 use super::raw::RawConfig;
+use super::settings::AxisConfig;
 use glidepath_geometry::Axis;
 use glidepath_kinematics::Mechanism;
 use home::HomeSurroundings;

@@ -2,8 +2,8 @@
 //! beside those of its axes.
 
 use super::values::{Judge, Range};
-use crate::config::machine::PathConfig;
 use crate::config::raw::{Optional, RawPath};
+use crate::config::settings::PathConfig;
 use glidepath_program::{Corners, Effort, Limits, PathBounds, Smoothing};
 
 pub(super) const TOLERANCE: Range = Range {

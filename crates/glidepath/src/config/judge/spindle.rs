@@ -2,8 +2,8 @@
 
 use super::values::{Judge, Range};
 use crate::config::diagnostic::ConfigDiagnostic;
-use crate::config::machine::MCodeRule;
 use crate::config::raw::{Optional, RawSpindle};
+use crate::config::settings::MCodeRule;
 use crate::config::spindle::SpindleConfig;
 use glidepath_gcode::WaitsAt;
 use glidepath_geometry::Axis;

@@ -6,7 +6,7 @@
 
 use super::horizon::{LONGEST_PERIOD_US, MAX_FRAMES_AHEAD, STOPS, stop_t};
 use crate::config::diagnostic::ConfigDiagnostic;
-use crate::config::machine::{AxisConfig, InterpolatorConfig};
+use crate::config::settings::{AxisConfig, InterpolatorConfig};
 
 /// From here on a velocity is likely to be meant per minute, mm/s: 60 m/min.
 const FAST_V: f64 = 1000.0;
