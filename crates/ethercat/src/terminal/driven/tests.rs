@@ -79,8 +79,7 @@ impl Desk {
             self.now_ns += 1_000_000;
             let times = (self.now_ns, self.now_ns);
             let image = &mut self.image;
-            self.dropped +=
-                u32::from(self.outputs.obey(&mut self.commands, times, is_safe, image));
+            self.dropped += u32::from(self.outputs.obey(&mut self.commands, times, is_safe, image));
         }
         let image = &self.image;
         (bit(image, 0), bit(image, 1), number(image, 8, 16))
