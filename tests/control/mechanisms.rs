@@ -371,3 +371,17 @@ proptest! {
         })?;
     }
 }
+
+/// An arc of a SCARA at half a metre a second: between the frames it went at, a motion that goes back is beside the chords of
+/// these by more than the tolerance of the configuration, and by less than that of the program.
+#[test]
+fn a_fast_arc_is_gone_back_along_within_the_tolerance_of_the_program() {
+    let job = machines()[3].job(Effort::Fast);
+    let commands = [
+        (Command::Reverse, 124),
+        (Command::Forward, 120),
+        (Command::Reverse, 109),
+        (Command::Hold, 3),
+    ];
+    carry_out_and(&job, &commands, |_| Ok(())).unwrap();
+}

@@ -279,7 +279,7 @@ impl Supervisor<'_, '_, '_> {
             let time = (setpoint.sequence, setpoint.fraction);
             match passed.off_mm(time, &sample.position) {
                 // Back along the path, or onward again: where it was before.
-                Some(off_mm) if off_mm <= settings.tolerance_mm => audit.sample_away(&sample),
+                Some(off_mm) if off_mm <= audit.tolerance_mm() => audit.sample_away(&sample),
                 _ => audit.sample(&sample),
             }
         }

@@ -86,6 +86,13 @@ impl Audit {
         self.events.happens(event, offset_ns);
     }
 
+    /// The largest tolerance of the program so far, mm or degrees: how far a motion that goes back along its path may be
+    /// from where it went before ([`crate::Passed`]), which is the chords of that.
+    #[must_use]
+    pub fn tolerance_mm(&self) -> f64 {
+        self.matching.rows.max_tolerance_mm()
+    }
+
     /// The next sample of the motion, away from the path: it is judged by limits and travel alone. The
     /// motion comes back to where it left the path.
     pub fn sample_away(&mut self, sample: &Sample) {

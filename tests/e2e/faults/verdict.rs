@@ -139,7 +139,7 @@ fn audit(setpoints: &[Setpoint], items: &[Item], largest_override: f64) -> Verdi
         let time = (setpoint.sequence, setpoint.fraction);
         match passed.off_mm(time, &sample.position) {
             // Back along the path, or onward again: where it was before.
-            Some(off_mm) if off_mm <= settings.tolerance_mm => audit.sample_away(&sample),
+            Some(off_mm) if off_mm <= audit.tolerance_mm() => audit.sample_away(&sample),
             _ => audit.sample(&sample),
         }
     }

@@ -111,6 +111,7 @@ fn programs_of_the_queue_are_started_one_by_one_by_a_person() {
     let second = browser.evaluate("queued()[1].id");
     browser.evaluate(&format!("order('queue-remove', {{ entry: {second} }})"));
     is(&live, &[("a.ngc", "waits"), ("b.ngc", "waits")]);
+    browser.wait("queued().length === 2 && queued()[1].name === 'b.ngc'");
     // Only the first is started.
     let refused = browser.evaluate(
         "order('run', { name: 'b.ngc', program: QUEUE.info.fingerprint, queued: queued()[1].id }).then(said => [said.status, said.reason])",

@@ -28,7 +28,6 @@ pub(super) struct Follows {
     /// The positions of the plan, by sequence; none where they need not be those.
     plan: Option<Vec<AxisVector>>,
     passed: Passed,
-    tolerance_mm: f64,
     /// Program time of the setpoint before: a frame, and the part of a period past it.
     time: (u64, f64),
     has_moved: bool,
@@ -76,7 +75,6 @@ impl Follows {
             told_s: 0.0,
             plan,
             passed: Passed::default(),
-            tolerance_mm: settings.tolerance_mm,
             time: (0, 0.0),
             has_moved: false,
             is_over: false,
@@ -120,7 +118,7 @@ impl Follows {
         if let Some(off_mm) = behind_mm.flatten() {
             // Back along the path, or onward again.
             self.audit.sample_away(&sample);
-            if off_mm > self.tolerance_mm {
+            if off_mm > self.audit.tolerance_mm() {
                 self.deviates(setpoint, off_mm, "where the motion went before");
             }
         } else {

@@ -154,7 +154,6 @@ struct Judge {
     /// Path of the program told so far, mm.
     told_s: f64,
     passed: Passed,
-    tolerance_mm: f64,
 }
 
 impl Judge {
@@ -176,7 +175,6 @@ impl Judge {
             program,
             told_s: 0.0,
             passed: Passed::default(),
-            tolerance_mm: config.path.tolerance_mm,
         })
     }
 
@@ -215,7 +213,7 @@ impl Judge {
         // On a way back it is where it was before. Anywhere else it would be found off the path.
         let is_again = behind_mm
             .flatten()
-            .is_some_and(|off| off <= self.tolerance_mm);
+            .is_some_and(|off| off <= self.audit.tolerance_mm());
         // Into a tapped hole the way is that of the spindle, which no program says.
         if is_away || is_again {
             self.audit.sample_away(&judged);
