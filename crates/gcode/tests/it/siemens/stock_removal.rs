@@ -222,6 +222,10 @@ fn what_is_refused() {
     assert!(check(good.as_bytes(), lathe()).diagnostics.is_empty());
     for (from, to, place) in [
         (",1)", ",2)", "3:1 canned-cycle"),
+        // The inside of what is an outside: the passes would begin behind the part.
+        (",,,1)", ",,,3)", "3:1 canned-cycle"),
+        (",,,1)", ",,,7)", "3:1 canned-cycle"),
+        (",,,1)", ",,,11)", "3:1 canned-cycle"),
         ("\"STEP\",2", "\"STEP\",0", "3:1 canned-cycle"),
         (",,,1)", ",,,1,0.5)", "3:1 canned-cycle"),
         (",,,1)", ",,,1,,,,1)", "3:1 canned-cycle"),

@@ -54,6 +54,8 @@ struct Removal {
     lift: f64,
     /// For roughing and finishing; 0: the one in force.
     feeds: [f64; 2],
+    /// Where the tool stands along Z.
+    stands_z: f64,
     /// The tool has a radius, which finishing compensates.
     has_radius: bool,
     /// Of the units in force.
@@ -161,6 +163,7 @@ impl Interpreter {
                 arguments.not_negative(5, "FF1", "the feed of roughing")?,
                 arguments.not_negative(7, "FF3", "the feed of finishing")?,
             ],
+            stands_z: self.offsets.to_program(self.state.position)[Axis::Z.index()],
             has_radius: tool.is_some_and(|tool| tool.diameter_mm > 0.0),
             mm,
         })
@@ -242,6 +245,16 @@ impl Removal {
             return Err(arguments
                 .refused("a contour without a length along Z", "passes go along Z")
                 .help("check the contour"));
+        }
+        // It would come to the beginning of the passes at rapid through the part: outside and inside are taken for each other, mostly.
+        if (self.stands_z - last[0]) * way > -LEVEL {
+            let [stands, begin] = [self.stands_z, first[0]].map(|mm| mm / self.mm);
+            return Err(arguments
+                .refused(
+                    format!("the passes begin at Z{begin:.4}, and the tool stands at Z{stands:.4}, beyond the other end of the contour"),
+                    "VARI 1, 5 and 9 are for the outside, where the part is thinnest where they begin, 3, 7 and 11 for the inside, where it is widest",
+                )
+                .help("write the VARI of the contour, or come to the end of it where the passes begin first"));
         }
         if self.out < 0.0 && self.free(rising) < 0.0 {
             return Err(arguments
