@@ -1,20 +1,15 @@
 //! The stretch engine: stretches and rests one after the other, on one grid of frames.
 
-use super::candidate_selection::PlannedStretch;
-use super::engine_run::{EngineRun, InitialState, Strategy};
+use super::candidate_selection::{ALONE, PlannedStretch, strategy_of};
+use super::engine_run::{EngineRun, InitialState};
 use super::entry::Entry;
 use super::gathering::{Gathering, Task};
 use crate::grid::FrameGrid;
-use crate::in_tube::SearchBias;
 use crate::joints::SharedJoints;
 use crate::{Joints, PlanError};
 use glidepath_geometry::AxisVector;
 use glidepath_program::{Frame, Item, Override, Settings};
 use std::sync::Arc;
-
-/// How a stretch is driven that is planned as it comes: there is nothing to hold its windows against. Of twelve programs
-/// for machines whose joints are not axes, repeated to 20 s, windows in a row took 4 to 25 % less than the way along the path.
-const ALONE: Strategy = Strategy::InTube(SearchBias::USUAL);
 
 /// Plans stretch by stretch, as [`crate::Planner`] uses it.
 #[derive(Debug, Clone)]
@@ -153,8 +148,23 @@ impl StretchEngine {
                 };
                 self.drive = match PlannedStretch::new(entry.clone())? {
                     Some(planned) => Drive::Planned(Box::new(planned)),
-                    None => Drive::Live(entry.run(ALONE)?),
+                    None => {
+                        let strategy = strategy_of(&entry);
+                        Drive::Live(entry.run(strategy)?)
+                    }
                 };
+            }
+            Task::Begin { items, at_rates_t } => {
+                let entry = Entry {
+                    initial_state: self.initial_state(),
+                    items: items.into(),
+                    at_rates_t,
+                };
+                let mut run = EngineRun::new(strategy_of(&entry), self.initial_state());
+                for item in entry.items.iter() {
+                    run.push(item)?;
+                }
+                self.drive = Drive::Live(run);
             }
             Task::Part(item) => {
                 if matches!(self.drive, Drive::None) {

@@ -1,5 +1,6 @@
 //! The gathering of items: items in, checked; stretches and rests out, in order.
 
+use super::tight_arcs::has_tight_arcs;
 use crate::PlanError;
 use crate::intake::{Intake, check_dwell};
 use crate::on_path::is_exact_corner;
@@ -30,6 +31,12 @@ pub(crate) enum Task {
         items: Vec<Item>,
         at_rates_t: f64,
         end: AxisVector,
+    },
+    /// A stretch that is planned as it comes begins, with tight arcs: its first items, and time of its moves at their
+    /// rates, s.
+    Begin {
+        items: Vec<Item>,
+        at_rates_t: f64,
     },
     /// The next item of a stretch that is planned as it comes.
     Part(Item),
@@ -169,7 +176,16 @@ impl Gathering {
             && (self.gathered.len() > MOST_MOVES_AT_ONCE || self.gathered_t > self.most_t)
         {
             self.is_long = true;
-            self.tasks.extend(self.gathered.drain(..).map(Task::Part));
+            // What comes while the motion waits for it is not tried first.
+            let is_tried = self.gathered.len() <= MOST_MOVES_AT_ONCE && self.most_t >= MOST_T;
+            if is_tried && has_tight_arcs(&self.gathered, &self.settings) {
+                self.tasks.push_back(Task::Begin {
+                    items: core::mem::take(&mut self.gathered),
+                    at_rates_t: self.gathered_t,
+                });
+            } else {
+                self.tasks.extend(self.gathered.drain(..).map(Task::Part));
+            }
         }
     }
 

@@ -4,7 +4,7 @@
 //!                                    ┌▶ on_path ┐
 //!  item ──Gathering──▶ short stretch ┤          ├▶ the faster one ──▶ frames
 //!         checks,                    └▶ in_tube ┘
-//!         rests    ──▶ long stretch ───▶ in_tube ───────────────────▶ frames
+//!         rests    ──▶ long stretch ───▶ in_tube, or on_path ───────▶ frames
 //!                  ──▶ rest ────────────────────────────────────────▶ frames
 //! ```
 //!
@@ -12,13 +12,15 @@
 //! end. What lies between two rests is a stretch: it begins and ends at rest and on the period
 //! grid, so how it is driven is nobody else's concern. A short one is planned as a whole by both
 //! engines before its first frame is given out ([`candidate_selection`]). One that is longer than may be kept is
-//! planned in the tube as it comes. Which of them it is depends on its items alone.
+//! planned as it comes: in the tube, unless its arcs are tight ([`tight_arcs`]) and its beginning is faster along the
+//! path. Which of them it is depends on its items alone.
 
 mod candidate_selection;
 mod engine;
 mod engine_run;
 mod entry;
 mod gathering;
+mod tight_arcs;
 
 pub(crate) use engine::StretchEngine;
 pub use gathering::MOST_MOVES_AT_ONCE;

@@ -267,3 +267,19 @@ fn a_circle_is_driven_without_stops_however_tight_the_tolerance_is() {
         );
     }
 }
+
+/// Longer than is planned both ways; there is no corner in it, and the chords of the periods bound the speed.
+#[test]
+fn circles_at_a_tight_tolerance_are_never_slower_than_with_stops() {
+    for (radius_mm, turns, tolerance_mm) in [(10.0, 8, 0.001), (10.0, 12, 0.002), (50.0, 4, 0.001)]
+    {
+        let tolerance = format!("G64 P{tolerance_mm}");
+        let text = full_circles(radius_mm, turns).replace("G64 P0.02", &tolerance);
+        // An arc that ends in an exact stop is followed within the tolerance of the configuration.
+        let settings = Settings {
+            tolerance_mm,
+            ..settings(MILL, 0.004)
+        };
+        beats_stopping("circles", &text, &tolerance, settings);
+    }
+}
