@@ -42,7 +42,7 @@ pub(crate) struct Spindle {
     settings: SpindleSettings,
     /// rev/s, without direction.
     asked: f64,
-    /// 1 for M3, −1 for M4, 0 for M5.
+    /// 1 for M3, −1 for M4, 0 for M5, M6 and M19.
     direction: f64,
     pub(crate) speed: f64,
     /// Revolutions.
@@ -84,7 +84,8 @@ impl Spindle {
             Event::SpindleSpeed(per_min) => self.asked = per_min / 60.0,
             Event::MCode(3) => self.direction = 1.0,
             Event::MCode(4) => self.direction = -1.0,
-            Event::MCode(5) => self.direction = 0.0,
+            // Tools are changed, and it is turned to an angle, at rest: as the auxiliary record has it.
+            Event::MCode(5 | 6 | 19) => self.direction = 0.0,
             _ => {}
         }
     }
@@ -138,5 +139,26 @@ impl Spindle {
                 | SpindleFlags::ANGLE.0
                 | SpindleFlags::INDEX.0,
         )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Spindle;
+    use glidepath_program::Event;
+
+    #[test]
+    fn it_stops_for_a_tool_and_to_be_oriented() {
+        for code in [5, 6, 19] {
+            let mut spindle = Spindle::default();
+            for event in [Event::SpindleSpeed(600.0), Event::MCode(3)] {
+                spindle.take(event);
+            }
+            spindle.step(1.0);
+            assert!((spindle.speed - 10.0).abs() < 1e-12);
+            spindle.take(Event::MCode(code));
+            spindle.step(1.0);
+            assert!(spindle.speed.abs() < 1e-12, "M{code}: {}", spindle.speed);
+        }
     }
 }
