@@ -45,8 +45,8 @@ pub(crate) const ALONE: Strategy = Strategy::InTube(SearchBias::USUAL);
 /// The longest motion that is tried of a stretch with tight arcs, s: its moves take 5 s at their rates.
 const MOST_TRIED_T: f64 = 60.0;
 
-/// How a stretch with tight arcs is driven that is planned as it comes: the way that is faster from the beginning to the
-/// items given, or in the tube where both take as long. Of any other one that is known.
+/// How a stretch is driven that is planned as it comes: in the tube; if it has tight arcs, the way that is faster along the
+/// items given, which it begins with.
 pub(crate) fn strategy_of(entry: &Entry) -> Strategy {
     let settings = &entry.initial_state.settings;
     if !has_tight_arcs(&entry.items, settings) {
