@@ -10,20 +10,18 @@
 //! of the pieces is within the tolerance of the program. Pieces cost the window planner work, and
 //! tolerance gains it time; the shares below leave nearly all of it to the motion.
 
-use super::chord_speed::chord_speed;
+use super::chords::{CutMove, FlatChord};
 use super::ledger::LedgerEntry;
 use super::merging::Dropped;
 use super::path::{Reference, Straightness};
-use super::work_queue::{Move, WorkItem, WorkQueue};
+use super::work_queue::{WorkItem, WorkQueue};
 use crate::intake::SHORTEST_MOVE_MM;
 use crate::programmed_rate::{ProgrammedRate, axes_speed};
 use crate::rest::Rest;
-use glidepath_geometry::{Arc, AxisVector, LINEAR_XYZ, Segment, feed_length};
-use glidepath_program::{Event, Item, ProgramLine, Rate, Settings, tolerance_norm};
+use glidepath_geometry::{LINEAR_XYZ, Segment, feed_length};
+use glidepath_program::{Item, ProgramLine, Settings, tolerance_norm};
 use std::collections::VecDeque;
 
-/// Share of the tolerance that chords of an arc may be away from it.
-const FLATTENING_R: f64 = 0.05;
 /// From which length on a straight feed move has a middle half that one can lay a ruler to, mm.
 const RULED_MM: f64 = 5.0;
 /// How far the motion may be beside it there, mm: a tolerance is for corners and curves.
@@ -42,9 +40,6 @@ const TURNED_R: f64 = 0.0125;
 /// settle on pieces of a curve to some hundredths of a tolerance, and windows at one of 1 µm found no motion that is
 /// within a hundredth of it.
 const BEYOND_MM: f64 = 2e-4;
-/// Largest turn from one chord of an arc to the next, rad: less than what is taken for a corner.
-const LARGEST_TURN_RAD: f64 = 0.25;
-
 /// What the program comes down to.
 #[derive(Debug, Clone)]
 #[allow(clippy::large_enum_variant, reason = "short-lived, one at a time")]
@@ -66,31 +61,6 @@ pub(crate) struct Flattener {
     ready: VecDeque<Product>,
 }
 
-/// A move that is being cut into chords.
-#[derive(Debug, Clone)]
-struct CutMove {
-    of: Move,
-    /// Where the chords made so far end.
-    at: AxisVector,
-    done: u32,
-    count: u32,
-    error_mm: f64,
-}
-
-#[derive(Debug, Clone)]
-struct FlatChord {
-    start: AxisVector,
-    end: AxisVector,
-    rate: Rate,
-    tolerance_mm: f64,
-    /// Distance from the program, mm.
-    error_mm: f64,
-    /// From the middle of the chord to the program.
-    sagitta_vector: AxisVector,
-    line: ProgramLine,
-    events: Vec<Event>,
-}
-
 #[derive(Debug, Clone)]
 struct OpenChord {
     chord: FlatChord,
@@ -102,12 +72,6 @@ struct OpenChord {
     ruled_mm: Option<[f64; 2]>,
     /// Where further lines begin, mm after its start.
     lines: Vec<(f64, ProgramLine)>,
-}
-
-impl FlatChord {
-    fn length_mm(&self) -> f64 {
-        tolerance_norm(&(self.end - self.start))
-    }
 }
 
 impl Flattener {
@@ -132,7 +96,7 @@ impl Flattener {
             }
             self.flattening = None;
             match work_queue.next()? {
-                WorkItem::Move(of) => self.flattening = Some(CutMove::new(of)),
+                WorkItem::Move(of) => self.flattening = Some(CutMove::new(of, &self.settings)),
                 WorkItem::Exact(item) => self.put(Product::Exact(item)),
                 WorkItem::ExactEnd => self.put(Product::ExactEnd),
                 WorkItem::Rest(rest) => self.put(Product::Rest(rest)),
@@ -182,20 +146,11 @@ impl Flattener {
         };
         let segment = Segment::line(chord.start, chord.end);
         let length_s = segment.length();
-        let left_mm = chord.tolerance_mm - chord.error_mm;
-        let mut axes_v = axes_speed(&segment, &self.settings.limits);
-        if dropped.is_empty() {
-            let heights_mm = (tolerance_norm(&chord.sagitta_vector), left_mm);
-            axes_v = axes_v.min(chord_speed(
-                chord.length_mm(),
-                heights_mm,
-                self.settings.period_t,
-            ));
-        }
         let rate = ProgrammedRate {
             rate: chord.rate,
-            axes_v,
+            axes_v: axes_speed(&segment, &self.settings.limits).min(chord.most_v),
         };
+        let left_mm = chord.tolerance_mm - chord.error_mm;
         let reference = Reference {
             end: chord.end,
             top_v: rate.axes_v,
@@ -308,92 +263,11 @@ impl OpenChord {
         chord.end = next.end;
         chord.error_mm = base_mm + self.dropped.error_mm;
         chord.sagitta_vector = self.dropped.sagitta_vector;
+        // How sharply a run of lines bends its chords do not tell.
+        chord.most_v = f64::INFINITY;
         self.longest_mm = longest_mm;
         true
     }
-}
-
-impl CutMove {
-    fn new(of: Move) -> Self {
-        let (count, error_mm) = match &of.segment {
-            Segment::Line(_) => (1, 0.0),
-            Segment::Arc(arc) => cuts(arc, FLATTENING_R * of.tolerance_mm),
-            Segment::Curve(curve) => {
-                let second_k = tolerance_norm(&curve.bounds().d2);
-                let allowed_mm = FLATTENING_R * of.tolerance_mm;
-                let turn_rad = second_k * curve.length;
-                let (count, error_mm) = chords_of((curve.length, second_k, turn_rad), allowed_mm);
-                (count, error_mm + curve.error_mm)
-            }
-        };
-        Self {
-            at: of.segment.start(),
-            of,
-            done: 0,
-            count,
-            error_mm,
-        }
-    }
-
-    fn next(&mut self) -> Option<FlatChord> {
-        if self.done >= self.count {
-            return None;
-        }
-        let segment = &self.of.segment;
-        let at = |done: f64| {
-            let share = done / f64::from(self.count);
-            segment.jet(segment.length() * share).position
-        };
-        let start = self.at;
-        let end = if self.done + 1 == self.count {
-            segment.end()
-        } else {
-            at(f64::from(self.done + 1))
-        };
-        let sagitta_vector = if matches!(segment, Segment::Line(_)) {
-            AxisVector::zeros()
-        } else {
-            at(f64::from(self.done) + 0.5) - (start + end) * 0.5
-        };
-        self.at = end;
-        self.done += 1;
-        Some(FlatChord {
-            start,
-            end,
-            sagitta_vector,
-            rate: self.of.rate,
-            tolerance_mm: self.of.tolerance_mm,
-            error_mm: self.error_mm,
-            line: self.of.line,
-            events: core::mem::take(&mut self.of.events),
-        })
-    }
-}
-
-/// How many chords an arc is cut into, and how far they are from it at most: |q″|·h²/8 for chords
-/// of length h, between points of equal path position.
-fn cuts(arc: &Arc, allowed_mm: f64) -> (u32, f64) {
-    let length_s = arc.length();
-    let radius_mm = arc.start_radius().max(arc.end_radius());
-    let drift = (arc.end_radius() - arc.start_radius()).abs() / length_s;
-    let omega = arc.sweep_rad.abs() / length_s;
-    let second_k = radius_mm * omega * omega + 2.0 * drift * omega;
-    chords_of((length_s, second_k, arc.sweep_rad.abs()), allowed_mm)
-}
-
-/// The same from length, largest second derivative and turn.
-fn chords_of((length_s, second_k, turn_rad): (f64, f64, f64), allowed_mm: f64) -> (u32, f64) {
-    let by_error = length_s * (second_k / (8.0 * allowed_mm)).sqrt();
-    let by_turn = turn_rad / LARGEST_TURN_RAD;
-    let count = by_error.max(by_turn).ceil().clamp(1.0, 4e9);
-    let chord_s = length_s / count;
-    #[allow(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "clamped"
-    )]
-    let number = count as u32;
-    (number, second_k * chord_s * chord_s / 8.0)
 }
 
 #[cfg(test)]

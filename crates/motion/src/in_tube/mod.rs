@@ -25,7 +25,7 @@
 //!
 //! | file or folder | what it holds |
 //! |---|---|
-//! | `work_queue`, `flattening`, `merging`, `chord_speed` | moves to straight pieces, within known distances |
+//! | `work_queue`, `chords`, `flattening`, `merging` | moves to straight pieces, within known distances |
 //! | `path` | these pieces, as the tube the motion has to stay in |
 //! | `planner` | what moves the machine next: a leg, a window, or what is left of the last window |
 //! | `window` | one window: the convex problems, their rows and their solver |
@@ -38,7 +38,7 @@
 //! ([`engine`]). It is no fallback for windows that are not found; that is a leg straight to the
 //! next vertex.
 
-mod chord_speed;
+mod chords;
 mod engine;
 mod fallback;
 mod flattening;

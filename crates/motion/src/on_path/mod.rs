@@ -37,6 +37,7 @@ mod spline_tube;
 mod topp;
 
 pub(crate) use engine::OnPathEngine;
+pub(crate) use front::chord_speed;
 pub(crate) use junction::is_exact_corner;
 pub(crate) use look_ahead::Settled;
 pub(crate) use pieces::{JointRule, SpeedLimit};

@@ -176,8 +176,9 @@ impl Gathering {
             && (self.gathered.len() > MOST_MOVES_AT_ONCE || self.gathered_t > self.most_t)
         {
             self.is_long = true;
-            // What comes while the motion waits for it is not tried first.
-            let is_tried = self.gathered.len() <= MOST_MOVES_AT_ONCE && self.most_t >= MOST_T;
+            // What the motion waits for is not tried first.
+            let is_stream = self.most_t < MOST_T;
+            let is_tried = !is_stream && self.gathered.len() <= MOST_MOVES_AT_ONCE;
             if is_tried && has_tight_arcs(&self.gathered, &self.settings) {
                 self.tasks.push_back(Task::Begin {
                     items: core::mem::take(&mut self.gathered),

@@ -247,7 +247,7 @@ fn circle_behind_a_line(radius_mm: f64, tolerance: &str) -> String {
 }
 
 #[test]
-fn a_circle_is_driven_without_stops_however_tight_the_tolerance_is() {
+fn a_circle_behind_a_line_does_not_stop_at_its_chords_where_the_tolerance_is_tight() {
     for (radius_mm, tolerance) in [
         (3.0, "G64 P0.001"),
         (3.0, "G64 P0.002"),

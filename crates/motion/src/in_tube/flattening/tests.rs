@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::in_tube::work_queue::WorkQueue;
-use glidepath_geometry::Plane;
-use glidepath_program::{Effort, ItemKind, Limits, PathMode, Smoothing};
+use glidepath_geometry::{Arc, AxisVector, Plane};
+use glidepath_program::{Effort, ItemKind, Limits, PathMode, Rate, Smoothing};
 
 fn settings() -> Settings {
     Settings {

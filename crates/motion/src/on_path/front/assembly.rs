@@ -49,7 +49,8 @@ impl Assembly {
         self.blocks.lose_any();
         let settings = self.settings;
         if let Some(held) = &mut self.pending {
-            let chord_v = chord_speed(&held.segment, held.mode, &settings);
+            let tolerance_mm = held.mode.tolerance_mm(settings.tolerance_mm);
+            let chord_v = chord_speed(&held.segment, tolerance_mm, &settings);
             held.rate_v = held.rate.under(wanted).min(chord_v);
         }
     }
@@ -124,6 +125,7 @@ impl Assembly {
         rate: ProgrammedRate,
         mode: PathMode,
     ) -> SpeedRule {
+        let tolerance_mm = mode.tolerance_mm(self.settings.tolerance_mm);
         match segment {
             Segment::Line(_) => SpeedRule::Straight {
                 d1: segment.jet(0.0).d1,
@@ -132,14 +134,14 @@ impl Assembly {
             Segment::Arc(arc) => SpeedRule::Arc {
                 arc: *arc,
                 rate,
-                chord_v: chord_speed(segment, mode, &self.settings),
+                chord_v: chord_speed(segment, tolerance_mm, &self.settings),
             },
             Segment::Curve(curve) => SpeedRule::Curve {
                 curve: Box::new(CurveRule {
                     bounds: curve.bounds(),
                     gentle: true,
                     stretch_r: 1.0,
-                    chord_v: chord_speed(segment, mode, &self.settings),
+                    chord_v: chord_speed(segment, tolerance_mm, &self.settings),
                 }),
                 rates: [rate; 2],
             },
@@ -237,13 +239,13 @@ fn changing_chord_v(curve: &Quintic, steady_v: f64, settings: &Settings) -> f64 
     (half_v.hypot(steady_v) - half_v).max(LEAST_R * steady_v)
 }
 
-/// The speed at which the chords of one period reach the tolerance of an arc or another curve.
-pub(crate) fn chord_speed(segment: &Segment, mode: PathMode, settings: &Settings) -> f64 {
+/// The speed at which the chords of one period reach a tolerance of an arc or another curve, mm/s.
+pub(crate) fn chord_speed(segment: &Segment, tolerance_mm: f64, settings: &Settings) -> f64 {
     let arc = match segment {
         Segment::Line(_) => return f64::INFINITY,
         Segment::Arc(arc) => arc,
         Segment::Curve(curve) => {
-            let left_mm = mode.tolerance_mm(settings.tolerance_mm) - curve.error_mm;
+            let left_mm = tolerance_mm - curve.error_mm;
             let at_unit_mm = chord_error_mm(&curve.bounds(), 1.0, settings.period_t);
             let steady_v = (left_mm.max(0.0) / at_unit_mm).sqrt();
             return changing_chord_v(curve, steady_v, settings);
@@ -252,5 +254,5 @@ pub(crate) fn chord_speed(segment: &Segment, mode: PathMode, settings: &Settings
     let radius_mm = arc.start_radius().max(arc.end_radius());
     let omega = arc.sweep_rad / arc.length();
     let curvature_k = radius_mm * omega * omega;
-    (8.0 * mode.tolerance_mm(settings.tolerance_mm) / curvature_k).sqrt() / settings.period_t
+    (8.0 * tolerance_mm / curvature_k).sqrt() / settings.period_t
 }

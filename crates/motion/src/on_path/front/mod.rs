@@ -6,4 +6,5 @@ mod kept_blocks;
 mod path_front;
 mod pending;
 
+pub(crate) use assembly::chord_speed;
 pub(crate) use path_front::PathFront;

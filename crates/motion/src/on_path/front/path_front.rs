@@ -121,7 +121,7 @@ impl PathFront {
             rate,
             rate_v: rate.under(assembly.wanted).min(chord_speed(
                 &segment,
-                mode,
+                mode.tolerance_mm(assembly.settings.tolerance_mm),
                 &assembly.settings,
             )),
             line,
