@@ -14,7 +14,7 @@ const ACCELERATION: f64 = 40.0;
 pub(crate) struct SimulatedSpindle {
     /// rev/s, without direction.
     told: f64,
-    /// 1 for M3, −1 for M4, 0 for M5.
+    /// 1 for M3, −1 for M4, 0 for M5, M6 and M19.
     direction: f64,
     speed: f64,
     /// Revolutions.
@@ -28,7 +28,8 @@ impl SimulatedSpindle {
             Event::SpindleSpeed(per_min) => self.told = per_min / 60.0,
             Event::MCode(3) => self.direction = 1.0,
             Event::MCode(4) => self.direction = -1.0,
-            Event::MCode(5 | 6) => self.direction = 0.0,
+            // Tools are changed, and it is turned to an angle, at rest.
+            Event::MCode(5 | 6 | 19) => self.direction = 0.0,
             _ => {}
         }
     }
@@ -50,6 +51,24 @@ impl SimulatedSpindle {
                 index_count: None,
             },
             at_speed: change.abs() < most,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Event, SimulatedSpindle};
+
+    #[test]
+    fn it_stops_for_a_tool_and_to_be_oriented() {
+        for code in [5, 6, 19] {
+            let mut spindle = SimulatedSpindle::default();
+            for event in [Event::SpindleSpeed(600.0), Event::MCode(3)] {
+                spindle.hear(event);
+            }
+            assert!(spindle.turn(1.0, 0).turn.speed > 9.0);
+            spindle.hear(Event::MCode(code));
+            assert!(spindle.turn(1.0, 1).turn.speed.abs() < 1e-12, "M{code}");
         }
     }
 }
