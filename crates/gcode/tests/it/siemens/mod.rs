@@ -89,3 +89,19 @@ pub(crate) fn finds(text: &str, expected: &[&str]) {
         assert!(says_how, "{diagnostic}");
     }
 }
+
+/// Ends in X, Y and Z, with `r` for rapids, `+` for arcs counterclockwise, `-` for those clockwise.
+pub(super) fn ways(text: &str) -> Vec<String> {
+    let all = moves(text).into_iter();
+    all.map(|(segment, rate, _)| {
+        let [x, y, z] = [0, 1, 2].map(|axis| (segment.end()[axis] * 1e3).round() / 1e3 + 0.0);
+        let mark = match segment {
+            Segment::Arc(arc) if arc.sweep_rad > 0.0 => "+",
+            Segment::Arc(_) => "-",
+            _ if rate == Rate::Rapid => "r",
+            _ => "",
+        };
+        format!("{x} {y} {z}{mark}")
+    })
+    .collect()
+}

@@ -1,25 +1,8 @@
 //! Tests of CYCLE76 and CYCLE77. Values are computed by hand, for tool 6 of 6 mm diameter.
 
-use glidepath_geometry::Segment;
 use glidepath_program::Rate;
 
-use super::{finds, moves};
-
-/// Ends in X, Y and Z, with `r` for rapids, `+` for arcs counterclockwise, `-` for those clockwise.
-fn ways(text: &str) -> Vec<String> {
-    let all = moves(text).into_iter();
-    all.map(|(segment, rate, _)| {
-        let [x, y, z] = [0, 1, 2].map(|axis| (segment.end()[axis] * 1e3).round() / 1e3 + 0.0);
-        let mark = match segment {
-            Segment::Arc(arc) if arc.sweep_rad > 0.0 => "+",
-            Segment::Arc(_) => "-",
-            _ if rate == Rate::Rapid => "r",
-            _ => "",
-        };
-        format!("{x} {y} {z}{mark}")
-    })
-    .collect()
-}
+use super::{finds, moves, ways};
 
 const HEAD: &str = "G17 G90 T6 D1 M6\nS1000 M3\nG0 X0 Y0 Z50\n";
 

@@ -224,7 +224,6 @@ fn what_is_refused() {
         (",1)", ",2)", "3:1 canned-cycle"),
         // The inside of what is an outside: the passes would begin behind the part.
         (",,,1)", ",,,3)", "3:1 canned-cycle"),
-        (",,,1)", ",,,7)", "3:1 canned-cycle"),
         (",,,1)", ",,,11)", "3:1 canned-cycle"),
         ("\"STEP\",2", "\"STEP\",0", "3:1 canned-cycle"),
         (",,,1)", ",,,1,0.5)", "3:1 canned-cycle"),

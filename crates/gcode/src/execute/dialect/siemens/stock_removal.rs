@@ -252,9 +252,9 @@ impl Removal {
             return Err(arguments
                 .refused(
                     format!("the passes begin at Z{begin:.4}, and the tool stands at Z{stands:.4}, beyond the other end of the contour"),
-                    "VARI 1, 5 and 9 are for the outside, where the part is thinnest where they begin, 3, 7 and 11 for the inside, where it is widest",
+                    "VARI 1, 5 and 9 are for an outside, from its thin end on, and 3, 7 and 11 for an inside, from its wide end on",
                 )
-                .help("write the VARI of the contour, or come to the end of it where the passes begin first"));
+                .help("write the VARI that fits the contour, or move the tool to the end where the passes begin first"));
         }
         if self.out < 0.0 && self.free(rising) < 0.0 {
             return Err(arguments
