@@ -4,7 +4,7 @@
 use std::time::Duration;
 
 use glidepath_link::MachineState;
-use glidepath_tests::{Instance, Operated, Watchdog};
+use glidepath_tests::{Instance, Operated, Process, Watchdog};
 use rustix::process::Signal;
 use serde_json::Value;
 
@@ -73,6 +73,22 @@ fn positions_from_part_zero_are_those_of_the_tip_from_the_move_behind_g43_on() {
     assert_eq!(told(&bench), [25.0, 5.0, 30.0]);
     bench.operate(&["mdi", "G49"]);
     assert_eq!(told(&bench), [25.0, 35.0, 0.0]);
+
+    // So are they from the zero that G92 has shifted, and that is said.
+    bench.operate(&["mdi", "G92 Z3"]);
+    assert_eq!(told(&bench), [25.0, 3.0, 0.0]);
+    let text = bench.operate(&["status"]).stdout;
+    assert!(
+        text.contains("Z 3.0000  (G54, shifted by Z32 (G92 or G52))"),
+        "{text}"
+    );
+    bench.operate(&["mdi", "G92.2"]);
+    assert_eq!(told(&bench), [25.0, 35.0, 0.0]);
+    let show = ["offsets", "show", "--config", bench.config()];
+    let kept = Process::start(&instance, &show).wait().expect(0).stdout;
+    assert!(kept.contains("G92   Z32   kept; "), "{kept}");
+    bench.operate(&["mdi", "G92.3"]);
+    assert_eq!(told(&bench), [25.0, 3.0, 0.0]);
 
     // A service that begins, begins without.
     bench.operate(&["mdi", "G43.1 Z4"]);

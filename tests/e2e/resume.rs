@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use glidepath_geometry::AxisVector;
 use glidepath_link::{EndOfEpoch, MachineState};
-use glidepath_tests::{Instance, Process, Services, Watchdog, audit, plan};
+use glidepath_tests::{Instance, Operated, Process, Services, Watchdog, audit, plan};
 use rustix::process::Signal;
 
 use crate::programs::PROGRAM;
@@ -81,4 +81,29 @@ fn a_killed_planner_is_replaced_in_the_middle_of_the_program() {
         "{}",
         report.max_deviation_mm
     );
+}
+
+#[test]
+fn a_stream_that_is_rejected_takes_nothing_from_the_program_that_was_left() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let simulated = ("source = \"drives\"", "source = \"none\"");
+    let bench = Operated::new(&instance, &[simulated], "");
+    let interpolator = bench.process(&["interpolator", "--best-effort"]);
+    let _idle = bench.wait_for(MachineState::Idle);
+    let service = bench.process(&["planner", "--listen"]);
+    let part = instance.file("part.ngc", "G21 G90 G54\nG1 X30 F600\nM2\n");
+    let running = bench.process(&["run-file", &part]);
+    let _moves = bench.wait(|status| status.frames_executed > 100);
+    bench.operate(&["abort"]);
+    let _ended = running.wait().expect(5);
+    let bad = instance.file("bad.ngc", "G21 G90 G54\nG1 X5\n");
+    bench.refused(&["feed", &bad], 1, "missing-feed");
+    bench.operate(&["run-file", &part, "--resume"]);
+    let rests = bench.wait_for(MachineState::Idle);
+    assert!(
+        (rests.position[0] - 30.0).abs() < 1e-9,
+        "{:?}",
+        rests.position
+    );
+    let _ended = (service.end(), interpolator.end());
 }

@@ -54,7 +54,7 @@ fn lines_and_files_are_executed_by_one_service() {
     let running = bench.process(&["run-file", &part]);
     let status = bench.wait_for(MachineState::Awaiting);
     assert_eq!((status.awaited_value, status.awaited_line), (6.0, 2));
-    bench.refused(&["mdi", "G0 X1"], 5, "executes a line or a file");
+    bench.refused(&["mdi", "G0 X1"], 5, "the planner executes part.ngc; wait");
     bench.refused(&["planner", &part], 5, "planner");
     bench.refused(&["acknowledge", "--event", "9999/1"], 5, "another event");
     bench.operate(&["acknowledge"]);

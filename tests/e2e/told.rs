@@ -81,6 +81,64 @@ fn a_tool_change_waits_for_a_person_and_says_so_where_the_program_was_started() 
     assert!(!told.contains("->") && !told.contains("Idle"), "{told}");
 }
 
+/// The second stop says nothing, and the tool is to be taken out.
+const STOPS: &str = "G21 G90 G54\nG0 X1\nM0 (turn the part)\nG0 X2\nM0\nT0 M6\nG0 X3\nM2\n";
+
+#[test]
+fn what_a_stop_said_is_not_said_of_the_next_one() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let simulated = ("source = \"drives\"", "source = \"none\"");
+    let bench = Operated::new(&instance, &[simulated], "");
+    let interpolator = bench.process(&["interpolator", "--best-effort"]);
+    let _idle = bench.wait_for(MachineState::Idle);
+    let service = bench.process(&["planner", "--listen"]);
+    let part = instance.file("part.ngc", STOPS);
+    let running = bench.process(&["run-file", &part]);
+    for (line, said) in [(3, "turn the part"), (5, "")] {
+        let stop = bench.wait(|status| {
+            status.state == MachineState::ProgramStop.code()
+                && status.line == line
+                && (said.is_empty() || !status.message.as_str().is_empty())
+        });
+        assert_eq!(stop.message.as_str(), said, "line {line}");
+        std::thread::sleep(Duration::from_millis(500));
+        bench.operate(&["resume"]);
+    }
+    let _asks = bench.wait_for(MachineState::Awaiting);
+    std::thread::sleep(Duration::from_millis(500));
+    bench.operate(&["acknowledge"]);
+    let told = running.wait().expect(0).stderr;
+    for words in [
+        "line 3 (turn the part): at rest",
+        "line 5: at rest",
+        "line 6: take the tool out of the spindle; when that is done",
+    ] {
+        assert!(told.contains(words), "{words}: {told}");
+    }
+
+    // On a machine without feedback there is no power to take: `disable` ends the motion.
+    let long = instance.file("long.ngc", "G21 G90 G54\nG1 X50 F600\nM2\n");
+    let running = bench.process(&["run-file", &long]);
+    let _moves = bench.wait_for(MachineState::Running);
+    bench.operate(&["disable"]);
+    let rests = bench.wait_for(MachineState::Idle);
+    assert!(rests.position[0] < 49.0, "{:?}", rests.position);
+    let told = running.wait().expect(5).stderr;
+    assert!(told.contains("aborted by an operator"), "{told}");
+    bench.refused(&["disable"], 5, "no feedback is configured");
+
+    // What was moved away in a hold does not stand where the program goes on.
+    let running = bench.process(&["run-file", &long]);
+    let _moves = bench.wait(|status| status.frames_executed > 100);
+    bench.operate(&["hold"]);
+    let _held = bench.wait_for(MachineState::Held);
+    bench.operate(&["jog", "Z5"]);
+    bench.operate(&["abort"]);
+    let told = running.wait().expect(5).stderr;
+    assert!(told.contains("which were jogged away, are back"), "{told}");
+    let _ended = (service.end(), interpolator.end());
+}
+
 #[test]
 fn a_watch_waits_for_an_interpolator_that_is_silent_and_says_so() {
     let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));

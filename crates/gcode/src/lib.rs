@@ -67,7 +67,7 @@ pub use diagnostic::code::DiagnosticCode;
 pub use diagnostic::excerpt::Excerpt;
 pub use diagnostic::{Diagnostic, MAX_DIAGNOSTICS};
 pub use execute::auxiliary::input_wait::{Input, InputWait, WaitFor};
-pub use execute::motion::tool_length::ToolLength;
+pub use execute::motion::position_offsets::PositionOffsets;
 pub use execute::program::Program;
 pub use execute::state::in_force::InForce;
 pub use execute::state::modal::{Feed, Modal};

@@ -49,6 +49,19 @@ impl CommandContext<'_, '_> {
         CommandReply::new(self.boot_id, request.number, outcome, state, &message)
     }
 
+    /// What a command means on this machine: where no drive reports, there is no power to take, and
+    /// what is left of switching off is that it ends the motion.
+    pub(crate) fn meant(&self, command: Command) -> Command {
+        let is_at_rest = matches!(
+            self.report.state,
+            MachineState::Idle | MachineState::Faulted
+        );
+        if command == Command::Disable && self.drives.is_none() && !is_at_rest {
+            return Command::Abort;
+        }
+        command
+    }
+
     fn has_room(&self) -> bool {
         self.ends.room() >= ORDERS_PER_COMMAND
     }
@@ -84,7 +97,7 @@ impl CommandContext<'_, '_> {
                 }));
                 return done;
             }
-            Ok(command) => command,
+            Ok(command) => self.meant(command),
         };
         if command.sets_out() && self.jobs.was_stopped_after(request.asked_ns) {
             return wrong(UnmetPrecondition::StoppedSince.text().to_owned());
@@ -231,6 +244,9 @@ fn precondition(
             matches!(state, Holding | Held | ProgramStop),
             UnmetPrecondition::NothingHeld,
         ),
+        Command::Reset if report.fault.is_some() => {
+            (state == Faulted, UnmetPrecondition::NotAtRestYet)
+        }
         Command::Reset => (state == Faulted, UnmetPrecondition::NoFault),
         Command::StopAtEndOfBlock => (
             !matches!(
@@ -285,4 +301,10 @@ fn no_override(report: &TickReport) -> UnmetPrecondition {
 /// Whether a reply refuses.
 pub(crate) fn is_refusal(reply: &CommandReply) -> bool {
     !matches!(reply.outcome(), Ok(CommandOutcome::Ok(())))
+}
+
+/// Whether a command, once it is accepted, lets a stop pass that the program has made for a person.
+pub(crate) const fn passes_stop(state: MachineState, command: Option<Command>) -> bool {
+    let goes_on = matches!(command, Some(Command::Resume | Command::Step));
+    goes_on && matches!(state, MachineState::ProgramStop)
 }

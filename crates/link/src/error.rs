@@ -1,6 +1,7 @@
 //! The error type of ports and transports: why a port could not be made or used.
 
 use crate::RecordError;
+use crate::service::{JOBS, LINES, SEGMENTS};
 use std::io;
 use std::path::Path;
 
@@ -85,7 +86,7 @@ pub enum LinkError {
         role: &'static str,
     },
     /// There is nobody at the other end.
-    #[error("{service}: nobody serves it; start the interpolator or planner first")]
+    #[error("{}", nobody(.service))]
     NoServer {
         /// The service.
         service: &'static str,
@@ -164,5 +165,14 @@ impl LinkError {
                 detail: detail.into(),
             }
         }
+    }
+}
+
+/// Who should serve a service and does not.
+fn nobody(service: &str) -> &'static str {
+    if matches!(service, SEGMENTS | JOBS | LINES) {
+        "no planner listens; start `glidepath planner --listen` first"
+    } else {
+        "no interpolator runs; start `glidepath interpolator` first"
     }
 }

@@ -226,8 +226,11 @@ function work(position) {
   if (offset.turns_with_rotary_axes) return AXES().map(axis => S.status.work_position[axis.name]);
   const out = position.map((x, k) => x - (offset.origin[AXES()[k].name] || 0) - (offset.tool_length[AXES()[k].name] || 0)), turn = offset.rotation_deg * Math.PI / 180;
   if (turn && out.length > 1) [out[0], out[1]] = [out[0] * Math.cos(turn) + out[1] * Math.sin(turn), out[1] * Math.cos(turn) - out[0] * Math.sin(turn)];
-  return out;
+  // What G92 or G52 has shifted.
+  return out.map((x, k) => x - (offset.shift[AXES()[k].name] || 0));
 }
+/* The coordinate system in force, and that it is shifted. */
+const systemOf = s => !s.offset ? '' : Object.values(s.offset.shift).some(by => by) ? `${s.offset.system} + G92` : s.offset.system;
 function digits() {
   const s = S.status;
   if (S.file) { put($('#left'), span(PLAN ? PLAN.seconds : 0)); return; }
@@ -235,7 +238,7 @@ function digits() {
   const ring = RINGED, fresh = ring && ring.count, axes = AXES(), speed = Math.abs(fresh ? ring.feed[(ring.count - 1) & (RING - 1)] : s.feed_mm_s);
   const machine = axes.map((a, k) => fresh ? ring.last_position(k) : s.position[a.name]), shown = work(machine), moving = speed > 1e-6 && S.state !== 'stale';
   $('#app').classList.toggle('moving', moving);
-  put($('#system'), s.offset ? s.offset.system : ''); put($('#dro-of'), s.offset ? 'from part zero' : 'from machine zero'); put($('#dro-machine'), s.offset ? 'machine' : 'travel');
+  put($('#system'), systemOf(s)); put($('#dro-of'), s.offset ? 'from part zero' : 'from machine zero'); put($('#dro-machine'), s.offset ? 'machine' : 'travel');
   axes.forEach((axis, k) => {
     const text = place(axis, shown[k]);
     fill($(`#w${axis.name}`), `${text.slice(0, -2)}<i>${text.slice(-2)}</i>`);

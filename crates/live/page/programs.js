@@ -47,6 +47,8 @@ async function lookAtChosen(look = LOOK.info ? 'again' : 'first') {
   if (!name || S.view !== 'programs') return;
   const { info = null, lost = '', isOver } = await preview(name, look);
   if (name !== FOLDER.chosen) return;
+  // What was asked of another text is forgotten here, not behind the fetches below: somebody may ask while they are on the way.
+  if (!info || !LOOK.info || info.generation !== LOOK.info.generation) Object.assign(LOOK, { at: {}, ratio: 1, times: {} });
   LOOK.info = info; LOOK.lost = lost;
   if (lost && !isOver) LOOK.timer = setTimeout(lookAtChosen, 1000);
   if (info) {
@@ -64,7 +66,6 @@ async function lookAtChosen(look = LOOK.info ? 'again' : 'first') {
       LOOK.plan = whole ? new Plan(columns) : null; LOOK.motion = whole ? new Track(path) : null; LOOK.program = program ? new Track(program) : null;
       LOOK.lines = lines || [];
       usePlan();
-      Object.assign(LOOK, { at: {}, ratio: 1, times: {} });
       if (info.failed) fetchFindings(info);
     }
     if (!LOOK.key || (!info.report && !info.failed)) LOOK.timer = setTimeout(lookAtChosen, 400);

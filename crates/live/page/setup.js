@@ -79,7 +79,7 @@ function setUpDigits() {
   const s = S.status;
   if (!s || !s.position || !$(`#s${AXES()[0] ? AXES()[0].name : ''}`)) return;
   const machine = machineNow(), shown = work(machine);
-  put($('#s-system'), s.offset ? s.offset.system : '');
+  put($('#s-system'), systemOf(s));
   AXES().forEach((axis, k) => {
     put($(`#s${axis.name}`), place(axis, shown[k])); put($(`#sm${axis.name}`), place(axis, machine[k]));
     const homed = !(s.axes_not_homed || []).includes(axis.name);

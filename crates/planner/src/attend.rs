@@ -9,6 +9,8 @@ use crate::Followed;
 pub enum Attended {
     /// The job goes on.
     GoesOn,
+    /// There is nothing to execute, and there will not be: nothing begins.
+    IsEmpty,
     /// It is to end: nothing begins, or the motion comes to rest on the path. Why, for people.
     End(String),
 }

@@ -8,7 +8,7 @@
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use glidepath_gcode::{KeptVariables, ToolLength, ToolTable, WorkOffsets};
+use glidepath_gcode::{KeptVariables, PositionOffsets, ToolTable, WorkOffsets};
 
 /// The set-up of the machine from some block on.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,8 +26,8 @@ pub struct SetUp {
 /// The changes of the machine's set-up.
 pub type ChangeLog = BlockLog<SetUp>;
 
-/// The changes of the length of the tool in force.
-pub type ToolLengthLog = BlockLog<ToolLength>;
+/// The changes of the offsets in force that positions of the part are without.
+pub type PositionOffsetsLog = BlockLog<PositionOffsets>;
 
 /// The changes of a program that were read and not yet executed. Clones are the same log: one end
 /// is with the source of items, the other with whoever keeps or shows what was executed.
@@ -118,14 +118,14 @@ mod tests {
     #[test]
     fn a_length_of_a_tool_holds_from_the_move_behind_it_and_not_while_the_tool_is_changed() {
         let text = "G0 Z1\nG43.1 Z2\nG0 Z2\nS9 T7 M6 G43.1 Z5\nG0 Z3\nG49\nM2\n";
-        let log = ToolLengthLog::default();
+        let log = PositionOffsetsLog::default();
         let mut source =
             ProgramSource::new(text.as_bytes(), Options::default()).attended(RunChannels {
-                lengths: Some(log.clone()),
+                position_offsets: Some(log.clone()),
                 ..RunChannels::default()
             });
         while let Supply::Item(_) = source.next_item() {}
-        let of = |length: Option<ToolLength>| length.map(|length| length.offset[2]);
+        let of = |length: Option<PositionOffsets>| length.map(|length| length.tool[2]);
         assert_eq!(of(log.executed(1)), Some(0.0), "what it begins with");
         assert_eq!(of(log.executed(2)), Some(2.0));
         for of_the_change in 3..=5 {

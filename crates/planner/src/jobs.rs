@@ -133,6 +133,8 @@ pub trait JobRunner {
 /// The job that was taken.
 #[derive(Debug)]
 struct Current {
+    /// For people.
+    name: String,
     client: (u64, u64),
     watch: ClientWatch,
     is_unwanted: bool,
@@ -142,8 +144,9 @@ struct Current {
 
 impl Current {
     /// Of a job of which nothing is known yet.
-    fn new(client: (u64, u64), lines: Option<LineInbox>) -> Self {
+    fn new(job: &Job, client: (u64, u64), lines: Option<LineInbox>) -> Self {
         Self {
+            name: job.name(),
             client,
             watch: ClientWatch::new(),
             is_unwanted: false,
@@ -216,8 +219,9 @@ impl JobQueue {
                     return unknown(request);
                 };
                 claim(&job, request.asked_ns);
+                let client = (request.client, request.number);
+                *current = Some(Current::new(&job, client, None));
                 *waiting = Some((job, Duration::ZERO));
-                *current = Some(Current::new((request.client, request.number), None));
                 JobReply::new(request, JobState::Running, "waits for the machine")
             })?;
             if self.waiting.is_some() || !any {
@@ -234,8 +238,9 @@ impl JobQueue {
                 asked_ns,
                 inbox,
             } = begun;
-            self.current = Some(Current::new(client, Some(inbox.clone())));
+            let lines = Some(inbox.clone());
             let job = Job::Lines { name, inbox };
+            self.current = Some(Current::new(&job, client, lines));
             claim(&job, asked_ns);
             self.waiting = Some((job, Duration::ZERO));
         }
@@ -265,13 +270,28 @@ impl JobQueue {
         true
     }
 
+    /// What others are told while a job is executed, or waits; without one somebody else has the planner.
+    pub(crate) fn busy(&self) -> String {
+        match &self.current {
+            Some(current) => format!(
+                "the planner executes {}; wait for its end, or abort it",
+                current.name
+            ),
+            None => {
+                "the planner executes what another program streams; wait for its end, or abort it"
+                    .to_owned()
+            }
+        }
+    }
+
     /// Answers what came in while a job is `doing` something, or somebody else has the planner.
     /// Returns why the job is to end, if its client does not want it any more.
     pub(crate) fn serve_busy(
         &mut self,
         waited: Duration,
-        (doing, busy): (&str, &str),
+        doing: &str,
     ) -> Result<Option<&'static str>, LinkError> {
+        let busy = &self.busy();
         if let Some(current) = &mut self.current {
             current.wait(waited);
         }
@@ -400,13 +420,10 @@ pub(crate) struct JobClientHandler<'a> {
     pub(crate) failed: Result<(), LinkError>,
 }
 
-/// What others are told while a job is executed.
-pub(crate) const BUSY: &str =
-    "the planner executes a line or a file; wait for its end, or abort it";
-
 impl Attend for JobClientHandler<'_> {
     fn attend(&mut self, waited: Duration, doing: &str) -> Attended {
-        let served = (self.refuse)(BUSY).and_then(|()| self.jobs.serve_busy(waited, (doing, BUSY)));
+        let busy = self.jobs.busy();
+        let served = (self.refuse)(&busy).and_then(|()| self.jobs.serve_busy(waited, doing));
         match served {
             Ok(Some(why)) => Attended::End(why.to_owned()),
             Ok(None) => Attended::GoesOn,

@@ -108,7 +108,7 @@ mod stream;
 mod unchanged_file;
 
 pub use attend::{Attend, Attended};
-pub use changes::{BlockLog, ChangeLog, SetUp, ToolLengthLog};
+pub use changes::{BlockLog, ChangeLog, PositionOffsetsLog, SetUp};
 pub use client_watch::CLIENT_SILENCE;
 pub use control::{Control, Notice, Progress};
 pub use curve::CurveSource;

@@ -21,7 +21,7 @@ use glidepath_link::{SegmentRefusal, Transport};
 use glidepath_program::Settings;
 
 use crate::client_watch::ClientWatch;
-use crate::jobs::{BUSY, Job, JobClientHandler, JobEnd, JobQueue, JobRunner, NEWS};
+use crate::jobs::{Job, JobClientHandler, JobEnd, JobQueue, JobRunner, NEWS};
 use crate::machine::POLL;
 use crate::stream::refuse;
 use crate::{
@@ -185,7 +185,7 @@ impl Listener<'_> {
             return Ok(None);
         }
         let doing = publisher.doing();
-        let unwanted = jobs.serve_busy(POLL, (&doing, BUSY))?;
+        let unwanted = jobs.serve_busy(POLL, &doing)?;
         let taken = match unwanted {
             Some(why) => Err(RunError::Ended {
                 why: why.to_owned(),

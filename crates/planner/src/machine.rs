@@ -52,6 +52,9 @@ pub(crate) struct MachinePorts {
     status: Box<dyn Subscriber<Status>>,
     commands: Box<dyn Client<CommandRequest, CommandReply>>,
     latest: Option<Status>,
+    /// Whether the axes were off the path of the newest epoch when that was last heard of as open: its
+    /// end forgets the path.
+    was_off_path: bool,
     /// Whether a status was heard that is newer than the first, which may be a dead process'
     /// legacy.
     alive: bool,
@@ -76,6 +79,7 @@ impl MachinePorts {
             status: transport.status_source()?,
             commands: transport.command_client()?,
             latest: None,
+            was_off_path: false,
             alive: false,
             silent: Duration::ZERO,
             client: u64::from(std::process::id()),
@@ -94,9 +98,17 @@ impl MachinePorts {
                 self.alive = true;
                 self.silent = Duration::ZERO;
             }
+            if status.end_of_epoch().map_err(LinkError::from)? == EndOfEpoch::Open {
+                self.was_off_path = status.away.iter().any(|away| *away != 0.0);
+            }
             self.latest = Some(status);
         }
         Ok(())
+    }
+
+    /// Whether the axes stood off the path when the newest epoch ended: a jog in a hold has moved them.
+    pub(crate) const fn was_off_path(&self) -> bool {
+        self.was_off_path
     }
 
     /// Waits a little, and counts it as silence until the next news.
@@ -244,10 +256,16 @@ impl MachinePorts {
     ) -> Result<(), RunError> {
         self.commands_sent += 1;
         let number = self.commands_sent;
-        self.commands
-            .ask(&CommandRequest::new(self.client, number, command).saying(text))?;
-        let mut waited = Duration::ZERO;
+        let request = CommandRequest::new(self.client, number, command).saying(text);
+        let (mut waited, mut is_sent) = (Duration::ZERO, false);
         while waited < COMMAND_PATIENCE {
+            if !is_sent {
+                is_sent = match self.commands.ask(&request) {
+                    // An interpolator that hangs has left so many: it is silent, no more.
+                    Err(LinkError::TooManyRequests { .. }) => false,
+                    sent => sent.map(|()| true)?,
+                };
+            }
             while let Some(reply) = self.commands.reply()? {
                 if reply.number == number {
                     return match reply.outcome().map_err(LinkError::from)? {
@@ -302,6 +320,33 @@ fn why_not_begun(status: &Status, end: EndOfEpoch) -> RunError {
             RunError::NotBegun {
                 why: why.to_owned(),
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glidepath_link::InProcess;
+    use std::sync::atomic::AtomicBool;
+
+    #[test]
+    fn an_interpolator_that_never_answers_is_silent_however_often_it_is_asked() {
+        let transport = InProcess::default();
+        let _never_served = transport.command_server().unwrap();
+        let mut machine = MachinePorts::connect(&transport).unwrap();
+        let stop = AtomicBool::new(false);
+        let mut control = Control {
+            stop: &stop,
+            pause: &mut |_| {},
+            notify: &mut |_| {},
+        };
+        for _ in 0..64 {
+            let asked = machine.command(Command::Ping, &mut control);
+            assert!(
+                matches!(asked, Err(RunError::CommandUnanswered { .. })),
+                "{asked:?}"
+            );
         }
     }
 }

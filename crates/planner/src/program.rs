@@ -5,7 +5,8 @@ use std::io::{self, BufRead, BufReader, Seek};
 use std::path::Path;
 
 use glidepath_gcode::{
-    Diagnostic, InForce, InputWait, Options, Probed, Program, Subroutines, ToolLength, diagnostics,
+    Diagnostic, InForce, InputWait, Options, PositionOffsets, Probed, Program, Subroutines,
+    diagnostics,
 };
 use glidepath_program::{Event, Item, ItemKind};
 
@@ -13,7 +14,8 @@ use crate::fingerprint::Fingerprinting;
 use crate::input_arbiter::{AnsweredInput, InputArbiter, InputRequest, InputResult};
 use crate::unchanged_file::UnchangedFile;
 use crate::{
-    ChangeLog, ItemSource, Refusal, RemarkLog, RunChannels, SetUp, Settled, Supply, ToolLengthLog,
+    ChangeLog, ItemSource, PositionOffsetsLog, Refusal, RemarkLog, RunChannels, SetUp, Settled,
+    Supply,
 };
 
 /// Bytes read from a file or pipe at a time.
@@ -29,7 +31,7 @@ pub struct ProgramSource<R> {
     /// Where changes of how the machine is set up are noted, and how many of them were.
     log: Option<(ChangeLog, u64)>,
     /// Where the length of the tool in force is noted, and what was noted last.
-    lengths: Option<(ToolLengthLog, Option<ToolLength>)>,
+    position_offsets: Option<(PositionOffsetsLog, Option<PositionOffsets>)>,
     remarks: Option<RemarkLog>,
     /// Where inputs are asked.
     inputs: Option<InputArbiter>,
@@ -50,7 +52,7 @@ impl<R: BufRead> ProgramSource<R> {
             fingerprint: 0,
             given: 0,
             log: None,
-            lengths: None,
+            position_offsets: None,
             remarks: None,
             inputs: None,
             wait: None,
@@ -87,7 +89,7 @@ impl<R: BufRead> ProgramSource<R> {
     pub fn attended(self, channels: RunChannels) -> Self {
         let RunChannels {
             changes,
-            lengths,
+            position_offsets,
             remarks,
             inputs,
         } = channels;
@@ -101,7 +103,7 @@ impl<R: BufRead> ProgramSource<R> {
             remarks,
             inputs,
             log: changes.map(|log| (log, 0)),
-            lengths: lengths.map(|log| (log, None)),
+            position_offsets: position_offsets.map(|log| (log, None)),
             ..self
         }
     }
@@ -196,9 +198,9 @@ impl<R: BufRead> ProgramSource<R> {
         }
     }
 
-    /// Notes the length of the tool that holds from the item on that is about to be handed over. The blocks of
+    /// Notes the offsets that hold from the item on that is about to be handed over. The blocks of
     /// a line are handed over one after the other, and its G43 counts behind its M6.
-    fn note_length(&mut self, next: Option<&Item>) {
+    fn note_position_offsets(&mut self, next: Option<&Item>) {
         let is_before_the_tool = next.is_some_and(|item| {
             matches!(
                 item.kind,
@@ -207,12 +209,12 @@ impl<R: BufRead> ProgramSource<R> {
                 )
             )
         });
-        if let Some((log, noted)) = &mut self.lengths
+        if let Some((log, noted)) = &mut self.position_offsets
             && !is_before_the_tool
         {
-            let length = self.program.tool_length();
-            if noted.replace(length) != Some(length) {
-                log.note(self.given, length);
+            let offsets = self.program.position_offsets();
+            if noted.replace(offsets) != Some(offsets) {
+                log.note(self.given, offsets);
             }
         }
     }
@@ -295,7 +297,7 @@ impl<R: BufRead> ItemSource for ProgramSource<R> {
         }
         let next = self.program.next();
         self.note_changes();
-        self.note_length(next.as_ref().and_then(|next| next.as_ref().ok()));
+        self.note_position_offsets(next.as_ref().and_then(|next| next.as_ref().ok()));
         self.note_remarks();
         match next {
             Some(Ok(item)) => {

@@ -166,6 +166,12 @@ impl<'t> FramePublisher<'t> {
         self.machine.line()
     }
 
+    /// Whether a jog in a hold has moved the axes off the path of the newest epoch, as far as is known.
+    #[must_use]
+    pub const fn was_off_path(&self) -> bool {
+        self.machine.was_off_path()
+    }
+
     /// Number of the epoch that the machine is in, or was in last; `None` if unknown.
     #[must_use]
     pub fn epoch(&self) -> Option<u64> {
@@ -232,9 +238,15 @@ impl<'t> FramePublisher<'t> {
                 return Err(RunError::Interrupted);
             }
             self.machine.observe()?;
-            if let Attended::End(why) = attend.attend(waited, &self.doing()) {
-                self.abort(&epoch, control)?;
-                return Err(RunError::Ended { why });
+            match attend.attend(waited, &self.doing()) {
+                Attended::GoesOn => {}
+                // What could be resumed before stays so.
+                Attended::IsEmpty if !epoch.has_begun() => return Ok(false),
+                Attended::IsEmpty => {}
+                Attended::End(why) => {
+                    self.abort(&epoch, control)?;
+                    return Err(RunError::Ended { why });
+                }
             }
             // A fault tells more than that the job is over.
             epoch.follow(self.standing(&epoch)?);

@@ -1,6 +1,6 @@
 //! The run channels: the state that a program shares with whoever supervises its run.
 
-use crate::{ChangeLog, InputArbiter, RemarkLog, ToolLengthLog};
+use crate::{ChangeLog, InputArbiter, PositionOffsetsLog, RemarkLog};
 
 /// The run channels: the state that a program shares with whoever supervises its run. Clones are the same.
 #[derive(Debug, Clone, Default)]
@@ -8,7 +8,7 @@ pub struct RunChannels {
     /// Where changes of how the machine is set up are noted.
     pub changes: Option<ChangeLog>,
     /// Where the length of the tool in force is noted: at the beginning, and where it changes.
-    pub lengths: Option<ToolLengthLog>,
+    pub position_offsets: Option<PositionOffsetsLog>,
     /// Where is noted what the program says to people.
     pub remarks: Option<RemarkLog>,
     /// Where inputs are asked, where the program's inputs are real.

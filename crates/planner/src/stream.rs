@@ -77,6 +77,8 @@ pub(crate) struct Stream {
     position: AxisVector,
     limits: Option<SoftLimits>,
     queue: VecDeque<Item>,
+    /// Whether anything was accepted that is to be done.
+    has_items: bool,
     phase: Phase,
     /// Why nothing more is accepted, for people.
     closed_because: String,
@@ -117,6 +119,7 @@ impl Stream {
             position,
             limits,
             queue: VecDeque::with_capacity(STREAM_QUEUE),
+            has_items: false,
             phase: Phase::Open,
             closed_because: String::new(),
         })
@@ -161,7 +164,7 @@ impl Stream {
 
     /// Whether anything was accepted that is to be done.
     pub(crate) const fn has_items(&self) -> bool {
-        self.accepted > 1
+        self.has_items
     }
 
     /// Requests accepted so far, that which opened the stream included.
@@ -252,6 +255,7 @@ impl Stream {
             ItemKind::Event(_) | ItemKind::Dwell(_) => {}
         }
         self.queue.push_back(item);
+        self.has_items = true;
         Ok(())
     }
 

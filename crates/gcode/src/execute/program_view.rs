@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glidepath_geometry::AxisVector;
 
-use crate::execute::motion::tool_length::ToolLength;
+use crate::execute::motion::position_offsets::PositionOffsets;
 use crate::execute::program::Program;
 use crate::execute::state::modal::Modal;
 use crate::execute::state::words_in_force::words_in_force;
@@ -77,11 +77,12 @@ impl<R: BufRead> Program<R> {
         &self.interpreter.offsets.tool
     }
 
-    /// The length of the tool in force after the last block read.
+    /// The offsets in force after the last block read, beside the coordinate system.
     #[must_use]
-    pub const fn tool_length(&self) -> ToolLength {
-        ToolLength {
-            offset: self.interpreter.offsets.tool,
+    pub const fn position_offsets(&self) -> PositionOffsets {
+        PositionOffsets {
+            tool: self.interpreter.offsets.tool,
+            shift: self.interpreter.offsets.shift,
             tip: self.interpreter.state.tip,
         }
     }

@@ -150,7 +150,10 @@ impl Attention {
         }
         if state == MachineState::Held {
             let doing = status.state_text().unwrap_or_default();
-            return Some(format!("line {}: {doing}", status.line));
+            return Some(match status.line {
+                0 => doing.to_string(),
+                line => format!("line {line}: {doing}"),
+            });
         }
         if not_ready(state) {
             let doing = status.state_text().unwrap_or_default();
@@ -173,6 +176,7 @@ impl Attention {
             .map(|m_code_wait| m_code_wait.answer);
         let done = how_done(answer)?;
         let asked = match self.names.asked_tool(status, self.told.as_ref()) {
+            Some(tool) if tool.number == 0 => "take the tool out of the spindle".to_owned(),
             Some(tool) => format!("change to {tool}"),
             None if code == 6 => "change the tool".to_owned(),
             None => format!("the program asks {}", awaited_code(status)),

@@ -21,6 +21,11 @@ pub(super) fn told(
     let line = publisher.line();
     (point.block > 0 && line > 0).then(|| {
         let command = resume(command, &file.display().to_string());
-        format!("it was left in line {line}, and {command} goes on from there")
+        let where_from = if publisher.was_off_path() {
+            "there, once the axes, which were jogged away, are back where it was held"
+        } else {
+            "there"
+        };
+        format!("it was left in line {line}, and {command} goes on from {where_from}")
     })
 }

@@ -244,7 +244,9 @@ fn text(folder: &Path, generation: u64, kept: &PersistentState) -> String {
         };
         let is_active = name == system_name(kept.offsets.active);
         let remark = match name.as_str() {
-            "G92" if words != "0" => "   not in force; G92.3 puts it in force",
+            "G92" if words != "0" => {
+                "   kept; `glidepath status` shows whether it is in force, and G92.3 puts it in force"
+            }
             _ if is_active => "   programs begin here",
             _ => "",
         };

@@ -1,17 +1,17 @@
-//! The work offsets that the machine keeps, and the length of the tool in force.
+//! The work offsets that the machine keeps, and the offsets in force beside them.
 
 use crate::config::MachineConfig;
 use crate::persistence::convert::system_name;
+use crate::position_offsets_note;
 use crate::report::WorkOffset;
-use crate::tool_length_note;
-use glidepath_gcode::ToolLength;
+use glidepath_gcode::PositionOffsets;
 use glidepath_kinematics::FiveAxis;
 use glidepath_link::LinkConfig;
 use glidepath_persistence::{Directory, Store};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-/// Between two looks at the offsets. The length of a tool is looked at every time: it changes under way.
+/// Between two looks at the offsets. Those beside them are looked at every time: they change under way.
 const EVERY: Duration = Duration::from_secs(1);
 
 /// What is kept, looked at now and then.
@@ -44,7 +44,7 @@ impl PersistentOffsets {
         }
         let offset = self.offset.clone()?;
         Some(WorkOffset {
-            tool: tool_length_note::in_force(&self.directory),
+            beside: position_offsets_note::in_force(&self.directory),
             ..offset
         })
     }
@@ -58,7 +58,7 @@ impl PersistentOffsets {
             name: system_name(kept.offsets.active),
             origin: system.origin,
             rotation_deg: system.rotation_deg,
-            tool: ToolLength::default(),
+            beside: PositionOffsets::default(),
             five_axis: self.five_axis,
         })
     }

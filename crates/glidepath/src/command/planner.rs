@@ -17,9 +17,9 @@ use crate::interrupt::{Interrupt, end_with};
 use crate::joints;
 use crate::output;
 use crate::persistence::read::{read, set_up};
+use crate::position_offsets_note::PositionOffsetsNote;
 use crate::program_file::ProgramFile;
-use crate::report::{counted, peak_rss_bytes, seconds};
-use crate::tool_length_note::ToolLengthNote;
+use crate::report::{counted, driven, peak_rss_bytes, seconds};
 use glidepath_geometry::AxisVector;
 use glidepath_link::{Ipc, LinkConfig, Operator, Transport};
 use glidepath_planner::{
@@ -315,7 +315,7 @@ fn serve(
         output::note("planner: no interpolator runs yet; it is waited for");
     }
     // The first job begins without one.
-    ToolLengthNote::new(link.directory()).clear();
+    PositionOffsetsNote::new(link.directory()).clear();
     let mut executor = JobExecutor::new(config, link.clone(), board);
     match serve_jobs(transport, &listening, Some(&mut executor), control) {
         Ok(()) | Err(RunError::Interrupted) => Ok(interrupt.exit()),
@@ -339,7 +339,7 @@ fn text(program: &str, statistics: &Statistics) -> String {
     format!(
         "{program}: executed; {}, {}, {}, planned in {}\n",
         counted(statistics.lines, "line"),
-        counted(statistics.segments, "segment"),
+        driven(statistics.segments),
         counted(statistics.frames, "frame"),
         seconds(statistics.planning.as_secs_f64())
     )

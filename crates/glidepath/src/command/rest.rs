@@ -120,7 +120,8 @@ pub(super) fn disable(args: &OperatorArgs, config: &MachineConfig) -> Result<Exi
     let command = Command::Disable;
     command_and_wait(args, config, "disable", command, |operator, link| {
         wait(operator, link, |status| {
-            let is_off = status.power()? == Power::Off && !status.state()?.is_moving();
+            let has_none = matches!(status.power()?, Power::Off | Power::Simulated);
+            let is_off = has_none && !status.state()?.is_moving();
             Ok(is_off && !has_job(status)?)
         })
     })

@@ -6,13 +6,13 @@ use crate::config::MachineConfig;
 use crate::output;
 use crate::persistence::input_log::Journal;
 use crate::persistence::state_store::StateStore;
-use crate::report::counted;
-use crate::tool_length_note::ToolLengthNote;
-use glidepath_gcode::{Connections, ToolLength};
+use crate::position_offsets_note::PositionOffsetsNote;
+use crate::report::driven;
+use glidepath_gcode::{Connections, PositionOffsets};
 use glidepath_geometry::AxisVector;
 use glidepath_planner::{
-    FramePublisher, InputArbiter, Notice, RemarkLog, ResumeError, RunChannels, RunError,
-    Statistics, ToolLengthLog,
+    FramePublisher, InputArbiter, Notice, PositionOffsetsLog, RemarkLog, ResumeError, RunChannels,
+    RunError, Statistics,
 };
 use std::cell::{Cell, RefCell};
 use std::path::PathBuf;
@@ -24,9 +24,9 @@ pub(super) struct RunSupervisor {
     /// The epoch of which a frame was delivered first.
     first_epoch: Cell<Option<u64>>,
     state_store: RefCell<Option<StateStore>>,
-    lengths: ToolLengthLog,
-    /// Where the length of the tool in force is noted.
-    note: ToolLengthNote,
+    position_offsets: PositionOffsetsLog,
+    /// Where the offsets in force are noted.
+    note: PositionOffsetsNote,
     remarks: RemarkLog,
     inputs: InputArbiter,
 }
@@ -54,8 +54,8 @@ impl RunSupervisor {
             quiet,
             first_epoch: Cell::new(None),
             state_store: RefCell::new(state_store),
-            lengths: ToolLengthLog::default(),
-            note: ToolLengthNote::new(directory),
+            position_offsets: PositionOffsetsLog::default(),
+            note: PositionOffsetsNote::new(directory),
             remarks: RemarkLog::default(),
             inputs: InputArbiter::default(),
         })
@@ -69,7 +69,7 @@ impl RunSupervisor {
     pub(super) fn channels(&self) -> RunChannels {
         RunChannels {
             changes: self.state_store.borrow().as_ref().map(StateStore::log),
-            lengths: Some(self.lengths.clone()),
+            position_offsets: Some(self.position_offsets.clone()),
             remarks: Some(self.remarks.clone()),
             inputs: Some(self.inputs.clone()),
         }
@@ -185,7 +185,7 @@ impl RunSupervisor {
                 self.first_epoch.set(Some(first));
             }
             Notice::Progress(progress) => {
-                self.note_length(self.lengths.executed(progress.block));
+                self.note_position_offsets(self.position_offsets.executed(progress.block));
                 if let Some(state_store) = &mut *self.state_store.borrow_mut() {
                     state_store.executed(progress.block, config);
                 }
@@ -194,13 +194,13 @@ impl RunSupervisor {
         }
     }
 
-    /// Notes which length of a tool is in force from now on. Where that fails the program goes on all the
+    /// Notes which offsets are in force from now on. Where that fails the program goes on all the
     /// same: whoever shows positions shows them with the one before.
-    fn note_length(&self, length: Option<ToolLength>) {
-        let noted = length.map(|length| self.note.leave(&length));
+    fn note_position_offsets(&self, offsets: Option<PositionOffsets>) {
+        let noted = offsets.map(|offsets| self.note.leave(&offsets));
         if let Some(Err(error)) = noted {
             output::note(&format!(
-                "planner: positions are shown without the length of the tool now in force: {error}"
+                "planner: positions are shown without the offsets now in force: {error}"
             ));
         }
     }
@@ -218,12 +218,12 @@ impl RunSupervisor {
         let point = publisher.resume_point();
         // Before the program has begun, the machine tells of the one before it.
         let has_begun = self.has_begun(publisher);
-        self.note_length(match (published, &point) {
-            (Ok(_), _) => self.lengths.all_executed(),
+        self.note_position_offsets(match (published, &point) {
+            (Ok(_), _) => self.position_offsets.all_executed(),
             (Err(_), Err(RunError::Resume(ResumeError::Completed))) if has_begun => {
-                self.lengths.all_executed()
+                self.position_offsets.all_executed()
             }
-            (Err(_), Ok(point)) if has_begun => self.lengths.executed(point.block),
+            (Err(_), Ok(point)) if has_begun => self.position_offsets.executed(point.block),
             (Err(_), _) => None,
         });
         let Some(state_store) = self.state_store.take() else {
@@ -281,7 +281,7 @@ pub(super) fn tell(notice: &Notice<'_>, quiet: bool) {
         Notice::Listening => "ready: it takes lines, programs and streams".to_owned(),
         Notice::StreamOpened { session } => format!("stream {session} opened"),
         Notice::StreamExecuted(statistics) => {
-            format!("executed; {}", counted(statistics.segments, "segment"))
+            format!("executed; {}", driven(statistics.segments))
         }
         Notice::StreamBroken(error) => format!("the stream broke off: {error}"),
         Notice::Started { epoch } => format!("epoch {epoch} starts"),

@@ -89,6 +89,9 @@ impl AwaitedEvent {
 
 impl fmt::Display for AskedTool {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.number == 0 {
+            return f.write_str("no tool");
+        }
         write!(f, "tool T{}", self.number)?;
         match &self.name {
             Some(name) => write!(f, " ({name})"),

@@ -26,7 +26,7 @@ pub use fit::{FitReport, FittedRun};
 pub use machine::{AskedTool, AwaitedEvent, awaited_code, names};
 pub use memory::peak_rss_bytes;
 pub use motion::{MotionReport, Planning};
-pub use quantity::{counted, decimals, grouped, rough_time, seconds};
+pub use quantity::{counted, decimals, driven, grouped, rough_time, seconds};
 pub use run::RunReport;
 pub use shape::{AxisShape, ShapeDistance, ShapeFigures};
 pub use smoothness::{AxisFigures, SmoothnessFigures};

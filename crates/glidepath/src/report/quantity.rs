@@ -21,6 +21,14 @@ pub fn counted(number: u64, one: &str) -> String {
     format!("{} {one}{ending}", grouped(number))
 }
 
+/// How many segments were driven, for people.
+pub fn driven(segments: u64) -> String {
+    match segments {
+        0 => "no motion".to_owned(),
+        count => counted(count, "segment"),
+    }
+}
+
 /// A number with so many decimals. What is rounded to nothing has no sign.
 #[must_use]
 pub fn decimals(value: f64, count: usize) -> String {

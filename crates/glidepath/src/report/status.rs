@@ -252,7 +252,7 @@ pub fn status_text(instance: &str, status: &Status, beside: &Beside) -> String {
     if let Some(offset) = &beside.offset {
         let part = offset.work(&status.position);
         let part = positions_text(&part, &beside.not_homed, is_told);
-        let _ = writeln!(text, "  part          {part}  ({})", offset.name);
+        let _ = writeln!(text, "  part          {part}  ({})", offset.said());
     }
     if let Some(away) = away_text(status) {
         let _ = writeln!(text, "  away          {away}");

@@ -1,6 +1,7 @@
 //! The coordinate system in force, in which positions are those of programs.
 
-use glidepath_gcode::ToolLength;
+use crate::persistence::convert::axis_words;
+use glidepath_gcode::PositionOffsets;
 use glidepath_geometry::{AXES, Axis, AxisVector};
 use glidepath_kinematics::FiveAxis;
 use serde_json::{Map, Value, json};
@@ -14,8 +15,8 @@ pub struct WorkOffset {
     pub origin: [f64; AXES],
     /// How far X and Y are turned about Z, degrees.
     pub rotation_deg: f64,
-    /// The length of the tool in force.
-    pub tool: ToolLength,
+    /// What is in force beside it.
+    pub beside: PositionOffsets,
     /// The five axes, where the machine has them: along the tool is another way than along Z there.
     pub five_axis: Option<FiveAxis>,
 }
@@ -24,8 +25,8 @@ impl WorkOffset {
     /// A machine position in this system: the tip of the tool, as programs have it.
     pub(super) fn work(&self, machine: &[f64; AXES]) -> [f64; AXES] {
         let tip = self
-            .tool
-            .without_it(&AxisVector::from(*machine), self.five_axis);
+            .beside
+            .without_tool(&AxisVector::from(*machine), self.five_axis);
         let mut work: [f64; AXES] = tip.into();
         for (place, origin) in work.iter_mut().zip(&self.origin) {
             *place -= origin;
@@ -35,12 +36,24 @@ impl WorkOffset {
         if self.rotation_deg != 0.0 {
             [work[0], work[1]] = [x * cos + y * sin, y * cos - x * sin];
         }
+        for (place, shift) in work.iter_mut().zip(self.beside.shift.iter()) {
+            *place -= shift;
+        }
         work
+    }
+
+    /// It in words: its name, and that it is shifted, which its zero does not tell.
+    pub(super) fn said(&self) -> String {
+        let rounded = self.beside.shift.map(|by| (by * 1e4).round() / 1e4);
+        match axis_words(&rounded.into()).as_str() {
+            "" => self.name.clone(),
+            shift => format!("{}, shifted by {shift} (G92 or G52)", self.name),
+        }
     }
 
     /// Whether positions depend on where the rotary axes stand.
     const fn is_mapped(&self) -> bool {
-        self.five_axis.is_some() && !self.tool.tip.is_plain()
+        self.five_axis.is_some() && !self.beside.tip.is_plain()
     }
 
     /// It as an object, and a machine position in it, by the axes that the machine has.
@@ -55,7 +68,8 @@ impl WorkOffset {
             "system": self.name,
             "origin": by_axis(&self.origin),
             "rotation_deg": self.rotation_deg,
-            "tool_length": by_axis(&self.tool.offset.into()),
+            "shift": by_axis(&self.beside.shift.into()),
+            "tool_length": by_axis(&self.beside.tool.into()),
             "turns_with_rotary_axes": self.is_mapped(),
         });
         [offset, by_axis(&self.work(position)).into()]
@@ -76,7 +90,7 @@ mod tests {
             name: "G55".to_owned(),
             origin: [0.0; AXES],
             rotation_deg: 0.0,
-            tool: ToolLength::default(),
+            beside: PositionOffsets::default(),
             five_axis: None,
         }
     }
@@ -94,9 +108,24 @@ mod tests {
     }
 
     #[test]
+    fn what_g92_has_shifted_is_shown_as_programs_have_it() {
+        let mut offset = WorkOffset {
+            rotation_deg: 90.0,
+            ..offset()
+        };
+        offset.origin[0] = 10.0;
+        offset.beside.shift[1] = 2.0;
+        let mut machine = [0.0; AXES];
+        machine[0] = 7.0;
+        // Three from the zero in machine -X, which is +Y of the turned system.
+        let work = offset.work(&machine);
+        assert!(work[0].abs() < 1e-12 && (work[1] - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
     fn positions_are_those_of_the_tip_of_the_tool() {
         let mut offset = offset();
-        (offset.origin[2], offset.tool.offset[2]) = (-100.0, 40.0);
+        (offset.origin[2], offset.beside.tool[2]) = (-100.0, 40.0);
         let mut machine = [0.0; AXES];
         machine[2] = -50.0;
         assert_eq!(offset.work(&machine)[2], 10.0);
@@ -115,7 +144,7 @@ mod tests {
             rotary_reversed: false,
             tool_mm: 50.0,
         });
-        offset.tool.tip = Tip::Follows { longer_mm: 10.0 };
+        offset.beside.tip = Tip::Follows { longer_mm: 10.0 };
         let mut machine = [0.0; AXES];
         machine[3] = 30.0;
         let work = offset.work(&machine);

@@ -10,7 +10,7 @@ mod links;
 
 use crate::acknowledgements::Acknowledgements;
 use crate::auxiliary::AuxiliaryBook;
-use crate::commands::{CommandContext, is_refusal};
+use crate::commands::{CommandContext, is_refusal, passes_stop};
 use crate::config::Config;
 use crate::fault::Fault;
 use crate::feedback::DriveMonitor;
@@ -310,7 +310,7 @@ impl<'a> Ports<'a> {
             let served = self.links.commands.serve(&mut |request| {
                 let reply = desk.answer(request);
                 let text = request.text.as_str();
-                let command = request.command().ok();
+                let command = request.command().ok().map(|command| desk.meant(command));
                 let by_hand = told_by_hand::of_command(desk.report.state, command);
                 let has_failed = matches!(command, Some(Command::Acknowledge { done: false, .. }));
                 if command == Some(Command::Tell) {
@@ -322,6 +322,9 @@ impl<'a> Ports<'a> {
                     self.failure_is_explained = true;
                 } else if let Some(text) = by_hand.filter(|_| !is_refusal(&reply)) {
                     book.last_error(text);
+                } else if passes_stop(desk.report.state, command) && !is_refusal(&reply) {
+                    // Whoever lets it pass has read what the program said there.
+                    book.message("");
                 } else if matches!(command, Some(Command::Job { .. })) {
                     // Its planner waits for that.
                     self.status_due_ns = 0;

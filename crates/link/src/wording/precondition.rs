@@ -24,6 +24,8 @@ pub enum UnmetPrecondition {
     Away,
     /// A reset without a fault.
     NoFault,
+    /// A reset while the motion still comes to rest.
+    NotAtRestYet,
     /// A reset while a joint with power is not where it is to be.
     StaysApart,
     /// A command to drives that are not there.
@@ -93,6 +95,7 @@ impl UnmetPrecondition {
         Self::NoBlock,
         Self::Away,
         Self::NoFault,
+        Self::NotAtRestYet,
         Self::StaysApart,
         Self::Simulated,
         Self::OnPath,
@@ -145,9 +148,9 @@ impl UnmetPrecondition {
             }
             Self::NoBlock => "no program runs, so there is no block to stop at the end of",
             Self::Away => "the axes are away from the path; return first with `glidepath return`",
-            Self::NoFault => {
-                "no fault is latched, or the motion has not come to rest yet; `glidepath status` says \
-                 which"
+            Self::NoFault => "no fault is latched, so there is nothing to clear",
+            Self::NotAtRestYet => {
+                "a fault is latched, and the motion has not come to rest yet; ask again in a moment"
             }
             Self::StoppedSince => {
                 "the machine was stopped after this was asked for; ask again if it is to move"
@@ -163,7 +166,7 @@ impl UnmetPrecondition {
             Self::Moving => "the axes are moving; return when they are at rest",
             Self::FaultLatched => "a fault is latched; clear it first with `glidepath reset`",
             Self::PowerAsked => "the drives are on, or were asked to be",
-            Self::NoPosition => "the drives do not say where they are; start the servo stack",
+            Self::NoPosition => "the drives do not say where they are; start the servo stack, for example `glidepath ethercat`",
             Self::NoPose => {
                 "the drives say where no pose of the mechanism is; tell where the joints are with \
                  set-position, or mend the configuration"
@@ -177,7 +180,7 @@ impl UnmetPrecondition {
             }
             Self::NoSuchJoint => "the machine has no such joint",
             Self::SecondJoint => "it is the second joint of its axis, and goes with the first",
-            Self::Unreported => "nobody says where the joint is; start the servo stack",
+            Self::Unreported => "nobody says where the joint is; start the servo stack, for example `glidepath ethercat`",
             Self::NeedsPower => {
                 "the drives have to be on, and are not; `glidepath enable` switches them on"
             }

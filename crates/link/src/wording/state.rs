@@ -59,9 +59,7 @@ impl MachineState {
             Self::Waiting => {
                 "at rest where the program known so far ends; it goes on by itself when more comes"
             }
-            Self::Awaiting => {
-                "at rest until what the program asked for is done; `glidepath status` says what"
-            }
+            Self::Awaiting => "at rest until what the program asked for is done",
             Self::Jogging => "moved by hand",
             Self::Homing => "joints are on their way home",
             Self::Off => "the drives have no power; `glidepath enable` gives it",

@@ -58,8 +58,7 @@ impl Attend for StreamClientHandler<'_> {
         self.client.wait(waited);
         if let Some(jobs) = &mut self.jobs {
             // A port that fails is told when the stream is over.
-            let busy = ("", "another program streams segments");
-            jobs.serve_busy(waited, busy).ok();
+            jobs.serve_busy(waited, "").ok();
         }
         let before = lock(self.received).stream.accepted();
         let served = self.serve();
@@ -71,6 +70,8 @@ impl Attend for StreamClientHandler<'_> {
         };
         if let Err(error) = served {
             received.give_up(Refusal::StreamFailed(error));
+        } else if received.stream.is_ended() && !received.stream.has_items() {
+            return Attended::IsEmpty;
         } else if !received.stream.is_open() {
             return Attended::GoesOn;
         } else if let Some(why) = self.client.why_not_begun() {

@@ -20,7 +20,7 @@ use crate::command::run_supervisor::{RunSupervisor, recalling};
 use crate::config::MachineConfig;
 use crate::joints;
 use crate::program_file::ProgramFile;
-use crate::report::counted;
+use crate::report::{counted, driven};
 
 /// A file with the configuration for it, and what is kept beside it.
 type FileWork<'f> = (&'f FileJob<'f>, &'f MachineConfig, &'f RunSupervisor);
@@ -69,7 +69,7 @@ impl JobExecutor<'_> {
             "{}: executed; {}, {}",
             file.path.display(),
             counted(statistics.lines, "line"),
-            counted(statistics.segments, "segment")
+            driven(statistics.segments)
         ))
     }
 

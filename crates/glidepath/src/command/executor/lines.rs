@@ -12,7 +12,7 @@ use super::stop::{End, Stop, refusal};
 use crate::command::left_in_force::JobLeft;
 use crate::command::run_supervisor::recalling;
 use crate::config::MachineConfig;
-use crate::report::counted;
+use crate::report::{counted, driven};
 
 /// The line or lines of an operator as a program.
 type LineSource = ProgramSource<Cursor<Vec<u8>>>;
@@ -49,7 +49,7 @@ impl JobExecutor<'_> {
         Ok(format!(
             "executed; {}, {}",
             counted(statistics.lines, "line"),
-            counted(statistics.segments, "segment")
+            driven(statistics.segments)
         ))
     }
 
@@ -110,7 +110,7 @@ impl JobExecutor<'_> {
         let statistics = run?;
         Ok(format!(
             "executed; {}{}",
-            counted(statistics.segments, "segment"),
+            driven(statistics.segments),
             self.lost_later(&config)
         ))
     }

@@ -215,7 +215,7 @@ mod tests {
     use crate::report::view::seen::ProgramPlace;
     use crate::report::work_offset::WorkOffset;
     use core::time::Duration;
-    use glidepath_gcode::ToolLength;
+    use glidepath_gcode::PositionOffsets;
     use glidepath_geometry::Axis;
     use glidepath_link::Auxiliary;
     use glidepath_program::Event;
@@ -261,7 +261,7 @@ mod tests {
                 name: "G54".to_owned(),
                 origin,
                 rotation_deg: 0.0,
-                tool: ToolLength::default(),
+                beside: PositionOffsets::default(),
                 five_axis: None,
             }),
             asked: AwaitedEvent::default(),
