@@ -38,6 +38,24 @@ fn a_straight_move_is_straight_whatever_comes_before_it() {
     }
 }
 
+/// At the crest of an arc in chords an axis turns round beside a joint of two of them; and a corner comes into sight when the
+/// motion is behind the middle of the line to it. At both the motion swung by a micrometre or two.
+#[test]
+fn a_motion_does_not_tremble_at_a_crest_and_where_a_corner_comes_into_sight() {
+    for program in ["crest", "over_to_another_corner"] {
+        let file = format!("{ROOT}/tests/data/smooth/{program}.ngc");
+        let output = glidepath(&["plan", &file, "--json"]);
+        assert!(output.status.success(), "{program}");
+        let report = object(&output);
+        assert_eq!(report["violation_count"], 0, "{program}");
+        let findings = &report["smoothness_findings"];
+        assert_eq!(
+            report["smoothness_finding_count"], 0,
+            "{program}: {findings}"
+        );
+    }
+}
+
 /// Lines with corners, each in pieces whose ends are rounded to a micrometre, as a program of CAM has them.
 fn in_pieces(seed: u64) -> String {
     // SplitMix64: Steele, Lea, Flood 2014.

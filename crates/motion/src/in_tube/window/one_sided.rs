@@ -153,6 +153,12 @@ impl<const D: usize> ScaledPath<D> {
         });
     }
 
+    /// How far a motion on piece `i` may be outside of a border.
+    fn allowed_beyond(&self, i: usize) -> f64 {
+        let segment = &self.segments[i];
+        (BEYOND_R * segment.radius).max(segment.beyond)
+    }
+
     /// True if the end of a period is on the sides on which the motion is to stay at a parameter of a
     /// piece, by its number on the whole path; give or take the way of the period, or a little of the piece.
     pub(crate) fn is_on_its_sides(
@@ -167,7 +173,7 @@ impl<const D: usize> ScaledPath<D> {
         let (place, progress) = (self.inside(to), segment.s + u * segment.length);
         let step = self.direction(&(to - from));
         let way = dot(&step, &step).sqrt().min(SHIFT * segment.length);
-        let allowed = (BEYOND_R * segment.radius).max(segment.beyond);
+        let allowed = self.allowed_beyond(i);
         let ends = [segment.s, segment.s + segment.length];
         [0.0, -way, way].into_iter().any(|shift| {
             // Where on the piece the period belongs is only known to within its way: one place is enough.
@@ -181,24 +187,70 @@ impl<const D: usize> ScaledPath<D> {
     }
 }
 
-/// Keeps the last site, which belongs to a sample on piece `i` at a progress, on its sides.
+/// The offset of a window's start from the path, where that is outside of a border.
+///
+/// Where a corner comes into sight behind the middle of its run, the motion that is given is up to what the
+/// judge allows on the side of the corner before. Asked to be on the other side at once, it would swing
+/// over within two periods, and swing out by several times as much. So it goes over while it settles.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct StartOffset<const D: usize> {
+    offset: [f64; D],
+    settling_periods: usize,
+}
+
+impl<const D: usize> StartOffset<D> {
+    /// That of a window whose first sample is on piece `i` at a progress.
+    pub(super) fn new(
+        path: &ScaledPath<D>,
+        (i, progress): (usize, f64),
+        start: &[f64; D],
+        settling_periods: usize,
+    ) -> Self {
+        let center = path.center(i, progress);
+        Self {
+            offset: core::array::from_fn(|k| start[k] - center[k]),
+            settling_periods,
+        }
+    }
+
+    /// How far sample `k` may be outside of the border of a side that leaves so much `inside` of it to the path.
+    fn room(&self, k: usize, (normal, inside): (&[f64; D], f64), most: f64) -> f64 {
+        let outside = -inside - dot(normal, &self.offset);
+        if k >= self.settling_periods || outside <= 0.0 {
+            return 0.0;
+        }
+        #[expect(clippy::cast_precision_loss, reason = "a few periods")]
+        let left_r = 1.0 - k as f64 / self.settling_periods as f64;
+        most * left_r
+    }
+}
+
+/// Keeps the last site, which belongs to sample `k` on piece `i` at a progress, on its sides.
 pub(super) fn keep<const D: usize>(
     problem: &mut Problem<D>,
     path: &ScaledPath<D>,
-    (i, progress): (usize, f64),
-    radius: f64,
+    (k, i, progress): (usize, usize, f64),
+    (radius, start): (f64, &StartOffset<D>),
 ) {
     let Some(site) = problem.sites.last() else {
         return;
     };
     let (first, weights) = (site.first, site.weights);
     let here = path.position(i, progress);
+    let allowed = path.allowed_beyond(i);
     path.half_spaces(i, progress, |side| {
         let is_given = side
             .axis
             .is_some_and(|axis| problem.is_given((first, &weights), axis));
-        if !is_given && dot(&side.normal, &here) - side.least < NEAR_R * radius {
-            problem.keep_beyond(&side.normal, side.least, radius);
+        let inside = dot(&side.normal, &here) - side.least;
+        if is_given || inside >= NEAR_R * radius {
+            return;
         }
+        // The end of an axis' way is a wall; it does not come into sight under way.
+        let room = match side.axis {
+            None => start.room(k, (&side.normal, inside), allowed),
+            Some(_) => 0.0,
+        };
+        problem.keep_beyond(&side.normal, side.least - room, radius);
     });
 }

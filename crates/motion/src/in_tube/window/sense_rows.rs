@@ -30,7 +30,7 @@ pub(super) fn add<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, 
         if sense == 0.0 || !is_slow || problem.is_given((k, &[1.0, 1.0, 0.0, 0.0]), axis) {
             continue;
         }
-        if !sides.is_rest && place.is_on_a_bend(path, axis) {
+        if !sides.is_rest && place.is_on_a_bend(path, axis, sense) {
             continue;
         }
         let at = f64::midpoint(points[k][axis], points[k + 1][axis]);
@@ -81,12 +81,13 @@ impl DifferencePlace {
     }
 
     /// True if the program itself turns round here, along a curve: the motion need not do so at the same
-    /// place to the bit, and would tremble if it had to.
-    fn is_on_a_bend<const D: usize>(&self, path: &ScaledPath<D>, axis: usize) -> bool {
+    /// place to the bit, and would tremble if it had to. A piece has the sense of its ends: up to where the curve
+    /// that it stands for turns round, that goes the other way.
+    fn is_on_a_bend<const D: usize>(&self, path: &ScaledPath<D>, axis: usize, sense: f64) -> bool {
         let radius = path.segments[self.piece].radius;
         let reach = (TURNING_R * radius).max(self.way);
-        let [before, behind] =
-            [-reach, reach].map(|shift| path.heading(self.piece, self.progress + shift)[axis]);
-        before * behind < 0.0
+        [-reach, reach]
+            .iter()
+            .any(|shift| sense * path.heading(self.piece, self.progress + shift)[axis] < 0.0)
     }
 }

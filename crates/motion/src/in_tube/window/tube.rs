@@ -26,9 +26,9 @@
 //! a short one, and prices need no division by N.
 
 use super::cutting_planes::{CLOSE_R, CuttingPlanes, HALF_WAY, Passing, Plane, nearest_to_corner};
-use super::one_sided;
+use super::one_sided::{self, StartOffset};
 use super::rate_changes;
-use super::samples::Samples;
+use super::samples::{Samples, sample};
 use super::scaled_path::ScaledPath;
 use super::solver::{FAR, Problem, dot};
 use super::spline::Grid;
@@ -254,13 +254,19 @@ pub(crate) fn build<const D: usize>(
         style,
         ..
     } = layout;
+    let start = StartOffset::new(
+        path,
+        (samples.piece[0], samples.progress[0]),
+        &sample(layout.points, &style.grid, 0),
+        style.settling_periods(path),
+    );
     for k in 1..=samples.count() {
         let i = samples.piece[k];
         let segment = &path.segments[i];
         let (first, weights) = style.grid.site(k);
         problem.add_site(first, weights);
         let span = extents.of(path, i, style);
-        add_tube(problem, layout, k, span);
+        add_tube(problem, layout, (k, &start), span);
         problem.add_aim((first, weights), layout.aim(k), &segment.tangent);
         if samples.piece[k - 1] < i {
             add_corners(problem, layout, k);
@@ -272,7 +278,7 @@ pub(crate) fn build<const D: usize>(
 fn add_tube<const D: usize>(
     problem: &mut Problem<D>,
     layout: &Layout<'_, D>,
-    k: usize,
+    (k, start): (usize, &StartOffset<D>),
     [back, over]: [f64; 2],
 ) {
     let piece = layout.samples.piece[k];
@@ -304,10 +310,10 @@ fn add_tube<const D: usize>(
         let normal = plane.normal.map(|n| n / radius);
         problem.add_row(normal, &plane.center, [-FAR, 1.0]);
     }
-    one_sided::keep(problem, layout.path, (piece, progress), radius);
+    one_sided::keep(problem, layout.path, (k, piece, progress), (radius, start));
     rate_changes::keep(problem, layout.path, (piece, progress), radius);
     if layout.samples.has_middle(k) {
-        add_middle(problem, layout, k, radius);
+        add_middle(problem, layout, (k, start), radius);
     }
 }
 
@@ -316,7 +322,7 @@ fn add_tube<const D: usize>(
 fn add_middle<const D: usize>(
     problem: &mut Problem<D>,
     layout: &Layout<'_, D>,
-    k: usize,
+    (k, start): (usize, &StartOffset<D>),
     radius: f64,
 ) {
     let piece = layout.samples.piece[k];
@@ -335,7 +341,7 @@ fn add_middle<const D: usize>(
         let normal = plane.normal.map(|n| n / radius);
         problem.add_row(normal, &plane.center, [-FAR, 1.0]);
     }
-    one_sided::keep(problem, layout.path, (piece, progress), radius);
+    one_sided::keep(problem, layout.path, (k, piece, progress), (radius, start));
 }
 
 /// The line from the sample before `k` to sample `k` comes near the corners between.
