@@ -1,13 +1,15 @@
 //! Tests of what an operator does to machines whose joints are not their axes: a plan uses all that joints
 //! can do, and whatever becomes of its time, no joint has to do more.
 
-use glidepath_geometry::{Axis, AxisVector};
+use bytemuck::Zeroable as _;
+use glidepath_geometry::{AXES, Axis, AxisVector};
+
 use glidepath_kinematics::{
     AxisList, AxisRates, AxisShare, CoreXy, Elbow, FiveAxis, FiveBar, Hexapod, JointLimit,
-    JointLimits, JointVector, LimitedMechanism, LinearDelta, Mechanism, Rotaries, RotaryDelta,
-    Scara, Tilt, TranslationalHexapod,
+    JointLimits, JointVector, Kinematics as _, LimitedMechanism, LinearDelta, Mechanism, Rotaries,
+    RotaryDelta, Scara, Tilt, TranslationalHexapod,
 };
-use glidepath_link::{Command, MachineState, Setpoint};
+use glidepath_link::{Command, MachineState, Setpoint, SetpointFrame};
 use glidepath_program::{Effort, Limits};
 use proptest::prelude::*;
 
@@ -384,4 +386,52 @@ fn a_fast_arc_is_gone_back_along_within_the_tolerance_of_the_program() {
         (Command::Hold, 3),
     ];
     carry_out_and(&job, &commands, |_| Ok(())).unwrap();
+}
+
+/// The largest shares of a joint's limits where the plan is played at a rate of nearly 1, so that setpoints are
+/// between its frames, by a part of a period.
+fn between_frames(machine: &Machine, frames: &[SetpointFrame], u: f64) -> [f64; 3] {
+    let t = PERIOD_T;
+    let (u_2, u_3) = (u * u, u * u * u);
+    let at = |from: &SetpointFrame, to: &SetpointFrame| {
+        let of = |v: &[f64; AXES]| AxisVector::from(*v);
+        let end = u_3 * (10.0 - 15.0 * u + 6.0 * u_2);
+        let start_v = u - u_3 * (6.0 - 8.0 * u + 3.0 * u_2);
+        let start_a = 0.5 * u_2 - u_3 * (1.5 - 1.5 * u + 0.5 * u_2);
+        let end_v = -u_3 * (4.0 - 7.0 * u + 3.0 * u_2);
+        let end_a = u_3 * (0.5 - u + 0.5 * u_2);
+        let (from_p, to_p) = (of(&from.position), of(&to.position));
+        from_p
+            + (to_p - from_p) * end
+            + (of(&from.velocity) * start_v + of(&to.velocity) * end_v) * t
+            + (of(&from.acceleration) * start_a + of(&to.acceleration) * end_a) * (t * t)
+    };
+    let places = frames.windows(2).map(|pair| at(&pair[0], &pair[1]));
+    let setpoints: Vec<_> = places
+        .map(|place| {
+            let mut setpoint = Setpoint::zeroed();
+            setpoint.joint_position = machine.mechanism.inverse(&place).unwrap().into();
+            setpoint
+        })
+        .collect();
+    machine.used(&setpoints)
+}
+
+/// A square that a hexapod drove with 4 % more jerk of a joint in the middle of periods than at their ends.
+#[test]
+fn a_plan_in_the_tube_keeps_the_limits_of_joints_between_its_frames() {
+    for machine in &machines()[..7] {
+        let job = machine.job(Effort::Optimal);
+        job.supervised(|supervisor| {
+            supervisor.play(20_000);
+            for u in [0.25, 0.375, 0.5, 0.625, 0.75] {
+                let used = between_frames(machine, &supervisor.frames, u);
+                assert!(
+                    used.iter().all(|r| *r <= 1.0 + 1e-6),
+                    "{} {u}: {used:?}",
+                    machine.name
+                );
+            }
+        });
+    }
 }

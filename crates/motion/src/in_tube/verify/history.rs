@@ -23,7 +23,8 @@ pub(crate) const FEED_SLACK: f64 = 1.0 + 5e-4;
 pub(crate) struct History {
     /// Newest first.
     recent: [AxisVector; 3],
-    state: State,
+    /// The motion at the last four of them, newest first.
+    states: [State; 4],
     /// Speed that is allowed although the feed is less: what it was before a change of rates. Zero
     /// once the motion has slowed down.
     pub(crate) overspeed_v: f64,
@@ -34,7 +35,7 @@ impl History {
     pub(crate) fn new(position: AxisVector) -> Self {
         Self {
             recent: [position; 3],
-            state: State::rest(position),
+            states: [State::rest(position); 4],
             overspeed_v: 0.0,
         }
     }
@@ -50,7 +51,20 @@ impl History {
 
     /// The motion at the last position.
     pub(crate) const fn state(&self) -> &State {
-        &self.state
+        &self.states[0]
+    }
+
+    /// The positions at a part `u` of the period to the next state and of the three before, newest first: where
+    /// setpoints are when time has run slower for a while.
+    pub(crate) fn between(&self, next: &State, period_t: f64, u: f64) -> [AxisVector; 4] {
+        let [last, before, third, first] = &self.states;
+        let at = |from, to| BetweenPeriods { from, to, period_t }.at(u);
+        [
+            at(last, next),
+            at(before, last),
+            at(third, before),
+            at(first, third),
+        ]
     }
 
     /// True if no chord of a period begins before the present rest.
@@ -86,7 +100,7 @@ impl History {
     ) -> bool {
         let position = next.position;
         let bend = BetweenPeriods {
-            from: &self.state,
+            from: &self.states[0],
             to: next,
             period_t,
         };
@@ -112,7 +126,8 @@ impl History {
             pieces.map(|piece| counted_length(piece, &step) / (piece.top_v * period_t));
         let is_slow = speed_v <= self.overspeed_v || counted.any(|ratio| ratio <= FEED_SLACK);
         self.recent = [position, self.recent[0], self.recent[1]];
-        self.state = *next;
+        let [last, before, third, _] = self.states;
+        self.states = [*next, last, before, third];
         if speed_v <= feed_v {
             self.overspeed_v = 0.0;
         }
