@@ -274,13 +274,12 @@ impl JobQueue {
     pub(crate) fn busy(&self) -> String {
         match &self.current {
             Some(current) => format!(
-                "the planner executes {}; wait for its end, or abort it",
+                "the planner executes {}; wait for its end, or end it with `glidepath abort`",
                 current.name
             ),
-            None => {
-                "the planner executes what another program streams; wait for its end, or abort it"
-                    .to_owned()
-            }
+            None => "the planner executes what another program streams; wait for its end, or end it with \
+                     `glidepath abort`"
+                .to_owned(),
         }
     }
 

@@ -141,6 +141,12 @@ impl<S: ItemSource> Remainder<S> {
                 }
             }
         }
+        if let Some(first) = rest.ahead.front()
+            && point.line != 0
+            && first.line != point.line
+        {
+            return Err(ResumeError::OnTheWay { line: point.line }.into());
+        }
         if let Some(event) = rest.ahead.front().copied().filter(is_probe) {
             rest.ahead.clear();
             rest.first_block += 1;

@@ -229,6 +229,7 @@ impl<S: ItemSource> LineStart<S> {
         }
         let first_block = self.block.saturating_sub(count).max(1);
         let point = ResumePoint {
+            line: 0,
             position: approach.position,
             program_start: approach.position,
             program: self.source.fingerprint(),

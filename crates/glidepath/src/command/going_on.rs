@@ -10,7 +10,7 @@ use std::path::Path;
 pub(super) fn told(
     error: &RunError,
     publisher: &FramePublisher<'_>,
-    (command, file): (&str, &Path),
+    (command, file, first_block): (&str, &Path, u32),
 ) -> Option<String> {
     let is_known = match error {
         RunError::Aborted | RunError::Fault(_) | RunError::Interrupted => true,
@@ -19,6 +19,11 @@ pub(super) fn told(
     };
     let point = publisher.resume_point().ok().filter(|_| is_known)?;
     let line = publisher.line();
+    if point.block > 0 && point.block < first_block {
+        return Some(format!(
+            "it was left on the way to line {line}, where it was to begin: run it from that line again"
+        ));
+    }
     (point.block > 0 && line > 0).then(|| {
         let command = resume(command, &file.display().to_string());
         let where_from = if publisher.was_off_path() {

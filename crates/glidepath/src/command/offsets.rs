@@ -266,15 +266,15 @@ fn text(folder: &Path, generation: u64, kept: &PersistentState) -> String {
         ));
     }
     if let Some(rest) = &kept.rest {
-        let position = axis_words(&rest.position);
+        let position = axis_words(&rest.position.map(|at| (at * 1e6).round() / 1e6));
         let position = if position.is_empty() { "0" } else { &position };
         let state = if rest.clean {
-            "rested"
+            "rested at"
         } else {
-            "was moving, from"
+            "was moving; it set out from"
         };
         text.push_str(&format!(
-            "  the machine {state} at {position}, when last heard of\n"
+            "  the machine {state} {position}, when last heard of\n"
         ));
     }
     if kept.under_way.is_some() {

@@ -258,7 +258,7 @@ impl Job<'_> {
     fn ended_early(&self, error: RunError, is_pipe: bool) -> Failure {
         let has_begun = self.supervisor.has_begun(&self.publisher);
         let may_go_on = !is_pipe && !self.supervisor.is_quiet() && has_begun;
-        let how = ("planner", self.file.path());
+        let how = ("planner", self.file.path(), 0);
         let left = may_go_on.then(|| going_on::told(&error, &self.publisher, how));
         match left.flatten() {
             Some(left) => Failure::Left {

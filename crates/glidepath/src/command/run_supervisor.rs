@@ -279,7 +279,7 @@ pub(super) fn tell(notice: &Notice<'_>, quiet: bool) {
             format!("the machine is not ready for a program: {}", state.text())
         }
         Notice::Listening => "ready: it takes lines, programs and streams".to_owned(),
-        Notice::StreamOpened { session } => format!("stream {session} opened"),
+        Notice::StreamOpened { .. } => "a client streams a program".to_owned(),
         Notice::StreamExecuted(statistics) => {
             format!("executed; {}", driven(statistics.segments))
         }

@@ -61,7 +61,7 @@ pub(crate) fn set_up(config: &mut MachineConfig, kept: &PersistentState) -> Vec<
     let g92 = axis_words(&offsets.g92);
     if !g92.is_empty() {
         notes.push(format!(
-            "offsets: the offset of G92 is kept and not in force ({g92}); G92.3 puts it in force"
+            "offsets: the kept offset of G92 ({g92}) is not in force here; G92.3 puts it in force"
         ));
     }
     if !kept.tools.is_empty() && kept.tool_table != table_fingerprint(config) {

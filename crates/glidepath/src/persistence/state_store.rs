@@ -231,7 +231,10 @@ impl StateStore {
                 self.kept.tool_table = fingerprint;
             }
             merge_tools(&mut self.kept.tools, tools, changed);
+            self.before.1.clone_from(changed);
         }
+        // What it takes back later is a change, too.
+        self.before.0 = left_with(&set_up.offsets);
     }
 }
 

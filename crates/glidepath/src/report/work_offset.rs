@@ -42,6 +42,16 @@ impl WorkOffset {
         work
     }
 
+    /// Its name, and that it is shifted, in as few letters as a column has.
+    pub(super) fn short(&self) -> String {
+        let is_shifted = self.beside.shift.iter().any(|by| *by != 0.0);
+        if is_shifted {
+            format!("{} + G92", self.name)
+        } else {
+            self.name.clone()
+        }
+    }
+
     /// It in words: its name, and that it is shifted, which its zero does not tell.
     pub(super) fn said(&self) -> String {
         let rounded = self.beside.shift.map(|by| (by * 1e4).round() / 1e4);

@@ -153,7 +153,7 @@ fn programs_begin_with_what_was_set_and_leave_what_was_run() {
     let output = machine.glidepath(&["check", &again, "--json"]);
     let told = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(
-        told.contains("the offset of G92 is kept and not in force (X1)"),
+        told.contains("the kept offset of G92 (X1) is not in force here"),
         "{told}"
     );
     let checked: Value = serde_json::from_slice(&output.stdout).unwrap();

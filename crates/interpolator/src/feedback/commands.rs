@@ -59,10 +59,14 @@ impl DriveMonitor {
             | Command::Forward
             | Command::Job { .. }
             | Command::Tell => Ok(true),
-            // Without a program, what is left to abort is a latched fault.
-            Command::Reset | Command::Abort => {
+            Command::Reset => {
                 self.sequencer.drop_job();
                 self.reset(report, now_ns).map(|()| true)
+            }
+            // Without a program, what is left to abort is a latched fault. Where that cannot be cleared now, nothing is.
+            Command::Abort => {
+                self.sequencer.drop_job();
+                Ok(self.reset(report, now_ns).is_ok())
             }
         }
     }

@@ -44,6 +44,7 @@ fuzz_target!(|left: Left<'_>| {
     let mut position = AxisVector::zeros();
     position.as_mut_slice()[..3].copy_from_slice(&at);
     let point = ResumePoint {
+        line: 0,
         position,
         program_start: AxisVector::zeros(),
         program: PROGRAM,

@@ -27,6 +27,15 @@ pub enum ResumeError {
          be resumed"
     )]
     OtherProgram,
+    /// The program was begun at a line, and left on the way there.
+    #[error(
+        "the program was left on the way to line {line}, where it was to begin: run it from that line \
+         again (--from-line {line})"
+    )]
+    OnTheWay {
+        /// The line.
+        line: u32,
+    },
     /// The program was left in a pass of a thread.
     #[error(
         "the program was left in the thread of line {line}: retract the tool, and run it from that \

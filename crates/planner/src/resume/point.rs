@@ -18,6 +18,9 @@ pub struct ResumePoint {
     pub program: u64,
     /// The block being executed: see [`glidepath_link::SetpointFrame::block`].
     pub block: u32,
+    /// Its line, 0 if unknown. On the way to the line that a program is begun at, that line, which the block is
+    /// not of.
+    pub line: u32,
     /// Path position, mm.
     pub path_s: f64,
     /// The same at the beginning of the block.
@@ -51,6 +54,7 @@ impl ResumePoint {
             program_start: AxisVector::from(status.program_start),
             program: status.program,
             block: status.block,
+            line: status.line,
             path_s: status.path_s,
             block_path_s: status.block_path_s,
             unanswered: status.unanswered == 1,

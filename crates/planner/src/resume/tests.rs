@@ -144,6 +144,7 @@ impl Machine {
         }
         self.stands.push(Stand {
             point: ResumePoint {
+                line: 0,
                 position,
                 program_start: AxisVector::zeros(),
                 program: 7,
@@ -393,6 +394,7 @@ fn what_was_stopped_turns_again_before_anything_moves() {
         let left = whole.iter().find(|f| f.position[0] > x).unwrap();
         let first = whole.iter().find(|f| f.block == left.block).unwrap();
         let point = ResumePoint {
+            line: left.line,
             position: left.position,
             program_start: start,
             program: 7,
@@ -448,6 +450,7 @@ fn frames_of<S: ItemSource>(mut pipeline: Pipeline<S>) -> Vec<Frame> {
 fn point_at(frames: &[Frame], of: &Frame, position: AxisVector, path_s: f64) -> ResumePoint {
     let first = frames.iter().find(|frame| frame.block == of.block).unwrap();
     ResumePoint {
+        line: of.line,
         position,
         program_start: AxisVector::zeros(),
         program: 7,

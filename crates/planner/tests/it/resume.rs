@@ -95,6 +95,7 @@ fn left_at(frames: &[(Frame, u32)], stop: usize) -> ResumePoint {
     let (frame, block) = frames[stop];
     let begun = frames.iter().find(|(_, other)| *other == block).unwrap();
     ResumePoint {
+        line: frame.line,
         position: frame.position,
         program_start: frames[0].0.position,
         program: 7,

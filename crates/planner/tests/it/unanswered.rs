@@ -51,6 +51,7 @@ fn left(text: &'static str, item: u32, unanswered: bool) -> Remainder<Text> {
     let mut position = AxisVector::zeros();
     position[0] = 1.0;
     let point = ResumePoint {
+        line: 0,
         position,
         program_start: AxisVector::zeros(),
         program: 7,

@@ -141,6 +141,7 @@ impl JobExecutor<'_> {
             return Err(Stop::ToConfirm(text));
         }
         supervisor.begin_with(found.block())?;
+        context.first_block = found.block();
         let rest = found.approached(&approach);
         let pipeline = Pipeline::resuming(rest, config.settings());
         let run = context.publish(pipeline, (config, supervisor), start, |rest| {

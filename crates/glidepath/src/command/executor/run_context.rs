@@ -25,6 +25,8 @@ pub(super) struct RunContext<'b, 't, 'c> {
     pub(super) note: ProgramNote<'b>,
     /// The program, if the job is one.
     pub(super) file: Option<&'b Path>,
+    /// The block that it begins at; on the way there the machine is on one before it.
+    pub(super) first_block: u32,
 }
 
 impl RunContext<'_, '_, '_> {
@@ -86,8 +88,9 @@ impl RunContext<'_, '_, '_> {
             },
             error => {
                 let file = self.file.filter(|_| supervisor.has_begun(self.publisher));
-                let left = file
-                    .and_then(|file| going_on::told(&error, self.publisher, ("run-file", file)));
+                let left = file.and_then(|file| {
+                    going_on::told(&error, self.publisher, ("run-file", file, self.first_block))
+                });
                 Stop::Failed(match left {
                     Some(left) => format!("{error}; {left}"),
                     None => error.to_string(),

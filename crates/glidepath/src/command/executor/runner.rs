@@ -48,6 +48,7 @@ impl JobRunner for JobExecutor<'_> {
                 Job::File { path, .. } => Some(path),
                 Job::Line(_) | Job::Sequence(_) | Job::Lines { .. } => None,
             },
+            first_block: 0,
         };
         let end = match job {
             Job::Line(text) => self.line(text, start, &mut context),

@@ -124,7 +124,9 @@ fn position_lines(view: &View<'_>, lines: &mut Vec<String>) {
         .offsets
         .as_ref()
         .map(|offset| (offset, offset.work(&status.position)));
-    let system = work.as_ref().map_or("", |(offset, _)| offset.name.as_str());
+    let system = work
+        .as_ref()
+        .map_or_else(String::new, |(offset, _)| offset.short());
     let is_away = status.away.iter().any(|away| *away != 0.0);
     let away = if is_away { "from path" } else { "" };
     lines.push(String::new());
