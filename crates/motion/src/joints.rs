@@ -90,15 +90,18 @@ impl JointRows {
     }
 
     /// Bounds of the joints' derivatives along a part of a path, from so many steps along it: the
-    /// largest at the places, and half of what changes between two of them for what is between.
+    /// largest at the places, and half of what changes between two of them for what is between. With them by which
+    /// factor the joint that is worst off moves faster at one place than at another.
     pub(crate) fn bounds(
         &self,
         steps: u32,
         jet_at: impl Fn(f64) -> Jet,
-    ) -> Option<DerivativeBounds> {
+    ) -> Option<(DerivativeBounds, f64)> {
         let mut before = self.along(&jet_at(0.0))?;
         let mut most = [before.d1.abs(), before.d2.abs(), before.d3.abs()];
         let mut change = [AxisVector::zeros(); 3];
+        let worst = |jet: &Jet| jet.d1.component_div(&self.limits.jerk).amax();
+        let (mut least, mut greatest) = (worst(&before), worst(&before));
         for step in 1..=steps {
             let here = self.along(&jet_at(f64::from(step) / f64::from(steps)))?;
             let derivatives = [
@@ -113,9 +116,10 @@ impl JointRows {
                 *change = change.sup(&(here - before).abs());
             }
             before = here;
+            (least, greatest) = (least.min(worst(&here)), greatest.max(worst(&here)));
         }
         let [d1, d2, d3] = [0, 1, 2].map(|k| most[k] + change[k] * 0.5);
-        Some(DerivativeBounds { d1, d2, d3 })
+        Some((DerivativeBounds { d1, d2, d3 }, greatest / least))
     }
 }
 

@@ -45,12 +45,15 @@ pub(crate) const ALONE: Strategy = Strategy::InTube(SearchBias::USUAL);
 /// The longest motion that is tried of a stretch with tight arcs, s: its moves take 5 s at their rates.
 const MOST_TRIED_T: f64 = 60.0;
 
-/// How a stretch is driven that is planned as it comes: in the tube; if it has tight arcs, the way that is faster along the
-/// items given, which it begins with.
+/// How a stretch is driven that is planned as it comes: in the tube; if it has tight arcs, or joints limit it that are not
+/// the axes, the way that is faster along the items given, which it begins with.
 pub(crate) fn strategy_of(entry: &Entry) -> Strategy {
     let settings = &entry.initial_state.settings;
-    if !has_tight_arcs(&entry.items, settings) {
+    if entry.initial_state.joints.is_none() && !has_tight_arcs(&entry.items, settings) {
         return ALONE;
+    }
+    if is_settled(&entry.items) {
+        return Strategy::OnPath;
     }
     let tried = |strategy, most_t| {
         let planned = PlannedStretch::within(strategy, entry.clone(), most_t);

@@ -13,48 +13,17 @@ use core::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::io::Cursor;
 
+use crate::support::random::Random;
 use glidepath_audit::{Audit, AuditReport, AuditSettings};
 use glidepath_gcode::{AxisTravel, Machine, Options, Program};
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_motion::{PlanError, Planner};
 use glidepath_program::{Effort, Frame, Limits, Override, Settings, Smoothing};
 
-/// The same numbers for the same seed.
-struct Random(u64);
-
-impl Random {
-    /// At least 0, below 1.
-    fn share(&mut self) -> f64 {
-        // SplitMix64 (Steele, Lea, Flood 2014).
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        let bits = u32::try_from((z ^ (z >> 31)) >> 32).expect("32 bits");
-        f64::from(bits) / 4_294_967_296.0
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + self.share() * (high - low)
-    }
-
-    fn of<T: Copy>(&mut self, values: &[T]) -> T {
-        let mut left = self.share();
-        let each = 1.0 / f64::from(u32::try_from(values.len()).expect("a few"));
-        for value in values {
-            if left < each {
-                return *value;
-            }
-            left -= each;
-        }
-        values[0]
-    }
-
-    /// A place on an axis, more often than not at one of its ends.
-    fn place(&mut self, (low, high): (f64, f64)) -> f64 {
-        let inside = (self.between(low, high) * 1e3).round() / 1e3;
-        self.of(&[low, high, inside, inside])
-    }
+/// A place on an axis, more often than not at one of its ends.
+fn place(random: &mut Random, (low, high): (f64, f64)) -> f64 {
+    let inside = (random.between(low, high) * 1e3).round() / 1e3;
+    random.of(&[low, high, inside, inside])
 }
 
 /// A machine of three axes: the ends of travel, and what its axes can do.
@@ -143,13 +112,13 @@ impl Box3 {
 
     fn retract(&self, random: &mut Random, text: &mut String) {
         let [x, y, (low, high)] = self.ends;
-        let (x, y) = (random.place(x), random.place(y));
+        let (x, y) = (place(random, x), place(random, y));
         let deep = random.between(low, high);
-        let cut = random.place((low, deep));
+        let cut = place(random, (low, deep));
         let _ = write!(
             text,
             "G0 X{x} Y{y}\nG0 Z{deep:.3}\nG1 Z{cut:.3}\nG1 X{:.3}\nG53 G0 Z{high}\n",
-            random.place(self.ends[0]),
+            place(random, self.ends[0]),
         );
     }
 
@@ -157,7 +126,7 @@ impl Box3 {
         let [(x0, x1), (y0, y1), z] = self.ends;
         let inside = random.of(&[0.0, 0.0, 0.005, 3.0]);
         let (x0, x1, y0, y1) = (x0 + inside, x1 - inside, y0 + inside, y1 - inside);
-        let depth = random.place(z);
+        let depth = place(random, z);
         let _ = write!(
             text,
             "G0 X{x0} Y{y0}\nG1 Z{depth}\nG1 X{x1}\nG1 Y{y1}\nG1 X{x0}\nG1 Y{y0}\nG0 Z{}\n",
@@ -204,7 +173,7 @@ impl Box3 {
     fn polyline(&self, random: &mut Random, text: &mut String) {
         for _ in 0..12 {
             let code = random.of(&["G1", "G1", "G1", "G0"]);
-            let [x, y, z] = self.ends.map(|ends| random.place(ends));
+            let [x, y, z] = self.ends.map(|ends| place(random, ends));
             let _ = match random.of(&[0, 1, 2, 3]) {
                 0 => writeln!(text, "{code} X{x} Y{y} Z{z}"),
                 1 => writeln!(text, "{code} X{x} Z{z}"),

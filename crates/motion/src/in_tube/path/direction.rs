@@ -42,23 +42,27 @@ impl Bounds {
         length_s: f64,
     ) -> Self {
         self.of_joints(joints, way, length_s)
-            .map_or(self, |limit| Self {
+            .map_or(self, |(limit, _)| Self {
                 speed_v: limit.top_v,
                 path: limit.change,
             })
     }
 
-    /// The same of each where the others are small: for what is checked by itself afterwards.
+    /// The same of each where the others are small: for what is checked by itself afterwards. With it whether joints
+    /// leave less at one place of the way than at another.
     pub(crate) fn within_joints_each(
         self,
         joints: &JointRows,
         way: (&AxisVector, &AxisVector),
         length_s: f64,
-    ) -> Self {
+    ) -> (Self, bool) {
         self.of_joints(joints, way, length_s)
-            .map_or(self, |limit| Self {
-                speed_v: limit.peak_v,
-                path: limit.alone,
+            .map_or((self, false), |(limit, is_uneven)| {
+                let bounds = Self {
+                    speed_v: limit.peak_v,
+                    path: limit.alone,
+                };
+                (bounds, is_uneven)
             })
     }
 
@@ -67,7 +71,7 @@ impl Bounds {
         joints: &JointRows,
         (from, along): (&AxisVector, &AxisVector),
         length_s: f64,
-    ) -> Option<SpeedLimit> {
+    ) -> Option<(SpeedLimit, bool)> {
         let jet_at = |share: f64| Jet {
             position: from + along * (share * length_s),
             d1: *along,
@@ -81,7 +85,8 @@ impl Bounds {
             peak_v: self.speed_v,
             alone: self.path,
         };
-        JointRule::of_curve(joints, length_s, jet_at).map(|rule| rule.within(own))
+        JointRule::of_curve(joints, length_s, jet_at)
+            .map(|rule| (rule.within(own), rule.is_uneven()))
     }
 }
 

@@ -19,6 +19,14 @@ impl Straightness {
             between_u: [0.25, 0.75],
         }
     }
+
+    /// What of it is on a part of the piece, from one share of it to another.
+    fn on(self, [from_u, to_u]: [f64; 2]) -> Option<Self> {
+        let between_u = self
+            .between_u
+            .map(|u| ((u - from_u) / (to_u - from_u)).clamp(0.0, 1.0));
+        (between_u[0] < between_u[1]).then_some(Self { between_u, ..self })
+    }
 }
 
 /// One straight piece of the path.
@@ -46,4 +54,17 @@ pub(crate) struct Reference {
     pub(crate) is_rapid: bool,
     /// Given back with each period, and asked for when rates change.
     pub(crate) tag: u64,
+}
+
+impl Reference {
+    /// Both halves of a piece from a place, which is a line.
+    pub(crate) fn halves_from(&self, start: &AxisVector) -> [Self; 2] {
+        let half = |end: AxisVector, share_u: [f64; 2]| Self {
+            end,
+            straight: self.straight.and_then(|straight| straight.on(share_u)),
+            ..*self
+        };
+        let middle = (start + self.end) * 0.5;
+        [half(middle, [0.0, 0.5]), half(self.end, [0.5, 1.0])]
+    }
 }

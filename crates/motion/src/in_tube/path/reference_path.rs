@@ -16,12 +16,16 @@ use super::reference::{Reference, Straightness};
 use super::sense::{PieceGeometry, Sense};
 use crate::feed_axes::counted_axes;
 use crate::joints::JointRows;
+use crate::scurve::Profile;
 use glidepath_geometry::{AXES, AxisVector, LINEAR_XYZ, ROTARY_ABC, UVW, feed_length};
 use glidepath_program::Limits;
 use std::collections::VecDeque;
 
 /// Radius of the ball, in tolerances, inside which vertices are drawn together.
 const TINY_R: f64 = 1e-3;
+/// How often a line is halved at most: with 16 as along the path windows near a stretched arm took up to fifteen times
+/// the work, for nothing.
+const MOST_HALVINGS: u32 = 4;
 /// Margin between the tolerance that is planned for and the one that is promised.
 const ROUNDING_R: f64 = 1e-7;
 
@@ -164,15 +168,32 @@ impl TubePiece {
             .map_or(bounds, |joints| bounds.weaker(joints.times(per_s)))
     }
 
-    /// Looks at joints, at speeds up to its feed.
-    fn ask_joints(&mut self, limits: &Limits, joints: &JointRows) {
+    /// Looks at joints, at speeds up to its feed. True if they leave less at one place of it than at another.
+    fn ask_joints(&mut self, limits: &Limits, joints: &JointRows) -> bool {
+        let (own, along) = self.own_bounds(limits);
+        let (by_joints, is_uneven) =
+            own.within_joints_each(joints, (&self.start, &along), self.length_s);
+        self.by_joints = Some(by_joints);
+        is_uneven
+    }
+
+    /// What axes and the feed leave along it, and the change of every axis per unit of it.
+    fn own_bounds(&self, limits: &Limits) -> (Bounds, AxisVector) {
         let along = (self.end - self.start) / self.length_s;
         let own = directional(limits, &along);
         let own = Bounds {
             speed_v: own.speed_v.min(self.top_v),
             ..own
         };
-        self.by_joints = Some(own.within_joints_each(joints, (&self.start, &along), self.length_s));
+        (own, along)
+    }
+
+    /// How long it takes from rest to rest, s, with what joints leave all along it.
+    fn alone_t(&self, limits: &Limits, joints: &JointRows) -> Option<f64> {
+        let (own, along) = self.own_bounds(limits);
+        let bounds = own.within_joints(joints, (&self.start, &along), self.length_s);
+        let profile = Profile::new(0.0, 0.0, self.length_s, bounds.speed_v, bounds.path)?;
+        Some(profile.duration_t())
     }
 
     /// Speed along the path in the sense of the feed.
@@ -261,25 +282,58 @@ impl ReferencePath {
     }
 
     fn keep_held(&mut self) {
-        let Some(reference) = self.held.take() else {
-            return;
-        };
-        let mut piece = self.as_piece(&reference);
+        if let Some(reference) = self.held.take() {
+            self.keep(&reference, MOST_HALVINGS);
+        }
+    }
+
+    /// Keeps a piece, in halves where joints leave far more on the one than on the other: what holds all along it
+    /// would keep it slow everywhere.
+    fn keep(&mut self, reference: &Reference, halvings: u32) {
+        let mut piece = self.as_piece(reference);
         if piece.length_s > 0.0 {
+            let machine = self.machine.as_deref();
+            let is_uneven =
+                machine.is_some_and(|(limits, joints)| piece.ask_joints(limits, joints));
+            if is_uneven
+                && let Some(left) = halvings.checked_sub(1)
+                && let Some(halves) = self.halves(reference, &piece)
+            {
+                for half in &halves {
+                    self.keep(half, left);
+                }
+                return;
+            }
             let before = self.last.map(|last| last.end - last.start);
             let senses = self.last.map_or(piece.senses, |last| last.senses);
             piece.senses = piece.geometry().senses(&senses, before.as_ref());
             if let Some(last) = self.last.filter(|last| !last.is_rapid && !piece.is_rapid) {
                 piece.follow(&last);
             }
-            if let Some(machine) = &self.machine {
-                piece.ask_joints(&machine.0, &machine.1);
-            }
             self.last = Some(piece);
             self.corner = piece.end;
             self.corner_s += piece.length_s;
             self.pieces.push_back(piece);
         }
+    }
+
+    /// The halves of a piece that is a line, not within its tolerance, if it takes less time with a rest between them than
+    /// as one.
+    fn halves(&self, reference: &Reference, piece: &TubePiece) -> Option<[Reference; 2]> {
+        let (limits, joints) = self.machine.as_deref()?;
+        let is_long = piece.distance_r(&(piece.end - piece.start)) > 2.0;
+        if !is_long || reference.sagitta_vector != AxisVector::zeros() {
+            return None;
+        }
+        let halves = reference.halves_from(&piece.start);
+        let first = self.as_piece(&halves[0]);
+        let second = TubePiece {
+            start: first.end,
+            length_s: feed_length(&(piece.end - first.end)),
+            ..*piece
+        };
+        let apart_t = first.alone_t(limits, joints)? + second.alone_t(limits, joints)?;
+        (apart_t < piece.alone_t(limits, joints)?).then_some(halves)
     }
 
     /// The path ends with what has been pushed.

@@ -7,11 +7,15 @@ use super::kept_blocks::KeptBlocks;
 use super::pending::Pending;
 use crate::joints::JointRows;
 use crate::on_path::junction::{Junction, chord_error_mm, join};
-use crate::on_path::pieces::{CurveRule, Element, JointRule, Piece, Shape, SpeedRule};
+use crate::on_path::pieces::{CurveRule, Element, JointRule, Piece, Shape, SpeedLimit, SpeedRule};
 use crate::programmed_rate::ProgrammedRate;
 use crate::rest::{Rest, RestKind};
+use crate::scurve::Profile;
 use glidepath_geometry::{Quintic, Segment, limit_along};
 use glidepath_program::{Event, Limits, Override, PathMode, ProgramLine, Settings};
+
+/// How often a line is halved at most: a metre to 15 µm.
+const MOST_HALVINGS: u32 = 16;
 
 /// Puts pieces together.
 #[derive(Debug, Clone)]
@@ -115,7 +119,41 @@ impl Assembly {
         let shape = Shape::Segment(pending.segment);
         let mut piece = self.piece(shape, (pending.trimmed_s, length_s), rule, pending.line);
         (piece.events, piece.lines) = (pending.events, pending.lines);
-        out.push(Element::Piece(piece));
+        self.put_even(piece, MOST_HALVINGS, out);
+    }
+
+    /// Puts out a piece, a line in halves where joints are far faster on the one than on the other: what holds all
+    /// along it would keep it slow everywhere.
+    fn put_even(&self, piece: Piece, halvings: u32, out: &mut Vec<Element>) {
+        let is_uneven = piece.is_straight() && piece.joints.as_ref().is_some_and(|j| j.is_uneven());
+        let halves = halvings
+            .checked_sub(1)
+            .filter(|_| is_uneven)
+            .and_then(|left| Some((left, self.halves(&piece)?)));
+        let Some((left, halves)) = halves else {
+            out.push(Element::Piece(piece));
+            return;
+        };
+        for half in halves {
+            self.put_even(half, left, out);
+        }
+    }
+
+    /// The halves of a piece, if it takes less time with a rest between them than as one.
+    fn halves(&self, piece: &Piece) -> Option<[Piece; 2]> {
+        let alone_t = |piece: &Piece| {
+            let SpeedLimit { top_v, change, .. } = piece.limit;
+            let alone = Profile::new(0.0, 0.0, piece.length_s, top_v, change)?;
+            Some(alone.duration_t())
+        };
+        let middle_s = 0.5 * piece.length_s;
+        let halves = [
+            piece.clone().before(middle_s),
+            piece.clone().after(middle_s),
+        ]
+        .map(|half| self.within_joints(half));
+        let apart_t = alone_t(&halves[0])? + alone_t(&halves[1])?;
+        (apart_t < alone_t(piece)?).then_some(halves)
     }
 
     /// What limits the speed on a segment.
@@ -185,7 +223,7 @@ impl Assembly {
         line: ProgramLine,
     ) -> Piece {
         let limits = &self.settings.limits;
-        let mut piece = Piece {
+        let piece = Piece {
             shape,
             from_s,
             length_s,
@@ -200,9 +238,14 @@ impl Assembly {
             lines: Vec::new(),
             events: Vec::new(),
         };
+        self.within_joints(piece)
+    }
+
+    /// A piece with what joints leave of its limit.
+    fn within_joints(&self, mut piece: Piece) -> Piece {
         if let Some(joints) = &self.joints {
             piece.joints = joint_rule(joints, &piece).map(Box::new);
-            piece.limit = piece.limit_under(limits);
+            piece.limit = piece.limit_under(&self.settings.limits);
         }
         piece
     }

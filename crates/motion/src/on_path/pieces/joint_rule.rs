@@ -15,6 +15,8 @@ const MOST_STEPS: f64 = 128.0;
 const STEPS_OF_TRANSITION: u32 = 24;
 /// The same while its length is sought.
 const STEPS_OF_CANDIDATE: u32 = 8;
+/// By which factor joints are faster at one place of a piece than at another where that is looked into.
+const UNEVEN_R: f64 = 1.2;
 
 /// What joints make of the speed limit of a piece.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,6 +27,9 @@ pub(crate) struct JointRule {
     limits: Limits,
     /// Whether the speed may change at the top speed.
     is_gentle: bool,
+    /// Whether joints are faster at one place of the piece than at another, as where a mechanism comes near a
+    /// singularity.
+    is_uneven: bool,
 }
 
 impl JointRule {
@@ -84,6 +89,7 @@ impl JointRule {
             },
             limits: joints.limits,
             is_gentle: true,
+            is_uneven: false,
         })
     }
 
@@ -92,11 +98,18 @@ impl JointRule {
         (steps, is_gentle): (u32, bool),
         jet_at: impl Fn(f64) -> Jet,
     ) -> Option<Self> {
+        let (bounds, spread_r) = joints.bounds(steps, jet_at)?;
         Some(Self {
-            bounds: joints.bounds(steps, jet_at)?,
+            bounds,
             limits: joints.limits,
             is_gentle,
+            is_uneven: spread_r > UNEVEN_R,
         })
+    }
+
+    /// True if what holds all along the piece may be less than what joints leave at most places of it.
+    pub(crate) const fn is_uneven(&self) -> bool {
+        self.is_uneven
     }
 
     /// What of a speed limit joints leave.

@@ -9,6 +9,7 @@
 pub(crate) mod family;
 pub(crate) mod interpolator;
 pub(crate) mod items;
+pub(crate) mod random;
 
 use std::cell::RefCell;
 use std::sync::atomic::AtomicBool;
