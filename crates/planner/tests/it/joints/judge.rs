@@ -154,7 +154,7 @@ pub(crate) fn judged(machine: &Machine, text: &str, way: &Way) -> Verdict {
 fn faults(joints: &Joints<'_>, report: &AuditReport, is_whole: bool) -> Vec<String> {
     let found = report.violations.iter().map(ToString::to_string);
     let mut faults: Vec<String> = found.collect();
-    if joints.most.iter().any(|used| !(*used <= SLACK)) {
+    if joints.most.iter().any(|used| *used > SLACK) {
         faults.push(format!("joints use {:?} of their limits", joints.most));
     }
     if !joints.is_inside {
