@@ -13,7 +13,8 @@
 #![allow(
     clippy::unwrap_used,
     clippy::expect_used,
-    reason = "a test that fails may panic"
+    clippy::print_stderr,
+    reason = "a test that fails may panic, and tells why"
 )]
 
 mod closed_forms;

@@ -44,7 +44,7 @@ pub(crate) fn program(machine: &Machine, random: Random, tolerance: &str) -> Str
             2 => author.zigzag(),
             3 => author.arc(),
             4 => author.chords(),
-            5 => author.to_the_rim(),
+            5 => author.go_near_rim(),
             6 => author.turns(),
             _ => author.there_and_back(),
         }
@@ -244,7 +244,7 @@ impl Author<'_> {
     }
 
     /// Towards where the mechanism, or the travel, ends: nearly to it, along it a little, and away again.
-    fn to_the_rim(&mut self) {
+    fn go_near_rim(&mut self) {
         let from = self.place;
         let mut aim = self.somewhere() - from;
         let far = aim.amax();
