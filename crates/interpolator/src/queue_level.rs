@@ -60,7 +60,7 @@ pub(crate) struct QueueLevel {
     /// Frames ahead with which motion goes on once there were too few.
     enough: u64,
     /// Frames a stop from full speed takes.
-    reach: u64,
+    stop_frames: u64,
     /// Frames ahead that are about as many as the planner ever publishes.
     full: u64,
     /// What [`Self::is_short`], [`Self::is_fully_supplied`], [`Self::is_out`] and [`Self::is_barred`] say.
@@ -85,8 +85,8 @@ impl QueueLevel {
     pub(crate) fn new(config: &Config) -> Self {
         let stop_t = stop_t(config);
         // Program time runs at half rate on average while it comes to rest.
-        let reach = (0.5 * stop_t / config.period_t()).ceil().min(1e6);
-        let enough = (STOPS_AHEAD * reach) as u64 + SPARE;
+        let stop_frames = (0.5 * stop_t / config.period_t()).ceil().min(1e6);
+        let enough = (STOPS_AHEAD * stop_frames) as u64 + SPARE;
         let patience_ticks = config.planner_lost_after.map_or(u64::MAX, |patience| {
             (patience.as_nanos() / u128::from(config.period_ns.max(1)))
                 .try_into()
@@ -95,7 +95,7 @@ impl QueueLevel {
         Self {
             // What the planner never publishes ahead cannot be waited for.
             enough: enough.min(config.horizon_frames * 3 / 4),
-            reach: reach as u64,
+            stop_frames: stop_frames as u64,
             full: config.horizon_frames * 9 / 10,
             short: false,
             fully: false,
@@ -109,8 +109,8 @@ impl QueueLevel {
     }
 
     /// Frames a stop from full speed takes.
-    pub(crate) const fn reach(&self) -> u64 {
-        self.reach
+    pub(crate) const fn stop_frames(&self) -> u64 {
+        self.stop_frames
     }
 
     /// An epoch begins: it starts when there are frames enough.

@@ -40,9 +40,9 @@ use crate::ramp::Ramp;
 /// they are small, as those are that a plan at its limits leaves room for. There is a branch for each, so
 /// the work of a tick grows with their number twice, branches times slopes; hundreds find hardly more.
 const SLOPES: [f64; 8] = [0.0, -0.05, -0.1, -0.2, -0.35, -0.5, -0.75, -1.0];
-/// The steepest is looked up at every so many ticks: it is the longest stop time of as many frames as a
+/// The steepest slope is looked up at every so many ticks: it is the longest stop time of as many frames as a
 /// stop takes, which hardly changes from one tick to the next.
-const STEEPEST: usize = 4;
+const STEEPEST_EVERY: usize = 4;
 /// From this share of the rate on ramps to rest are tried, with one pace after the other. Of the paces no
 /// measurement is kept.
 const ROOM: f64 = 0.95;
@@ -169,7 +169,7 @@ impl GreedySlowDown {
         if self.ticks >= TICKS {
             return false;
         }
-        if self.ticks.is_multiple_of(STEEPEST) {
+        if self.ticks.is_multiple_of(STEEPEST_EVERY) {
             let branches = self.branches.iter().flatten();
             let Some(branch) = self.steady.iter().chain(branches).next() else {
                 return false;

@@ -40,7 +40,7 @@ use crate::ramp::Ramp;
 /// says nothing of an earlier one. So a few are tried that are far apart; of where, no measurement is kept.
 const STARTS: [f64; 6] = [0.0, 0.2, 0.4, 0.8, 0.95, 1.0];
 /// From this one on with a greedy slow-down, which finds later starts, too: the steady rate is one of its
-/// branches, so it may go down from any tick behind its start.
+/// branches, so it may go down from any tick after its start.
 const SLOW_DOWNS: usize = 3;
 /// Ticks before a stop begins, at least: it is played from three positions at the steady rate before it
 /// ([`SteadyRate::playback`]), because limits are of third differences.
@@ -206,11 +206,12 @@ fn latest(from: SteadyRate, situation: &Situation<'_>) -> Option<f64> {
     let SteadyRate { time, rate } = from;
     let last = situation.track.end().checked_sub(time.sequence + 1)?;
     #[allow(clippy::cast_precision_loss, reason = "a number of frames at hand")]
-    let (ahead, reach) = (last as f64 - time.fraction, situation.reach as f64);
-    // The bounds of the fastest ramp depend on the speed where it begins, which depends on them: twice as
-    // many frames as a stop from full speed takes are gone back, at the rate, and the highest speed in as many
-    // as it takes from there counts.
-    let about = (ahead - 2.0 * reach * rate).max(0.0);
+    let ahead = last as f64 - time.fraction;
+    // The bounds of the fastest ramp depend on the speed where it begins, which depends on them. So as many ticks
+    // as a stop from full speed takes are gone back, at the rate, and the highest speed in the frames of a stop
+    // from there on counts. In ticks it takes twice as many as in frames.
+    let stop_ticks = 2.0 * situation.stop_frames as f64;
+    let about = (ahead - stop_ticks * rate).max(0.0);
     let bounds = situation.fastest_from(time.after(about).sequence);
     let ramp = Ramp::plan(rate, 0.0, 0.0, bounds)?;
     // What is left of the frames when the fastest ramp has had its part, in ticks at the steady rate. Only

@@ -30,9 +30,9 @@ pub(crate) struct Situation<'a> {
     pub(crate) published: &'a Differences,
     /// The limits.
     pub(crate) allowed: &'a Allowed,
-    /// Frames a stop from full speed takes: half as many as ticks, for the rate is a half on average.
-    pub(crate) reach: u64,
-    /// Whether there are as many frames ahead as there will ever be.
+    /// Frames that a stop from full speed takes. It takes twice as many ticks, for the rate is a half on average.
+    pub(crate) stop_frames: u64,
+    /// Whether the queue is about as full as the planner ever keeps it: nine tenths of the horizon.
     pub(crate) is_fully_supplied: bool,
     /// The end of a block, where the plan moves and the motion is to come to rest.
     pub(crate) block_end: Option<u64>,
@@ -43,7 +43,7 @@ impl Situation<'_> {
     /// a stop from full speed through twice. With less, at a short period, no stop would ever pass.
     pub(super) fn budget(&self, least: u32) -> u32 {
         // In ticks, each a sample; with what it costs to set it up and the three ticks past its end.
-        let stop = u32::try_from(2 * self.reach).unwrap_or(u32::MAX / 4);
+        let stop = u32::try_from(2 * self.stop_frames).unwrap_or(u32::MAX / 4);
         least.max(2 * (stop + 3 + SET_UP)).min(MOST)
     }
 
@@ -55,7 +55,7 @@ impl Situation<'_> {
     /// Bounds of the fastest ramp worth trying at a frame: no axis needs more than its limits for
     /// it at the highest speed ahead.
     pub(super) fn fastest_from(&self, sequence: u64) -> Bounds {
-        fastest(self.track.longest_stop(sequence, self.reach))
+        fastest(self.track.longest_stop(sequence, self.stop_frames))
     }
 
     /// Bounds of the fastest ramp worth trying from a steady rate down to rest at a frame.
@@ -66,7 +66,7 @@ impl Situation<'_> {
             clippy::cast_precision_loss,
             reason = "a number of frames at hand, not negative"
         )]
-        let passed = (2.0 * self.reach as f64 * rate).ceil() as u64;
+        let passed = (2.0 * self.stop_frames as f64 * rate).ceil() as u64;
         let first = frame.saturating_sub(passed).max(from.sequence);
         fastest(self.track.longest_stop(first, frame + 1 - first))
     }

@@ -19,17 +19,20 @@ const TRIAL_BUDGET: u32 = 120;
 /// A reserve is replaced only by one that begins this much later, ticks: a search costs the same however
 /// little it gains.
 const GAIN: u32 = 3;
-/// Before a reserve begins, this many ticks are left to find a later one. From twice as many on a tick may
-/// spend [`URGENT_BUDGET`]. With fewer the reserve is taken before one is found; with twice as many the
-/// dearest tick of an ordinary plan took 78 000 instructions instead of 25 000.
+/// Before a reserve begins, this many ticks are left to find a later one. With fewer the reserve is taken
+/// before one is found; with twice as many the dearest tick of an ordinary plan took 78 000 instructions instead of
+/// 25 000.
 const URGENT: u32 = 14;
-/// With so many left, and no more than two stops take, only greedy slow-downs are tried: while ramps are
-/// tried in vain it becomes too late, as it did where frames came in bursts of a tenth of a second.
+/// With no more ticks than these left, a tick may spend [`URGENT_BUDGET`].
+const CALM: u32 = 2 * URGENT;
+/// With so many left, and no more than the frames of two stops (a tick is taken for a frame, see
+/// [`Rate::enough`]), only greedy slow-downs are tried: while ramps are tried in vain it becomes
+/// too late, as it did where frames came in bursts of a tenth of a second.
 const SHORT: u32 = 2 * URGENT;
 
 /// Frames a stop is taken to have at least where it is asked whether a reserve begins late enough
-/// ([`Rate::enough`]).
-const LEAST_REACH: u64 = 16;
+/// ([`Rate::enough`]). No measurement of it is kept.
+const LEAST_STOP_FRAMES: u64 = 16;
 
 /// In the last ticks before a reserve begins it is tried to go slower instead. No measurement of it is kept.
 const SLOWER_IN_TICKS: u32 = 4;
@@ -51,10 +54,10 @@ impl Rate {
         if self.ramp.is_some() || self.now.rate <= 0.0 {
             return false;
         }
-        let has_time = |reserve: &Reserve| reserve.in_ticks() > URGENT;
+        let is_far = |reserve: &Reserve| reserve.in_ticks() > URGENT;
         if let Some(frame) = situation.block_end
             && goal > 0.0
-            && (self.is_to_arrive_at(frame) || self.reserve.kept.as_ref().is_none_or(has_time))
+            && (self.is_to_arrive_at(frame) || self.reserve.kept.as_ref().is_none_or(is_far))
         {
             let mut budget = situation.budget(TRIAL_BUDGET);
             let passes_barrier = self.ensure_arrival(frame, situation, &mut budget);
@@ -77,12 +80,12 @@ impl Rate {
         }
         // Where the motion stands there is time while frames keep coming: with few of them no stop
         // is found.
-        let has_time = if situation.is_held_at(self.now.time) {
+        let is_calm = if situation.is_held_at(self.now.time) {
             !situation.is_fully_supplied
         } else {
-            left > 2 * URGENT
+            left > CALM
         };
-        let mut budget = if has_time { BUDGET } else { URGENT_BUDGET };
+        let mut budget = if is_calm { BUDGET } else { URGENT_BUDGET };
         let finds_one = self.search_later_stop(left + GAIN, situation, &mut budget);
         if finds_one {
             self.keep_found();
@@ -97,13 +100,18 @@ impl Rate {
 
     /// With fewer ticks left until the reserve begins a later one is looked for. The sooner a
     /// search begins the less of it is left to any tick; but what is found soon begins soon.
+    ///
+    /// Frames are taken for ticks. At a rate of 1 they are; below it a frame lasts for more ticks, so that a
+    /// search begins nearer to the reserve than was meant, by frames. Only when it begins depends on it. No
+    /// measurement of that is kept.
     fn enough(&self, situation: &Situation<'_>) -> u32 {
         let frames = |n: u64| u32::try_from(n).unwrap_or(u32::MAX / 8);
-        let reach = frames(situation.reach.max(LEAST_REACH));
+        let stop = frames(situation.stop_frames.max(LEAST_STOP_FRAMES));
         let ahead = situation.track.end();
         let ahead = frames(ahead.saturating_sub(self.now.time.sequence));
-        // Two thirds of what is ahead of a stop, but three to four stops. No measurement of it is kept.
-        (2 * ahead.saturating_sub(reach) / 3).clamp(3 * reach, 4 * reach)
+        // Two thirds of what is ahead of a stop, but three to four times the frames of one. So the two thirds count
+        // only where 5½ to 7 stops are ahead. No measurement of it is kept.
+        (2 * ahead.saturating_sub(stop) / 3).clamp(3 * stop, 4 * stop)
     }
 
     #[allow(
@@ -126,7 +134,7 @@ impl Rate {
         budget: &mut u32,
     ) -> bool {
         let now = self.steady();
-        let short = u64::from(SHORT).min(2 * situation.reach);
+        let short = u64::from(SHORT).min(2 * situation.stop_frames);
         let is_short =
             self.reserve.kept.is_some() && u64::from(at_least) <= short + u64::from(GAIN);
         let search = &mut self.reserve.search;

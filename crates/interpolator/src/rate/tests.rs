@@ -76,7 +76,7 @@ impl Player {
             track: &self.track,
             published: &self.published,
             allowed: &self.allowed,
-            reach: 19,
+            stop_frames: 19,
             is_fully_supplied: true,
             block_end: None,
         };
@@ -159,7 +159,7 @@ fn a_greedy_slow_down_leads_to_rest_within_the_limits() {
         track: &p.track,
         published: &p.published,
         allowed: &p.allowed,
-        reach: 19,
+        stop_frames: 19,
         is_fully_supplied: true,
         block_end: None,
     };

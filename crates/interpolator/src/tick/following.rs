@@ -163,7 +163,7 @@ impl Interpolator<'_> {
             track: &self.track,
             published: self.output.published(),
             allowed: self.output.allowed(),
-            reach: self.queue_level.reach(),
+            stop_frames: self.queue_level.stop_frames(),
             is_fully_supplied: self.queue_level.is_fully_supplied(),
             block_end: None,
         };
@@ -191,7 +191,7 @@ impl Interpolator<'_> {
             track: &self.track,
             published: self.output.published(),
             allowed: self.output.allowed(),
-            reach: self.queue_level.reach(),
+            stop_frames: self.queue_level.stop_frames(),
             is_fully_supplied: self.queue_level.is_fully_supplied(),
             block_end: None,
         };

@@ -140,7 +140,7 @@ impl Interpolator<'_> {
             track: &self.track,
             published: self.output.published(),
             allowed: self.output.allowed(),
-            reach: self.queue_level.reach(),
+            stop_frames: self.queue_level.stop_frames(),
             is_fully_supplied: self.queue_level.is_fully_supplied(),
             block_end: self
                 .single_block_stop
