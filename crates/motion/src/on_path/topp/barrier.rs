@@ -23,9 +23,9 @@
 use super::constraints::{ConstraintPoint, Part, Problem, Row};
 use super::solver_tolerances::SolverTolerances;
 
-/// The weight of the time at the start, in limits for the time that the start takes: the barrier then
+/// The first weight of the time, in limits for the time that the initial iterate takes: the barrier then
 /// leaves a fifth of that to be gained. With less, the first steps lead away from the limits, to come back
-/// later; with more, they begin next to limits that the start is near.
+/// later; with more, they begin next to limits that the iterate is near.
 const START: f64 = 5.0;
 /// Steps of Newton's method for one weight of the barrier, at most. Where they do not do, the next weight
 /// begins from what there is. No measurement of it is kept.
@@ -49,16 +49,16 @@ const PROMISED_R: f64 = 0.1;
 const PRODUCTS: core::ops::RangeInclusive<f64> = 1e-100..=1e100;
 
 /// Coefficients of a time parametrisation that keeps all limits and takes near the least time, from
-/// one that keeps them with room to spare; `None` if the start does not.
+/// one that keeps them with room to spare; `None` if that does not.
 pub(crate) fn solve(
     problem: &Problem,
-    start: Vec<f64>,
+    initial: Vec<f64>,
     tolerances: &SolverTolerances,
 ) -> Option<Vec<f64>> {
-    let mut x = start;
+    let mut x = initial;
     let time_t = problem.time(&x);
     let mut weight = START * problem.count as f64 / time_t;
-    // Of the time of the start, which is longer than the least: the gap is a little wider than asked for.
+    // Of the time of the initial iterate, which is longer than the least: the gap is a little wider than asked for.
     let last = LIMITS_OF_KNOT * problem.knots as f64 / (tolerances.gap_r * time_t);
     let small_step = (tolerances.small_r * problem.knots as f64).max(SMALL_STEP);
     let mut value = merit(problem, &x, weight)?;

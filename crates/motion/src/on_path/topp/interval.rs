@@ -3,7 +3,8 @@
 use glidepath_geometry::{AXES, Jet, feed_length, limit_along};
 use glidepath_program::Limits;
 
-/// Share of what a curve allows, for the places between knots.
+/// Share of what a curve allows, for the places between knots. It is twice what is given away there
+/// ([`super::between_knots`]), where it is told what of that was measured.
 pub(crate) const BETWEEN_R: f64 = 1.0 - 2e-4;
 
 /// What bounds the speed on a piece whatever the axes can do.

@@ -8,12 +8,15 @@ use crate::scurve::PathState;
 use glidepath_program::Limits;
 
 /// Time from knot to knot on the S-curves, at least, s. No share of a machine's ramp makes it less: the
-/// work is linear in the knots.
+/// work is linear in the knots. It is not in periods, for a parametrisation is sampled afterwards, nor in a/j,
+/// which [`SolverTolerances::knot_r`] is in. With half of it, and with twice it, none of 50 programs took another
+/// time.
 const LEAST_KNOT_T: f64 = 0.002;
 /// Time of the phase of constant jerk next to a rest, and its largest share of the S-curve's. At a rest
 /// b ~ s^(4/3) has a second derivative beyond all bounds, which no spline follows; the shorter the
-/// phase, the more knots next to it ([`SolverTolerances::rest_growth`]). No measurement of either is
-/// kept.
+/// phase, the more knots next to it ([`SolverTolerances::rest_growth`]). Why a time, and not a
+/// share of a/j, is not on record. With twice as much 17 of 50 programs took .2 to 1.2 % longer, with half as much 13
+/// took up to .6 % less and 3 up to .8 % more. Of the share no measurement is kept.
 const REST_T: f64 = 0.001;
 const REST_R: f64 = 0.25;
 
@@ -107,7 +110,7 @@ pub(super) fn marks(legs: &[Leg], knot_t: f64) -> Vec<Mark> {
     marks
 }
 
-/// Path position at a time; `length_s` behind the last place.
+/// Path position at a time; `length_s` after the last place.
 pub(super) fn position_at(marks: &[Mark], t: f64, length_s: f64) -> f64 {
     let after = marks.partition_point(|mark| mark.t <= t);
     let before = after.saturating_sub(1);

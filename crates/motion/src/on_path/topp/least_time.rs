@@ -64,7 +64,7 @@ fn parametrisation_of(
     rate_r: f64,
     tolerances: &SolverTolerances,
 ) -> Option<Parametrisation> {
-    let x = solve(problem, knot_path.start(rate_r), tolerances)?;
+    let x = solve(problem, knot_path.initial(rate_r), tolerances)?;
     let mut builder = Builder::new();
     let zero = PathState {
         position_s: 0.0,

@@ -14,8 +14,8 @@
 //! ```
 //!
 //! Units are millimetres (or degrees, where the feed is in them) and seconds: b is in mm²/s², b′ in
-//! mm/s², b″ in 1/s². What the barrier sees is each limit's own share, and the weight of the time is per
-//! second, so nothing has to be scaled.
+//! mm/s², b″ in 1/s². What the barrier sees is each limit's own share, but for the jerk, whose argument has a
+//! unit that only shifts the value; the weight of the time is per second. So nothing has to be scaled.
 //!
 //! * **Discretisation.** b is a quadratic spline in s: speed and acceleration are continuous, b″ is
 //!   constant on a span, and on each span ẍ = b′(x)/2 is a linear differential equation, solved by
@@ -25,15 +25,15 @@
 //!   no constraints, the parametrisation is judged afterwards ([`between_knots`]).
 //! * **Optimisation.** Least Σ h/√b, which is the time, ∫ ds/v, and convex in b, with a logarithmic
 //!   barrier for each limit, by Newton's method; each constraint of the problem touches three
-//!   neighbouring coefficients, so a step costs a banded factorisation ([`barrier`]). It starts from the
-//!   S-curves, slowed down, which keeps all limits with room to spare: no step ever leaves them.
+//!   neighbouring coefficients, so a step costs a banded factorisation ([`barrier`]). Its initial
+//!   iterate is the S-curves, slowed down, which keeps all limits with room to spare: no step ever leaves them.
 //!
 //! **The unknowns** are one coefficient of b for each interval between knots, the middle Bézier point of its
 //! parabola, and one more at either end. Of these the first two and the last two are given: they are speed
 //! and acceleration there. A course of n intervals has n − 2 unknowns, and the least time is sought over
 //! them alone: the path is not.
 //!
-//! **What if none is found.** The start has to keep the constraints with room to spare. If it does not, the
+//! **What if none is found.** The initial iterate has to keep the constraints with room to spare. If it does not, the
 //! next slower one is tried, from rest to rest down to .4 of the S-curves' speed, elsewhere only .85. If no
 //! rate will do, or what comes out still demands too much between knots after eight times, there is no
 //! parametrisation. The course is then parted, left later, or driven by S-curves
