@@ -17,7 +17,7 @@
 //!    q̈                 q̇ q⃛                 q̈          acceleration at knots, where it has its peaks
 //! ```
 
-use super::solver::{Ends, FIRM_PRICE, PRICE, Problem, SPAN, WideRow, combine};
+use super::solver::{FIRM_PRICE, PRICE, Problem, RowBounds, SPAN, WideRow, combine};
 use super::spline::{basis, basis_1, basis_2};
 use super::tube::Layout;
 use crate::joints::JointsOnCurve;
@@ -168,7 +168,7 @@ fn row<const D: usize>(
     Some(WideRow {
         first: k,
         parts,
-        ends: Ends {
+        bounds: RowBounds {
             low: -JOINT_R - rest,
             high: JOINT_R - rest,
             price: if layout.style.is_feed_firm {

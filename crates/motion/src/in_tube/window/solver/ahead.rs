@@ -11,17 +11,17 @@ const LEAST_CENTERING: f64 = 1e-4;
 /// products of its whole steps can be many times that, and are of steps that nobody takes.
 const MOST_CORRECTION: f64 = 5.0;
 
-/// What the corrector aims at.
+/// The target of the corrector. (An aim is a part of the objective.)
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Aim {
+pub(super) struct Target {
     /// What all products are to become.
-    pub(super) target: f64,
+    pub(super) product: f64,
     /// The most that a product of steps counts.
     pub(super) bound: f64,
 }
 
-impl Aim {
-    /// What to aim at where the mean of the products is `mu`, and the predictor leaves a share of it:
+impl Target {
+    /// The target where the mean of the products is `mu`, and the predictor leaves a share of it:
     /// Mehrotra's cube, which hardly centres where the predictor gets far.
     pub(super) fn after(mu: f64, share: f64) -> Self {
         let ratio = share.powi(3);
@@ -31,7 +31,7 @@ impl Aim {
             1.0
         };
         Self {
-            target: mu * centering,
+            product: mu * centering,
             bound: MOST_CORRECTION * mu,
         }
     }

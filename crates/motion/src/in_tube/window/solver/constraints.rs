@@ -2,7 +2,7 @@
 
 use super::ahead::{Ahead, Pair, larger};
 use super::hard_constraint::HardConstraint;
-use super::problem::{DIFFERENCES, Ends, Problem, combine, dot, first_difference};
+use super::problem::{DIFFERENCES, Problem, RowBounds, combine, dot, first_difference};
 use super::soft_constraint::SoftConstraint;
 
 /// The sides of all rows: first those that must hold, by order, control point and axis, then the
@@ -79,7 +79,9 @@ impl Constraints {
         self.pass(
             (problem, x),
             |side, value, standing: &mut Standing| standing.add(side.start(value)),
-            |side, value, ends, standing| standing.add(side.start(ends.sides(value), ends.price)),
+            |side, value, bounds, standing| {
+                standing.add(side.start(bounds.sides(value), bounds.price));
+            },
         )
     }
 
@@ -93,7 +95,7 @@ impl Constraints {
         self.pass(
             (problem, x),
             |side, value, standing: &mut Standing| standing.add(side.advance(step, value)),
-            |side, value, ends, standing| standing.add(side.advance(step, ends.sides(value))),
+            |side, value, bounds, standing| standing.add(side.advance(step, bounds.sides(value))),
         )
     }
 
@@ -116,7 +118,7 @@ impl Constraints {
         &mut self,
         (problem, x): (&Problem<D>, &[[f64; D]]),
         hard: impl Fn(&mut HardConstraint, f64, &mut T),
-        soft: impl Fn(&mut SoftConstraint, f64, &Ends, &mut T),
+        soft: impl Fn(&mut SoftConstraint, f64, &RowBounds, &mut T),
     ) -> T {
         let mut all = T::default();
         let [velocity, acceleration, jerk] = self.by_order_mut(problem);
@@ -127,11 +129,11 @@ impl Constraints {
             let y = combine(x, site.first, &site.weights);
             let sides = &mut self.soft[site.rows.clone()];
             for (row, side) in problem.rows[site.rows.clone()].iter().zip(sides) {
-                soft(side, dot(&row.normal, &y), &row.ends, &mut all);
+                soft(side, dot(&row.normal, &y), &row.bounds, &mut all);
             }
         }
         for (row, side) in problem.wide_rows.iter().zip(&mut self.wide) {
-            soft(side, row.value(x), &row.ends, &mut all);
+            soft(side, row.value(x), &row.bounds, &mut all);
         }
         all
     }

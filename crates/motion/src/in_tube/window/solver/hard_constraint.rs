@@ -1,7 +1,7 @@
 //! A hard constraint, the sides of a row that must hold: no excess, and less to do than for a soft one
 //! ([`super::soft_constraint`]). Most rows are such.
 
-use super::ahead::{Ahead, Aim, Pair, larger};
+use super::ahead::{Ahead, Pair, Target, larger};
 
 /// μ to start from, in units of the objective. With more, the same goal takes
 /// more iterations; with less, rows that turn out to bind begin next to the boundary, where steps are
@@ -23,7 +23,7 @@ pub(super) struct HardConstraint {
     d_slack: Pair,
     d_multiplier: Pair,
     /// What s·l is to become.
-    aim: Pair,
+    target: Pair,
     /// Weight in the normal equations, and the multiplier that goes with no change of the row.
     weight: Pair,
     force: Pair,
@@ -65,7 +65,7 @@ impl HardConstraint {
         self.stand([value - 1.0, -1.0 - value])
     }
 
-    /// Weight, and aim and force of the predictor.
+    /// Weight, and target and force of the predictor.
     #[inline]
     fn stand(&mut self, g: Pair) -> (Pair, Pair) {
         let (mut product, mut rest) = ([0.0; 2], [0.0; 2]);
@@ -79,19 +79,19 @@ impl HardConstraint {
             // w = l/s is what the side adds to the Hessian, l + w·g its multiplier at μ = 0.
             self.weight[k] = l * self.per_slack[k];
             self.force[k] = l + self.weight[k] * g[k];
-            self.aim[k] = 0.0;
+            self.target[k] = 0.0;
         }
         self.g = g;
         (product, rest)
     }
 
-    /// Aim and force of the corrector.
+    /// Target and force of the corrector.
     #[inline]
-    pub(super) fn aim_at(&mut self, Aim { target, bound }: Aim) {
+    pub(super) fn correct(&mut self, Target { product, bound }: Target) {
         for k in 0..2 {
-            let aim = target - (self.d_slack[k] * self.d_multiplier[k]).clamp(-bound, bound);
-            self.aim[k] = aim;
-            let rest = self.g[k] + aim * self.per_multiplier[k];
+            let target = product - (self.d_slack[k] * self.d_multiplier[k]).clamp(-bound, bound);
+            self.target[k] = target;
+            let rest = self.g[k] + target * self.per_multiplier[k];
             self.force[k] = self.multiplier[k] + self.weight[k] * rest;
         }
     }
@@ -104,8 +104,8 @@ impl HardConstraint {
         for k in 0..2 {
             let (s, l) = (self.slack[k], self.multiplier[k]);
             let d_l = self.force[k] - l + self.weight[k] * change[k];
-            // From l·ds + s·dl = aim − s·l.
-            let d_s = (self.aim[k] - s * d_l) * self.per_multiplier[k] - s;
+            // From l·ds + s·dl = target − s·l.
+            let d_s = (self.target[k] - s * d_l) * self.per_multiplier[k] - s;
             let of_slack = -d_s * self.per_slack[k];
             let of_multiplier = -d_l * self.per_multiplier[k];
             ahead.shrink[k] = larger(ahead.shrink[k], larger(of_slack, of_multiplier));

@@ -10,7 +10,8 @@
 //! Elimination of s, l and e leaves the normal equations for the control points, in which a side
 //! weighs w = 1 / (s/l + e/(p − l)). A hard side is a soft one of infinite price with e = 0.
 //!
-//! With c the aims, P the Hessian of attraction and jerk, and a the coefficients of the rows (±, by side),
+//! With c the aims and what the centers of attraction pull with at x = 0, P the Hessian of attraction and jerk,
+//! and a the coefficients of the rows (±, by side),
 //! Newton's step for these conditions and stationarity, c − P·x − Σ l·a = 0, is
 //!
 //! ```text
@@ -22,15 +23,15 @@
 //! away by the same step, and x need not keep them at the start.
 //!
 //! Each iteration factors once and solves twice: a predictor aims at μ = 0, and how far it gets
-//! sets the μ that the corrector aims at. The work of an active-set method follows how many rows change
+//! sets the μ of the corrector. The work of an active-set method follows how many rows change
 //! sides from one problem to the next; here every iteration of a problem costs the same, so work is
 //! bounded in multiplications ([`Allowance`]), which are the same on every run.
 
-use super::ahead::{Ahead, Aim};
+use super::ahead::{Ahead, Target};
 use super::constraints::Constraints;
-use super::ends::tie_end;
 use super::normal::NormalEquations;
 use super::problem::Problem;
+use super::rest::tie_rest;
 use super::soft_constraint::SoftConstraint;
 
 /// Share of the way to the boundary that a step may go. At 1 a slack or multiplier would be 0, and
@@ -157,23 +158,23 @@ impl<const D: usize> Interior<D> {
             // both x and l in it, and steps of two lengths would leave a residual of it.
             let step = predicted.room().min(1.0);
             let share = predicted.sum_after(standing.sum(), step) / pairs / mu;
-            let corrected = self.direction(problem, x, Some(Aim::after(mu, share)));
+            let corrected = self.direction(problem, x, Some(Target::after(mu, share)));
             let step = (BACK_OFF * corrected.room()).min(1.0);
             for k in problem.free() {
                 for a in 0..D {
                     x[k][a] += step * self.normal.step[k][a];
                 }
             }
-            tie_end(problem, x);
+            tie_rest(problem, x);
             standing = self.sides.advance(problem, x, step);
         }
         standing.sum() / pairs < goal.mu && standing.residual() < RESIDUAL
     }
 
-    /// The step of the control points and of the sides: that of the predictor, or with an aim that
-    /// of the corrector.
-    fn direction(&mut self, problem: &Problem<D>, x: &[[f64; D]], aim: Option<Aim>) -> Ahead {
-        self.normal.solve(problem, x, &mut self.sides, aim);
+    /// The step of the control points and of the sides: that of the predictor, or with a target
+    /// that of the corrector.
+    fn direction(&mut self, problem: &Problem<D>, x: &[[f64; D]], target: Option<Target>) -> Ahead {
+        self.normal.solve(problem, x, &mut self.sides, target);
         self.sides.follow(problem, &self.normal.step)
     }
 

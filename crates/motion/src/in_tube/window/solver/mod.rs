@@ -5,14 +5,14 @@
 mod ahead;
 mod band;
 mod constraints;
-mod ends;
 mod hard_constraint;
 mod interior;
 mod normal;
 mod problem;
+mod rest;
 mod soft_constraint;
 #[cfg(test)]
 mod tests;
 
 pub(super) use interior::{Allowance, Goal, Interior};
-pub(super) use problem::{Ends, FAR, FIRM_PRICE, PRICE, Problem, SPAN, WideRow, combine, dot};
+pub(super) use problem::{FAR, FIRM_PRICE, PRICE, Problem, RowBounds, SPAN, WideRow, combine, dot};

@@ -5,12 +5,12 @@
 //! differences act on one axis each, so they are summed up by axis first, as numbers; only sites need
 //! blocks.
 
-use super::ahead::Aim;
+use super::ahead::Target;
 use super::band::{Band, Block};
 use super::constraints::Constraints;
-use super::ends::{fold, fold_parts, take_away};
 use super::hard_constraint::HardConstraint;
 use super::problem::{DIFFERENCES, Problem, Row, SPAN, Site, combine, dot, first_difference};
+use super::rest::{fold, fold_parts, take_away};
 use super::soft_constraint::SoftConstraint;
 
 /// The equations, with their memory.
@@ -130,13 +130,13 @@ impl<const D: usize> NormalEquations<D> {
         }
     }
 
-    /// Solves for the step of the control points, towards the aims of the sides.
+    /// Solves for the step of the control points, towards the targets of the sides.
     pub(super) fn solve(
         &mut self,
         problem: &Problem<D>,
         x: &[[f64; D]],
         sides: &mut Constraints,
-        aim: Option<Aim>,
+        target: Option<Target>,
     ) {
         let last = problem.intervals;
         // The negative gradient, from that of the linear part on.
@@ -149,15 +149,15 @@ impl<const D: usize> NormalEquations<D> {
             }
         }
         let [velocity, acceleration, jerk] = sides.by_order_mut(problem);
-        self.pull_differences::<2>((problem, x), velocity, aim);
-        self.pull_differences::<3>((problem, x), acceleration, aim);
-        self.pull_differences::<4>((problem, x), jerk, aim);
+        self.pull_differences::<2>((problem, x), velocity, target);
+        self.pull_differences::<3>((problem, x), acceleration, target);
+        self.pull_differences::<4>((problem, x), jerk, target);
         for (site, weights) in problem.sites.iter().zip(&self.of_sites) {
             let mut pull = pull_of_attraction(site, x);
             let rows = problem.rows[site.rows.clone()].iter();
             for (row, side) in rows.zip(&mut sides.soft[site.rows.clone()]) {
-                if let Some(aim) = aim {
-                    side.aim_at(aim);
+                if let Some(target) = target {
+                    side.correct(target);
                 }
                 let force = side.force();
                 for a in 0..D {
@@ -168,8 +168,8 @@ impl<const D: usize> NormalEquations<D> {
         }
         let wide_rows = problem.wide_rows.iter().zip(&self.of_wide);
         for ((row, parts), side) in wide_rows.zip(&mut sides.wide) {
-            if let Some(aim) = aim {
-                side.aim_at(aim);
+            if let Some(target) = target {
+                side.correct(target);
             }
             let force = side.force();
             for (point, part) in self.step[row.first..].iter_mut().zip(parts) {
@@ -193,12 +193,12 @@ impl<const D: usize> NormalEquations<D> {
         self.step[last..].fill(end);
     }
 
-    /// Takes away the pulls of the rows on differences of `N` points; coefficients behind these are zero.
+    /// Takes away the pulls of the rows on differences of `N` points; those after them are zero.
     fn pull_differences<const N: usize>(
         &mut self,
         (problem, x): (&Problem<D>, &[[f64; D]]),
         sides: &mut [HardConstraint],
-        aim: Option<Aim>,
+        target: Option<Target>,
     ) {
         let order = N - 2;
         let per_bound = problem.bounds[order].map(|bound| 1.0 / bound);
@@ -207,8 +207,8 @@ impl<const D: usize> NormalEquations<D> {
         for ((k, stencil), sides) in stencils.zip(sides.chunks_exact_mut(D)) {
             let mut pull = [0.0; D];
             for a in 0..D {
-                if let Some(aim) = aim {
-                    sides[a].aim_at(aim);
+                if let Some(target) = target {
+                    sides[a].correct(target);
                 }
                 pull[a] = sides[a].force() * per_bound[a];
             }

@@ -52,7 +52,7 @@ pub(super) fn fold_parts<const D: usize>(
     parts
 }
 
-pub(super) fn tie_end<const D: usize>(problem: &Problem<D>, x: &mut [[f64; D]]) {
+pub(super) fn tie_rest<const D: usize>(problem: &Problem<D>, x: &mut [[f64; D]]) {
     if !problem.is_end_fixed {
         let last = problem.intervals;
         x[last + 1] = x[last];

@@ -1,7 +1,7 @@
 //! A soft constraint, the sides of a row that may be violated at a price: slacks, multipliers and
 //! excesses, and their steps. What they are is told in [`super::interior`].
 
-use super::ahead::{Ahead, Aim, Pair, larger};
+use super::ahead::{Ahead, Pair, Target, larger};
 use super::hard_constraint::{START_MU, START_SLACK};
 
 /// Largest share of the price that a multiplier begins with: both l and p − l have to be above 0.
@@ -27,8 +27,8 @@ pub(super) struct SoftConstraint {
     d_multiplier: Pair,
     d_excess: Pair,
     /// What s·l and e·(p − l) are to become.
-    aim_slack: Pair,
-    aim_excess: Pair,
+    target_slack: Pair,
+    target_excess: Pair,
     /// Weight in the normal equations, and the multiplier that goes with no change of the row.
     weight: Pair,
     force: Pair,
@@ -78,7 +78,7 @@ impl SoftConstraint {
         self.stand(g)
     }
 
-    /// Weight, and aims and force of the predictor.
+    /// Weight, and targets and force of the predictor.
     #[inline]
     fn stand(&mut self, g: Pair) -> (Pair, Pair) {
         let (mut product, mut rest) = ([0.0; 2], [0.0; 2]);
@@ -98,25 +98,25 @@ impl SoftConstraint {
             let weight = 1.0 / (s * self.per_multiplier[k] + e * self.per_rest[k]);
             self.weight[k] = weight;
             self.force[k] = l + weight * g[k];
-            self.aim_slack[k] = 0.0;
-            self.aim_excess[k] = 0.0;
+            self.target_slack[k] = 0.0;
+            self.target_excess[k] = 0.0;
         }
         self.g = g;
         (product, rest)
     }
 
-    /// Aims and force of the corrector.
+    /// Targets and force of the corrector.
     #[inline]
-    pub(super) fn aim_at(&mut self, Aim { target, bound }: Aim) {
+    pub(super) fn correct(&mut self, Target { product, bound }: Target) {
         for k in 0..2 {
             let d_l = self.d_multiplier[k];
-            let aim_slack = target - (self.d_slack[k] * d_l).clamp(-bound, bound);
+            let target_slack = product - (self.d_slack[k] * d_l).clamp(-bound, bound);
             // ν falls as l rises: its step is −dl.
-            let aim_excess = target + (self.d_excess[k] * d_l).clamp(-bound, bound);
-            let of_slack = aim_slack * self.per_multiplier[k];
-            let of_excess = aim_excess * self.per_rest[k];
-            self.aim_slack[k] = aim_slack;
-            self.aim_excess[k] = aim_excess;
+            let target_excess = product + (self.d_excess[k] * d_l).clamp(-bound, bound);
+            let of_slack = target_slack * self.per_multiplier[k];
+            let of_excess = target_excess * self.per_rest[k];
+            self.target_slack[k] = target_slack;
+            self.target_excess[k] = target_excess;
             let rest = self.g[k] + of_slack - of_excess;
             self.force[k] = self.multiplier[k] + self.weight[k] * rest;
         }
@@ -131,8 +131,8 @@ impl SoftConstraint {
             let (s, l, e) = (self.slack[k], self.multiplier[k], self.excess[k]);
             let (per_l, per_nu) = (self.per_multiplier[k], self.per_rest[k]);
             let d_l = self.force[k] - l + self.weight[k] * change[k];
-            let d_s = (self.aim_slack[k] - s * d_l) * per_l - s;
-            let d_e = (self.aim_excess[k] + e * d_l) * per_nu - e;
+            let d_s = (self.target_slack[k] - s * d_l) * per_l - s;
+            let d_e = (self.target_excess[k] + e * d_l) * per_nu - e;
             let of_slack = larger(-d_s * self.per_slack[k], -d_e * self.per_excess[k]);
             let of_multiplier = larger(-d_l * per_l, d_l * per_nu);
             ahead.shrink[k] = larger(ahead.shrink[k], larger(of_slack, of_multiplier));

@@ -2,7 +2,7 @@
 //! as there are unknowns, so trying every such point is an oracle that shares nothing with it.
 
 use super::interior::{Allowance, Goal, Interior};
-use super::problem::{DIFFERENCES, Ends, FAR, PRICE, Problem, WideRow};
+use super::problem::{DIFFERENCES, FAR, PRICE, Problem, RowBounds, WideRow};
 
 /// Intervals; the unknown control points are 3, 4, 5, and 6 with its two copies.
 const INTERVALS: usize = 6;
@@ -116,7 +116,7 @@ fn the_best_vertex_is_found() {
         problem.wide_rows.push(WideRow {
             first: 3,
             parts,
-            ends: Ends {
+            bounds: RowBounds {
                 low: -FAR,
                 high: limit,
                 price: PRICE,
