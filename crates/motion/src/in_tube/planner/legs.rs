@@ -73,12 +73,12 @@ impl PlannerState {
         let period = next.period();
         self.follower.end = next.leg.piece + 1;
         let way = (&self.reference_path, &mut self.follower);
-        let is_kept = self
+        let followed = self
             .history
             .follow(&self.limits, self.period_t, way, &State::from(&period));
-        // A leg begun before the rates were lowered is driven to its end as it was planned: what is
-        // only too fast has been followed all the same.
-        if !is_kept && self.history.last() != period.position {
+        // A leg begun before the rates were lowered is driven to its end as it was planned, though it is too
+        // fast now. One that stands is where it was, whatever is said of that.
+        if !followed.is_there() && self.history.last() != period.position {
             return None;
         }
         self.is_over = next.is_resting
@@ -146,9 +146,9 @@ impl PlannerState {
         let is_followed = (0..=AHEAD).all(|_| {
             let state = State::from(&next.period());
             let way = (&self.reference_path, &mut follower);
-            let is_kept = history.follow(&self.limits, self.period_t, way, &state);
+            let followed = history.follow(&self.limits, self.period_t, way, &state);
             next = next.later(self.period_t);
-            is_kept || history.last() == state.position
+            followed.is_there() || history.last() == state.position
         });
         is_followed && follower.least_reach() >= next.leg.piece
     }

@@ -155,13 +155,12 @@ impl TubePlanner {
         let state = grid.state(points, *done);
         self.state.is_over = *is_end && *done == grid.periods_in(points.len() - 3);
         let way = (&self.state.reference_path, &mut self.state.follower);
-        let is_kept =
+        let followed =
             self.state
                 .history
                 .follow(&self.state.limits, self.state.period_t, way, &state);
         // Too fast for a rate that was lowered meanwhile is all that it may be.
-        let is_followed = is_kept || self.state.history.last() == state.position;
-        is_followed.then_some(Period {
+        followed.is_there().then_some(Period {
             velocity: state.velocity,
             acceleration: state.acceleration,
             ..Period::rest(state.position)

@@ -18,6 +18,29 @@ const SLACK: f64 = 1.0 + 5e-7;
 /// The feed counts as kept up to this factor.
 pub(crate) const FEED_SLACK: f64 = 1.0 + 5e-4;
 
+/// What has come of following a period.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Followed {
+    /// The motion is there, and has kept everything.
+    Kept,
+    /// The motion is there, and was faster than the feed: a rate may have been lowered meanwhile.
+    TooFast,
+    /// It breaks a limit, or leaves travel or the tube: all is as it was.
+    Refused,
+}
+
+impl Followed {
+    /// True if the motion has kept everything.
+    pub(crate) fn is_kept(self) -> bool {
+        self == Self::Kept
+    }
+
+    /// True if the motion is there, however fast it was.
+    pub(crate) fn is_there(self) -> bool {
+        self != Self::Refused
+    }
+}
+
 /// The last positions handed out.
 #[derive(Debug, Clone)]
 pub(crate) struct History {
@@ -90,14 +113,15 @@ impl History {
         })
     }
 
-    /// Follows a period along the path: limits, travel, tolerance, feed. False leaves all as it was.
+    /// Follows a period along the path: limits, travel, tolerance, feed. Only what is [`Followed::Refused`]
+    /// leaves all as it was.
     pub(crate) fn follow(
         &mut self,
         limits: &Limits,
         period_t: f64,
         (reference_path, follower): (&ReferencePath, &mut Follower),
         next: &State,
-    ) -> bool {
+    ) -> Followed {
         let position = next.position;
         let bend = BetweenPeriods {
             from: &self.states[0],
@@ -105,12 +129,12 @@ impl History {
             period_t,
         };
         if !self.allows(limits, period_t, &position) || !travel::is_inside(limits, &bend) {
-            return false;
+            return Followed::Refused;
         }
         let from = follower.reachable.first;
         let near_start = NearPieces::of(reference_path, &follower.reachable, &self.recent[0]);
         if !follower.step(reference_path, &bend) {
-            return false;
+            return Followed::Refused;
         }
         let near_end = NearPieces::of(reference_path, &follower.reachable, &position);
         let step = position - self.recent[0];
@@ -131,6 +155,10 @@ impl History {
         if speed_v <= feed_v {
             self.overspeed_v = 0.0;
         }
-        is_slow && speed_v <= (feed_v * FEED_SLACK).max(self.overspeed_v)
+        if is_slow && speed_v <= (feed_v * FEED_SLACK).max(self.overspeed_v) {
+            Followed::Kept
+        } else {
+            Followed::TooFast
+        }
     }
 }
