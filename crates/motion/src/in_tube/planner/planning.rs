@@ -16,7 +16,7 @@ use crate::in_tube::fallback::{Baseline, StopLeg};
 use crate::in_tube::path::{Bounds, TubePiece, directional};
 use crate::in_tube::verify::NearPieces;
 use crate::in_tube::window::{
-    FEED_INTERVALS, FIRST_WORK, Grid, LEAST_INTERVALS, PLAN_WORK, View, WindowContext, WindowSearch,
+    FEED_INTERVALS, Grid, LEAST_INTERVALS, View, WindowContext, WindowSearch, first_work, left_work,
 };
 use crate::joints::alone;
 use glidepath_geometry::{AXES, AxisVector, ROTARY_ABC, feed_length};
@@ -127,11 +127,13 @@ impl PlannerState {
         (stay_t, work): (Option<f64>, usize),
     ) -> Option<Candidate> {
         let tail = &self.tail(grid, view.intervals);
-        let window = self.try_window(grid, view, tail, WindowSearch::Whole(FIRST_WORK));
-        let is_behind = |window: &Candidate| window.gain_t.is_none_or(|gain_t| gain_t < 0.0);
+        let has_joints = self.joints.is_some();
+        let first_work = first_work(has_joints);
+        let window = self.try_window(grid, view, tail, WindowSearch::Whole(first_work));
+        let is_late = |window: &Candidate| window.gain_t.is_none_or(|gain_t| gain_t < 0.0);
         let may_halt =
             matches!(self.active, ActiveMotion::Window { .. }) && self.baseline.is_some();
-        if !may_halt || window.as_ref().is_some_and(|window| !is_behind(window)) {
+        if !may_halt || window.as_ref().is_some_and(|window| !is_late(window)) {
             return window.filter(|window| window.is_worth(stay_t, self.period_t));
         }
         let usual = commit(grid, view);
@@ -141,9 +143,10 @@ impl PlannerState {
             // It is too early to know.
             return window;
         }
-        let left_work = PLAN_WORK.saturating_sub(self.optimisers.work() - work);
+        let left_work = left_work(has_joints, self.optimisers.work() - work);
         let halt = self.try_halt(grid, view, tail, WindowSearch::Whole(left_work));
-        // While the last window leads by as much, from a little further on a better one may be found.
+        // A gain that is known beats none: `None` is less than any. While the last window leads by as much, from a
+        // little further on a better one may be found.
         let halt = halt.filter(|halt| halt.gain_t >= stay_t);
         let mut all = [window, halt].into_iter().flatten();
         let first = all.next()?;
@@ -223,7 +226,7 @@ impl PlannerState {
             bias: self.bias,
         };
         let motion = self.optimisers.attempt(&setting, view, tail)?;
-        Some(self.judge(grid, view, motion))
+        Some(self.appraise(grid, view, motion))
     }
 
     /// A window that rests at the end of the piece the motion is on, if that is in view.
@@ -329,6 +332,10 @@ fn leg_tail(leg: &StopLeg, leg_t: f64, grid: &Grid, intervals: usize) -> Vec<Axi
 /// Half the time in which jerk strays by a tolerance: the grid on which corners are still resolved. On a mill
 /// (tolerance .02 mm, jerk 4e4) that is 4 ms, and 8 ms were too coarse for small figures; on a stiff machine
 /// (.03 mm, 1e6) it is 1.6 ms, where 2 ms did and 1 ms gained nothing.
+///
+/// It is chosen for a whole stretch by its first piece alone, and by the axes that move there: how much of the path
+/// a window sees is counted in its knots, so it has to be known first. If it is too coarse for a later piece,
+/// that costs time only, because the judge looks at periods. No measurement of that is kept.
 fn wanted_grid(planner: &PlannerState, piece: &TubePiece) -> Grid {
     let mut limits = planner.limits;
     if let Some([acceleration, jerk]) = planner

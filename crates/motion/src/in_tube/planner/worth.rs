@@ -14,6 +14,10 @@ const SETTLING_T: f64 = 0.05;
 /// of it is kept.
 const LITTLE_R: f64 = 0.05;
 
+/// What a rest at the end of the path counts, in periods, because a baseline rests there until its period is over,
+/// too. A little less than the whole, so that the baseline wins a tie. With the whole none of 35 programs changed.
+const END_PERIODS: f64 = 1.0 - 1e-6;
+
 /// A window that may be taken.
 pub(super) struct Candidate {
     pub(super) motion: WindowMotion,
@@ -27,6 +31,10 @@ impl Candidate {
     /// True if it is better than what is done without it, whose gain is given: it leads by more, or
     /// by hardly less and is ahead of the baseline at all. To halt for what a window has lost by
     /// keeping a little below the feed would lose far more.
+    ///
+    /// Without a baseline, as after a change of rates, no gain is known, and `None` is less than any that is:
+    /// every window is worth it then. That it goes about as far as the tail was asked when it was found
+    /// (`NO_LESS_R`).
     pub(super) fn is_worth(&self, stay_t: Option<f64>, period_t: f64) -> bool {
         #[expect(clippy::cast_precision_loss, reason = "hundreds")]
         let little_t = LITTLE_R * self.commit as f64 * period_t;
@@ -38,8 +46,8 @@ impl Candidate {
 }
 
 impl PlannerState {
-    /// What a motion from now on is worth.
-    pub(super) fn judge(&mut self, grid: &Grid, view: &View, motion: WindowMotion) -> Candidate {
+    /// What a motion from now on is worth. It has passed the judge: what is found here is its gain.
+    pub(super) fn appraise(&mut self, grid: &Grid, view: &View, motion: WindowMotion) -> Candidate {
         let mut history = self.history.clone();
         let mut follower = self.follower.to(view.pieces.end);
         let periods = grid.periods_in(motion.points.len() - 3);
@@ -75,8 +83,7 @@ impl PlannerState {
                 continue;
             };
             match (period == periods, candidate.motion.is_end) {
-                // A baseline at the end of the path rests there until the period is over, too.
-                (true, true) => gain_t += (1.0 - 1e-6) * self.period_t,
+                (true, true) => gain_t += END_PERIODS * self.period_t,
                 (true, false) => {}
                 _ => gain_t -= TRUST_PERIODS * self.period_t,
             }
@@ -143,7 +150,7 @@ impl PlannerState {
             is_rest: true,
             is_end: false,
         };
-        self.judge(grid, &view, rest).gain_t
+        self.appraise(grid, &view, rest).gain_t
     }
 }
 

@@ -87,8 +87,9 @@ mod window_start;
 pub(crate) use attempt::{
     FEED_INTERVALS, LEAST_INTERVALS, Optimisers, View, WindowContext, WindowMotion, WindowSearch,
 };
-pub(crate) use budget::FIRST_WORK;
+#[cfg(test)]
 pub(crate) use budget::PLAN_WORK;
+pub(crate) use budget::{first_work, left_work};
 pub(crate) use search_bias::SearchBias;
 pub(crate) use spline::Grid;
 pub(crate) use way::at_feed_r;
