@@ -16,7 +16,10 @@ use crate::scurve::Profile;
 use glidepath_geometry::{AxisVector, feed_length};
 use glidepath_program::Limits;
 
-/// Up to here a piece is to be straight: behind its middle half the tolerance is for the next corner.
+/// A cruise that takes less than this share of a leg is none: rounding may leave a trace of one.
+const TRACE_R: f64 = 1e-9;
+
+/// Up to here a piece is to be straight: after its middle half the tolerance is for the next corner.
 const STRAIGHT_UNTIL: f64 = 0.75;
 
 /// A straight motion from rest to rest.
@@ -89,7 +92,7 @@ impl StopLeg {
         self.profile.duration_t()
     }
 
-    /// From its start until the end of the piece, with the leg that may be left behind it.
+    /// From its start until the end of the piece, with the leg that may be left after it.
     pub(crate) fn arrival_t(&self) -> f64 {
         self.duration_t() + self.rest_t.unwrap_or(0.0)
     }
@@ -111,8 +114,7 @@ impl StopLeg {
     /// for its top speed.
     pub(crate) fn eager_t(&self) -> f64 {
         let cruise_t = self.profile.cruise_t();
-        // Where there is none, rounding may leave a trace of one.
-        if cruise_t.end - cruise_t.start <= 1e-9 * self.duration_t() {
+        if cruise_t.end - cruise_t.start <= TRACE_R * self.duration_t() {
             0.0
         } else {
             cruise_t.end
@@ -145,7 +147,7 @@ impl StopLeg {
 }
 
 /// The point of a straight piece next to a place that is beside it by more than is allowed in its middle, if that is
-/// not behind it.
+/// not beyond it.
 fn nearest_if_beside(piece: &TubePiece, from: &AxisVector) -> Option<AxisVector> {
     let allowed_mm = piece.straight?.within_mm;
     let along = piece.end - piece.start;

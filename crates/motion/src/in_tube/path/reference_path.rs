@@ -71,7 +71,7 @@ pub(crate) struct TubePiece {
 /// A corner that pieces come from.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct CornerBefore {
-    /// Displacements of the pieces before and behind it.
+    /// Displacements of the pieces before and after it.
     pub(crate) along: [AxisVector; 2],
     /// Feed length from the start of the stretch to it, and that of the run that leads to it.
     pub(crate) at_s: f64,

@@ -81,8 +81,8 @@ impl Sense {
 }
 
 /// True if a path turns sharply from one displacement to the next.
-pub(crate) fn is_sharp(before: &AxisVector, behind: &AxisVector) -> bool {
-    before.dot(behind) < SHARP_COS * before.norm() * behind.norm()
+pub(crate) fn is_sharp(before: &AxisVector, after: &AxisVector) -> bool {
+    before.dot(after) < SHARP_COS * before.norm() * after.norm()
 }
 
 /// What is to be known of a piece.

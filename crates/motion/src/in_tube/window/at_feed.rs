@@ -7,7 +7,7 @@
 //!
 //! Progress is counted at one sample alone, the last before the motion brakes. If it counted at samples
 //! before, the start of a window would be shaped otherwise than its end, and the next one begins with
-//! that. Samples behind are held by their pieces, where the guess brakes: progress that gains nothing
+//! that. Later samples are held by their pieces, where the guess brakes: progress that gains nothing
 //! more does not ask for the feed. What a shorter way inside a curve gains is not counted at all
 //! ([`super::shortcuts`]).
 

@@ -30,7 +30,7 @@ pub(crate) struct RunCorners<const D: usize> {
     pub(super) run: [f64; 2],
 }
 
-/// A corner: unit vectors along the path before and behind it, and its progress.
+/// A corner: unit vectors along the path before and after it, and its progress.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Vertex<const D: usize> {
     pub(super) along: [[f64; D]; 2],
@@ -72,11 +72,11 @@ impl<const D: usize> RunCorners<D> {
 }
 
 impl<const D: usize> Vertex<D> {
-    /// The direction to the inner side of a piece along a unit vector, before or behind it; none where it has
+    /// The direction to the inner side of a piece along a unit vector, before or after it; none where it has
     /// turned too far.
-    pub(super) fn inner(&self, along: &[f64; D], is_behind: bool) -> Option<[f64; D]> {
-        let [before, behind] = &self.along;
-        let at_corner = if is_behind { behind } else { before };
+    pub(super) fn inner(&self, along: &[f64; D], is_after: bool) -> Option<[f64; D]> {
+        let [before, after] = &self.along;
+        let at_corner = if is_after { after } else { before };
         if dot(along, at_corner) < STILL_OF_CORNER_COS {
             return None;
         }
@@ -86,7 +86,7 @@ impl<const D: usize> Vertex<D> {
         };
         // First the inner side at the corner. Taken across the run at once, it would change over where a run that
         // bends on has turned by a right angle less half of the corner.
-        let turned: [f64; D] = core::array::from_fn(|k| behind[k] - before[k]);
+        let turned: [f64; D] = core::array::from_fn(|k| after[k] - before[k]);
         let across = across(&across(&turned, at_corner), along);
         let size = dot(&across, &across).sqrt();
         Some(across.map(|value| value / size))

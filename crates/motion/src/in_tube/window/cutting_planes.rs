@@ -192,7 +192,7 @@ impl<const D: usize> CuttingPlanes<D> {
 }
 
 /// Periods before and after the one in which samples change pieces, in which a corner may be
-/// passed: samples go over before the end of a piece, the motion cuts the corner behind it.
+/// passed: samples go over before the end of a piece, the motion cuts the corner after it.
 const NEAR_PERIODS: usize = 2;
 
 /// Half-way from the motion to a chord that cuts it off, as a part of T² times acceleration: a chord of a
@@ -200,7 +200,9 @@ const NEAR_PERIODS: usize = 2;
 pub(crate) const HALF_WAY: f64 = 1.0 / 16.0;
 /// What the judge adds for chords that begin between those it looks at, of half their distance. It adds
 /// .031 of that where a chord passes a vertex with its very middle, .094 within the sixteenth beside it
-/// (`verify::follow`, half a step of 1/16): corners are passed near the middle of chords.
+/// (`verify::follow`, half a step of 1/16): corners are passed near the middle of chords. For others the row
+/// is too weak, and the judge refuses what passes there. All the same neither end is better: of 35 programs with
+/// .031 four were up to .3 % faster and one .3 % slower, with .094 three up to 2 % faster and three up to .9 % slower.
 const BETWEEN: f64 = 0.06;
 /// Cosine of the turn within a period up to which all of the acceleration takes room at a corner. From
 /// there to 1 what is along the motion fades out; the judge has a step, at .8.
@@ -336,7 +338,8 @@ fn straightness<const D: usize>(points: &[[f64; D]], grid: &Grid, k: usize) -> f
 
 /// The pieces that the first difference from control point `k` on has a part in. It is the control point of a
 /// quadratic spline, the velocity: its middle is k − ½ intervals from the first knot, and it acts on one and
-/// a half to either side.
+/// a half to either side. In half intervals that is 2k − 1 ± 3; `grid.knots`, half a period, are added at the
+/// upper end, because a sample has the piece of the period that ends with it.
 pub(crate) fn pieces_at(
     samples: &Samples,
     grid: &Grid,

@@ -43,6 +43,8 @@ pub(crate) fn add<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, 
     let stray_t = style.stray_t(path);
     for k in 2..problem.intervals {
         let middle = piece_at(samples, grid, 2 * k - 1);
+        // Where velocity turns within an interval to either side, nearer than the difference has a part in
+        // (`pieces_at`). Why nearer is not on record.
         let bends_here = (piece_at(samples, grid, 2 * k - 3)
             ..piece_at(samples, grid, 2 * k + 1 + grid.knots))
             .any(|i| path.turn(i, i + 1) > SHARP);

@@ -125,7 +125,7 @@ impl<const D: usize> Finish<D> {
             Hurry::AtTheEnd => grid.whole_periods(arrival.max(count).min(intervals)),
             Hurry::Everywhere => intervals,
         };
-        // Of the motion the part from `from` to `left` is made shorter; what is behind that only waits.
+        // Of the motion the part from `from` to `left` is made shorter; what comes after that only waits.
         let step = |k: &usize| self.progress[k + 1] - self.progress[*k];
         let periods = grid.periods_in(left);
         let fastest =

@@ -26,7 +26,7 @@ const NEAR_R: f64 = 4.0;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Faster {
     Before,
-    Behind,
+    After,
 }
 
 impl<const D: usize> ScaledPath<D> {
@@ -37,22 +37,22 @@ impl<const D: usize> ScaledPath<D> {
 
     /// The faster one of piece `i` and the next, if the tube is wide and not both are rapids.
     fn faster_at(&self, i: usize) -> Option<Faster> {
-        let (before, behind) = (&self.segments[i], self.segments.get(i + 1)?);
-        let is_wide = before.radius.min(behind.radius) > WIDE_R * self.rate_change;
-        if !is_wide || (before.is_rapid && behind.is_rapid) {
+        let (before, after) = (&self.segments[i], self.segments.get(i + 1)?);
+        let is_wide = before.radius.min(after.radius) > WIDE_R * self.rate_change;
+        if !is_wide || (before.is_rapid && after.is_rapid) {
             None
         } else if self.feed_falls_after(i) {
             Some(Faster::Before)
         } else {
-            let mut axes = before.feed_axes.iter().zip(&behind.feed_axes);
+            let mut axes = before.feed_axes.iter().zip(&after.feed_axes);
             let rises = axes.any(|(now, then)| *then < SLOWER * now);
-            rises.then_some(Faster::Behind)
+            rises.then_some(Faster::After)
         }
     }
 }
 
 /// Keeps the last site, which belongs to a sample on piece `i` at a progress, from going on at the rate of
-/// that where the rate of the piece before or behind it holds.
+/// that where the rate of the piece before or after it holds.
 pub(super) fn keep<const D: usize>(
     problem: &mut Problem<D>,
     path: &ScaledPath<D>,
@@ -65,7 +65,7 @@ pub(super) fn keep<const D: usize>(
         keep_side(problem, path, (i, -1.0), radius);
     }
     let before = i.checked_sub(1).filter(|_| progress - segment.s < near);
-    if let Some(before) = before.filter(|before| path.faster_at(*before) == Some(Faster::Behind)) {
+    if let Some(before) = before.filter(|before| path.faster_at(*before) == Some(Faster::After)) {
         keep_side(problem, path, (before, 1.0), radius);
     }
 }
@@ -77,16 +77,16 @@ fn keep_side<const D: usize>(
     (i, side): (usize, f64),
     radius: f64,
 ) {
-    let [before, behind] = path.headings(i).map(|heading| {
+    let [before, after] = path.headings(i).map(|heading| {
         let size = dot(&heading, &heading).sqrt();
         heading.map(|h| h / size)
     });
-    let half_way = 1.0 + dot(&before, &behind);
+    let half_way = 1.0 + dot(&before, &after);
     if half_way < LEAST_HALF_WAY {
         return;
     }
     let size = (2.0 * half_way).sqrt();
-    let normal: [f64; D] = core::array::from_fn(|a| side * (before[a] + behind[a]) / size);
+    let normal: [f64; D] = core::array::from_fn(|a| side * (before[a] + after[a]) / size);
     let room = half_way / size * KEEP_R * path.rate_change;
     let vertex = &path.segments[i + 1].start;
     problem.keep_beyond(&normal, dot(&normal, vertex) - room, radius);

@@ -24,27 +24,27 @@ const REVERSAL_COS: f64 = -0.999;
 /// Share of a displacement that is all of it but for rounding.
 const ALL_OF_IT: f64 = 0.999;
 
-/// The side of a piece behind a corner, or before it, with a point of the piece; whether the piece is next to the
+/// The side of a piece after a corner, or before it, with a point of the piece; whether the piece is next to the
 /// corner.
 fn side<const D: usize>(
     vertex: Option<&Vertex<D>>,
     segment: &ScaledSegment<D>,
     (at, is_next): ([f64; D], bool),
-    is_behind: bool,
+    is_after: bool,
 ) -> Option<CornerSide<D>> {
     let vertex = vertex?;
-    let [before, behind] = &vertex.along;
-    let other = if is_behind { before } else { behind };
+    let [before, after] = &vertex.along;
+    let other = if is_after { before } else { after };
     Some(CornerSide {
         at,
-        inner: vertex.inner(&segment.tangent, is_behind)?,
+        inner: vertex.inner(&segment.tangent, is_after)?,
         beyond: if is_next {
             0.0
         } else {
             FAR_BEYOND_R * segment.radius
         },
         other: if is_next {
-            vertex.inner(other, !is_behind)
+            vertex.inner(other, !is_after)
         } else {
             None
         },
@@ -100,14 +100,14 @@ impl<const D: usize> ScaledPath<D> {
         if corner.run_s * scale < least || run_end - s < least {
             return None;
         }
-        let [before, behind] = corner.along.map(|displacement| {
+        let [before, after] = corner.along.map(|displacement| {
             let along = self.direction(&displacement);
             let size = dot(&along, &along).sqrt();
-            // What is behind the window may have moved axes that rest in it.
+            // What is beyond the window may have moved axes that rest in it.
             let is_all = size >= ALL_OF_IT * displacement.norm() * scale;
             is_all.then(|| along.map(|value| value / size))
         });
-        let along = [before?, behind?];
+        let along = [before?, after?];
         let is_reversal = dot(&along[0], &along[1]) < REVERSAL_COS;
         (!is_reversal).then_some(Vertex { along, s })
     }

@@ -2,7 +2,7 @@
 //!
 //! A tolerance is for corners and curves. So in the middle half of a move that is long enough to have
 //! one, and from the first to the last of these where such moves were drawn together, the tube is narrow,
-//! whatever comes before and behind. Nothing is refused for it: a motion that stops
+//! whatever comes before and after. Nothing is refused for it: a motion that stops
 //! would be worse on the part than one that is a little beside its line.
 //!
 //! ```text
