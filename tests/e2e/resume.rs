@@ -107,3 +107,44 @@ fn a_stream_that_is_rejected_takes_nothing_from_the_program_that_was_left() {
     );
     let _ended = (service.end(), interpolator.end());
 }
+
+/// A square in Z0 from which the machine stands far away.
+const SQUARE: &str = "G21 G90 G54\nG0 X0 Y0 Z0\nG1 X60 F900\nY60\nX0\nY0\nX60\nM2\n";
+
+#[test]
+fn what_was_left_on_the_way_to_its_line_is_begun_there_again() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let simulated = ("source = \"drives\"", "source = \"none\"");
+    let bench = Operated::new(&instance, &[simulated], "");
+    let interpolator = bench.process(&["interpolator", "--best-effort"]);
+    let _idle = bench.wait_for(MachineState::Idle);
+    let service = bench.process(&["planner", "--listen"]);
+    bench.operate(&["mdi", "G0 X30 Y30 Z20"]);
+    let part = instance.file("part.ngc", SQUARE);
+    let begun = ["run-file", &part, "--from-line", "7", "--yes"];
+    let before = bench.wait(|_| true).epoch;
+    let running = bench.process(&begun);
+    let _moves = bench.wait(|status| status.epoch > before && status.frames_executed > 2);
+    bench.operate(&["abort"]);
+    let told = running.wait().expect(5).stderr;
+    assert!(told.contains("left on the way to line 7"), "{told}");
+    let place = bench.position();
+    bench.refused(&["run-file", &part, "--resume"], 1, "--from-line 7");
+    assert_eq!(bench.position(), place, "nothing has moved");
+
+    // In its line it is resumed as ever.
+    let running = bench.process(&begun);
+    let _cuts = bench.wait(|status| {
+        status.state == MachineState::Running.code()
+            && status.line == 7
+            && status.position[0] > 20.0
+            && status.position[1].abs() < 1e-9
+            && status.position[2].abs() < 1e-9
+    });
+    bench.operate(&["abort"]);
+    let told = running.wait().expect(5).stderr;
+    assert!(told.contains("--resume"), "{told}");
+    bench.operate(&["run-file", &part, "--resume"]);
+    assert!((bench.position()[0] - 60.0).abs() < 1e-9);
+    let _ended = (service.end(), interpolator.end());
+}

@@ -164,6 +164,20 @@ fn programs_begin_with_what_was_set_and_leave_what_was_run() {
 }
 
 #[test]
+fn what_a_program_takes_back_is_kept_as_it_left_it() {
+    let machine = Machine::new();
+    machine.object(&["offsets", "set", "G55", "X100"]);
+    // Long enough in G55 that it is kept under way, before M2 takes it back.
+    let text = "G21 G90 G55 F6000\nG10 L2 P3 X7\nG1 X-60\nX-40\nG10 L2 P3 X0\nX-60\nM2\n";
+    let part = machine.file("part.ngc", text);
+    machine.execute(&[&part]);
+    let left = machine.object(&["offsets", "show"]);
+    assert_eq!(left["active"], "G54", "{left}");
+    assert_eq!(axes(&left, "G56")[0], 0.0);
+    assert_eq!(axes(&left, "G55")[0], 100.0);
+}
+
+#[test]
 fn tools_that_g10_changed_are_kept_until_the_table_is_edited() {
     let machine = Machine::new();
     let table = machine.file("tools.tbl", "T1 P1 Z10 D6\nT2 P2 Z20 D8\n");
