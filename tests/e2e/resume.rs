@@ -130,7 +130,8 @@ fn what_was_left_on_the_way_to_its_line_is_begun_there_again() {
     assert!(told.contains("left on the way to line 7"), "{told}");
     let place = bench.position();
     bench.refused(&["run-file", &part, "--resume"], 1, "--from-line 7");
-    assert_eq!(bench.position(), place, "nothing has moved");
+    let moved = bench.position().map(f64::to_bits) != place.map(f64::to_bits);
+    assert!(!moved, "nothing has moved");
 
     // In its line it is resumed as ever.
     let running = bench.process(&begun);

@@ -173,8 +173,8 @@ fn what_a_program_takes_back_is_kept_as_it_left_it() {
     machine.execute(&[&part]);
     let left = machine.object(&["offsets", "show"]);
     assert_eq!(left["active"], "G54", "{left}");
-    assert_eq!(axes(&left, "G56")[0], 0.0);
-    assert_eq!(axes(&left, "G55")[0], 100.0);
+    assert_eq!(axes(&left, "G56")[0].to_bits(), 0.0_f64.to_bits());
+    assert_eq!(axes(&left, "G55")[0].to_bits(), 100.0_f64.to_bits());
 }
 
 #[test]
