@@ -267,16 +267,30 @@ fn a_plan_uses_what_joints_can_do_and_no_more() {
         .flat_map(|machine| EFFORTS.map(|e| (machine, e)))
     {
         let job = machine.job(effort);
-        let used = job.supervised(|supervisor| {
+        let (used, between) = job.supervised(|supervisor| {
             supervisor.play(20_000);
             assert!(supervisor.is_over(), "{}", machine.name);
             assert_limits(&supervisor.audit(&job.settings, 1.0));
-            machine.used(&supervisor.setpoints)
+            let places = [0.25, 0.375, 0.5, 0.625, 0.75];
+            let between = places.map(|u| between_frames(machine, &supervisor.frames, u));
+            (machine.used(&supervisor.setpoints), between)
         });
         eprintln!("{:22} {effort:?} {used:.4?}", machine.name);
         assert!(
             used.iter().all(|r| *r <= 1.0 + 1e-6),
             "{} {effort:?}: {used:?}",
+            machine.name
+        );
+        // In the tube; along the path, where five axes go with effort optimal, too, it is up to 2e-3 more next to rests.
+        let has_tables = ["table-table", "head-head"].contains(&machine.name);
+        let is_in_tube = effort == Effort::Optimal && !has_tables;
+        let most = between
+            .iter()
+            .flatten()
+            .fold(0.0_f64, |most, r| most.max(*r));
+        assert!(
+            !is_in_tube || most <= 1.0 + 1e-6,
+            "{}: {most} between frames",
             machine.name
         );
         // With a share of the axes' jerk it was a tenth to three quarters.
@@ -415,23 +429,4 @@ fn between_frames(machine: &Machine, frames: &[SetpointFrame], u: f64) -> [f64; 
         })
         .collect();
     machine.used(&setpoints)
-}
-
-/// A square that a hexapod drove with 4 % more jerk of a joint in the middle of periods than at their ends.
-#[test]
-fn a_plan_in_the_tube_keeps_the_limits_of_joints_between_its_frames() {
-    for machine in &machines()[..7] {
-        let job = machine.job(Effort::Optimal);
-        job.supervised(|supervisor| {
-            supervisor.play(20_000);
-            for u in [0.25, 0.375, 0.5, 0.625, 0.75] {
-                let used = between_frames(machine, &supervisor.frames, u);
-                assert!(
-                    used.iter().all(|r| *r <= 1.0 + 1e-6),
-                    "{} {u}: {used:?}",
-                    machine.name
-                );
-            }
-        });
-    }
 }
