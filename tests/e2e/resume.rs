@@ -131,7 +131,7 @@ fn what_was_left_on_the_way_to_its_line_is_begun_there_again() {
     let place = bench.position();
     bench.refused(&["run-file", &part, "--resume"], 1, "--from-line 7");
     let moved = bench.position().map(f64::to_bits) != place.map(f64::to_bits);
-    assert!(!moved, "nothing has moved");
+    assert!(!moved, "refused, and moved all the same");
 
     // In its line it is resumed as ever.
     let running = bench.process(&begun);

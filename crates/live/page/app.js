@@ -230,7 +230,7 @@ function work(position) {
   return out.map((x, k) => x - (offset.shift[AXES()[k].name] || 0));
 }
 /* The coordinate system in force, and that it is shifted. */
-const systemOf = s => !s.offset ? '' : Object.values(s.offset.shift).some(by => by) ? `${s.offset.system} + G92` : s.offset.system;
+const systemOf = s => !s.offset ? '' : Object.values(s.offset.shift).some(by => Math.abs(by) > 5e-5) ? `${s.offset.system} + G92` : s.offset.system;
 function digits() {
   const s = S.status;
   if (S.file) { put($('#left'), span(PLAN ? PLAN.seconds : 0)); return; }

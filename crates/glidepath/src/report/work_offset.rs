@@ -44,18 +44,20 @@ impl WorkOffset {
 
     /// Its name, and that it is shifted, in as few letters as a column has.
     pub(super) fn short(&self) -> String {
-        let is_shifted = self.beside.shift.iter().any(|by| *by != 0.0);
-        if is_shifted {
-            format!("{} + G92", self.name)
-        } else {
-            self.name.clone()
+        match self.shift_words().as_str() {
+            "" => self.name.clone(),
+            _ => format!("{} + G92", self.name),
         }
+    }
+
+    /// The shift in the words of an axis each, without what rounding has left.
+    fn shift_words(&self) -> String {
+        axis_words(&self.beside.shift.map(|by| (by * 1e4).round() / 1e4).into())
     }
 
     /// It in words: its name, and that it is shifted, which its zero does not tell.
     pub(super) fn said(&self) -> String {
-        let rounded = self.beside.shift.map(|by| (by * 1e4).round() / 1e4);
-        match axis_words(&rounded.into()).as_str() {
+        match self.shift_words().as_str() {
             "" => self.name.clone(),
             shift => format!("{}, shifted by {shift} (G92 or G52)", self.name),
         }

@@ -246,7 +246,7 @@ pub(super) fn keep<const D: usize>(
         if is_given || inside >= NEAR_R * radius {
             return;
         }
-        // The end of an axis' way is a wall; it does not come into sight under way.
+        // The end of an axis' way stays where it is: no plunge goes below its depth, whatever comes into sight.
         let room = match side.axis {
             None => start.room(k, (&side.normal, inside), allowed),
             Some(_) => 0.0,
