@@ -55,7 +55,7 @@ fn what_a_state_tells_is_what_goes_on_from_there() {
     let bench = Operated::new(&instance, &[SIMULATED], "");
     let interpolator = bench.process(&["interpolator", "--best-effort"]);
     let _seen = bench.wait(|status| status.ticks > 0);
-    let planner = bench.process(&["planner", "--listen"]);
+    let planner = bench.service();
     let part = instance.file("part.ngc", PART);
     bench.operate(&["single-block", "on"]);
     let running = bench.process(&["run-file", &part]);
@@ -155,7 +155,7 @@ fn a_program_that_ends_early_says_where_and_what_goes_on_with_it() {
         "{told}"
     );
 
-    let service = bench.process(&["planner", "--listen"]);
+    let service = bench.service();
     let running = go_on(&told.replace("planner", "run-file"), "run-file");
     at(10.0);
     bench.operate(&["abort"]);
@@ -171,7 +171,7 @@ fn a_program_that_ends_early_says_where_and_what_goes_on_with_it() {
     let told = running.wait().expect(5).stderr;
     let _faulted = bench.wait_for(MachineState::Faulted);
     bench.operate(&["reset"]);
-    let _service = bench.process(&["planner", "--listen"]);
+    let _service = bench.service();
     let running = go_on(&told, "run-file");
     at(30.0);
     interpolator.signal(Signal::TERM);

@@ -89,7 +89,7 @@ impl<'a> Bench<'a> {
         let operated = Operated::new(instance, &changes, "");
         let interpolator = operated.process(&["interpolator", "--best-effort"]);
         let servo = operated.process(&["servo"]);
-        let service = operated.process(&["planner", "--listen"]);
+        let service = operated.service();
         let _drives = operated.wait_for_drives();
         Self {
             operated,

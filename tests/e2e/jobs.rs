@@ -34,7 +34,7 @@ pub(crate) struct Bench<'a> {
 impl<'a> Bench<'a> {
     pub(crate) fn start(instance: &'a Instance) -> Self {
         let mut bench = Self::without_service(instance);
-        let service = bench.operated.process(&["planner", "--listen"]);
+        let service = bench.operated.service();
         bench.processes.push(service);
         bench
     }
@@ -137,7 +137,7 @@ fn a_planner_that_dies_while_its_program_rests_ends_it() {
     let output = client.wait().expect(5);
     assert!(output.stderr.contains("--resume"), "{output:#?}");
     bench.operated.operate(&["reset"]);
-    let service = bench.operated.process(&["planner", "--listen"]);
+    let service = bench.operated.service();
     bench.processes.push(service);
     bench.goes_on();
 }

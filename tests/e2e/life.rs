@@ -295,7 +295,7 @@ fn a_life_from_cold_to_the_loss_of_every_process() {
     let mut life = Life::begin(&instance, "controller", &joints([12.5, -3.0, 4.0], 100.0));
     let part = instance.file("part.ngc", PART);
     let way = instance.file("way.ngc", WAY);
-    let mut service = life.operated.process(&["planner", "--listen"]);
+    let mut service = life.operated.service();
     life.switch_on(MachineState::NotHomed);
     life.operated.refused(&["mdi", "G0 X1"], 5, "not homed");
     life.come_home();
@@ -351,7 +351,7 @@ fn a_life_from_cold_to_the_loss_of_every_process() {
     let _failed = running.wait();
     life.take_note(FaultCause::PlannerLost);
     life.still(60);
-    service = life.operated.process(&["planner", "--listen"]);
+    service = life.operated.service();
     life.operate(&["mdi", "G21 G90 G54 G0 X0 Y0 Z0"]);
     life.operated.assert_at([4.0, 2.5, 0.0]);
 

@@ -24,7 +24,7 @@ fn programs_go_on_from_where_the_probe_touched() {
     let touches = format!("J2={PART_Z}");
     let servo = bench.process(&["servo", "--stands", "1,2,10", "--probe", &touches]);
     let _seen = bench.wait_for_drives();
-    let service = bench.process(&["planner", "--listen"]);
+    let service = bench.service();
     bench.operate(&["enable"]);
     let _ready = bench.wait_for(MachineState::Idle);
 

@@ -27,7 +27,7 @@ const STOPS: &str = "G21 G90\nG1 X4 F1200\nM0\nG1 X0\nM2\n";
 /// A machine without drives, and its service.
 fn start(instance: &Instance) -> [Process; 2] {
     let interpolator = Process::join(instance, &["interpolator", "--best-effort"]);
-    let service = Process::join(instance, &["planner", "--listen"]);
+    let service = Process::service(instance);
     let _idle = instance.wait_for_status(|status| status.state == MachineState::Idle.code());
     let _done = Process::join(instance, &["mdi", "G0 X0"]).wait().expect(0);
     [interpolator, service]

@@ -90,7 +90,7 @@ fn a_stream_that_is_rejected_takes_nothing_from_the_program_that_was_left() {
     let bench = Operated::new(&instance, &[simulated], "");
     let interpolator = bench.process(&["interpolator", "--best-effort"]);
     let _idle = bench.wait_for(MachineState::Idle);
-    let service = bench.process(&["planner", "--listen"]);
+    let service = bench.service();
     let part = instance.file("part.ngc", "G21 G90 G54\nG1 X30 F600\nM2\n");
     let running = bench.process(&["run-file", &part]);
     let _moves = bench.wait(|status| status.frames_executed > 100);
@@ -118,7 +118,7 @@ fn what_was_left_on_the_way_to_its_line_is_begun_there_again() {
     let bench = Operated::new(&instance, &[simulated], "");
     let interpolator = bench.process(&["interpolator", "--best-effort"]);
     let _idle = bench.wait_for(MachineState::Idle);
-    let service = bench.process(&["planner", "--listen"]);
+    let service = bench.service();
     bench.operate(&["mdi", "G0 X30 Y30 Z20"]);
     let part = instance.file("part.ngc", SQUARE);
     let begun = ["run-file", &part, "--from-line", "7", "--yes"];

@@ -33,7 +33,7 @@ fn lines_and_files_are_executed_by_one_service() {
     let servo = bench.process(&["servo", "--stands", "12.5,3,4"]);
     let _seen = bench.wait(|status| status.feedback_age_ns < 12_000_000);
     bench.refused(&["mdi", "G0 X1"], 5, "no planner serves");
-    let service = bench.process(&["planner", "--listen"]);
+    let service = bench.service();
     bench.operate(&["enable"]);
     let _ready = bench.wait_for(MachineState::Idle);
     bench.assert_at([12.5, 3.0, 4.0]);
@@ -134,7 +134,7 @@ fn lines_and_files_are_executed_by_one_service() {
 
     // Either end can be started anew.
     let _ended = service.end().expect(0);
-    let service = bench.process(&["planner", "--listen"]);
+    let service = bench.service();
     let _idle = bench.wait_for(MachineState::Idle);
     std::thread::sleep(Duration::from_millis(300));
     bench.operate(&["mdi", "G0 X2"]);

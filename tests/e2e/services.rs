@@ -45,7 +45,7 @@ fn play_pipe(instance: &Instance, program: &str) {
 }
 
 fn play_feed(instance: &Instance, program: &str) {
-    let planner = Process::join(instance, &["planner", "--listen"]);
+    let planner = Process::service(instance);
     let _output = Process::join(instance, &["feed", program]).wait().expect(0);
     let _listener = planner.end().expect(0);
 }
@@ -124,7 +124,7 @@ fn a_second_client_is_refused_and_a_killed_one_is_forgotten() {
     let program = instance.file("program.ngc", &long_program());
     let home = instance.file("home.ngc", "G21 G90 F6000\nG1 X0 Y0\n");
     let services = Services::start(&instance);
-    let planner = Process::join(&instance, &["planner", "--listen"]);
+    let planner = Process::service(&instance);
     let first = Process::join(&instance, &["feed", &program]);
     let _moving = services.wait(|status| status.frames_executed > 150);
     let second = Process::join(&instance, &["feed", &home]).wait();

@@ -41,7 +41,7 @@ impl<'a> Bench<'a> {
     }
 
     fn serve(&mut self) {
-        let service = self.operated.process(&["planner", "--listen"]);
+        let service = self.operated.service();
         self.processes.push(service);
     }
 

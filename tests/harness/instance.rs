@@ -11,7 +11,7 @@ use tempfile::TempDir;
 use crate::{glidepath, seats, wall_clock};
 
 /// How long a status is waited for: far longer than it ever takes.
-const PATIENCE: Duration = Duration::from_secs(60);
+const PATIENCE: Duration = Duration::from_secs(120);
 
 /// An instance of its own. While it lives there are at most two for each core in all, in this process and
 /// others: the tests run processes at the speed of the clock, and would take each other's processor.

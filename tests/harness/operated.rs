@@ -53,6 +53,14 @@ impl<'a> Operated<'a> {
         Process::join(self.instance, &[arguments, &config].concat())
     }
 
+    /// Starts the planner's service; it takes jobs.
+    #[must_use]
+    pub fn service(&self) -> Process {
+        let service = self.process(&["planner", "--listen"]);
+        service.wait_until_it_is_ready();
+        service
+    }
+
     /// Types what must be done.
     pub fn operate(&self, arguments: &[&str]) -> Output {
         self.process(arguments).wait().expect(0)

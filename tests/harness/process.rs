@@ -12,7 +12,7 @@ use rustix::process::{Pid, Signal, kill_process};
 use crate::{Instance, glidepath};
 
 /// How long a process may take for anything: far longer than it ever should.
-const PATIENCE: Duration = Duration::from_secs(60);
+const PATIENCE: Duration = Duration::from_secs(120);
 const POLL: Duration = Duration::from_millis(5);
 
 /// What a process left.
@@ -112,7 +112,15 @@ impl Process {
         Self::start(instance, &[arguments, &["--instance", name]].concat())
     }
 
-    /// The same, with a standard input of its own.
+    /// Starts the planner's service; it takes jobs.
+    #[must_use]
+    pub fn service(instance: &Instance) -> Self {
+        let service = Self::join(instance, &["planner", "--listen"]);
+        service.wait_until_it_is_ready();
+        service
+    }
+
+    /// As [`Process::join`], with a standard input of its own.
     #[must_use]
     pub fn join_with(instance: &Instance, arguments: &[&str], input: Stdio) -> Self {
         let name = &instance.config().instance;
@@ -231,6 +239,16 @@ impl Process {
         while !self.stdout.text().contains(words) {
             let said = self.stdout.text();
             assert!(begun.elapsed() < PATIENCE, "not {words:?}: {said}");
+            std::thread::sleep(POLL);
+        }
+    }
+
+    /// Waits until it has told that it is ready. On a busy host that takes longer than clients wait for a service.
+    pub fn wait_until_it_is_ready(&self) {
+        let begun = Instant::now();
+        while !self.stderr.text().contains(": ready: ") {
+            let told = self.stderr.text();
+            assert!(begun.elapsed() < PATIENCE, "not ready: {told}");
             std::thread::sleep(POLL);
         }
     }

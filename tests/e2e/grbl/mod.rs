@@ -92,7 +92,7 @@ impl<'a> Bench<'a> {
 
     fn with(instance: &'a Instance, arguments: &[&str]) -> Self {
         let services = Services::start(instance);
-        let planner = Process::join(instance, &["planner", "--listen"]);
+        let planner = Process::service(instance);
         let endpoint = Endpoint::start(instance, arguments);
         Self {
             services,
@@ -423,7 +423,7 @@ fn tools_stops_and_probes_are_answered_when_they_are_done() {
     let _interpolator = bench.process(&["interpolator", "--best-effort"]);
     let _servo = bench.process(&["servo", "--stands", "1,2,10", "--probe", "J2=-7.25"]);
     let _seen = bench.wait_for_drives();
-    let _service = bench.process(&["planner", "--listen"]);
+    let _service = bench.service();
     let endpoint = Endpoint::start(&instance, &["--config", bench.config()]);
     let mut sender = Sender::connect(endpoint.port);
     // Without power it is an alarm, and $X gives it.

@@ -208,7 +208,7 @@ fn axes_move_for_as_long_as_a_finger_is_down() {
 fn orders_that_come_late_or_behind_an_abort_move_nothing() {
     let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
     let services = Services::start(&instance);
-    let service = Process::join(&instance, &["planner", "--listen"]);
+    let service = Process::service(&instance);
     let live = Live::start(&instance, &["--may", "operate"]);
     let page = Page(&live, 1);
     let line = json!({ "kind": "mdi", "line": "G21 G91 G0 X4" });
@@ -260,7 +260,7 @@ fn a_page_has_lines_and_programs_of_its_folder_executed() {
         "{said}"
     );
 
-    let service = Process::join(&instance, &["planner", "--listen"]);
+    let service = Process::service(&instance);
     let begun = Instant::now();
     while page.order(&line("G21 G90 G0 X2")).0 != 200 {
         assert!(begun.elapsed() < Duration::from_secs(30));

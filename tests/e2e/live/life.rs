@@ -22,8 +22,9 @@ pub(super) fn press(browser: &mut Browser, selector: &str, long: Duration) {
 /// A program that asks for a tool, and then goes on for long.
 fn program() -> String {
     let mut text = "G21 G90 F3000\nT2 M6\n".to_owned();
-    for _ in 0..200 {
-        text.push_str("G1 X20 Y10\nX0 Y0\n");
+    // Long moves, so that it takes long and is soon planned on a busy host, too.
+    for _ in 0..25 {
+        text.push_str("G1 X160 Y80\nX0 Y0\n");
     }
     text
 }
@@ -136,7 +137,7 @@ fn a_machine_is_run_with_the_mouse_alone() {
     let operated = Operated::new(&instance, &changes, "\n[m_codes.M6]\ntimeout_s = 120\n");
     let _interpolator = operated.process(&["interpolator", "--best-effort"]);
     let _servo = operated.process(&["servo"]);
-    let _service = operated.process(&["planner", "--listen"]);
+    let _service = operated.service();
     let off = operated.wait_for_drives();
     assert!(off.homed & off.joints != off.joints, "nothing is homed yet");
     let config = ["--config", operated.config(), "--programs", &folder];

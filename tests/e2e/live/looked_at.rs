@@ -32,7 +32,7 @@ fn what_runs_is_what_was_looked_at() {
     write("part.ngc", "G21 G90 F3000\nG1 X2\nO<more> CALL\nX3\nM2\n");
     write("more.ngc", "O<more> SUB\nG1 Y1\nO<more> ENDSUB\nM2\n");
     let services = Services::start(&instance);
-    let service = Process::join(&instance, &["planner", "--listen"]);
+    let service = Process::service(&instance);
     let live = Live::start(&instance, &["--may", "operate", "--programs", &folder]);
     let page = Page(&live, 1);
     let run = |program: &Value| json!({ "kind": "run", "name": "part.ngc", "program": program });
@@ -107,7 +107,7 @@ fn pages_that_look_at_different_programs_see_all_of_them() {
     std::fs::create_dir(&folder).unwrap();
     // Long enough that both are being planned at the same time.
     for (name, reach) in [("a.ngc", 11), ("b.ngc", 13)] {
-        let lines = (0..1000).map(|n| format!("G1 X{} Y{}\n", n % reach, n % 7));
+        let lines = (0..250).map(|n| format!("G1 X{} Y{}\n", n % reach, n % 7));
         let text = format!("G21 G90 F3000\n{}M2\n", lines.collect::<String>());
         std::fs::write(format!("{folder}/{name}"), text).unwrap();
     }

@@ -27,7 +27,7 @@ pub(crate) fn operated_page<'i>(
         fs::write(format!("{folder}/{name}"), text).unwrap();
     }
     let services = Services::start(instance);
-    let service = Process::join(instance, &["planner", "--listen"]);
+    let service = Process::service(instance);
     let arguments = [&["--may", "operate", "--programs", &folder], more].concat();
     let live = Live::start(instance, &arguments);
     browser.open(&live.url);

@@ -165,6 +165,7 @@ fn a_lathe_is_drawn_and_jogged_as_one() {
         |arguments: &[&str]| Process::join(&instance, &[arguments, &["--config", config]].concat());
     let interpolator = process(&["interpolator", "--best-effort"]);
     let service = process(&["planner", "--listen"]);
+    service.wait_until_it_is_ready();
     let arguments = [
         "--may",
         "operate",

@@ -103,7 +103,7 @@ fn part_zero_and_the_length_of_a_tool_are_touched_off() {
     let probe = format!("J2={PART_Z}");
     let servo = bench.process(&["servo", "--stands", "1,2,10", "--probe", &probe]);
     let _seen = bench.wait_for_drives();
-    let service = bench.process(&["planner", "--listen"]);
+    let service = bench.service();
     bench.operate(&["enable"]);
     let _ready = bench.wait_for(MachineState::Idle);
     bench.operate(&["mdi", "G21 G10 L2 P1 X1 Y2 Z3"]);

@@ -81,6 +81,7 @@ fn lengths_are_shown_and_typed_in_inches_and_modes_stay() {
     let machine = Machine::new(&instance, &text);
     let interpolator = machine.process(&["interpolator", "--best-effort"]);
     let service = machine.process(&["planner", "--listen"]);
+    service.wait_until_it_is_ready();
     let _ready = machine.position(0);
     // Inches, increments, feeds per revolution: whoever typed that finds it again.
     machine.line("G21 G90 G0 X25.4 Y12.7");
@@ -164,6 +165,7 @@ fn x_of_a_lathe_is_a_diameter() {
     let machine = Machine::new(&instance, &std::fs::read_to_string(config).unwrap());
     let interpolator = machine.process(&["interpolator", "--best-effort"]);
     let service = machine.process(&["planner", "--listen"]);
+    service.wait_until_it_is_ready();
     let _ready = machine.position(0);
     machine.line("G21 G90 G8 G0 X20 Z-5");
     // Radii, as programs have them unless they say G7.

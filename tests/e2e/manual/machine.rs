@@ -225,25 +225,40 @@ impl<'a> Machine<'a> {
     }
 
     /// A program is on its way, and an operator stops it by this command.
-    fn stopped_by(&self, command: &str) -> Process {
+    fn stopped_by(&mut self, command: &str) -> Process {
         self.operate(&["override", "5"]);
         let part = self.folder.join("part.ngc");
-        let program = self.start(&["run-file", part.to_str().unwrap()]);
-        self.wait(|status| status.state == MachineState::Running.code() && status.line > 12);
+        let program = loop {
+            let mut program = self.start(&["run-file", part.to_str().unwrap()]);
+            let mut ended = false;
+            self.wait(|status| {
+                ended = !program.runs();
+                ended || status.state == MachineState::Running.code() && status.line > 12
+            });
+            if !ended {
+                break program;
+            }
+            // A busy host may have kept the drives from saying where they are.
+            drop(program);
+            self.ready();
+        };
         self.operate(&[command]);
         self.operate(&["override", "100"]);
         program
     }
 
-    fn wait(&self, wanted: impl Fn(&Status) -> bool) -> Status {
+    fn wait(&self, mut wanted: impl FnMut(&Status) -> bool) -> Status {
         let transport = Ipc::connect(&self.link).unwrap();
         let mut source = transport.status_source().unwrap();
-        let begun = Instant::now();
+        let (begun, mut last) = (Instant::now(), None);
         loop {
-            if let Some(status) = source.take().unwrap().filter(&wanted) {
-                return status;
+            if let Some(status) = source.take().unwrap() {
+                if wanted(&status) {
+                    return status;
+                }
+                last = Some(status);
             }
-            assert!(begun.elapsed() < PATIENCE, "the machine does not get there");
+            assert!(begun.elapsed() < PATIENCE, "never so: {last:#?}");
             std::thread::sleep(Duration::from_millis(2));
         }
     }
