@@ -559,7 +559,7 @@ _glidepath() {
             return 0
             ;;
         glidepath__subcmd__check)
-            opts="-c -h --tool-table --subroutine-path --dialect --allow-unchecked --config --json --help"
+            opts="-c -h --tool-table --subroutine-path --dialect --allow-unchecked --config --json --instance --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -582,6 +582,10 @@ _glidepath() {
                     return 0
                     ;;
                 -c)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --instance)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
@@ -2523,7 +2527,7 @@ _glidepath() {
             return 0
             ;;
         glidepath__subcmd__plan)
-            opts="-c -h --tool-table --subroutine-path --dialect --allow-unchecked --effort --tolerance --config --json --setpoints --plot --longest --force --help"
+            opts="-c -h --tool-table --subroutine-path --dialect --allow-unchecked --effort --tolerance --config --json --instance --setpoints --plot --longest --force --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -2554,6 +2558,10 @@ _glidepath() {
                     return 0
                     ;;
                 -c)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --instance)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;

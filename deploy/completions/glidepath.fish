@@ -94,6 +94,7 @@ complete -c glidepath -n "__fish_glidepath_using_subcommand plan" -l dialect -d 
 complete -c glidepath -n "__fish_glidepath_using_subcommand plan" -l effort -d 'Effort of planning: optimal or fast; overrides `path.effort` of the configuration' -r
 complete -c glidepath -n "__fish_glidepath_using_subcommand plan" -l tolerance -d 'How far the motion may leave the programmed path, mm; overrides `path.tolerance` of the configuration. G64 P of the program overrides both' -r
 complete -c glidepath -n "__fish_glidepath_using_subcommand plan" -s c -l config -d 'Machine configuration (TOML); without it the built-in 3-axis mill' -r -F
+complete -c glidepath -n "__fish_glidepath_using_subcommand plan" -l instance -d 'Name of the machine\'s shared memory; overrides `link.instance` of the configuration' -r
 complete -c glidepath -n "__fish_glidepath_using_subcommand plan" -l setpoints -d 'Write every setpoint as CSV' -r -F
 complete -c glidepath -n "__fish_glidepath_using_subcommand plan" -l plot -d 'Write a plot of the motion: NAME.svg, or an interactive page, NAME.html' -r -F
 complete -c glidepath -n "__fish_glidepath_using_subcommand plan" -l longest -d 'Refuse programs whose feeds and dwells take longer than this, such as 90s, 10min, 8h or 30d' -r
@@ -105,6 +106,7 @@ complete -c glidepath -n "__fish_glidepath_using_subcommand check" -l tool-table
 complete -c glidepath -n "__fish_glidepath_using_subcommand check" -l subroutine-path -d 'Folder to search for subroutines in files of their own, after the folder of the program and before `program.subroutine_path` of the configuration; may be given several times' -r -F
 complete -c glidepath -n "__fish_glidepath_using_subcommand check" -l dialect -d 'Language of the program: linuxcnc, marlin, fanuc or siemens. Without it, the configuration or the beginning of the program decides' -r
 complete -c glidepath -n "__fish_glidepath_using_subcommand check" -s c -l config -d 'Machine configuration (TOML); without it the built-in 3-axis mill' -r -F
+complete -c glidepath -n "__fish_glidepath_using_subcommand check" -l instance -d 'Name of the machine\'s shared memory; overrides `link.instance` of the configuration' -r
 complete -c glidepath -n "__fish_glidepath_using_subcommand check" -l allow-unchecked -d 'Accept a program whose loops are too long to be checked to their end (20 million lines). The rest is checked only when the machine comes to it'
 complete -c glidepath -n "__fish_glidepath_using_subcommand check" -l json -d 'Print one JSON object instead of text'
 complete -c glidepath -n "__fish_glidepath_using_subcommand check" -s h -l help -d 'Print help'

@@ -36,6 +36,58 @@ fn told(bench: &Operated<'_>) -> [f64; 3] {
     [machine, part, &once["offset"]["tool_length"]["Z"]].map(number)
 }
 
+/// What a program would begin with is what whoever reads it beside the service begins with.
+#[test]
+fn a_program_is_checked_and_planned_with_what_the_service_has_in_force() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let bench = Operated::new(&instance, &[SIMULATED], "");
+    let interpolator = bench.process(&["interpolator", "--best-effort"]);
+    let _idle = bench.wait_for(MachineState::Idle);
+    let service = bench.service();
+    bench.operate(&["mdi", "G43.1 Z4"]);
+    bench.operate(&["mdi", "G92 Y-2"]);
+    bench.operate(&["mdi", "G20 G91"]);
+    // Inches, from where the machine is, and then to the places of the part.
+    let program = instance.file("program.ngc", "G1 X1 F20\nG90 Y0.5 Z0\nM2\n");
+    let wanted = [25.4, 12.7 + 2.0, 4.0];
+    let box_of = |arguments: &[&str]| {
+        let report = bench.operate(arguments).json();
+        let found = &report["programs"][0]["box"];
+        ["X", "Y", "Z"].map(|axis| found[axis][1].as_f64().unwrap())
+    };
+    let end_of = |arguments: &[&str]| {
+        let report = bench.operate(arguments).json();
+        ["X", "Y", "Z"].map(|axis| report["final_position"][axis].as_f64().unwrap())
+    };
+    let near = |found: [f64; 3], wanted: [f64; 3]| {
+        let is_near = found.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-9);
+        assert!(is_near, "{found:?}, wanted {wanted:?}");
+    };
+    let check = ["check", &program, "--json"];
+    near(box_of(&check), wanted);
+    near(end_of(&["plan", &program, "--json"]), wanted);
+    let said = bench.operate(&["check", &program]).stderr;
+    let words = "G91 G94 M5 M9 T0 F0 S0 in force, shift of G92 or G52 Y2, tool length Z4";
+    assert!(said.contains(words), "{said}");
+    bench.operate(&["feed", &program]);
+    bench.assert_at(wanted);
+    bench.operate(&["mdi", "G90 G53 G0 X0 Y0 Z0"]);
+    bench.operate(&["mdi", "G91"]);
+    bench.operate(&["run-file", &program]);
+    bench.assert_at(wanted);
+
+    // A service that was killed has nothing in force any more, and neither has the next one.
+    service.signal(Signal::KILL);
+    let _killed = service.wait();
+    let fresh = "G21 G1 X1 F600\nY0.5 Z0\nM2\n";
+    let fresh = instance.file("fresh.ngc", fresh);
+    let report = bench.operate(&["check", &fresh, "--json"]).json();
+    assert_eq!(report["programs"][0]["box"]["X"][1], 1.0);
+    let said = bench.operate(&["check", &fresh]).stderr;
+    assert!(!said.contains("in force"), "{said}");
+    let _ended = interpolator.end();
+}
+
 #[test]
 fn positions_from_part_zero_are_those_of_the_tip_from_the_move_behind_g43_on() {
     let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
@@ -44,7 +96,7 @@ fn positions_from_part_zero_are_those_of_the_tip_from_the_move_behind_g43_on() {
     let bench = Operated::new(&instance, &changes, "");
     let interpolator = bench.process(&["interpolator", "--best-effort"]);
     let _idle = bench.wait_for(MachineState::Idle);
-    let service = bench.process(&["planner", "--listen"]);
+    let service = bench.service();
     bench.operate(&["mdi", "G10 L2 P1 Z-10"]);
     assert_eq!(told(&bench), [0.0, 10.0, 0.0]);
     bench.operate(&["mdi", "G43.1 Z4"]);
@@ -93,7 +145,7 @@ fn positions_from_part_zero_are_those_of_the_tip_from_the_move_behind_g43_on() {
     // A service that begins, begins without.
     bench.operate(&["mdi", "G43.1 Z4"]);
     let _service = service.end().expect(0);
-    let service = bench.process(&["planner", "--listen"]);
+    let service = bench.service();
     bench.operate(&["mdi", "G4 P0.1"]);
     assert_eq!(told(&bench), [25.0, 35.0, 0.0]);
     drop((service, interpolator));

@@ -96,8 +96,8 @@ fn a_stream_that_is_rejected_takes_nothing_from_the_program_that_was_left() {
     let _moves = bench.wait(|status| status.frames_executed > 100);
     bench.operate(&["abort"]);
     let _ended = running.wait().expect(5);
-    let bad = instance.file("bad.ngc", "G21 G90 G54\nG1 X5\n");
-    bench.refused(&["feed", &bad], 1, "missing-feed");
+    let bad = instance.file("bad.ngc", "G21 G90 G54\nG1 X5 F600 F700\n");
+    bench.refused(&["feed", &bad], 1, "duplicate-word");
     bench.operate(&["run-file", &part, "--resume"]);
     let rests = bench.wait_for(MachineState::Idle);
     assert!(

@@ -22,7 +22,7 @@ fn a_tool_change_waits_for_a_person_and_says_so_where_the_program_was_started() 
     let interpolator = bench.process(&["interpolator", "--best-effort"]);
     let servo = bench.process(&["servo", "--stands", "0,0,0"]);
     let _seen = bench.wait_for_drives();
-    let service = bench.process(&["planner", "--listen"]);
+    let service = bench.service();
     bench.operate(&["enable"]);
     let _ready = bench.wait_for(MachineState::Idle);
     // One sentence, and what it tells to type is complete.
@@ -91,7 +91,7 @@ fn what_a_stop_said_is_not_said_of_the_next_one() {
     let bench = Operated::new(&instance, &[simulated], "");
     let interpolator = bench.process(&["interpolator", "--best-effort"]);
     let _idle = bench.wait_for(MachineState::Idle);
-    let service = bench.process(&["planner", "--listen"]);
+    let service = bench.service();
     let part = instance.file("part.ngc", STOPS);
     let running = bench.process(&["run-file", &part]);
     for (line, said) in [(3, "turn the part"), (5, "")] {
@@ -136,7 +136,16 @@ fn what_a_stop_said_is_not_said_of_the_next_one() {
     bench.operate(&["abort"]);
     let told = running.wait().expect(5).stderr;
     assert!(told.contains("which were jogged away, are back"), "{told}");
-    let _ended = (service.end(), interpolator.end());
+    bench.refused(&["return"], 5, "no program is held");
+
+    // A planner with a program of its own takes no jobs, and is not said to be away.
+    let _ended = service.end();
+    let own = bench.process(&["planner", &long]);
+    let _moves = bench.wait_for(MachineState::Running);
+    bench.refused(&["mdi", "G0 X1"], 5, "one of its own executes long.ngc");
+    bench.operate(&["abort"]);
+    let _aborted = own.wait().expect(5);
+    let _ended = interpolator.end();
 }
 
 #[test]

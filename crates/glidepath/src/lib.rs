@@ -47,6 +47,7 @@ pub mod dense_runs;
 pub mod drives;
 pub mod exit;
 pub mod file_error;
+mod in_force_note;
 pub mod interrupt;
 pub mod jitter;
 mod joints;

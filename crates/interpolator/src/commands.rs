@@ -56,7 +56,8 @@ impl CommandContext<'_, '_> {
             self.report.state,
             MachineState::Idle | MachineState::Faulted
         );
-        if command == Command::Disable && self.drives.is_none() && !is_at_rest {
+        let ends_something = !is_at_rest || self.jobs.is_to_come();
+        if command == Command::Disable && self.drives.is_none() && ends_something {
             return Command::Abort;
         }
         command
@@ -269,6 +270,9 @@ fn precondition(
         | Command::SetPosition { .. }
         | Command::Home(_)
         | Command::Unhome(_) => (has_drives, UnmetPrecondition::Simulated),
+        Command::Return if report.end_of_epoch != EndOfEpoch::Open => {
+            (false, UnmetPrecondition::NoPathToReturn)
+        }
         Command::Return if !is_away => (false, UnmetPrecondition::OnPath),
         Command::Return => (
             matches!(state, Held | ProgramStop | Awaiting),

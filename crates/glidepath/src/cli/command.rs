@@ -314,9 +314,9 @@ impl CliCommand {
             Self::SingleBlock(args) => &args.operator.instance,
             Self::Override(args) => &args.operator.instance,
             Self::Jog(args) => &args.operator.instance,
-            Self::Plan(_)
-            | Self::Check(_)
-            | Self::Audit(_)
+            Self::Plan(args) => &args.instance,
+            Self::Check(args) => &args.instance,
+            Self::Audit(_)
             | Self::Offsets(_)
             | Self::Config(_)
             | Self::Fit(_)

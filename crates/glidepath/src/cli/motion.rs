@@ -77,6 +77,9 @@ pub struct PlanArgs {
     /// Configuration and form of the report.
     #[command(flatten)]
     pub basic: BasicArgs,
+    /// The instance whose service would execute it.
+    #[command(flatten)]
+    pub instance: InstanceArgs,
     /// Write every setpoint as CSV
     #[arg(long, value_name = "CSV")]
     pub setpoints: Option<PathBuf>,
@@ -103,6 +106,9 @@ pub struct CheckArgs {
     /// Configuration and form of the report.
     #[command(flatten)]
     pub basic: BasicArgs,
+    /// The instance whose service would execute it.
+    #[command(flatten)]
+    pub instance: InstanceArgs,
 }
 
 /// Arguments of `interpolator`.

@@ -250,6 +250,15 @@ pub(super) enum Failure {
          glidepath-planner"
     )]
     NoService,
+    /// A planner executes a program of its own, and takes no jobs.
+    #[error(
+        "no planner serves this machine: one of its own executes {job}, and takes no jobs; wait for its end, or end \
+         it with `glidepath abort`, and then start `glidepath planner --listen`"
+    )]
+    NotServing {
+        /// What it executes.
+        job: String,
+    },
     /// The planner's service ended with a job that it had taken.
     #[error(
         "the planner's service ended before this was done; `glidepath status` says where the machine stands; \

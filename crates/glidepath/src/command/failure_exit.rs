@@ -74,6 +74,7 @@ impl Failure {
             | Self::CommandRefused { .. }
             | Self::CutShort { .. }
             | Self::NoService
+            | Self::NotServing { .. }
             | Self::ServiceLost { .. }
             | Self::Silent { .. }
             | Self::NotStopped { .. }

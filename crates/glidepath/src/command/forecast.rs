@@ -1,6 +1,7 @@
 //! The forecast of a program: how far it is, and how long it takes yet. It is planned beside the
 //! machine, since planned time is run time.
 
+use super::begins_with::begin_on_machine;
 use super::changed::{Change, Changed};
 use super::fitting::{is_all_that_is_wrong, without_travel};
 use super::program_diagnostics::refusal_text;
@@ -9,7 +10,7 @@ use super::text_lines::TextLines;
 use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::file_error::FileError;
-use crate::persistence::read::{read, set_up, set_up_as_begun};
+use crate::persistence::read::set_up_as_begun;
 use crate::program_file::ProgramFile;
 use crate::report::ProgramPlace;
 use glidepath_gcode::ReadingWatch;
@@ -119,14 +120,13 @@ impl Forecast {
         } else {
             TextLines::default()
         };
-        // Read as the planner does: with the offsets that the machine keeps.
+        // Read as the planner does: with what the machine keeps, and has in force.
         let mut machine = for_program(&ProgramFile::named(path), config);
-        if let Ok(Some(kept)) = read(config) {
-            set_up(&mut machine, &kept);
-            if let PlannedFor::Following(Some(program)) = planned_for {
-                // Of one that is not under way any more, what is kept now is all that is known.
-                let _known = set_up_as_begun(&mut machine, &kept, program);
-            }
+        // What cannot be read is said where the program is begun.
+        let begins = begin_on_machine(&mut machine).unwrap_or_default();
+        if let (Some(kept), PlannedFor::Following(Some(program))) = (begins.kept, planned_for) {
+            // Of one that is not under way any more, what is kept now is all that is known.
+            let _known = set_up_as_begun(&mut machine, &kept, program);
         }
         change.machine(&mut machine);
         let watch = ReadingWatch::default();

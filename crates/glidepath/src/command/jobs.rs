@@ -12,8 +12,8 @@ use crate::interrupt::Interrupt;
 use crate::machine_options::{self, complete};
 use crate::output;
 use glidepath_link::{
-    Client, Command, CommandRequest, JobKind, JobReply, JobRequest, JobState, JobWish, LinkConfig,
-    LinkError, Record as _, Transport as _,
+    Client, Command, CommandRequest, JobKind, JobReply, JobRequest, JobStage, JobState, JobWish,
+    LinkConfig, LinkError, Operator, Record as _, Transport as _,
 };
 use serde_json::json;
 use std::io::{self, BufRead as _, IsTerminal as _};
@@ -237,7 +237,7 @@ impl Desk<'_> {
                     }
                     std::thread::sleep(POLL);
                 }
-                Err(LinkError::NoServer { .. }) => return Err(Failure::NoService),
+                Err(LinkError::NoServer { .. }) => return Err(no_service(self.link)),
                 asked => {
                     asked?;
                     break;
@@ -317,4 +317,22 @@ fn agrees(text: &str) -> Result<bool, Failure> {
         .read_line(&mut answer)
         .map_err(|_| Failure::Interrupted)?;
     Ok(answer.trim() == "yes")
+}
+
+/// Nobody takes jobs: no planner is there, or one with a program of its own.
+pub(super) fn no_service(link: &LinkConfig) -> Failure {
+    let status = Operator::find(link).and_then(|operator| operator.status(PATIENCE));
+    let busy = status.ok().flatten().filter(|status| {
+        let stage = status.job_stage();
+        matches!(
+            stage,
+            Ok(JobStage::Waiting | JobStage::Preparing | JobStage::Begun)
+        )
+    });
+    match busy {
+        Some(status) => Failure::NotServing {
+            job: status.job.as_str().to_owned(),
+        },
+        None => Failure::NoService,
+    }
 }

@@ -4,6 +4,7 @@ mod acknowledge;
 mod active_program;
 mod attention;
 mod audit;
+mod begins_with;
 mod bench;
 mod changed;
 mod check;
@@ -190,6 +191,9 @@ fn machine(command: &CliCommand) -> Result<MachineConfig, Failure> {
     if let Some(args) = command.path() {
         config.path.effort = args.effort.unwrap_or(config.path.effort);
         config.path.tolerance_mm = args.tolerance.unwrap_or(config.path.tolerance_mm);
+    }
+    if let Some(instance) = command.instance() {
+        config.instance = Some(instance.to_owned());
     }
     reading::settle(command, &mut config)?;
     Ok(config)

@@ -311,6 +311,12 @@ fn serve(
              directory of [state]",
         );
     }
+    // What cannot be read is said to whoever wants something moved.
+    if let Ok(Some(kept)) = read(config) {
+        for note in set_up(&mut config.clone(), &kept) {
+            output::note(&format!("planner: {note}"));
+        }
+    }
     if Operator::find(link).is_err() {
         output::note("planner: no interpolator runs yet; it is waited for");
     }

@@ -1,6 +1,7 @@
 //! The settings by which programs are read: the tool table, the search path of subroutines and the
 //! dialect.
 
+use super::begins_with::begin_on_machine;
 use super::subroutines::subroutines;
 use crate::cli::CliCommand;
 use crate::command::failure::Failure;
@@ -49,10 +50,19 @@ pub(super) fn settle(command: &CliCommand, config: &mut MachineConfig) -> Result
     if !matches!(command, CliCommand::Planner(_)) {
         tell_share(&config.axis_share);
         // The planner reads it when nobody else can write any more.
-        if let Some(kept) = read(config)? {
-            set_up(config, &kept)
+        match command {
+            // Its machine is imitated, and a recording carries what its program began with.
+            CliCommand::Run(_) | CliCommand::Audit(_) => {
+                if let Some(kept) = read(config)? {
+                    set_up(config, &kept)
+                        .iter()
+                        .for_each(|note| output::note(note));
+                }
+            }
+            _ => begin_on_machine(config)?
+                .notes
                 .iter()
-                .for_each(|note| output::note(note));
+                .for_each(|note| output::note(note)),
         }
     }
     if let Some(file) = file {

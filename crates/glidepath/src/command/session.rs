@@ -14,10 +14,14 @@ use std::path::PathBuf;
 
 /// The instance asked for: on the command line, else in the configuration, else the default one.
 pub(super) fn instance(args: &InstanceArgs, config: &MachineConfig) -> String {
-    args.instance
-        .clone()
-        .or_else(|| config.instance.clone())
-        .unwrap_or_else(|| MachineConfig::DEFAULT_INSTANCE.to_owned())
+    let asked = args.instance.clone();
+    asked.unwrap_or_else(|| named_instance(config))
+}
+
+/// The instance of a configuration, else the default one.
+pub(super) fn named_instance(config: &MachineConfig) -> String {
+    let named = config.instance.clone();
+    named.unwrap_or_else(|| MachineConfig::DEFAULT_INSTANCE.to_owned())
 }
 
 /// The text of the machine's configuration, which was judged before.

@@ -59,7 +59,9 @@ pub(crate) fn set_up(config: &mut MachineConfig, kept: &PersistentState) -> Vec<
         ));
     }
     let g92 = axis_words(&offsets.g92);
-    if !g92.is_empty() {
+    let begins = config.program.in_force.as_ref();
+    let is_shifted = begins.is_some_and(|it| it.position_offsets().shift.amax() > 0.0);
+    if !g92.is_empty() && !is_shifted {
         notes.push(format!(
             "offsets: the kept offset of G92 ({g92}) is not in force here; G92.3 puts it in force"
         ));

@@ -30,6 +30,8 @@ pub enum UnmetPrecondition {
     StaysApart,
     /// A command to drives that are not there.
     Simulated,
+    /// A return where no program is held.
+    NoPathToReturn,
     /// A return to a path on which the axes are.
     OnPath,
     /// A return while the axes move.
@@ -98,6 +100,7 @@ impl UnmetPrecondition {
         Self::NotAtRestYet,
         Self::StaysApart,
         Self::Simulated,
+        Self::NoPathToReturn,
         Self::OnPath,
         Self::Moving,
         Self::FaultLatched,
@@ -162,6 +165,7 @@ impl UnmetPrecondition {
             Self::Simulated => {
                 "no feedback is configured, so the drives are simulated, always on and homed"
             }
+            Self::NoPathToReturn => "no program is held, so there is no path to return to",
             Self::OnPath => "the axes are on the path, so there is nowhere to return to",
             Self::Moving => "the axes are moving; return when they are at rest",
             Self::FaultLatched => "a fault is latched; clear it first with `glidepath reset`",
@@ -177,9 +181,7 @@ impl UnmetPrecondition {
             Self::NotAtRest => {
                 "the machine has to be at rest without a program; `glidepath abort` ends one"
             }
-            Self::NoSuchPosition => {
-                "that is no position of a joint; it is within 1e6 mm or degrees of zero"
-            }
+            Self::NoSuchPosition => "that is not within 1e6 mm or degrees of zero",
             Self::NoSuchJoint => "the machine has no such joint",
             Self::SecondJoint => "it is the second joint of its axis, and goes with the first",
             Self::Unreported => {

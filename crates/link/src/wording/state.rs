@@ -60,8 +60,8 @@ impl MachineState {
                 "at rest where the program known so far ends; it goes on by itself when more comes"
             }
             Self::Awaiting => "at rest until what the program asked for is done",
-            Self::Jogging => "moved by hand",
-            Self::Homing => "joints are on their way home",
+            Self::Jogging => "moved by hand; `glidepath hold` ends it",
+            Self::Homing => "joints are on their way home; `glidepath abort` ends it",
             Self::Off => "the drives have no power; `glidepath enable` gives it",
             Self::NotHomed => "joints are not homed; `glidepath home` has them find where they are",
             Self::Preparing => "at rest; a job has the machine, and is read, checked and planned",

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glidepath_geometry::AxisVector;
 use serde::{Deserialize, Serialize};
 
+use crate::execute::motion::position_offsets::PositionOffsets;
 use crate::execute::parameters::Parameters;
 use crate::execute::state::offsets::Offsets;
 use crate::execute::state::program_state::State;
@@ -52,6 +53,17 @@ impl InForce {
     #[must_use]
     pub fn zero(&self) -> AxisVector {
         self.0.offsets.to_machine(AxisVector::zeros())
+    }
+
+    /// The offsets in force beside the coordinate system.
+    #[must_use]
+    pub fn position_offsets(&self) -> PositionOffsets {
+        let InForceParts { state, offsets, .. } = self.0.as_ref();
+        PositionOffsets {
+            tool: offsets.tool,
+            shift: offsets.shift,
+            tip: state.tip,
+        }
     }
 
     /// The codes and words in force, as a line would say them: see [`crate::Program::words_in_force`].

@@ -50,6 +50,7 @@ impl JobRunner for JobExecutor<'_> {
             },
             first_block: 0,
         };
+        let before = self.in_force.clone();
         let end = match job {
             Job::Line(text) => self.line(text, start, &mut context),
             Job::Sequence(text) => self.sequence(text, start, &mut context),
@@ -83,6 +84,16 @@ impl JobRunner for JobExecutor<'_> {
             ),
         };
         output::note(&format!("planner: {told}"));
+        if let Some(in_force) = self
+            .in_force
+            .as_ref()
+            .filter(|it| Some(*it) != before.as_ref())
+            && let Err(error) = self.note.leave(in_force)
+        {
+            output::note(&format!(
+                "planner: whoever reads a program beside it does not know what is in force: {error}"
+            ));
+        }
         end
     }
 }

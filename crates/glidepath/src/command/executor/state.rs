@@ -9,6 +9,7 @@ use crate::begun::Board;
 use crate::command::failure::Failure;
 use crate::command::run_supervisor::RunSupervisor;
 use crate::config::MachineConfig;
+use crate::in_force_note::InForceNote;
 
 /// Executes jobs one after the other.
 #[derive(Debug)]
@@ -18,6 +19,8 @@ pub(in crate::command) struct JobExecutor<'c> {
     pub(super) board: &'c Board,
     /// What the job before has left in force.
     pub(super) in_force: Option<InForce>,
+    /// Where that is noted for others.
+    pub(super) note: InForceNote,
     /// The program begun last.
     pub(super) begun: Option<Begun>,
     /// Lines were executed since that program.
@@ -27,13 +30,14 @@ pub(in crate::command) struct JobExecutor<'c> {
 }
 
 impl<'c> JobExecutor<'c> {
-    pub(in crate::command) const fn new(
+    pub(in crate::command) fn new(
         config: &'c MachineConfig,
         link: LinkConfig,
         board: &'c Board,
     ) -> Self {
         Self {
             config,
+            note: InForceNote::begin(&link, config),
             link,
             board,
             in_force: None,

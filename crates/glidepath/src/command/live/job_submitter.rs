@@ -5,8 +5,7 @@
 //! time: a page that hands in another one meanwhile is told so.
 
 use super::day::now_ms;
-use crate::command::failure::Failure;
-use crate::command::jobs::client;
+use crate::command::jobs::{client, no_service};
 use glidepath_link::{
     Client, Ipc, JobKind, JobReply, JobRequest, JobState, JobWish, LinkConfig, LinkError,
     Record as _, Transport as _,
@@ -257,7 +256,7 @@ impl Clerk {
         };
         match self.follow(request, waiting) {
             Ok(end) => end,
-            Err(LinkError::NoServer { .. }) => Handed::Not(Failure::NoService.to_string()),
+            Err(LinkError::NoServer { .. }) => Handed::Not(no_service(&self.link).to_string()),
             Err(error) => Handed::Not(error.to_string()),
         }
     }

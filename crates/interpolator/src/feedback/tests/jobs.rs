@@ -2,6 +2,7 @@
 
 use super::bench::{Bench, config};
 use super::client::Machine;
+use crate::Config;
 use glidepath_link::{Command, EndOfEpoch, JobPhase, JobStage, MachineState};
 use glidepath_plant::{InjectedFault, JointSettings};
 
@@ -371,4 +372,23 @@ fn at_rest_a_hold_and_an_abort_are_done_and_clear_no_fault() {
     bench.command(Command::Hold).unwrap();
     bench.run(10);
     assert_eq!(bench.state(), MachineState::Faulted);
+}
+
+#[test]
+fn where_no_drive_reports_switching_off_ends_a_job_that_waits() {
+    let settings = Config {
+        feedback: None,
+        ..config(false)
+    };
+    let mut bench = Bench::new(settings, &[JointSettings::default(); 3]);
+    bench.run(10);
+    let refused = bench.command(Command::Disable).unwrap_err();
+    assert!(
+        refused.contains("simulated"),
+        "nothing is to be ended: {refused}"
+    );
+    tell(&mut bench, 1, JobPhase::Waiting).unwrap();
+    assert_eq!(bench.status().state(), Ok(MachineState::Idle));
+    bench.command(Command::Disable).unwrap();
+    assert!(tell(&mut bench, 1, JobPhase::Preparing).is_err());
 }

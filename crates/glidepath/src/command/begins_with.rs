@@ -1,0 +1,75 @@
+//! What a program begins with on a machine, for whoever reads it beside the machine: what is kept, and what the
+//! planner's service has in force.
+
+use super::session;
+use crate::config::MachineConfig;
+use crate::in_force_note::{Served, served};
+use crate::persistence::convert::axis_words;
+use crate::persistence::error::StateError;
+use crate::persistence::read::{read, set_up};
+use glidepath_gcode::InForce;
+use glidepath_persistence::PersistentState;
+
+/// What a machine was found to begin programs with.
+#[derive(Debug, Default)]
+pub(super) struct BeginsWith {
+    /// What is kept.
+    pub(super) kept: Option<PersistentState>,
+    /// What somebody has to know of it.
+    pub(super) notes: Vec<String>,
+}
+
+/// Puts what a program begins with on its machine into a configuration.
+///
+/// # Errors
+/// What is kept cannot be read, or belongs to another machine. What is in force counts all the same.
+pub(super) fn begin_on_machine(config: &mut MachineConfig) -> Result<BeginsWith, StateError> {
+    let instance = session::named_instance(config);
+    let served = served(&session::link(&instance, config), config);
+    config.program.in_force = None;
+    let mut begins = BeginsWith::default();
+    let in_force = match served {
+        Served::Nothing => None,
+        Served::OtherMachine => {
+            begins.notes.push(format!(
+                "the planner's service of {instance} drives another machine than this configuration: what is in \
+                 force there does not count here"
+            ));
+            None
+        }
+        Served::State(in_force) => Some(*in_force),
+    };
+    config.program.in_force.clone_from(&in_force);
+    let kept = read(config);
+    if let Ok(Some(kept)) = &kept {
+        begins.notes.extend(set_up(config, kept));
+    }
+    if let Some(in_force) = in_force {
+        begins.notes.push(told(&in_force));
+        if config.state_directory.is_none() {
+            config.program.offsets = in_force.work_offsets();
+            config.program.tools = in_force.tools().cloned().or(config.program.tools.take());
+        }
+    }
+    begins.kept = kept?;
+    Ok(begins)
+}
+
+/// What is in force, in the words of a program.
+fn told(in_force: &InForce) -> String {
+    let mut text = format!(
+        "read as it would be run now: the planner's service has {} in force",
+        in_force.words()
+    );
+    let beside = in_force.position_offsets();
+    for (what, by) in [
+        ("shift of G92 or G52", beside.shift),
+        ("tool length", beside.tool),
+    ] {
+        let words = axis_words(&by.map(|by| (by * 1e4).round() / 1e4).into());
+        if !words.is_empty() {
+            text.push_str(&format!(", {what} {words}"));
+        }
+    }
+    text
+}
