@@ -69,8 +69,18 @@ impl<'a> Machine<'a> {
         }
     }
 
-    /// Types a line; tells what went wrong.
+    /// Types a line; tells what went wrong. Where the host kept the drives from their setpoints, it is typed again.
     pub(super) fn type_line(&mut self, line: &str) -> Result<(), String> {
+        for _ in 0..3 {
+            match self.type_once(line) {
+                Err(why) if why.contains("the drives heard no setpoints") => self.ready(),
+                done => return done,
+            }
+        }
+        self.type_once(line)
+    }
+
+    fn type_once(&mut self, line: &str) -> Result<(), String> {
         // The port of the page, or of senders, may be another's on this host.
         let served = ["glidepath live", "glidepath grbl"];
         let served = served.iter().find(|served| line.starts_with(**served));

@@ -35,6 +35,9 @@ use std::io::{BufWriter, Write};
 pub(super) fn servo(args: &ServoArgs, config: &MachineConfig) -> Result<Exit, Failure> {
     let interrupt = Interrupt::install().map_err(Failure::Signals)?;
     end_with(args.end_with).map_err(Failure::Signals)?;
+    // Drives that are kept from their setpoints for three periods stop. Where it is not allowed, they are as patient as
+    // an ordinary process can be.
+    let _may_not = glidepath_realtime::take_precedence();
     if args.relay {
         return relay(args, config, &interrupt);
     }
