@@ -110,6 +110,14 @@ impl Browser {
         let _opened = self.call("Page.navigate", &json!({ "url": url }));
     }
 
+    /// The page is the one that a person is at, from now on: no other window has the keyboard.
+    pub fn focus(&mut self) {
+        let _focused = self.call(
+            "Emulation.setFocusEmulationEnabled",
+            &json!({ "enabled": true }),
+        );
+    }
+
     /// What an expression gives on the page; null where it throws.
     pub fn evaluate(&mut self, expression: &str) -> Value {
         let asked = json!({

@@ -21,8 +21,12 @@ function beginJog(ways, button) {
   }
   const axes = {};
   for (const name of names) axes[name] = ways[name] * jogVelocity(name) / slower;
-  JOG.gesture = { id: Math.floor(Math.random() * 2 ** 48), number: 0, axes, button, told: performance.now(), under_way: 0 };
+  beginGesture(axes, { button });
   if (button) button.classList.add('down');
+}
+/* `axes` is how fast each axis goes; `by` is what says that the finger is still there. */
+function beginGesture(axes, by) {
+  JOG.gesture = { id: Math.floor(Math.random() * 2 ** 48), number: 0, axes, told: performance.now(), under_way: 0, ...by };
   tellJog();
   JOG.timer = setInterval(tellJog, SIGN);
 }
@@ -102,7 +106,7 @@ function layPad() {
   if (isLathe()) html += `<div class="cross"><i></i>${jogKey({ X: 1 }, '▲', 'X+')}<i></i>${jogKey({ Z: -1 }, '◀', 'Z−')}<span class="hint">press and keep pressed</span>${jogKey({ Z: 1 }, '▶', 'Z+')}<i></i>${jogKey({ X: -1 }, '▼', 'X−')}<i></i></div>`;
   const inCross = has('X') && has('Y') ? 'XY' : isLathe() ? 'XZ' : '', rest = names.filter(name => !inCross.includes(name));
   html += `<div class="columns">${rest.map(name => `<div>${jogKey({ [name]: 1 }, '▲', `${name}+`)}${jogKey({ [name]: -1 }, '▼', `${name}−`)}</div>`).join('')}</div>`;
-  html += `<div class="speed"><label><span class="lab">Jog speed</span><b id="jogpart"></b><input type="range" id="jogspeed" min="1" max="100" aria-label="jog speed, percent"></label><span id="jogmm"></span><p id="jogslip" class="lab-text" role="status"></p></div>`;
+  html += `<div class="speed"><label><span class="lab">Jog speed</span><b id="jogpart"></b><input type="range" id="jogspeed" min="1" max="100" aria-label="jog speed, percent"></label><span id="jogmm"></span><p id="jogslip" class="lab-text" role="status"></p><p id="padwords" class="lab-text"></p></div>`;
   html += '<div class="steps" id="steps" role="radiogroup" aria-label="how far"></div>';
   fill($('#pad'), html);
   const slider = $('#jogspeed');
@@ -118,6 +122,7 @@ function paintPad() {
   const v = AXES().length ? jogVelocity(AXES()[0].name) : 0;
   put($('#jogpart'), `${Math.round(JOG.part * 100)} %`); put($('#jogmm'), `${feedText(v)} ${feedUnit()}`);
   paintStep();
+  put($('#padwords'), padWords());
   const why = whyNoJog();
   $$('.jog').forEach(b => { if (why) b.setAttribute('aria-disabled', 'true'); else b.removeAttribute('aria-disabled'); });
 }

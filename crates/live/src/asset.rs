@@ -25,11 +25,12 @@ const SHOWING: [(&str, &str); 11] = [
 ];
 
 /// What operates a machine, behind that.
-const HANDS: [(&str, &str); 10] = [
+const HANDS: [(&str, &str); 11] = [
     ("/orders.js", include_str!("../page/orders.js")),
     ("/bar.js", include_str!("../page/bar.js")),
     ("/bell.js", include_str!("../page/bell.js")),
     ("/jog.js", include_str!("../page/jog.js")),
+    ("/gamepad.js", include_str!("../page/gamepad.js")),
     ("/setup.js", include_str!("../page/setup.js")),
     ("/touch.js", include_str!("../page/touch.js")),
     ("/programs.js", include_str!("../page/programs.js")),

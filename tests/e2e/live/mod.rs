@@ -4,6 +4,7 @@
 mod certificate;
 mod colours;
 mod following;
+mod gamepad;
 mod hands;
 mod life;
 mod looked_at;
