@@ -181,6 +181,8 @@ pub(crate) enum NonModal {
     SetOffset,
     /// G92.1.
     ClearOffset,
+    /// G92.1 of FANUC: the axes that it names lose what G92 and G52 have shifted.
+    PresetSystem,
     /// G92.2.
     SuspendOffset,
     /// G92.3.
@@ -197,6 +199,7 @@ impl NonModal {
                 | Self::LocalOffset
                 | Self::LatheSetting
                 | Self::SetOffset
+                | Self::PresetSystem
                 | Self::SetPole(_)
         )
     }

@@ -280,6 +280,25 @@ fn the_local_offset_stands_beside_that_of_g92() {
 }
 
 #[test]
+fn offsets_of_g92_and_g52_are_taken_back_axis_by_axis() {
+    let shifted = "G0 X10 Y10\nG92 X0 Y0\nG52 X5 Y5\n";
+    assert_eq!(last(&format!("{shifted}X1 Y1")), [16.0, 16.0, 0.0]);
+    // X again counts from the zero of G54, Y from where it was named.
+    assert_eq!(last(&format!("{shifted}G92.1 X0\nX1 Y1")), [1.0, 16.0, 0.0]);
+    assert_eq!(
+        last(&format!("{shifted}G92.1 X0 Y0 Z0\nX1 Y1")),
+        [1.0, 1.0, 0.0]
+    );
+    // It moves nothing, in increments, too.
+    assert_eq!(
+        last(&format!("{shifted}G91 G92.1 X0 Y0\nX1")),
+        [11.0, 10.0, 0.0]
+    );
+    finds("G92.1", &["1:1 missing-word"]);
+    finds("G92.1 X5", &["1:7 invalid-value"]);
+}
+
+#[test]
 fn compensation_begins_beside_the_second_move() {
     // With 6 mm the tool is at X-3 beside a contour that goes up from X0, whichever way it comes.
     for (text, entry) in [

@@ -87,6 +87,7 @@ impl Interpreter {
                 self.end_local_offset(&values);
                 self.offsets.set_shift(position, &values);
             }
+            NonModal::PresetSystem => self.preset_system(block, non_modal.span)?,
             NonModal::ClearOffset => {
                 self.offsets.shift = AxisVector::zeros();
                 self.offsets.saved_shift = AxisVector::zeros();
@@ -106,6 +107,29 @@ impl Interpreter {
         }
     }
 
+    /// G92.1 of FANUC: the axes that it names, with 0, lose what G92 and G52 have shifted.
+    fn preset_system(&mut self, block: &Block, span: SourceSpan) -> Outcome<()> {
+        let values = self.axis_values(block)?;
+        require_axes(block, span, "G92.1")?;
+        if values.iter().flatten().any(|value| *value != 0.0) {
+            return Err(BlockDiagnostic::new(
+                DiagnosticCode::InvalidValue,
+                block.motion_span(),
+                "G92.1 with another number than 0",
+            )
+            .because("its words name the axes whose offset is taken back")
+            .help("write 0 behind each of them"));
+        }
+        self.end_local_offset(&values);
+        for (shift, value) in self.offsets.shift.iter_mut().zip(&values) {
+            if value.is_some() {
+                *shift = 0.0;
+            }
+        }
+        self.offsets.saved_shift = self.offsets.shift;
+        Ok(())
+    }
+
     /// Refuses to give places new names within a frame, whose coordinates they would not be.
     fn check_frame(&self, non_modal: Coded<NonModal>) -> Outcome<()> {
         let names_places = matches!(
@@ -114,6 +138,7 @@ impl Interpreter {
                 | NonModal::LocalOffset
                 | NonModal::LatheSetting
                 | NonModal::SetOffset
+                | NonModal::PresetSystem
                 | NonModal::ClearOffset
                 | NonModal::SuspendOffset
                 | NonModal::RestoreOffset

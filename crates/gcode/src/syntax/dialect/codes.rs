@@ -132,6 +132,7 @@ impl Codes {
         match tenths {
             90 => set(&mut self.exact_stop, (), span),
             100 => set(&mut self.non_modal, NonModal::SetData, span),
+            921 => set(&mut self.non_modal, NonModal::PresetSystem, span),
             760 => self.set_motion(Some(Motion::Cycle(CannedCycle::FineBore)), span),
             870 => self.set_motion(Some(Motion::Cycle(CannedCycle::BackBore)), span),
             150 | 160 => set(&mut self.polar_mode, tenths == 160, span),

@@ -14,10 +14,10 @@ pub(crate) const fn g(tenths: u32) -> Option<Meaning> {
         | 800 | 810 | 820 | 830 | 840 | 850 | 860 | 890 | 900 | 910 | 920 | 930 | 940 | 950
         | 960 | 970 | 980 | 990 => Shared,
         // G9, G10, G12, G13, G15, G16, G30, G31, G44, G43.4, G43.5, G50, G51, G50.1, G51.1, G54.1, G60, G62, G63,
-        // G53.1, G68, G68.2, G69, G70, G71, G76, G87, G154, G234, G254, G255.
+        // G53.1, G68, G68.2, G69, G70, G71, G76, G87, G92.1, G154, G234, G254, G255.
         90 | 100 | 120 | 130 | 150 | 160 | 300 | 310 | 434 | 435 | 440 | 500 | 501 | 510 | 511
-        | 531 | 541 | 600 | 620 | 630 | 680 | 682 | 690 | 700 | 710 | 760 | 870 | 1540 | 2340
-        | 2540 | 2550 => Own,
+        | 531 | 541 | 600 | 620 | 630 | 680 | 682 | 690 | 700 | 710 | 760 | 870 | 921 | 1540
+        | 2340 | 2540 | 2550 => Own,
         // Look-ahead and smoothness (G5 P, G5.1 Q, G8 P, G103 P, G187 P E), the end of G10 L50,
         // no stroke check (G23), no watch on the spindle's speed (G25), the end of what is refused
         // (G13.1, G54.2 P0 apart).
@@ -65,10 +65,6 @@ pub(crate) const fn g(tenths: u32) -> Option<Meaning> {
         880 => Refused(
             "boring with retraction by hand",
             "use G86 or G89, which retract by themselves",
-        ),
-        921 => Refused(
-            "offsets of G92 taken back",
-            "write G92 with the old coordinates",
         ),
         470 => Refused(
             "engraving of a text, or a tool offset that makes moves longer",

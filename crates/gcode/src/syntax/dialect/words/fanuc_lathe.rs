@@ -11,6 +11,10 @@ pub(crate) const fn g(tenths: u32) -> Option<Meaning> {
         // what F is.
         320 | 500 | 700 | 710 | 720 | 730 | 740 | 750 | 900 | 920 | 940 | 980 | 990 => Own,
         330 => Refused("a thread in another system of codes", "write G32"),
+        921 => Refused(
+            "offsets of G92 taken back",
+            "name the place by the old coordinates again",
+        ),
         340 => Refused("a thread whose pitch changes", PLAIN_BLOCKS),
         770 | 780 | 790 | 910 | 930 | 950 => Refused(
             "a code of the systems B and C",
