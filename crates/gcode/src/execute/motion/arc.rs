@@ -40,10 +40,10 @@ impl Interpreter {
         motion: Motion,
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
-        let named = self.state.modal.plane;
         if self.state.leaving_contour {
             return Err(arc_off_contour(block.motion_span()));
         }
+        let named = self.plane_of_arc(block)?;
         check_center_words(block, named)?;
         let Some(PlaneImage {
             plane,

@@ -4,6 +4,7 @@ mod arc;
 mod arc_center;
 pub(crate) mod arc_ends;
 mod arc_in_space;
+mod arc_plane;
 pub(crate) mod axis_words;
 pub(crate) mod corner;
 mod corner_geometry;

@@ -1,5 +1,6 @@
 //! Tests of SINUMERIK's programs: structures, jumps, variables, frames, cycles.
 
+mod arc_planes;
 mod boring;
 mod corners;
 mod cycles;
