@@ -5,6 +5,7 @@ use std::io::BufRead;
 
 use crate::diagnostic::block_diagnostic::Outcome;
 use crate::execute::block_order::AfterBlock;
+use crate::execute::dialect::siemens::steps::Step;
 use crate::execute::program::Program;
 use crate::execute::scope::ProgramScope;
 use crate::syntax::block::{Assignment, LineKind};
@@ -32,6 +33,10 @@ impl<R: BufRead> Program<R> {
 
     /// Whether the next line that says anything goes on with a thread.
     fn is_thread_next(&mut self) -> bool {
+        // Within a cycle its own lines come next.
+        if let Some(step) = self.siemens.steps.front() {
+            return matches!(step, Step::Line(line) if line.starts_with("G33"));
+        }
         for next in self.tape.next..self.tape.next + MOST_SILENT {
             let is_there = self.tape.reach(next, &mut self.source).unwrap_or(false);
             let Some((_, text)) = self.tape.get(next).filter(|_| is_there) else {

@@ -1,8 +1,8 @@
-//! Tests of CYCLE97. Values are computed by hand.
+//! Tests of CYCLE97 and CYCLE98. Values are computed by hand.
 
 use glidepath_gcode::{Machine, Options, Program, Threading, check};
 use glidepath_geometry::Axis;
-use glidepath_program::{Event, ItemKind, Limits, PHASE_STEPS};
+use glidepath_program::{Event, ItemKind, Limits, PHASE_STEPS, Rate};
 
 use crate::support::listed;
 
@@ -135,6 +135,9 @@ fn threads_that_are_refused() {
     assert_eq!(passes(good).len(), 4);
     for (from, to) in [
         ("(1.5,,", "(,7.5,"),
+        // M20 has a pitch of 2.5, and M60 none that is known.
+        ("(1.5,,", "(1.5,20,"),
+        ("(1.5,,", "(5.5,60,"),
         ("20,20,5", "20,70,5"),
         (",0,-20,", ",0,0,"),
         ("0.9,0.1", "0.9,0.9"),
@@ -159,5 +162,99 @@ fn threads_that_are_refused() {
     for head in ["G17\nS500 M3\n", "G18\n"] {
         let report = check(format!("{head}{good}").as_bytes(), lathe());
         assert_eq!(report.diagnostics.len(), 1, "{head}");
+    }
+}
+
+#[test]
+fn a_pitch_that_agrees_with_the_size_of_the_thread() {
+    let cycle = "CYCLE97(2.5,20,0,-20,20,20,5,2,0.9,0,0,0,1,0,1,1)";
+    assert_eq!(ways(cycle)[3], "2.5@0");
+}
+
+/// Every pass of a chain: its lead and angle, where it begins, and the ends of its parts.
+fn chains(cycle: &str) -> Vec<String> {
+    let ways = ways(cycle);
+    let starts = (0..ways.len()).filter(|at| ways[*at].contains('@'));
+    starts
+        .map(|at| {
+            format!(
+                "{} {} > {}",
+                ways[at],
+                ways[at - 1],
+                ways[at + 1..at + 4].join(" > ")
+            )
+        })
+        .collect()
+}
+
+#[test]
+fn three_threads_that_follow_each_other() {
+    // From 30 to 30, to 36, to 50 over 30, 30 and 20 mm; the last cone is 0.35 a millimetre, so 10 mm more are 3.5.
+    // Two passes to 0.9 deep, one of 0.1, one more.
+    let cycle = "CYCLE98(0,30,-30,30,-60,36,-80,50,10,10,1,0.1,,90,2,1,1.5,2,2,1,1)\nG0 X100";
+    assert_eq!(
+        chains(cycle),
+        [
+            "1.5@90 14.55 10r > 14.55 -30 > 17.55 -60 > 28.05 -90",
+            "1.5@90 14.1 10r > 14.1 -30 > 17.1 -60 > 27.6 -90",
+            "1.5@90 14 10r > 14 -30 > 17 -60 > 27.5 -90",
+            "1.5@90 14 10r > 14 -30 > 17 -60 > 27.5 -90",
+        ]
+    );
+    // Back 1 mm off the widest place, and along it.
+    let all = ways(cycle);
+    assert_eq!(all[1], "29.5 10r");
+    assert_eq!(all[7..10], ["29.5 -90r", "29.5 10r", "14.1 10r"]);
+    assert_eq!(all.last().map(String::as_str), Some("50 10r"));
+    // The lead counts along Z: 1.5 mm a turn there are 1.5 of the way, 2 mm on the cones more.
+    let text = format!("{HEAD}{cycle}");
+    let speeds: Vec<f64> = Program::new(text.as_bytes(), lathe())
+        .filter_map(|item| match item.expect("a good item").kind {
+            ItemKind::Move {
+                rate: Rate::Synchronised(speed_v),
+                ..
+            } => Some(speed_v / 1.5),
+            _ => None,
+        })
+        .collect();
+    for (speed, lead) in
+        speeds
+            .iter()
+            .zip([1.5, 2.0 * 0.1_f64.hypot(1.0), 2.0 * 0.35_f64.hypot(1.0)])
+    {
+        assert!(
+            (1.5 * speed / speeds[0] - lead).abs() < 1e-9,
+            "{speed} {lead}"
+        );
+    }
+}
+
+#[test]
+fn a_chain_inside_and_others_that_are_refused() {
+    let good = "CYCLE98(0,30,-30,30,-60,24,-80,20,10,10,1,0,,0,1,0,1.5,2,2.5,2,2)";
+    assert_eq!(
+        chains(good),
+        [
+            "1.5@0 16 10r > 16 -30 > 13 -60 > 10 -90",
+            "1.5@180 16 10r > 16 -30 > 13 -60 > 10 -90",
+        ]
+    );
+    assert_eq!(ways(good)[1], "8 10r");
+    for (from, to) in [
+        ("-60,24", "-20,24"),
+        ("-60,24", "-60,100"),
+        (",30,-30", ",0,-30"),
+        ("1,0,,0", "1,0,30,0"),
+        ("1,0,,0", "1,1,,0"),
+        ("1.5,2,2.5", "1.5,,2.5"),
+        ("2.5,2,2)", "2.5,5,2)"),
+        ("2.5,2,2)", "2.5,2,2,9)"),
+        ("2.5,2,2)", "2.5,2,2,,1)"),
+    ] {
+        let call = good.replace(from, to);
+        assert_ne!(call, good);
+        let report = check(format!("{HEAD}{call}").as_bytes(), lathe());
+        assert_eq!(report.diagnostics.len(), 1, "{call}");
+        assert!(listed(&report)[0].starts_with("4:1 "), "{call}");
     }
 }

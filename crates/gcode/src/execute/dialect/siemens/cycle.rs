@@ -15,6 +15,7 @@
 //! | `CYCLE71` | RTP, RFP, SDIS, DP, PA, PO, LENG, WID, STA, MID, MIDA, FDP, FALD, FFP1, VARI, FDP1 |
 //! | `CYCLE95` | NPP, MID, FALZ, FALX, FAL, FF1, FF2, FF3, VARI, DT, DAM, _VRT |
 //! | `CYCLE97` | PIT, MPIT, SPL, FPL, DM1, DM2, APP, ROP, TDEP, FAL, IANG, NSP, NRC, NID, VARI, NUMT, _VRT |
+//! | `CYCLE98` | PO1, DM1, PO2, DM2, PO3, DM3, PO4, DM4, APP, ROP, TDEP, FAL, IANG, NSP, NRC, NID, PP1, PP2, PP3, VARI, NUMT, _VRT |
 //! | `CYCLE76` | RTP, RFP, SDIS, DP, DPR, LENG, WID, CRAD, PA, PO, STA, MID, FAL, FALD, FFP1, FFD, CDIR, VARI, AP1, AP2 |
 //! | `CYCLE77` | RTP, RFP, SDIS, DP, DPR, PRAD, PA, PO, MID, FAL, FALD, FFP1, FFD, CDIR, VARI, AP1 |
 //! | `POCKET1` | RTP, RFP, SDIS, DP, DPR, LENG, WID, CRAD, CPA, CPO, STA1, FFD, FFP1, MID, CDIR, FAL, VARI, MIDF, FFP2, SSF |
@@ -43,7 +44,7 @@ use crate::syntax::dialect::siemens::statement::name_at;
 use crate::syntax::modes::FeedMode;
 
 /// Names of cycles, and how many arguments each takes.
-const CYCLES: [(&str, usize); 18] = [
+const CYCLES: [(&str, usize); 19] = [
     ("CYCLE81", 5),
     ("CYCLE82", 6),
     ("CYCLE83", 12),
@@ -56,6 +57,7 @@ const CYCLES: [(&str, usize); 18] = [
     ("CYCLE840", 14),
     ("CYCLE71", 16),
     ("CYCLE97", 17),
+    ("CYCLE98", 22),
     ("CYCLE76", 20),
     ("CYCLE77", 16),
     ("POCKET1", 20),
@@ -220,6 +222,7 @@ impl<R: BufRead> Program<R> {
             "CYCLE840" => interpreter.tap_with_chuck(arguments),
             "CYCLE71" => interpreter.mill_face(arguments),
             "CYCLE97" => interpreter.cut_thread(arguments),
+            "CYCLE98" => interpreter.cut_thread_chain(arguments),
             "CYCLE76" => interpreter.rectangular_spigot(arguments),
             "CYCLE77" => interpreter.circular_spigot(arguments),
             "POCKET1" => interpreter.older_rectangular_pocket(arguments),

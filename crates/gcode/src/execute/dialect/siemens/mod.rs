@@ -6,7 +6,7 @@
 //! CASE … OF … · L1 P2 · NAME(5) · CALL, PCALL, EXTCALL · PROC, EXTERN, RET, M17
 //! DEF REAL, INT, BOOL, arrays · TRANS, ROT, MIRROR, SCALE · ATRANS, AROT, AMIRROR, ASCALE
 //! G58, G59 · $P_UIFR[n]=CTRANS(X,10) · $P_PFRAME=… · $TC_DP3[t,1]=50
-//! CYCLE81 to 89 · CYCLE840 · CYCLE71, CYCLE76, CYCLE77, CYCLE95, CYCLE97 · POCKET1 to POCKET4 · MCALL · HOLES1, HOLES2, CYCLE801, CYCLE802 · CYCLE800
+//! CYCLE81 to 89 · CYCLE840 · CYCLE71, CYCLE76, CYCLE77, CYCLE95, CYCLE97, CYCLE98 · POCKET1 to POCKET4 · MCALL · HOLES1, HOLES2, CYCLE801, CYCLE802 · CYCLE800
 //! ```
 //!
 //! A line of a cycle becomes several ones in RS274/NGC's words, which are executed one after the
@@ -47,5 +47,6 @@ mod swivel;
 mod system_data;
 mod system_values;
 mod tapping;
+mod thread_chain;
 mod thread_cutting;
 pub(crate) mod untraversed;

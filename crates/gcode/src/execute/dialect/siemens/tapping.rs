@@ -176,11 +176,22 @@ impl Interpreter {
         pitch_at: usize,
     ) -> Outcome<f64> {
         let size = arguments.or_zero(size_at);
-        if let Some(pitch) = arguments.get(pitch_at).filter(|pitch| *pitch != 0.0) {
-            return Ok(pitch);
-        }
         let is_it = |(of, _): &&(f64, f64)| (of - size.abs()).abs() < 1e-9;
-        let Some((_, pitch_mm)) = METRIC.iter().find(is_it) else {
+        let of_size = METRIC.iter().find(is_it).map(|(_, pitch_mm)| *pitch_mm);
+        if let Some(pitch) = arguments.get(pitch_at).filter(|pitch| *pitch != 0.0) {
+            let pitch_mm = pitch.abs() * self.state.modal.units.mm();
+            let agree = of_size.is_some_and(|of_size| (of_size - pitch_mm).abs() < 1e-6);
+            if size == 0.0 || agree {
+                return Ok(pitch);
+            }
+            return Err(arguments
+                .refused(
+                    format!("PIT is {pitch}, and MPIT {size}, a thread with another pitch"),
+                    "the control stops at two pitches that contradict each other",
+                )
+                .help("leave MPIT out"));
+        }
+        let Some(pitch_mm) = of_size else {
             return Err(arguments
                 .refused(
                     format!("MPIT is {size}, and PIT not given"),

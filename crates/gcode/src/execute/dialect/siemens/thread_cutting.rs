@@ -1,4 +1,5 @@
-//! CYCLE97: a thread along Z, outside or inside, in passes of G33.
+//! CYCLE97: a thread along Z, outside or inside, in passes of G33; what it has in common with a chain of
+//! threads ([`thread_chain`](super::thread_chain)).
 //!
 //! ```text
 //!            FPL               SPL          X is DM1 at SPL, DM2 at FPL: diameters in every mode
@@ -18,7 +19,7 @@
 
 use glidepath_geometry::{Axis, Plane};
 
-use crate::diagnostic::block_diagnostic::Outcome;
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::execute::dialect::siemens::arguments::Arguments;
 use crate::execute::dialect::siemens::lines::Lines;
 use crate::execute::interpreter::Interpreter;
@@ -32,20 +33,45 @@ const LINES: f64 = 4.0;
 /// Steepest slope of the infeed, degrees.
 const STEEPEST: f64 = 60.0;
 
-/// A thread, in the units in force; X is a radius.
-struct Thread {
-    /// Z and X of its surface, run-in and run-out included.
-    from: [f64; 2],
-    to: [f64; 2],
+/// Where a cycle has the arguments that say how often it passes.
+pub(super) struct PassPlaces {
+    pub(super) left: usize,
+    pub(super) angle: usize,
+    pub(super) rough: usize,
+    pub(super) empty: usize,
+    pub(super) variant: usize,
+    pub(super) beside: usize,
+}
+
+/// Those of CYCLE97.
+const PLACES: PassPlaces = PassPlaces {
+    left: 9,
+    angle: 11,
+    rough: 12,
+    empty: 13,
+    variant: 14,
+    beside: 15,
+};
+
+/// A part of a thread, in the units in force: where it ends, Z and X, and its lead along the axis that goes further.
+pub(super) struct Part {
+    pub(super) to: [f64; 2],
+    pub(super) pitch: f64,
+}
+
+/// A thread of one part or several, in the units in force; X is a radius.
+pub(super) struct Thread {
+    /// Z and X of its surface, the run-in included.
+    pub(super) from: [f64; 2],
+    /// The run-out is that of the last one.
+    pub(super) parts: Vec<Part>,
     /// 1 outside, -1 inside.
-    out: f64,
+    pub(super) out: f64,
     /// Where the tool goes back, X.
-    off: f64,
-    /// Along the axis that goes further.
-    pitch: f64,
+    pub(super) off: f64,
     /// How far a pass is shifted along the thread for its depth; below zero on both flanks by turns.
-    slope: f64,
-    depth: f64,
+    pub(super) slope: f64,
+    pub(super) depth: f64,
 }
 
 impl Thread {
@@ -62,63 +88,85 @@ impl Thread {
 
     /// All passes of a thread that starts at an angle.
     fn cut(&self, lines: &mut Lines, depths: &[f64], angle: f64) {
-        let forward = (self.to[0] - self.from[0]).signum();
+        let first = self.parts.first().map_or(self.from, |part| part.to);
+        let forward = (first[0] - self.from[0]).signum();
+        let slant = (first[1] - self.from[1]) / (first[0] - self.from[0]);
         for (index, deep) in depths.iter().enumerate() {
             let aside = forward * self.shift(index, *deep);
-            let slant = (self.to[1] - self.from[1]) / (self.to[0] - self.from[0]);
-            // The end is that of the thread for every pass.
+            // The ends are those of the thread for every pass.
             let z = self.from[0] + aside;
             let x = self.from[1] + slant * aside - self.out * deep;
             lines.go("G0", [Some(z), None, None]);
             lines.go("G0", [None, Some(x), None]);
-            let end = [Some(self.to[0]), Some(self.to[1] - self.out * deep), None];
-            lines.go(&format!("G33 K[{}] Q[{angle}]", self.pitch), end);
+            let mut start = format!(" Q[{angle}]");
+            for Part { to, pitch } in &self.parts {
+                let end = [Some(to[0]), Some(to[1] - self.out * deep), None];
+                lines.go(&format!("G33 K[{pitch}]{start}"), end);
+                start.clear();
+            }
             lines.go("G0", [None, Some(self.off), None]);
         }
+    }
+
+    /// The lines of all threads that lie beside each other.
+    pub(super) fn lines(&self, arguments: Arguments<'_>, places: &PassPlaces) -> Outcome<Lines> {
+        let depths = depths(arguments, self.depth, places)?;
+        let meaning = "how many threads lie beside each other";
+        let beside = count(arguments, places.beside, "NUMT", meaning)?.max(1.0);
+        let angle = arguments.or_zero(places.angle);
+        if !(0.0..360.0).contains(&angle) {
+            return Err(arguments
+                .refused(format!("NSP is {angle}"), "it is an angle of the spindle")
+                .help("write 0 or more, and less than 360 degrees"));
+        }
+        let [passes, parts] = [depths.len(), self.parts.len()]
+            .map(|n| f64::from(u32::try_from(n).unwrap_or(u32::MAX)));
+        Lines::check_count(beside * passes * (LINES + parts) + 3.0, arguments)?;
+        let mut lines = Lines::new([Axis::Z, Axis::X, Axis::Y]);
+        lines.go("G0", [Some(self.from[0]), Some(self.off), None]);
+        let mut number = 0.0;
+        while number < beside {
+            let start = (angle + 360.0 * number / beside) % 360.0;
+            self.cut(&mut lines, &depths, start);
+            number += 1.0;
+        }
+        lines.go("G0", [Some(self.from[0]), None, None]);
+        Ok(lines)
     }
 }
 
 impl Interpreter {
     /// CYCLE97.
     pub(super) fn cut_thread(&self, arguments: Arguments<'_>) -> Outcome<Lines> {
-        if self.state.modal.plane != Plane::Zx {
-            return Err(arguments
-                .refused(
-                    "a plane other than G18",
-                    "the thread is one of a lathe, along Z",
-                )
-                .help("write G18 before it"));
+        self.thread_of_cycle(arguments)?.lines(arguments, &PLACES)
+    }
+
+    /// Refuses a thread in another plane than that of a lathe.
+    pub(super) fn check_thread_plane(&self, arguments: Arguments<'_>) -> Outcome<()> {
+        if self.state.modal.plane == Plane::Zx {
+            return Ok(());
         }
-        let thread = self.thread_of_cycle(arguments)?;
-        let depths = depths(arguments, thread.depth)?;
-        let beside = count(
-            arguments,
-            15,
-            "NUMT",
-            "how many threads lie beside each other",
-        )?;
-        let beside = beside.max(1.0);
-        let angle = arguments.or_zero(11);
-        if !(0.0..360.0).contains(&angle) {
-            return Err(arguments
-                .refused(format!("NSP is {angle}"), "it is an angle of the spindle")
-                .help("write 0 or more, and less than 360 degrees"));
-        }
-        let passes = f64::from(u32::try_from(depths.len()).unwrap_or(u32::MAX));
-        Lines::check_count(beside * passes * LINES + 3.0, arguments)?;
-        let mut lines = Lines::new([Axis::Z, Axis::X, Axis::Y]);
-        lines.go("G0", [Some(thread.from[0]), Some(thread.off), None]);
-        let mut number = 0.0;
-        while number < beside {
-            let start = (angle + 360.0 * number / beside) % 360.0;
-            thread.cut(&mut lines, &depths, start);
-            number += 1.0;
-        }
-        lines.go("G0", [Some(thread.from[0]), None, None]);
-        Ok(lines)
+        Err(arguments
+            .refused(
+                "a plane other than G18",
+                "the thread is one of a lathe, along Z",
+            )
+            .help("write G18 before it"))
+    }
+
+    /// How far off the thread the tool goes back.
+    pub(super) fn off_thread(&self, arguments: Arguments<'_>, index: usize) -> Outcome<f64> {
+        let meaning = "how far off the thread the tool goes back";
+        let off = arguments.not_negative(index, "_VRT", meaning)?;
+        Ok(if off > 0.0 {
+            off
+        } else {
+            OFF_MM / self.state.modal.units.mm()
+        })
     }
 
     fn thread_of_cycle(&self, arguments: Arguments<'_>) -> Outcome<Thread> {
+        self.check_thread_plane(arguments)?;
         let pitch = self.metric_pitch_at(arguments, 1, 0)?.abs();
         let begin = arguments.need(2, "SPL", "where the thread begins, along Z")?;
         let end = arguments.need(3, "FPL", "where the thread ends, along Z")?;
@@ -128,22 +176,11 @@ impl Interpreter {
         let run_out = arguments.not_negative(7, "ROP", "the run-out")?;
         let depth = arguments.positive(8, "TDEP", "the depth of the thread")?;
         let variant = arguments.choice(14, "VARI", &[1, 2, 3, 4])?;
-        let off =
-            arguments.not_negative(16, "_VRT", "how far off the thread the tool goes back")?;
-        let off = if off > 0.0 {
-            off
-        } else {
-            OFF_MM / self.state.modal.units.mm()
-        };
+        let off = self.off_thread(arguments, 16)?;
         let way = end - begin;
         let rise = 0.5 * (last - first);
         if way == 0.0 || rise.abs() > way.abs() {
-            return Err(arguments
-                .refused(
-                    "a thread steeper than 45 degrees",
-                    "it is one of the face, whose depth goes along Z: not made here",
-                )
-                .help("write a G33 with I for each pass"));
+            return Err(too_steep(arguments));
         }
         let out = if variant % 2 == 1 { 1.0 } else { -1.0 };
         // The cone goes on over run-in and run-out.
@@ -156,15 +193,7 @@ impl Interpreter {
             from[1].min(to[1])
         };
         let back = surface + out * off;
-        let bottom = from[1].min(to[1]) - out * depth;
-        if back <= 0.0 || bottom <= 0.0 {
-            return Err(arguments
-                .refused(
-                    "the tool would go through the axis of the spindle",
-                    "the thread, or the way back beside it, is wider than there is room",
-                )
-                .help("check DM1, DM2, TDEP and _VRT"));
-        }
+        check_room(arguments, back, from[1].min(to[1]) - out * depth)?;
         let angle = arguments.or_zero(10);
         if angle.abs() > STEEPEST || (angle < 0.0 && rise != 0.0) {
             return Err(arguments
@@ -185,14 +214,36 @@ impl Interpreter {
         }
         Ok(Thread {
             from,
-            to,
+            parts: vec![Part { to, pitch }],
             out,
             off: back,
-            pitch,
             slope,
             depth,
         })
     }
+}
+
+#[cold]
+pub(super) fn too_steep(arguments: Arguments<'_>) -> Box<BlockDiagnostic> {
+    arguments
+        .refused(
+            "a thread steeper than 45 degrees",
+            "it is one of the face, whose depth goes along Z: not made here",
+        )
+        .help("write a G33 with I for each pass")
+}
+
+/// Refuses a thread, or a way back beside it, beyond the axis of the spindle.
+pub(super) fn check_room(arguments: Arguments<'_>, back: f64, bottom: f64) -> Outcome<()> {
+    if back > 0.0 && bottom > 0.0 {
+        return Ok(());
+    }
+    Err(arguments
+        .refused(
+            "the tool would go through the axis of the spindle",
+            "the thread, or the way back beside it, is wider than there is room",
+        )
+        .help("check the diameters, TDEP and _VRT"))
 }
 
 /// A whole number that an argument counts.
@@ -207,8 +258,8 @@ fn count(arguments: Arguments<'_>, index: usize, name: &str, meaning: &str) -> O
 }
 
 /// The depths of all passes.
-fn depths(arguments: Arguments<'_>, depth: f64) -> Outcome<Vec<f64>> {
-    let left = arguments.not_negative(9, "FAL", "what the last pass takes")?;
+fn depths(arguments: Arguments<'_>, depth: f64, places: &PassPlaces) -> Outcome<Vec<f64>> {
+    let left = arguments.not_negative(places.left, "FAL", "what the last pass takes")?;
     if left >= depth {
         return Err(arguments
             .refused(
@@ -217,14 +268,24 @@ fn depths(arguments: Arguments<'_>, depth: f64) -> Outcome<Vec<f64>> {
             )
             .help("check FAL and TDEP"));
     }
-    let rough = count(arguments, 12, "NRC", "how many passes lead to the depth")?;
-    let empty = count(arguments, 13, "NID", "how many passes cut nothing")?;
+    let rough = count(
+        arguments,
+        places.rough,
+        "NRC",
+        "how many passes lead to the depth",
+    )?;
+    let empty = count(
+        arguments,
+        places.empty,
+        "NID",
+        "how many passes cut nothing",
+    )?;
     if rough < 1.0 {
         return Err(arguments
             .refused("NRC is 0", "it says how many passes lead to the depth")
             .help("write 1 or more"));
     }
-    let is_even = arguments.or_zero(14) <= 2.0;
+    let is_even = arguments.or_zero(places.variant) <= 2.0;
     let mut depths = Vec::new();
     let mut pass = 1.0;
     while pass <= rough {

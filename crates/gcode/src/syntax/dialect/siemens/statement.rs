@@ -108,7 +108,7 @@ impl Statement {
 }
 
 /// Cycles that are made.
-const CYCLES: [&[u8]; 19] = [
+const CYCLES: [&[u8]; 20] = [
     b"CYCLE81",
     b"CYCLE82",
     b"CYCLE83",
@@ -122,6 +122,7 @@ const CYCLES: [&[u8]; 19] = [
     b"CYCLE71",
     b"CYCLE95",
     b"CYCLE97",
+    b"CYCLE98",
     b"CYCLE76",
     b"CYCLE77",
     b"POCKET1",

@@ -112,7 +112,11 @@ const REFUSED: &[(&[&str], &str, &str)] = &[
     (&["CYCLE62"], "a contour that is called", PLAIN),
     (&["CYCLE63", "CYCLE64"], "a contour pocket", PLAIN),
     (&["CYCLE70", "CYCLE90"], "thread milling", PLAIN),
-    (&["CYCLE72"], "contour milling", PLAIN),
+    (
+        &["CYCLE72"],
+        "contour milling: whether LP1 and LP2 count from the middle of the tool or from its edge is not known here",
+        PLAIN,
+    ),
     (&["CYCLE79"], "a polygon", PLAIN),
     (
         &["CYCLE93", "CYCLE930"],
@@ -128,11 +132,6 @@ const REFUSED: &[(&[&str], &str, &str)] = &[
     (
         &["CYCLE99"],
         "a thread: what the digits of its arguments mean is not known here",
-        "write G33 for each pass",
-    ),
-    (
-        &["CYCLE98"],
-        "a chain of threads",
         "write G33 for each pass",
     ),
     (&["CYCLE899"], "an open slot", PLAIN),
