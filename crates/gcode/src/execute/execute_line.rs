@@ -70,7 +70,12 @@ impl<R: BufRead> Program<R> {
         match self.block.kind {
             LineKind::Block if self.block.any => {}
             LineKind::Block => return Ok(true),
-            LineKind::Percent if self.percent || self.begun => return self.end_of_input(),
+            LineKind::Percent if self.percent || self.begun => {
+                return match self.block.dialect {
+                    Dialect::Fanuc => self.fanuc_end(),
+                    _ => self.end_of_input(),
+                };
+            }
             LineKind::Percent => {
                 self.percent = true;
                 return Ok(true);

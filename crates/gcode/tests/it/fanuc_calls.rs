@@ -89,6 +89,24 @@ fn a_program_ends_where_the_next_one_begins() {
 }
 
 #[test]
+fn a_subprogram_that_does_not_return_is_refused() {
+    let call = "M98 P2\nG0 X9\nM30\n";
+    assert_eq!(last(&format!("{call}O2\nG0 X5\nM99\n%")), [9.0, 0.0, 0.0]);
+    // The rest of the program was left out without a word.
+    for (end, at) in [("", 5), ("%", 6), ("(END)\n\n", 7), ("O3\nM99", 6)] {
+        let text = format!("{call}O2\nG0 X5\n{end}");
+        let report = check(text.as_bytes(), options());
+        assert_eq!(
+            listed(&report),
+            [format!("{at}:1 flow-structure")],
+            "{text}"
+        );
+    }
+    // M30 ends all of it, wherever it stands.
+    assert_eq!(last(&format!("{call}O2\nG0 X5\nM30")), [5.0, 0.0, 0.0]);
+}
+
+#[test]
 fn a_number_is_that_of_one_program() {
     let subs = "\nM30\nO2\nG0 X6\nM99\nO3\nM99\nO2\nG0 X7\nM99";
     finds(&format!("O1\nM98 P2{subs}"), &["2:1 ambiguous-word"]);

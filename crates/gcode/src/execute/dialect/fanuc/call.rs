@@ -144,16 +144,17 @@ impl<R: BufRead> Program<R> {
         })
     }
 
-    /// The end of the text: of the program, or of a file, which should have had M99 before.
-    pub(super) fn fanuc_end(&mut self) -> Outcome<bool> {
-        let Some(file) = self.tape.file() else {
+    /// The end of the text: of the program, or of a subprogram, which should have had M99 before.
+    pub(crate) fn fanuc_end(&mut self) -> Outcome<bool> {
+        let file = self.tape.file().map(Arc::clone);
+        if file.is_none() && self.tape.calls.is_empty() {
             return self.end_of_input();
-        };
-        let file = Some(Arc::clone(file));
+        }
         let last = self.tape.next.saturating_sub(1);
         let (number, text) = self.tape.get(last).cloned().unwrap_or_default();
         let fault = not_returned(&text);
         self.origin = LineOrigin::Past(SourceLine { file, number, text });
+        self.end();
         Err(fault)
     }
 
