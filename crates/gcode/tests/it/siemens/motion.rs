@@ -421,3 +421,11 @@ fn a_tap_goes_in_and_out() {
     // Nobody knows the angle of this spindle.
     finds("SPOS=0", &["1:1 not-connected"]);
 }
+
+#[test]
+fn the_distance_from_corners_belongs_to_its_code() {
+    // In a block with an arc it was the number of its turns.
+    finds("G3 X10 I5 F100 ADIS=2", &["1:16 unused-word"]);
+    finds("G641\nADIS=0.1", &["2:1 unused-word"]);
+    finds("G641 ADIS=0.1 G1 X5 F100", &[]);
+}

@@ -42,7 +42,7 @@ impl Interpreter {
         let Some(hole) = self.hole_of_series() else {
             return Err(refused(span, "holes along a pattern without a cycle")
                 .because("the cycle in force says what is made at each hole")
-                .help("write the cycle before it, as G81 with L0"));
+                .help("write the cycle before it, as G81 with L0; inches and millimetres are G20 and G21"));
         };
         let need = |letter: u8, meaning: &str| {
             let text = char::from(letter).to_string();

@@ -227,10 +227,7 @@ impl Writer<'_> {
             (b"SPOS", false) if self.input.peek(length) == Some(b'[') => self.spindle_angle(start),
             (b"SETMS", false) => self.master_spindle(start, length),
             (b"T", true) if self.is_text_assigned() => self.tool_by_name(start),
-            (name, true) if letters_for(name).is_some() => {
-                let (letters, plus) = letters_for(name).unwrap_or_default();
-                self.value_of(start, length, letters, plus)
-            }
+            (name, true) if letters_for(name).is_some() => self.lettered(start, name),
             ([letter], true) => {
                 check_computed(*letter, SourceSpan::new(start, start + length))?;
                 self.coordinate(start, *letter)
@@ -246,6 +243,22 @@ impl Writer<'_> {
         if rest.starts_with(b"()") {
             self.input.at += 2;
         }
+    }
+
+    /// A value that gets a letter; ADIS beside its code alone, as its letter is that of other words, too.
+    fn lettered(&mut self, start: usize, name: &[u8]) -> Outcome<()> {
+        if name == b"ADIS" && !(641..=645).any(|code| self.has_code(code)) {
+            let span = SourceSpan::new(start, start + name.len());
+            return Err(BlockDiagnostic::new(
+                DiagnosticCode::UnusedWord,
+                span,
+                "ADIS without G641",
+            )
+            .because("it is the distance from the corner of G641 to G645")
+            .help("write G641 into the same block"));
+        }
+        let (letters, plus) = letters_for(name).unwrap_or_default();
+        self.value_of(start, name.len(), letters, plus)
     }
 
     /// `RET`.
