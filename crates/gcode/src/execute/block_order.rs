@@ -5,9 +5,7 @@
 //! mode, cutter radius, tool length, coordinate system, path mode, distance modes, retract mode,
 //! then G10, G28, G30, G52 or G92, then the motion, and last the stop.
 //!
-//! A block that is refused has no effect at all: the state from before it is put back.
-
-use std::sync::Arc;
+//! A block that is refused has no effect at all ([`whole_or_nothing`](crate::execute::whole_or_nothing)).
 
 use glidepath_geometry::AXES;
 use glidepath_program::{Event, Item, ItemKind, PathMode};
@@ -17,7 +15,7 @@ use crate::execute::block_words::{check_named_words, check_words, path_mode};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::corner::CornerMove;
 use crate::execute::motion::speed::Pace;
-use crate::execute::state::open_spline::{OpenSpline, goes_on, interrupted};
+use crate::execute::state::open_spline::{goes_on, interrupted};
 use crate::execute::state::sticky_words::CycleSeries;
 use crate::syntax::block::Block;
 use crate::syntax::codes::Coded;
@@ -34,7 +32,7 @@ pub(crate) enum AfterBlock {
 }
 
 impl Interpreter {
-    /// Executes a block: appends what it does to `out`, which is empty when the block is refused.
+    /// Executes a block: appends what it does to `out`, and nothing when the block is refused.
     pub(crate) fn execute(
         &mut self,
         block: &Block,
@@ -49,68 +47,11 @@ impl Interpreter {
                 return Ok(AfterBlock::Continue);
             }
         }
-        let state = self.state;
-        let codes = &block.codes;
-        let saved_states = codes.saved_state.map(|_| self.saved_states.clone());
-        let changes_offsets = codes.non_modal.is_some()
-            || codes.system.is_some()
-            || codes.tool_length.is_some()
-            || codes.saved_state.is_some()
-            || codes.frame.is_some()
-            || codes.kept_place.is_some()
-            || codes.extended_system.is_some()
-            || codes.dynamic.is_some()
-            || codes.tip.is_some()
-            || block.dialect != Dialect::LinuxCnc && block.has_any(Letters::of(b"TDH"))
-            || codes.tool_change.is_some();
-        let ends = matches!(
-            codes.stop,
-            Some(Coded {
-                code: Stop::End,
-                ..
-            })
-        );
-        let changes_offsets = changes_offsets || ends || self.is_mapped || codes.tilt.is_some();
-        let changes_offsets =
-            changes_offsets || self.state.tilted.is_some() && codes.cutter_radius.is_some();
-        let offsets = changes_offsets.then(|| (self.offsets.clone(), self.tools.clone()));
-        let compensation = self.compensation.clone();
-        let corner = self.corner.clone();
-        let (open_line, open_tap) = (self.open_line.clone(), self.open_tap);
-        let open_thread = self.open_thread.clone();
-        let (axes_end, is_mapped) = (self.axes_end, self.is_mapped);
-        let mark = OpenSpline::mark(self.open_spline.as_ref());
-        let result = self.run(block, out).and_then(|after| {
-            self.map_moves(block, out)?;
+        self.whole_or_nothing(out, |interpreter, out| {
+            let after = interpreter.run(block, out)?;
+            interpreter.map_moves(block, out)?;
             Ok(after)
-        });
-        if result.is_err() {
-            out.clear();
-            self.state = state;
-            (self.axes_end, self.is_mapped) = (axes_end, is_mapped);
-            self.compensation = compensation;
-            self.corner = corner;
-            (self.open_line, self.open_tap) = (open_line, open_tap);
-            self.open_thread = open_thread;
-            OpenSpline::rewind(&mut self.open_spline, mark);
-            if let Some(saved_states) = saved_states {
-                self.saved_states = saved_states;
-            }
-            if let Some((offsets, tools)) = offsets {
-                self.offsets = offsets;
-                self.tools = tools;
-            }
-        } else if let Some((offsets, tools)) = offsets {
-            // A tool table that was changed is another one.
-            let is_same = match (&tools, &self.tools) {
-                (Some(before), Some(after)) => Arc::ptr_eq(before, after),
-                (before, after) => before.is_some() == after.is_some(),
-            };
-            if !is_same || offsets.set_up() != self.offsets.set_up() {
-                self.changes = self.changes.saturating_add(1);
-            }
-        }
-        result
+        })
     }
 
     fn run(&mut self, block: &Block, out: &mut Vec<Item>) -> Outcome<AfterBlock> {
@@ -119,12 +60,10 @@ impl Interpreter {
             return Ok(AfterBlock::Continue);
         }
         let motion = self.motion_of(block)?;
-        if let Some(open) = &self.open_spline
+        if let Some(open) = &self.state.open.spline
             && !goes_on(block, open, motion)
         {
-            let fault = interrupted(open, block.first_span());
-            self.open_spline = None;
-            return Err(fault);
+            return Err(interrupted(open, block.first_span()));
         }
         self.check_open_plane(block)?;
         self.settle_held(block, motion, out)?;
@@ -237,7 +176,7 @@ impl Interpreter {
             self.settle_line(block, motion, out)?;
         }
         self.settle_corner(block, motion, out)?;
-        if self.is_mapped {
+        if self.state.is_mapped {
             // They were made with what was in force.
             self.map_moves(block, out)?;
         }
@@ -324,7 +263,7 @@ impl Interpreter {
     }
 
     pub(crate) const fn has_corners(&self, block: &Block) -> bool {
-        self.corner.is_some() || block.corner.is_some() || self.state.rounds_mm > 0.0
+        self.state.open.corner.is_some() || block.corner.is_some() || self.state.rounds_mm > 0.0
     }
 
     /// Makes the motion of a block.

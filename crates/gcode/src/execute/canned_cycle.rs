@@ -112,7 +112,7 @@ impl Interpreter {
             holes => holes.unwrap_or(1),
         };
         let incremental = self.state.modal.distance == Distance::Incremental;
-        let program = self.offsets.to_program(self.state.position);
+        let program = self.state.offsets.to_program(self.state.position);
         let start = program[normal.index()];
         // Increments count from where the length of the tool puts it.
         let way = if incremental {
@@ -203,7 +203,7 @@ impl Interpreter {
         let (first, second) = self.state.modal.plane.axes();
         let values = self.axis_values(block)?;
         let incremental = self.state.modal.distance == Distance::Incremental;
-        let program = self.offsets.to_program(self.state.position);
+        let program = self.state.offsets.to_program(self.state.position);
         let mut place = [None; AXES];
         for axis in [first.index(), second.index()] {
             place[axis] = values[axis].map(|value| if incremental { program[axis] } else { value });
@@ -268,7 +268,7 @@ impl Interpreter {
             }
         }
         let normal = self.state.modal.plane.normal();
-        let program = self.offsets.to_program(self.state.position);
+        let program = self.state.offsets.to_program(self.state.position);
         let mut level = program[normal.index()];
         // Up first: a rapid across below the level the cycle asks for could hit something.
         let safe = level.max(if self.state.modal.retract == Retract::Initial {

@@ -1,6 +1,7 @@
 //! The carry-over of what is in force from one program to the next.
 
 use std::io::BufRead;
+use std::mem;
 use std::sync::Arc;
 
 use glidepath_geometry::Plane;
@@ -22,8 +23,8 @@ impl<R: BufRead> Program<R> {
     #[must_use]
     pub fn in_force(&self) -> InForce {
         let interpreter = &self.interpreter;
-        let mut state = interpreter.state;
-        (state.on_contour, state.leaving_contour, state.cubic_tail) = (false, false, None);
+        let mut state = interpreter.state.clone();
+        state.end_with_program();
         if self.ended && !self.ran_out {
             let modal = &mut state.modal;
             modal.distance = Distance::Absolute;
@@ -47,8 +48,6 @@ impl<R: BufRead> Program<R> {
         parameters.leave_all();
         InForce(Arc::new(InForceParts {
             state,
-            offsets: interpreter.offsets.clone(),
-            tools: interpreter.tools.clone(),
             parameters,
             dialect: self.block.dialect,
             is_lathe: self.block.is_lathe,
@@ -61,15 +60,13 @@ impl<R: BufRead> Program<R> {
     pub(crate) fn begin_with(&mut self, in_force: &InForce) {
         let InForceParts {
             state,
-            offsets,
-            tools,
             parameters,
             dialect,
             is_lathe,
         } = in_force.0.as_ref();
         let interpreter = &mut self.interpreter;
         let start = interpreter.options.start;
-        interpreter.state = *state;
+        let own = mem::replace(&mut interpreter.state, state.clone());
         interpreter.state.fanuc = FanucModal::default();
         interpreter.state.edge = None;
         interpreter.state.tip = interpreter.options.first_tip();
@@ -84,21 +81,18 @@ impl<R: BufRead> Program<R> {
         let map = interpreter.tip_map();
         let place = map.map_or(start, |map| map.place(&start));
         (interpreter.state.position, interpreter.state.path_end) = (place, place);
-        (interpreter.axes_end, interpreter.is_mapped) = (start, map.is_some());
-        interpreter.offsets.tool = offsets.tool;
-        interpreter.offsets.shift = offsets.shift;
-        interpreter.offsets.fanuc.external = offsets.fanuc.external;
-        interpreter
-            .offsets
-            .fanuc
-            .extended
-            .clone_from(&offsets.fanuc.extended);
-        interpreter
-            .offsets
-            .fanuc
-            .wear
-            .clone_from(&offsets.fanuc.wear);
-        interpreter.tools = interpreter.tools.take().or_else(|| tools.clone());
+        (interpreter.state.axes_end, interpreter.state.is_mapped) = (start, map.is_some());
+        let mut offsets = own.offsets;
+        offsets.tool = state.offsets.tool;
+        offsets.shift = state.offsets.shift;
+        let (fanuc, carried) = (&mut offsets.fanuc, &state.offsets.fanuc);
+        fanuc.external = carried.external;
+        fanuc.extended.clone_from(&carried.extended);
+        fanuc.wear.clone_from(&carried.wear);
+        interpreter.state.offsets = offsets;
+        interpreter.state.tools = own.tools.or_else(|| state.tools.clone());
+        interpreter.state.changes = own.changes;
+        interpreter.state.firmware = own.firmware;
         // Those of another language mean something else.
         if parameters.is_like(&self.parameters) {
             self.parameters = parameters.clone();

@@ -93,7 +93,21 @@ impl<R: BufRead> Program<R> {
             }
         }
         self.look_at_next_thread();
-        let asked = self.asked_lathe_cycle(&self.block)?;
+        match self.asked_lathe_cycle(&self.block)? {
+            None => self.execute_checked(number)?,
+            // Its words are looked at behind the block.
+            Some(asked) => self.whole_statement(|program| {
+                program.execute_checked(number)?;
+                program.open_lathe_cycle(&asked)
+            })?,
+        }
+        self.end_of_line();
+        Ok(true)
+    }
+
+    /// Executes the block, of which nothing beside the interpreter is to be refused, and assigns.
+    fn execute_checked(&mut self, number: u32) -> Outcome<()> {
+        let is_fanuc = self.block.dialect == Dialect::Fanuc;
         let flow = if self.lathe_cycle.is_some() {
             self.draw_block()?;
             AfterBlock::Continue
@@ -119,12 +133,8 @@ impl<R: BufRead> Program<R> {
                     .assign(&assignment.parameter, assignment.value);
             }
         }
-        if let Some(asked) = asked {
-            self.open_lathe_cycle(&asked)?;
-        }
-        self.end_of_line();
         // The items of the last block are still to be given out.
         self.ended = flow == AfterBlock::End;
-        Ok(true)
+        Ok(())
     }
 }

@@ -138,7 +138,7 @@ impl Interpreter {
         let height_mm = need(height_mm, height, "the height of the thread")?;
         let first_mm = need(first_mm, first, "the depth of the first pass")?;
         let lead_mm = need(block.get(b'F'), "F", "the way of a revolution")? * scale;
-        let start = self.offsets.to_program(self.state.position);
+        let start = self.state.offsets.to_program(self.state.position);
         let across = if self.state.modal.diameter {
             0.5 * scale
         } else {
@@ -236,7 +236,7 @@ impl Interpreter {
                 // The lead is along Z, or along X where the thread goes that way rather.
                 let along = way[0].hypot(way[2]) / way[0].abs().max(way[2].abs());
                 Groove {
-                    end: self.offsets.to_machine(point),
+                    end: self.state.offsets.to_machine(point),
                     pitch_mm: thread.lead_mm * along,
                     corner_mm: 0.25 * exit_mm.min(thread.height_mm),
                     line: self.line,

@@ -46,7 +46,7 @@ impl Interpreter {
                     .help("write G17 before it"),
             );
         }
-        if self.offsets.is_turned() {
+        if self.state.offsets.is_turned() {
             let message = format!("{name} in coordinates that are turned, mirrored or scaled");
             return Err(BlockDiagnostic::new(DiagnosticCode::CannedCycle, span, message)
                 .because("the spindle stops at an angle of the machine: turned with the coordinates, the way aside would lead the tip into the wall")
@@ -142,9 +142,9 @@ impl Interpreter {
     ) -> Outcome<()> {
         self.push(out, ItemKind::Event(Event::MCode(19)));
         self.pass_bore(block, words, r, out)?;
-        let mut place = self.offsets.to_program(self.state.position);
+        let mut place = self.state.offsets.to_program(self.state.position);
         place[2] = top;
-        self.straight(block, self.offsets.to_machine(place), Pace::Feed, out)?;
+        self.straight(block, self.state.offsets.to_machine(place), Pace::Feed, out)?;
         self.leave_bore(block, words, clear, out)
     }
 
@@ -156,17 +156,32 @@ impl Interpreter {
         level: f64,
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
-        let mut place = self.offsets.to_program(self.state.position);
+        let mut place = self.state.offsets.to_program(self.state.position);
         for (axis, way) in words.shift_mm.into_iter().enumerate() {
             place[axis] += way;
         }
-        self.straight(block, self.offsets.to_machine(place), Pace::Rapid, out)?;
+        self.straight(
+            block,
+            self.state.offsets.to_machine(place),
+            Pace::Rapid,
+            out,
+        )?;
         place[2] = level;
-        self.straight(block, self.offsets.to_machine(place), Pace::Rapid, out)?;
+        self.straight(
+            block,
+            self.state.offsets.to_machine(place),
+            Pace::Rapid,
+            out,
+        )?;
         for (axis, way) in words.shift_mm.into_iter().enumerate() {
             place[axis] -= way;
         }
-        self.straight(block, self.offsets.to_machine(place), Pace::Rapid, out)?;
+        self.straight(
+            block,
+            self.state.offsets.to_machine(place),
+            Pace::Rapid,
+            out,
+        )?;
         if let Some(turning) = self.state.spindle.turning {
             self.push(out, ItemKind::Event(Event::MCode(turning.code())));
         }

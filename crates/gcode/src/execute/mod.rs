@@ -43,5 +43,7 @@ mod refused_block;
 mod remark;
 pub(crate) mod scope;
 pub(crate) mod state;
+mod state_names;
 mod tapping_cycle;
 mod thread_cycle;
+pub(crate) mod whole_or_nothing;

@@ -30,6 +30,7 @@ use serde::{Deserialize, Serialize};
 use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::span::SourceSpan;
+use crate::execute::state_names::READ_ONLY;
 use crate::setup::kept_variables::{KEPT_VARIABLES, KeptVariables};
 use crate::syntax::expression::scope::{LOCALS, Parameter, no_parameter};
 use crate::syntax::expression::vacant::VACANT;
@@ -84,6 +85,17 @@ pub(crate) struct Parameters {
     unassigned: f64,
     /// How many times one was assigned that outlasts a restart.
     changes: u64,
+    /// What assignments have replaced since the log began; `None`: nobody may want it back.
+    log: Option<Vec<Replaced>>,
+}
+
+/// What was in a parameter before an assignment, and how many changes there were.
+#[derive(Debug, Clone)]
+struct Replaced {
+    parameter: Parameter,
+    /// `None`: there was no such name.
+    value: Option<f64>,
+    changes: u64,
 }
 
 /// What of the parameters goes from one program to the next, as text.
@@ -135,6 +147,24 @@ impl Parameters {
             locals: LOCALS,
             unassigned: 0.0,
             changes: 0,
+            log: None,
+        }
+    }
+
+    /// Assignments may have to be taken back from here on.
+    pub(crate) fn begin_log(&mut self) {
+        self.log = Some(Vec::new());
+    }
+
+    /// They stay, or are taken back.
+    pub(crate) fn end_log(&mut self, is_done: bool) {
+        let log = self.log.take().filter(|_| !is_done).unwrap_or_default();
+        for replaced in log.into_iter().rev() {
+            match (&replaced.parameter, replaced.value) {
+                (Parameter::Named(name), None) => self.forget(name),
+                (parameter, value) => self.assign(parameter, value.unwrap_or(self.unassigned)),
+            }
+            self.changes = replaced.changes;
         }
     }
 
@@ -230,6 +260,9 @@ impl Parameters {
 
     /// Assigns; the parameter has been found assignable.
     pub(crate) fn assign(&mut self, parameter: &Parameter, value: f64) {
+        if self.log.is_some() {
+            self.note(parameter);
+        }
         match parameter {
             Parameter::Numbered(number) => {
                 let index = usize::try_from(*number).unwrap_or(usize::MAX);
@@ -259,6 +292,33 @@ impl Parameters {
                     self.names += 1;
                 }
             }
+        }
+    }
+
+    /// Notes what an assignment replaces.
+    fn note(&mut self, parameter: &Parameter) {
+        let replaced = Replaced {
+            parameter: parameter.clone(),
+            value: match parameter {
+                Parameter::Numbered(number) => Some(self.numbered(*number)),
+                Parameter::Named(name) => self.named(name),
+            },
+            changes: self.changes,
+        };
+        if let Some(log) = &mut self.log {
+            log.push(replaced);
+        }
+    }
+
+    /// There is no such name any more.
+    fn forget(&mut self, name: &str) {
+        let names = if name.starts_with('_') {
+            Some(&mut self.named)
+        } else {
+            self.levels.last_mut().map(|locals| &mut locals.named)
+        };
+        if names.is_some_and(|names| names.remove(name).is_some()) {
+            self.names = self.names.saturating_sub(1);
         }
     }
 
@@ -295,62 +355,3 @@ fn read_only(span: SourceSpan) -> Box<BlockDiagnostic> {
     .because("it shows the state of the machine")
     .help("use G10, G28.1, G92 and the like, or another parameter")
 }
-
-/// Names that show the state and cannot be assigned.
-pub(crate) const READ_ONLY: [&str; 55] = [
-    "_vmajor",
-    "_vminor",
-    "_line",
-    "_motion_mode",
-    "_plane",
-    "_ccomp",
-    "_metric",
-    "_imperial",
-    "_absolute",
-    "_incremental",
-    "_inverse_time",
-    "_units_per_minute",
-    "_units_per_rev",
-    "_coord_system",
-    "_tool_offset",
-    "_retract_r_plane",
-    "_retract_old_z",
-    "_spindle_rpm_mode",
-    "_spindle_css_mode",
-    "_ijk_absolute_mode",
-    "_lathe_diameter_mode",
-    "_lathe_radius_mode",
-    "_spindle_on",
-    "_spindle_cw",
-    "_mist",
-    "_flood",
-    "_speed_override",
-    "_feed_override",
-    "_adaptive_feed",
-    "_feed_hold",
-    "_feed",
-    "_rpm",
-    "_x",
-    "_y",
-    "_z",
-    "_a",
-    "_b",
-    "_c",
-    "_u",
-    "_v",
-    "_w",
-    "_abs_x",
-    "_abs_y",
-    "_abs_z",
-    "_abs_a",
-    "_abs_b",
-    "_abs_c",
-    "_abs_u",
-    "_abs_v",
-    "_abs_w",
-    "_current_tool",
-    "_selected_tool",
-    "_task",
-    "_call_level",
-    "_remap_level",
-];

@@ -12,7 +12,7 @@ impl<R: BufRead> Program<R> {
     /// [real](crate::Connections::Real).
     #[must_use]
     pub fn is_at_probe(&self) -> bool {
-        self.interpreter.search.is_some() && self.given >= self.items.len()
+        self.interpreter.state.search.is_some() && self.given >= self.items.len()
     }
 
     /// Says how the probing move ended that was given out last.
@@ -20,7 +20,7 @@ impl<R: BufRead> Program<R> {
     /// # Errors
     /// It did not find what it had to.
     pub fn answer_probe(&mut self, probed: &Probed) -> Result<(), Box<Diagnostic>> {
-        let Some(search) = self.interpreter.search.take() else {
+        let Some(search) = self.interpreter.state.search.take() else {
             return Ok(());
         };
         let ended = self.interpreter.end_search(search, probed);

@@ -165,16 +165,13 @@ impl<R: BufRead> Program<R> {
     #[must_use]
     pub fn is_settled(&self) -> bool {
         let interpreter = &self.interpreter;
-        let is_open = interpreter.compensation.is_some()
-            || interpreter.corner.is_some()
-            || interpreter.open_line.is_some()
-            || interpreter.open_tap.is_some()
-            || interpreter.open_thread.is_some()
-            || interpreter.open_spline.is_some()
+        let is_open = !interpreter.state.open.is_nothing()
             || interpreter.state.fanuc.open_plane.is_some()
             || self.lathe_cycle.is_some()
             || self.flow.recorder.is_some()
-            || !self.flow.activations.is_empty();
+            || !self.flow.activations.is_empty()
+            || !self.tape.calls.is_empty()
+            || !self.siemens.steps.is_empty();
         !is_open && self.is_line_given()
     }
 
@@ -182,7 +179,7 @@ impl<R: BufRead> Program<R> {
     /// inputs are [real](crate::Connections::Real). Nothing more is to be read before
     /// [`Program::answer_input`].
     pub const fn take_input_wait(&mut self) -> Option<InputWait> {
-        self.interpreter.input_wait.take()
+        self.interpreter.state.input_wait.take()
     }
 
     /// What an input was found to be: `#5399` from now on.

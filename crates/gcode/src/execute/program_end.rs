@@ -26,15 +26,15 @@ impl Interpreter {
 
     /// The end of a program: as LinuxCNC does, the next one begins in G54.
     pub(crate) fn end_offsets(&mut self) {
-        for (index, system) in core::mem::take(&mut self.offsets.fanuc.pending) {
-            self.offsets.keep_system(index, system);
+        for (index, system) in core::mem::take(&mut self.state.offsets.fanuc.pending) {
+            self.state.offsets.keep_system(index, system);
         }
-        self.offsets.active = 0;
-        self.offsets.frame = Frame::default();
-        self.offsets.tilted = Frame::default();
-        self.offsets.fanuc.dynamic = None;
-        self.offsets.fanuc.local = AxisVector::zeros();
-        self.offsets.fanuc.active = None;
-        self.offsets.fanuc.frames = FanucFrames::default();
+        self.state.offsets.active = 0;
+        self.state.offsets.frame = Frame::default();
+        self.state.offsets.tilted = Frame::default();
+        self.state.offsets.fanuc.dynamic = None;
+        self.state.offsets.fanuc.local = AxisVector::zeros();
+        self.state.offsets.fanuc.active = None;
+        self.state.offsets.fanuc.frames = FanucFrames::default();
     }
 }

@@ -36,7 +36,7 @@ impl<R: BufRead> Program<R> {
     /// outlast a restart were changed so far.
     #[must_use]
     pub const fn changes(&self) -> u64 {
-        self.interpreter.changes + self.parameters.changes()
+        self.interpreter.state.changes + self.parameters.changes()
     }
 
     /// What is in the parameters that outlast a restart after the last block read.
@@ -47,42 +47,45 @@ impl<R: BufRead> Program<R> {
 
     /// Coordinate systems, reference positions and the offset of G92 after the last block read.
     #[must_use]
-    pub const fn work_offsets(&self) -> WorkOffsets {
-        self.interpreter.offsets.set_up()
+    pub fn work_offsets(&self) -> WorkOffsets {
+        self.interpreter.state.offsets.set_up()
     }
 
     /// The tool table after the last block read, with what G10 has made of it.
     #[must_use]
     pub const fn tools(&self) -> Option<&Arc<ToolTable>> {
-        self.interpreter.tools.as_ref()
+        self.interpreter.state.tools.as_ref()
     }
 
     /// The codes and words in force after the last block read, as a line would say them: motion, coordinate
     /// system, plane, units, distance and feed mode, spindle, coolant, tool, feed and speed.
     #[must_use]
     pub fn words_in_force(&self) -> String {
-        words_in_force(&self.interpreter.state, &self.interpreter.offsets)
+        words_in_force(&self.interpreter.state)
     }
 
     /// Where the program's zero is in machine coordinates after the last block read, with all offsets, that of
     /// the tool, too.
     #[must_use]
     pub fn zero(&self) -> AxisVector {
-        self.interpreter.offsets.to_machine(AxisVector::zeros())
+        self.interpreter
+            .state
+            .offsets
+            .to_machine(AxisVector::zeros())
     }
 
     /// The offset of the tool (G43) after the last block read.
     #[must_use]
-    pub const fn tool_offset(&self) -> &AxisVector {
-        &self.interpreter.offsets.tool
+    pub fn tool_offset(&self) -> &AxisVector {
+        &self.interpreter.state.offsets.tool
     }
 
     /// The offsets in force after the last block read, beside the coordinate system.
     #[must_use]
-    pub const fn position_offsets(&self) -> PositionOffsets {
+    pub fn position_offsets(&self) -> PositionOffsets {
         PositionOffsets {
-            tool: self.interpreter.offsets.tool,
-            shift: self.interpreter.offsets.shift,
+            tool: self.interpreter.state.offsets.tool,
+            shift: self.interpreter.state.offsets.shift,
             tip: self.interpreter.state.tip,
         }
     }

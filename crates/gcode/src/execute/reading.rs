@@ -25,7 +25,7 @@ impl<R: BufRead> Program<R> {
         if self.block.dialect == Dialect::Siemens
             && let Some(direction) = direction_behind(&self.items)
         {
-            self.interpreter.tangent = Some(direction);
+            self.interpreter.state.tangent = Some(direction);
         }
         self.items.clear();
         self.given = 0;
@@ -36,7 +36,7 @@ impl<R: BufRead> Program<R> {
             self.ended = true;
             return Some(Err(question.diagnostic()));
         }
-        if self.is_typed && self.flow.activations.is_empty() {
+        if self.is_typed && !self.has_kept_lines() {
             match self.source.has_line() {
                 Ok(true) => {}
                 Ok(false) => return None,
@@ -74,10 +74,24 @@ impl<R: BufRead> Program<R> {
         }
     }
 
+    /// Whether what comes next was read before: lines of structures, of subprograms, of a pattern.
+    fn has_kept_lines(&self) -> bool {
+        !self.flow.activations.is_empty()
+            || !self.siemens.steps.is_empty()
+            || self.tape.get(self.tape.next).is_some()
+    }
+
     fn read_line(&mut self, goes_on: bool) -> Outcome<bool> {
         match self.interpreter.options.dialect {
             Dialect::LinuxCnc => self.read_linuxcnc(goes_on),
-            Dialect::Fanuc => self.read_fanuc(),
+            Dialect::Fanuc => {
+                let read = self.read_fanuc();
+                if read.is_err() {
+                    // Its number is that of no block that was executed.
+                    self.sequence = None;
+                }
+                read
+            }
             Dialect::Siemens => self.read_siemens(),
             Dialect::Marlin => self.read_marlin(),
         }

@@ -6,15 +6,20 @@
 //! diagnostic, and a line that was typed has no effect at all.
 
 use std::io::BufRead;
+use std::mem;
 
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::code::DiagnosticCode;
 use crate::execute::interpreter::Interpreter;
+use crate::execute::motion::nurbs::has_point;
 use crate::execute::program::Program;
 use crate::execute::scope::ProgramScope;
 use crate::execute::state::modal::Feed;
+use crate::execute::state::open_spline::goes_on;
 use crate::syntax::block::Block;
-use crate::syntax::modes::FeedMode;
+use crate::syntax::dialect::Dialect;
+use crate::syntax::dialect::marlin::named_command;
+use crate::syntax::modes::{FeedMode, Motion, Spline};
 
 impl Interpreter {
     /// Takes over the modes of a block that was refused.
@@ -60,6 +65,22 @@ impl Interpreter {
         }
     }
 
+    /// Whether a block that was refused is the end of the NURBS in front of it: it completes it, or is none of
+    /// its blocks.
+    fn ends_curve(&self, block: &Block) -> bool {
+        let Some(open) = &self.state.open.spline else {
+            return false;
+        };
+        let motion = self.motion_of(block).unwrap_or_default();
+        match motion {
+            Some(Motion::Spline(Spline::EndWeighted)) => true,
+            Some(Motion::Spline(Spline::Knotted)) if open.knotted => {
+                !has_point(block) && open.knots + 1 >= open.knots_needed()
+            }
+            motion => !goes_on(block, open, motion),
+        }
+    }
+
     /// Takes the machine to be where a move beyond its travel would have ended.
     pub(crate) fn adopt_place(&mut self, block: &Block, code: DiagnosticCode) {
         let is_move = self
@@ -67,7 +88,7 @@ impl Interpreter {
             .modal
             .motion
             .is_some_and(|motion| !motion.may_lack_axes() || motion.is_arc());
-        let is_plain = block.codes.non_modal.is_none() && self.compensation.is_none();
+        let is_plain = block.codes.non_modal.is_none() && self.state.open.compensation.is_none();
         if code == DiagnosticCode::SoftLimit && is_move && is_plain && block.has_axes() {
             self.take_polar_words(block);
             if let Ok(target) = self.target(block) {
@@ -89,16 +110,21 @@ impl<R: BufRead> Program<R> {
             let length = usize::try_from(before).unwrap_or_default().min(text.len());
             self.read_words(text.get(..length).unwrap_or_default());
         }
-        // The corner in front of it is no finding of its own.
-        if self.interpreter.corner.take().is_some() {
-            self.interpreter.state.path_end = self.interpreter.state.position;
+        let is_printer = self.block.dialect == Dialect::Marlin;
+        if is_printer && named_command(self.source.text()).is_some() {
+            self.take_for_klipper();
         }
-        self.interpreter.open_line = None;
-        self.interpreter.open_tap = None;
-        if self.interpreter.open_thread.take().is_some() {
-            self.interpreter.state.path_end = self.interpreter.state.position;
+        let ends_curve =
+            !diagnostic.code.is_of_reading() && self.interpreter.ends_curve(&self.block);
+        let state = &mut self.interpreter.state;
+        // What is open in front of it is no finding of its own.
+        let open = mem::take(&mut state.open);
+        if open.corner.is_some() || open.thread.is_some() {
+            state.path_end = state.position;
         }
-        self.interpreter.state.fanuc.open_plane = None;
+        state.open.compensation = open.compensation;
+        state.open.spline = open.spline.filter(|_| !ends_curve);
+        state.fanuc.open_plane = None;
         self.interpreter.adopt_modes(&self.block);
         self.interpreter.adopt_place(&self.block, diagnostic.code);
     }

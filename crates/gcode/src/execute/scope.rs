@@ -3,10 +3,9 @@
 use glidepath_geometry::{AXES, AxisVector, Plane};
 
 use crate::execute::interpreter::Interpreter;
-use crate::execute::parameters::{
-    DEBUG, MAX_ASSIGNED, MAX_NUMBERED, Parameters, READ_ONLY, place_of_name,
-};
+use crate::execute::parameters::{DEBUG, MAX_ASSIGNED, MAX_NUMBERED, Parameters, place_of_name};
 use crate::execute::state::spindle::SpindleDirection;
+use crate::execute::state_names::READ_ONLY;
 use crate::setup::fanuc::Arctangent;
 use crate::syntax::dialect::Dialect;
 use crate::syntax::dialect::siemens::system_index::Index;
@@ -66,7 +65,7 @@ impl Scope for ProgramScope<'_> {
     }
 
     fn tool_named(&self, name: &str) -> Option<u32> {
-        self.interpreter.tools.as_ref()?.named(name)
+        self.interpreter.state.tools.as_ref()?.named(name)
     }
 
     fn declares_m(&self, number: u32) -> bool {
@@ -88,7 +87,10 @@ impl Scope for ProgramScope<'_> {
 
 /// Program coordinate of an axis in the units in force.
 pub(super) fn coordinate(interpreter: &Interpreter, axis: usize) -> f64 {
-    let program = interpreter.offsets.to_program(interpreter.state.position);
+    let program = interpreter
+        .state
+        .offsets
+        .to_program(interpreter.state.position);
     in_units(interpreter, program, axis)
 }
 
@@ -106,7 +108,7 @@ pub(super) fn in_units(interpreter: &Interpreter, vector: AxisVector, axis: usiz
 /// Value of a numbered parameter that shows the state of the machine.
 fn machine(interpreter: &Interpreter, number: u32) -> f64 {
     let number = usize::try_from(number).unwrap_or(0);
-    let offsets = &interpreter.offsets;
+    let offsets = &interpreter.state.offsets;
     let index_from = |first: usize| number - first;
     match number {
         5021..=5029 => in_units(interpreter, interpreter.state.position, index_from(5021)),
@@ -136,7 +138,7 @@ fn machine(interpreter: &Interpreter, number: u32) -> f64 {
         5400 => f64::from(interpreter.state.tool),
         5401..=5409 => in_units(interpreter, offsets.tool, index_from(5401)),
         5410 | 5413 => {
-            let tool = interpreter.tools.as_ref();
+            let tool = interpreter.state.tools.as_ref();
             let tool = tool.and_then(|tools| tools.get(interpreter.state.tool));
             tool.map_or(0.0, |tool| match number {
                 5410 => tool.diameter_mm / interpreter.state.modal.units.mm(),
@@ -192,13 +194,13 @@ fn state(interpreter: &Interpreter, parameters: &Parameters, name: &str) -> Opti
         "_units_per_minute" => truth(modal.feed_mode == FeedMode::PerMinute),
         "_units_per_rev" => truth(modal.feed_mode == FeedMode::PerRevolution),
         "_coord_system" => {
-            let active = u8::try_from(interpreter.offsets.active).unwrap_or_default();
+            let active = u8::try_from(interpreter.state.offsets.active).unwrap_or_default();
             f64::from(match active {
                 0..=5 => 540 + 10 * u16::from(active),
                 _ => 585 + u16::from(active),
             })
         }
-        "_tool_offset" => truth(interpreter.offsets.tool.iter().any(|v| *v != 0.0)),
+        "_tool_offset" => truth(interpreter.state.offsets.tool.iter().any(|v| *v != 0.0)),
         "_retract_r_plane" => truth(modal.retract == Retract::RPlane),
         "_retract_old_z" => truth(modal.retract == Retract::Initial),
         "_spindle_rpm_mode" => truth(state.spindle.surface.is_none()),

@@ -117,8 +117,8 @@ impl Interpreter {
         let first_mm = number(b'J', "the depth of the first pass")? * across;
         let height_mm = number(b'K', "the full depth of the thread")? * across;
         number(b'Z', "where the thread ends")?;
-        let start = self.offsets.to_program(self.state.position);
-        let end_z = self.offsets.to_program(self.target(block)?)[2];
+        let start = self.state.offsets.to_program(self.state.position);
+        let end_z = self.state.offsets.to_program(self.target(block)?)[2];
         let degrees = block.get(b'Q').unwrap_or(0.0);
         let ways = whole(block, b'L', 3)?.unwrap_or(0);
         let taper_mm = block.get(b'E').unwrap_or(0.0) * scale;
@@ -201,7 +201,7 @@ impl Interpreter {
         let grooves: Vec<Groove> = grooves
             .into_iter()
             .map(|(point, pitch_mm)| Groove {
-                end: self.offsets.to_machine(point),
+                end: self.state.offsets.to_machine(point),
                 pitch_mm,
                 corner_mm,
                 line: self.line,
@@ -218,7 +218,7 @@ impl Interpreter {
         program: AxisVector,
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
-        let target = self.offsets.to_machine(program);
+        let target = self.state.offsets.to_machine(program);
         self.straight(block, target, Pace::Rapid, out)
     }
 }

@@ -37,7 +37,7 @@ impl PartBoxes {
         if rate.is_rapid() {
             return;
         }
-        let offsets = &interpreter.offsets;
+        let offsets = &interpreter.state.offsets;
         let map = interpreter.tip_map();
         let place = |axes: &AxisVector| {
             let place = map.map_or(*axes, |map| map.place(axes));

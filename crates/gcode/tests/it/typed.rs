@@ -8,7 +8,9 @@ use std::fs;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use glidepath_gcode::{Connections, Modal, Options, Program, Tool, ToolTable, WorkOffsets};
+use glidepath_gcode::{
+    Connections, Dialect, Modal, Options, Program, Tool, ToolTable, WorkOffsets,
+};
 use glidepath_geometry::AxisVector;
 use glidepath_program::ItemKind;
 use glidepath_testing::corpus;
@@ -192,4 +194,33 @@ fn a_line_with_a_finding_changes_nothing() {
     }
     eprintln!("{seen} findings");
     assert!(programs.is_empty() || seen > 15);
+}
+
+/// The ends of moves in X and Z, of lines that are typed.
+fn ways_typed(dialect: Dialect, text: &str) -> Vec<[f64; 2]> {
+    let of_dialect = Options {
+        dialect,
+        default_feed_mm_min: Some(600.0),
+        ..options()
+    };
+    Program::new(text.as_bytes(), of_dialect)
+        .typed()
+        .filter_map(|item| match item.unwrap().kind {
+            ItemKind::Move { segment, .. } => Some([segment.end()[0], segment.end()[2]]),
+            _ => None,
+        })
+        .collect()
+}
+
+#[test]
+fn what_was_read_ahead_waits_for_no_other_line() {
+    let jump = "GOTO 20\nG0 X5\nN20 G0 X7\nX9\n";
+    assert_eq!(ways_typed(Dialect::Fanuc, jump), [[7.0, 0.0], [9.0, 0.0]]);
+    let jump = "GOTOF END\nG0 X5\nEND: G0 X7\nX9\n";
+    assert_eq!(ways_typed(Dialect::Siemens, jump), [[7.0, 0.0], [9.0, 0.0]]);
+    let hole = [[0.0, 10.0], [0.0, 2.0], [0.0, -5.0], [0.0, 10.0]];
+    let cycle = "G0 Z10\nCYCLE81(10,0,2,-5)\n";
+    assert_eq!(ways_typed(Dialect::Siemens, cycle), hole);
+    let pattern = "G0 Z10\nMCALL CYCLE81(10,0,2,-5)\nHOLES1(0,0,0,0,5,2)\n";
+    assert_eq!(ways_typed(Dialect::Siemens, pattern).len(), 8);
 }

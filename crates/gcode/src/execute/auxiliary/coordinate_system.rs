@@ -13,15 +13,16 @@ impl Interpreter {
         &mut self,
         Coded { code: index, span }: Coded<usize>,
     ) -> Outcome<()> {
-        if let Some(system) = self.offsets.fanuc.pending.remove(&index) {
-            self.offsets.keep_system(index, system);
+        let offsets = &mut *self.state.offsets;
+        if let Some(system) = offsets.fanuc.pending.remove(&index) {
+            offsets.keep_system(index, system);
         }
-        let fanuc = &mut self.offsets.fanuc;
+        let fanuc = &mut offsets.fanuc;
         if index == NO_SYSTEM {
             fanuc.extended.insert(0, CoordinateSystem::default());
             fanuc.active = Some(0);
-        } else if index < self.offsets.systems.len() {
-            self.offsets.active = index;
+        } else if index < offsets.systems.len() {
+            offsets.active = index;
             fanuc.active = None;
         } else {
             // Those of SINUMERIK from G510 on.

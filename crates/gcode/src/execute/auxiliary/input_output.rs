@@ -72,7 +72,8 @@ impl Interpreter {
             _ => {
                 let wait = self.read_wait(block, span)?;
                 self.state.input = 0.0;
-                self.input_wait = (self.options.connections == Connections::Real).then_some(wait);
+                self.state.input_wait =
+                    (self.options.connections == Connections::Real).then_some(wait);
                 Event::MCode(code)
             }
         };

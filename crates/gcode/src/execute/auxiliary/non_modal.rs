@@ -58,7 +58,7 @@ impl Interpreter {
                 self.go_to_reference(block, index, out)?;
             }
             NonModal::SetReference(index) => {
-                if let Some(reference) = self.offsets.reference.get_mut(index) {
+                if let Some(reference) = self.state.offsets.reference.get_mut(index) {
                     *reference = position;
                 }
             }
@@ -67,40 +67,40 @@ impl Interpreter {
                 let values = self.axis_values(block)?;
                 require_axes(block, non_modal.span, "G52")?;
                 if block.dialect == Dialect::Fanuc {
-                    let fanuc = &mut self.offsets.fanuc;
+                    let fanuc = &mut self.state.offsets.fanuc;
                     fanuc.local = overlay(fanuc.local, &values);
                     return Ok(());
                 }
-                self.offsets.shift = overlay(self.offsets.shift, &values);
-                self.offsets.saved_shift = self.offsets.shift;
+                self.state.offsets.shift = overlay(self.state.offsets.shift, &values);
+                self.state.offsets.saved_shift = self.state.offsets.shift;
             }
             NonModal::LatheSetting => {
                 if block.has_axes() {
                     let values = self.axis_values(block)?;
                     self.end_local_offset(&values);
-                    self.offsets.set_shift(position, &values);
+                    self.state.offsets.set_shift(position, &values);
                 }
             }
             NonModal::SetOffset => {
                 let values = self.axis_values(block)?;
                 require_axes(block, non_modal.span, "G92")?;
                 self.end_local_offset(&values);
-                self.offsets.set_shift(position, &values);
+                self.state.offsets.set_shift(position, &values);
             }
             NonModal::PresetSystem => self.preset_system(block, non_modal.span)?,
             NonModal::ClearOffset => {
-                self.offsets.shift = AxisVector::zeros();
-                self.offsets.saved_shift = AxisVector::zeros();
+                self.state.offsets.shift = AxisVector::zeros();
+                self.state.offsets.saved_shift = AxisVector::zeros();
             }
-            NonModal::SuspendOffset => self.offsets.shift = AxisVector::zeros(),
-            NonModal::RestoreOffset => self.offsets.shift = self.offsets.saved_shift,
+            NonModal::SuspendOffset => self.state.offsets.shift = AxisVector::zeros(),
+            NonModal::RestoreOffset => self.state.offsets.shift = self.state.offsets.saved_shift,
         }
         Ok(())
     }
 
     /// G92 ends the local offset (G52) of the axes that it names.
     fn end_local_offset(&mut self, values: &[Option<f64>; AXES]) {
-        for (local, value) in self.offsets.fanuc.local.iter_mut().zip(values) {
+        for (local, value) in self.state.offsets.fanuc.local.iter_mut().zip(values) {
             if value.is_some() {
                 *local = 0.0;
             }
@@ -143,7 +143,7 @@ impl Interpreter {
                 | NonModal::SuspendOffset
                 | NonModal::RestoreOffset
         );
-        if !names_places || !self.offsets.frame.is_in_force() {
+        if !names_places || !self.state.offsets.frame.is_in_force() {
             return Ok(());
         }
         let message = "an offset that is set within a frame";
@@ -208,15 +208,16 @@ impl Interpreter {
         let system = whole(block, b'P', 9)?
             .ok_or_else(|| missing(span, "G10", "P", "the coordinate system, 1 for G54"))?;
         let index = usize::try_from(system).unwrap_or_default();
-        let index = index.checked_sub(1).unwrap_or(self.offsets.active);
+        let index = index.checked_sub(1).unwrap_or(self.state.offsets.active);
         let values = self.axis_values(block)?;
         if kind == 20 {
             if block.get(b'R').is_some() {
                 return Err(unused('R', block.span(b'R')));
             }
-            self.offsets
+            self.state
+                .offsets
                 .set_current(index, self.state.position, &values);
-        } else if let Some(slot) = self.offsets.systems.get_mut(index) {
+        } else if let Some(slot) = self.state.offsets.systems.get_mut(index) {
             slot.origin = overlay(slot.origin, &values);
             slot.rotation_deg = block.get(b'R').unwrap_or(slot.rotation_deg);
         }

@@ -41,9 +41,9 @@ impl Interpreter {
             return Err(refused_m(code, f64::from(code), span));
         }
         match code {
-            71 => self.saved_states.present().saved = None,
+            71 => self.state.saved_states.present().saved = None,
             72 => {
-                let Some(saved) = self.saved_states.present().saved else {
+                let Some(saved) = self.state.saved_states.present().saved else {
                     let message = "there is no saved state to restore";
                     return Err(BlockDiagnostic::new(DiagnosticCode::SavedState, span, message)
                         .because(
@@ -56,7 +56,7 @@ impl Interpreter {
             }
             _ => {
                 let saved = self.present_state();
-                let level = self.saved_states.present();
+                let level = self.state.saved_states.present();
                 level.saved = Some(saved);
                 level.on_return |= code == 73;
             }
@@ -70,7 +70,7 @@ impl Interpreter {
         span: SourceSpan,
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
-        match self.saved_states.calls.pop() {
+        match self.state.saved_states.calls.pop() {
             Some(SavedLevel {
                 saved: Some(saved),
                 on_return: true,
@@ -83,8 +83,8 @@ impl Interpreter {
         Saved {
             modal: self.state.modal,
             compensated: self.compensated(),
-            system: self.offsets.active,
-            tool_offset: self.offsets.tool,
+            system: self.state.offsets.active,
+            tool_offset: self.state.offsets.tool,
             spindle: self.state.spindle,
             coolant: self.state.coolant,
             overrides_off: self.state.overrides_off,
@@ -92,7 +92,7 @@ impl Interpreter {
     }
 
     fn restore(&mut self, saved: &Saved, span: SourceSpan, out: &mut Vec<Item>) -> Outcome<()> {
-        if let Some(open) = &self.open_spline {
+        if let Some(open) = &self.state.open.spline {
             return Err(interrupted(open, span));
         }
         self.restore_compensation(saved, span, out)?;
@@ -102,8 +102,8 @@ impl Interpreter {
         };
         // How a G5 goes on depends on the plane.
         self.state.cubic_tail = None;
-        self.offsets.active = saved.system;
-        self.offsets.tool = saved.tool_offset;
+        self.state.offsets.active = saved.system;
+        self.state.offsets.tool = saved.tool_offset;
         self.restore_speed(saved.spindle, out);
         let turning = saved.spindle.turning;
         if turning != self.state.spindle.turning {
@@ -157,8 +157,8 @@ impl Interpreter {
         let same = saved.compensated == present
             && saved.modal.plane == modal.plane
             && saved.modal.diameter == modal.diameter
-            && saved.system == self.offsets.active
-            && saved.tool_offset == self.offsets.tool;
+            && saved.system == self.state.offsets.active
+            && saved.tool_offset == self.state.offsets.tool;
         if same {
             return Ok(());
         }

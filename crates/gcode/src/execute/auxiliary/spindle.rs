@@ -208,7 +208,7 @@ impl Interpreter {
 
     fn surface_revolutions_at(&self, machine: AxisVector) -> Option<f64> {
         let surface = self.state.spindle.surface?;
-        let program = self.offsets.to_program(machine);
+        let program = self.state.offsets.to_program(machine);
         let round_mm = TAU * program[0].abs();
         let speed = surface.speed / round_mm.max(1e-6);
         let spindle = &self.state.spindle;

@@ -31,7 +31,7 @@ impl Interpreter {
             return self.turret(block, out);
         }
         if let Some(tool) = whole(block, b'T', MAX_TOOL)? {
-            if tool != 0 && self.tools.is_some() {
+            if tool != 0 && self.state.tools.is_some() {
                 self.tool_of(tool, block.span(b'T'))?;
             }
             self.state.selected_tool = tool;
@@ -39,7 +39,7 @@ impl Interpreter {
         }
         let Some(Coded { code, span }) = block.codes.tool_change else {
             if block.get(b'T').is_some() && self.changes_tool_by_t(block) {
-                self.change_tool(self.state.selected_tool, self.offsets.tool, out);
+                self.change_tool(self.state.selected_tool, self.state.offsets.tool, out);
             }
             return Ok(());
         };
@@ -47,11 +47,11 @@ impl Interpreter {
             self.state.tool = whole(block, b'Q', MAX_TOOL)?
                 .ok_or_else(|| missing(span, "M61", "Q", "the tool in the spindle"))?;
             // Nothing is changed: there is no change to take back.
-            self.state.tool_before = (self.state.tool, self.offsets.tool);
+            self.state.tool_before = (self.state.tool, self.state.offsets.tool);
             self.push(out, ItemKind::Event(Event::MCode(code)));
         } else {
             self.state.spindle.turning = None;
-            self.change_tool(self.state.selected_tool, self.offsets.tool, out);
+            self.change_tool(self.state.selected_tool, self.state.offsets.tool, out);
         }
         Ok(())
     }
@@ -68,7 +68,7 @@ impl Interpreter {
         if number == 0 {
             return Ok(Tool::default());
         }
-        let Some(tools) = &self.tools else {
+        let Some(tools) = &self.state.tools else {
             let message = format!("there is no tool table to look tool {number} up in");
             return Err(
                 BlockDiagnostic::new(DiagnosticCode::NoToolTable, span, message)
@@ -101,14 +101,14 @@ impl Interpreter {
         if block.dialect == Dialect::Fanuc {
             return self.fanuc_tool_length(block, coded);
         }
-        self.offsets.tool = match coded.code {
+        self.state.offsets.tool = match coded.code {
             ToolLength::Cancel => AxisVector::zeros(),
             ToolLength::FromTable | ToolLength::Subtract => {
                 self.named_tool(block, b'H', span)?.offset
             }
-            ToolLength::FromWords => overlay(self.offsets.tool, &self.axis_values(block)?),
+            ToolLength::FromWords => overlay(self.state.offsets.tool, &self.axis_values(block)?),
             ToolLength::Add if block.get(b'H').is_some() => {
-                self.offsets.tool + self.named_tool(block, b'H', span)?.offset
+                self.state.offsets.tool + self.named_tool(block, b'H', span)?.offset
             }
             ToolLength::Add => {
                 if !block.has_any(AXIS_WORDS) {
@@ -116,7 +116,7 @@ impl Interpreter {
                     return Err(missing(span, "G43.2", "H or an axis", meaning));
                 }
                 let zero = AxisVector::zeros();
-                self.offsets.tool + overlay(zero, &self.axis_values(block)?)
+                self.state.offsets.tool + overlay(zero, &self.axis_values(block)?)
             }
         };
         Ok(())
@@ -133,15 +133,15 @@ impl Interpreter {
         let values = self.axis_values(block)?;
         // In which coordinates the present place gets its new name.
         let program = match kind {
-            10 => Some(self.offsets.to_program(self.state.position)),
-            11 => Some(self.offsets.in_fixture(FIXTURE, self.state.position)),
+            10 => Some(self.state.offsets.to_program(self.state.position)),
+            11 => Some(self.state.offsets.in_fixture(FIXTURE, self.state.position)),
             _ => None,
         };
         for (axis, value) in values.into_iter().enumerate() {
             let Some(value) = value else { continue };
             tool.offset[axis] = match program {
                 None => value,
-                Some(program) => self.offsets.tool[axis] + program[axis] - value,
+                Some(program) => self.state.offsets.tool[axis] + program[axis] - value,
             };
         }
         if let Some(radius) = block.get(b'R') {
@@ -150,7 +150,7 @@ impl Interpreter {
         if let Some(orientation) = whole(block, b'Q', 9)? {
             tool.orientation = u8::try_from(orientation).unwrap_or_default();
         }
-        if let Some(tools) = &mut self.tools {
+        if let Some(tools) = &mut self.state.tools {
             Arc::make_mut(tools).set(number, tool);
         }
         Ok(())

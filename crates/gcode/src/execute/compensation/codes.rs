@@ -70,7 +70,7 @@ impl Interpreter {
             .ok_or_else(|| missing(span, "G41 or G42", "D", "whose radius"))?;
         let named = block.get(letter).map(|_| block.span(letter));
         let tool = self.tool_of(number, named.unwrap_or(span))?;
-        let wear_mm = 2.0 * self.offsets.fanuc.wear(number).radius_mm;
+        let wear_mm = 2.0 * self.state.offsets.fanuc.wear(number).radius_mm;
         Ok((tool.diameter_mm + wear_mm, tool.orientation))
     }
 
@@ -117,7 +117,7 @@ impl Interpreter {
             .because("only turning tools have one")
             .help("remove L, or write G18"));
         }
-        if plane == Plane::Zx && self.offsets.is_rotated() {
+        if plane == Plane::Zx && self.state.offsets.is_rotated() {
             let message = "cutter radius compensation in G18 in a rotated coordinate system";
             return Err(
                 BlockDiagnostic::new(DiagnosticCode::CutterRadius, span, message)
@@ -129,7 +129,7 @@ impl Interpreter {
         if self.is_in_tilted_plane(plane) {
             self.enter_contour_plane(block, out)?;
         }
-        let image = self.offsets.plane(plane);
+        let image = self.state.offsets.plane(plane);
         let Some(image) = image.filter(|image| image.plane == plane) else {
             let message = "cutter radius compensation in a frame that tilts its plane";
             return Err(
@@ -148,7 +148,7 @@ impl Interpreter {
             let tool = self.state.path_end;
             let is_fanuc = block.dialect == Dialect::Fanuc;
             let enters_beside_next = is_fanuc || block.dialect == Dialect::Siemens;
-            self.compensation = Some(
+            self.state.open.compensation = Some(
                 Compensation::new(plane, side, radius, orientation, tool)
                     .entering_beside_next(enters_beside_next)
                     .with_corners_of_lines(is_fanuc && self.options.fanuc.has_corners_of_lines()),
@@ -159,7 +159,7 @@ impl Interpreter {
 
     /// Gives out the moves held back; the tool stays where it is.
     pub(crate) fn end_compensation(&mut self, out: &mut Vec<Item>) -> Outcome<()> {
-        let Some(mut compensation) = self.compensation.take() else {
+        let Some(mut compensation) = self.state.open.compensation.take() else {
             return self.leave_contour_plane(out);
         };
         let from = out.len();
@@ -173,7 +173,12 @@ impl Interpreter {
     /// What is in force, if any.
     pub(crate) fn compensated(&self) -> Option<Compensated> {
         self.state.on_contour.then(|| Compensated {
-            of: self.compensation.as_ref().map(Compensation::side_and_tip),
+            of: self
+                .state
+                .open
+                .compensation
+                .as_ref()
+                .map(Compensation::side_and_tip),
         })
     }
 
@@ -233,6 +238,8 @@ impl Interpreter {
                 .help("write G40 and a move before it"));
         }
         if self
+            .state
+            .open
             .compensation
             .as_ref()
             .is_some_and(Compensation::is_overfull)

@@ -43,7 +43,7 @@ impl Interpreter {
         let line = self.line;
         let mode = self.state.modal.path_mode;
         let arc_feed = self.state.arc_feed;
-        let Some(compensation) = &mut self.compensation else {
+        let Some(compensation) = &mut self.state.open.compensation else {
             return Ok(());
         };
         let (first, second) = compensation.plane.axes();

@@ -18,14 +18,15 @@ impl Interpreter {
     /// True for a contour that is in a tilted plane, and in none of the machine as it is.
     pub(super) fn is_in_tilted_plane(&self, plane: Plane) -> bool {
         let is_same = self
+            .state
             .offsets
             .plane(plane)
             .is_some_and(|image| image.plane == plane);
         self.state.tilted == Some(Tilt::Stands)
             && self.options.five_axis.is_some()
             && !is_same
-            && !self.offsets.is_rotated()
-            && self.offsets.frame.only_turns()
+            && !self.state.offsets.is_rotated()
+            && self.state.offsets.frame.only_turns()
     }
 
     /// From here on places are those of the tilted plane.
@@ -36,8 +37,9 @@ impl Interpreter {
     ) -> Outcome<()> {
         self.map_moves(block, out)?;
         let axes = *self.axes_place();
-        let frame = core::mem::take(&mut self.offsets.frame);
+        let frame = core::mem::take(&mut self.state.offsets.frame);
         let zero = self
+            .state
             .offsets
             .to_machine(glidepath_geometry::AxisVector::zeros());
         let map = Frame::shifted(zero)
@@ -46,7 +48,7 @@ impl Interpreter {
         self.state.contour_plane = Some(ContourPlane { map, frame });
         self.state.position = map.undo(self.state.position);
         self.state.path_end = map.undo(self.state.path_end);
-        (self.axes_end, self.is_mapped) = (axes, true);
+        (self.state.axes_end, self.state.is_mapped) = (axes, true);
         Ok(())
     }
 
@@ -58,10 +60,10 @@ impl Interpreter {
         self.map_moves(&Block::default(), out)?;
         let axes = *self.axes_place();
         self.state.contour_plane = None;
-        self.offsets.frame = plane.frame;
+        self.state.offsets.frame = plane.frame;
         self.state.position = plane.map.apply(self.state.position);
         self.state.path_end = plane.map.apply(self.state.path_end);
-        (self.axes_end, self.is_mapped) = (axes, self.tip_map().is_some());
+        (self.state.axes_end, self.state.is_mapped) = (axes, self.tip_map().is_some());
         Ok(())
     }
 }

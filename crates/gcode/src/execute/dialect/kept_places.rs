@@ -31,15 +31,15 @@ impl Interpreter {
     ) -> Outcome<()> {
         let slot = whole(block, b'S', MAX_PLACES)?.unwrap_or(0);
         let extruder = self.options.extruder;
-        let program = self.offsets.to_program(self.state.position);
+        let program = self.state.offsets.to_program(self.state.position);
         let extruder_mm = extruder.map_or(0.0, |axis| program[axis.index()]);
         if coded.code {
             let place = self.state.position;
             let kept = KeptPlace { place, extruder_mm };
-            self.kept_by_printer.places.insert(slot, kept);
+            self.state.kept_by_printer.places.insert(slot, kept);
             return Ok(());
         }
-        let Some(kept) = self.kept_by_printer.places.get(&slot).copied() else {
+        let Some(kept) = self.state.kept_by_printer.places.get(&slot).copied() else {
             let message = format!("G61 S{slot} without a place that was kept");
             return Err(
                 BlockDiagnostic::new(DiagnosticCode::Parameter, coded.span, message)
@@ -75,7 +75,7 @@ impl Interpreter {
         if let Some(axis) = extruder.filter(|_| all || block.get(b'E').is_some()) {
             let mut values = [None; glidepath_geometry::AXES];
             values[axis.index()] = Some(kept.extruder_mm);
-            self.offsets.set_shift(self.state.position, &values);
+            self.state.offsets.set_shift(self.state.position, &values);
         }
         Ok(())
     }

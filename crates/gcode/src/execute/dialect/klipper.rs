@@ -28,12 +28,11 @@ const MAX_STATES: usize = 100;
 
 impl<R: BufRead> Program<R> {
     /// A command that is made; `span` is where its name stands.
-    pub(super) fn klipper_state(&mut self, name: &[u8], span: SourceSpan) -> Outcome<bool> {
+    pub(super) fn klipper_state(&mut self, name: &[u8], span: SourceSpan) -> Outcome<()> {
         let line = self.source.number();
         let words = words(self.source.text(), span.start + span.length)?;
         let block = Block::of(self.block.dialect, &self.interpreter.options.m_codes);
         let interpreter = &mut self.interpreter;
-        let (state, offsets) = (interpreter.state, interpreter.offsets.clone());
         interpreter.begin(line);
         let out = &mut self.items;
         let done = match name {
@@ -41,17 +40,14 @@ impl<R: BufRead> Program<R> {
             b"SAVE_GCODE_STATE" => interpreter.keep_state(&words, span),
             _ => interpreter.bring_back_state(&block, &words, span, out),
         };
-        if let Err(mut fault) = done {
+        done.map_err(|mut fault| {
             if fault.span == SourceSpan::default() {
                 fault.span = span;
             }
-            self.interpreter.state = state;
-            self.interpreter.offsets = offsets;
-            self.items.clear();
-            return Err(fault);
-        }
+            fault
+        })?;
         self.end_of_line();
-        Ok(true)
+        Ok(())
     }
 }
 
@@ -114,8 +110,8 @@ impl Interpreter {
                 None => return Err(unknown_word(word)),
             }
         }
-        self.offsets.shift += by;
-        self.offsets.saved_shift = self.offsets.shift;
+        self.state.offsets.shift += by;
+        self.state.offsets.saved_shift = self.state.offsets.shift;
         if !move_words.moves {
             return Ok(());
         }
@@ -127,11 +123,11 @@ impl Interpreter {
         let kept = KeptState {
             modal: self.state.modal,
             extruder: self.state.extruder,
-            shift: self.offsets.shift,
+            shift: self.state.offsets.shift,
             gcode_offset: self.state.gcode_offset,
             place: self.state.position,
         };
-        let states = &mut self.kept_by_printer.states;
+        let states = &mut self.state.kept_by_printer.states;
         if states.len() >= MAX_STATES && !states.contains_key(&name) {
             let message = format!("more than {MAX_STATES} states are kept");
             return Err(
@@ -158,7 +154,7 @@ impl Interpreter {
                 return Err(unknown_word(word));
             }
         }
-        let Some(kept) = self.kept_by_printer.states.get(&name).copied() else {
+        let Some(kept) = self.state.kept_by_printer.states.get(&name).copied() else {
             let shown = String::from_utf8_lossy(&name).into_owned();
             let message = format!("no state `{shown}` was kept");
             return Err(
@@ -176,8 +172,8 @@ impl Interpreter {
             let i = axis.index();
             shift[i] += self.state.position[i] - kept.place[i];
         }
-        self.offsets.shift = shift;
-        self.offsets.saved_shift = shift;
+        self.state.offsets.shift = shift;
+        self.state.offsets.saved_shift = shift;
         if !move_words.moves {
             return Ok(());
         }

@@ -39,7 +39,8 @@ impl<R: BufRead> Program<R> {
             return Ok(true);
         }
         if let Some(command) = named_command(self.source.text()) {
-            return self.klipper_command(command);
+            let done = self.whole_statement(|program| program.klipper_command(command));
+            return done.map(|()| true);
         }
         let number = self.source.number();
         let scope = ProgramScope {
@@ -53,14 +54,18 @@ impl<R: BufRead> Program<R> {
 }
 
 impl<R: BufRead> Program<R> {
-    /// A command of Klipper with a name: read over where it moves nothing.
-    fn klipper_command(&mut self, command: NamedCommand) -> Outcome<bool> {
-        self.begun = true;
-        // Whoever has such commands is Klipper.
-        let firmware = &mut self.interpreter.options.firmware;
+    /// Whoever has commands with names is Klipper.
+    pub(crate) fn take_for_klipper(&mut self) {
+        let firmware = &mut self.interpreter.state.firmware;
         *firmware = firmware.or(Some(Firmware::Klipper));
+    }
+
+    /// A command of Klipper with a name: read over where it moves nothing.
+    fn klipper_command(&mut self, command: NamedCommand) -> Outcome<()> {
+        self.begun = true;
+        self.take_for_klipper();
         if command.is_silent {
-            return Ok(true);
+            return Ok(());
         }
         let name = self.source.text().get(command.span.start..);
         let name = name.and_then(|name| name.get(..command.span.length));

@@ -224,7 +224,7 @@ impl<R: BufRead> Program<R> {
             .activations
             .push(Activation::call(Arc::clone(part), called_from));
         self.parameters.enter(arguments);
-        self.interpreter.saved_states.enter();
+        self.interpreter.state.saved_states.enter();
         Ok(())
     }
 }

@@ -44,14 +44,14 @@ impl Interpreter {
         target: glidepath_geometry::AxisVector,
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
-        let compensation = self.compensation.clone();
+        let compensation = self.state.open.compensation.clone();
         self.end_compensation(out)?;
         if (target - self.state.path_end).amax() > MIN_MOVE {
             self.straight(block, target, Pace::Rapid, out)?;
         }
         self.state.position = target;
         self.state.leaving_contour = false;
-        self.compensation = compensation.map(|on| on.again(self.state.path_end));
+        self.state.open.compensation = compensation.map(|on| on.again(self.state.path_end));
         Ok(())
     }
 
@@ -73,7 +73,7 @@ impl Interpreter {
                 "write G18 before it",
             );
         }
-        if self.offsets.is_turned() {
+        if self.state.offsets.is_turned() {
             return refuse(
                 span,
                 "a lathe cycle in a rotated coordinate system",
@@ -142,7 +142,7 @@ impl Interpreter {
 
     /// Z and X of the tool, program coordinates.
     pub(crate) fn lathe_point(&self) -> Point {
-        let program = self.offsets.to_program(self.state.position);
+        let program = self.state.offsets.to_program(self.state.position);
         [program[Axis::Z.index()], program[Axis::X.index()]]
     }
 }

@@ -105,12 +105,12 @@ impl Interpreter {
                 self.pass_move(block, &axes, pass_move, out)?;
             }
             if pass > 0 {
-                let compensation = self.compensation.clone();
+                let compensation = self.state.open.compensation.clone();
                 self.end_compensation(out)?;
                 for pass_move in lift(&along, axes.inside(start)) {
                     self.pass_move(block, &axes, pass_move, out)?;
                 }
-                self.compensation = compensation.map(|on| on.again(self.state.path_end));
+                self.state.open.compensation = compensation.map(|on| on.again(self.state.path_end));
             }
         }
         Ok(())
@@ -150,7 +150,7 @@ impl Interpreter {
         left: bool,
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
-        let compensated = self.compensation.is_some();
+        let compensated = self.state.open.compensation.is_some();
         let start = if compensated {
             self.state.position
         } else {

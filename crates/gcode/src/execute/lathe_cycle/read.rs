@@ -74,7 +74,7 @@ impl<R: BufRead> Program<R> {
             level: self.parameters.call_level(),
             words,
             profile: LatheProfile::new(self.interpreter.lathe_point()),
-            state: self.interpreter.state,
+            state: self.interpreter.state.clone(),
             block,
         };
         self.enter(&asked.part, &[], cycle.block.span(b'Q'))?;
@@ -101,7 +101,7 @@ impl<R: BufRead> Program<R> {
             return Ok(());
         };
         self.origin = LineOrigin::Past(cycle.source.clone());
-        self.interpreter.state = cycle.state;
+        self.interpreter.state = cycle.state.clone();
         self.interpreter.line = cycle.line;
         let mut items = Vec::new();
         self.interpreter.make_lathe_cycle(&cycle, &mut items)?;

@@ -49,14 +49,14 @@ impl Interpreter {
             plane,
             scale,
             is_mirrored,
-        }) = self.offsets.plane(named)
+        }) = self.state.offsets.plane(named)
         else {
             return self.tilted_arc(block, motion, named, out);
         };
         let (first, second) = plane.axes();
-        let compensated = self.compensation.is_some();
+        let compensated = self.state.open.compensation.is_some();
         // A corner that is open is where the arc begins.
-        let start = if compensated || self.corner.is_some() {
+        let start = if compensated || self.state.open.corner.is_some() {
             self.state.position
         } else {
             self.state.path_end
@@ -125,7 +125,7 @@ impl Interpreter {
         end: &AxisVector,
     ) -> Outcome<()> {
         let span = block.motion_span();
-        if self.offsets.is_rotated() && matches!(plane, Plane::Zx | Plane::Yz) {
+        if self.state.offsets.is_rotated() && matches!(plane, Plane::Zx | Plane::Yz) {
             let message = "an arc outside the XY plane in a rotated coordinate system";
             return Err(
                 BlockDiagnostic::new(DiagnosticCode::ArcPlane, span, message)
@@ -157,23 +157,23 @@ impl Interpreter {
         plane: Plane,
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
-        if self.corner.is_some() || block.corner.is_some() {
+        if self.state.open.corner.is_some() || block.corner.is_some() {
             return Err(no_corner(block.motion_span()));
         }
-        if !self.offsets.keeps_circles(plane) {
+        if !self.state.offsets.keeps_circles(plane) {
             return Err(stretched(block.motion_span()));
         }
         let (first, second) = plane.axes();
-        let start = self.offsets.to_program(self.state.path_end);
+        let start = self.state.offsets.to_program(self.state.path_end);
         let mut target = self.target(block)?;
-        let mut end = self.offsets.to_program(target);
+        let mut end = self.state.offsets.to_program(target);
         let counterclockwise = motion == Motion::ArcCounterclockwise;
         let flat = |place: &AxisVector| [place[first.index()], place[second.index()]];
         if let Some(angle_rad) = angle_without_end(block, plane)? {
             let center = self.program_center(block, plane)?;
             let to = turned_about(center, flat(&start), angle_rad, counterclockwise);
             (end[first.index()], end[second.index()]) = (to[0], to[1]);
-            target = self.offsets.to_machine(end);
+            target = self.state.offsets.to_machine(end);
         }
         let ends = Ends {
             start: flat(&start),

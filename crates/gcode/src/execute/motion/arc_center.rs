@@ -25,7 +25,7 @@ impl Interpreter {
     /// The centre in program coordinates, in the two axes of the plane.
     pub(super) fn program_center(&self, block: &Block, plane: Plane) -> Outcome<[f64; 2]> {
         let (first, second) = plane.axes();
-        let here = self.offsets.to_program(self.state.path_end);
+        let here = self.state.offsets.to_program(self.state.path_end);
         Ok(match self.center_words(block, plane)? {
             Center::Pole => [first, second].map(|axis| self.state.pole.at[axis.index()]),
             Center::Way(way) => [here[first.index()] + way[0], here[second.index()] + way[1]],
@@ -53,17 +53,17 @@ impl Interpreter {
         };
         Ok(match self.center_words(block, named)? {
             Center::Way(way) => {
-                let turned = self.offsets.turn(put(way));
+                let turned = self.state.offsets.turn(put(way));
                 let position = &self.state.position;
                 axes(plane).map(|axis| position[axis.index()] + turned[axis.index()])
             }
-            Center::Place(place) => machine_point(&self.offsets, put(place), axes(plane)),
+            Center::Place(place) => machine_point(&self.state.offsets, put(place), axes(plane)),
             Center::Pole => {
-                let mut point = self.offsets.to_program(self.state.position);
+                let mut point = self.state.offsets.to_program(self.state.position);
                 for (axis, value) in self.state.pole.at.into_iter().enumerate() {
                     point[axis] = value;
                 }
-                machine_point(&self.offsets, point, axes(plane))
+                machine_point(&self.state.offsets, point, axes(plane))
             }
         })
     }

@@ -165,14 +165,14 @@ impl Interpreter {
             end[i] = target[i];
         }
         let scale = self.state.modal.units.mm();
-        let mut place = self.offsets.to_program(self.state.position);
+        let mut place = self.state.offsets.to_program(self.state.position);
         let incremental = self.state.modal.distance == Distance::Incremental;
         for (i, value) in via.into_iter().enumerate() {
             if let Some(value) = value {
                 place[i] = value * scale + if incremental { place[i] } else { 0.0 };
             }
         }
-        let via = self.offsets.to_machine(place);
+        let via = self.state.offsets.to_machine(place);
         let xyz = |point: &AxisVector| [point[0], point[1], point[2]];
         let Some(arc) = through(xyz(&start), xyz(&via), xyz(&end)) else {
             let message = "the three points of CIP are on a line";
@@ -187,7 +187,7 @@ impl Interpreter {
     }
 
     fn check_no_compensation(&self, block: &Block) -> Outcome<()> {
-        if self.compensation.is_none() && !self.state.leaving_contour {
+        if self.state.open.compensation.is_none() && !self.state.leaving_contour {
             return Ok(());
         }
         let message = "an arc in space with cutter radius compensation";
@@ -210,7 +210,7 @@ impl Interpreter {
     ) -> Outcome<()> {
         self.check_no_compensation(block)?;
         let arc = SpaceArc::in_plane(plane, ends, center, sweep_rad);
-        let offsets = self.offsets.clone();
+        let offsets = self.state.offsets.clone();
         // Its start is where the last move ended, to the last bit.
         let here = self.state.path_end;
         let map = |point: AxisVector| {

@@ -209,10 +209,10 @@ impl Interpreter {
             .help("name the axis: `extruder` of [program] in the configuration"));
         };
         let value = word * self.state.modal.units.mm();
-        let program = self.offsets.to_program(self.state.position)[axis.index()];
+        let program = self.state.offsets.to_program(self.state.position)[axis.index()];
         let incremental = self.state.modal.distance == Distance::Incremental;
         let names = block.codes.non_modal.is_some();
-        let Some(relative) = self.state.extruder.is_relative(self.options.firmware) else {
+        let Some(relative) = self.state.extruder.is_relative(self.state.firmware) else {
             return Err(extruder_in_doubt(block.span(b'E')));
         };
         values[axis.index()] = Some(match (relative, incremental) {

@@ -53,7 +53,7 @@ impl Interpreter {
         }
         self.take_corner_feeds(block)?;
         let changes_path = self.changes_path(block);
-        let Some(corner) = &mut self.corner else {
+        let Some(corner) = &mut self.state.open.corner else {
             return Ok(());
         };
         let is_move = matches!(
@@ -105,7 +105,7 @@ impl Interpreter {
         span: SourceSpan,
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
-        match &self.corner {
+        match &self.state.open.corner {
             Some(corner) if !corner.may_stay => Err(no_second_move(span)),
             _ => self.leave_corner(block, out),
         }
@@ -113,12 +113,12 @@ impl Interpreter {
 
     /// Makes the move to a corner that stays as it is.
     fn leave_corner(&mut self, block: &Block, out: &mut Vec<Item>) -> Outcome<()> {
-        let Some(corner) = self.corner.take() else {
+        let Some(corner) = self.state.open.corner.take() else {
             return Ok(());
         };
         self.make_held(block, &corner, corner.at, corner.arc, out)?;
         // CT goes on in its direction.
-        self.tangent = direction_behind(out).or(self.tangent);
+        self.state.tangent = direction_behind(out).or(self.state.tangent);
         Ok(())
     }
 
@@ -135,7 +135,7 @@ impl Interpreter {
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
         let is_timed = self.state.modal.feed_mode == FeedMode::InverseTime;
-        match self.corner.take() {
+        match self.state.open.corner.take() {
             Some(corner) if is_timed && corner.may_stay => {
                 self.make_held(block, &corner, corner.at, corner.arc, out)?;
             }
@@ -152,7 +152,7 @@ impl Interpreter {
         let Some((kind, size_mm, may_stay)) = word.filter(|_| !is_timed) else {
             return self.make_move(block, target, arc, out);
         };
-        self.corner = Some(Box::new(OpenCorner {
+        self.state.open.corner = Some(Box::new(OpenCorner {
             from: self.here_on_contour(),
             at: target,
             arc,
@@ -171,7 +171,7 @@ impl Interpreter {
 
     /// Where the next move begins.
     fn here_on_contour(&self) -> AxisVector {
-        if self.compensation.is_some() {
+        if self.state.open.compensation.is_some() {
             self.state.position
         } else {
             self.state.path_end
@@ -221,7 +221,7 @@ impl Interpreter {
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
         let span = block.motion_span();
-        let image = self.offsets.plane(self.state.modal.plane);
+        let image = self.state.offsets.plane(self.state.modal.plane);
         let image = image.ok_or_else(|| not_in_plane(span))?;
         let (first, second) = image.plane.axes();
         let (i, j) = (first.index(), second.index());
@@ -288,7 +288,7 @@ impl Interpreter {
         let Some((center, sweep_rad)) = arc else {
             return self.straight(block, target, Pace::Feed, out);
         };
-        let plane = self.offsets.plane(self.state.modal.plane);
+        let plane = self.state.offsets.plane(self.state.modal.plane);
         let plane = plane.map_or(Plane::Xy, |image| image.plane);
         let arc = Arc {
             start: self.here_on_contour(),
@@ -299,7 +299,7 @@ impl Interpreter {
         };
         let segment = Segment::Arc(arc);
         let speed = self.speed(block, &segment, Pace::Feed)?;
-        if self.compensation.is_some() {
+        if self.state.open.compensation.is_some() {
             self.state.position = target;
             return self.contour_move(block, segment, speed, out);
         }

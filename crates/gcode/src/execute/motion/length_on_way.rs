@@ -35,7 +35,7 @@ impl Interpreter {
         for i in 0..3 {
             far[i] += length_mm * along[i];
         }
-        self.offsets.to_program(far) - self.offsets.to_program(place)
+        self.state.offsets.to_program(far) - self.state.offsets.to_program(place)
     }
 
     /// Adds the change to the increments of a block that moves Z. The way to a reference position begins

@@ -18,7 +18,7 @@ impl Interpreter {
         what: &str,
     ) -> Outcome<()> {
         self.check_spindle_axis(block, low, high)?;
-        if self.is_mapped {
+        if self.state.is_mapped {
             // The places of the axes are judged when they are known.
             return Ok(());
         }

@@ -50,7 +50,7 @@ impl Interpreter {
             return Ok(());
         };
         let [first, second] = self.plane_pair().map(Axis::index);
-        let here = self.offsets.to_program(self.state.position);
+        let here = self.state.offsets.to_program(self.state.position);
         let incremental = self.state.modal.distance == Distance::Incremental;
         let base = |axis: usize| if incremental { 0.0 } else { here[axis] };
         let (sin, cos) = angle.value.to_radians().sin_cos();
@@ -81,7 +81,7 @@ impl Interpreter {
     ) -> Outcome<()> {
         let angle = block.named.find(Named::LineAngle);
         let names = self.names(block)?;
-        let Some(open) = self.open_line.take() else {
+        let Some(open) = self.state.open.line.take() else {
             return match angle {
                 Some(angle) if names == [true, true] => Err(refused(
                     angle.span,
@@ -114,7 +114,7 @@ impl Interpreter {
                 "the line goes in the plane",
             )),
             [false, false] => {
-                self.open_line = Some(Box::new(OpenLine {
+                self.state.open.line = Some(Box::new(OpenLine {
                     block: block.clone(),
                     degrees: angle.value,
                     feed: self.state.modal.feed,
@@ -144,7 +144,7 @@ impl Interpreter {
             ));
         }
         let values = self.axis_values(block)?;
-        let here = self.offsets.to_program(self.state.position);
+        let here = self.state.offsets.to_program(self.state.position);
         let end = axes.map(|axis| values[axis].unwrap_or(here[axis]));
         let start = axes.map(|axis| here[axis]);
         let Some(corner) = crossing(start, open.degrees, end, degrees) else {
@@ -174,7 +174,7 @@ impl Interpreter {
 
     /// The end of the program: a line has to have its end.
     pub(crate) fn check_line_complete(&self) -> Outcome<()> {
-        match &self.open_line {
+        match &self.state.open.line {
             None => Ok(()),
             Some(_) => Err(refused(
                 SourceSpan::default(),

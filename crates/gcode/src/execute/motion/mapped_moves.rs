@@ -39,8 +39,8 @@ impl Interpreter {
 
     /// Where the axes stand.
     pub(crate) const fn axes_place(&self) -> &AxisVector {
-        if self.is_mapped {
-            &self.axes_end
+        if self.state.is_mapped {
+            &self.state.axes_end
         } else {
             &self.state.position
         }
@@ -49,8 +49,8 @@ impl Interpreter {
     /// Another meaning of the coordinates: the machine stays where it is.
     pub(crate) fn set_tip(&mut self, tip: Tip) {
         // The programmed place and the tool's: they differ by a rounding, and beside a contour.
-        let (programmed, axes) = if self.is_mapped {
-            (self.axes_end, self.axes_end)
+        let (programmed, axes) = if self.state.is_mapped {
+            (self.state.axes_end, self.state.axes_end)
         } else {
             (self.state.position, self.state.path_end)
         };
@@ -58,21 +58,21 @@ impl Interpreter {
         let map = self.tip_map();
         let place = |axes: &AxisVector| map.map_or(*axes, |map| map.place(axes));
         (self.state.position, self.state.path_end) = (place(&programmed), place(&axes));
-        (self.axes_end, self.is_mapped) = (axes, map.is_some());
+        (self.state.axes_end, self.state.is_mapped) = (axes, map.is_some());
     }
 
     /// Follows a place that was set, and not moved to.
     pub(crate) fn axes_follow_place(&mut self) {
         let map = self.tip_map();
-        self.is_mapped = map.is_some();
-        self.axes_end = map.map_or(self.state.path_end, |map| map.axes(&self.state.path_end));
+        self.state.is_mapped = map.is_some();
+        self.state.axes_end = map.map_or(self.state.path_end, |map| map.axes(&self.state.path_end));
     }
 
     /// The length of the tool in force, mm: along Z, or along the tool where its tip is followed.
     pub(crate) fn length_in_force_mm(&self) -> f64 {
         match self.state.tip {
             Tip::Follows { longer_mm } if self.options.five_axis.is_some() => longer_mm,
-            _ => self.offsets.tool[2],
+            _ => self.state.offsets.tool[2],
         }
     }
 
@@ -83,7 +83,7 @@ impl Interpreter {
             return;
         }
         let length_mm = self.length_in_force_mm();
-        self.offsets.tool[2] = if follows { 0.0 } else { length_mm };
+        self.state.offsets.tool[2] = if follows { 0.0 } else { length_mm };
         self.set_tip(if follows {
             Tip::Follows {
                 longer_mm: length_mm,
@@ -113,23 +113,23 @@ impl Interpreter {
                     mode,
                 } => {
                     let circle = circle_of(circles, &segment, block)?;
-                    if !self.is_mapped {
+                    if !self.state.is_mapped {
                         if circle.is_none() {
                             out.push(item);
                             continue;
                         }
-                        self.axes_end = segment.start();
+                        self.state.axes_end = segment.start();
                     }
                     let way = Way {
                         map: &map,
                         segment: &segment,
                         circle,
                     };
-                    let pieces = map_move(&way, rate, self.axes_end, self.piece_error_mm());
+                    let pieces = map_move(&way, rate, self.state.axes_end, self.piece_error_mm());
                     for (segment, rate) in pieces {
                         let (low, high) = segment.bounding_box();
-                        self.check_travel(block, &low, &high, &self.axes_end, "a point")?;
-                        self.axes_end = segment.end();
+                        self.check_travel(block, &low, &high, &self.state.axes_end, "a point")?;
+                        self.state.axes_end = segment.end();
                         let kind = ItemKind::Move {
                             segment,
                             rate,

@@ -17,7 +17,7 @@ mod limits;
 mod line_angle;
 mod machine_place;
 mod mapped_moves;
-mod nurbs;
+pub(crate) mod nurbs;
 mod plain_move;
 pub(crate) mod planned_tap;
 mod polar;

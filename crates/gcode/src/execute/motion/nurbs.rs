@@ -7,7 +7,7 @@ use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
-use crate::execute::state::open_spline::OpenSpline;
+use crate::execute::state::open_spline::{OpenSpline, SplineLog};
 use crate::syntax::block::Block;
 use crate::syntax::letters::AXIS_WORDS;
 use crate::syntax::word_check::{missing, whole};
@@ -33,15 +33,12 @@ impl Interpreter {
             self.state.path_end,
             if point.is_none() { weight } else { 1.0 },
         );
-        let opens = self.open_spline.is_none();
-        let line = self.line;
-        let open = self.open_spline.get_or_insert_with(|| OpenSpline {
-            knotted: false,
-            order: WEIGHTED_ORDER,
-            points: vec![start.0],
-            weights: vec![start.1],
-            knots: Vec::new(),
-            line,
+        let (log, line) = (&mut self.spline_log, self.line);
+        let opens = self.state.open.spline.is_none();
+        let open = self.state.open.spline.get_or_insert_with(|| {
+            let mut open = OpenSpline::begun(false, WEIGHTED_ORDER, line);
+            log.add_point(&mut open, start.0, start.1);
+            open
         });
         match order {
             Some(order) if order < 2 => {
@@ -58,7 +55,7 @@ impl Interpreter {
             None => {}
         }
         match point {
-            Some(point) => push_point(open, block, point, weight),
+            Some(point) => push_point((open, log), block, point, weight),
             None if opens => Ok(()),
             None => Err(missing(
                 block.motion_span(),
@@ -111,15 +108,14 @@ impl Interpreter {
     pub(super) fn end_weighted(&mut self, block: &Block, out: &mut Vec<Item>) -> Outcome<()> {
         let span = block.motion_span();
         self.state.modal.motion = None;
-        let Some(mut open) = self.open_spline.take() else {
+        let Some(open) = self.state.open.spline.take() else {
             return Err(
                 BlockDiagnostic::new(DiagnosticCode::Spline, span, "G5.3 without G5.2")
                     .because("it ends a NURBS, and none has begun")
                     .help("write G5.2 and its control points before it"),
             );
         };
-        open.knots = open.uniform_knots();
-        self.push_nurbs(block, &open, span, out)
+        self.push_nurbs(block, (&open, &open.uniform_knots()), span, out)
     }
 
     /// G6.2, and every block after it until there are as many knots as the curve needs.
@@ -135,17 +131,11 @@ impl Interpreter {
         } else {
             None
         };
-        let line = self.line;
-        let opens = self.open_spline.is_none();
+        let (log, line) = (&mut self.spline_log, self.line);
+        let opens = self.state.open.spline.is_none();
         let here = self.state.path_end;
-        let open = self.open_spline.get_or_insert_with(|| OpenSpline {
-            knotted: true,
-            order: KNOTTED_ORDER,
-            points: Vec::new(),
-            weights: Vec::new(),
-            knots: Vec::new(),
-            line,
-        });
+        let begun = || OpenSpline::begun(true, KNOTTED_ORDER, line);
+        let open = self.state.open.spline.get_or_insert_with(begun);
         match order {
             Some(order) if order < 2 || (!opens && order != open.order) => {
                 let message = format!("P{order} cannot be the order of this NURBS");
@@ -160,7 +150,7 @@ impl Interpreter {
             Some(order) => open.order = order,
             None => {}
         }
-        if open.knots.last().is_some_and(|last| knot < *last) {
+        if log.knots(open).last().is_some_and(|last| knot < *last) {
             let message = format!("the knot {knot} is below the one before it");
             return Err(
                 BlockDiagnostic::new(DiagnosticCode::Spline, block.span(b'K'), message)
@@ -168,7 +158,7 @@ impl Interpreter {
                     .help("correct K"),
             );
         }
-        open.knots.push(knot);
+        log.add_knot(open, knot);
         if let Some(mut point) = point {
             if opens {
                 if (point - here).amax() > START_MM {
@@ -179,7 +169,7 @@ impl Interpreter {
                 }
                 point = here;
             }
-            if open.knots.len() != open.points.len() + 1 {
+            if open.knots != open.points + 1 {
                 return Err(BlockDiagnostic::new(
                     DiagnosticCode::Spline,
                     span,
@@ -189,17 +179,20 @@ impl Interpreter {
                 .help("put the control points before them"));
             }
             self.state.position = point;
-            return push_point(open, block, point, weight);
+            return push_point((open, log), block, point, weight);
         }
         if opens {
             return Err(missing(span, "G6.2", "an axis", "its first control point"));
         }
-        if open.knots.len() < open.knots_needed() {
+        if open.knots < open.knots_needed() {
             return Ok(());
         }
         self.state.modal.motion = None;
-        match self.open_spline.take() {
-            Some(open) => self.push_nurbs(block, &open, span, out),
+        match self.state.open.spline.take() {
+            Some(open) => {
+                let knots = self.spline_log.knots(&open).to_vec();
+                self.push_nurbs(block, (&open, &knots), span, out)
+            }
             None => Ok(()),
         }
     }
@@ -207,19 +200,25 @@ impl Interpreter {
     fn push_nurbs(
         &mut self,
         block: &Block,
-        open: &OpenSpline,
+        (open, knots): (&OpenSpline, &[f64]),
         span: SourceSpan,
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
         let degree = open.order as usize - 1;
-        let curve = Nurbs::new(degree, &open.points, &open.weights, &open.knots)
+        let log = &self.spline_log;
+        let curve = Nurbs::new(degree, log.points(open), log.weights(open), knots)
             .map_err(|error| no_curve(open, &error, span))?;
         self.push_curve(block, curve, out)
     }
 }
 
-fn push_point(open: &mut OpenSpline, block: &Block, point: AxisVector, weight: f64) -> Outcome<()> {
-    if open.points.len() >= MAX_POINTS {
+fn push_point(
+    (open, log): (&mut OpenSpline, &mut SplineLog),
+    block: &Block,
+    point: AxisVector,
+    weight: f64,
+) -> Outcome<()> {
+    if open.points >= MAX_POINTS {
         let message = format!("a NURBS of more than {MAX_POINTS} control points");
         return Err(
             BlockDiagnostic::new(DiagnosticCode::Spline, block.motion_span(), message)
@@ -227,8 +226,7 @@ fn push_point(open: &mut OpenSpline, block: &Block, point: AxisVector, weight: f
                 .help("write several curves"),
         );
     }
-    open.points.push(point);
-    open.weights.push(weight);
+    log.add_point(open, point, weight);
     Ok(())
 }
 
@@ -263,6 +261,6 @@ fn no_curve(open: &OpenSpline, error: &NurbsError, span: SourceSpan) -> Box<Bloc
 }
 
 /// The axis words a control point has.
-fn has_point(block: &Block) -> bool {
+pub(crate) fn has_point(block: &Block) -> bool {
     block.has_any(AXIS_WORDS) || block.polar.iter().any(Option::is_some)
 }

@@ -143,7 +143,7 @@ impl Interpreter {
         let is_plain = modal.distance == Distance::Absolute
             && modal.feed_mode == FeedMode::PerMinute
             && !modal.diameter
-            && !self.is_mapped
+            && !self.state.is_mapped
             && self.turns_on_circles().is_none()
             // F counts in the unit of lengths.
             && !(state.feeds_in_mm && modal.units == Units::Inch)
@@ -153,18 +153,18 @@ impl Interpreter {
             && state.fanuc.open_plane.is_none()
             && state.fanuc.length_on_way_mm == 0.0
             && self.options.dialect != Dialect::Marlin
-            && !self.offsets.is_turned()
-            && self.compensation.is_none()
+            && !self.state.offsets.is_turned()
+            && self.state.open.compensation.is_none()
             && !state.on_contour
             && !state.leaving_contour
-            && self.open_spline.is_none()
+            && self.state.open.spline.is_none()
             // Corners that are broken, and what the blocks before have left open.
             && state.rounds_mm <= 0.0
-            && self.corner.is_none()
-            && self.open_line.is_none()
-            && self.open_tap.is_none()
-            && self.open_thread.is_none()
-            && self.offsets.fanuc.dynamic.is_none()
+            && self.state.open.corner.is_none()
+            && self.state.open.line.is_none()
+            && self.state.open.tap.is_none()
+            && self.state.open.thread.is_none()
+            && self.state.offsets.fanuc.dynamic.is_none()
             && !state.spindle.follows_tool()
             && !state.spindle.stands_for_tap();
         let is_settled = |i: usize| {
@@ -176,7 +176,7 @@ impl Interpreter {
         }
         self.course = Course {
             scale: modal.units.mm(),
-            origin: AxisVector::from_fn(|i, _| self.offsets.origin(i)),
+            origin: AxisVector::from_fn(|i, _| self.state.offsets.origin(i)),
         };
         true
     }

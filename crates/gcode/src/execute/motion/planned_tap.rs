@@ -152,7 +152,7 @@ impl Interpreter {
             "a tap with a spindle without a speed"
         } else if spindle.follows_tool() {
             "a tap with a spindle whose speed follows the tool (G96)"
-        } else if self.compensation.is_some() {
+        } else if self.state.open.compensation.is_some() {
             "a tap with cutter radius compensation"
         } else {
             return Ok(spindle.speed);

@@ -34,7 +34,7 @@ impl Interpreter {
                 "write one or the other",
             ));
         }
-        let program = self.offsets.to_program(self.state.position);
+        let program = self.state.offsets.to_program(self.state.position);
         let (x, y) = (program[0], program[1]);
         let (mut radius, mut degrees) = (x.hypot(y), y.atan2(x).to_degrees());
         let incremental = self.state.modal.distance == Distance::Incremental;

@@ -44,7 +44,7 @@ impl Interpreter {
         let scale = self.state.modal.units.mm();
         let mut at = match from {
             PoleFrom::Place => {
-                let here = self.offsets.to_program(self.state.position);
+                let here = self.state.offsets.to_program(self.state.position);
                 [here[0], here[1], here[2]]
             }
             PoleFrom::Zero => [0.0; 3],

@@ -56,7 +56,7 @@ impl Interpreter {
         self.state.modal.path_mode = mode;
         moved?;
         self.state.probe = ProbeResult {
-            contact: self.offsets.to_program(target),
+            contact: self.state.offsets.to_program(target),
             made: true,
         };
         if is_real {
@@ -67,7 +67,7 @@ impl Interpreter {
                 kind: ItemKind::Event(Event::Probe { release }),
             };
             out.insert(first, event);
-            self.search = Some(Search { probe, span });
+            self.state.search = Some(Search { probe, span });
         }
         Ok(())
     }
@@ -101,7 +101,7 @@ impl Interpreter {
     pub(crate) fn end_search(&mut self, search: Search, probed: &Probed) -> Outcome<()> {
         let contact = probed.contact.unwrap_or(self.state.position);
         self.state.probe = ProbeResult {
-            contact: self.offsets.to_program(contact),
+            contact: self.state.offsets.to_program(contact),
             made: probed.contact.is_some(),
         };
         (self.state.position, self.state.path_end) = (probed.stands, probed.stands);

@@ -36,7 +36,7 @@ impl Interpreter {
         spline: Spline,
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
-        if self.compensation.is_some() || self.state.leaving_contour {
+        if self.state.open.compensation.is_some() || self.state.leaving_contour {
             let span = block.motion_span();
             let message = "a spline with cutter radius compensation";
             return Err(BlockDiagnostic::new(DiagnosticCode::Spline, span, message)
@@ -147,7 +147,7 @@ impl Interpreter {
         let scale = self.state.modal.units.mm();
         let mut by = AxisVector::zeros();
         (by[0], by[1]) = (words[0] * scale, words[1] * scale);
-        let turned = self.offsets.turn(by);
+        let turned = self.state.offsets.turn(by);
         [turned[0], turned[1]]
     }
 
@@ -172,7 +172,9 @@ impl Interpreter {
 
     /// Refuses the end of the input inside a NURBS.
     pub(crate) fn check_spline_complete(&self) -> Outcome<()> {
-        self.open_spline
+        self.state
+            .open
+            .spline
             .as_ref()
             .map_or(Ok(()), |open| Err(interrupted(open, SourceSpan::default())))
     }

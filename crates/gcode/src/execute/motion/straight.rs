@@ -24,7 +24,7 @@ impl Interpreter {
     ) -> Outcome<()> {
         let goal = self.beside_contour(block, &target);
         self.state.leaving_contour = goal.is_some();
-        if self.compensation.is_some() {
+        if self.state.open.compensation.is_some() {
             return self.compensated_straight(block, target, pace, out);
         }
         let start = self.state.path_end;
@@ -104,6 +104,7 @@ impl Interpreter {
         }
         let followed = self.leave_tip(block, out)?;
         let reference = self
+            .state
             .offsets
             .reference
             .get(index)

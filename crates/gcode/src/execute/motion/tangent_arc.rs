@@ -36,19 +36,19 @@ impl Interpreter {
                 .because(reason)
                 .help("write G2 or G3 with the radius CR=")
         };
-        if self.compensation.is_some() || self.state.leaving_contour {
+        if self.state.open.compensation.is_some() || self.state.leaving_contour {
             return Err(refuse(
                 "CT with cutter radius compensation",
                 "the move before it is not known yet",
             ));
         }
-        let Some(direction) = self.tangent else {
+        let Some(direction) = self.state.tangent else {
             return Err(refuse(
                 "CT without a move before it",
                 "the arc goes on in the direction of that move",
             ));
         };
-        let Some(image) = self.offsets.plane(self.state.modal.plane) else {
+        let Some(image) = self.state.offsets.plane(self.state.modal.plane) else {
             return Err(refuse(
                 "CT in a plane that a frame has tilted",
                 "it is made in the XY, ZX or YZ plane of the machine",

@@ -24,7 +24,7 @@ use crate::syntax::word_check::missing;
 impl Interpreter {
     /// Refuses what stands between the way in and the way out.
     pub(crate) fn check_open_tap(&self, block: &Block, motion: Option<Motion>) -> Outcome<()> {
-        if self.open_tap.is_none() || motion == Some(Motion::TapOut) {
+        if self.state.open.tap.is_none() || motion == Some(Motion::TapOut) {
             return Ok(());
         }
         Err(not_out(block.first_span()))
@@ -32,7 +32,7 @@ impl Interpreter {
 
     /// The end of the program: a tap has to be out of its hole.
     pub(crate) fn check_tap_complete(&self) -> Outcome<()> {
-        match self.open_tap {
+        match self.state.open.tap {
             None => Ok(()),
             Some(_) => Err(not_out(SourceSpan::default())),
         }
@@ -42,7 +42,7 @@ impl Interpreter {
     pub(crate) fn tap_in(&mut self, block: &Block) -> Outcome<()> {
         let pitch_mm = self.pitch_of_pair(block, "G331")?;
         let bottom = self.target(block)?;
-        self.open_tap = Some(OpenTap {
+        self.state.open.tap = Some(OpenTap {
             bottom,
             pitch_mm,
             line: self.line,
@@ -55,7 +55,7 @@ impl Interpreter {
     pub(crate) fn tap_out(&mut self, block: &Block, out: &mut Vec<Item>) -> Outcome<()> {
         let span = block.motion_span();
         let pitch_mm = self.pitch_of_pair(block, "G332")?;
-        let Some(tap) = self.open_tap.take() else {
+        let Some(tap) = self.state.open.tap.take() else {
             let message = "G332 without G331 in the block before it";
             return Err(
                 BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)

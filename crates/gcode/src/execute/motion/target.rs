@@ -21,7 +21,7 @@ impl Interpreter {
             // On a SINUMERIK the length of the tool stays in force: D0 takes it back.
             if block.dialect == Dialect::Siemens {
                 for (axis, value) in values.iter_mut().enumerate() {
-                    *value = value.map(|value| value + self.offsets.tool[axis]);
+                    *value = value.map(|value| value + self.state.offsets.tool[axis]);
                 }
             }
             return Ok(overlay(self.state.position, &values));
@@ -33,13 +33,13 @@ impl Interpreter {
         if self.state.untraversed.is_any() {
             self.add_untraversed(block, &mut values)?;
         }
-        let axes = self.offsets.turned_with(&values);
+        let axes = self.state.offsets.turned_with(&values);
         if !axes.is_empty() {
             let mut by = AxisVector::zeros();
             for axis in 0..3 {
                 by[axis] = values[axis].unwrap_or(0.0);
             }
-            let turned = self.offsets.turn(by);
+            let turned = self.state.offsets.turn(by);
             for &axis in axes {
                 values[axis] = Some(turned[axis]);
             }
@@ -54,7 +54,7 @@ impl Interpreter {
     /// Machine coordinates of program coordinates; an axis without a value stays where it is.
     pub(crate) fn absolute_target(&self, values: &[Option<f64>; AXES]) -> AxisVector {
         let mut target = self.state.position;
-        let offsets = &self.offsets;
+        let offsets = &self.state.offsets;
         for axis in 0..AXES {
             if let Some(value) = values[axis] {
                 target[axis] = value + offsets.origin(axis);

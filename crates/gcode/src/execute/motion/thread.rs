@@ -30,7 +30,7 @@ impl Interpreter {
         };
         let name = char::from(letter);
         // F of a FANUC stays from block to block of a thread.
-        let before = self.open_thread.as_ref().filter(|_| is_fanuc);
+        let before = self.state.open.thread.as_ref().filter(|_| is_fanuc);
         let pitch = block.get(letter).or(before.map(|open| open.pitch));
         let Some(pitch) = pitch else {
             let meaning = "the way of a revolution along the thread";
@@ -58,7 +58,7 @@ impl Interpreter {
             return Err(no_pitch(block, letter, pitch));
         }
         let target = self.target(block)?;
-        if self.open_thread.is_none() && self.state.thread_end == Some(self.state.path_end) {
+        if self.state.open.thread.is_none() && self.state.thread_end == Some(self.state.path_end) {
             let message = "a thread that goes on from another one";
             return Err(
                 BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
@@ -91,8 +91,8 @@ impl Interpreter {
             corner_mm: 0.0,
             line: self.line,
         };
-        if self.thread_goes_on || self.open_thread.is_some() {
-            let open = self.open_thread.get_or_insert_default();
+        if self.thread_goes_on || self.state.open.thread.is_some() {
+            let open = self.state.open.thread.get_or_insert_default();
             open.pitch = pitch;
             return self.chain_thread(block, (groove, target), phase, out);
         }
@@ -209,7 +209,7 @@ impl Interpreter {
             "a thread with a spindle without a speed"
         } else if spindle.follows_tool() {
             "a thread with a spindle whose speed follows the tool (G96)"
-        } else if self.compensation.is_some() {
+        } else if self.state.open.compensation.is_some() {
             "a thread with cutter radius compensation"
         } else {
             return Ok(threading);

@@ -28,7 +28,7 @@ const CORNER_PART: f64 = 0.25;
 impl Interpreter {
     /// Where the next thread begins.
     pub(super) fn thread_from(&self) -> AxisVector {
-        let open = self.open_thread.as_ref();
+        let open = self.state.open.thread.as_ref();
         let last = open.and_then(|open| open.grooves.last());
         last.map_or(self.state.path_end, |groove| groove.end)
     }
@@ -41,7 +41,7 @@ impl Interpreter {
         phase: u32,
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
-        let open = self.open_thread.get_or_insert_default();
+        let open = self.state.open.thread.get_or_insert_default();
         if open.grooves.is_empty() {
             open.phase = phase;
         } else if block.get(b'Q').is_some() || open.grooves.len() >= MOST_BLOCKS {
@@ -70,7 +70,7 @@ impl Interpreter {
         motion: Option<Motion>,
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
-        if self.open_thread.is_none() || motion == Some(Motion::Thread) {
+        if self.state.open.thread.is_none() || motion == Some(Motion::Thread) {
             return Ok(());
         }
         self.make_thread(block, block.first_span(), out)
@@ -83,7 +83,7 @@ impl Interpreter {
         span: SourceSpan,
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
-        let Some(mut open) = self.open_thread.take() else {
+        let Some(mut open) = self.state.open.thread.take() else {
             return Ok(());
         };
         let threading = self.check_spindle(span)?;

@@ -63,7 +63,7 @@ impl Interpreter {
                 "end the first one by G69, or by CYCLE800()",
             );
         }
-        if self.state.tip.follows() || self.offsets.frame.is_in_force() {
+        if self.state.tip.follows() || self.state.offsets.frame.is_in_force() {
             return refuse(
                 "a tilted plane with the tip of the tool followed, or within a frame",
                 "the plane is one of the work's coordinates as they are",
@@ -83,8 +83,8 @@ impl Interpreter {
     /// A tilted plane begins; the tool does not stand along its normal yet, unless it does so already.
     pub(crate) fn begin_tilt(&mut self, frame: Frame, span: SourceSpan) -> Outcome<()> {
         self.check_may_tilt(span)?;
-        self.offsets.tilted = frame;
-        self.offsets.frame = frame;
+        self.state.offsets.tilted = frame;
+        self.state.offsets.frame = frame;
         self.state.tilted = Some(Tilt::Waits);
         if self.stands_along(&self.normal_of_plane()) {
             self.state.tilted = Some(Tilt::Stands);
@@ -96,11 +96,11 @@ impl Interpreter {
     /// The tilted plane ends; the axes stay where they are.
     pub(crate) fn end_tilt(&mut self) {
         let was_tilted = self.state.tilted.take().is_some();
-        if !was_tilted && !self.offsets.tilted.is_in_force() {
+        if !was_tilted && !self.state.offsets.tilted.is_in_force() {
             return;
         }
-        self.offsets.tilted = Frame::default();
-        self.offsets.frame = self.offsets.fanuc.frames.frame();
+        self.state.offsets.tilted = Frame::default();
+        self.state.offsets.frame = self.state.offsets.fanuc.frames.frame();
         if was_tilted {
             self.let_tip_follow(false);
         }
@@ -192,7 +192,7 @@ impl Interpreter {
     pub(super) fn normal_of_plane(&self) -> Vector3<f64> {
         let mut up = AxisVector::zeros();
         up[2] = 1.0;
-        let turned = self.offsets.turn(up);
+        let turned = self.state.offsets.turn(up);
         Vector3::new(turned[0], turned[1], turned[2])
     }
 
@@ -244,7 +244,7 @@ impl Interpreter {
         for (axis, word) in found.into_iter().enumerate() {
             way[axis] = word.map_or(0.0, |word| word.value);
         }
-        let turned = self.offsets.turn(way);
+        let turned = self.state.offsets.turn(way);
         let direction = Vector3::new(turned[0], turned[1], turned[2]);
         if direction.norm() < SAME {
             return refuse(
@@ -256,7 +256,7 @@ impl Interpreter {
         let here = *self.axes_place();
         let angles = machine.angles_deg(&direction, (here[tilt], here[rotary]));
         let base = |axis: usize| match self.state.modal.distance {
-            Distance::Absolute => self.offsets.origin(axis),
+            Distance::Absolute => self.state.offsets.origin(axis),
             Distance::Incremental => here[axis],
         };
         values[tilt] = Some(angles.0 - base(tilt));

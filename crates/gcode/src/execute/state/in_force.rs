@@ -9,6 +9,7 @@ use crate::execute::motion::position_offsets::PositionOffsets;
 use crate::execute::parameters::Parameters;
 use crate::execute::state::offsets::Offsets;
 use crate::execute::state::program_state::State;
+use crate::execute::state::shared::Shared;
 use crate::execute::state::words_in_force::words_in_force;
 use crate::setup::tool_table::ToolTable;
 use crate::setup::work_offsets::WorkOffsets;
@@ -23,17 +24,69 @@ use crate::syntax::dialect::Dialect;
 pub struct InForce(pub(crate) Arc<InForceParts>);
 
 #[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(from = "Written", into = "Written")]
 pub(crate) struct InForceParts {
     /// The language of what left it.
-    #[serde(default)]
     pub(crate) dialect: Dialect,
     /// It was one of FANUC's lathes.
-    #[serde(default)]
     pub(crate) is_lathe: bool,
     pub(crate) state: State,
-    pub(crate) offsets: Offsets,
-    pub(crate) tools: Option<Arc<ToolTable>>,
     pub(crate) parameters: Parameters,
+}
+
+/// The same as text.
+#[derive(Serialize, Deserialize)]
+struct Written {
+    #[serde(default)]
+    dialect: Dialect,
+    #[serde(default)]
+    is_lathe: bool,
+    state: State,
+    offsets: Offsets,
+    tools: Option<Arc<ToolTable>>,
+    parameters: Parameters,
+}
+
+impl From<InForceParts> for Written {
+    fn from(parts: InForceParts) -> Self {
+        let InForceParts {
+            dialect,
+            is_lathe,
+            state,
+            parameters,
+        } = parts;
+        Self {
+            dialect,
+            is_lathe,
+            offsets: Offsets::clone(&state.offsets),
+            tools: state.tools.clone(),
+            state,
+            parameters,
+        }
+    }
+}
+
+impl From<Written> for InForceParts {
+    fn from(written: Written) -> Self {
+        let Written {
+            dialect,
+            is_lathe,
+            state,
+            offsets,
+            tools,
+            parameters,
+        } = written;
+        Self {
+            dialect,
+            is_lathe,
+            state: State {
+                offsets: Shared::new(offsets),
+                tools,
+                ..state
+            },
+            parameters,
+        }
+    }
 }
 
 impl PartialEq for InForce {
@@ -46,13 +99,13 @@ impl InForce {
     /// Coordinate systems, reference positions and the offset of G92.
     #[must_use]
     pub fn work_offsets(&self) -> WorkOffsets {
-        self.0.offsets.set_up()
+        self.0.state.offsets.set_up()
     }
 
     /// The program's zero in machine coordinates, with all offsets, that of the tool, too.
     #[must_use]
     pub fn zero(&self) -> AxisVector {
-        self.0.offsets.to_machine(AxisVector::zeros())
+        self.0.state.offsets.to_machine(AxisVector::zeros())
     }
 
     /// The offsets in force beside the coordinate system.
@@ -69,7 +122,7 @@ impl InForce {
     /// The codes and words in force, as a line would say them: see [`crate::Program::words_in_force`].
     #[must_use]
     pub fn words(&self) -> String {
-        words_in_force(&self.0.state, &self.0.offsets)
+        words_in_force(&self.0.state)
     }
 
     /// The same, for a machine at which the last M6 was not done: the tool before is in the spindle, and
@@ -77,7 +130,7 @@ impl InForce {
     #[must_use]
     pub fn before_tool_change(&self) -> Self {
         let mut parts = self.0.as_ref().clone();
-        (parts.state.tool, parts.offsets.tool) = parts.state.tool_before;
+        (parts.state.tool, parts.state.offsets.tool) = parts.state.tool_before;
         Self(Arc::new(parts))
     }
 
@@ -90,6 +143,6 @@ impl InForce {
     /// The tool table with what G10 has made of it.
     #[must_use]
     pub fn tools(&self) -> Option<&Arc<ToolTable>> {
-        self.0.tools.as_ref()
+        self.0.state.tools.as_ref()
     }
 }

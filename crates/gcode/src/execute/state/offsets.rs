@@ -40,6 +40,12 @@ pub(crate) struct Offsets {
     pub(crate) fanuc: FanucOffsets,
 }
 
+impl Default for Offsets {
+    fn default() -> Self {
+        Self::of(&WorkOffsets::default())
+    }
+}
+
 impl Offsets {
     /// Sets a coordinate system of SINUMERIK: one of the machine's, or one that the program has beside
     /// them.

@@ -1,24 +1,38 @@
-//! The part of the interpreter's state that a block may change, offsets apart.
+//! All that a block may change: a block that is refused gives it back as a whole.
+//!
+//! It is copied in front of every block that may be refused, so what is large in it is [`Shared`] with the copy.
+
+use std::sync::Arc;
 
 use glidepath_geometry::AxisVector;
 use serde::{Deserialize, Serialize};
 
+use crate::execute::auxiliary::input_wait::InputWait;
+use crate::execute::motion::tip_map::TipMap;
 use crate::execute::state::contour_plane::ContourPlane;
 use crate::execute::state::coolant::Coolant;
 use crate::execute::state::extruder::ExtruderMode;
 use crate::execute::state::fanuc_modal::FanucModal;
 use crate::execute::state::modal::{Feed, Modal};
+use crate::execute::state::offsets::Offsets;
+use crate::execute::state::open::Open;
 use crate::execute::state::pole::Pole;
-use crate::execute::state::probe_result::ProbeResult;
+use crate::execute::state::printer::KeptByPrinter;
+use crate::execute::state::probe_result::{ProbeResult, Search};
+use crate::execute::state::saved_states::SavedStates;
+use crate::execute::state::shared::Shared;
 use crate::execute::state::spindle::Spindle;
 use crate::execute::state::sticky_words::CycleSeries;
 use crate::execute::state::thread_setup::ThreadSetup;
 use crate::execute::state::tip::{Tilt, Tip};
 use crate::execute::state::untraversed::Untraversed;
+use crate::setup::firmware::Firmware;
+use crate::setup::options::Options;
+use crate::setup::tool_table::ToolTable;
 use crate::syntax::modes::{ArcFeed, Side};
 
-/// The part of the state a block may change, offsets apart.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+/// All that a block may change.
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct State {
     pub(crate) modal: Modal,
     /// Where the program has brought the machine, machine coordinates. With cutter radius
@@ -100,4 +114,103 @@ pub(crate) struct State {
     pub(crate) untraversed: Untraversed,
     /// What the first block of FANUC's G76 said.
     pub(crate) thread_setup: Option<ThreadSetup>,
+    #[serde(skip)]
+    pub(crate) offsets: Shared<Offsets>,
+    /// The tool table, with what G10 has made of it.
+    #[serde(skip)]
+    pub(crate) tools: Option<Arc<ToolTable>>,
+    /// Blocks that changed coordinate systems, reference positions, the offset of G92 or tools.
+    #[serde(skip)]
+    pub(crate) changes: u64,
+    #[serde(skip)]
+    pub(crate) open: Open,
+    #[serde(skip)]
+    pub(crate) saved_states: Shared<SavedStates>,
+    /// The firmware of the printer, as far as it is known: the program's own words may say it.
+    #[serde(skip)]
+    pub(crate) firmware: Option<Firmware>,
+    /// Places and states that a printer's program keeps.
+    #[serde(skip)]
+    pub(crate) kept_by_printer: Shared<KeptByPrinter>,
+    /// The direction in which the last move ended, for a block with CT.
+    #[serde(skip)]
+    pub(crate) tangent: Option<AxisVector>,
+    /// Where the axes stand behind the last move, where places of the program are not the axes.
+    #[serde(skip)]
+    pub(crate) axes_end: AxisVector,
+    /// They are not.
+    #[serde(skip)]
+    pub(crate) is_mapped: bool,
+    /// What the M66 executed last waits for.
+    #[serde(skip)]
+    pub(crate) input_wait: Option<InputWait>,
+    /// The probing move executed last, as long as it is not known how it ended.
+    #[serde(skip)]
+    pub(crate) search: Option<Search>,
+}
+
+impl State {
+    /// What does not outlast a program is gone.
+    pub(crate) fn end_with_program(&mut self) {
+        (self.on_contour, self.leaving_contour, self.cubic_tail) = (false, false, None);
+        self.open = Open::default();
+        self.saved_states = Shared::default();
+        self.kept_by_printer = Shared::default();
+        (self.tangent, self.input_wait, self.search) = (None, None, None);
+    }
+
+    /// What is in force where a program begins.
+    pub(crate) fn at_start(options: &Options) -> Self {
+        let axes_end = options.start;
+        let tip = options.first_tip();
+        let map = TipMap::new(options.five_axis, tip);
+        let start = map.map_or(axes_end, |map| map.place(&axes_end));
+        Self {
+            modal: Modal::new(options.default_feed_mm_min),
+            position: start,
+            path_end: start,
+            spindle: Spindle::default(),
+            coolant: Coolant::default(),
+            overrides_off: false,
+            selected_tool: 0,
+            tool: 0,
+            tool_before: (0, AxisVector::zeros()),
+            cycles: CycleSeries::default(),
+            probe: ProbeResult::default(),
+            input: 0.0,
+            extruder: ExtruderMode::default(),
+            gcode_offset: [0.0; 3],
+            on_contour: false,
+            arc_feed: ArcFeed::default(),
+            contour_side: Side::Left,
+            leaving_contour: false,
+            cubic_tail: None,
+            thread_end: None,
+            rounds_mm: 0.0,
+            corner_feed: None,
+            diameter_by_distance: false,
+            pole: Pole::default(),
+            feeds_in_mm: false,
+            edge: None,
+            fanuc: FanucModal::default(),
+            tip,
+            turns_on_circles: false,
+            tilted: None,
+            contour_plane: None,
+            untraversed: Untraversed::default(),
+            thread_setup: None,
+            offsets: Shared::new(Offsets::of(&options.offsets)),
+            tools: options.tools.clone(),
+            changes: 0,
+            open: Open::default(),
+            saved_states: Shared::default(),
+            firmware: options.firmware,
+            kept_by_printer: Shared::default(),
+            tangent: None,
+            axes_end,
+            is_mapped: map.is_some(),
+            input_wait: None,
+            search: None,
+        }
+    }
 }

@@ -4,16 +4,16 @@ use glidepath_geometry::Plane;
 
 use crate::execute::state::coolant::Coolant;
 use crate::execute::state::modal::Modal;
-use crate::execute::state::offsets::{Offsets, system_code};
+use crate::execute::state::offsets::system_code;
 use crate::execute::state::program_state::State;
 use crate::execute::state::spindle::SpindleDirection;
 use crate::syntax::modes::{CannedCycle, Distance, FeedMode, Motion, Probe, Spline, Units};
 
 /// The motion, the coordinate system, plane, units, distance and feed mode, spindle, coolant, tool, feed and
 /// speed: `G1 G54 G17 G21 G90 G94 M3 M8 T2 F600 S8000`.
-pub(crate) fn words_in_force(state: &State, offsets: &Offsets) -> String {
+pub(crate) fn words_in_force(state: &State) -> String {
     let modal = &state.modal;
-    let system = system_code(offsets.active);
+    let system = system_code(state.offsets.active);
     let spindle = match state.spindle.turning {
         None => "M5",
         Some(SpindleDirection::Clockwise) => "M3",

@@ -107,18 +107,18 @@ impl Interpreter {
     fn set_offset(&mut self, system: u32, axis: usize, value: f64) {
         let index = usize::try_from(system).unwrap_or(usize::MAX);
         match index.checked_sub(1) {
-            None => self.offsets.fanuc.external[axis] = value,
+            None => self.state.offsets.fanuc.external[axis] = value,
             Some(index) if system <= EXTENDED => {
-                if let Some(system) = self.offsets.systems.get_mut(index) {
+                if let Some(system) = self.state.offsets.systems.get_mut(index) {
                     system.origin[axis] = value;
                 }
             }
             Some(_) => {
-                let extended = &mut self.offsets.fanuc.extended;
+                let extended = &mut self.state.offsets.fanuc.extended;
                 let system = extended.entry(system - EXTENDED).or_default();
                 system.origin[axis] = value;
             }
         }
-        self.changes = self.changes.saturating_add(1);
+        self.state.changes = self.state.changes.saturating_add(1);
     }
 }

@@ -36,7 +36,8 @@ impl Interpreter {
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
         let span = block.motion_span();
-        let is_flat = self.state.modal.plane == Plane::Xy && !self.offsets.frame.is_in_force();
+        let is_flat =
+            self.state.modal.plane == Plane::Xy && !self.state.offsets.frame.is_in_force();
         if !is_flat || self.state.on_contour || self.state.leaving_contour {
             let message = "a round pocket outside G17, within a frame, or with G41 or G42 on";
             return Err(
@@ -62,18 +63,18 @@ impl Interpreter {
             .help("write G91 into the block"));
         }
         let values = self.axis_values(block)?;
-        let mut center = self.offsets.to_program(self.state.position);
+        let mut center = self.state.offsets.to_program(self.state.position);
         let moved = |at: f64, value: Option<f64>| match value {
             None => at,
             Some(by) if incremental => at + by,
             Some(to) => to,
         };
         (center[0], center[1]) = (moved(center[0], values[0]), moved(center[1], values[1]));
-        let across = self.offsets.to_machine(center);
+        let across = self.state.offsets.to_machine(center);
         self.straight(block, across, Pace::Rapid, out)?;
         for _ in 0..levels {
             center[2] = moved(center[2], values[2]);
-            let center = self.offsets.to_machine(center);
+            let center = self.state.offsets.to_machine(center);
             self.straight(block, center, Pace::Feed, out)?;
             self.circles(block, center, &radii, is_clockwise, out)?;
         }
@@ -96,7 +97,7 @@ impl Interpreter {
             ));
         }
         let tool = self.tool_of(offset, named)?;
-        let tool_mm = 0.5 * tool.diameter_mm + self.offsets.fanuc.wear(offset).radius_mm;
+        let tool_mm = 0.5 * tool.diameter_mm + self.state.offsets.fanuc.wear(offset).radius_mm;
         let first = word(b'I').ok_or_else(|| {
             missing(
                 span,

@@ -22,8 +22,8 @@ impl Interpreter {
         let Some(coded) = block.codes.frame else {
             return Ok(());
         };
-        let before = self.offsets.fanuc.frames;
-        let frames = self.offsets.fanuc.frames;
+        let before = self.state.offsets.fanuc.frames;
+        let frames = self.state.offsets.fanuc.frames;
         let ends = !matches!(
             coded.code,
             FrameCode::Scale(true) | FrameCode::Mirror(true) | FrameCode::Turn(true)
@@ -52,8 +52,8 @@ impl Interpreter {
             return Ok(());
         }
         self.check_frame_may_change(coded)?;
-        self.offsets.fanuc.frames = frames;
-        self.offsets.frame = self.offsets.tilted.with(&frames.frame());
+        self.state.offsets.fanuc.frames = frames;
+        self.state.offsets.frame = self.state.offsets.tilted.with(&frames.frame());
         Ok(())
     }
 
@@ -71,7 +71,7 @@ impl Interpreter {
     /// X, Y and Z of the block in mm, or where the tool is.
     fn centre(&self, block: &Block) -> Outcome<[f64; 3]> {
         let words = self.axis_values(block)?;
-        let here = self.offsets.to_program(self.state.position);
+        let here = self.state.offsets.to_program(self.state.position);
         Ok([0, 1, 2].map(|axis| words[axis].unwrap_or(here[axis])))
     }
 
@@ -173,7 +173,7 @@ impl Interpreter {
         let degrees = block
             .get(b'R')
             .ok_or_else(|| missing(coded.span, "G68", "R", "the angle"))?;
-        let before = self.offsets.fanuc.frames.turn;
+        let before = self.state.offsets.fanuc.frames.turn;
         let adds = self.state.modal.distance == Distance::Incremental;
         let base = before.filter(|_| adds).map_or(0.0, |turn| turn.degrees);
         let about = match before {

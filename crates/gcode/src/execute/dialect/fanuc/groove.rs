@@ -80,7 +80,7 @@ impl Interpreter {
             self.state.fanuc.retract_mm = back.unwrap_or(self.state.fanuc.retract_mm);
             return Ok(());
         }
-        let start = self.offsets.to_program(self.state.position);
+        let start = self.state.offsets.to_program(self.state.position);
         let values = self.axis_values(block)?;
         let (axis, other) = if across { (0, 2) } else { (2, 0) };
         let word = if across { "X" } else { "Z" };
@@ -163,7 +163,7 @@ impl Interpreter {
         pace: Pace,
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
-        let target = self.offsets.to_machine(place);
+        let target = self.state.offsets.to_machine(place);
         self.straight(block, target, pace, out)
     }
 

@@ -66,7 +66,7 @@ impl Interpreter {
                 .because("I is the radius")
                 .help("write it above zero"));
         }
-        let middle = self.offsets.to_program(self.state.position);
+        let middle = self.state.offsets.to_program(self.state.position);
         let places = (0..count).map(|index| {
             let angle = (first_deg + f64::from(index) * step_deg).to_radians();
             let mut place = [None; AXES];

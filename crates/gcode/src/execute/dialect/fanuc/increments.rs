@@ -41,7 +41,7 @@ impl Interpreter {
         block: &Block,
         values: &mut [Option<f64>; AXES],
     ) -> Outcome<()> {
-        let program = self.offsets.to_program(self.state.position);
+        let program = self.state.offsets.to_program(self.state.position);
         let scale = self.state.modal.units.mm();
         for (letter, axis) in INCREMENTS {
             let own = match letter {

@@ -35,7 +35,7 @@ impl<R: BufRead> Program<R> {
             .help("write it behind block Q"));
         }
         let start = self.interpreter.state.position;
-        if self.interpreter.compensation.is_some() {
+        if self.interpreter.state.open.compensation.is_some() {
             // It begins anew with the profile.
             let items = &mut self.items;
             self.interpreter
@@ -67,7 +67,7 @@ impl<R: BufRead> Program<R> {
         let span = block.first_span();
         self.interpreter
             .settle_corner_before(&block, span, &mut items)?;
-        if self.interpreter.compensation.is_some() {
+        if self.interpreter.state.open.compensation.is_some() {
             self.interpreter
                 .rapid_without_compensation(&block, finishing.start, &mut items)?;
         } else {

@@ -75,7 +75,7 @@ impl Interpreter {
             self.set_tool_value(number, |tool| tool.orientation = in_table(direction));
         }
         if !is_geometry {
-            let wear = self.offsets.fanuc.wear.entry(number).or_default();
+            let wear = self.state.offsets.fanuc.wear.entry(number).or_default();
             wear.x_mm = changed(wear.x_mm, b'X', b'U', 0.5);
             wear.length_mm = changed(wear.length_mm, b'Z', b'W', 1.0);
             wear.radius_mm = radius.unwrap_or(wear.radius_mm);

@@ -122,6 +122,7 @@ impl<R: BufRead> Program<R> {
             self.draw_fanuc_block(&text, &mut profile)?;
         }
         self.set_tape_origin(source.number, &source.text);
+        self.block.clone_from(block);
         let mm = self.interpreter.state.modal.units.mm();
         let allowance = [
             block.get(b'W').unwrap_or(0.0) * mm,
@@ -137,12 +138,12 @@ impl<R: BufRead> Program<R> {
             profile.shift_by(cut);
             (LatheCycleWords::along_profile(), along)
         });
-        let state = self.interpreter.state;
+        let state = self.interpreter.state.clone();
         let mut items = core::mem::take(&mut self.items);
         for (words, profile) in core::iter::once((words, profile)).chain(along) {
             let source = source.clone();
             let own = block.clone();
-            let open = OpenLatheCycle::of_fanuc(source, line, own, words, profile, state);
+            let open = OpenLatheCycle::of_fanuc(source, line, own, words, profile, state.clone());
             self.interpreter.make_lathe_cycle(&open, &mut items)?;
             self.interpreter
                 .straight(block, start, Pace::Rapid, &mut items)?;
@@ -353,7 +354,7 @@ impl Interpreter {
 
     fn check_profile(&self, block: &Block, cycle: LatheCycle) -> Outcome<()> {
         let is_here = self.state.modal.plane == Plane::Zx
-            && !self.offsets.is_turned()
+            && !self.state.offsets.is_turned()
             && (!self.state.on_contour || cycle == LatheCycle::Finish);
         if is_here {
             return Ok(());

@@ -44,7 +44,7 @@ impl Interpreter {
 
     fn mode_of_mill(&self, group: u32) -> Option<f64> {
         let modal = &self.state.modal;
-        let frames = &self.offsets.fanuc.frames;
+        let frames = &self.state.offsets.fanuc.frames;
         Some(match group {
             1 => mill_motion(self.motion_beside_cycles()),
             2 => self.plane_code(),
@@ -105,9 +105,9 @@ impl Interpreter {
                 Side::Right => 42.0,
             },
             12 => one_of(self.state.fanuc.calls_macro, 66.0, 67.0),
-            14 => match self.offsets.fanuc.active {
+            14 => match self.state.offsets.fanuc.active {
                 Some(_) => 54.1,
-                None => f64::from(u8::try_from(self.offsets.active).unwrap_or(0)) + 54.0,
+                None => f64::from(u8::try_from(self.state.offsets.active).unwrap_or(0)) + 54.0,
             },
             _ => return None,
         })

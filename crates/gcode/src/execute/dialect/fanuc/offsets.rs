@@ -74,7 +74,7 @@ impl Interpreter {
         let number = whole(block, b'P', most)?
             .filter(|number| *number >= least)
             .ok_or_else(|| missing(span, "G10", "P", "which work offset, 1 for the first"))?;
-        let fanuc = &mut self.offsets.fanuc;
+        let fanuc = &mut self.state.offsets.fanuc;
         if kind == 20 {
             let system = fanuc.extended.entry(number).or_default();
             system.origin = with_words(system.origin, &words, adds);
@@ -84,7 +84,7 @@ impl Interpreter {
         match index.checked_sub(1) {
             None => fanuc.external = with_words(fanuc.external, &words, adds),
             Some(index) => {
-                if let Some(system) = self.offsets.systems.get_mut(index) {
+                if let Some(system) = self.state.offsets.systems.get_mut(index) {
                     system.origin = with_words(system.origin, &words, adds);
                 }
             }
@@ -116,15 +116,32 @@ impl Interpreter {
                 set(&mut radius_mm);
                 tool.diameter_mm = 2.0 * radius_mm;
             }),
-            11 => set(&mut self.offsets.fanuc.wear.entry(number).or_default().length_mm),
-            _ => set(&mut self.offsets.fanuc.wear.entry(number).or_default().radius_mm),
+            11 => set(&mut self
+                .state
+                .offsets
+                .fanuc
+                .wear
+                .entry(number)
+                .or_default()
+                .length_mm),
+            _ => set(&mut self
+                .state
+                .offsets
+                .fanuc
+                .wear
+                .entry(number)
+                .or_default()
+                .radius_mm),
         }
         Ok(())
     }
 
     /// Changes an offset in the tool table, which gets the tool if it has none of that number.
     pub(crate) fn set_tool_value(&mut self, number: u32, change: impl Fn(&mut Tool)) {
-        let tools = self.tools.get_or_insert_with(|| Arc::new(ToolTable::new()));
+        let tools = self
+            .state
+            .tools
+            .get_or_insert_with(|| Arc::new(ToolTable::new()));
         let tools = Arc::make_mut(tools);
         let mut tool = tools.get(number).copied().unwrap_or_default();
         change(&mut tool);
@@ -141,7 +158,7 @@ impl Interpreter {
             }
             (None, system) => {
                 if system.is_some() {
-                    self.offsets.fanuc.active = None;
+                    self.state.offsets.fanuc.active = None;
                 }
                 return Ok(());
             }
@@ -152,7 +169,7 @@ impl Interpreter {
         };
         let number =
             written.ok_or_else(|| missing(span, "G54.1", "P", "the number of the work offset"))?;
-        if !self.offsets.fanuc.extended.contains_key(&number) {
+        if !self.state.offsets.fanuc.extended.contains_key(&number) {
             let message = format!("the work offset of G54.1 P{number} was not set");
             return Err(BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
                 .because(
@@ -162,7 +179,7 @@ impl Interpreter {
                     "write G10 L20 P{number} with its coordinates before it"
                 )));
         }
-        self.offsets.fanuc.active = Some(number);
+        self.state.offsets.fanuc.active = Some(number);
         Ok(())
     }
 }

@@ -27,7 +27,7 @@ impl Interpreter {
         };
         let (first, second) = self.state.modal.plane.axes();
         let incremental = self.state.modal.distance == Distance::Incremental;
-        let here = self.offsets.to_program(self.state.position);
+        let here = self.state.offsets.to_program(self.state.position);
         let scale = self.state.modal.units.mm();
         for (axis, value) in block.axes() {
             if axis == first {
@@ -63,7 +63,7 @@ impl Interpreter {
         if !is_meant || axes.iter().all(|axis| values[*axis].is_none()) {
             return Ok(());
         }
-        let here = self.offsets.to_program(self.state.position);
+        let here = self.state.offsets.to_program(self.state.position);
         let incremental = self.state.modal.distance == Distance::Incremental;
         for (axis, place) in axes.into_iter().zip(polar.point()) {
             values[axis] = Some(if incremental {

@@ -209,7 +209,7 @@ impl<R: BufRead> Program<R> {
                 ..
             }) = self.block.codes.motion
         {
-            return self.lathe_profile_cycle(cycle, number);
+            return self.whole_statement(|program| program.lathe_profile_cycle(cycle, number));
         }
         let goes_on = self.execute_parsed(number, parsed)?;
         if goes_on && self.modal_macro.is_some() && !self.ended {

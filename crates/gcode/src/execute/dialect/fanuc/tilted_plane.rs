@@ -96,7 +96,7 @@ impl Interpreter {
 
     /// G254 and G255.
     pub(crate) fn dynamic_offset(&mut self, coded: Coded<bool>) -> Outcome<()> {
-        self.offsets.fanuc.dynamic = None;
+        self.state.offsets.fanuc.dynamic = None;
         if !coded.code {
             return Ok(());
         }
@@ -114,7 +114,7 @@ impl Interpreter {
                 "configure `kinematics = \"five-axis\"`",
             );
         }
-        if self.state.tip.follows() || self.offsets.frame.is_in_force() {
+        if self.state.tip.follows() || self.state.offsets.frame.is_in_force() {
             return refuse(
                 "G254 with the tip of the tool followed, or within a frame",
                 "it counts in the directions of the machine's own axes",
@@ -126,19 +126,19 @@ impl Interpreter {
         };
         let mut zero = *self.axes_place();
         for axis in 0..3 {
-            zero[axis] = self.offsets.origin(axis) - self.offsets.tool[axis];
+            zero[axis] = self.state.offsets.origin(axis) - self.state.offsets.tool[axis];
         }
         let mut way = map.place(&zero) - zero;
         for axis in 3..way.len() {
             way[axis] = 0.0;
         }
-        self.offsets.fanuc.dynamic = Some(way);
+        self.state.offsets.fanuc.dynamic = Some(way);
         Ok(())
     }
 
     /// Refuses rotary words while the zero of the program stands for one position of the table.
     pub(crate) fn check_dynamic_offset(&self, block: &Block) -> Outcome<()> {
-        if self.offsets.fanuc.dynamic.is_none() {
+        if self.state.offsets.fanuc.dynamic.is_none() {
             return Ok(());
         }
         let Some((axis, _)) = block.axes().find(|(axis, _)| axis.is_rotary()) else {

@@ -36,7 +36,7 @@ impl Interpreter {
 
     /// Refuses a tool that is beside the spindle's axis where the tip is followed.
     pub(crate) fn check_straight_tool<T>(&self, coded: Coded<T>) -> Outcome<()> {
-        let tool = &self.offsets.tool;
+        let tool = &self.state.offsets.tool;
         if tool[0] == 0.0 && tool[1] == 0.0 {
             return Ok(());
         }

@@ -45,7 +45,7 @@ impl Interpreter {
         let mut length_mm = 0.0;
         if number > 0 {
             length_mm = self.tool_of(number, span)?.offset[2];
-            length_mm += self.offsets.fanuc.wear(number).length_mm;
+            length_mm += self.state.offsets.fanuc.wear(number).length_mm;
         }
         if follows && self.state.tilted.is_some() {
             let message = "G43.4 in a tilted plane";
@@ -100,9 +100,9 @@ impl Interpreter {
     /// Puts a length in force: along Z, or along the tool where the tip is followed.
     fn set_length_in_force(&mut self, length_mm: f64, follows: bool) {
         self.state.fanuc.length_on_way_mm += length_mm - self.length_in_force_mm();
-        self.offsets.tool = AxisVector::zeros();
+        self.state.offsets.tool = AxisVector::zeros();
         if self.options.five_axis.is_none() {
-            self.offsets.tool[2] = length_mm;
+            self.state.offsets.tool[2] = length_mm;
             return;
         }
         if follows || self.state.tilted == Some(Tilt::Stands) {
@@ -110,7 +110,7 @@ impl Interpreter {
                 longer_mm: length_mm,
             });
         } else {
-            self.offsets.tool[2] = length_mm;
+            self.state.offsets.tool[2] = length_mm;
             self.set_tip(Tip::Stands);
         }
     }

@@ -131,9 +131,13 @@ pub(super) fn tool_variable(
 impl Interpreter {
     /// A part of a tool's offsets, mm or the number of a direction.
     pub(super) fn tool_part(&self, part: ToolPart, number: u32) -> f64 {
-        let tool = self.tools.as_ref().and_then(|tools| tools.get(number));
+        let tool = self
+            .state
+            .tools
+            .as_ref()
+            .and_then(|tools| tools.get(number));
         let tool = tool.copied().unwrap_or_default();
-        let wear = self.offsets.fanuc.wear(number);
+        let wear = self.state.offsets.fanuc.wear(number);
         match part {
             ToolPart::Length => tool.offset[2],
             ToolPart::LengthWear => wear.length_mm,
@@ -165,15 +169,33 @@ impl Interpreter {
                 self.set_tool_value(number, |tool| tool.orientation = in_table(direction));
             }
             ToolPart::LengthWear => {
-                self.offsets.fanuc.wear.entry(number).or_default().length_mm = value_mm;
+                self.state
+                    .offsets
+                    .fanuc
+                    .wear
+                    .entry(number)
+                    .or_default()
+                    .length_mm = value_mm;
             }
             ToolPart::RadiusWear => {
-                self.offsets.fanuc.wear.entry(number).or_default().radius_mm = value_mm;
+                self.state
+                    .offsets
+                    .fanuc
+                    .wear
+                    .entry(number)
+                    .or_default()
+                    .radius_mm = value_mm;
             }
             ToolPart::AcrossWear => {
-                self.offsets.fanuc.wear.entry(number).or_default().x_mm = 0.5 * value_mm;
+                self.state
+                    .offsets
+                    .fanuc
+                    .wear
+                    .entry(number)
+                    .or_default()
+                    .x_mm = 0.5 * value_mm;
             }
         }
-        self.changes = self.changes.saturating_add(1);
+        self.state.changes = self.state.changes.saturating_add(1);
     }
 }

@@ -35,7 +35,7 @@ impl Interpreter {
         cycle: Turning,
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
-        let start = self.offsets.to_program(self.state.position);
+        let start = self.state.offsets.to_program(self.state.position);
         let words = self.turning_words(block, cycle)?;
         self.state.fanuc.turning = Some(words);
         let at = |x: f64, z: f64| {
@@ -61,7 +61,7 @@ impl Interpreter {
             ],
         };
         for (point, pace) in ways {
-            let target = self.offsets.to_machine(point);
+            let target = self.state.offsets.to_machine(point);
             self.straight(block, target, pace, out)?;
         }
         Ok(())
@@ -165,7 +165,7 @@ impl Interpreter {
                 let way = point - from;
                 from = *point;
                 Groove {
-                    end: self.offsets.to_machine(*point),
+                    end: self.state.offsets.to_machine(*point),
                     pitch_mm: lead_mm * way[0].hypot(way[2]) / way[0].abs().max(way[2].abs()),
                     corner_mm: 0.25 * out_mm,
                     line: self.line,

@@ -41,12 +41,12 @@ impl Interpreter {
             .because("where the tool is would not be clear")
             .help("write G40 and a move before it"));
         }
-        let before = self.offsets.tool;
-        self.offsets.tool = AxisVector::zeros();
+        let before = self.state.offsets.tool;
+        self.state.offsets.tool = AxisVector::zeros();
         if offset > 0 {
-            let wear = self.offsets.fanuc.wear(offset);
-            self.offsets.tool[0] = length.offset[0] + wear.x_mm;
-            self.offsets.tool[2] = length.offset[2] + wear.length_mm;
+            let wear = self.state.offsets.fanuc.wear(offset);
+            self.state.offsets.tool[0] = length.offset[0] + wear.x_mm;
+            self.state.offsets.tool[2] = length.offset[2] + wear.length_mm;
         }
         self.state.fanuc.length_offset = Some(offset);
         self.state.fanuc.radius_offset = offset;

@@ -188,13 +188,13 @@ impl Interpreter {
 
     fn place(&self, place: Place, axis: usize) -> f64 {
         let axis = self.numbered_axis(axis).map_or(0, Axis::index);
-        let program = || self.offsets.to_program(self.state.position);
+        let program = || self.state.offsets.to_program(self.state.position);
         let place = match place {
             Place::Program => program(),
             Place::Machine => self.state.position,
-            Place::Present => program() + self.offsets.tool,
-            Place::Contact => self.state.probe.contact + self.offsets.tool,
-            Place::ToolOffset => self.offsets.tool,
+            Place::Present => program() + self.state.offsets.tool,
+            Place::Contact => self.state.probe.contact + self.state.offsets.tool,
+            Place::ToolOffset => self.state.offsets.tool,
         };
         self.shown(place, axis)
     }
@@ -211,11 +211,12 @@ impl Interpreter {
 
     /// The offset of a system, machine coordinates.
     fn offset_of(&self, system: u32) -> AxisVector {
-        let fanuc = &self.offsets.fanuc;
+        let fanuc = &self.state.offsets.fanuc;
         let index = usize::try_from(system).unwrap_or(usize::MAX);
         match index.checked_sub(1) {
             None => fanuc.external,
             Some(index) if system <= EXTENDED => self
+                .state
                 .offsets
                 .systems
                 .get(index)
@@ -249,7 +250,7 @@ impl Interpreter {
                 f64::from(100 * state.selected_tool + state.fanuc.length_offset.unwrap_or_default())
             }
             b'T' => f64::from(state.selected_tool),
-            _ => f64::from(self.offsets.fanuc.active.unwrap_or(0)),
+            _ => f64::from(self.state.offsets.fanuc.active.unwrap_or(0)),
         }
     }
 }

@@ -21,7 +21,7 @@ use crate::syntax::word_check::missing;
 impl<R: BufRead> Program<R> {
     /// The parts of the shift in force; `None`: it cannot be told which part said what.
     fn shift_parts(&self) -> Option<ShiftParts> {
-        let frame = self.interpreter.offsets.frame;
+        let frame = self.interpreter.state.offsets.frame;
         let none = ShiftParts {
             frame,
             coarse: AxisVector::zeros(),
@@ -33,9 +33,9 @@ impl<R: BufRead> Program<R> {
 
     /// Keeps the parts of the shift behind a frame, which has come behind `before`.
     pub(super) fn remember_shift(&mut self, word: FrameWord, before: Frame, values: &[FrameValue]) {
-        let frame = core::mem::replace(&mut self.interpreter.offsets.frame, before);
+        let frame = core::mem::replace(&mut self.interpreter.state.offsets.frame, before);
         let last = self.shift_parts();
-        self.interpreter.offsets.frame = frame;
+        self.interpreter.state.offsets.frame = frame;
         let zero = AxisVector::zeros();
         let shift = || self.shift(values).map_or(zero, |shift| shift.shift);
         let parts = match (word.kind, word.adds) {
@@ -74,7 +74,7 @@ impl<R: BufRead> Program<R> {
         if values.is_empty() {
             return Err(missing(name, code, "an axis", "whose offset it is"));
         }
-        let is_tilted = self.interpreter.offsets.tilted.is_in_force();
+        let is_tilted = self.interpreter.state.offsets.tilted.is_in_force();
         let Some(mut parts) = self.shift_parts().filter(|_| !is_tilted) else {
             let message =
                 format!("{code} in a frame whose shift was turned, or that is not its own");
@@ -96,7 +96,7 @@ impl<R: BufRead> Program<R> {
             by[axis] = to[axis] - part[axis];
             part[axis] = to[axis];
         }
-        let offsets = &mut self.interpreter.offsets;
+        let offsets = &mut self.interpreter.state.offsets;
         parts.frame = Frame::shifted(by).with(&offsets.frame);
         check_shift(&parts.frame, name)?;
         offsets.frame = parts.frame;

@@ -36,7 +36,7 @@ impl<R: BufRead> Program<R> {
     ) -> Outcome<LatheProfile> {
         let here = self.tape.place();
         let source = self.here();
-        let state = self.interpreter.state;
+        let state = self.interpreter.state.clone();
         let drawn = self.siemens_draw_contour(name, span);
         self.tape.go_to(here);
         self.interpreter.state = state;

@@ -87,7 +87,10 @@ pub(super) fn plane_axes(
 
 /// The coordinate of the program on an axis, in the units in force.
 pub(super) fn coordinate(interpreter: &Interpreter, axis: Axis) -> f64 {
-    let program = interpreter.offsets.to_program(interpreter.state.position);
+    let program = interpreter
+        .state
+        .offsets
+        .to_program(interpreter.state.position);
     program[axis.index()] / interpreter.state.modal.units.mm()
 }
 
@@ -163,12 +166,11 @@ impl<R: BufRead> Program<R> {
 
     pub(super) fn siemens_begin(&mut self, call: &CycleCall, span: SourceSpan) -> Outcome<()> {
         let lines = self.cycle_lines(Arguments { call, span })?;
-        self.siemens_give(lines);
-        Ok(())
+        self.siemens_give(lines)
     }
 
     /// The lines come next, and behind them what is in force now.
-    pub(super) fn siemens_give(&mut self, lines: Lines) {
+    pub(super) fn siemens_give(&mut self, lines: Lines) -> Outcome<()> {
         let state = &self.interpreter.state;
         let before = Before {
             modal: state.modal,
@@ -179,6 +181,26 @@ impl<R: BufRead> Program<R> {
         self.siemens
             .steps
             .push_back(Step::Restore(Box::new(before)));
+        self.siemens_make_typed()
+    }
+
+    /// Of a line that was typed the cycle is made at once, since it has its whole effect or none. In a program its
+    /// lines come one after the other: there may be very many.
+    fn siemens_make_typed(&mut self) -> Outcome<()> {
+        let mut items = core::mem::take(&mut self.items);
+        while self.is_typed
+            && let Some(step) = self.siemens.steps.pop_front()
+        {
+            let is_last = matches!(step, Step::Restore(_));
+            self.items.clear();
+            self.siemens_step(step)?;
+            items.append(&mut self.items);
+            if is_last {
+                break;
+            }
+        }
+        self.items = items;
+        Ok(())
     }
 
     /// Refuses a cycle where its moves would not be what they are meant to be.

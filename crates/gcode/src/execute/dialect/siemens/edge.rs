@@ -24,8 +24,8 @@ impl Interpreter {
         let (edge, span) = match whole(block, b'D', 9)? {
             Some(edge) => (edge, block.span(b'D')),
             // Without a table no length is known.
-            None if self.changes_tool(block) && self.tools.is_none() => {
-                self.offsets.tool = AxisVector::zeros();
+            None if self.changes_tool(block) && self.state.tools.is_none() => {
+                self.state.offsets.tool = AxisVector::zeros();
                 self.state.edge = None;
                 return Ok(());
             }
@@ -48,14 +48,14 @@ impl Interpreter {
         } else {
             self.tool_of(self.state.tool, span)?
         };
-        self.offsets.tool = if edge == 0 {
+        self.state.offsets.tool = if edge == 0 {
             AxisVector::zeros()
         } else {
             tool.offset
         };
         if self.options.five_axis.is_some() && self.state.tip.follows() {
             self.check_straight_tool(Coded { code: (), span })?;
-            let longer_mm = core::mem::take(&mut self.offsets.tool[2]);
+            let longer_mm = core::mem::take(&mut self.state.offsets.tool[2]);
             self.set_tip(Tip::Follows { longer_mm });
         }
         self.state.edge = Some(edge);

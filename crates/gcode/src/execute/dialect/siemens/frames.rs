@@ -73,7 +73,7 @@ impl<R: BufRead> Program<R> {
                 Frame::scaled(of_axes(&values, 1.0, |value| value)?)
             }
         };
-        let offsets = &mut self.interpreter.offsets;
+        let offsets = &mut self.interpreter.state.offsets;
         let frame = if word.adds {
             offsets.frame.with(&frame)
         } else {

@@ -261,6 +261,7 @@ impl Interpreter {
     /// The radius of the tool in the spindle.
     pub(super) fn mill_radius(&self, arguments: Arguments<'_>) -> Outcome<f64> {
         let tool = self
+            .state
             .tools
             .as_ref()
             .and_then(|tools| tools.get(self.state.tool));

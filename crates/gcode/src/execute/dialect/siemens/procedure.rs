@@ -50,7 +50,10 @@ impl<R: BufRead> Program<R> {
             self.parameters.assign(&parameter, kind.of(value));
         }
         if is_saved {
-            let saved = (self.interpreter.state.modal, self.interpreter.offsets.frame);
+            let saved = (
+                self.interpreter.state.modal,
+                self.interpreter.state.offsets.frame,
+            );
             if let Some(call) = self.siemens.calls.last_mut() {
                 call.saved = Some(Box::new(saved));
             }

@@ -30,7 +30,11 @@ use crate::syntax::dialect::siemens::system_variable::AxisValues;
 impl Interpreter {
     /// The frame of the program, in the plane of CYCLE800.
     fn program_frame(&self) -> Frame {
-        self.offsets.tilted.inverse().with(&self.offsets.frame)
+        self.state
+            .offsets
+            .tilted
+            .inverse()
+            .with(&self.state.offsets.frame)
     }
 
     /// `$P_PFRAME[X,TR]` and the like; `None`: it is not known.
@@ -136,7 +140,7 @@ impl<R: BufRead> Program<R> {
         check_scale(&frame, span)?;
         check_shift(&frame, span)?;
         self.renaming(|program| {
-            let offsets = &mut program.interpreter.offsets;
+            let offsets = &mut program.interpreter.state.offsets;
             offsets.frame = offsets.tilted.with(&frame);
             Ok(())
         })

@@ -79,7 +79,11 @@ impl<R: BufRead> Program<R> {
                         return Ok(true);
                     }
                 }
-                self.siemens_block(number, &text)
+                if self.siemens.modal_call.is_none() {
+                    return self.siemens_block(number, &text);
+                }
+                // What is called at the end of a move may be refused when the block itself was not.
+                self.whole_statement(|program| program.siemens_block(number, &text))
             }
             Statement::Extern => Ok(true),
             Statement::TextCall(call) => {
@@ -90,23 +94,34 @@ impl<R: BufRead> Program<R> {
                 let done = self.siemens_procedure(&text, at);
                 done.inspect_err(|_| self.end()).map(|()| true)
             }
-            Statement::Frame(word) => self
-                .renaming(|program| program.siemens_frame(word, &text, at))
-                .map(|()| true),
-            Statement::AxisOffset(is_fine) => self
-                .renaming(|program| program.siemens_axis_offset(is_fine, &text, at))
-                .map(|()| true),
-            Statement::SystemData => self.siemens_system_data(&text, at).map(|()| true),
-            Statement::Cycle => self.siemens_cycle(&text, at).map(|()| true),
-            Statement::Swivel => self.siemens_swivel(&text, at).map(|()| true),
-            Statement::Positions => self.siemens_positions(&text, at).map(|()| true),
-            Statement::ModalCall => self.siemens_modal_call(&text, at).map(|()| true),
+            Statement::Frame(word) => self.siemens_whole(|program| {
+                program.renaming(|program| program.siemens_frame(word, &text, at))
+            }),
+            Statement::AxisOffset(is_fine) => self.siemens_whole(|program| {
+                program.renaming(|program| program.siemens_axis_offset(is_fine, &text, at))
+            }),
+            Statement::SystemData => {
+                self.siemens_whole(|program| program.siemens_system_data(&text, at))
+            }
+            Statement::Cycle => self.siemens_whole(|program| program.siemens_cycle(&text, at)),
+            Statement::Swivel => self.siemens_whole(|program| program.siemens_swivel(&text, at)),
+            Statement::Positions => {
+                self.siemens_whole(|program| program.siemens_positions(&text, at))
+            }
+            Statement::ModalCall => {
+                self.siemens_whole(|program| program.siemens_modal_call(&text, at))
+            }
             // What follows depends on it, so a diagnostic ends the program.
             _ => {
                 let done = self.siemens_flow(statement, index, &text, at);
                 done.inspect_err(|_| self.end()).map(|()| true)
             }
         }
+    }
+
+    /// A statement that has its whole effect, or none.
+    fn siemens_whole(&mut self, act: impl FnOnce(&mut Self) -> Outcome<()>) -> Outcome<bool> {
+        self.whole_statement(act).map(|()| true)
     }
 
     /// What reads a text from a place on.
@@ -189,7 +204,7 @@ impl<R: BufRead> Program<R> {
     }
 
     /// A step of the cycle in progress; what is wrong with it is wrong with the cycle's line.
-    fn siemens_step(&mut self, step: Step) -> Outcome<bool> {
+    pub(super) fn siemens_step(&mut self, step: Step) -> Outcome<bool> {
         let line = match step {
             Step::Restore(before) => {
                 self.restore(*before);

@@ -7,6 +7,7 @@ use glidepath_geometry::AxisVector;
 use crate::execute::dialect::tape::TapePlace;
 use crate::execute::state::frame::Frame;
 use crate::execute::state::modal::Modal;
+use crate::execute::state::shared::Shared;
 use crate::syntax::dialect::siemens::variables::Variables;
 
 /// A step of a cycle.
@@ -50,7 +51,7 @@ pub(crate) enum ModalCall {
 #[derive(Debug)]
 pub(crate) struct CallState {
     /// The caller's variables.
-    pub(super) variables: Variables,
+    pub(super) variables: Shared<Variables>,
     /// The values of the call.
     pub(super) arguments: Vec<Option<f64>>,
     /// The modes and the frame of the caller, where PROC says SAVE.
@@ -74,7 +75,7 @@ pub(crate) struct ShiftParts {
 /// What a SINUMERIK program has besides the state of the interpreter.
 #[derive(Debug, Default)]
 pub(crate) struct SiemensState {
-    pub(crate) variables: Variables,
+    pub(crate) variables: Shared<Variables>,
     /// What is left of the cycle in progress.
     pub(crate) steps: VecDeque<Step>,
     /// The cycle that is made behind every move (MCALL).

@@ -90,8 +90,7 @@ impl<R: BufRead> Program<R> {
         let removal = self.interpreter.removal(arguments)?;
         let profile = self.siemens_contour(&contour.0, contour.1)?;
         let lines = removal.lines(arguments, profile.elements())?;
-        self.siemens_give(lines);
-        Ok(())
+        self.siemens_give(lines)
     }
 }
 
@@ -145,6 +144,7 @@ impl Interpreter {
         };
         let lift = arguments.not_negative(11, "_VRT", "how far the tool lifts off")? * mm;
         let tool = self
+            .state
             .tools
             .as_ref()
             .and_then(|tools| tools.get(self.state.tool));
@@ -163,7 +163,7 @@ impl Interpreter {
                 arguments.not_negative(5, "FF1", "the feed of roughing")?,
                 arguments.not_negative(7, "FF3", "the feed of finishing")?,
             ],
-            stands_z: self.offsets.to_program(self.state.position)[Axis::Z.index()],
+            stands_z: self.state.offsets.to_program(self.state.position)[Axis::Z.index()],
             has_radius: tool.is_some_and(|tool| tool.diameter_mm > 0.0),
             mm,
         })

@@ -20,6 +20,7 @@ use crate::execute::flow::activation::MAX_CALLS;
 use crate::execute::flow::load::unusable;
 use crate::execute::program::Program;
 use crate::execute::state::modal::Modal;
+use crate::execute::state::shared::Shared;
 use crate::setup::subroutine_file::{NoSubroutineFile, NotTaken};
 use crate::syntax::dialect::siemens::callee::Callee;
 use crate::syntax::dialect::siemens::statement::{Statement, is_header_of, statement};
@@ -151,7 +152,7 @@ impl<R: BufRead> Program<R> {
             caller: 0,
             own_parameters: false,
         });
-        let own = Variables::at_level(self.tape.calls.len());
+        let own = Shared::new(Variables::at_level(self.tape.calls.len()));
         self.siemens.calls.push(CallState {
             variables: std::mem::replace(&mut self.siemens.variables, own),
             arguments,
@@ -206,11 +207,11 @@ impl<R: BufRead> Program<R> {
                 ..modal
             };
             let before = self.interpreter.place_names();
-            self.interpreter.offsets.frame = frame;
+            self.interpreter.state.offsets.frame = frame;
             self.interpreter.rename_by_frame(&before, AXES);
         }
         if again > 0 {
-            self.siemens.variables = Variables::at_level(depth);
+            self.siemens.variables = Shared::new(Variables::at_level(depth));
             self.tape.go_to(first);
             return true;
         }

@@ -66,44 +66,33 @@ impl<R: BufRead> Program<R> {
         let is_shift = interpreter.options.five_axis.is_none() && !turns;
         let adds = (value(2) % 10.0 - 1.0).abs() < 1e-9;
         let frame = if adds {
-            interpreter.offsets.tilted.with(&own)
+            interpreter.state.offsets.tilted.with(&own)
         } else {
             own
         };
-        let (state, offsets, axes_end) = (
-            interpreter.state,
-            interpreter.offsets.clone(),
-            interpreter.axes_end,
-        );
-        let settled = self.items.len();
         interpreter.begin(number);
-        interpreter.mapped_items = settled;
+        interpreter.mapped_items = self.items.len();
         let names = interpreter.place_names();
         let from = interpreter.state.position;
         // A plane comes in the place of the one before.
         interpreter.end_tilt();
         let block = Block::of(self.block.dialect, &interpreter.options.m_codes);
         let items = &mut self.items;
-        let done = interpreter
+        interpreter
             .lift_before_swivel(&block, (value(0), span), items)
             .and_then(|()| {
                 if is_shift {
-                    interpreter.offsets.tilted = frame;
-                    interpreter.offsets.frame = frame;
+                    interpreter.state.offsets.tilted = frame;
+                    interpreter.state.offsets.frame = frame;
                     return Ok(());
                 }
                 interpreter.begin_tilt(frame, span)?;
                 interpreter.align_tool(&block, (branch, span), items)
-            });
-        if let Err(mut fault) = done {
-            interpreter.state = state;
-            interpreter.offsets = offsets;
-            interpreter.axes_end = axes_end;
-            self.items.truncate(settled);
-            self.end_of_line();
-            fault.span = span;
-            return Err(fault);
-        }
+            })
+            .map_err(|mut fault| {
+                fault.span = span;
+                fault
+            })?;
         // What went up has a coordinate of its own.
         interpreter.forget_untraversed(&block, &from);
         interpreter.rename_by_frame(&names, LINEAR);
@@ -114,7 +103,7 @@ impl<R: BufRead> Program<R> {
     /// The move to a corner in front of the plane is made in the coordinates from before it.
     fn settle_corner_before_plane(&mut self, span: SourceSpan) -> Outcome<()> {
         let interpreter = &mut self.interpreter;
-        if interpreter.corner.is_none() {
+        if interpreter.state.open.corner.is_none() {
             return Ok(());
         }
         let block = Block::of(self.block.dialect, &interpreter.options.m_codes);
@@ -152,7 +141,7 @@ impl Interpreter {
 
 /// Refuses to put a plane in front of a frame of the program, or to take it from under one.
 fn check_frame(interpreter: &Interpreter, is_off: bool, span: SourceSpan) -> Outcome<()> {
-    let offsets = &interpreter.offsets;
+    let offsets = &interpreter.state.offsets;
     let has_frame = offsets.frame != offsets.tilted;
     if !has_frame || is_off && !offsets.tilted.is_in_force() {
         return Ok(());

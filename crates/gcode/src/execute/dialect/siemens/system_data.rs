@@ -114,7 +114,7 @@ impl<R: BufRead> Program<R> {
     }
 
     fn set_coordinate_system(&mut self, number: usize, system: CoordinateSystem) {
-        let offsets = &mut self.interpreter.offsets;
+        let offsets = &mut self.interpreter.state.offsets;
         let is_active = match offsets.fanuc.active {
             None => offsets.active == number,
             Some(key) => key == system_key(number),
@@ -124,7 +124,7 @@ impl<R: BufRead> Program<R> {
         } else {
             offsets.keep_system(number, system);
         }
-        self.interpreter.changes = self.interpreter.changes.saturating_add(1);
+        self.interpreter.state.changes = self.interpreter.state.changes.saturating_add(1);
     }
 
     fn set_edge(
@@ -145,7 +145,7 @@ impl<R: BufRead> Program<R> {
             EdgePart::Length(axis) => tool.offset[axis] = value_mm,
             EdgePart::Radius => tool.diameter_mm = 2.0 * value_mm,
         });
-        self.interpreter.changes = self.interpreter.changes.saturating_add(1);
+        self.interpreter.state.changes = self.interpreter.state.changes.saturating_add(1);
         Ok(())
     }
 }
@@ -200,7 +200,7 @@ pub(super) fn system_number(number: f64) -> Option<usize> {
 impl Interpreter {
     /// A coordinate system as the program has set it, or as the machine keeps it.
     pub(super) fn kept_system(&self, number: usize) -> CoordinateSystem {
-        let offsets = &self.offsets;
+        let offsets = &self.state.offsets;
         let pending = offsets.fanuc.pending.get(&number);
         let kept = offsets.systems.get(number);
         let others = offsets.fanuc.extended.get(&system_key(number));

@@ -78,7 +78,7 @@ impl Interpreter {
             }
             (b"$P_UIFRNUM", []) => self.code_of_group(8.0)? - 1.0,
             (b"$P_IFRAME", [Index::Axis(axis), Index::Word(part)]) => {
-                let system = self.offsets.system();
+                let system = self.state.offsets.system();
                 match part.as_slice() {
                     b"TR" => in_units(self, system.origin, axis.index()),
                     b"RT" if *axis == Axis::Z => system.rotation_deg,
@@ -88,7 +88,7 @@ impl Interpreter {
             }
             (name, index) => {
                 let part = edge_part(name, self.options.is_lathe())?;
-                let tools = self.tools.as_ref()?;
+                let tools = self.state.tools.as_ref()?;
                 self.edge_value(*tools.get(edge_of(index)?)?, part)?
             }
         })
@@ -103,7 +103,11 @@ impl Interpreter {
 
     /// The tool in the spindle with its edge; none where D0 is in force.
     fn tool_in_force(&self) -> Tool {
-        let tools = self.tools.as_ref().filter(|_| self.state.edge != Some(0));
+        let tools = self
+            .state
+            .tools
+            .as_ref()
+            .filter(|_| self.state.edge != Some(0));
         let tool = tools.and_then(|tools| tools.get(self.state.tool));
         tool.copied().unwrap_or_default()
     }
@@ -120,7 +124,7 @@ impl Interpreter {
     /// The number within its group of the code that is in force.
     fn code_of_group(&self, group: f64) -> Option<f64> {
         let modal = &self.state.modal;
-        let offsets = &self.offsets;
+        let offsets = &self.state.offsets;
         Some(match group {
             6.0 => match modal.plane {
                 Plane::Xy => 1.0,

@@ -231,5 +231,8 @@ fn nearest(angle: f64, present: f64) -> f64 {
 
 /// Where the program has an axis that turns, degrees.
 fn coordinate_of(interpreter: &Interpreter, axis: Axis) -> f64 {
-    interpreter.offsets.to_program(interpreter.state.position)[axis.index()]
+    interpreter
+        .state
+        .offsets
+        .to_program(interpreter.state.position)[axis.index()]
 }

@@ -34,10 +34,10 @@ impl Interpreter {
         let way = |axis: usize| {
             let mut way = AxisVector::zeros();
             way[axis] = 1.0;
-            self.offsets.turn(way)
+            self.state.offsets.turn(way)
         };
         PlaceNames {
-            place: self.offsets.to_program(self.state.position),
+            place: self.state.offsets.to_program(self.state.position),
             ways: [way(0), way(1), way(2)],
         }
     }
