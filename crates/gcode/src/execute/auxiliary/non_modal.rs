@@ -121,12 +121,12 @@ impl Interpreter {
             .help("write 0 behind each of them"));
         }
         self.end_local_offset(&values);
-        for (shift, value) in self.offsets.shift.iter_mut().zip(&values) {
+        for (shift, value) in self.state.offsets.shift.iter_mut().zip(&values) {
             if value.is_some() {
                 *shift = 0.0;
             }
         }
-        self.offsets.saved_shift = self.offsets.shift;
+        self.state.offsets.saved_shift = self.state.offsets.shift;
         Ok(())
     }
 

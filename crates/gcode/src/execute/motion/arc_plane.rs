@@ -33,7 +33,7 @@ impl Interpreter {
         let Some(plane) = plane_of_center(block, named) else {
             return Ok(named);
         };
-        let reason = if self.compensation.is_some() || self.corner.is_some() {
+        let reason = if self.state.open.compensation.is_some() || self.state.open.corner.is_some() {
             "cutter radius compensation and corners that are broken are of the plane in force"
         } else if block.corner.is_some()
             || block.get(b'P').is_some()
@@ -60,7 +60,7 @@ impl Interpreter {
             return Ok(false);
         }
         let [from, to] = [self.state.position, self.target(block)?]
-            .map(|place| self.offsets.to_program(place)[third.index()]);
+            .map(|place| self.state.offsets.to_program(place)[third.index()]);
         Ok((to - from).abs() >= MIN_MOVE)
     }
 }

@@ -111,10 +111,10 @@ impl InForce {
     /// The offsets in force beside the coordinate system.
     #[must_use]
     pub fn position_offsets(&self) -> PositionOffsets {
-        let InForceParts { state, offsets, .. } = self.0.as_ref();
+        let state = &self.0.state;
         PositionOffsets {
-            tool: offsets.tool,
-            shift: offsets.shift,
+            tool: state.offsets.tool,
+            shift: state.offsets.shift,
             tip: state.tip,
         }
     }
