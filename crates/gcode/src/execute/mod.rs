@@ -42,6 +42,7 @@ mod reading;
 mod refused_block;
 mod remark;
 pub(crate) mod scope;
+mod start_state;
 pub(crate) mod state;
 mod state_names;
 mod tapping_cycle;

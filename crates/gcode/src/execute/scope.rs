@@ -1,9 +1,10 @@
 //! The scope of an expression: the parameters that were assigned, and those that show the state.
 
-use glidepath_geometry::{AXES, AxisVector, Plane};
+use glidepath_geometry::{AXES, AxisVector};
 
 use crate::execute::interpreter::Interpreter;
 use crate::execute::parameters::{DEBUG, MAX_ASSIGNED, MAX_NUMBERED, Parameters, place_of_name};
+use crate::execute::state::mode_codes::{motion_tenths, plane_tenths};
 use crate::execute::state::spindle::SpindleDirection;
 use crate::execute::state_names::READ_ONLY;
 use crate::setup::fanuc::Arctangent;
@@ -11,10 +12,7 @@ use crate::syntax::dialect::Dialect;
 use crate::syntax::dialect::siemens::system_index::Index;
 use crate::syntax::expression::scope::Scope;
 use crate::syntax::letters::AXIS_LETTERS;
-use crate::syntax::modes::{
-    CannedCycle, Distance, FeedMode, LatheCycle, Motion, Pockets, Probe, Retract, Side, Spline,
-    Units,
-};
+use crate::syntax::modes::{Distance, FeedMode, Retract, Side, Units};
 
 /// Parameters, and the state of the interpreter that can be read as parameters.
 pub(crate) struct ProgramScope<'a> {
@@ -179,8 +177,8 @@ fn state(interpreter: &Interpreter, parameters: &Parameters, name: &str) -> Opti
         // Of LinuxCNC, whose language is read.
         "_vmajor" => 2.9,
         "_line" => f64::from(interpreter.line),
-        "_motion_mode" => f64::from(motion_code(modal.motion)),
-        "_plane" => f64::from(plane_code(modal.plane)),
+        "_motion_mode" => f64::from(modal.motion.map_or(800, motion_tenths)),
+        "_plane" => f64::from(plane_tenths(modal.plane)),
         "_ccomp" => match (state.on_contour, state.contour_side) {
             (false, _) => 400.0,
             (true, Side::Left) => 410.0,
@@ -224,74 +222,4 @@ fn state(interpreter: &Interpreter, parameters: &Parameters, name: &str) -> Opti
         // The minor version, adaptive feed, and what is not there: task, remapped codes.
         _ => 0.0,
     })
-}
-
-/// Ten times the number of the code that a motion mode has.
-const fn motion_code(motion: Option<Motion>) -> u16 {
-    match motion {
-        None => 800,
-        Some(Motion::Rapid) => 0,
-        Some(Motion::Linear) => 10,
-        Some(Motion::ArcClockwise) => 20,
-        Some(Motion::ArcCounterclockwise) => 30,
-        Some(Motion::Thread) => 330,
-        Some(Motion::RigidTap | Motion::TapIn | Motion::TapOut) => 331,
-        Some(Motion::ArcThrough | Motion::ArcTangent) => 20,
-        Some(Motion::ThreadCycle | Motion::Turning(_) | Motion::Groove(_)) => 760,
-        Some(Motion::CirclePocket(true)) => 120,
-        Some(Motion::CirclePocket(false)) => 130,
-        Some(Motion::HolePattern(false)) => 700,
-        Some(Motion::HolePattern(true)) => 710,
-        Some(Motion::Spline(spline)) => match spline {
-            Spline::Cubic => 50,
-            Spline::Quadratic => 51,
-            Spline::Weighted => 52,
-            Spline::EndWeighted => 53,
-            Spline::Knotted => 62,
-        },
-        Some(Motion::Probe(Probe { toward, must })) => match (toward, must) {
-            (true, true) => 382,
-            (true, false) => 383,
-            (false, true) => 384,
-            (false, false) => 385,
-        },
-        Some(Motion::Cycle(cycle)) => match cycle {
-            CannedCycle::ChipBreak => 730,
-            CannedCycle::TapLeft => 740,
-            CannedCycle::FineBore => 760,
-            CannedCycle::Drill => 810,
-            CannedCycle::DrillDwell => 820,
-            CannedCycle::Peck => 830,
-            CannedCycle::TapRight => 840,
-            CannedCycle::Bore => 850,
-            CannedCycle::BoreStop => 860,
-            CannedCycle::BackBore => 870,
-            CannedCycle::BoreDwell => 890,
-        },
-        Some(Motion::Lathe(cycle)) => {
-            let (code, pockets) = match cycle {
-                LatheCycle::Finish => return 700,
-                LatheCycle::Repeat => return 730,
-                LatheCycle::Turn(pockets) => (710, pockets),
-                LatheCycle::Face(pockets) => (720, pockets),
-            };
-            code + match pockets {
-                Pockets::Cut => 0,
-                Pockets::LeftOut => 1,
-                Pockets::Only => 2,
-            }
-        }
-    }
-}
-
-/// Ten times the number of a plane's code.
-const fn plane_code(plane: Plane) -> u16 {
-    match plane {
-        Plane::Xy => 170,
-        Plane::Uv => 171,
-        Plane::Zx => 180,
-        Plane::Wu => 181,
-        Plane::Yz => 190,
-        Plane::Vw => 191,
-    }
 }

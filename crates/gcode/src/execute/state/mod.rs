@@ -9,6 +9,7 @@ pub(crate) mod fanuc_offsets;
 pub(crate) mod frame;
 pub(crate) mod in_force;
 pub(crate) mod modal;
+pub(crate) mod mode_codes;
 pub(crate) mod offsets;
 pub(crate) mod open;
 pub(crate) mod open_corner;

@@ -8,7 +8,6 @@ use glidepath_geometry::AxisVector;
 use serde::{Deserialize, Serialize};
 
 use crate::execute::auxiliary::input_wait::InputWait;
-use crate::execute::motion::tip_map::TipMap;
 use crate::execute::state::contour_plane::ContourPlane;
 use crate::execute::state::coolant::Coolant;
 use crate::execute::state::extruder::ExtruderMode;
@@ -27,7 +26,6 @@ use crate::execute::state::thread_setup::ThreadSetup;
 use crate::execute::state::tip::{Tilt, Tip};
 use crate::execute::state::untraversed::Untraversed;
 use crate::setup::firmware::Firmware;
-use crate::setup::options::Options;
 use crate::setup::tool_table::ToolTable;
 use crate::syntax::modes::{ArcFeed, Side};
 
@@ -157,60 +155,5 @@ impl State {
         self.saved_states = Shared::default();
         self.kept_by_printer = Shared::default();
         (self.tangent, self.input_wait, self.search) = (None, None, None);
-    }
-
-    /// What is in force where a program begins.
-    pub(crate) fn at_start(options: &Options) -> Self {
-        let axes_end = options.start;
-        let tip = options.first_tip();
-        let map = TipMap::new(options.five_axis, tip);
-        let start = map.map_or(axes_end, |map| map.place(&axes_end));
-        Self {
-            modal: Modal::new(options.default_feed_mm_min),
-            position: start,
-            path_end: start,
-            spindle: Spindle::default(),
-            coolant: Coolant::default(),
-            overrides_off: false,
-            selected_tool: 0,
-            tool: 0,
-            tool_before: (0, AxisVector::zeros()),
-            cycles: CycleSeries::default(),
-            probe: ProbeResult::default(),
-            input: 0.0,
-            extruder: ExtruderMode::default(),
-            gcode_offset: [0.0; 3],
-            on_contour: false,
-            arc_feed: ArcFeed::default(),
-            contour_side: Side::Left,
-            leaving_contour: false,
-            cubic_tail: None,
-            thread_end: None,
-            rounds_mm: 0.0,
-            corner_feed: None,
-            diameter_by_distance: false,
-            pole: Pole::default(),
-            feeds_in_mm: false,
-            edge: None,
-            fanuc: FanucModal::default(),
-            tip,
-            turns_on_circles: false,
-            tilted: None,
-            contour_plane: None,
-            untraversed: Untraversed::default(),
-            thread_setup: None,
-            offsets: Shared::new(Offsets::of(&options.offsets)),
-            tools: options.tools.clone(),
-            changes: 0,
-            open: Open::default(),
-            saved_states: Shared::default(),
-            firmware: options.firmware,
-            kept_by_printer: Shared::default(),
-            tangent: None,
-            axes_end,
-            is_mapped: map.is_some(),
-            input_wait: None,
-            search: None,
-        }
     }
 }

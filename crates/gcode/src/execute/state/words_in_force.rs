@@ -1,13 +1,12 @@
 //! The codes and words that are in force, as a line of a program would say them.
 
-use glidepath_geometry::Plane;
-
 use crate::execute::state::coolant::Coolant;
 use crate::execute::state::modal::Modal;
+use crate::execute::state::mode_codes::{g_word, motion_tenths, plane_tenths};
 use crate::execute::state::offsets::system_code;
 use crate::execute::state::program_state::State;
 use crate::execute::state::spindle::SpindleDirection;
-use crate::syntax::modes::{CannedCycle, Distance, FeedMode, Motion, Probe, Spline, Units};
+use crate::syntax::modes::{Distance, FeedMode, Motion, Units};
 
 /// The motion, the coordinate system, plane, units, distance and feed mode, spindle, coolant, tool, feed and
 /// speed: `G1 G54 G17 G21 G90 G94 M3 M8 T2 F600 S8000`.
@@ -28,10 +27,10 @@ pub(crate) fn words_in_force(state: &State) -> String {
         Coolant { mist: false, .. } => "M8",
         Coolant { .. } => "M7 M8",
     };
-    let motion = modal.motion.map_or("G80", motion_code);
+    let motion = modal.motion.map_or_else(|| g_word(800), motion_word);
     format!(
         "{motion} {system} {} {} {} {} {spindle} {coolant} T{} F{} S{}",
-        plane_code(modal.plane),
+        g_word(plane_tenths(modal.plane)),
         match modal.units {
             Units::Inch => "G20",
             Units::Millimetre => "G21",
@@ -66,48 +65,9 @@ fn rounded(value: f64) -> f64 {
     (value * 1e6).round() / 1e6
 }
 
-const fn plane_code(plane: Plane) -> &'static str {
-    match plane {
-        Plane::Xy => "G17",
-        Plane::Zx => "G18",
-        Plane::Yz => "G19",
-        Plane::Uv => "G17.1",
-        Plane::Wu => "G18.1",
-        Plane::Vw => "G19.1",
-    }
-}
-
 /// The code of a motion mode; one that other languages write without a code is `G80` here.
-const fn motion_code(motion: Motion) -> &'static str {
-    match motion {
-        Motion::Rapid => "G0",
-        Motion::Linear => "G1",
-        Motion::ArcClockwise => "G2",
-        Motion::ArcCounterclockwise => "G3",
-        Motion::Cycle(cycle) => match cycle {
-            CannedCycle::ChipBreak => "G73",
-            CannedCycle::TapLeft => "G74",
-            CannedCycle::FineBore => "G76",
-            CannedCycle::Drill => "G81",
-            CannedCycle::DrillDwell => "G82",
-            CannedCycle::Peck => "G83",
-            CannedCycle::TapRight => "G84",
-            CannedCycle::Bore => "G85",
-            CannedCycle::BoreStop => "G86",
-            CannedCycle::BackBore => "G87",
-            CannedCycle::BoreDwell => "G89",
-        },
-        Motion::Probe(probe) => probe_code(probe),
-        Motion::Spline(spline) => match spline {
-            Spline::Cubic => "G5",
-            Spline::Quadratic => "G5.1",
-            Spline::Weighted => "G5.2",
-            Spline::EndWeighted => "G5.3",
-            Spline::Knotted => "G6.2",
-        },
-        Motion::Thread => "G33",
-        Motion::RigidTap => "G33.1",
-        Motion::ThreadCycle => "G76",
+fn motion_word(motion: Motion) -> String {
+    let tenths = match motion {
         Motion::Lathe(_)
         | Motion::ArcThrough
         | Motion::ArcTangent
@@ -116,17 +76,10 @@ const fn motion_code(motion: Motion) -> &'static str {
         | Motion::Turning(_)
         | Motion::Groove(_)
         | Motion::CirclePocket(_)
-        | Motion::HolePattern(_) => "G80",
-    }
-}
-
-const fn probe_code(probe: Probe) -> &'static str {
-    match (probe.toward, probe.must) {
-        (true, true) => "G38.2",
-        (true, false) => "G38.3",
-        (false, true) => "G38.4",
-        (false, false) => "G38.5",
-    }
+        | Motion::HolePattern(_) => 800,
+        motion => motion_tenths(motion),
+    };
+    g_word(tenths)
 }
 
 #[cfg(test)]

@@ -20,12 +20,11 @@ use glidepath_program::PathMode;
 
 use crate::execute::interpreter::Interpreter;
 use crate::execute::state::modal::Modal;
+use crate::execute::state::mode_codes::cycle_number;
 use crate::setup::fanuc::FanucControl;
 use crate::syntax::block::Block;
 use crate::syntax::dialect::Dialect;
-use crate::syntax::modes::{
-    CannedCycle, Distance, FeedMode, Motion, Retract, Side, Turning, Units,
-};
+use crate::syntax::modes::{Distance, FeedMode, Motion, Retract, Side, Turning, Units};
 
 fn one_of(first: bool, yes: f64, no: f64) -> f64 {
     if first { yes } else { no }
@@ -182,21 +181,9 @@ const fn lathe_motion(motion: Motion, control: FanucControl) -> f64 {
     }
 }
 
-const fn cycle_code(modal: &Modal) -> f64 {
+fn cycle_code(modal: &Modal) -> f64 {
     match modal.motion {
-        Some(Motion::Cycle(cycle)) => match cycle {
-            CannedCycle::ChipBreak => 73.0,
-            CannedCycle::TapLeft => 74.0,
-            CannedCycle::FineBore => 76.0,
-            CannedCycle::Drill => 81.0,
-            CannedCycle::DrillDwell => 82.0,
-            CannedCycle::Peck => 83.0,
-            CannedCycle::TapRight => 84.0,
-            CannedCycle::Bore => 85.0,
-            CannedCycle::BoreStop => 86.0,
-            CannedCycle::BackBore => 87.0,
-            CannedCycle::BoreDwell => 89.0,
-        },
+        Some(Motion::Cycle(cycle)) => f64::from(cycle_number(cycle)),
         _ => 80.0,
     }
 }
