@@ -8,8 +8,8 @@ use std::path::Path;
 use std::sync::OnceLock;
 
 /// Commands that work on a configuration alone.
-const WITHOUT_INSTANCE: [&str; 9] = [
-    "audit", "bench", "check", "doctor", "fit", "jitter", "offsets", "plan", "preview",
+const WITHOUT_INSTANCE: [&str; 7] = [
+    "audit", "bench", "doctor", "fit", "jitter", "offsets", "preview",
 ];
 /// Commands that know no machine.
 const WITHOUT_MACHINE: [&str; 2] = ["config", "help"];

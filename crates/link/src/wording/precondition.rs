@@ -181,7 +181,7 @@ impl UnmetPrecondition {
             Self::NotAtRest => {
                 "the machine has to be at rest without a program; `glidepath abort` ends one"
             }
-            Self::NoSuchPosition => "that is not within 1e6 mm or degrees of zero",
+            Self::NoSuchPosition => "no position of a joint; it is within 1e6 mm or degrees",
             Self::NoSuchJoint => "the machine has no such joint",
             Self::SecondJoint => "it is the second joint of its axis, and goes with the first",
             Self::Unreported => {
