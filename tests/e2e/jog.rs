@@ -90,7 +90,10 @@ fn steps_move_the_axes_and_a_program_goes_on_from_there() {
     assert!(jog(&["Q5"]).expect(2).stderr.contains("such as X10"));
     assert!(jog(&[]).expect(5).stderr.contains("need a terminal"));
     let nowhere = Process::join(&instance, &["return"]).wait().expect(5);
-    assert!(nowhere.stderr.contains("no path to return to"), "{nowhere:?}");
+    assert!(
+        nowhere.stderr.contains("no path to return to"),
+        "{nowhere:?}"
+    );
 
     // A program begins where the jog ended; held, it is left and returned to.
     let program = instance.file("program.ngc", PROGRAM);
