@@ -142,11 +142,27 @@ fn positions_from_part_zero_are_those_of_the_tip_from_the_move_behind_g43_on() {
     bench.operate(&["mdi", "G92.3"]);
     assert_eq!(told(&bench), [25.0, 3.0, 0.0]);
 
+    // What a stream has in force, its client alone knows.
+    let streamed = instance.file(
+        "streamed.ngc",
+        "G21 G90 G55\nG92 Z100\nG1 Z101 F600\nM0\nM2\n",
+    );
+    let feed = bench.process(&["feed", &streamed]);
+    let _stop = bench.wait_for(MachineState::ProgramStop);
+    let told_of_stream = bench.operate(&["status", "--json"]).json();
+    for key in ["offset", "work_position"] {
+        assert_eq!(told_of_stream[key], Value::Null, "{key}");
+    }
+    bench.operate(&["resume"]);
+    let _fed = feed.wait().expect(0);
+    let _idle = bench.wait_for(MachineState::Idle);
+    assert_eq!(told(&bench), [26.0, 4.0, 0.0]);
+
     // A service that begins, begins without.
     bench.operate(&["mdi", "G43.1 Z4"]);
     let _service = service.end().expect(0);
     let service = bench.service();
     bench.operate(&["mdi", "G4 P0.1"]);
-    assert_eq!(told(&bench), [25.0, 35.0, 0.0]);
+    assert_eq!(told(&bench), [26.0, 36.0, 0.0]);
     drop((service, interpolator));
 }

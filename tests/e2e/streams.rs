@@ -111,6 +111,28 @@ fn an_abort_counts_for_what_still_reads_its_program() {
     }
 }
 
+/// Its client asks again and again for a machine that is not ready, for some seconds.
+#[test]
+fn an_abort_ends_a_stream_that_waits_for_a_machine_that_is_off() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let bench = Bench::start(&instance);
+    let part = instance.file("part.ngc", "G21 G90\nG1 X20 F600\nM2\n");
+    bench.operated.operate(&["disable"]);
+    let before = bench.operated.wait_for(MachineState::Off);
+    let client = bench.operated.process(&["feed", &part]);
+    let _waits = bench
+        .operated
+        .wait(|status| status.job_stage() == Ok(JobStage::Waiting));
+    bench.operated.operate(&["abort"]);
+    let output = ended_within(client, SOON);
+    assert_ne!(output.status.code(), Some(0), "{output:#?}");
+    assert!(output.stderr.contains("was stopped after"), "{output:#?}");
+    bench.operated.operate(&["enable"]);
+    let _idle = bench.operated.wait_for(MachineState::Idle);
+    bench.stays(&before);
+    bench.goes_on();
+}
+
 /// What begins motion is asked for when its process starts, however long it reads its configuration.
 #[test]
 fn an_abort_counts_for_a_command_that_still_reads_its_configuration() {

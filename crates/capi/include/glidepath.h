@@ -47,9 +47,9 @@ extern "C" {
 
 /* layout: begin, written by a test of the library */
 /* The version of the ABI: functions and structures. */
-#define GP_ABI 8u
+#define GP_ABI 9u
 /* What the structures of this header are, as one number. */
-#define GP_LAYOUT UINT64_C(0xd34bb82785475326)
+#define GP_LAYOUT UINT64_C(0x7789c1b2858aeb66)
 /* Axes X Y Z A B C U V W, and joints J0 to J8. */
 #define GP_AXES 9
 
@@ -187,6 +187,16 @@ enum {
     GP_MODE_HOMING = 3,
     GP_MODE_RETURN = 4,
     GP_MODE_BACKWARDS = 5
+};
+
+/* What the superposition of an axis does. */
+enum {
+    GP_SUPERPOSITION_NONE = 0,
+    GP_SUPERPOSITION_OFF = 1,
+    GP_SUPERPOSITION_FOLLOWS = 2,
+    GP_SUPERPOSITION_FROZEN = 3,
+    GP_SUPERPOSITION_RETURNS = 4,
+    GP_SUPERPOSITION_SILENT = 5
 };
 
 /* What a probe has found. */
@@ -463,7 +473,7 @@ GP_FIELD(gp_event, axis, 20, 4);
 GP_FIELD(gp_event, depth_um, 24, 4);
 GP_FIELD(gp_event, phase, 28, 4);
 
-/* What the drives are to do at apply_ns. The record glidepath.Setpoint.v4. */
+/* What the drives are to do at apply_ns. The record glidepath.Setpoint.v5. */
 typedef struct gp_setpoint {
     /* Identifies one life of the interpolator: all counts start again with a new one. */
     uint64_t boot_id;
@@ -533,8 +543,11 @@ typedef struct gp_setpoint {
     double away[9];
     /* What happens in the period from scheduled_ns to apply_ns, in order. */
     gp_event events[16];
+    /* How far the axes are from position by a superposition, mm or degrees: the joints are
+       where both together ask for. */
+    double superposed[9];
 } gp_setpoint;
-GP_ASSERT(sizeof(gp_setpoint) == 1160, "gp_setpoint has another size");
+GP_ASSERT(sizeof(gp_setpoint) == 1232, "gp_setpoint has another size");
 GP_FIELD(gp_setpoint, boot_id, 0, 8);
 GP_FIELD(gp_setpoint, reference, 8, 8);
 GP_FIELD(gp_setpoint, number, 16, 8);
@@ -565,9 +578,10 @@ GP_FIELD(gp_setpoint, joint_velocity, 432, 72);
 GP_FIELD(gp_setpoint, joint_acceleration, 504, 72);
 GP_FIELD(gp_setpoint, away, 576, 72);
 GP_FIELD(gp_setpoint, events, 648, 512);
+GP_FIELD(gp_setpoint, superposed, 1160, 72);
 
 /* What the interpolator does and how well. Counts are of this life of it. The record
-   glidepath.Status.v13. */
+   glidepath.Status.v14. */
 typedef struct gp_status {
     /* Identifies one life of the interpolator. */
     uint64_t boot_id;
@@ -747,10 +761,12 @@ typedef struct gp_status {
     double spindle_v;
     /* Bits of GP_SPINDLE_. */
     uint32_t spindle_flags;
-    /* Must be zero. */
-    uint32_t reserved;
+    /* A GP_SUPERPOSITION_. */
+    uint32_t superposition;
+    /* How far the axes are from position by a superposition, mm or degrees. */
+    double superposed[9];
 } gp_status;
-GP_ASSERT(sizeof(gp_status) == 1808, "gp_status has another size");
+GP_ASSERT(sizeof(gp_status) == 1880, "gp_status has another size");
 GP_FIELD(gp_status, boot_id, 0, 8);
 GP_FIELD(gp_status, updated_ns, 8, 8);
 GP_FIELD(gp_status, period_ns, 16, 8);
@@ -834,7 +850,8 @@ GP_FIELD(gp_status, jog_client, 1776, 8);
 GP_FIELD(gp_status, jog_number, 1784, 8);
 GP_FIELD(gp_status, spindle_v, 1792, 8);
 GP_FIELD(gp_status, spindle_flags, 1800, 4);
-GP_FIELD(gp_status, reserved, 1804, 4);
+GP_FIELD(gp_status, superposition, 1804, 4);
+GP_FIELD(gp_status, superposed, 1808, 72);
 
 /* What a servo stack knows of the joints it drives, at one moment. The record
    glidepath.Feedback.v2. */
@@ -1063,7 +1080,7 @@ GP_FIELD(gp_segment, bends, 296, 48);
 GP_FIELD(gp_segment, length, 344, 8);
 GP_FIELD(gp_segment, error_mm, 352, 8);
 
-/* The answer to a piece of a stream. The record glidepath.SegmentReply.v1. */
+/* The answer to a piece of a stream. The record glidepath.SegmentReply.v2. */
 typedef struct gp_segment_reply {
     /* The stream. */
     uint64_t session;
@@ -1078,16 +1095,16 @@ typedef struct gp_segment_reply {
     /* Where the next piece must start. */
     double position[9];
     /* More about a refusal, for people. */
-    char message[128];
+    char message[1024];
 } gp_segment_reply;
-GP_ASSERT(sizeof(gp_segment_reply) == 232, "gp_segment_reply has another size");
+GP_ASSERT(sizeof(gp_segment_reply) == 1128, "gp_segment_reply has another size");
 GP_FIELD(gp_segment_reply, session, 0, 8);
 GP_FIELD(gp_segment_reply, number, 8, 8);
 GP_FIELD(gp_segment_reply, accepted, 16, 8);
 GP_FIELD(gp_segment_reply, credit, 24, 4);
 GP_FIELD(gp_segment_reply, refusal, 28, 4);
 GP_FIELD(gp_segment_reply, position, 32, 72);
-GP_FIELD(gp_segment_reply, message, 104, 128);
+GP_FIELD(gp_segment_reply, message, 104, 1024);
 
 /* What a joint is to do. */
 typedef struct gp_joint {

@@ -5,6 +5,7 @@ use crate::homing::JointBounds;
 use crate::limited_joints::LimitedJoints;
 use crate::m_code_waits::MCodeWaits;
 use crate::stops::StopSettings;
+use crate::superposition::Superposition;
 use core::time::Duration;
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_kinematics::{
@@ -121,6 +122,9 @@ pub struct Config {
     /// What is taken out of where each joint is told to be; nothing where joints are not axes. It lives as long as
     /// the process, so that the real-time thread reads it without owning or counting anything.
     pub compensation: [Option<&'static JointCompensation>; JOINTS],
+    /// What moves an axis in addition to programs; only where joints are axes. Its share of the axis' limits, and its
+    /// range of the travel, are not in `limits` and `soft_limits`.
+    pub superposition: Option<Superposition>,
     /// Second joints. They come after those of the mechanism, in this order; only where joints are
     /// axes.
     pub gantries: [Option<Gantry>; GANTRIES],
@@ -169,6 +173,7 @@ impl Config {
             }),
             joint_limits: JointLimits::NONE,
             compensation: [None; JOINTS],
+            superposition: None,
             gantries: [None; GANTRIES],
             start_position: AxisVector::zeros(),
             horizon_frames: 600_000_000 / period_ns.max(1),

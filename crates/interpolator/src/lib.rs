@@ -143,6 +143,7 @@ mod stepped;
 mod stop_requests;
 mod stop_time;
 mod stops;
+mod superposition;
 #[cfg(test)]
 mod testing;
 mod tick;
@@ -167,3 +168,4 @@ pub use run::run;
 pub use served::{Served, served};
 pub use stepped::{Stepped, stepped};
 pub use stops::StopSettings;
+pub use superposition::{Superposition, SuperpositionControl};

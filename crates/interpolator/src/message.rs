@@ -13,6 +13,7 @@ use core::fmt;
 use glidepath_kinematics::JointVector;
 use glidepath_link::{
     Command, EndOfEpoch, EventId, MachineState, Power, Setpoint, SetpointFrame, StateChange,
+    SuperpositionState,
 };
 use heapless::spsc::{Consumer, Producer, Queue};
 
@@ -209,6 +210,7 @@ pub(crate) struct TickReport {
     pub(crate) barred: u64,
     /// On which side of its play each joint is, -1 to 1.
     pub(crate) sides: JointVector,
+    pub(crate) superposition: SuperpositionState,
 }
 
 impl TickReport {
@@ -249,6 +251,7 @@ impl TickReport {
             moved: Moved::default(),
             barred: 0,
             sides: JointVector::zeros(),
+            superposition: SuperpositionState::None,
         }
     }
 }

@@ -9,8 +9,9 @@ use crate::joints::Joints;
 use crate::limited_joints::LimitedJoints;
 use crate::rate::Progress;
 use crate::setpoint::SetpointWriter;
+use crate::superposition::SuperposedAxis;
 use crate::track::Track;
-use glidepath_geometry::AxisVector;
+use glidepath_geometry::{Axis, AxisVector};
 use glidepath_kinematics::{JointMotion, JointVector, KinematicsError};
 use glidepath_link::Setpoint;
 
@@ -189,6 +190,16 @@ impl Output {
         self.setpoints.begin_reference();
     }
 
+    /// What was superposed to an axis is part of its position from now on. Nothing moves.
+    pub(crate) fn take_superposed(&mut self, axis: Axis, offset: f64) {
+        let mut axes: AxisVector = self.published.position();
+        if let Some(place) = axes.get_mut(axis.index()) {
+            *place += offset;
+        }
+        self.published = at_rest(self.limited.as_ref(), &axes);
+        self.setpoints.begin_reference();
+    }
+
     /// Writes the setpoint of a machine whose joints, those in `follows` or all, are where their
     /// drives say.
     pub(crate) fn write_following(
@@ -206,16 +217,17 @@ impl Output {
         self.joints.repeat(&seen.joints, follows, setpoint);
     }
 
-    /// Writes into the setpoint what the joints are to do for its axes, and compares that with their
-    /// limits, where they are not the axes.
+    /// Writes into the setpoint what the joints are to do for its axes and for what is superposed, and compares that
+    /// with their limits, where they are not the axes.
     ///
     /// # Errors
     /// The mechanism cannot be there. The joints are told to stay where they were.
     pub(crate) fn write_joints(
         &mut self,
         setpoint: &mut Setpoint,
+        superposed: Option<&SuperposedAxis>,
     ) -> Result<Written, KinematicsError> {
-        let joints = self.joints.follow(setpoint)?;
+        let joints = self.joints.follow(setpoint, superposed)?;
         if self.limited.is_none() {
             return Ok(Written::Inside);
         }

@@ -169,6 +169,8 @@ impl StatusBook {
         status.line = setpoint.line;
         status.position = setpoint.position;
         status.away = setpoint.away;
+        status.superposed = setpoint.superposed;
+        status.superposition = report.superposition.code();
         status.reference = setpoint.reference;
         status.joint_actual = setpoint.joint_position;
         for (joint, by) in self.compensation.iter().enumerate() {

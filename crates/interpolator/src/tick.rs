@@ -23,6 +23,7 @@ mod following;
 mod program;
 mod retracing;
 mod state;
+mod superposing;
 mod waiting;
 
 pub(crate) use state::Interpolator;
@@ -98,7 +99,10 @@ impl Interpolator<'_> {
     }
 
     pub(super) fn write_joints(&mut self, tick: u64, setpoint: &mut Setpoint) {
-        match self.output.write_joints(setpoint) {
+        if self.superposed.is_some() {
+            self.superpose(setpoint);
+        }
+        match self.output.write_joints(setpoint, self.superposed.as_ref()) {
             Ok(written) => self.judge(written, tick),
             // Every frame passed a judge of the joints, so this cannot be; if it were, the motion ends.
             Err(_) => self.fail(FaultCause::Output),
@@ -185,6 +189,9 @@ impl Interpolator<'_> {
         report.moved = self.joint_mover.moved();
         report.barred = self.barred;
         self.output.write_sides(&mut report.sides);
+        if let Some(superposed) = &self.superposed {
+            report.superposition = superposed.state();
+        }
         report.single_block = self.requests.is_single_block();
         self.statistics.fill(report);
     }

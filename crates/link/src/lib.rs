@@ -76,9 +76,9 @@ pub use record::{
     FrameRefusal, Grants, JobKind, JobPhase, JobReply, JobRequest, JobStage, JobState, JobWish,
     JogDemand, JogMode, LATCHES, Latch, LatchKind, LinesReply, LinesRequest, LinesState, LinesWish,
     LongText, Loss, MachineState, ModeCode, MotionMode, OVERRIDE_MAX, PERIOD_NS_MAX, PlaneCode,
-    Power, Quantiles, Record, RecordError, RequestKind, SegmentOutcome, SegmentRefusal,
+    Power, Quantiles, Record, RecordError, RequestKind, STREAM_JOB, SegmentOutcome, SegmentRefusal,
     SegmentReply, SegmentRequest, Setpoint, SetpointFrame, SetpointMarks, SpindleFlags,
-    SpindleState, Status, StreamItem, TOLD_SYSTEMS, Text, decode,
+    SpindleState, Status, StreamItem, SuperpositionState, TOLD_SYSTEMS, Text, decode,
 };
 pub use service::Capacity;
 pub use stall::STALL;

@@ -100,22 +100,22 @@ macro_rules! layout {
     };
 }
 
-layout!(setpoint_frame, SetpointFrame, "glidepath.SetpointFrame.v3", 800,
+layout!(setpoint_frame, SetpointFrame, "glidepath.SetpointFrame.v4", 808,
     SetpointFrame { epoch: 1, period_ns: 4_000_000, planned_override: 1.0, ..Zeroable::zeroed() }, {
     epoch: 0, sequence: 8, period_ns: 16, line: 24, flags: 28, event_count: 32, block: 36,
-    path_v: 40, path_s: 48, planned_override: 56, program: 64, position: 72,
-    velocity: 144, acceleration: 216, events: 288,
+    path_v: 40, path_s: 48, planned_override: 56, program: 64, programmed_v: 72, position: 80,
+    velocity: 152, acceleration: 224, events: 296,
 });
-layout!(setpoint, Setpoint, "glidepath.Setpoint.v4", 1160,
+layout!(setpoint, Setpoint, "glidepath.Setpoint.v5", 1232,
     Setpoint { state: MachineState::Running.code(), ..Zeroable::zeroed() }, {
     boot_id: 0, reference: 8, number: 16, tick: 24, scheduled_ns: 32, apply_ns: 40,
     lateness_ns: 48, missed_ticks: 56, epoch: 64, sequence: 72, fraction: 80, line: 88, flags: 92,
     marks: 96, state: 100, event_count: 104, block: 108, enable: 112, home: 116,
     path_s: 120, feed_v: 128, effective_override: 136, position: 144, velocity: 216,
     acceleration: 288, joint_position: 360, joint_velocity: 432, joint_acceleration: 504,
-    away: 576, events: 648,
+    away: 576, events: 648, superposed: 1160,
 });
-layout!(status, Status, "glidepath.Status.v13", 1808,
+layout!(status, Status, "glidepath.Status.v14", 1880,
     Status { state: MachineState::Idle.code(), ..Zeroable::zeroed() }, {
     boot_id: 0, updated_ns: 8, period_ns: 16, tick: 24, epoch: 32, frames_received: 40,
     frames_executed: 48, queue_depth: 56, queue_capacity: 60, pid: 64, state: 68, end_of_epoch: 72,
@@ -132,7 +132,7 @@ layout!(status, Status, "glidepath.Status.v13", 1808,
     frames_refused: 888, lateness: 984, work: 1016, latency: 1048, response: 1080,
     job_number: 1112, next_epoch: 1120, job_stage: 1128, job_held: 1132, last_error: 1136,
     last_event: 1264, message: 1392, job: 1520, job_end: 1648,
-    jog_client: 1776, jog_number: 1784, spindle_v: 1792, spindle_flags: 1800, reserved: 1804,
+    jog_client: 1776, jog_number: 1784, spindle_v: 1792, spindle_flags: 1800, superposition: 1804, superposed: 1808,
 });
 layout!(command_request, CommandRequest, "glidepath.CommandRequest.v7", 200,
     CommandRequest::new(1, 1, Command::Ping), {
@@ -186,7 +186,7 @@ layout!(segment_request, SegmentRequest, "glidepath.SegmentRequest.v3", 360,
     event_value: 48, feed_v: 56, tolerance_mm: 64, dwell_t: 72, sweep_rad: 80, center: 88,
     start: 104, end: 176, tangents: 248, bends: 296, length: 344, error_mm: 352,
 });
-layout!(segment_reply, SegmentReply, "glidepath.SegmentReply.v1", 232,
+layout!(segment_reply, SegmentReply, "glidepath.SegmentReply.v2", 1128,
     Zeroable::zeroed(), {
     session: 0, number: 8, accepted: 16, credit: 24, refusal: 28, position: 32, message: 104,
 });

@@ -41,6 +41,8 @@ pub(crate) struct Passing {
     pub synchronised: bool,
     /// Its feed is one per revolution.
     pub per_revolution: bool,
+    /// The feed that the program asks for, mm/s; 0 in rapids.
+    pub programmed_v: f64,
     /// The override it was planned with.
     pub planned_override: f64,
 }
@@ -52,6 +54,7 @@ impl Passing {
         rapid: false,
         synchronised: false,
         per_revolution: false,
+        programmed_v: 0.0,
         planned_override: 1.0,
     };
 }
@@ -326,6 +329,11 @@ impl FrameGrid {
             planned_override: self.passing.planned_override,
             path_v: state.path_v,
             path_s: state.path_s,
+            programmed_v: if state.path_v > 0.0 {
+                self.passing.programmed_v
+            } else {
+                0.0
+            },
             position: state.position,
             velocity: state.velocity,
             acceleration: state.acceleration,

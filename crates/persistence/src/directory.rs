@@ -101,14 +101,20 @@ impl Directory {
         let file = Self::options()
             .create(true)
             .truncate(false)
+            .read(true)
             .write(true)
             .mode(0o640)
             .open(&path)
             .map_err(StoreError::io("open", &path.display().to_string()))?;
         match flock(&file, FlockOperation::NonBlockingLockExclusive) {
-            Ok(()) => Ok(DirectoryLock { _file: file }),
+            Ok(()) => {
+                // Where it cannot be written, others are told of a process without its number.
+                let _noted = note_process(&file);
+                Ok(DirectoryLock { _file: file })
+            }
             Err(rustix::io::Errno::WOULDBLOCK) => Err(StoreError::Taken {
                 folder: self.path.display().to_string(),
+                process: noted_process(&file),
             }),
             Err(error) => {
                 let name = path.display().to_string();
@@ -116,6 +122,19 @@ impl Directory {
             }
         }
     }
+}
+
+/// Writes the number of this process, which has the lock, into the lock's file.
+fn note_process(mut file: &File) -> io::Result<()> {
+    file.set_len(0)?;
+    file.write_all(std::process::id().to_string().as_bytes())
+}
+
+/// The process that has noted itself in the lock's file.
+fn noted_process(file: &File) -> Option<u32> {
+    let mut text = String::new();
+    file.take(16).read_to_string(&mut text).ok()?;
+    text.trim().parse().ok()
 }
 
 impl Storage for Directory {

@@ -35,10 +35,15 @@ pub enum StoreError {
         known: u32,
     },
     /// Another process writes here.
-    #[error("another process keeps its state in {folder}, which one process may write at a time")]
+    #[error(
+        "{} keeps its state in {folder}, which one process may write at a time",
+        Holder(*.process)
+    )]
     Taken {
         /// The folder.
         folder: String,
+        /// Which process it is; `None` if it did not say.
+        process: Option<u32>,
     },
     /// What is to be kept is no state of a machine.
     #[error("this cannot be kept: {reason}")]
@@ -56,6 +61,18 @@ impl StoreError {
             action,
             file,
             source,
+        }
+    }
+}
+
+/// Who has the right to write.
+struct Holder(Option<u32>);
+
+impl std::fmt::Display for Holder {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self.0 {
+            Some(process) => write!(f, "process {process}"),
+            None => f.write_str("another process"),
         }
     }
 }

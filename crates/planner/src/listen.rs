@@ -17,7 +17,7 @@ use std::time::Duration;
 
 use glidepath_geometry::AxisVector;
 use glidepath_kinematics::LimitedMechanism;
-use glidepath_link::{SegmentRefusal, Transport};
+use glidepath_link::{STREAM_JOB, SegmentRefusal, Transport};
 use glidepath_program::Settings;
 
 use crate::client_watch::ClientWatch;
@@ -29,8 +29,8 @@ use crate::{
 };
 use received::{REQUESTS_PER_TURN, Received, Segments, StreamClientHandler, StreamSource};
 
-/// What a stream is called among jobs.
-const STREAM: &str = "a stream of segments";
+/// How long a machine that is not ready is looked at for whether it ended what a client asks for.
+const LOOK: Duration = Duration::from_millis(20);
 
 /// The settings of a listening planner.
 #[derive(Debug, Clone, Copy)]
@@ -153,11 +153,10 @@ impl Listener<'_> {
             if control.is_stopped() {
                 return Err(RunError::Interrupted);
             }
-            let ready = match self.publisher.ready() {
-                Ok(Some(position)) => Ok(position),
-                Ok(None) => Err(self.publisher.why_not_ready()),
+            let is_ready = match self.publisher.ready() {
+                Ok(position) => position.is_some(),
                 Err(error) if ends_the_listener(&error) => return Err(error),
-                Err(error) => Err(error.to_string()),
+                Err(_) => false,
             };
             if let Some(accepted) = self.serve_jobs(control)? {
                 return Ok(accepted);
@@ -165,7 +164,7 @@ impl Listener<'_> {
             let has_waiting = self.jobs.as_ref().is_some_and(JobQueue::has_waiting);
             if !has_waiting
                 && let Some((stream, position)) =
-                    self.serve_waiting(&ready, listening.limits, control)?
+                    self.serve_waiting(is_ready, listening.limits, control)?
             {
                 return Ok(Accepted::Stream(Box::new(stream), position));
             }
@@ -221,7 +220,7 @@ impl Listener<'_> {
     /// Answers what came in; returns a stream if one was opened.
     fn serve_waiting(
         &mut self,
-        ready: &Result<AxisVector, String>,
+        is_ready: bool,
         limits: Option<SoftLimits>,
         control: &mut Control<'_>,
     ) -> Result<Option<(Stream, AxisVector)>, RunError> {
@@ -241,10 +240,9 @@ impl Listener<'_> {
                     Ok(asked_ns) => asked_ns,
                     Err(refused) => return refuse(request, &refused),
                 };
-                let taken = match ready {
-                    Ok(_) => publisher.take_now(STREAM, (asked_ns, NEWS), control),
-                    Err(why) => return refuse(request, &stopped(why.clone())),
-                };
+                // A machine that is not ready is told all the same: whoever stopped what was asked for ended it.
+                let patience = if is_ready { NEWS } else { LOOK };
+                let taken = publisher.take_now(STREAM_JOB, (asked_ns, patience), control);
                 let refused = match taken {
                     Ok(Some(position)) => match Stream::open(request, position, limits) {
                         Ok(mut stream) => {

@@ -21,7 +21,7 @@ use std::cmp::Ordering::Equal;
 use std::collections::VecDeque;
 
 use glidepath_geometry::{Axis, AxisVector, Segment};
-use glidepath_link::{SegmentRefusal, SegmentReply, SegmentRequest, StreamItem, Text};
+use glidepath_link::{LongText, SegmentRefusal, SegmentReply, SegmentRequest, StreamItem};
 use glidepath_program::{Event, Item, ItemKind};
 
 #[cfg(test)]
@@ -143,7 +143,7 @@ impl Stream {
             credit: self.credit(),
             refusal,
             position: self.position.into(),
-            message: Text::new(message),
+            message: LongText::new(message),
         }
     }
 
@@ -293,6 +293,6 @@ pub(crate) fn refuse(request: &SegmentRequest, (refusal, message): &Refused) -> 
         credit: 0,
         refusal: refusal.code(),
         position: AxisVector::zeros().into(),
-        message: Text::new(message),
+        message: LongText::new(message),
     }
 }

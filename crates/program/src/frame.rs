@@ -59,6 +59,8 @@ pub struct Frame {
     pub path_v: f64,
     /// Path position since the start of the program, mm.
     pub path_s: f64,
+    /// The feed that the program asks for, mm/s; 0 at rest and in rapids.
+    pub programmed_v: f64,
     /// Position, mm or degrees.
     pub position: AxisVector,
     /// Velocity, mm/s or °/s.
@@ -90,6 +92,7 @@ impl Frame {
             planned_override: 1.0,
             path_v: 0.0,
             path_s: 0.0,
+            programmed_v: 0.0,
             position,
             velocity: zero,
             acceleration: zero,

@@ -36,6 +36,7 @@ message!(Setpoint, "glidepath.Setpoint", {
     30 away,
     31 event_count,
     32 events,
+    33 superposed,
 });
 
 message!(EventRecord, "glidepath.Event", {
@@ -48,6 +49,7 @@ message!(EventRecord, "glidepath.Event", {
     7 phase,
 });
 
+// 84 was nothing.
 message!(Status, "glidepath.Status", {
     1 boot_id,
     2 updated_ns,
@@ -132,7 +134,8 @@ message!(Status, "glidepath.Status", {
     81 jog_number,
     82 spindle_v,
     83 spindle_flags,
-    84 reserved,
+    85 superposition,
+    86 superposed,
 });
 
 #[cfg(test)]

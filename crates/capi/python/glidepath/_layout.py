@@ -6,8 +6,8 @@ Written by a test of the library: do not change it here.
 import ctypes
 import enum
 
-ABI = 8
-LAYOUT = 0xd34bb82785475326
+ABI = 9
+LAYOUT = 0x7789c1b2858aeb66
 AXES = 9
 
 
@@ -153,6 +153,17 @@ class Mode(enum.IntEnum):
     HOMING = 3
     RETURN = 4
     BACKWARDS = 5
+
+
+class Superposition(enum.IntEnum):
+    """What the superposition of an axis does."""
+
+    NONE = 0
+    OFF = 1
+    FOLLOWS = 2
+    FROZEN = 3
+    RETURNS = 4
+    SILENT = 5
 
 
 class Contact(enum.IntEnum):
@@ -440,6 +451,7 @@ class SetpointRecord(ctypes.Structure):
         ("joint_acceleration", ctypes.c_double * 9),
         ("away", ctypes.c_double * 9),
         ("events", EventRecord * 16),
+        ("superposed", ctypes.c_double * 9),
     ]
 
 
@@ -530,7 +542,8 @@ class StatusRecord(ctypes.Structure):
         ("jog_number", ctypes.c_uint64),
         ("spindle_v", ctypes.c_double),
         ("spindle_flags", ctypes.c_uint32),
-        ("reserved", ctypes.c_uint32),
+        ("superposition", ctypes.c_uint32),
+        ("superposed", ctypes.c_double * 9),
     ]
 
 
@@ -636,7 +649,7 @@ class SegmentReplyRecord(ctypes.Structure):
         ("credit", ctypes.c_uint32),
         ("refusal", ctypes.c_uint32),
         ("position", ctypes.c_double * 9),
-        ("message", ctypes.c_char * 128),
+        ("message", ctypes.c_char * 1024),
     ]
 
 
@@ -754,7 +767,7 @@ PLACES = {
         "depth_um": 24,
         "phase": 28,
     }),
-    SetpointRecord: (1160, {
+    SetpointRecord: (1232, {
         "boot_id": 0,
         "reference": 8,
         "number": 16,
@@ -785,8 +798,9 @@ PLACES = {
         "joint_acceleration": 504,
         "away": 576,
         "events": 648,
+        "superposed": 1160,
     }),
-    StatusRecord: (1808, {
+    StatusRecord: (1880, {
         "boot_id": 0,
         "updated_ns": 8,
         "period_ns": 16,
@@ -870,7 +884,8 @@ PLACES = {
         "jog_number": 1784,
         "spindle_v": 1792,
         "spindle_flags": 1800,
-        "reserved": 1804,
+        "superposition": 1804,
+        "superposed": 1808,
     }),
     FeedbackRecord: (816, {
         "boot_id": 0,
@@ -943,7 +958,7 @@ PLACES = {
         "length": 344,
         "error_mm": 352,
     }),
-    SegmentReplyRecord: (232, {
+    SegmentReplyRecord: (1128, {
         "session": 0,
         "number": 8,
         "accepted": 16,

@@ -5,7 +5,7 @@ use crate::failure::Code;
 use glidepath_link::{
     CommandKind, CommandRefusal, ContactKind, DriveState, EndOfEpoch, EventKind, FaultCause,
     Grants, JobStage, JogMode, LatchKind, Loss, MachineState, ModeCode, MotionMode, PlaneCode,
-    Power, RequestKind, SegmentRefusal, SetpointMarks, SpindleFlags,
+    Power, RequestKind, SegmentRefusal, SetpointMarks, SpindleFlags, SuperpositionState,
 };
 use glidepath_program::FrameFlags;
 
@@ -131,6 +131,11 @@ pub(super) fn codes() -> Vec<Codes> {
             Power
         ),
         all!("MODE", "What moves the axes.", MotionMode),
+        all!(
+            "SUPERPOSITION",
+            "What the superposition of an axis does.",
+            SuperpositionState
+        ),
         all!("CONTACT", "What a probe has found.", ContactKind),
         all!("JOB", "How the job of a planner stands.", JobStage),
         all!(

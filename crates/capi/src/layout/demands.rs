@@ -2,7 +2,7 @@
 //! `glidepath-link`, as they are.
 
 use super::structure::{Each, Field, InC, Structure, structure};
-use glidepath_link::{JogDemand, Record, SegmentReply, SegmentRequest, Text};
+use glidepath_link::{JogDemand, LongText, Record, SegmentReply, SegmentRequest};
 
 structure! {
     /// How the axes, or the joints, are to be moved by hand. The latest counts; the first client owns
@@ -89,7 +89,7 @@ structure! {
 
 structure! {
     /// The answer to a piece of a stream.
-    SEGMENT_REPLY: "gp_segment_reply" = SegmentReply, SegmentReply::NAME, 232 {
+    SEGMENT_REPLY: "gp_segment_reply" = SegmentReply, SegmentReply::NAME, 1128 {
         /// The stream.
         session: u64,
         /// The number of the piece.
@@ -103,6 +103,6 @@ structure! {
         /// Where the next piece must start.
         position: Each<f64>,
         /// More about a refusal, for people.
-        message: Text,
+        message: LongText,
     }
 }

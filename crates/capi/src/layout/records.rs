@@ -89,7 +89,7 @@ structure! {
 
 structure! {
     /// What the drives are to do at apply_ns.
-    SETPOINT: "gp_setpoint" = Setpoint, Setpoint::NAME, 1160 {
+    SETPOINT: "gp_setpoint" = Setpoint, Setpoint::NAME, 1232 {
         /// Identifies one life of the interpolator: all counts start again with a new one.
         boot_id: u64,
         /// Counts how often the position was taken from the drives, or given a new meaning, instead
@@ -157,12 +157,15 @@ structure! {
         away: Each<f64>,
         /// What happens in the period from scheduled_ns to apply_ns, in order.
         events: [EventRecord; EVENTS_MOST],
+        /// How far the axes are from position by a superposition, mm or degrees: the joints are where both
+        /// together ask for.
+        superposed: Each<f64>,
     }
 }
 
 structure! {
     /// What the interpolator does and how well. Counts are of this life of it.
-    STATUS: "gp_status" = Status, Status::NAME, 1808 {
+    STATUS: "gp_status" = Status, Status::NAME, 1880 {
         /// Identifies one life of the interpolator.
         boot_id: u64,
         /// When this was true, ns of CLOCK_MONOTONIC. A reader takes an old one for a dead
@@ -339,8 +342,10 @@ structure! {
         spindle_v: f64,
         /// Bits of GP_SPINDLE_.
         spindle_flags: u32,
-        /// Must be zero.
-        reserved: u32,
+        /// A GP_SUPERPOSITION_.
+        superposition: u32,
+        /// How far the axes are from position by a superposition, mm or degrees.
+        superposed: Each<f64>,
     }
 }
 

@@ -1,7 +1,7 @@
 //! A structure and its fields, and the macro that holds a list of them against a Rust type.
 
 use glidepath_geometry::AXES;
-use glidepath_link::{CodeWords, EventId, EventRecord, Latch, Quantiles, Text};
+use glidepath_link::{CodeWords, EventId, EventRecord, Latch, LongText, Quantiles, Text};
 
 /// A structure of the library.
 #[derive(Debug)]
@@ -77,6 +77,11 @@ impl<T: InC, const N: usize> InC for [T; N] {
 }
 
 impl InC for Text {
+    const ELEMENT: &'static str = "char";
+    const COUNT: usize = Self::CAPACITY;
+}
+
+impl InC for LongText {
     const ELEMENT: &'static str = "char";
     const COUNT: usize = Self::CAPACITY;
 }

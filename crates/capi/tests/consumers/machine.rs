@@ -4,7 +4,7 @@ use crate::build::Place;
 use bytemuck::Zeroable as _;
 use glidepath_link::{
     Command, CommandRefusal, CommandReply, CommandRequest, EventRecord, Feedback, Ipc, JogDemand,
-    LinkConfig, MachineState, Record as _, RequestKind, SegmentRefusal, SegmentReply,
+    LinkConfig, LongText, MachineState, Record as _, RequestKind, SegmentRefusal, SegmentReply,
     SegmentRequest, Setpoint, Status, Text, Transport as _, remove_leftovers,
 };
 use glidepath_program::Event;
@@ -138,7 +138,7 @@ impl Stream {
             credit: 1,
             refusal: refusal.map_or(0, SegmentRefusal::code),
             position: moved.map_or(STANDS, |piece| piece.end),
-            message: Text::new(message),
+            message: LongText::new(message),
         }
     }
 }

@@ -182,6 +182,7 @@ pub(super) fn settings(config: &MachineConfig, best_effort: bool) -> Config {
         feedback: feedback(config),
         gantries: gantries(config),
         compensation: config.compensation.joints(),
+        superposition: config.superposition,
         m_code_waits: config.m_code_waits(),
         stops: config.stops,
         tap_overtravel: config

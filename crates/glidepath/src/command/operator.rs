@@ -238,7 +238,7 @@ pub(super) fn status(args: &OperatorArgs, config: &MachineConfig) -> Result<Exit
     let active = active_program(&link, &status);
     let beside = Beside {
         asked: asked(&link, config, &status),
-        offset: PersistentOffsets::new(config, &link).look(),
+        offset: PersistentOffsets::new(config, &link).look(&status),
         not_homed: config.axes_not_homed(&status),
     };
     if args.basic.json {

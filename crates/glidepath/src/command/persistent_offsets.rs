@@ -6,7 +6,7 @@ use crate::position_offsets_note;
 use crate::report::WorkOffset;
 use glidepath_gcode::PositionOffsets;
 use glidepath_kinematics::FiveAxis;
-use glidepath_link::LinkConfig;
+use glidepath_link::{LinkConfig, Status};
 use glidepath_persistence::{Directory, Store};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -35,8 +35,12 @@ impl PersistentOffsets {
         }
     }
 
-    /// The coordinate system in force; `None` if none is kept, or it cannot be read just now.
-    pub(super) fn look(&mut self) -> Option<WorkOffset> {
+    /// The coordinate system in force; `None` if none is kept, it cannot be read just now, or the machine executes a
+    /// stream: which offsets its program has in force, nobody here knows.
+    pub(super) fn look(&mut self, status: &Status) -> Option<WorkOffset> {
+        if status.is_of_stream() {
+            return None;
+        }
         let is_due = self.looked.is_none_or(|looked| looked.elapsed() >= EVERY);
         if is_due {
             self.looked = Some(Instant::now());

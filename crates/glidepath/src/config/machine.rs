@@ -14,7 +14,7 @@ use glidepath_gcode::{
 };
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_interpolator::{
-    AdaptiveFeed, AnswerSource, JointHoming, MCodeWait, MCodeWaits, StopSettings,
+    AdaptiveFeed, AnswerSource, JointHoming, MCodeWait, MCodeWaits, StopSettings, Superposition,
 };
 use glidepath_kinematics::{
     AxisShare, FiveAxis, JOINTS, JointLimit, JointLimits, JointWatch, Kinematics as _,
@@ -57,6 +57,9 @@ pub struct MachineConfig {
     pub spindle: Option<SpindleConfig>,
     /// What slows programs down besides the override, if anything does.
     pub adaptive_feed: Option<AdaptiveFeed>,
+    /// What moves an axis in addition to programs, if anything does: its share of the axis' limits, and its range of
+    /// the travel, are not in `axes`.
+    pub superposition: Option<Superposition>,
     /// The preview by advance and retreat.
     pub preview: AdvanceRetreat,
     /// Name of the machine's shared memory; `None` if the file gives none.

@@ -36,6 +36,8 @@ pub(super) struct RawConfig {
     #[serde(default)]
     pub(super) adaptive_feed: RawAdaptiveFeed,
     #[serde(default)]
+    pub(super) superposition: RawSuperposition,
+    #[serde(default)]
     pub(super) link: RawLink,
     #[serde(default)]
     pub(super) preview: RawPreview,
@@ -203,6 +205,26 @@ pub(super) struct RawAdaptiveFeed {
     pub(super) at_full: Optional<f64>,
     pub(super) always: Optional<bool>,
     pub(super) backwards: Optional<bool>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct RawSuperposition {
+    pub(super) axis: Optional<String>,
+    pub(super) share: Optional<f64>,
+    pub(super) lowest: Optional<f64>,
+    pub(super) highest: Optional<f64>,
+    pub(super) input: Optional<i64>,
+    pub(super) sets: Optional<String>,
+    pub(super) target: Optional<f64>,
+    pub(super) gain: Optional<f64>,
+    pub(super) dead_band: Optional<f64>,
+    pub(super) switched_by: Optional<i64>,
+    pub(super) enabled_by: Optional<i64>,
+    pub(super) enabled_at: Optional<String>,
+    pub(super) freeze_below: Optional<f64>,
+    pub(super) freeze_for: Optional<f64>,
+    pub(super) off: Optional<String>,
 }
 
 #[derive(Debug, Default, Deserialize)]

@@ -9,6 +9,11 @@ pub(crate) enum StateError {
     /// It cannot be read or written.
     #[error(transparent)]
     Kept(StoreError),
+    /// Another process writes it.
+    #[error(
+        "{0}. End that process, or give this machine a folder of its own: `directory` of [state]"
+    )]
+    Taken(StoreError),
     /// A file is damaged.
     #[error(
         "{0}. Nothing moves before somebody has decided: `glidepath offsets recover` takes the newest \
@@ -64,6 +69,7 @@ pub(crate) enum StateError {
 impl From<StoreError> for StateError {
     fn from(error: StoreError) -> Self {
         match error {
+            error @ StoreError::Taken { .. } => Self::Taken(error),
             error @ StoreError::Damaged { .. } => Self::Damaged(error),
             error => Self::Kept(error),
         }

@@ -8,6 +8,7 @@ use core::fmt::Write as _;
 use glidepath_geometry::{AXES, Axis};
 use glidepath_link::{
     EndOfEpoch, FaultCause, Grants, JobStage, MachineState, MotionMode, Quantiles, Status,
+    SuperpositionState,
 };
 use serde_json::{Map, Value, json};
 
@@ -188,6 +189,21 @@ pub(super) fn adaptive_text(status: &Status) -> Option<String> {
     })
 }
 
+/// What is added to the motion of an axis, and whether that goes on; nothing on a machine without a superposition.
+pub(super) fn superposition_text(status: &Status) -> Option<String> {
+    let state = status.superposition().ok()?;
+    let does = state.text();
+    if state == SuperpositionState::None {
+        return None;
+    }
+    let offset = positions_text(&status.superposed, &[], |_, value| value != 0.0);
+    Some(if offset.is_empty() {
+        does.to_owned()
+    } else {
+        format!("{offset}, {does}")
+    })
+}
+
 /// How a program is executed, where that is not the ordinary way.
 pub(super) fn manner_text(status: &Status) -> String {
     let is_backwards = status.mode() == Ok(MotionMode::Backwards);
@@ -276,6 +292,9 @@ pub fn status_text(instance: &str, status: &Status, beside: &Beside) -> String {
     );
     if let Some(adaptive) = adaptive_text(status) {
         let _ = writeln!(text, "  input         {adaptive}");
+    }
+    if let Some(superposed) = superposition_text(status) {
+        let _ = writeln!(text, "  superposed    {superposed}");
     }
     let _ = writeln!(
         text,

@@ -68,6 +68,16 @@ fn machine_with(key: &str) -> Table {
         put(&mut machine, "home.J0.shared", Value::Boolean(false));
         return machine;
     }
+    if key.starts_with("superposition.") {
+        let mut machine = shipped("mill");
+        put(
+            &mut machine,
+            "superposition.axis",
+            Value::String("Z".to_owned()),
+        );
+        put(&mut machine, "superposition.input", Value::Integer(0));
+        return machine;
+    }
     match key.split('.').nth(1) {
         Some(name @ ("scara" | "five-bar" | "rotary-delta" | "hexapod")) => shipped(name),
         Some("J0") => shipped("scara"),

@@ -26,6 +26,7 @@ mod reference;
 mod spindle_axis;
 mod straight;
 mod subroutines;
+mod superposition;
 #[path = "../support/mod.rs"]
 mod support;
 mod told_commands;

@@ -1,10 +1,10 @@
 //! Adaptive feed: an analog input that slows the program down, as far as to a hold.
 //!
 //! The factor follows the input in steps, or the search for a ramp would never come to rest. Where
-//! the machine is configured for that, it goes on below zero: back along the path. The source of the
-//! input is the first servo stack that sends something other than zero, as stacks without the input
-//! send zero. If nothing new comes from it, the factor is zero, and another such stack takes its place.
+//! the machine is configured for that, it goes on below zero: back along the path. If nothing new comes of the
+//! input, the factor is zero.
 
+use super::analog_source::AnalogSource;
 use super::settings::AdaptiveFeed;
 use crate::message::TickReport;
 use glidepath_link::{Feedback, MotionMode};
@@ -20,33 +20,23 @@ const SWITCH: u32 = 52;
 #[derive(Debug)]
 pub(super) struct AdaptiveWatch {
     settings: Option<AdaptiveFeed>,
-    stale_ns: u64,
+    source: AnalogSource,
     is_on: bool,
     /// The P word of the code that comes next.
     word: Option<f64>,
-    /// The stack that sends the input, and its last sample.
-    source: Option<Source>,
     /// What the input says, in steps.
     factor: f64,
     /// What was told last.
     told: f64,
 }
 
-#[derive(Debug, Clone, Copy)]
-struct Source {
-    boot_id: u64,
-    sample_ns: u64,
-    value: f64,
-}
-
 impl AdaptiveWatch {
     pub(super) fn new(settings: Option<AdaptiveFeed>, stale_ns: u64) -> Self {
         Self {
             settings,
-            stale_ns,
+            source: AnalogSource::new(settings.map_or(0, |it| it.input), stale_ns),
             is_on: settings.is_some_and(|settings| settings.always),
             word: None,
-            source: None,
             factor: 0.0,
             told: 1.0,
         }
@@ -76,23 +66,8 @@ impl AdaptiveWatch {
 
     /// Looks at what a stack sends.
     pub(super) fn look(&mut self, feedback: &Feedback) {
-        let Some(settings) = self.settings else {
-            return;
-        };
-        let value = feedback.analog_in.get(usize::from(settings.input));
-        let value = value.copied().unwrap_or(0.0);
-        let is_stale =
-            |source: Source| feedback.sample_ns.saturating_sub(source.sample_ns) > self.stale_ns;
-        let is_its = match self.source {
-            Some(source) if source.boot_id == feedback.boot_id => true,
-            source => value != 0.0 && source.is_none_or(is_stale),
-        };
-        if is_its {
-            self.source = Some(Source {
-                boot_id: feedback.boot_id,
-                sample_ns: feedback.sample_ns,
-                value,
-            });
+        if self.settings.is_some() {
+            self.source.look(feedback);
         }
     }
 
@@ -111,11 +86,8 @@ impl AdaptiveWatch {
     }
 
     fn follow(&mut self, settings: AdaptiveFeed, now_ns: u64) -> f64 {
-        let fresh = self
-            .source
-            .filter(|source| now_ns.saturating_sub(source.sample_ns) <= self.stale_ns);
-        let wanted = fresh.map_or(0.0, |source| {
-            let part = (source.value - settings.at_zero) / (settings.at_full - settings.at_zero);
+        let wanted = self.source.value(now_ns).map_or(0.0, |value| {
+            let part = (value - settings.at_zero) / (settings.at_full - settings.at_zero);
             let least = if settings.backwards { -1.0 } else { 0.0 };
             // Neither is a number that is none a speed.
             if part > least {

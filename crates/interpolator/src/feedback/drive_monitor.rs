@@ -11,6 +11,7 @@ use super::probe::ProbeWatch;
 use super::revolutions::RevolutionWatch;
 use super::settings::FeedbackSettings;
 use super::spindle::SpindleWatch;
+use super::superposition::SuperpositionWatch;
 use crate::config::Config;
 use crate::homing::{HomingSequencer, Pair};
 use crate::message::TickReport;
@@ -42,6 +43,7 @@ pub(crate) struct DriveMonitor {
     pub(super) spindle: SpindleWatch,
     pub(super) adaptive: AdaptiveWatch,
     pub(super) revolutions: RevolutionWatch,
+    pub(super) superposition: SuperpositionWatch,
     /// What is added to the drives' count.
     pub(super) offset: JointVector,
     /// What is taken out of where joints are told to be.
@@ -98,6 +100,7 @@ impl DriveMonitor {
             spindle: SpindleWatch::default(),
             adaptive: AdaptiveWatch::new(settings.adaptive, ns(settings.stale_after)),
             revolutions: RevolutionWatch::new(ns(settings.stale_after)),
+            superposition: SuperpositionWatch::new(config.superposition, ns(settings.stale_after)),
             offset: JointVector::zeros(),
             compensation: config.compensation,
             sides: JointVector::zeros(),
@@ -121,6 +124,7 @@ impl DriveMonitor {
         let news = self.ownership.take(feedback, now_ns)?;
         self.spindle.take(feedback);
         self.adaptive.look(feedback);
+        self.superposition.look(feedback);
         self.probe
             .watch_out(feedback.sample_ns, &self.ownership.joints());
         if self.probe.is_searching() {
@@ -203,6 +207,7 @@ impl DriveMonitor {
             played: joints.played,
             contact_in: self.probe.found_in(),
             adaptive_r: input_r * by_spindle_r,
+            superposition: self.superposition.demand(joints.digital_in, now_ns),
         }
     }
 

@@ -11,6 +11,7 @@
 //! which the joints are already axes.
 
 mod adaptive;
+mod analog_source;
 mod commands;
 mod demands;
 mod drive_monitor;
@@ -24,6 +25,7 @@ mod probe;
 mod revolutions;
 mod settings;
 mod spindle;
+mod superposition;
 
 pub(crate) use drive_monitor::DriveMonitor;
 pub(crate) use observation::{Observation, Turn};

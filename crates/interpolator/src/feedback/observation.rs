@@ -1,5 +1,6 @@
 //! The observation of the drives, which the ports thread tells the real-time thread every turn.
 
+use crate::superposition::SuperpositionDemand;
 use glidepath_geometry::AxisVector;
 use glidepath_kinematics::JointVector;
 use glidepath_link::SpindleFlags;
@@ -84,6 +85,8 @@ pub(crate) struct Observation {
     pub(crate) contact_in: u64,
     /// What slows the program down, 0 to 1.
     pub(crate) adaptive_r: f64,
+    /// What is to be added to the motion of an axis.
+    pub(crate) superposition: SuperpositionDemand,
 }
 
 impl Observation {
@@ -109,6 +112,7 @@ impl Observation {
             played: 0,
             contact_in: 0,
             adaptive_r: 1.0,
+            superposition: SuperpositionDemand::Silent,
         }
     }
 }

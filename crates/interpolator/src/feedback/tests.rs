@@ -27,6 +27,7 @@ mod matrix;
 mod probing;
 mod revolutions;
 mod stops;
+mod superposition;
 mod tapping;
 mod threading;
 mod unanswered;

@@ -6,6 +6,7 @@ use crate::jog::JogContext;
 use crate::message::{Inputs, Order};
 use crate::output::Written;
 use crate::stops::StopCause;
+use glidepath_geometry::AXES;
 use glidepath_link::{Command, EndOfEpoch, EventRecord, FaultCause, MachineState, Setpoint};
 use glidepath_realtime::Wake;
 
@@ -218,6 +219,10 @@ impl Interpolator<'_> {
     /// Writes the setpoint of a machine whose joints are where the drives say.
     pub(super) fn write_following(&mut self, setpoint: &mut Setpoint) {
         let (seen, follows) = (self.drives.seen(), self.drives.following());
+        if let Some(superposed) = &mut self.superposed {
+            superposed.forget();
+            setpoint.superposed = [0.0; AXES];
+        }
         self.output
             .write_following(self.epoch, &self.passed, seen, follows, setpoint);
     }

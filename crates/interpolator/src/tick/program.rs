@@ -80,6 +80,11 @@ impl Interpolator<'_> {
         self.end_of_epoch = EndOfEpoch::Open;
         self.is_unanswered = false;
         self.output.begin_epoch();
+        if let Some(superposed) = &mut self.superposed
+            && !self.probing.goes_on()
+        {
+            superposed.begin_program();
+        }
         self.single_block_stop = SingleBlockStop::none();
         self.queue_level.begin_epoch();
         if !self.probing.goes_on() {

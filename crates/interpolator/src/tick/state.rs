@@ -17,6 +17,7 @@ use crate::single_block_stop::SingleBlockStop;
 use crate::spindle::{Pass, SimulatedSpindle, Tap};
 use crate::stop_requests::StopRequests;
 use crate::stops::{StopCause, Stops};
+use crate::superposition::SuperposedAxis;
 use crate::tick_statistics::TickStatistics;
 use crate::track::Track;
 use crate::wait::Wait;
@@ -51,6 +52,8 @@ pub(crate) struct Interpolator<'a> {
     pub(super) joint_mover: JointMover,
     pub(super) drives: Drives,
     pub(super) output: Output,
+    /// What is added to the motion of an axis, if anything may be.
+    pub(super) superposed: Option<SuperposedAxis>,
     /// The open or last epoch, 0 before the first.
     pub(super) epoch: u64,
     /// No epoch up to this number begins any more.
@@ -92,6 +95,9 @@ impl<'a> Interpolator<'a> {
             joint_mover: JointMover::new(config),
             drives: Drives::new(config),
             output: Output::new(config, boot_id),
+            superposed: config
+                .superposition
+                .map(|settings| SuperposedAxis::new(settings, period_t)),
             epoch: 0,
             barred: 0,
             end_of_epoch: EndOfEpoch::None,
@@ -119,7 +125,9 @@ impl<'a> Interpolator<'a> {
 
     /// True if the machine stands, because program time does or because the plan rests.
     pub(super) fn is_standing(&self) -> bool {
-        self.output.published().is_at_rest() && (self.rate.now().rate <= 0.0 || self.plan_rests())
+        self.output.published().is_at_rest()
+            && (self.rate.now().rate <= 0.0 || self.plan_rests())
+            && self.superposition_rests()
     }
 
     /// What is known of the frame at or before the present program time.
@@ -184,6 +192,7 @@ impl<'a> Interpolator<'a> {
         self.pass.end();
         self.tap = None;
         self.output.rest();
+        self.take_superposed();
         self.end_of_epoch = end;
         self.queue_level.end_epoch();
         self.requests.forget_epoch(self.probing.goes_on());

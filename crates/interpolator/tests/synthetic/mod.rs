@@ -168,6 +168,7 @@ pub fn integrate(jerks: &[Vec<f64>], period_t: f64, start: AxisVector) -> Vec<Fr
             flags,
             events: FrameEvents::NONE,
             planned_override: 1.0,
+            programmed_v: 0.0,
             path_v: v.norm(),
             path_s,
             position: p,

@@ -342,7 +342,7 @@ mod tests {
     /// A setpoint of a version to come.
     #[repr(C)]
     #[derive(Debug, Clone, Copy, ZeroCopySend)]
-    #[type_name("glidepath.Setpoint.v4")]
+    #[type_name("glidepath.Setpoint.v5")]
     struct SetpointToCome([f64; 83]);
 
     #[test]
@@ -373,7 +373,7 @@ mod tests {
             "{error}"
         );
         let text = error.to_string();
-        assert!(text.contains("glidepath.Setpoint.v4"), "{text}");
+        assert!(text.contains("glidepath.Setpoint.v5"), "{text}");
         assert!(text.contains("IncompatibleTypes"), "{text}");
         drop(service);
         open().unwrap();

@@ -26,7 +26,7 @@ pub(crate) const FRAME_FLAGS: u32 = FrameFlags::FIRST
 /// the quintic Hermite polynomial through both.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.SetpointFrame.v3")]
+#[type_name("glidepath.SetpointFrame.v4")]
 pub struct SetpointFrame {
     /// Which trajectory this belongs to: a new one for every start from rest, > 0, rising. Planners
     /// take the number after that of the last; one that is more than 65 536 above it is refused.
@@ -52,6 +52,9 @@ pub struct SetpointFrame {
     pub planned_override: f64,
     /// Identifies the text of the program, 0 if it has none that could be read again.
     pub program: u64,
+    /// The feed that the program asks for there, mm/s, which limits and corners may not let it reach; 0 at rest and in
+    /// rapids.
+    pub programmed_v: f64,
     /// Position, mm or degrees.
     pub position: [f64; AXES],
     /// Velocity, mm/s or °/s.
@@ -85,6 +88,7 @@ impl SetpointFrame {
             velocity: frame.velocity.into(),
             acceleration: frame.acceleration.into(),
             events,
+            programmed_v: frame.programmed_v,
         }
     }
 
@@ -104,6 +108,7 @@ impl SetpointFrame {
             planned_override: self.planned_override,
             path_v: self.path_v,
             path_s: self.path_s,
+            programmed_v: self.programmed_v,
             position: AxisVector::from(self.position),
             velocity: AxisVector::from(self.velocity),
             acceleration: AxisVector::from(self.acceleration),
@@ -164,7 +169,7 @@ impl SetpointFrame {
 }
 
 impl Record for SetpointFrame {
-    const NAME: &'static str = "glidepath.SetpointFrame.v3";
+    const NAME: &'static str = "glidepath.SetpointFrame.v4";
 
     fn check(&self) -> Result<(), RecordError> {
         let fields = Fields(Self::NAME);
@@ -173,6 +178,7 @@ impl Record for SetpointFrame {
         fields.all_finite("acceleration", &self.acceleration)?;
         fields.finite("path_v", self.path_v)?;
         fields.finite("path_s", self.path_s)?;
+        fields.range("programmed_v", self.programmed_v, 0.0, f64::MAX)?;
         fields.range(
             "planned_override",
             self.planned_override,

@@ -31,6 +31,7 @@ mod segment_reply;
 mod setpoint;
 mod state;
 mod status;
+mod superposition;
 mod text;
 
 pub use auxiliary::{ANALOG_OUTPUTS, Auxiliary, Coolant, SpindleState};
@@ -42,7 +43,7 @@ pub use event::{EventKind, EventRecord};
 pub use feedback::{DriveState, Feedback, LATCHES, Latch, LatchKind, Loss, SpindleFlags};
 pub use frame::{PERIOD_NS_MAX, SetpointFrame};
 pub use glidepath_program::EVENTS_MOST;
-pub use job::{JobKind, JobPhase, JobReply, JobRequest, JobStage, JobState, JobWish};
+pub use job::{JobKind, JobPhase, JobReply, JobRequest, JobStage, JobState, JobWish, STREAM_JOB};
 pub use jog::{JogDemand, JogMode};
 pub use joint::ALL_JOINTS;
 pub use lines::{LinesReply, LinesRequest, LinesState, LinesWish, TOLD_SYSTEMS};
@@ -54,6 +55,7 @@ pub use state::{
     Power,
 };
 pub use status::{Grants, Quantiles, Status};
+pub use superposition::SuperpositionState;
 pub use text::{LongText, Text};
 
 use iceoryx2::prelude::ZeroCopySend;

@@ -2,7 +2,7 @@
 
 use super::check::{Fields, RecordError};
 use super::code::coded;
-use super::{Record, Text};
+use super::{LongText, Record};
 use glidepath_geometry::AXES;
 use iceoryx2::prelude::ZeroCopySend;
 
@@ -40,7 +40,7 @@ pub type SegmentOutcome = Result<(), SegmentRefusal>;
 /// The answer on its way back.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.SegmentReply.v1")]
+#[type_name("glidepath.SegmentReply.v2")]
 pub struct SegmentReply {
     /// The session of the request.
     pub session: u64,
@@ -55,7 +55,7 @@ pub struct SegmentReply {
     /// Where the next segment must start.
     pub position: [f64; AXES],
     /// More about a refusal, for people.
-    pub message: Text,
+    pub message: LongText,
 }
 
 impl SegmentReply {
@@ -73,7 +73,7 @@ impl SegmentReply {
 }
 
 impl Record for SegmentReply {
-    const NAME: &'static str = "glidepath.SegmentReply.v1";
+    const NAME: &'static str = "glidepath.SegmentReply.v2";
 
     fn check(&self) -> Result<(), RecordError> {
         Fields(Self::NAME).all_finite("position", &self.position)?;

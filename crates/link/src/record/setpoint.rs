@@ -23,7 +23,7 @@ impl SetpointMarks {
 /// A setpoint: what the drives are to do at `apply_ns`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.Setpoint.v4")]
+#[type_name("glidepath.Setpoint.v5")]
 pub struct Setpoint {
     /// Identifies one life of the interpolator: all counts start again with a new one.
     pub boot_id: u64,
@@ -94,6 +94,9 @@ pub struct Setpoint {
     /// What happens in the period from `scheduled_ns` to `apply_ns`, in order: each event so many ns
     /// after `scheduled_ns`. What is not used is zero.
     pub events: [EventRecord; EVENTS_MOST],
+    /// How far the axes are from the positions above, mm or degrees, by a superposition: those are what program and
+    /// hand ask for, the joints do both.
+    pub superposed: [f64; AXES],
 }
 
 impl Setpoint {
@@ -154,7 +157,7 @@ impl Setpoint {
 }
 
 impl Record for Setpoint {
-    const NAME: &'static str = "glidepath.Setpoint.v4";
+    const NAME: &'static str = "glidepath.Setpoint.v5";
 
     fn check(&self) -> Result<(), RecordError> {
         let fields = Fields(Self::NAME);
@@ -165,6 +168,7 @@ impl Record for Setpoint {
         fields.all_finite("joint_velocity", &self.joint_velocity)?;
         fields.all_finite("joint_acceleration", &self.joint_acceleration)?;
         fields.all_finite("away", &self.away)?;
+        fields.all_finite("superposed", &self.superposed)?;
         fields.range("fraction", self.fraction, 0.0, 1.0)?;
         fields.finite("path_s", self.path_s)?;
         fields.finite("feed_v", self.feed_v)?;

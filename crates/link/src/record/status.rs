@@ -3,7 +3,8 @@
 use super::check::{Fields, RecordError};
 use super::{
     ALL_JOINTS, CodeWords, ContactKind, EndOfEpoch, FRAME_REFUSALS, FaultCause, JobStage,
-    MachineState, MotionMode, OVERRIDE_MAX, Power, Record, SpindleFlags, Text, event,
+    MachineState, MotionMode, OVERRIDE_MAX, Power, Record, STREAM_JOB, SpindleFlags,
+    SuperpositionState, Text, event,
 };
 use glidepath_geometry::{AXES, Axis};
 use glidepath_program::Event;
@@ -61,7 +62,7 @@ pub struct Quantiles {
 /// The status of the interpolator: what it does and how well. Counts are of this life of it.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.Status.v13")]
+#[type_name("glidepath.Status.v14")]
 pub struct Status {
     /// Identifies one life of the interpolator.
     pub boot_id: u64,
@@ -241,8 +242,10 @@ pub struct Status {
     pub spindle_v: f64,
     /// Bits of [`SpindleFlags`].
     pub spindle_flags: u32,
-    /// Must be zero.
-    pub reserved: u32,
+    /// Code of a [`SuperpositionState`].
+    pub superposition: u32,
+    /// See [`super::Setpoint::superposed`].
+    pub superposed: [f64; AXES],
 }
 
 /// Drives that have said nothing for so long are silent: nobody knows where they are, ns.
@@ -349,6 +352,22 @@ impl Status {
         Fields(Self::NAME).code("job_stage", self.job_stage)
     }
 
+    /// Whether the job under way is a stream of segments: of its coordinates, offsets and tools nobody knows but the
+    /// program that streams.
+    #[must_use]
+    pub fn is_of_stream(&self) -> bool {
+        self.job_stage == JobStage::Begun.code() && self.job.as_str().starts_with(STREAM_JOB)
+    }
+
+    /// The state of the superposition.
+    ///
+    /// # Errors
+    ///
+    /// An unknown code.
+    pub fn superposition(&self) -> Result<SuperpositionState, RecordError> {
+        Fields(Self::NAME).code("superposition", self.superposition)
+    }
+
     /// The real-time grants.
     #[must_use]
     pub const fn grants(&self) -> Grants {
@@ -357,7 +376,7 @@ impl Status {
 }
 
 impl Record for Status {
-    const NAME: &'static str = "glidepath.Status.v13";
+    const NAME: &'static str = "glidepath.Status.v14";
 
     fn check(&self) -> Result<(), RecordError> {
         let fields = Fields(Self::NAME);
@@ -424,7 +443,8 @@ impl Record for Status {
         fields.flags("job_held", self.job_held, 1)?;
         fields.finite("spindle_v", self.spindle_v)?;
         fields.flags("spindle_flags", self.spindle_flags, SpindleFlags::KNOWN)?;
-        fields.zero("reserved", self.reserved)?;
+        fields.all_finite("superposed", &self.superposed)?;
+        self.superposition()?;
         self.job.check(Self::NAME, "job")?;
         self.job_end.check(Self::NAME, "job_end")?;
         self.last_error.check(Self::NAME, "last_error")

@@ -52,7 +52,7 @@ impl AtRest {
         match self {
             Self::Away => {
                 "at rest away from the path; `glidepath return` brings the axes back, then \
-                 `glidepath resume` goes on"
+                 `glidepath resume` goes on, if anything is left of the program"
             }
             Self::Backwards => {
                 "at rest on the way back along the path; `glidepath forward` turns round, and \

@@ -12,6 +12,7 @@ mod precondition;
 mod printable;
 mod refusal;
 mod state;
+mod superposition;
 
 pub use at_rest::AtRest;
 pub use fault::FaultReport;

@@ -76,7 +76,7 @@ prop_compose! {
         (sequence, line, flags) in (any::<u64>(), any::<u32>(), 0..128_u32),
         events in events(),
         planned_override in 0.001..=OVERRIDE_MAX,
-        (path_v, path_s) in (finite(), finite()),
+        (path_v, path_s, programmed_v) in (finite(), finite(), positive()),
         (position, velocity, acceleration) in (vector(), vector(), vector()),
     ) -> Frame {
         let flags = FrameFlags(flags);
@@ -88,6 +88,7 @@ prop_compose! {
             planned_override,
             path_v,
             path_s,
+            programmed_v,
             position,
             velocity,
             acceleration,

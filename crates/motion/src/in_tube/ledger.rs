@@ -124,6 +124,7 @@ impl Ledger {
             rapid,
             synchronised,
             per_revolution: entry.rate.rate.is_per_revolution(),
+            programmed_v: entry.rate.rate.feed_v().unwrap_or(0.0),
             planned_override: if rapid {
                 self.told.rapid_r
             } else if synchronised {

@@ -251,6 +251,7 @@ impl Sampler {
             rapid: piece.rapid,
             synchronised: piece.synchronised,
             per_revolution: piece.per_revolution,
+            programmed_v: piece.rule.programmed_v(),
             planned_override: piece.planned_override(),
         });
         *frame = self.grid.motion_frame(&Moving {
@@ -286,6 +287,7 @@ impl Sampler {
                     rapid: piece.rapid,
                     synchronised: piece.synchronised,
                     per_revolution: piece.per_revolution,
+                    programmed_v: piece.rule.programmed_v(),
                     planned_override: piece.planned_override(),
                 },
                 &piece.events,

@@ -37,6 +37,8 @@ pub(super) struct Continuity {
 
 struct AxisState {
     axis: Axis,
+    /// It is what is superposed to the axis, and not its position.
+    is_superposed: bool,
     limits: [f64; 3],
     /// The ends of its travel.
     travel: [f64; 2],
@@ -47,22 +49,54 @@ struct AxisState {
     run: u32,
 }
 
+impl AxisState {
+    fn new(axis: Axis, limits: [f64; 3], travel: [f64; 2]) -> Self {
+        Self {
+            axis,
+            is_superposed: false,
+            limits,
+            travel,
+            differences: [0.0; 2],
+            magnitude: 0.0,
+            run: 0,
+        }
+    }
+
+    /// Where it is.
+    fn place(&self, setpoint: &Setpoint) -> f64 {
+        let values = if self.is_superposed {
+            &setpoint.superposed
+        } else {
+            &setpoint.position
+        };
+        values.get(self.axis.index()).copied().unwrap_or(0.0)
+    }
+
+    /// What it is called.
+    fn name(&self) -> String {
+        if self.is_superposed {
+            format!("the superposition of {}", self.axis)
+        } else {
+            self.axis.to_string()
+        }
+    }
+}
+
 impl Continuity {
     pub(super) fn new(config: &MachineConfig) -> Self {
         let limits = config.axis_limits();
         let axes = config.axis_names().into_iter().map(|axis| {
             let i = axis.index();
-            AxisState {
-                axis,
-                limits: [limits.velocity[i], limits.acceleration[i], limits.jerk[i]],
-                travel: [limits.travel.lowest[i], limits.travel.highest[i]],
-                differences: [0.0; 2],
-                magnitude: 0.0,
-                run: 0,
-            }
+            let of_axis = [limits.velocity[i], limits.acceleration[i], limits.jerk[i]];
+            let travel = [limits.travel.lowest[i], limits.travel.highest[i]];
+            AxisState::new(axis, of_axis, travel)
+        });
+        let superposed = config.superposition.iter().map(|of| AxisState {
+            is_superposed: true,
+            ..AxisState::new(of.axis, [of.velocity, of.acceleration, of.jerk], of.range)
         });
         Self {
-            axes: axes.collect(),
+            axes: axes.chain(superposed).collect(),
             period_ns: config.period_ns(),
             period_t: config.period_t(),
             last: None,
@@ -155,14 +189,14 @@ impl Continuity {
             return;
         }
         let beyond = self.axes.iter().find_map(|state| {
-            let at = setpoint.position.get(state.axis.index()).copied()?;
+            let at = state.place(setpoint);
             let [low, high] = state.travel;
             let end = at.max(low).min(high);
             ((at - end).abs() > Travel::ROUNDING).then(|| {
-                let (axis, off) = (state.axis, (at - end).abs());
-                let unit = unit(axis);
+                let (name, off) = (state.name(), (at - end).abs());
+                let unit = unit(state.axis);
                 format!(
-                    "{axis} is at {at:.6}{unit}, {off:.6}{unit} beyond the end of its travel at {end}{unit}"
+                    "{name} is at {at:.6}{unit}, {off:.6}{unit} beyond the end of its travel at {end}{unit}"
                 )
             })
         });
@@ -200,8 +234,7 @@ impl Continuity {
         let t = self.period_t;
         let mut found = Vec::new();
         for state in &mut self.axes {
-            let of = |values: &[f64; AXES]| values.get(state.axis.index()).copied().unwrap_or(0.0);
-            let (before, now) = (of(&last.position), of(&setpoint.position));
+            let (before, now) = (state.place(last), state.place(setpoint));
             state.magnitude = state.magnitude.max(now.abs());
             if !follows {
                 continue;
@@ -238,12 +271,17 @@ impl Continuity {
                     found.push((
                         "limit",
                         format!(
-                            "{axis} has {name} of {value:.3}{}{per}, {ratio:.4} of its limit",
+                            "{} has {name} of {value:.3}{}{per}, {ratio:.4} of its limit",
+                            state.name(),
                             unit(axis)
                         ),
                     ));
                 }
             }
+            if state.is_superposed {
+                continue;
+            }
+            let of = |values: &[f64; AXES]| values.get(axis.index()).copied().unwrap_or(0.0);
             // With a constant jerk this is how far it goes, exactly.
             let goes = (of(&last.velocity) + of(&setpoint.velocity)) * t / 2.0
                 - (of(&setpoint.acceleration) - of(&last.acceleration)) * t * t / 12.0;

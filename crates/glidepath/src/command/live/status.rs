@@ -48,7 +48,7 @@ impl Machine<'_> {
             axes: &self.config.axis_names(),
             not_homed: &self.config.axes_not_homed(&status),
             place,
-            offsets: self.offsets.look(),
+            offsets: self.offsets.look(&status),
             events: Vec::new(),
         };
         let period_t = self.config.period_t();

@@ -1,10 +1,21 @@
 //! The settings of the servo for a machine.
 
-use crate::config::MachineConfig;
+use crate::config::{AxisConfig, MachineConfig};
 use glidepath_link::servo::{JumpLimits, ServoSettings, StopLimits};
 
 /// Periods without a setpoint after which the servo stops its joints by itself.
 const PATIENCE_PERIODS: u64 = 3;
+
+/// The limits of an axis for plans and for what is superposed together.
+fn with_superposed(config: &MachineConfig, axis: &AxisConfig) -> (f64, f64, f64) {
+    let superposed = config.superposition.filter(|of| of.axis == axis.axis);
+    let [v, a, j] = superposed.map_or([0.0; 3], |of| [of.velocity, of.acceleration, of.jerk]);
+    (
+        axis.max_velocity + v,
+        axis.max_acceleration + a,
+        axis.max_jerk + j,
+    )
+}
 
 /// Limits of the joints, as the configuration has them.
 pub(in crate::command) fn settings(config: &MachineConfig) -> ServoSettings {
@@ -26,12 +37,10 @@ pub(in crate::command) fn settings(config: &MachineConfig) -> ServoSettings {
         .zip(config.compensation.joints())
         .map(|(axis, compensation)| {
             // What is left of a compensated joint's limits is what plans keep to; its drive can do more.
-            compensation.map_or(
-                (axis.max_velocity, axis.max_acceleration, axis.max_jerk),
-                |made| {
-                    let drive = made.drive();
-                    (drive.velocity, drive.acceleration, drive.jerk)
-                },
+            let drive = compensation.map(|made| made.drive());
+            drive.map_or_else(
+                || with_superposed(config, axis),
+                |drive| (drive.velocity, drive.acceleration, drive.jerk),
             )
         });
     let drives = settings.stop.iter_mut().zip(&mut settings.jump);

@@ -87,7 +87,7 @@ pub(super) fn watch(args: &StatusArgs, config: &MachineConfig) -> Result<Exit, F
             axes: &config.axis_names(),
             not_homed: &config.axes_not_homed(&status),
             place,
-            offsets: offsets.look(),
+            offsets: offsets.look(&status),
             events: history.events(),
         };
         if as_json {

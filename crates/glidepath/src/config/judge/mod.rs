@@ -23,6 +23,7 @@ mod program;
 mod spindle;
 mod stopped;
 mod stops;
+mod superposition;
 mod values;
 
 pub use horizon::MAX_FRAMES_AHEAD;
@@ -64,6 +65,12 @@ pub(super) fn judge(
     let given: Vec<_> = given.collect();
     judge.complete(&mut axes, &given, (&mechanism, &joint_limits));
     let compensation = judge.compensation(&raw.compensation, &mechanism, &mut axes, &given);
+    let feedback = judge.feedback(raw.feedback);
+    let is_axes = matches!(mechanism, Mechanism::Trivial(_));
+    // Drives come home with all of it.
+    let whole_axes = axes.clone();
+    let sources = (is_axes, feedback.is_expected);
+    let superposition = judge.superposition(raw.superposition, &mut axes, sources);
     let axis_share = judge.axis_share(&mechanism, &joint_limits, &axes);
     let interpolator = {
         let raw_axes: Vec<_> = raw_axes()
@@ -75,21 +82,19 @@ pub(super) fn judge(
         raw.jog,
         raw_axes().filter_map(|(axis, raw)| Some((axis, raw.as_ref()?.as_ref()))),
     );
-    let feedback = judge.feedback(raw.feedback);
     let of_axes = raw_axes().filter_map(|(axis, raw)| Some((axis, raw.as_ref()?.as_ref())));
     let gantries = judge.gantries(of_axes, &mechanism, feedback.homing);
     let home_of_joints = judge.homes(
         &raw.home,
         &HomeSurroundings {
             mechanism: &mechanism,
-            axes: &axes,
+            axes: &whole_axes,
             gantries: &gantries,
             homing: feedback.homing,
             period_t: f64::from(interpolator.period_us) * 1e-6,
         },
     );
     let expects_feedback = feedback.is_expected;
-    let is_axes = matches!(mechanism, Mechanism::Trivial(_));
     let m_codes = judge.m_codes(raw.m_codes);
     let spindle = judge.spindle(
         raw.spindle,
@@ -115,6 +120,7 @@ pub(super) fn judge(
         probe: judge.probe(raw.probe, expects_feedback),
         spindle,
         adaptive_feed: judge.adaptive_feed(raw.adaptive_feed, expects_feedback),
+        superposition,
         preview: judge.preview(&raw.preview),
         instance: judge.instance(raw.link),
         program: judge.program(raw.program, expects_feedback),

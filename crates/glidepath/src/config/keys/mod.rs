@@ -12,6 +12,7 @@ mod probing;
 mod programs;
 mod spindle;
 mod stops;
+mod superposition;
 mod tables;
 
 pub use key::{Key, LeftOut, Takes};
@@ -31,6 +32,7 @@ pub fn all() -> impl Iterator<Item = &'static Key> {
         probing::PROBE,
         spindle::SPINDLE,
         adaptive_feed::ADAPTIVE_FEED,
+        superposition::SUPERPOSITION,
         programs::LINK,
         programs::PROGRAM,
         programs::M_CODES,

@@ -5,7 +5,7 @@ use crate::machine_options::complete;
 use crate::report::auxiliary::auxiliary_words;
 use crate::report::machine::{awaited_text, power_text};
 use crate::report::quantity::{counted, decimals, grouped};
-use crate::report::status::{adaptive_text, manner_text, remedy};
+use crate::report::status::{adaptive_text, manner_text, remedy, superposition_text};
 use core::fmt::Write as _;
 use glidepath_geometry::AXES;
 use glidepath_link::{MachineState, Status};
@@ -48,6 +48,9 @@ pub fn view_text(view: &View<'_>) -> String {
     ));
     if let Some(adaptive) = adaptive_text(status) {
         lines.push(format!("  input     {adaptive}"));
+    }
+    if let Some(superposed) = superposition_text(status) {
+        lines.push(format!("  superposed {superposed}"));
     }
     let told = view.auxiliary.map(auxiliary_words);
     let told = told.unwrap_or_else(|| "nothing is known of it yet".to_owned());

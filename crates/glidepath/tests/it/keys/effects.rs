@@ -55,7 +55,10 @@ const GO_TOGETHER: [&str; 7] = [
 fn machine_for(key: &str) -> Table {
     let mut machine = machine_with(key);
     let table = key.split('.').next().expect("a name");
-    if matches!(table, "probe" | "adaptive_feed") {
+    if table == "superposition" {
+        put(&mut machine, "superposition.enabled_by", Value::Integer(1));
+    }
+    if matches!(table, "probe" | "adaptive_feed" | "superposition") {
         put(
             &mut machine,
             "feedback.source",

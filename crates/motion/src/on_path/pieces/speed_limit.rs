@@ -234,6 +234,15 @@ impl SpeedRule {
         self.any_rate(Rate::is_per_revolution)
     }
 
+    /// The feed that the program asks for, mm/s: the least of its blocks; 0 where any of them is a rapid.
+    pub(crate) fn programmed_v(&self) -> f64 {
+        let feed_v = |rate: &ProgrammedRate| rate.rate.feed_v().unwrap_or(0.0);
+        match self {
+            Self::Straight { rate, .. } | Self::Arc { rate, .. } => feed_v(rate),
+            Self::Curve { rates, .. } => rates.iter().map(feed_v).fold(f64::INFINITY, f64::min),
+        }
+    }
+
     fn any_rate(&self, is_it: fn(Rate) -> bool) -> bool {
         match self {
             Self::Straight { rate, .. } | Self::Arc { rate, .. } => is_it(rate.rate),

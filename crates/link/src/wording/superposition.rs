@@ -1,0 +1,37 @@
+//! What a superposition does, in words.
+
+use crate::SuperpositionState;
+
+impl SuperpositionState {
+    /// The name, as `status` has it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Off => "off",
+            Self::Follows => "follows",
+            Self::Frozen => "frozen",
+            Self::Returns => "returns",
+            Self::Silent => "silent",
+        }
+    }
+
+    /// What it does; empty on a machine without one.
+    #[must_use]
+    pub const fn text(self) -> &'static str {
+        match self {
+            Self::None => "",
+            Self::Off => "nothing is added to the motion of the program: it is off",
+            Self::Follows => "in addition to the program, by its input",
+            Self::Frozen => {
+                "in addition to the program; it stands still: the motion is slow, at rest, rapid, or of a kind that \
+                 nothing is added to, or the input that enables it is off"
+            }
+            Self::Returns => "on the way back to the program",
+            Self::Silent => {
+                "in addition to the program; it stands still, because nobody sends its input: start the servo stack \
+                 that does"
+            }
+        }
+    }
+}
