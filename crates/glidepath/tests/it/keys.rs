@@ -76,6 +76,11 @@ fn machine_with(key: &str) -> Table {
             Value::String("Z".to_owned()),
         );
         put(&mut machine, "superposition.input", Value::Integer(0));
+        put(
+            &mut machine,
+            "feedback.source",
+            Value::String("drives".to_owned()),
+        );
         return machine;
     }
     match key.split('.').nth(1) {

@@ -50,8 +50,14 @@ impl Judge {
         let span = raw.axis.as_ref()?.span();
         let wanted = self.choice("superposition.axis", raw.axis, &LETTERS);
         let Some(input) = raw.input else {
-            let help = "input = 0, for example: the number of the feedback's analog input";
-            self.refuse_superposition("no input moves the axis", help, span);
+            self.diagnostics.push(ConfigDiagnostic {
+                key: "superposition.input".to_owned(),
+                message: "superposition.input is missing: no input moves the axis".to_owned(),
+                help: Some(
+                    "input = 0, for example: the number of the feedback's analog input".to_owned(),
+                ),
+                span: Some(span),
+            });
             return None;
         };
         let number = self.whole(
