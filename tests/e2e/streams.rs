@@ -118,7 +118,7 @@ fn an_abort_ends_a_stream_that_waits_for_a_machine_that_is_off() {
     let bench = Bench::start(&instance);
     let part = instance.file("part.ngc", "G21 G90\nG1 X20 F600\nM2\n");
     bench.operated.operate(&["disable"]);
-    let before = bench.operated.wait_for(MachineState::Off);
+    let _off = bench.operated.wait_for(MachineState::Off);
     let client = bench.operated.process(&["feed", &part]);
     let _waits = bench
         .operated
@@ -128,8 +128,8 @@ fn an_abort_ends_a_stream_that_waits_for_a_machine_that_is_off() {
     assert_ne!(output.status.code(), Some(0), "{output:#?}");
     assert!(output.stderr.contains("was stopped after"), "{output:#?}");
     bench.operated.operate(&["enable"]);
-    let _idle = bench.operated.wait_for(MachineState::Idle);
-    bench.stays(&before);
+    let ready = bench.operated.wait_for(MachineState::Idle);
+    bench.stays(&ready);
     bench.goes_on();
 }
 
