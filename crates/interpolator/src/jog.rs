@@ -32,6 +32,7 @@ mod wheel;
 
 pub(crate) use demand::{Demand, DemandReader};
 pub(crate) use line::AxesMotion;
+pub(crate) use wheel::Wheel;
 
 use crate::config::{Config, JogSettings, SoftLimits};
 use crate::tracker::{Bounds, Motion, Profile};
@@ -45,7 +46,6 @@ use holder::{Heard, Holder};
 use jog_motion::{Goal, JogLimits, JogMotion};
 use travel::Travel;
 use way_back::WayBack;
-use wheel::Wheel;
 
 /// By how much the speed that the joints can do has to rise before the axes go faster: so that they
 /// do not set out anew in every tick.

@@ -211,6 +211,7 @@ pub(super) struct RawAdaptiveFeed {
 #[serde(deny_unknown_fields, default)]
 pub(super) struct RawSuperposition {
     pub(super) axis: Optional<String>,
+    pub(super) by: Optional<String>,
     pub(super) share: Optional<f64>,
     pub(super) lowest: Optional<f64>,
     pub(super) highest: Optional<f64>,

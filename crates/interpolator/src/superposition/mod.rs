@@ -1,5 +1,5 @@
 //! The superposition: the motion of an axis in addition to that of the program, by an input (the height of a torch, a
-//! follower that touches).
+//! follower that touches) or a handwheel.
 //!
 //! Plans keep the share of the axis' limits free that the superposition has, and its range of the travel, so that both
 //! motions together are inside the limits whatever the input says. The offset is added last, where axes become joints:
@@ -19,6 +19,7 @@ mod settings;
 
 pub use settings::{Superposition, SuperpositionControl};
 
+use crate::jog::{Demand, Wheel};
 use crate::tracker::{Bounds, Motion, Target, Tracker};
 use glidepath_geometry::Axis;
 use glidepath_link::{Setpoint, SuperpositionState};
@@ -61,6 +62,9 @@ pub(crate) struct SuperposedAxis {
     is_on: bool,
     state: SuperpositionState,
     tracker: Tracker,
+    wheel: Wheel,
+    /// Where the wheel has turned the offset to.
+    turned_to: f64,
 }
 
 impl SuperposedAxis {
@@ -84,6 +88,9 @@ impl SuperposedAxis {
             is_on: settings.switch.is_none(),
             state: SuperpositionState::Off,
             tracker: Tracker::new(Motion::at(0.0)),
+            // Its velocity is nothing here.
+            wheel: Wheel::new(0),
+            turned_to: 0.0,
         }
     }
 
@@ -114,7 +121,21 @@ impl SuperposedAxis {
     /// The offset is part of the position now, or the position was taken from the drives.
     pub(crate) fn forget(&mut self) {
         self.tracker = Tracker::new(Motion::at(0.0));
+        self.turned_to = 0.0;
         (self.frozen_ticks, self.state) = (0, SuperpositionState::Off);
+    }
+
+    /// Hears what a wheel says. What it turns while the offset stands is not made up for later.
+    pub(crate) fn turn(&mut self, demand: &Demand, now_ns: u64) {
+        if self.settings.control != SuperpositionControl::Wheel {
+            return;
+        }
+        let turned = self.wheel.turn(demand, now_ns);
+        let turned = turned.get(self.settings.axis.index()).copied();
+        if self.state == SuperpositionState::Follows && !demand.is_outdated {
+            let [low, high] = self.settings.range;
+            self.turned_to = (self.turned_to + turned.unwrap_or(0.0)).clamp(low, high);
+        }
     }
 
     /// Hears what happens with a setpoint: the switch.
@@ -138,6 +159,9 @@ impl SuperposedAxis {
         self.watch_feed(path.feed_r);
         let (state, target, bounds) = self.choose(setpoint, path, demand);
         self.state = state;
+        if state != SuperpositionState::Follows {
+            self.turned_to = self.tracker.now().x;
+        }
         self.tracker.aim(target, bounds);
         let motion = self.tracker.advance(self.period_t);
         if self.is_at_rest() && motion.x == 0.0 && !self.is_on {
@@ -178,6 +202,9 @@ impl SuperposedAxis {
         if setpoint.has(FrameFlags::RAPID) || is_slow {
             return stands(Frozen);
         }
+        if self.settings.control == SuperpositionControl::Wheel {
+            return (Follows, Target::Rest(self.turned_to), bounds);
+        }
         let value = match demand {
             SuperpositionDemand::Silent => return stands(Silent),
             SuperpositionDemand::Barred => return stands(Frozen),
@@ -185,7 +212,9 @@ impl SuperposedAxis {
         };
         let [low, high] = self.settings.range;
         match self.settings.control {
-            SuperpositionControl::Offset => (Follows, Target::Rest(value.clamp(low, high)), bounds),
+            SuperpositionControl::Offset | SuperpositionControl::Wheel => {
+                (Follows, Target::Rest(value.clamp(low, high)), bounds)
+            }
             SuperpositionControl::Velocity => {
                 // Towards the end of the range, where it comes to rest by itself.
                 let end = if value > 0.0 { high } else { low };

@@ -2,13 +2,15 @@
 
 use glidepath_geometry::Axis;
 
-/// The meaning of what the input says.
+/// What moves the axis, and the meaning of what it says.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SuperpositionControl {
     /// A velocity of the offset: the input is controlled to its target (the voltage of an arc).
     Velocity,
-    /// The offset itself (a follower that touches, a wheel).
+    /// The offset itself (a follower that touches).
     Offset,
+    /// No input, but a handwheel, or a program that demands as one does: the offset goes on by what it turns.
+    Wheel,
 }
 
 /// The superposition: an input moves an axis in addition to the program.

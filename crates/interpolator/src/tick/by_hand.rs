@@ -110,6 +110,9 @@ impl Interpolator<'_> {
         };
         let may_start = is_free && !self.requests.is_stopping();
         while let Some(demand) = inputs.demands.dequeue() {
+            if let Some(superposed) = &mut self.superposed {
+                superposed.turn(&demand, now_ns);
+            }
             let around = self.jog_context(now_ns, may_start);
             if self.jog.hear(&demand, &around) && self.is_open() {
                 // Whatever it is held for may end: it goes on when the operator says so.

@@ -6,6 +6,7 @@ use crate::config::raw::RawSuperposition;
 use crate::config::settings::AxisConfig;
 use glidepath_geometry::Axis;
 use glidepath_interpolator::{Superposition, SuperpositionControl};
+use toml::Spanned;
 
 const LETTERS: [(&str, Axis); 9] = [
     ("X", Axis::X),
@@ -36,11 +37,13 @@ impl Judge {
             ("offset", SuperpositionControl::Offset),
         ];
         let control = self.choice("superposition.sets", raw.sets, &sets);
+        let by = [("input", false), ("wheel", true)];
+        let is_wheel = self.choice("superposition.by", raw.by, &by);
         let levels = [("high", true), ("low", false)];
         let enabled_at = self.choice("superposition.enabled_at", raw.enabled_at, &levels);
         let offs = [("return", true), ("keep", false)];
         let returns = self.choice("superposition.off", raw.off, &offs);
-        let mut whole = |name: &str, value: &Option<toml::Spanned<i64>>, help: &str| {
+        let mut whole = |name: &str, value: &Option<Spanned<i64>>, help: &str| {
             let key = format!("superposition.{name}");
             self.whole::<u8>(&key, value.as_ref()?, (0, 63), help)
         };
@@ -49,27 +52,7 @@ impl Judge {
         let enabled_by = whole("enabled_by", &raw.enabled_by, bit);
         let span = raw.axis.as_ref()?.span();
         let wanted = self.choice("superposition.axis", raw.axis, &LETTERS);
-        let Some(input) = raw.input else {
-            self.diagnostics.push(ConfigDiagnostic {
-                key: "superposition.input".to_owned(),
-                message: "superposition.input is missing: no input moves the axis".to_owned(),
-                help: Some(
-                    "input = 0, for example: the number of the feedback's analog input".to_owned(),
-                ),
-                span: Some(span),
-            });
-            return None;
-        };
-        let number = self.whole(
-            "superposition.input",
-            &input,
-            (0, 7),
-            "the number of the feedback's analog input",
-        );
-        if !expects_feedback {
-            let help = "set feedback.source = \"drives\"";
-            self.refuse_superposition("nobody sends its input", help, span.clone());
-        }
+        let input = self.superposition_input(raw.input, span.clone(), (is_wheel, expects_feedback));
         if !is_axes {
             let help = "only where joints are axes (kinematics = \"trivial\") is anything added to their motion";
             self.refuse_superposition("the axes of this machine are not its joints", help, span);
@@ -102,8 +85,12 @@ impl Judge {
             acceleration,
             jerk,
             range: [lowest, highest],
-            input: number?,
-            control,
+            input: input?,
+            control: if is_wheel {
+                SuperpositionControl::Wheel
+            } else {
+                control
+            },
             target,
             gain,
             dead_band,
@@ -137,6 +124,33 @@ impl Judge {
             };
             self.number_or(&format!("superposition.{name}"), value, &range, default)
         })
+    }
+
+    /// The analog input, 0 where a wheel moves the axis.
+    fn superposition_input(
+        &mut self,
+        input: Option<Spanned<i64>>,
+        span: core::ops::Range<usize>,
+        (is_wheel, expects_feedback): (bool, bool),
+    ) -> Option<u8> {
+        let help = "the number of the feedback's analog input";
+        let number = match &input {
+            Some(input) => self.whole("superposition.input", input, (0, 7), help),
+            None => is_wheel.then_some(0),
+        };
+        if input.is_none() && !is_wheel {
+            self.diagnostics.push(ConfigDiagnostic {
+                key: "superposition.input".to_owned(),
+                message: "superposition.input is missing: no input moves the axis".to_owned(),
+                help: Some("input = 0, for example; or by = \"wheel\" for a handwheel".to_owned()),
+                span: Some(span.clone()),
+            });
+        }
+        if !expects_feedback && !is_wheel {
+            let help = "set feedback.source = \"drives\"";
+            self.refuse_superposition("nobody sends its input", help, span);
+        }
+        number
     }
 
     fn refuse_superposition(&mut self, message: &str, help: &str, span: core::ops::Range<usize>) {

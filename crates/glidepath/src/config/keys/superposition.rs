@@ -12,6 +12,14 @@ pub(super) const SUPERPOSITION: &[Key] = &[
         "the axis that an input moves in addition to programs",
     ),
     key(
+        "superposition.by",
+        Takes::Choice {
+            of: &["input", "wheel"],
+        },
+        LeftOut::Value("\"input\""),
+        "what moves it: an analog input; or a handwheel, or a program that demands as one does",
+    ),
+    key(
         "superposition.share",
         number(0.01, 0.9, ""),
         LeftOut::Value("0.25"),
@@ -37,7 +45,7 @@ pub(super) const SUPERPOSITION: &[Key] = &[
             unit: "",
         },
         LeftOut::Refused,
-        "the analog input of feedback that moves the axis",
+        "the analog input of feedback that moves the axis; without meaning for a wheel",
     ),
     key(
         "superposition.sets",

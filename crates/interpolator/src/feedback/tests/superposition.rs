@@ -5,8 +5,9 @@ use super::bench::{Bench, config, numbers};
 use crate::config::Config;
 use crate::superposition::{Superposition, SuperpositionControl};
 use crate::testing::{audit, blocks, planned, random_cases};
+use bytemuck::Zeroable as _;
 use glidepath_geometry::{Axis, AxisVector, Segment};
-use glidepath_link::{Command, MachineState, Setpoint, SuperpositionState};
+use glidepath_link::{Command, JogDemand, JogMode, MachineState, Setpoint, SuperpositionState};
 use glidepath_plant::{InjectedFault, JointSettings};
 use glidepath_program::{Effort, Event, ItemKind, Limits, PathMode, Rate};
 
@@ -277,6 +278,56 @@ fn programs_switch_it_by_an_output_and_it_returns_while_they_move() {
     assert_eq!(offset_at(230.0), 0.0);
     assert_eq!(bench.last().reference, 2, "nothing was left to be taken");
     assert_inside(&bench, "switched");
+}
+
+/// While a program cuts a wheel moves the offset; in a hold it jogs, and what it turned meanwhile is not made up for.
+#[test]
+fn a_wheel_moves_the_offset_while_the_program_cuts() {
+    let torch = Superposition {
+        control: SuperpositionControl::Wheel,
+        ..torch()
+    };
+    let mut bench = bench(torch);
+    cut(&mut bench, &[[300.0, 0.0]], 40.0, &[]);
+    assert!(bench.run_to(MachineState::Running, 50));
+    bench.run(100);
+    let turn = |bench: &mut Bench, number: u64, counts: f64| {
+        let mut demand = JogDemand::zeroed();
+        (demand.client, demand.number, demand.mask) = (9, number, 1 << 2);
+        (demand.sent_ns, demand.asked_ns) = (bench.now_ns(), bench.now_ns());
+        (demand.mode, demand.scale) = (JogMode::Wheel.code(), 0.01);
+        demand.value[2] = counts;
+        bench.jog(&demand);
+        bench.tick();
+    };
+    turn(&mut bench, 1, 1000.0);
+    bench.run(50);
+    assert_eq!(
+        bench.last().superposed[2],
+        0.0,
+        "what it had counted before is not meant"
+    );
+    turn(&mut bench, 2, 1030.0);
+    bench.run(200);
+    assert_eq!(bench.last().superposed[2], 0.3);
+    turn(&mut bench, 3, 0.0);
+    bench.run(400);
+    assert_eq!(bench.last().superposed[2], RANGE[0]);
+    assert_eq!(bench.last().position[2], 0.0);
+    bench.command(Command::Hold).unwrap();
+    assert!(bench.run_to(MachineState::Held, 200));
+    turn(&mut bench, 4, 100.0);
+    bench.run(300);
+    let jogged = bench.last();
+    assert_eq!((jogged.superposed[2], jogged.away[2]), (RANGE[0], 1.0));
+    bench.command(Command::Return).unwrap();
+    assert!(bench.run_to(MachineState::Held, 500));
+    bench.command(Command::Resume).unwrap();
+    bench.run(100);
+    assert_eq!(bench.last().superposed[2], RANGE[0]);
+    assert!(bench.run_to(MachineState::Idle, 5000));
+    assert_eq!(bench.fault(), None);
+    assert_inside(&bench, "wheel");
 }
 
 #[test]
