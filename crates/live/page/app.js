@@ -244,7 +244,10 @@ function digits() {
     fill($(`#w${axis.name}`), `${text.slice(0, -2)}<i>${text.slice(-2)}</i>`);
     const lost = (s.axes_not_homed || []).includes(axis.name);
     $(`#w${axis.name}`).parentElement.classList.toggle('lost', lost);
-    put($(`#m${axis.name}`), lost ? 'not homed' : s.offset ? place(axis, machine[k]) : axis.travel ? axis.travel.map(end => place(axis, end, 3)).join(' … ') : 'turns');
+    // What an input adds to the axis is in none of the positions.
+    const added = (s.superposed || {})[axis.name] || 0, below = $(`#m${axis.name}`);
+    put(below, lost ? 'not homed' : added ? `${place(axis, machine[k])} ${added < 0 ? '−' : '+'} ${place(axis, Math.abs(added), 3)}` : s.offset ? place(axis, machine[k]) : axis.travel ? axis.travel.map(end => place(axis, end, 3)).join(' … ') : 'turns');
+    below.title = added ? `in addition to the program: ${s.superposition}` : '';
     const rail = $(`#t${axis.name}`);
     rail.parentElement.hidden = !axis.travel;
     if (axis.travel) rail.style.left = `${Math.max(0, Math.min(100, (machine[k] - axis.travel[0]) / (axis.travel[1] - axis.travel[0]) * 100)).toFixed(2)}%`;
