@@ -21,7 +21,7 @@ impl SuperpositionState {
     pub const fn text(self) -> &'static str {
         match self {
             Self::None => "",
-            Self::Off => "nothing is added to the motion of the program: it is off",
+            Self::Off => "nothing is added to the motion of the program",
             Self::Follows => "in addition to the program, by its input",
             Self::Frozen => {
                 "in addition to the program; it stands still: the motion is slow, at rest, rapid, or of a kind that \
