@@ -130,6 +130,9 @@ _glidepath() {
             glidepath,set-position)
                 cmd="glidepath__subcmd__set__subcmd__position"
                 ;;
+            glidepath,setup)
+                cmd="glidepath__subcmd__setup"
+                ;;
             glidepath,single-block)
                 cmd="glidepath__subcmd__single__subcmd__block"
                 ;;
@@ -304,6 +307,9 @@ _glidepath() {
             glidepath__subcmd__help,set-position)
                 cmd="glidepath__subcmd__help__subcmd__set__subcmd__position"
                 ;;
+            glidepath__subcmd__help,setup)
+                cmd="glidepath__subcmd__help__subcmd__setup"
+                ;;
             glidepath__subcmd__help,single-block)
                 cmd="glidepath__subcmd__help__subcmd__single__subcmd__block"
                 ;;
@@ -413,7 +419,7 @@ _glidepath() {
 
     case "${cmd}" in
         glidepath)
-            opts="-h -V --help --version run plan check interpolator planner run-file mdi servo ethercat feed status live grbl record replay audit telemetry mirror hold resume step stop-at-block-end reverse forward single-block override jog return acknowledge abort reset enable disable home unhome set-position preview bench fit offsets config doctor jitter help"
+            opts="-h -V --help --version run plan check interpolator planner run-file mdi servo ethercat feed status live grbl record replay audit telemetry mirror hold resume step stop-at-block-end reverse forward single-block override jog return acknowledge abort reset enable disable home unhome set-position preview bench fit offsets setup config doctor jitter help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 1 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -1111,7 +1117,7 @@ _glidepath() {
             return 0
             ;;
         glidepath__subcmd__help)
-            opts="run plan check interpolator planner run-file mdi servo ethercat feed status live grbl record replay audit telemetry mirror hold resume step stop-at-block-end reverse forward single-block override jog return acknowledge abort reset enable disable home unhome set-position preview bench fit offsets config doctor jitter help"
+            opts="run plan check interpolator planner run-file mdi servo ethercat feed status live grbl record replay audit telemetry mirror hold resume step stop-at-block-end reverse forward single-block override jog return acknowledge abort reset enable disable home unhome set-position preview bench fit offsets setup config doctor jitter help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -1811,6 +1817,20 @@ _glidepath() {
             return 0
             ;;
         glidepath__subcmd__help__subcmd__set__subcmd__position)
+            opts=""
+            if [[ ${cur} == -* || ${COMP_CWORD} -eq 3 ]] ; then
+                COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+                return 0
+            fi
+            case "${prev}" in
+                *)
+                    COMPREPLY=()
+                    ;;
+            esac
+            COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+            return 0
+            ;;
+        glidepath__subcmd__help__subcmd__setup)
             opts=""
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 3 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
@@ -3029,6 +3049,20 @@ _glidepath() {
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
+                *)
+                    COMPREPLY=()
+                    ;;
+            esac
+            COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+            return 0
+            ;;
+        glidepath__subcmd__setup)
+            opts="-h --suggested --help"
+            if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
+                COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+                return 0
+            fi
+            case "${prev}" in
                 *)
                     COMPREPLY=()
                     ;;

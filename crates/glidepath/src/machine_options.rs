@@ -12,7 +12,7 @@ const WITHOUT_INSTANCE: [&str; 7] = [
     "audit", "bench", "doctor", "fit", "jitter", "offsets", "preview",
 ];
 /// Commands that know no machine.
-const WITHOUT_MACHINE: [&str; 2] = ["config", "help"];
+const WITHOUT_MACHINE: [&str; 3] = ["config", "help", "setup"];
 
 /// The same of one that does something else.
 const SCAN: &str = "ethercat scan";

@@ -20,6 +20,7 @@ use super::operator::{
 use super::path::PathArgs;
 use super::program::ProgramArgs;
 use super::record::{AuditArgs, RecordArgs, ReplayArgs};
+use super::setup::SetupArgs;
 use super::telemetry::TelemetryArgs;
 use crate::program_file::ProgramFile;
 use clap::Subcommand;
@@ -184,6 +185,11 @@ pub enum CliCommand {
         after_help = "Example: glidepath offsets set G54 X100 Y50 Z-20 --config mill.toml"
     )]
     Offsets(OffsetsCommand),
+    /// Describe a machine by answering questions, and have its configuration written
+    #[command(
+        after_help = "Examples: glidepath setup · glidepath setup router.toml · glidepath setup --suggested mill.toml"
+    )]
+    Setup(SetupArgs),
     /// Print, explain or check a configuration, or convert that of another control
     #[command(after_help = "Examples: glidepath config --default > mill.toml · \
                             glidepath config --explain path.tolerance · \
@@ -224,7 +230,7 @@ impl CliCommand {
     #[must_use]
     pub const fn basic(&self) -> Option<&BasicArgs> {
         Some(match self {
-            Self::Config(_) => return None,
+            Self::Config(_) | Self::Setup(_) => return None,
             Self::Offsets(command) => command.basic(),
             Self::Run(args) => &args.basic,
             Self::Plan(args) => &args.basic,
@@ -319,6 +325,7 @@ impl CliCommand {
             Self::Audit(_)
             | Self::Offsets(_)
             | Self::Config(_)
+            | Self::Setup(_)
             | Self::Fit(_)
             | Self::Preview(_)
             | Self::Bench(_)

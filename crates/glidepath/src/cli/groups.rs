@@ -54,7 +54,7 @@ const GROUPS: [(&str, &[&str]); 6] = [
     ),
     (
         "Configuration and host",
-        &["config", "doctor", "jitter", "bench"],
+        &["setup", "config", "doctor", "jitter", "bench"],
     ),
 ];
 

@@ -17,6 +17,7 @@ mod operator;
 mod path;
 mod program;
 mod record;
+mod setup;
 mod telemetry;
 mod time;
 
@@ -48,6 +49,7 @@ pub use operator::{
 pub use path::PathArgs;
 pub use program::ProgramArgs;
 pub use record::{AuditArgs, RecordArgs, ReplayArgs};
+pub use setup::SetupArgs;
 pub use telemetry::TelemetryArgs;
 
 use clap::Parser;

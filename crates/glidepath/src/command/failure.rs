@@ -34,6 +34,12 @@ pub(super) enum Failure {
     /// What is kept over a restart cannot be used.
     #[error(transparent)]
     State(#[from] StateError),
+    /// The answers ended before a question.
+    #[error("no answer to \"{question}\": nothing is written")]
+    Unanswered {
+        /// The question.
+        question: String,
+    },
     /// A word that is not understood.
     #[error("`{0}` is not understood: {1}")]
     Word(String, &'static str),

@@ -34,6 +34,7 @@ impl Failure {
             | Self::Planner(planner::RunError::Refused(Refusal::Unchecked { .. }))
             | Self::Feed(FeedError::Refused(Refusal::Unchecked { .. })) => Exit::Unchecked,
             Self::ResumePipe
+            | Self::Unanswered { .. }
             | Self::File(FileError::Open { .. } | FileError::Guarded { .. })
             | Self::Catalogue(_)
             | Self::UnknownKey { .. }

@@ -49,6 +49,7 @@ mod run;
 mod run_supervisor;
 mod servo;
 mod session;
+mod setup;
 mod subroutines;
 mod telemetry;
 mod text_lines;
@@ -173,6 +174,7 @@ fn dispatch(command: &CliCommand) -> Result<Exit, Failure> {
         CliCommand::Jog(args) => jog::jog(args, &config()?),
         CliCommand::Return(args) => rest::return_to_path(args, &config()?),
         CliCommand::Bench(args) => bench::bench(args, &config()?),
+        CliCommand::Setup(args) => setup::setup(args),
         CliCommand::Doctor(args) => Ok(doctor::doctor(args, &config()?)),
         CliCommand::Jitter(args) => jitter::jitter(args, &config()?),
     }

@@ -23,6 +23,7 @@ mod pipes;
 mod plot;
 mod preview;
 mod reference;
+mod setup;
 mod spindle_axis;
 mod straight;
 mod subroutines;
