@@ -5,10 +5,8 @@
 
 use crate::compensated::CompensatedJoints;
 use crate::config::Config;
-use crate::superposition::SuperposedAxis;
 use crate::track::Track;
-use crate::tracker::Motion;
-use glidepath_geometry::{AXES, AxisVector};
+use glidepath_geometry::AxisVector;
 use glidepath_kinematics::{
     JOINTS, JointMotion, JointVector, Kinematics as _, KinematicsError, Mechanism,
 };
@@ -163,27 +161,6 @@ impl Joints {
         self.stand(&motion.position);
     }
 
-    /// The motion of the joints for that of the axes and of what is superposed together.
-    fn with_superposed(
-        &self,
-        setpoint: &Setpoint,
-        superposed: &SuperposedAxis,
-    ) -> Result<JointMotion, KinematicsError> {
-        let Motion { x, v, a } = superposed.now();
-        let with = |rates: &[f64; AXES], by: f64| {
-            let mut rates = AxisVector::from(*rates);
-            if let Some(rate) = rates.get_mut(superposed.axis().index()) {
-                *rate += by;
-            }
-            rates
-        };
-        self.mechanism.motion(
-            &with(&setpoint.position, x),
-            &with(&setpoint.velocity, v),
-            &with(&setpoint.acceleration, a),
-        )
-    }
-
     /// Writes into a setpoint what the joints are to do for its axes. Returns where they are then, in the
     /// machine's count.
     ///
@@ -192,17 +169,12 @@ impl Joints {
     pub(crate) fn follow(
         &mut self,
         setpoint: &mut Setpoint,
-        superposed: Option<&SuperposedAxis>,
     ) -> Result<JointVector, KinematicsError> {
-        let motion = if let Some(superposed) = superposed {
-            self.with_superposed(setpoint, superposed)
-        } else {
-            self.mechanism.motion(
-                &setpoint.position.into(),
-                &setpoint.velocity.into(),
-                &setpoint.acceleration.into(),
-            )
-        };
+        let motion = self.mechanism.motion(
+            &setpoint.position.into(),
+            &setpoint.velocity.into(),
+            &setpoint.acceleration.into(),
+        );
         match motion {
             Ok(mut motion) => {
                 self.add_second_joints(&mut motion);

@@ -11,6 +11,7 @@ use crate::rate::Progress;
 use crate::setpoint::SetpointWriter;
 use crate::superposition::SuperposedAxis;
 use crate::track::Track;
+use crate::tracker::Motion;
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_kinematics::{JointMotion, JointVector, KinematicsError};
 use glidepath_link::Setpoint;
@@ -217,17 +218,16 @@ impl Output {
         self.joints.repeat(&seen.joints, follows, setpoint);
     }
 
-    /// Writes into the setpoint what the joints are to do for its axes and for what is superposed, and compares that
-    /// with their limits, where they are not the axes.
+    /// Writes into the setpoint what the joints are to do for its axes, and compares that with their
+    /// limits, where they are not the axes.
     ///
     /// # Errors
     /// The mechanism cannot be there. The joints are told to stay where they were.
     pub(crate) fn write_joints(
         &mut self,
         setpoint: &mut Setpoint,
-        superposed: Option<&SuperposedAxis>,
     ) -> Result<Written, KinematicsError> {
-        let joints = self.joints.follow(setpoint, superposed)?;
+        let joints = self.joints.follow(setpoint)?;
         if self.limited.is_none() {
             return Ok(Written::Inside);
         }
@@ -238,6 +238,32 @@ impl Output {
         };
         self.published.joints_go_to(&joints);
         Ok(written)
+    }
+
+    /// The same for the motion of the axes and of what is superposed together. The axes' own stays in the setpoint.
+    ///
+    /// # Errors
+    /// As [`Output::write_joints`].
+    pub(crate) fn write_superposed(
+        &mut self,
+        setpoint: &mut Setpoint,
+        superposed: &SuperposedAxis,
+    ) -> Result<Written, KinematicsError> {
+        let (axis, Motion { x, v, a }) = (superposed.axis().index(), superposed.now());
+        let own = (setpoint.position, setpoint.velocity, setpoint.acceleration);
+        let rates = [
+            (&mut setpoint.position, x),
+            (&mut setpoint.velocity, v),
+            (&mut setpoint.acceleration, a),
+        ];
+        for (rates, by) in rates {
+            if let Some(rate) = rates.get_mut(axis) {
+                *rate += by;
+            }
+        }
+        let written = self.write_joints(setpoint);
+        (setpoint.position, setpoint.velocity, setpoint.acceleration) = own;
+        written
     }
 }
 

@@ -99,10 +99,12 @@ impl Interpolator<'_> {
     }
 
     pub(super) fn write_joints(&mut self, tick: u64, setpoint: &mut Setpoint) {
-        if self.superposed.is_some() {
-            self.superpose(setpoint);
-        }
-        match self.output.write_joints(setpoint, self.superposed.as_ref()) {
+        let written = if self.superposed.is_some() {
+            self.write_superposed(setpoint)
+        } else {
+            self.output.write_joints(setpoint)
+        };
+        match written {
             Ok(written) => self.judge(written, tick),
             // Every frame passed a judge of the joints, so this cannot be; if it were, the motion ends.
             Err(_) => self.fail(FaultCause::Output),

@@ -1,5 +1,6 @@
 //! The wire: what a master needs of an Ethernet port, and of time.
 
+mod line_lock;
 mod packet;
 mod sys;
 

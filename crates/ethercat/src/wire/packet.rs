@@ -1,5 +1,6 @@
 //! A raw socket on an interface of this host.
 
+use super::line_lock::{LineLock, NotAlone};
 use super::{Wire, sys};
 use glidepath_realtime::{Clock as _, Monotonic};
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
@@ -34,6 +35,17 @@ pub enum WireError {
         /// What the system said.
         source: io::Error,
     },
+    /// Another process drives this line.
+    #[error(
+        "{} drives the line on {name} already, and a line has one master; end that one first",
+        Holder(*.process)
+    )]
+    Taken {
+        /// The interface.
+        name: String,
+        /// Which process it is, if that can be told.
+        process: Option<u32>,
+    },
     /// The interface does not carry frames.
     #[error("the interface {name} is not up: `ip link set {name} up`, and plug in the cable")]
     Down {
@@ -46,6 +58,20 @@ pub enum WireError {
 #[derive(Debug)]
 pub struct PacketWire {
     socket: OwnedFd,
+    /// Of a master.
+    _alone: Option<LineLock>,
+}
+
+/// Who has a line.
+struct Holder(Option<u32>);
+
+impl std::fmt::Display for Holder {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self.0 {
+            Some(process) => write!(f, "process {process}"),
+            None => f.write_str("another process"),
+        }
+    }
 }
 
 /// Highest number of an interface that is looked at for its name.
@@ -86,8 +112,34 @@ impl PacketWire {
             Err(Errno::NETDOWN) => Err(WireError::Down {
                 name: name.to_owned(),
             }),
-            _ => Ok(Self { socket }),
+            _ => Ok(Self {
+                socket,
+                _alone: None,
+            }),
         }
+    }
+
+    /// Opens an interface as the only master of its line, for as long as the port lives.
+    ///
+    /// # Errors
+    ///
+    /// As [`PacketWire::open`], and [`WireError::Taken`].
+    pub fn open_alone(name: &str) -> Result<Self, WireError> {
+        let wire = Self::open(name)?;
+        let lock = LineLock::take(name).map_err(|why| match why {
+            NotAlone::Taken(process) => WireError::Taken {
+                name: name.to_owned(),
+                process,
+            },
+            NotAlone::Refused(source) => WireError::Refused {
+                name: name.to_owned(),
+                source,
+            },
+        })?;
+        Ok(Self {
+            _alone: Some(lock),
+            ..wire
+        })
     }
 }
 

@@ -224,6 +224,7 @@ impl Interpolator<'_> {
         let (seen, follows) = (self.drives.seen(), self.drives.following());
         if let Some(superposed) = &mut self.superposed {
             superposed.forget();
+            self.offset_moves = false;
             setpoint.superposed = [0.0; AXES];
         }
         self.output

@@ -54,6 +54,8 @@ pub(crate) struct Interpolator<'a> {
     pub(super) output: Output,
     /// What is added to the motion of an axis, if anything may be.
     pub(super) superposed: Option<SuperposedAxis>,
+    /// That is on its way. Asked several times a tick, on machines without it, too.
+    pub(super) offset_moves: bool,
     /// The open or last epoch, 0 before the first.
     pub(super) epoch: u64,
     /// No epoch up to this number begins any more.
@@ -98,6 +100,7 @@ impl<'a> Interpolator<'a> {
             superposed: config
                 .superposition
                 .map(|settings| SuperposedAxis::new(settings, period_t)),
+            offset_moves: false,
             epoch: 0,
             barred: 0,
             end_of_epoch: EndOfEpoch::None,
@@ -127,7 +130,7 @@ impl<'a> Interpolator<'a> {
     pub(super) fn is_standing(&self) -> bool {
         self.output.published().is_at_rest()
             && (self.rate.now().rate <= 0.0 || self.plan_rests())
-            && self.superposition_rests()
+            && !self.offset_moves
     }
 
     /// What is known of the frame at or before the present program time.

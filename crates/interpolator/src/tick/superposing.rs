@@ -1,21 +1,29 @@
 //! The part of a tick that adds the superposition to what program and hand ask for.
 
 use super::state::Interpolator;
+use crate::output::Written;
 use crate::superposition::PathMotion;
+use glidepath_kinematics::KinematicsError;
 use glidepath_link::Setpoint;
 
 impl Interpolator<'_> {
-    /// Whether the offset of the superposition stands still.
-    pub(super) fn superposition_rests(&self) -> bool {
-        self.superposed
-            .as_ref()
-            .is_none_or(|superposed| superposed.is_at_rest())
-    }
-
-    /// Lets the offset go on by a period, and writes it. On a machine with a superposition alone.
+    /// Writes into the setpoint what the joints are to do for its axes and for what is superposed. On a machine with a
+    /// superposition alone.
     #[cold]
     #[inline(never)]
-    pub(super) fn superpose(&mut self, setpoint: &mut Setpoint) {
+    pub(super) fn write_superposed(
+        &mut self,
+        setpoint: &mut Setpoint,
+    ) -> Result<Written, KinematicsError> {
+        self.superpose(setpoint);
+        match &self.superposed {
+            Some(superposed) => self.output.write_superposed(setpoint, superposed),
+            None => self.output.write_joints(setpoint),
+        }
+    }
+
+    /// Lets the offset go on by a period, and writes it.
+    fn superpose(&mut self, setpoint: &mut Setpoint) {
         let path = self.path_motion(setpoint);
         let demand = self.drives.seen().superposition;
         let Some(superposed) = &mut self.superposed else {
@@ -24,6 +32,7 @@ impl Interpolator<'_> {
         if !self.track.is_empty() {
             superposed.step(setpoint, path, demand);
             superposed.hear(setpoint);
+            self.offset_moves = !superposed.is_at_rest();
         }
         if let Some(slot) = setpoint.superposed.get_mut(superposed.axis().index()) {
             *slot = superposed.now().x;
@@ -63,6 +72,7 @@ impl Interpolator<'_> {
         };
         let (axis, offset) = (superposed.axis(), superposed.now().x);
         superposed.forget();
+        self.offset_moves = false;
         if offset != 0.0 {
             self.output.take_superposed(axis, offset);
         }

@@ -45,7 +45,7 @@ pub(super) fn drive(args: &EthercatArgs, config: &MachineConfig) -> Result<Exit,
         terminals: drives.terminals,
         servo: servo::settings(config),
     };
-    let mut wire = PacketWire::open(&drives.interface)?;
+    let mut wire = PacketWire::open_alone(&drives.interface)?;
     let interrupt = interrupt(args)?;
     let counts = bridge(args, config, &mut wire, &settings, &interrupt, None)
         .map_err(|failure| in_file(failure, &drives.source))?;

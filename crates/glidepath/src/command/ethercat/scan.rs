@@ -13,7 +13,7 @@ use serde_json::json;
 /// # Errors
 /// The interface cannot be used, or nobody answers.
 pub(super) fn scan(args: &ScanArgs) -> Result<Exit, Failure> {
-    let mut wire = PacketWire::open(&args.interface)?;
+    let mut wire = PacketWire::open_alone(&args.interface)?;
     let found = look(&mut wire).map_err(RunError::from)?;
     if args.json {
         let device = |found: &Found| {

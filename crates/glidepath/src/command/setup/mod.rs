@@ -61,7 +61,7 @@ fn next(path: &Path, answers: &Answers) -> String {
     match answers.motors {
         Motors::Simulated => {}
         Motors::Ethercat => {
-            steps.push("glidepath ethercat scan --interface enp3s0 > drives.toml    # your interface; look through the file".to_owned());
+            steps.push("glidepath ethercat scan enp3s0 > drives.toml   # your interface; look through the file".to_owned());
             steps.push("glidepath ethercat --drives drives.toml &".to_owned());
         }
         Motors::Hal => steps.push("glidepath servo --hal &".to_owned()),
@@ -92,4 +92,34 @@ fn first_jog(answers: &Answers) -> String {
     let first = answers.axes.first();
     let (letter, is_up) = first.map_or(('X', true), |axis| (axis.letter, axis.max > 0.0));
     format!("{letter}{}", if is_up { "1" } else { "-1" })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cli::Cli;
+    use clap::Parser as _;
+
+    #[test]
+    fn the_commands_that_come_next_are_commands() {
+        for (motors, home) in [
+            (Motors::Simulated, Home::Nothing),
+            (Motors::Ethercat, Home::Switches),
+            (Motors::Hal, Home::Drives),
+        ] {
+            let suggested = Answers::ask(&Questions::new(true)).unwrap();
+            let answers = Answers {
+                motors,
+                home,
+                ..suggested
+            };
+            let told = next(Path::new("machine.toml"), &answers);
+            let commands = told.lines().filter(|line| line.starts_with("  glidepath "));
+            for line in commands {
+                let command = line.split(['#', '&', '>']).next().unwrap_or_default();
+                let words = command.split_whitespace();
+                assert!(Cli::try_parse_from(words).is_ok(), "{command}");
+            }
+        }
+    }
 }
