@@ -99,12 +99,10 @@ impl Interpolator<'_> {
     }
 
     pub(super) fn write_joints(&mut self, tick: u64, setpoint: &mut Setpoint) {
-        let written = if self.superposed.is_some() {
-            self.write_superposed(setpoint)
-        } else {
-            self.output.write_joints(setpoint)
-        };
-        match written {
+        if self.superposed.is_some() {
+            return self.write_superposed(tick, setpoint);
+        }
+        match self.output.write_joints(setpoint) {
             Ok(written) => self.judge(written, tick),
             // Every frame passed a judge of the joints, so this cannot be; if it were, the motion ends.
             Err(_) => self.fail(FaultCause::Output),

@@ -1,24 +1,23 @@
 //! The part of a tick that adds the superposition to what program and hand ask for.
 
 use super::state::Interpolator;
-use crate::output::Written;
 use crate::superposition::PathMotion;
-use glidepath_kinematics::KinematicsError;
-use glidepath_link::Setpoint;
+use glidepath_link::{FaultCause, Setpoint};
 
 impl Interpolator<'_> {
     /// Writes into the setpoint what the joints are to do for its axes and for what is superposed. On a machine with a
     /// superposition alone.
     #[cold]
     #[inline(never)]
-    pub(super) fn write_superposed(
-        &mut self,
-        setpoint: &mut Setpoint,
-    ) -> Result<Written, KinematicsError> {
+    pub(super) fn write_superposed(&mut self, tick: u64, setpoint: &mut Setpoint) {
         self.superpose(setpoint);
-        match &self.superposed {
-            Some(superposed) => self.output.write_superposed(setpoint, superposed),
-            None => self.output.write_joints(setpoint),
+        let Some(superposed) = &self.superposed else {
+            return;
+        };
+        match self.output.write_superposed(setpoint, superposed) {
+            Ok(written) => self.judge(written, tick),
+            // As where nothing is superposed.
+            Err(_) => self.fail(FaultCause::Output),
         }
     }
 
