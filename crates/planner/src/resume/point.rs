@@ -61,4 +61,13 @@ impl ResumePoint {
             found,
         })
     }
+
+    /// The machine does not stand on the path of a line of this program.
+    pub(super) const fn off_path(&self, line: u32, away: Option<AxisVector>) -> RunError {
+        RunError::Resume(ResumeError::OffPath {
+            block: self.block,
+            line,
+            away,
+        })
+    }
 }
