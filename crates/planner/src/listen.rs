@@ -21,7 +21,9 @@ use glidepath_link::{STREAM_JOB, SegmentRefusal, Transport};
 use glidepath_program::Settings;
 
 use crate::client_watch::ClientWatch;
-use crate::jobs::{Job, JobClientHandler, JobEnd, JobQueue, JobRunner, NEWS};
+use crate::job::{Job, JobEnd, JobRunner};
+use crate::job_client_handler::JobClientHandler;
+use crate::job_queue::{JobQueue, NEWS};
 use crate::machine::POLL;
 use crate::stream::refuse;
 use crate::{

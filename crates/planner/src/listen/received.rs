@@ -9,7 +9,7 @@ use glidepath_motion::PlanError;
 
 use crate::attend::{Attend, Attended};
 use crate::client_watch::ClientWatch;
-use crate::jobs::JobQueue;
+use crate::job_queue::JobQueue;
 use crate::{ItemSource, Refusal, SILENCE, Stream, Supply};
 
 /// Requests served between two looks at the motion.

@@ -12,19 +12,16 @@
 //! process could not notice. Once the machine moves, the motion goes on without its client.
 
 use std::collections::VecDeque;
-use std::path::PathBuf;
 use std::time::Duration;
 
-use glidepath_geometry::AxisVector;
 use glidepath_link::{
-    JobKind, JobReply, JobRequest, JobState, JobWish, LinkError, LongText, Record as _, Server,
-    Transport,
+    JobReply, JobRequest, JobState, JobWish, LinkError, LongText, Record as _, Server, Transport,
 };
 
-use crate::attend::{Attend, Attended};
 use crate::client_watch::ClientWatch;
+use crate::job::{Job, JobEnd};
 use crate::sent::{LineServer, LinesEnd, SentJob};
-use crate::{Control, Followed, FramePublisher, LineFacts, LineInbox, StartLine};
+use crate::{Followed, LineFacts, LineInbox};
 
 /// Requests served between two looks at the motion.
 const REQUESTS_PER_TURN: u32 = 32;
@@ -32,103 +29,6 @@ const REQUESTS_PER_TURN: u32 = 32;
 pub(crate) const NEWS: Duration = Duration::from_millis(250);
 /// Answers that are remembered: several for each client that there may be.
 const REMEMBERED: usize = 64;
-
-/// A job: something to execute.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Job {
-    /// A line.
-    Line(String),
-    /// Lines that belong together, with line breaks between them.
-    Sequence(String),
-    /// A program.
-    File {
-        /// Where it is.
-        path: PathBuf,
-        /// The fingerprint of the program that is meant; `None`: whatever is in the file.
-        looked_at: Option<u64>,
-        /// Where to begin; `None`: at its beginning.
-        from: Option<StartLine>,
-        /// What was told of that beginning is agreed to.
-        confirmed: bool,
-        /// It goes on where it was left.
-        resumes: bool,
-    },
-    /// Lines that come one after the other.
-    Lines {
-        /// Who sends them.
-        name: String,
-        /// Where they come in.
-        inbox: LineInbox,
-    },
-}
-
-impl Job {
-    fn of(request: &JobRequest) -> Option<Self> {
-        let text = request.text.as_str();
-        Some(match request.kind().ok()? {
-            JobKind::Line => Self::Line(text.to_owned()),
-            JobKind::Sequence => Self::Sequence(text.to_owned()),
-            JobKind::File => Self::File {
-                path: text.into(),
-                looked_at: Some(request.program).filter(|program| *program != 0),
-                from: (request.from_line > 0).then(|| StartLine {
-                    line: request.from_line,
-                    pass: request.pass.max(1),
-                }),
-                confirmed: request.confirmed == 1,
-                resumes: request.resumes == 1,
-            },
-        })
-    }
-
-    /// The name of the job, for people.
-    #[must_use]
-    pub fn name(&self) -> String {
-        match self {
-            Self::Line(text) => format!("mdi {text}"),
-            Self::Sequence(text) => format!("mdi {} …", text.lines().next().unwrap_or_default()),
-            Self::File { path, .. } => {
-                let name = path.file_name().unwrap_or(path.as_os_str());
-                name.to_string_lossy().into_owned()
-            }
-            Self::Lines { name, .. } => name.clone(),
-        }
-    }
-}
-
-/// The end of a job, with words for people.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum JobEnd {
-    /// It was executed to its end.
-    Done(String),
-    /// It was refused: nothing has changed, and nothing moved.
-    Refused(String),
-    /// The motion ended before it did.
-    Failed(String),
-    /// It begins in a way that has to be agreed to.
-    ToConfirm(String),
-    /// The file is not the program that was looked at.
-    Changed(String),
-}
-
-/// The executor of jobs.
-pub trait JobRunner {
-    /// Executes a job that has the machine, which stands at a position. Whatever takes long is to be
-    /// done by [`FramePublisher::work`], so that `attend` is called every few milliseconds.
-    fn run(
-        &mut self,
-        job: &Job,
-        start: AxisVector,
-        publisher: &mut FramePublisher<'_>,
-        attend: &mut dyn Attend,
-        control: &mut Control<'_>,
-    ) -> JobEnd;
-
-    /// How the machine is set up for the next job, if that is known.
-    fn facts(&self) -> Option<LineFacts> {
-        None
-    }
-}
 
 /// The job that was taken.
 #[derive(Debug)]
@@ -409,37 +309,4 @@ fn unknown(request: &JobRequest) -> JobReply {
     const WHY: &str = "the planner knows nothing of this job: it was started anew; `glidepath status` \
                        tells what the machine does";
     JobReply::new(request, JobState::Unknown, WHY)
-}
-
-/// The handler of the client of a job, which tells others that the planner is busy.
-pub(crate) struct JobClientHandler<'a> {
-    pub(crate) jobs: &'a mut JobQueue,
-    /// Serves whoever wants to stream segments.
-    pub(crate) refuse: &'a mut dyn FnMut(&str) -> Result<(), LinkError>,
-    pub(crate) failed: Result<(), LinkError>,
-}
-
-impl Attend for JobClientHandler<'_> {
-    fn attend(&mut self, waited: Duration, doing: &str) -> Attended {
-        let busy = self.jobs.busy();
-        let served = (self.refuse)(&busy).and_then(|()| self.jobs.serve_busy(waited, doing));
-        match served {
-            Ok(Some(why)) => Attended::End(why.to_owned()),
-            Ok(None) => Attended::GoesOn,
-            Err(error) => {
-                if self.failed.is_ok() {
-                    self.failed = Err(error);
-                }
-                Attended::GoesOn
-            }
-        }
-    }
-
-    fn follow(&mut self, followed: &Followed) {
-        self.jobs.follow(followed);
-    }
-
-    fn may_begin(&mut self) -> bool {
-        self.jobs.may_begin()
-    }
 }
