@@ -13,16 +13,18 @@
 //! program ends at the last good item. The motion then comes to rest there, on the path, and the
 //! reason comes out after the last frame.
 
+mod building;
+mod probing;
+mod replanning;
+
 use std::collections::VecDeque;
 use std::time::Duration;
 
 use glidepath_geometry::AxisVector;
-use glidepath_kinematics::LimitedMechanism;
-use glidepath_program::{Event, Frame, Item, ItemKind, Override, Settings};
+use glidepath_program::{Frame, Item, ItemKind, Override, Settings};
 
 use crate::blocks::Blocks;
 use crate::history::History;
-use crate::joint_bounds::JointBounds;
 use crate::planning::{Planning, Stage, TakenItem};
 use crate::step::{Output, Statistics, Step};
 use crate::{ItemSource, Refusal, Remainder, Supply};
@@ -99,51 +101,6 @@ impl<S: ItemSource> Pipeline<S> {
             clock: None,
             settings,
             history: None,
-        }
-    }
-
-    /// The same pipeline for a machine whose joints are not its axes: speeds are kept where joints
-    /// can follow.
-    #[must_use]
-    pub fn with_joints(self, caps: Option<LimitedMechanism>) -> Self {
-        Self {
-            planning: self.planning.with_joints(caps.map(JointBounds::shared)),
-            ..self
-        }
-    }
-
-    /// The same pipeline for a source that gives its items while the motion waits for them: with
-    /// effort "optimal" it begins to move sooner ([`glidepath_motion::Planner::of_stream`]).
-    #[must_use]
-    pub fn of_stream(self) -> Self {
-        Self {
-            planning: self.planning.of_stream(),
-            ..self
-        }
-    }
-
-    /// The same pipeline, which begins with these events: they are not of the program, and happen in
-    /// its first block.
-    #[must_use]
-    pub fn beginning_with(self, events: impl IntoIterator<Item = Event>, line: u32) -> Self {
-        let aside = |event| Item {
-            block: 0,
-            line,
-            kind: ItemKind::Event(event),
-        };
-        Self {
-            before: events.into_iter().map(aside).collect(),
-            ..self
-        }
-    }
-
-    /// The same pipeline, with the time of its steps counted by a clock: time since any fixed
-    /// instant.
-    #[must_use]
-    pub fn with_clock(self, clock: fn() -> Duration) -> Self {
-        Self {
-            clock: Some(clock),
-            ..self
         }
     }
 
@@ -236,84 +193,6 @@ impl<S: ItemSource> Pipeline<S> {
     /// Whether the motion would go on, in whatever comes next, behind the item taken last: it may not be planned yet.
     pub(crate) const fn goes_on(&self) -> bool {
         self.goes_on
-    }
-
-    /// From now on keeps what [`Pipeline::replan`] needs.
-    pub(crate) fn keep_history(&mut self) {
-        self.history = Some(History::new(&self.planning, self.settings.period_t));
-    }
-
-    /// Forgets what is needed to go back to where fewer frames than these were made.
-    pub(crate) fn forget_before(&mut self, frames: u64) {
-        if let Some(history) = &mut self.history {
-            history.forget_before(frames);
-        }
-    }
-
-    /// True if the history is long enough.
-    pub(crate) fn remembers_enough(&self) -> bool {
-        self.history.as_ref().is_some_and(History::is_full)
-    }
-
-    /// Goes back to where so many frames were made, and plans what follows with this override. An
-    /// error that was told meanwhile is told again in its place. Needs the history from there on.
-    pub(crate) fn replan(&mut self, frames: u64, wanted: Override, told: Option<Refusal>) {
-        // An error of the planner may not come again; if it does, it comes by itself.
-        let told = told.filter(|refusal| !refusal.leaves_motion_open());
-        self.refusal = self.refusal.take().or(told);
-        self.timed(|pipeline| {
-            let Some(history) = &mut pipeline.history else {
-                return;
-            };
-            pipeline.planning = history.back_to(frames);
-            while pipeline.planning.frames() < frames {
-                // All of this went well before.
-                if matches!(pipeline.go_on(), Ok(Step::End) | Err(_)) {
-                    break;
-                }
-            }
-            if let Some(history) = &mut pipeline.history {
-                history.mark_override(&pipeline.planning, wanted);
-            }
-            pipeline.planning.follow_override(wanted);
-        });
-    }
-
-    /// Whether what was planned ends with a probing move, after which the program goes on. One that
-    /// the probe has ended may have been planned in part only.
-    ///
-    /// # Errors
-    /// Nobody may answer what the probe found.
-    pub(crate) fn comes_to_probe(&mut self, is_tripped: bool) -> Result<bool, Refusal> {
-        // What is left out is counted, so that blocks are those of a program that is read again.
-        let known = self.history.as_ref();
-        while let Some(kept) = known.and_then(|known| known.item_after(self.planning.items())) {
-            if kept.is_aside {
-                self.planning.pass_aside();
-            } else {
-                self.planning.pass();
-            }
-        }
-        while is_tripped && !self.is_at_probe && !self.is_exhausted {
-            match self.source.next_item() {
-                Supply::Item(_) => self.planning.pass(),
-                Supply::Pending => std::thread::yield_now(),
-                Supply::Probe => self.is_at_probe = true,
-                Supply::End => self.is_exhausted = true,
-                Supply::Refused(refusal) => return Err(refusal),
-            }
-        }
-        Ok(self.is_at_probe)
-    }
-
-    /// Goes on behind a probing move, from where the machine came to rest: `position` (mm, degrees)
-    /// and `path_s` (mm).
-    pub(crate) fn go_on_from(&mut self, position: AxisVector, path_s: f64) {
-        self.frames_before += self.planning.frames();
-        self.planning = self.planning.behind(self.settings, position, path_s);
-        (self.is_exhausted, self.is_at_probe) = (false, false);
-        self.goes_on = false;
-        self.history = None;
     }
 
     /// Block of the program that the last frame belongs to ([`Frame::block`]), 0 before the first.
