@@ -5,12 +5,15 @@
 //! and the leftovers of dead processes. It may allocate, log and wait; the real-time thread does
 //! not notice.
 
+mod commands;
+mod demands;
+mod feedback;
 mod frames;
 mod links;
+mod statuses;
 
 use crate::acknowledgements::Acknowledgements;
 use crate::auxiliary::AuxiliaryBook;
-use crate::commands::{CommandContext, is_refusal, passes_stop};
 use crate::config::Config;
 use crate::fault::Fault;
 use crate::feedback::DriveMonitor;
@@ -20,23 +23,14 @@ use crate::jog::DemandReader;
 use crate::message::{LogEvent, Order, PortsEnds, TickReport};
 use crate::status::{StatusBook, grants_of};
 use crate::stops::StopCause;
-use crate::told_by_hand;
 use glidepath_link::{
     Command, EndOfEpoch, FaultCause, LinkError, MachineState, Setpoint, SetpointFrame, Status,
-    TOLD_TO_END, Transport, UnmetPrecondition,
+    TOLD_TO_END, Transport,
 };
 use glidepath_realtime::{EventReader, Grants, Mode};
 use links::Links;
 use std::collections::VecDeque;
 
-/// Records of feedback taken in one turn: those of nine stacks at 2 kHz and 4 ms.
-const FEEDBACK_PER_TURN: usize = 72;
-/// Commands served in one turn.
-const COMMANDS_PER_TURN: usize = 8;
-/// Demands for a jog passed on in one turn.
-const DEMANDS_PER_TURN: usize = 16;
-/// Between two statuses.
-const STATUS_NS: u64 = 20_000_000;
 /// Between two looks for dead processes.
 const CLEAN_UP_NS: u64 = 200_000_000;
 
@@ -247,165 +241,6 @@ impl<'a> Ports<'a> {
         }
     }
 
-    fn take_feedback(&mut self, now_ns: u64) -> Result<(), LinkError> {
-        for _ in 0..FEEDBACK_PER_TURN {
-            let (Some(source), Some(drives)) = (&mut self.links.feedback, &mut self.drives) else {
-                return Ok(());
-            };
-            let Some(feedback) = source.take()? else {
-                return Ok(());
-            };
-            let (Ok(told) | Err(told)) = drives.take(&feedback, now_ns);
-            if !told.is_empty() {
-                self.tell(&told);
-            }
-        }
-        Ok(())
-    }
-
-    /// Tells the real-time thread what the drives say, and judges how they follow.
-    fn observe(&mut self, now_ns: u64) -> Result<(), LinkError> {
-        let (Some(drives), Some(report)) = (&mut self.drives, &self.report) else {
-            return Ok(());
-        };
-        let observation = drives.observe(report, now_ns);
-        // A full ring says that the real-time thread does not run; there is nobody to be told.
-        self.ends.observations.enqueue(observation).ok();
-        let news = drives.take_news();
-        let (order, told) = drives.judge(report);
-        for order in [order, drives.advance_homing(report, now_ns)]
-            .into_iter()
-            .flatten()
-        {
-            self.ends.order(order);
-        }
-        if let Some(told) = told {
-            self.tell(&told);
-        }
-        if let Some(news) = news {
-            self.tell(news);
-        }
-        Ok(())
-    }
-
-    fn serve_commands(&mut self, now_ns: u64) -> Result<(), LinkError> {
-        let Some(report) = self.report else {
-            return Ok(());
-        };
-        let number = Some(report.setpoint.number);
-        let is_ordered = self.ordered_after == number || self.demanded_after == number;
-        let mut desk = CommandContext {
-            report,
-            boot_id: self.boot_id,
-            now_ns,
-            drives: self.drives.as_mut(),
-            acknowledgements: &mut self.acknowledgements,
-            jobs: &mut self.jobs,
-            frame_validator: &mut self.frame_validator,
-            ends: &mut self.ends,
-            is_ordered,
-        };
-        let (book, log) = (&mut self.book, &mut self.log);
-        for _ in 0..COMMANDS_PER_TURN {
-            let served = self.links.commands.serve(&mut |request| {
-                let reply = desk.answer(request);
-                let text = request.text.as_str();
-                let command = request.command().ok().map(|command| desk.meant(command));
-                let by_hand = told_by_hand::of_command(desk.report.state, command);
-                let has_failed = matches!(command, Some(Command::Acknowledge { done: false, .. }));
-                if command == Some(Command::Tell) {
-                    log(text);
-                    book.message(text);
-                } else if has_failed && !is_refusal(&reply) && !text.is_empty() {
-                    log(text);
-                    book.last_error(text);
-                    self.failure_is_explained = true;
-                } else if let Some(text) = by_hand.filter(|_| !is_refusal(&reply)) {
-                    book.last_error(text);
-                } else if passes_stop(desk.report.state, command) && !is_refusal(&reply) {
-                    // Whoever lets it pass has read what the program said there.
-                    book.message("");
-                } else if matches!(command, Some(Command::Job { .. })) {
-                    // Its planner waits for that.
-                    self.status_due_ns = 0;
-                }
-                book.status.commands_served += 1;
-                book.status.commands_refused += u64::from(is_refusal(&reply));
-                reply
-            })?;
-            if !served {
-                break;
-            }
-        }
-        if desk.is_ordered {
-            self.ordered_after = number;
-        }
-        Ok(())
-    }
-
-    /// Passes demands for a jog on, in the order in which they came.
-    fn pass_on_demands(&mut self) -> Result<(), LinkError> {
-        let Some(report) = self.report else {
-            return Ok(());
-        };
-        for _ in 0..DEMANDS_PER_TURN {
-            let Some(record) = self.links.demands.take()? else {
-                return Ok(());
-            };
-            match self.reader.read(&record) {
-                Ok(mut demand) => {
-                    demand.is_outdated = self.jobs.was_stopped_after(record.asked_ns);
-                    let caller = (demand.client, demand.number);
-                    let is_new = self.demanded_by.replace(caller) != Some(caller);
-                    if demand.is_outdated && demand.wants_motion() {
-                        // What was followed before the stop is told to have ended by it.
-                        if is_new {
-                            self.tell(UnmetPrecondition::StoppedSince.text());
-                        }
-                    } else if told_by_hand::may_begin(&report, &demand) {
-                        self.book.last_error("");
-                    }
-                    self.demanded_after = Some(report.setpoint.number);
-                    // A full ring is a real-time thread that hangs: nothing begins then.
-                    self.ends.demand(demand);
-                }
-                Err(error) => {
-                    if self.refused_jogger != Some(record.client) {
-                        self.refused_jogger = Some(record.client);
-                        self.tell(&error.to_string());
-                    }
-                }
-            }
-        }
-        Ok(())
-    }
-
-    fn publish_status(&mut self, now_ns: u64) -> Result<(), LinkError> {
-        if now_ns < self.status_due_ns {
-            return Ok(());
-        }
-        self.status_due_ns = now_ns + STATUS_NS;
-        let Some(report) = self.report else {
-            return Ok(());
-        };
-        let waiting = self.ends.frames.len() as u64;
-        self.book
-            .write(&report, &self.frame_validator, waiting, now_ns);
-        self.book.status.awaited_words = self.auxiliary.awaited_words();
-        self.book.status.state = self.jobs.state(&report).code();
-        self.jobs.write(&mut self.book.status);
-        if let Some(drives) = &self.drives {
-            drives.write(&mut self.book.status, now_ns);
-        }
-        self.links.setpoints.refresh()?;
-        self.links.auxiliary.refresh()?;
-        self.links.status.publish(&self.book.status)?;
-        if !core::mem::replace(&mut self.has_told_ready, true) {
-            (self.log)("ready: it gives setpoints and takes commands");
-        }
-        Ok(())
-    }
-
     /// The real-time thread is no more: latches that as the cause, and says so.
     pub(crate) fn real_time_died(&mut self, now_ns: u64) {
         if let Some(report) = &mut self.report {
@@ -420,16 +255,6 @@ impl<'a> Ports<'a> {
         }
         self.auxiliary.stop(StopCause::Fault);
         self.farewell(now_ns);
-    }
-
-    /// Publishes a status at once: the last of this life.
-    pub(crate) fn farewell(&mut self, now_ns: u64) {
-        self.status_due_ns = 0;
-        self.auxiliary.stop(StopCause::Abort);
-        let told = self.publish_auxiliary();
-        if let Err(error) = told.and(self.publish_status(now_ns)) {
-            (self.log)(&error.to_string());
-        }
     }
 
     fn clean_up(&mut self, now_ns: u64) -> Result<(), LinkError> {
