@@ -23,9 +23,11 @@
 
 mod clearance;
 mod demand;
+mod heard_demand;
 mod holder;
 mod jog_motion;
 mod line;
+mod speeds;
 mod travel;
 mod way_back;
 mod wheel;
@@ -41,15 +43,11 @@ use glidepath_geometry::{AXES, Axis, AxisVector};
 use glidepath_kinematics::JOINTS;
 use glidepath_link::JogMode;
 use glidepath_program::Limits;
+use holder::Holder;
 pub(crate) use holder::Jogged;
-use holder::{Heard, Holder};
-use jog_motion::{Goal, JogLimits, JogMotion};
+use jog_motion::{Goal, JogMotion};
 use travel::Travel;
 use way_back::WayBack;
-
-/// By how much the speed that the joints can do has to rise before the axes go faster: so that they
-/// do not set out anew in every tick.
-const FASTER_R: f64 = 1.05;
 
 /// What the tick knows.
 #[derive(Debug, Clone, Copy)]
@@ -169,36 +167,6 @@ impl Jog {
         self.holder.jogged()
     }
 
-    /// Takes a demand. Returns whether a jog begins with it.
-    pub(crate) fn hear(&mut self, demand: &Demand, around: &JogContext) -> bool {
-        let turned = self.wheel.turn(demand, around.now_ns);
-        let is_wheel = matches!(demand.mode, JogMode::Wheel | JogMode::WheelVelocity);
-        if is_wheel && turned.amax() <= 0.0 {
-            return false; // It stands. How long it has stood is looked at elsewhere.
-        }
-        let is_outdated = demand.is_outdated || demand.behind_stops < self.stops;
-        if is_outdated && demand.wants_motion() {
-            return false;
-        }
-        let was_active = self.is_active();
-        let may_start = around.may_start && !was_active;
-        match self.holder.hear(demand, around.now_ns, may_start) {
-            Heard::Nothing => return false,
-            Heard::LetGo => {
-                self.let_go();
-                return false;
-            }
-            Heard::Alive if !is_wheel => return false,
-            Heard::Alive | Heard::New => {}
-        }
-        if !was_active {
-            self.begin(around);
-        }
-        self.blocked = false;
-        self.follow(demand, &turned, &around.position);
-        !was_active
-    }
-
     fn begin(&mut self, around: &JogContext) {
         self.jog_motion = JogMotion::at_rest(around.position);
         self.clearance.begin();
@@ -224,40 +192,6 @@ impl Jog {
             }
         }
         homed
-    }
-
-    /// Makes a demand the one that is followed.
-    fn follow(&mut self, demand: &Demand, turned: &AxisVector, published: &AxisVector) {
-        let before = self.demand.replace(*demand).map(|before| before.mode);
-        self.goal = match demand.mode {
-            // How fast a wheel turns is looked at in every tick.
-            JogMode::None | JogMode::WheelVelocity => Goal::Stop,
-            JogMode::Continuous => Goal::Speeds(demand.value),
-            JogMode::Incremental => {
-                // Steps add up: one that comes on the way to the place of the last counts from there.
-                let target = match self.goal {
-                    Goal::Place(place) if before == Some(JogMode::Incremental) => place,
-                    _ => {
-                        let rest = self.jog_motion.stop().end();
-                        rest.zip_zip_map(published, &demand.value, |rest, now, step| {
-                            if step == 0.0 { rest } else { now }
-                        })
-                    }
-                };
-                // An axis goes to the end of its travel, and keeps no other from going on.
-                let travel = self.travel(published);
-                Goal::Place(travel.nearest(&(target + demand.value)))
-            }
-            JogMode::Wheel => {
-                let from = match self.goal {
-                    Goal::Place(place) if before == Some(JogMode::Wheel) => place,
-                    _ => self.jog_motion.stop().end(),
-                };
-                let place = (from + turned).sup(&(published - self.ahead));
-                let travel = self.travel(published);
-                Goal::Place(travel.nearest(&place.inf(&(published + self.ahead))))
-            }
-        };
     }
 
     /// Whoever jogs does so no longer.
@@ -354,46 +288,6 @@ impl Jog {
 
     fn travel(&self, position: &AxisVector) -> Travel {
         Travel::from(&self.soft_limits, position, &self.began_at, &self.is_homed)
-    }
-
-    fn jog_limits(&self) -> JogLimits {
-        let mut jog = self.limits;
-        let slow = self.settings.unhomed_velocity.iter();
-        for ((most, slow), is_homed) in jog.velocity.iter_mut().zip(slow).zip(&self.is_homed) {
-            *most = if *is_homed { *most } else { most.min(*slow) };
-        }
-        let demanded_v = if self.is_returning() {
-            self.settings.return_v
-        } else {
-            match &self.demand {
-                Some(demand) if demand.mode != JogMode::Continuous => demand.most_v,
-                _ => f64::INFINITY,
-            }
-        };
-        JogLimits {
-            jog,
-            most_v: demanded_v.min(self.joint_v),
-            override_ratio: self.override_ratio,
-        }
-    }
-
-    /// The joints' speed along the present direction, here and where a stop would end.
-    fn look_up_joint_speed(&mut self, position: &AxisVector) {
-        if self.clearance.is_of_travel_alone() {
-            return;
-        }
-        let direction = match (self.jog_motion.direction(), &self.goal) {
-            (Some(direction), _) => *direction,
-            (None, Goal::Speeds(speeds)) => speeds.normalize(),
-            (None, Goal::Place(place)) => (place - position).normalize(),
-            (None, Goal::Stop) => return,
-        };
-        let end = self.jog_motion.stop().end();
-        let here = self.clearance.speed(position, &direction);
-        let v = here.min(self.clearance.speed(&end, &direction));
-        if v < self.joint_v || v > self.joint_v * FASTER_R {
-            self.joint_v = v;
-        }
     }
 
     /// Nothing moves: what was wanted is done, or cannot be.
