@@ -18,55 +18,20 @@
 //! the motion before, so that what is linear about it settles. What comes out is a local optimum
 //! ([`super::search_bias`]), and nothing is believed of it that the judge has not seen.
 
+mod convex_problem;
+mod phases;
+
 use super::budget::Budget;
 use super::cutting_planes::CuttingPlanes;
-use super::damping;
-use super::feed_rows;
 use super::fixed_axes::FixedAxes;
 use super::guess::Guess;
-use super::joint_rows;
-use super::rounds::{BestMotion, ENOUGH_VIOLATION, RoundState, gains};
+use super::rounds::BestMotion;
 use super::samples::Samples;
 use super::scaled_path::{ScaledPath, ScaledSegment};
-use super::shortcuts;
-use super::solver::{Goal, Interior, Problem};
-use super::travel_rows;
-use super::tube;
-use super::tube::{Extents, FEED_R, Layout, SEARCH_STEERING, STEERING, Style};
+use super::solver::{Interior, Problem};
+use super::tube::Extents;
 use super::window_start::WindowStart;
 use glidepath_program::Corners;
-
-/// Rounds in which samples change pieces, and rounds in which they do not; what of the radius is
-/// used in them.
-struct Phase {
-    search: usize,
-    polish: usize,
-    keep_r: f64,
-}
-/// The rounds of one attempt: what comes and goes at the edge of the tube is given more and more
-/// room. A phase ends with the first round of polishing that passes or exceeds rows for good; the attempt once
-/// progress settles, or where from the second phase on rows are exceeded and nothing has passed. (If the first
-/// phase ended it, too, five of 35 programs would be .1 to 2 % faster and one .1 % slower; if none did, three .3 to
-/// .8 % slower.)
-/// the fastest motion that has passed is kept, so the smaller radii of later phases cost no time of it.
-/// Of the numbers no measurement is kept.
-const PHASES: [Phase; 3] = [
-    Phase {
-        search: 3,
-        polish: 3,
-        keep_r: 0.995,
-    },
-    Phase {
-        search: 2,
-        polish: 3,
-        keep_r: 0.97,
-    },
-    Phase {
-        search: 2,
-        polish: 3,
-        keep_r: 0.92,
-    },
-];
 
 /// Where samples are first thought to be in an attempt.
 #[derive(Debug, Clone, Copy)]
@@ -92,35 +57,6 @@ const NO_LESS_R: f64 = 0.995;
 /// From so many axes on, the work of a window is spent after a few rounds if it has to keep to the inner
 /// side: then the motion is first thought to be no faster than the guess, so that the first round finds one.
 const MANY_AXES: usize = 7;
-/// Interior point iterations in one problem, of which it usually takes 6 to 20. One that takes more counts
-/// as not solved ([`FAR_OFF_R`]).
-const SOLVER_ITERATIONS: usize = 40;
-/// Mean complementarity, in periods of progress, at which a problem is solved: in rounds in which lines
-/// may leave the path, and in others. With 1e-7 the motion wanders less within the tube where the feed
-/// binds, but has as much jerk: what is wanted there is said by prices ([`Style::jerk`]), not by μ.
-const SEARCH_MU: f64 = 1e-4;
-const EXACT_MU: f64 = 1e-5;
-/// [`Goal::damping`] times the square of the way in a knot at the top speed. No measurement
-/// of it is kept.
-const DAMPING: f64 = 1e-7;
-/// Share of every limit that is planned with: the residual of a solution may be half of the rest.
-const LIMIT_R: f64 = 1.0 - 2e-6;
-/// Lines may leave the path by this many radii while searching: large, so that a sample that is on a
-/// piece too early or too late does not bind the motion before it is given out again. Careful attempts
-/// and rounds of polishing have 1 in its place. No measurement of it is kept.
-const SEARCH_STRAY_R: f64 = 12.0;
-/// A motion of no solution whose samples are further off than this, in radii, is not gone on from. No
-/// measurement of it is kept.
-const FAR_OFF_R: f64 = 3.0;
-/// Where samples come out further off than this while searching, in radii, they are given out half-way
-/// back, from the third round on: else some problems go there and back between too early and too late.
-const TOO_FAR_R: f64 = 1.02;
-/// Rounds of a search that may go there and back ([`TOO_FAR_R`]).
-const FREE_ROUNDS: usize = 2;
-
-/// Rounds of polishing more where joints are not the axes.
-const MORE_POLISH: usize = 3;
-
 /// How much faster than the guess the first window is thought to be. Of this and the paces below no
 /// measurement is kept, but of what a new one counts beside those before, half: with all seven of 35 programs were
 /// up to .9 % faster or .3 % slower, with a quarter seven up to 1 % faster or .3 % slower.
@@ -161,7 +97,7 @@ pub(crate) struct Optimiser<const D: usize> {
     pub(super) samples: Samples,
     pub(super) cutting_planes: CuttingPlanes<D>,
     fixed_axes: FixedAxes<D>,
-    /// For rounds in which lines keep to the path, and for those in which they stray ([`SEARCH_STRAY_R`]).
+    /// For rounds in which lines keep to the path, and for those in which they stray ([`phases`]).
     extents: [Extents; 2],
     /// How much faster than the guess the motion has turned out to be.
     pace: f64,
@@ -263,173 +199,5 @@ impl<const D: usize> Optimiser<D> {
         if !window_start.keeps_rates {
             self.samples.progress.fill(window_start.progress);
         }
-    }
-
-    /// One attempt: rounds of giving out, solving and projecting, in which `found` gets the best
-    /// motion that passes. In the later rounds of a phase the samples stay where they are.
-    fn iterate(
-        &mut self,
-        path: &ScaledPath<D>,
-        window_start: &WindowStart<'_, D>,
-        is_careful: bool,
-        judge: &mut impl FnMut(&[[f64; D]], JudgeQuestion) -> bool,
-        found: &mut BestMotion<D>,
-    ) {
-        let mut round_state = RoundState::starting(window_start.tail);
-        let has_joints = path.joints().is_some();
-        let more = if has_joints { MORE_POLISH } else { 0 };
-        for (number, phase) in PHASES.iter().enumerate() {
-            let best_before = found.best.as_ref().map(|best| best.0);
-            for round in 0..phase.search + phase.polish + more {
-                if self.interior.is_spent() {
-                    return;
-                }
-                // The first round of polishing still takes what the last search has shown.
-                if round <= phase.search {
-                    self.samples.assign(path, window_start.piece);
-                }
-                let is_polish = round >= phase.search;
-                let is_wide = !is_polish && !is_careful;
-                let usual = window_start.style(round_state.has_motion);
-                let style = Style {
-                    stray_r: if is_wide { SEARCH_STRAY_R } else { 1.0 },
-                    steering: if is_wide { SEARCH_STEERING } else { STEERING },
-                    is_feed_firm: is_polish || round_state.is_exceeding,
-                    keep_r: phase.keep_r,
-                    feed_r: if is_polish {
-                        round_state.feed_r
-                    } else {
-                        FEED_R
-                    },
-                    attraction: if is_polish && number > 0 {
-                        round_state.firm_pull(usual.attraction)
-                    } else {
-                        usual.attraction
-                    },
-                    keeps_progress: is_polish && has_joints,
-                    ..usual
-                };
-                let given = self.samples.progress.clone();
-                let may_lead = round + 1 < phase.search;
-                let is_solved =
-                    self.take_round(path, window_start, &style, may_lead, &mut round_state);
-                if is_polish && is_solved {
-                    round_state.learn_feed(style.feed_r);
-                }
-                let mean_t = self.samples.mean_t(path);
-                let passes = is_solved && judge(&round_state.points, JudgeQuestion::IsValid);
-                if passes {
-                    found.add(mean_t, &round_state.points, &self.samples);
-                }
-                let has_settled = if style.keeps_progress {
-                    // Against the phase before: within this one it does not go on.
-                    best_before.is_some_and(|best_t| !gains(best_t, mean_t))
-                } else {
-                    round_state.has_settled(mean_t)
-                };
-                if passes && has_settled {
-                    return;
-                }
-                round_state.mean_t = mean_t;
-                if is_polish && round_state.is_exceeding && number > 0 && found.best.is_none() {
-                    // Samples are on pieces that the motion cannot reach in time.
-                    return;
-                }
-                if is_polish && (passes || round_state.is_exceeding) {
-                    break;
-                }
-                if !is_polish && self.samples.worst_r > TOO_FAR_R && round >= FREE_ROUNDS {
-                    self.samples.go_half_way(&given);
-                }
-            }
-        }
-    }
-
-    /// Solves and projects. True if there is a solution.
-    pub(super) fn take_round(
-        &mut self,
-        path: &ScaledPath<D>,
-        window_start: &WindowStart<'_, D>,
-        style: &Style,
-        may_lead: bool,
-        round_state: &mut RoundState<D>,
-    ) -> bool {
-        let mut next = round_state.points.clone();
-        let is_exact = style.stray_r <= 1.0;
-        let is_solved = self.solve(path, style, &mut next, false, is_exact);
-        if is_solved {
-            round_state.speed_r =
-                self.cutting_planes
-                    .learn(path, &self.samples, &next, &window_start.grid);
-        }
-        round_state.is_exceeding = self.interior.violation() > ENOUGH_VIOLATION;
-        let grid = &window_start.grid;
-        self.samples
-            .project(path, &next, window_start.piece, grid, may_lead);
-        // What is not solved may still be a better start than the last one, if it is near the path.
-        if is_solved || self.samples.worst_r < FAR_OFF_R {
-            round_state.points = next;
-            round_state.has_motion = true;
-        }
-        is_solved
-    }
-
-    /// Solves the convex problem of a style. True if there is a solution.
-    pub(super) fn solve(
-        &mut self,
-        path: &ScaledPath<D>,
-        style: &Style,
-        points: &mut [[f64; D]],
-        is_end_fixed: bool,
-        is_exact: bool,
-    ) -> bool {
-        let h = style.grid.knot_t;
-        self.problem.clear(points.len() - 3, is_end_fixed);
-        // Limits of differences of control points, in tolerances: a knot is the unit of time.
-        self.problem.bounds = [
-            path.velocity_bounds().map(|v| v * h * LIMIT_R),
-            path.acceleration.map(|a| a * h * h * LIMIT_R),
-            path.jerk.map(|j| j * h * h * h * LIMIT_R),
-        ];
-        // |Δ³x / unit|² is one at the jerk that is priced.
-        let unit = style.priced_jerk(path).map(|j| j * h * h * h);
-        self.problem.jerk = unit.map(|unit| style.jerk / (unit * unit));
-        let margin = style.settling_periods(path);
-        self.fixed_axes
-            .set(path, &self.samples, points, &style.grid, margin);
-        self.problem
-            .fixed_axes
-            .clone_from(&self.fixed_axes.of_points);
-        let extents = &mut self.extents[usize::from(style.stray_r > 1.0)];
-        let layout = Layout {
-            path,
-            samples: &self.samples,
-            cutting_planes: &self.cutting_planes,
-            points,
-            style,
-        };
-        tube::build(&mut self.problem, &layout, extents);
-        feed_rows::add(&mut self.problem, &layout);
-        travel_rows::add(&mut self.problem, &layout);
-        if path.joints().is_some() {
-            joint_rows::add(&mut self.problem, &layout);
-        }
-        if style.is_damped {
-            damping::add(&mut self.problem, &layout);
-        }
-        if style.counts_way {
-            shortcuts::add(&mut self.problem, &layout);
-        }
-        let top = path
-            .segments
-            .iter()
-            .map(|segment| segment.top)
-            .fold(0.0, f64::max);
-        let goal = Goal {
-            mu: if is_exact { EXACT_MU } else { SEARCH_MU },
-            iterations: SOLVER_ITERATIONS,
-            damping: DAMPING / (top * h).powi(2),
-        };
-        self.interior.solve(&self.problem, points, goal)
     }
 }
