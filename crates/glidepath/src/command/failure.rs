@@ -5,7 +5,7 @@ use crate::command::evidence::Evidence;
 use crate::command::grbl::error::EndpointError;
 use crate::command::other_users::OtherUsers;
 use crate::config::ConfigError;
-use crate::curve_file::{CurveDiagnostic, CurveFileError};
+use crate::curve_file::CurveDiagnostic;
 use crate::exit::Exit;
 use crate::file_error::FileError;
 use crate::jitter::JitterError;
@@ -22,7 +22,6 @@ use glidepath_migration::ReadError;
 use glidepath_persistence::var::VarError;
 use glidepath_planner::{self as planner, FeedError, Refusal};
 use glidepath_recording::ReadError as RecordingError;
-use std::path::Path;
 use thiserror::Error;
 
 /// A command's failure, with its exit code.
@@ -393,57 +392,4 @@ pub(super) enum Failure {
          tells what the machine does"
     )]
     NoAnswer,
-}
-
-impl From<CurveFileError> for Failure {
-    fn from(error: CurveFileError) -> Self {
-        match error {
-            CurveFileError::Unreadable(error) => Self::File(error),
-            CurveFileError::Rejected(diagnostic) => Self::Curve(diagnostic),
-        }
-    }
-}
-
-impl From<UnknownEvent> for Failure {
-    fn from(event: UnknownEvent) -> Self {
-        Self::UnknownEvent(event)
-    }
-}
-
-impl Failure {
-    /// A failure to read a recording.
-    #[must_use]
-    pub(super) fn recording(file: &Path, error: RecordingError) -> Self {
-        let file = file.display().to_string();
-        Self::Recording { file, error }
-    }
-
-    /// A refusal of a program, as the failure to run it.
-    #[must_use]
-    pub(super) fn refused(program: &str, refusal: Refusal, moved: bool) -> Self {
-        match refusal {
-            Refusal::Program {
-                diagnostics,
-                unlisted,
-            } => Self::Rejected {
-                program: program.to_owned(),
-                diagnostics,
-                more: unlisted,
-                moved,
-            },
-            refusal => Self::Refused(refusal),
-        }
-    }
-
-    /// A failure to deliver a command; of one that brings the machine to rest, with what is left.
-    #[must_use]
-    pub(super) fn of_command(self, command: &'static str) -> Self {
-        let stops = matches!(command, "hold" | "abort" | "stop-at-block-end");
-        if stops && !matches!(self, Self::NoInterpolator { .. }) {
-            let source = Box::new(self);
-            Self::NotStopped { command, source }
-        } else {
-            self
-        }
-    }
 }

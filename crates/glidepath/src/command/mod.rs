@@ -17,6 +17,7 @@ mod evidence;
 mod executor;
 mod failure;
 mod failure_exit;
+mod failure_origin;
 mod failure_report;
 mod feed;
 mod fit;
