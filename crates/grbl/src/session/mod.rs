@@ -1,7 +1,9 @@
 //! One sender: its lines, what it was told, and what it has the machine do.
 
+mod answers;
 mod awaited;
 mod code;
+mod machine_seen;
 mod real_time;
 mod statement;
 #[cfg(test)]
@@ -13,11 +15,10 @@ use std::time::Duration;
 
 use crate::error::ErrorNumber;
 use crate::intake::{Heard, Intake, Line};
-use crate::jogging::{Jogged, Jogging};
+use crate::jogging::Jogging;
 use crate::numbers::Units;
 use crate::overrides::Overrides;
-use crate::report::{BLOCKS, BUFFER, Beside, MACHINE_POSITION, Reporter};
-use crate::state::State;
+use crate::report::{BUFFER, MACHINE_POSITION, Reporter};
 use crate::stream::{Request, Stream, Told};
 use crate::{Act, Alarm, Doing, Facts, MachineSettings, MachineView};
 use awaited::{Reset, Waiting};
@@ -27,10 +28,6 @@ use awaited::{Reset, Waiting};
 const MOST_KEPT: usize = 4096;
 /// Bytes that wait for a sender that does not read.
 const MOST_UNSENT: usize = 32 * 1024;
-/// How long a sender that asks for reports may be silent while it jogs.
-const JOG_SILENCE: Duration = Duration::from_secs(1);
-/// Reports after which a sender is one that asks for them.
-const ASKS: u32 = 3;
 
 /// What keeps lines from being begun.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -277,166 +274,5 @@ impl Session {
     fn kept_bytes(&self) -> usize {
         let lines: usize = self.lines.iter().map(|line| line.bytes.min(300)).sum();
         lines + self.intake.open_bytes()
-    }
-
-    /// What the machine does, as senders know it.
-    fn state(&self) -> State {
-        if self.is_asleep {
-            return State::Sleep;
-        }
-        if self.is_locked() {
-            return State::Alarm;
-        }
-        let doing = self.machine.doing;
-        if doing == Doing::Homing {
-            return State::Home;
-        }
-        if self.is_checking {
-            return State::Check;
-        }
-        if self.jogging.is_active() || doing == Doing::Jogging {
-            return State::Jog;
-        }
-        let is_at_rest = !doing.is_moving() && doing != Doing::Preparing;
-        match self.latch {
-            Latch::Hold => return State::Hold { is_at_rest },
-            Latch::Door => return State::Door { is_at_rest },
-            Latch::Free => {}
-        }
-        match doing {
-            Doing::Holding => State::Hold { is_at_rest: false },
-            Doing::Held | Doing::ProgramStop | Doing::AwaitingTool => {
-                State::Hold { is_at_rest: true }
-            }
-            // What was read last may not have begun.
-            Doing::Idle | Doing::NotHomed if !self.is_urgent() => State::Idle,
-            // A motion begins with a setpoint at rest, and lines that were read are planned a moment later.
-            Doing::Waiting if !self.stream.has_unread() && self.ahead_t <= 0.0 => State::Idle,
-            _ => State::Run,
-        }
-    }
-
-    /// Nothing is executed before it is unlocked.
-    fn is_locked(&self) -> bool {
-        let is_fit = match self.machine.doing {
-            Doing::Unknown | Doing::Off | Doing::Faulted => false,
-            Doing::NotHomed => self.is_unlocked,
-            _ => true,
-        };
-        self.alarm.is_some() || !is_fit
-    }
-
-    /// What senders have to know of what has changed.
-    fn tell_of_changes(&mut self, before: &MachineView) {
-        let (was, is) = (before.doing, self.machine.doing);
-        if !self.machine.message.is_empty() && self.machine.message != before.message {
-            let message = self.machine.message.clone();
-            self.message(&message);
-        }
-        if matches!(is, Doing::Idle | Doing::Running) {
-            self.is_unlocked = false;
-        }
-        let is_lost = matches!(is, Doing::Faulted | Doing::Off | Doing::Unknown) && was != is;
-        let was_fit = !matches!(was, Doing::Faulted | Doing::Off | Doing::Unknown);
-        if is_lost && (was_fit || is == Doing::Faulted) && !self.is_asleep {
-            let (alarm, why) = self.machine.fault.clone().unwrap_or_else(|| {
-                let why = "the machine has no power, or its interpolator is gone";
-                (Alarm::Stopped, why.to_owned())
-            });
-            self.jogging.forget();
-            self.say(&format!("ALARM:{}", alarm.number()));
-            self.message(&why);
-        }
-    }
-
-    fn look_at_jogs(&mut self, now: Duration) {
-        let asks = self.reports >= ASKS;
-        let is_silent = now.saturating_sub(self.heard_at) >= JOG_SILENCE;
-        if asks && is_silent && self.jogging.is_active() && self.jogging.has_room() {
-            self.message("The sender is silent: the jog ends");
-            self.cancel_jogs();
-        }
-        let look = (self.machine.doing, &self.machine.position);
-        let jogged = self.jogging.look(look, now, &mut self.acts);
-        if jogged == Jogged::NotDone {
-            self.message("The jog ended before its end");
-        }
-    }
-
-    fn cancel_jogs(&mut self) -> bool {
-        let was_active = self.jogging.cancel();
-        if was_active {
-            // What was not handed over does not begin.
-            self.acts.retain(|act| !matches!(act, Act::Jog { .. }));
-            self.acts.push(Act::LetGo);
-        }
-        was_active
-    }
-
-    fn say_report(&mut self, is_full: bool) {
-        let state = self.state();
-        let ahead_r = self.ahead_t / self.settings.ahead_t;
-        #[allow(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "between 0 and 15"
-        )]
-        let taken = (ahead_r.clamp(0.0, 1.0) * f64::from(BLOCKS)).ceil() as u32;
-        let is_open = self.stream.is_open();
-        let beside = Beside {
-            state,
-            axes: &self.settings.axes,
-            units: self.units,
-            mask: self.mask,
-            free_blocks: BLOCKS - if is_open { taken } else { 0 },
-            free_bytes: self.settings.rx_bytes.saturating_sub(self.kept_bytes()),
-            line: match self.machine.line {
-                line @ 1.. if is_open => self.stream.number(line.into()),
-                _ => 0,
-            },
-            overrides: self.overrides.percents(),
-            is_full,
-        };
-        let text = self.reporter.report(&self.machine, &beside);
-        self.say(&text);
-    }
-
-    fn welcome(&mut self) {
-        self.reporter.begin_anew();
-        self.say("");
-        self.say("Grbl 1.1h ['$' for help]");
-        if self.state() == State::Alarm {
-            self.message("'$H'|'$X' to unlock");
-        }
-    }
-
-    fn say(&mut self, text: &str) {
-        self.out.extend_from_slice(text.as_bytes());
-        self.out.extend_from_slice(b"\r\n");
-    }
-
-    /// Something for people. Brackets would end it early.
-    fn message(&mut self, text: &str) {
-        let is_plain = |c: char| c.is_ascii() && !c.is_ascii_control() && !matches!(c, '[' | ']');
-        let plain: String = text
-            .chars()
-            .map(|c| if is_plain(c) { c } else { ' ' })
-            .collect();
-        self.say(&format!("[MSG:{}]", plain.trim()));
-    }
-
-    /// Answers the oldest line.
-    fn answer_ok(&mut self) {
-        if self.lines.pop_front().is_some() {
-            self.say("ok");
-        }
-    }
-
-    /// Likewise, with why it is refused.
-    fn answer_error(&mut self, number: ErrorNumber, why: &str) {
-        if self.lines.pop_front().is_some() {
-            self.message(why);
-            self.say(&format!("error:{}", number.0));
-        }
     }
 }
