@@ -15,7 +15,7 @@
 //! All of that are half-spaces by place: where on which piece a sample is. Most are a side of the tube
 //! already, which only moves; the others become rows near their borders. And where an axis is not to
 //! turn round, its control points rise or fall with the program ([`super::sense_rows`]): else the motion would
-//! dip into the inner side behind each corner, and come back.
+//! dip into the inner side after each corner, and come back.
 
 use super::scaled_path::ScaledPath;
 use super::sides::{AxisSides, HalfSpace, Stop};
@@ -71,22 +71,22 @@ impl<const D: usize> ScaledPath<D> {
             from,
             to: self.vertex(i)[k],
             before,
-            behind: Stop::default(),
+            after: Stop::default(),
         };
         if let Some(next) = next.filter(|next| sides.goes_on_as(next)) {
             sides.to = next.to;
         }
         let is_worth =
             |sides: &AxisSides| (sides.to - sides.from).abs() >= WORTH_R * segment.radius;
-        sides.behind = self.stop_behind((i, k), &sides, is_worth);
+        sides.after = self.stop_after((i, k), &sides, is_worth);
         if !sides.is_rest && !is_worth(&sides) {
-            (sides.before, sides.behind) = (Stop::default(), Stop::default());
+            (sides.before, sides.after) = (Stop::default(), Stop::default());
         }
         sides
     }
 
-    /// Where axis `k` stops next behind piece `i`.
-    fn stop_behind(
+    /// Where axis `k` stops next after piece `i`.
+    fn stop_after(
         &self,
         (i, k): (usize, usize),
         sides: &AxisSides,
@@ -102,7 +102,7 @@ impl<const D: usize> ScaledPath<D> {
             return if self.is_final { stop } else { Stop::default() };
         };
         if sides.goes_on_as(next) {
-            return next.behind;
+            return next.after;
         }
         if sides.is_rest {
             // What follows sets out from here.
@@ -189,7 +189,7 @@ impl<const D: usize> ScaledPath<D> {
 
 /// The offset of a window's start from the path, where that is outside of a border.
 ///
-/// Where a corner comes into sight behind the middle of its run, the motion that is given is up to what the
+/// Where a corner comes into sight after the middle of its run, the motion that is given is up to what the
 /// judge allows on the side of the corner before. Asked to be on the other side at once, it would swing
 /// over within two periods, and swing out by several times as much. So it goes over while it settles.
 #[derive(Debug, Clone, Copy)]

@@ -1,7 +1,7 @@
 //! Rows that keep axes from turning round where the program does not.
 //!
 //! Where an axis rests next to a stop, or is slow, its control points rise or fall with the program. Else
-//! the motion would dip into the inner side behind each corner and come back, each time through the
+//! the motion would dip into the inner side after each corner and come back, each time through the
 //! backlash of the drive.
 
 use super::scaled_path::ScaledPath;

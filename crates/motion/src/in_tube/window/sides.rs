@@ -3,7 +3,7 @@
 //! ```text
 //!   before ●━━━━━━━━━━━●  at rest         An axis stops where it comes to a rest, sets out from one, or
 //!         ╱   borders   ╲                 turns round at a corner. There its coordinate has a border,
-//!        ╱               ╲  behind        of a rest at the stop that is nearer.
+//!        ╱               ╲  after         of a rest at the stop that is nearer.
 //! ```
 
 use super::corner::{RunCorners, is_middle};
@@ -53,9 +53,9 @@ pub(super) struct AxisSides {
     /// Coordinates at which its run of pieces with the same way begins, and ends as far as is seen.
     pub(super) from: f64,
     pub(super) to: f64,
-    /// The stops before and behind.
+    /// The stops before and after.
     pub(super) before: Stop,
-    pub(super) behind: Stop,
+    pub(super) after: Stop,
 }
 
 /// The sides of a piece.
@@ -93,14 +93,14 @@ impl AxisSides {
 
     /// The sides of a coordinate at a progress: the sign of what is inside, and the border.
     pub(super) fn borders(&self, progress: f64) -> [Option<(f64, f64)>; 2] {
-        let (before, behind) = (self.before, self.behind);
+        let (before, after) = (self.before, self.after);
         if !self.is_rest {
-            let after = (before.sign != 0.0).then_some((self.way, before.at));
-            let until = (behind.sign != 0.0).then_some((-self.way, behind.at));
-            return [after, until];
+            let from = (before.sign != 0.0).then_some((self.way, before.at));
+            let until = (after.sign != 0.0).then_some((-self.way, after.at));
+            return [from, until];
         }
-        let crosses = self.before.sign * self.behind.sign > 0.0;
-        if crosses && is_middle(progress, [self.before.s, self.behind.s]) {
+        let crosses = self.before.sign * self.after.sign > 0.0;
+        if crosses && is_middle(progress, [self.before.s, self.after.s]) {
             return [None; 2];
         }
         match self.nearer_stop(progress) {
@@ -111,13 +111,13 @@ impl AxisSides {
 
     /// Of a rest: the stop that is nearer, and on which side of it the motion is, seen along its sign.
     fn nearer_stop(&self, progress: f64) -> Option<(Stop, f64)> {
-        let (before, behind) = (self.before, self.behind);
-        let is_before = before.sign != 0.0
-            && (behind.sign == 0.0 || progress - before.s <= behind.s - progress);
+        let (before, after) = (self.before, self.after);
+        let is_before =
+            before.sign != 0.0 && (after.sign == 0.0 || progress - before.s <= after.s - progress);
         if is_before {
             Some((before, -1.0))
-        } else if behind.sign != 0.0 {
-            Some((behind, 1.0))
+        } else if after.sign != 0.0 {
+            Some((after, 1.0))
         } else {
             None
         }
@@ -136,7 +136,7 @@ impl AxisSides {
                 && stop.is_turn
                 && (progress - stop.s).abs() < (TURNING_R * radius).max(way)
         };
-        if is_turning(&self.before) || is_turning(&self.behind) {
+        if is_turning(&self.before) || is_turning(&self.after) {
             0.0
         } else {
             self.way

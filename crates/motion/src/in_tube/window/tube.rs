@@ -169,11 +169,11 @@ impl Extents {
             0.0
         };
         let back = if i > 0 {
-            let behind = (0..i).rev().map(|j| path.segments[j].start);
+            let earlier = (0..i).rev().map(|j| path.segments[j].start);
             extent(
                 &segment.start,
                 &segment.tangent.map(|t| -t),
-                behind,
+                earlier,
                 stray,
                 cap,
             )

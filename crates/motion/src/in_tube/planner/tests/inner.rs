@@ -103,7 +103,7 @@ fn a_plunge_a_pocket_and_a_retract_are_inside() {
     }
 }
 
-/// Whatever corners are before and behind, on a line that no axis is along.
+/// Whatever corners are before and after, on a line that no axis is along.
 #[test]
 fn sides_are_straight_however_short() {
     for (corners, turn) in [(3, 120.0), (4, 90.0), (6, 60.0)] {
