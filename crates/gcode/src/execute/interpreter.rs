@@ -3,8 +3,8 @@
 use glidepath_program::{Item, ItemKind};
 
 use crate::execute::motion::speed::Pace;
-use crate::execute::state::course::Course;
 use crate::execute::state::open_spline::SplineLog;
+use crate::execute::state::plain_run::PlainRun;
 use crate::execute::state::program_state::State;
 use crate::execute::state::soft_limits::SoftLimits;
 use crate::setup::options::Options;
@@ -45,7 +45,7 @@ pub(crate) struct Interpreter {
     pub(crate) judged_time_s: f64,
     /// What the straight move of a plain line made last was made with; it holds as long as nothing
     /// else is executed, be it refused or not.
-    pub(crate) course: Course,
+    pub(crate) plain_run: PlainRun,
     /// Items of the block whose moves are those of the axes already: a place in what the block gives out.
     pub(crate) mapped_items: usize,
     /// Line of the block being executed: that of a diagnostic, too.
@@ -66,7 +66,7 @@ impl Interpreter {
             only_judges: false,
             has_judged: false,
             judged_time_s: 0.0,
-            course: Course::new(),
+            plain_run: PlainRun::new(),
             mapped_items: 0,
             line: 0,
         }

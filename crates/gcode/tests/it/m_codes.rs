@@ -75,7 +75,7 @@ fn the_words_of_a_code_come_in_front_of_it() {
 }
 
 /// What a program comes to, in short.
-fn course(text: &str, options: Options) -> Vec<String> {
+fn kinds_of(text: &str, options: Options) -> Vec<String> {
     let items = Program::new(text.as_bytes(), options);
     let kinds = items.map(|item| item.expect("a sound program").kind);
     kinds
@@ -104,7 +104,7 @@ fn codes_are_awaited_in_front_of_the_next_feed_or_at_the_end_of_their_block() {
         ..Options::default()
     };
     let expect = |text: &str, expected: &[&str]| {
-        assert_eq!(course(text, options.clone()), expected, "{text}");
+        assert_eq!(kinds_of(text, options.clone()), expected, "{text}");
     };
     expect(
         "M3\nG0 X5\nM100\nX6\nG4 P1\nG1 X7\nX8\nM5\nM2\n",

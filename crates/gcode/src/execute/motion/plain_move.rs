@@ -12,7 +12,7 @@
 //! ```text
 //!   G91             any line
 //!   G90 F1000       any line
-//!   G1 X1 Y2        begins a course: units, offsets and modes are looked at
+//!   G1 X1 Y2        begins a run: units, offsets and modes are looked at
 //!   X1.5            goes on with it
 //!   G0 Z5
 //!   M3              ends it, whatever it does
@@ -25,8 +25,8 @@ use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::axis_words::axis_value;
 use crate::execute::motion::settled::MIN_MOVE;
 use crate::execute::motion::speed::Pace;
-use crate::execute::state::course::Course;
 use crate::execute::state::modal::Feed;
+use crate::execute::state::plain_run::PlainRun;
 use crate::execute::state::sticky_words::CycleSeries;
 use crate::syntax::dialect::Dialect;
 use crate::syntax::letters::{AXIS_WORDS, WordValues};
@@ -52,7 +52,7 @@ impl Interpreter {
             && words.has_any(AXIS_WORDS)
             && words.beside(WORDS).is_empty()
             && !words.has_any(self.lacking);
-        is_move && (goes_on || self.begin_course()) && self.go_straight(code, motion, words, out)
+        is_move && (goes_on || self.begin_run()) && self.go_straight(code, motion, words, out)
     }
 
     #[inline]
@@ -63,11 +63,11 @@ impl Interpreter {
         words: &WordValues,
         out: &mut Vec<Item>,
     ) -> bool {
-        let (state, course) = (&mut self.state, &self.course);
+        let (state, run) = (&mut self.state, &self.plain_run);
         let feed = match words.get(b'F') {
             None => state.modal.feed,
             Some(feed) if feed > 0.0 => Some(Feed {
-                linear_v: feed * course.scale / 60.0,
+                linear_v: feed * run.scale / 60.0,
                 rotary_v: feed / 60.0,
             }),
             Some(_) => return false,
@@ -80,7 +80,7 @@ impl Interpreter {
         let mut way = 0.0_f64;
         for (axis, word) in words.axes() {
             let i = axis.index();
-            target[i] = axis_value(axis, word, course.scale) + course.origin[i];
+            target[i] = axis_value(axis, word, run.scale) + run.origin[i];
             // As `settled` has it: where an axis only rounds, it stays.
             let distance = (target[i] - start[i]).abs();
             if distance > MIN_MOVE {
@@ -138,7 +138,7 @@ impl Interpreter {
 
     /// Looks at what plain lines do not change; false if it makes more of a straight move than its
     /// words say, or if an axis is not where it may be.
-    fn begin_course(&mut self) -> bool {
+    fn begin_run(&mut self) -> bool {
         let (state, modal) = (&self.state, &self.state.modal);
         let is_plain = modal.distance == Distance::Absolute
             && modal.feed_mode == FeedMode::PerMinute
@@ -174,7 +174,7 @@ impl Interpreter {
         if !is_plain || !(0..AXES).all(is_settled) {
             return false;
         }
-        self.course = Course {
+        self.plain_run = PlainRun {
             scale: modal.units.mm(),
             origin: AxisVector::from_fn(|i, _| self.state.offsets.origin(i)),
         };

@@ -2,7 +2,6 @@
 
 pub(crate) mod contour_plane;
 pub(crate) mod coolant;
-pub(crate) mod course;
 pub(crate) mod extruder;
 pub(crate) mod fanuc_modal;
 pub(crate) mod fanuc_offsets;
@@ -18,6 +17,7 @@ pub(crate) mod open_plane;
 pub(crate) mod open_spline;
 pub(crate) mod open_tap;
 pub(crate) mod open_thread;
+pub(crate) mod plain_run;
 pub(crate) mod pole;
 pub(crate) mod printer;
 pub(crate) mod probe_result;

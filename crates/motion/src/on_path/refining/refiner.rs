@@ -1,13 +1,13 @@
 //! The refiner: it takes settled motion and gives it on, with time parametrisations on what is
 //! curved.
 //!
-//! Motion is taken in courses. A course on which S-curves are good enough stays with them; any other
-//! is driven by a parametrisation, which starts from the S-curves slowed down. Where one course
+//! Motion is taken in windows. A window on which S-curves are good enough stays with them; any other
+//! is driven by a parametrisation, which starts from the S-curves slowed down. Where one window
 //! meets the next the motion has no acceleration.
 //!
 //! A parametrisation can begin and end at the speed of the S-curves where these cruise: there is
 //! room to slow the start down and to speed it up. So it takes over from S-curves, and they from it.
-//! The last motion of a course that stays with S-curves is held back for that: mostly it is a line
+//! The last motion of a window that stays with S-curves is held back for that: mostly it is a line
 //! that leads up to the curve.
 //! Elsewhere it passes on slowed down to another parametrisation.
 
@@ -22,21 +22,21 @@ use std::collections::VecDeque;
 
 /// Motion that is optimised together, s, as the S-curves drive it, and its most pieces: little
 /// enough for the work to be done while what was published before is executed.
-const COURSE_T: f64 = 2.0;
-const COURSE_OF_NURBS_T: f64 = 12.0;
+const WINDOW_T: f64 = 2.0;
+const WINDOW_OF_NURBS_T: f64 = 12.0;
 const MOST_PIECES: usize = 4096;
 /// Blocks that wait at most where S-curves are good enough: there may be any number of them in a second.
 const MOST_BLOCKS: usize = 4096;
-/// A course ends where the S-curves are slowest, after this share of it: there little is lost.
+/// A window ends where the S-curves are slowest, after this share of it: there little is lost.
 const SHORTEST_R: f64 = 0.4;
-/// How much slower than the S-curves a time parametrisation starts, and passes from one course to
+/// How much slower than the S-curves a time parametrisation starts, and passes from one window to
 /// the next. A start needs room in every limit ([`crate::on_path::topp`]): this leaves .15 of the speed, .28
 /// of acceleration, .39 of jerk. No measurement of it is kept.
 pub(crate) const RATE_R: f64 = 0.85;
-/// Where no parametrisation is found, the course is parted in this share of it, so often at most.
+/// Where no parametrisation is found, the window is parted in this share of it, so often at most.
 const MIDDLE_R: [f64; 2] = [0.2, 0.8];
 const HALVINGS: u32 = 6;
-/// The last motion of a course that stays with S-curves is held back if it takes no longer, s: a
+/// The last motion of a window that stays with S-curves is held back if it takes no longer, s: a
 /// parametrisation of what follows can take over on it.
 const HELD_T: f64 = 4.0;
 /// Where S-curves cruise so long, s, a time parametrisation can take over from them at their speed. No
@@ -150,15 +150,15 @@ impl Refiner {
                 self.blocks += blocks_on(&pieces);
                 let is_due = self.blocks / MOST_BLOCKS > looks;
                 self.waiting.push(pieces, &legs);
-                let course_t = if self.is_wanted {
-                    COURSE_OF_NURBS_T
+                let window_t = if self.is_wanted {
+                    WINDOW_OF_NURBS_T
                 } else {
-                    COURSE_T
+                    WINDOW_T
                 };
                 let duration_t = self.waiting.duration_t - self.held.1;
                 let pieces = self.waiting.pieces.len();
-                if duration_t >= course_t || pieces >= MOST_PIECES || (is_due && self.is_good()) {
-                    self.put_course(out);
+                if duration_t >= window_t || pieces >= MOST_PIECES || (is_due && self.is_good()) {
+                    self.put_window(out);
                 }
             }
             Settled::Motion { .. } | Settled::Parametrised { .. } => out.push_back(settled),
@@ -173,7 +173,7 @@ impl Refiner {
 
     /// Gives on what waits up to the slowest end in its later part; all but the last motion if the
     /// S-curves are good enough.
-    fn put_course(&mut self, out: &mut VecDeque<Settled>) {
+    fn put_window(&mut self, out: &mut VecDeque<Settled>) {
         if self.is_good() {
             let last = if self.blocks >= MOST_BLOCKS {
                 MotionChain::default()

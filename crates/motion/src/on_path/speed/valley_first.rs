@@ -31,7 +31,7 @@ pub(crate) enum Limiting {
     Fixed(PathLimits),
 }
 
-/// Finds the speed along a course.
+/// Finds the speed along a run.
 pub(crate) struct ValleyFirst<'a> {
     pub sequence: &'a PieceSequence<'a>,
     /// The top speed on each piece.
@@ -39,7 +39,7 @@ pub(crate) struct ValleyFirst<'a> {
     pub limiting: Limiting,
 }
 
-/// A part of the course, to be driven from one speed to another.
+/// A part of the run, to be driven from one speed to another.
 #[derive(Clone, Copy)]
 pub(crate) struct Section {
     pub from_s: f64,

@@ -17,7 +17,7 @@
 //! its tangent at the present b. What is left has no negative eigenvalue, so each step goes downhill, and
 //! the search along it is by what the limits really are. What is found is a local optimum.
 //!
-//! An iterate never leaves the limits, unlike one of the window's primal-dual method: whatever is at hand
+//! An iterate never leaves the limits, unlike one of the primal-dual method in the tube: whatever is at hand
 //! when steps no longer gain is a motion that keeps them at its places.
 
 use super::constraints::{ConstraintPoint, Part, Problem, Row};

@@ -47,7 +47,7 @@ pub(crate) struct KnotPath {
 }
 
 impl KnotPath {
-    /// Knots along a course that S-curves drive.
+    /// Knots along a window that S-curves drive.
     pub(crate) fn new(
         sequence: &PieceSequence<'_>,
         legs: &[Leg],

@@ -30,13 +30,13 @@
 //!
 //! **The unknowns** are one coefficient of b for each interval between knots, the middle Bézier point of its
 //! parabola, and one more at either end. Of these the first two and the last two are given: they are speed
-//! and acceleration there. A course of n intervals has n − 2 unknowns, and the least time is sought over
+//! and acceleration there. A window of n intervals has n − 2 unknowns, and the least time is sought over
 //! them alone: the path is not.
 //!
 //! **What if none is found.** The initial iterate has to keep the constraints with room to spare. If it does not, the
 //! next slower one is tried, from rest to rest down to .4 of the S-curves' speed, elsewhere only .85. If no
 //! rate will do, or what comes out still demands too much between knots after eight times, there is no
-//! parametrisation. The course is then parted, left later, or driven by S-curves
+//! parametrisation. The window is then parted, left later, or driven by S-curves
 //! ([`crate::on_path::refining`]): time is lost, no limit is.
 //!
 //! Where a parametrisation takes the place of S-curves, [`crate::on_path::refining`] decides.

@@ -17,7 +17,7 @@ pub(crate) struct SolverTolerances {
     pub(crate) gap_r: f64,
     /// The square of a step for each knot, in the measure of the barrier, that counts as small: half of it a knot
     /// is still to be gained of the weighted time, beside the three a knot that the last weight leaves. With 0 the
-    /// step of the whole course has to be small ([`super::barrier`]). With 0 for dense blocks as well one of 50
+    /// step of the whole window has to be small ([`super::barrier`]). With 0 for dense blocks as well one of 50
     /// programs was .5 % faster (a period), and the others took the same time.
     pub(crate) small_r: f64,
     /// How much more firmly limits are lessened each time that they were exceeded between knots.

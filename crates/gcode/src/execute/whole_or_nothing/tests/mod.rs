@@ -101,7 +101,7 @@ fn all_of(program: &Program<&[u8]>) -> String {
         only_judges: _,
         has_judged: _,
         judged_time_s: _,
-        course: _,
+        plain_run: _,
         mapped_items: _,
         line: _,
     } = interpreter;
