@@ -105,35 +105,6 @@ impl Arc {
     /// Smallest and largest coordinate of the arc on every axis, bulges included.
     #[must_use]
     pub fn bounding_box(&self) -> (AxisVector, AxisVector) {
-        let mut low = self.start.inf(&self.end);
-        let mut high = self.start.sup(&self.end);
-        let (first, second) = self.plane.axes();
-        let quarter = core::f64::consts::FRAC_PI_2;
-        let from = self.start_angle_rad();
-        let to = from + self.sweep_rad;
-        let (a, b) = if from < to { (from, to) } else { (to, from) };
-        let drift = (self.end_radius() - self.start_radius()) / self.sweep_rad;
-        let (k_first, k_last) = ((a / quarter).floor(), (b / quarter).ceil());
-        // With a radius that only grows or only shrinks, the first or the last turn bulges most.
-        let turn = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0];
-        for k in turn
-            .map(|i| k_first + i)
-            .into_iter()
-            .chain(turn.map(|i| k_last - i))
-        {
-            // r cos(φ − k·90°) is extreme where tan(φ − k·90°) = r′/r.
-            let radius = self.start_radius() + drift * (k * quarter - from);
-            let angle = k * quarter + drift.atan2(radius);
-            if angle > a && angle < b {
-                let point = self
-                    .jet(self.length() * (angle - from) / self.sweep_rad)
-                    .position;
-                for axis in [first.index(), second.index()] {
-                    low[axis] = low[axis].min(point[axis]);
-                    high[axis] = high[axis].max(point[axis]);
-                }
-            }
-        }
-        (low, high)
+        self.prepared().bounding_box()
     }
 }

@@ -1,7 +1,12 @@
 //! Segments made ready to be evaluated many times: what does not depend on path position is
 //! computed once. The values are those of [`Segment::jet`], bit for bit.
 
+use core::f64::consts::FRAC_PI_2;
+
 use crate::{Arc, AxisVector, Jet, Line, Segment, feed_length};
+
+/// The quarters of a turn that begins anywhere, counted.
+const QUARTERS: [f64; 6] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0];
 
 /// A segment made ready for many evaluations.
 #[derive(Debug, Clone)]
@@ -173,6 +178,45 @@ impl PreparedArc {
     #[must_use]
     pub fn position(&self, s: f64) -> AxisVector {
         self.place(s).0
+    }
+
+    /// Smallest and largest coordinate of the arc on every axis, as [`Arc::bounding_box`].
+    #[must_use]
+    pub fn bounding_box(&self) -> (AxisVector, AxisVector) {
+        let arc = &self.arc;
+        let (mut low, mut high) = (arc.start.inf(&arc.end), arc.start.sup(&arc.end));
+        let (first, second) = arc.plane.axes();
+        let from = self.start_angle_rad;
+        let to = from + arc.sweep_rad;
+        let (a, b) = if from < to { (from, to) } else { (to, from) };
+        let [radius_0, radius_1] = self.radii;
+        let drift = (radius_1 - radius_0) / arc.sweep_rad;
+        let (k_first, k_last) = ((a / FRAC_PI_2).floor(), (b / FRAC_PI_2).ceil());
+        // With a radius that only grows or only shrinks, the first or the last turn bulges most.
+        let first_turn = QUARTERS.map(|i| k_first + i);
+        let last_turn = QUARTERS.map(|i| k_last - i);
+        let others = last_turn
+            .into_iter()
+            .filter(|k| *k < k_first || *k > first_turn[5]);
+        for k in first_turn.into_iter().chain(others) {
+            let middle = k * FRAC_PI_2;
+            let radius = radius_0 + drift * (middle - from);
+            // The extreme is within a quarter of there.
+            let is_beside = middle + FRAC_PI_2 <= a || middle - FRAC_PI_2 >= b;
+            if is_beside && radius > 0.0 {
+                continue;
+            }
+            // r cos(φ − k·90°) is extreme where tan(φ − k·90°) = r′/r.
+            let angle = middle + drift.atan2(radius);
+            if angle > a && angle < b {
+                let (point, ..) = self.place(self.length * (angle - from) / arc.sweep_rad);
+                for axis in [first.index(), second.index()] {
+                    low[axis] = low[axis].min(point[axis]);
+                    high[axis] = high[axis].max(point[axis]);
+                }
+            }
+        }
+        (low, high)
     }
 
     /// The position at path position `s`; the radius, and sine and cosine of the direction there.
