@@ -4,6 +4,10 @@ use glidepath_geometry::{AxisVector, Segment};
 use glidepath_program::{Item, ItemKind};
 
 use crate::execute::interpreter::Interpreter;
+use crate::execute::motion::tip_map::TipMap;
+use crate::execute::state::offsets::Offsets;
+use crate::execute::state::shared::Shared;
+use crate::summary::extent::enclose;
 
 /// Pieces of a curve whose ends are looked at where the axes of the program are not those of the machine.
 const PIECES: u32 = 512;
@@ -21,15 +25,25 @@ pub struct PartBox {
 }
 
 /// The boxes of the coordinate systems in which a program has cut, in the order of their first use.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct PartBoxes {
     boxes: Vec<PartBox>,
-    /// Which of them grew last: index of the system, and of an extended one.
-    last: Option<((usize, Option<u32>), usize)>,
+    /// The moves that came last, as long as nothing changes.
+    run: Option<Run>,
+}
+
+/// Moves one after the other with the same offsets, where the axes of the program are those of the machine.
+#[derive(Debug, Clone)]
+struct Run {
+    offsets: Shared<Offsets>,
+    /// Where they go, machine coordinates.
+    low: AxisVector,
+    high: AxisVector,
 }
 
 impl PartBoxes {
     /// Adds an item, with what is in force for it.
+    #[inline]
     pub(crate) fn add(&mut self, interpreter: &Interpreter, item: &Item) {
         let ItemKind::Move { segment, rate, .. } = &item.kind else {
             return;
@@ -39,62 +53,59 @@ impl PartBoxes {
         }
         let offsets = &interpreter.state.offsets;
         let map = interpreter.tip_map();
+        match &mut self.run {
+            Some(run) if map.is_none() && run.offsets.is_same(offsets) => {
+                enclose(segment, &mut run.low, &mut run.high);
+            }
+            _ => self.add_other(offsets, map.as_ref(), segment),
+        }
+    }
+
+    /// Adds a move with other offsets than the one before, or one of turned axes.
+    fn add_other(&mut self, offsets: &Shared<Offsets>, map: Option<&TipMap>, segment: &Segment) {
+        self.end_run();
+        if map.is_none() && !offsets.is_turned() {
+            let (low, high) = segment.bounding_box();
+            let offsets = offsets.clone();
+            self.run = Some(Run { offsets, low, high });
+            return;
+        }
         let place = |axes: &AxisVector| {
             let place = map.map_or(*axes, |map| map.place(axes));
             offsets.to_program(place)
         };
-        let (mut low, mut high);
-        if let Segment::Line(line) = segment {
-            let (from, to) = (place(&line.start), place(&line.end));
-            (low, high) = (from.inf(&to), from.sup(&to));
-        } else if map.is_none() && !offsets.is_turned() {
-            let (least, most) = segment.bounding_box();
-            (low, high) = (place(&least), place(&most));
-        } else {
-            let length = segment.length();
-            (low, high) = (place(&segment.start()), place(&segment.start()));
-            for piece in 1..=PIECES {
-                let s = length * f64::from(piece) / f64::from(PIECES);
-                let at = place(&segment.jet(s).position);
-                (low, high) = (low.inf(&at), high.sup(&at));
-            }
+        let pieces = match segment {
+            Segment::Line(_) => 1,
+            Segment::Arc(_) | Segment::Curve(_) => PIECES,
+        };
+        let (start, end) = (place(&segment.start()), place(&segment.end()));
+        let (mut low, mut high) = (start.inf(&end), start.sup(&end));
+        let (length, segment) = (segment.length(), segment.prepared());
+        for piece in 1..pieces {
+            let s = length * f64::from(piece) / f64::from(pieces);
+            let at = place(&segment.position(s));
+            (low, high) = (low.inf(&at), high.sup(&at));
         }
-        self.grow(
-            offsets.system_in_use(),
-            || offsets.system_name(),
-            (low, high),
-        );
+        self.grow(offsets, low, high);
     }
 
-    fn grow(
-        &mut self,
-        system: (usize, Option<u32>),
-        name: impl FnOnce() -> String,
-        (low, high): (AxisVector, AxisVector),
-    ) {
-        let known = self.last.filter(|(last, _)| *last == system);
-        let at = known.map_or_else(
-            || {
-                let name = name();
-                let of_name = self.boxes.iter().position(|known| known.system == name);
-                of_name.unwrap_or_else(|| {
-                    self.boxes.push(PartBox {
-                        system: name,
-                        low,
-                        high,
-                    });
-                    self.boxes.len() - 1
-                })
-            },
-            |(_, at)| at,
-        );
-        self.last = Some((system, at));
-        if let Some(grown) = self.boxes.get_mut(at) {
-            (grown.low, grown.high) = (grown.low.inf(&low), grown.high.sup(&high));
+    /// Takes the run into the box of its coordinate system.
+    fn end_run(&mut self) {
+        if let Some(Run { offsets, low, high }) = self.run.take() {
+            self.grow(&offsets, offsets.to_program(low), offsets.to_program(high));
         }
     }
 
-    pub(crate) fn into_boxes(self) -> Vec<PartBox> {
+    fn grow(&mut self, offsets: &Offsets, low: AxisVector, high: AxisVector) {
+        let system = offsets.system_name();
+        match self.boxes.iter_mut().find(|known| known.system == system) {
+            Some(grown) => (grown.low, grown.high) = (grown.low.inf(&low), grown.high.sup(&high)),
+            None => self.boxes.push(PartBox { system, low, high }),
+        }
+    }
+
+    pub(crate) fn into_boxes(mut self) -> Vec<PartBox> {
+        self.end_run();
         self.boxes
     }
 }

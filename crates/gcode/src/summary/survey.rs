@@ -39,12 +39,13 @@ impl Survey {
                     self.last = None;
                     return;
                 };
-                let seconds = segment.length() / feed_v;
+                let length = segment.length();
+                let seconds = length / feed_v;
                 match segment {
                     Segment::Arc(_) | Segment::Curve(_) => self.arc_time_s += seconds,
                     _ => self.straight_time_s += seconds,
                 }
-                self.corner(item.line, segment);
+                self.corner(item.line, segment, length);
             }
             ItemKind::Event(event) if !event.is_at_rest() => {}
             // After a rest, as after a rapid move, the next corner is none.
@@ -52,21 +53,18 @@ impl Survey {
         }
     }
 
-    fn corner(&mut self, line: u32, segment: &Segment) {
-        let direction = |s: f64| {
-            let mut d = match segment {
-                // The first derivative of its jet, without the other ones.
-                Segment::Line(line) => line.displacement() / segment.length(),
-                _ => segment.jet(s).d1,
-            };
-            // Only the linear axes count: it is a corner of the tool's path.
-            for axis in 3..6 {
-                d[axis] = 0.0;
+    fn corner(&mut self, line: u32, segment: &Segment, length: f64) {
+        let (start, end) = match segment {
+            Segment::Line(line) => {
+                let direction = direction(line.displacement() / length);
+                (direction, direction)
             }
-            let length = feed_length(&d);
-            (length > 0.0).then(|| d / length)
+            _ => {
+                let segment = segment.prepared();
+                let [start, end] = [0.0, length].map(|s| direction(segment.jet(s).d1));
+                (start, end)
+            }
         };
-        let start = direction(0.0);
         if let (Some(last), Some(start)) = (self.last, start) {
             let cosine = last.dot(&start).clamp(-1.0, 1.0);
             // Hardly any is the sharpest so far, and an angle costs more than all the rest.
@@ -88,9 +86,16 @@ impl Survey {
                 });
             }
         }
-        self.last = match segment {
-            Segment::Line(_) => start,
-            _ => direction(segment.length()),
-        };
+        self.last = end;
     }
+}
+
+/// The direction of the tool's path, in which linear axes alone count.
+#[inline]
+fn direction(mut d1: AxisVector) -> Option<AxisVector> {
+    for axis in 3..6 {
+        d1[axis] = 0.0;
+    }
+    let length = feed_length(&d1);
+    (length > 0.0).then(|| d1 / length)
 }

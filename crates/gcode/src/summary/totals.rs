@@ -1,7 +1,9 @@
 //! The totals of a program: counts and sums over its items.
 
-use glidepath_geometry::{AXES, AxisVector, LINEAR_XYZ, Line, Segment, UVW};
+use glidepath_geometry::{AxisVector, LINEAR_XYZ, Line, Segment, UVW};
 use glidepath_program::{Item, ItemKind, Rate};
+
+use crate::summary::extent::enclose;
 
 /// Counts and sums over everything read so far.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -57,20 +59,9 @@ impl Totals {
 
     /// Takes a segment into the bounding box.
     fn enclose(&mut self, segment: &Segment) {
-        let (Segment::Line(line), Some((low, high))) = (segment, &mut self.bounding_box) else {
-            let (low, high) = segment.bounding_box();
-            self.bounding_box = Some(match &self.bounding_box {
-                Some((least, most)) => (least.inf(&low), most.sup(&high)),
-                None => (low, high),
-            });
-            return;
-        };
-        // In place, and without a branch.
-        for end in [&line.start, &line.end] {
-            for i in 0..AXES {
-                low[i] = if end[i] < low[i] { end[i] } else { low[i] };
-                high[i] = if end[i] > high[i] { end[i] } else { high[i] };
-            }
+        match &mut self.bounding_box {
+            Some((low, high)) => enclose(segment, low, high),
+            None => self.bounding_box = Some(segment.bounding_box()),
         }
     }
 

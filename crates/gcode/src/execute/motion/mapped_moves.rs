@@ -27,13 +27,17 @@ type Chord = (AxisVector, f64);
 
 impl Interpreter {
     /// The map in force; `None` where places of the program are the axes.
+    #[inline]
     pub(crate) fn tip_map(&self) -> Option<TipMap> {
-        let machine = self.options.five_axis;
-        match (machine, self.state.contour_plane) {
-            (Some(machine), Some(plane)) => {
-                Some(TipMap::of_plane(machine, self.state.tip, plane.map))
-            }
-            _ => TipMap::new(machine, self.state.tip),
+        self.options
+            .five_axis
+            .and_then(|machine| self.tip_map_of(machine))
+    }
+
+    fn tip_map_of(&self, machine: FiveAxis) -> Option<TipMap> {
+        match self.state.contour_plane {
+            Some(plane) => Some(TipMap::of_plane(machine, self.state.tip, plane.map)),
+            None => TipMap::new(Some(machine), self.state.tip),
         }
     }
 

@@ -104,11 +104,6 @@ impl Offsets {
         }]
     }
 
-    /// Which coordinate system is in force: its index, and the number of an extended one.
-    pub(crate) const fn system_in_use(&self) -> (usize, Option<u32>) {
-        (self.active, self.fanuc.active)
-    }
-
     /// The name of the coordinate system in force, as a program calls it.
     pub(crate) fn system_name(&self) -> String {
         match self.fanuc.active.filter(|_| self.fanuc.system().is_some()) {
