@@ -220,9 +220,15 @@ impl Block {
         }
     }
 
-    /// True if the block is of a plain line: words with values, and of codes a motion at most.
+    /// True if the block has words with values, and of codes a motion at most: a comment beside them does nothing
+    /// to the motion.
     pub(crate) const fn is_plain(&self) -> bool {
         self.is_plain
+            || matches!(self.dialect, Dialect::LinuxCnc)
+                && !self.says_modes
+                && self.polar[0].is_none()
+                && self.polar[1].is_none()
+                && self.assignments.is_empty()
     }
 
     /// A block for lines of a FANUC control that reads coordinates so.
