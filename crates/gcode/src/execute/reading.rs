@@ -81,6 +81,8 @@ impl<R: BufRead> Program<R> {
             || self.tape.get(self.tape.next).is_some()
     }
 
+    // Once a line: the call alone saved and restored what a sixteenth of a plain line takes.
+    #[inline(always)]
     fn read_line(&mut self, goes_on: bool) -> Outcome<bool> {
         match self.interpreter.options.dialect {
             Dialect::LinuxCnc => self.read_linuxcnc(goes_on),

@@ -12,6 +12,8 @@
 //!                                  (12 · 10⁴ + 3456) / 10⁴
 //! ```
 
+use core::num::NonZeroU64;
+
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::letters::Slot;
 use crate::syntax::modes::Motion;
@@ -148,18 +150,13 @@ fn short(text: &[u8], start: usize) -> Option<(f64, usize, usize)> {
     let word = eight(text, start) ^ ZEROS;
     let odd = odd(word);
     // Places in bits: of the first byte that is no digit, and of the second.
-    let first = odd.trailing_zeros() & !7;
-    let second = (odd & odd.wrapping_sub(1)).trailing_zeros() & !7;
-    if first == 64 {
-        return None;
-    }
+    let place = |odd| NonZeroU64::new(odd).map(|odd| odd.trailing_zeros() & !7);
     let bytes = |bits: u32| (bits / 8) as usize;
+    let first = place(odd)?;
     if word >> first & 0xff != POINT {
         return Some((value(word, first)?.into(), 0, start + bytes(first)));
     }
-    if second == 64 {
-        return None;
-    }
+    let second = place(odd & (odd - 1))?;
     // What is behind the point moves up to it.
     let whole = (1 << first) - 1;
     let joined = (word & whole) | (word >> 8 & !whole);

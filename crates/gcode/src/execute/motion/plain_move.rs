@@ -75,14 +75,13 @@ impl Interpreter {
         if motion != Motion::Rapid && feed.is_none() {
             return false;
         }
-        let start = state.path_end;
-        let (mut target, mut end, mut is_zero) = (state.position, start, true);
+        let (mut target, mut end, mut is_zero) = (state.position, state.path_end, true);
         let mut way = 0.0_f64;
         for (axis, word) in words.axes() {
             let i = axis.index();
             target[i] = axis_value(axis, word, run.scale) + run.origin[i];
-            // As `settled` has it: where an axis only rounds, it stays.
-            let distance = (target[i] - start[i]).abs();
+            // As `settled` has it: where an axis only rounds, it stays. Each axis comes once.
+            let distance = (target[i] - end[i]).abs();
             if distance > MIN_MOVE {
                 if self.soft_limits.is_beyond(i, target[i]) {
                     return false;
@@ -99,7 +98,6 @@ impl Interpreter {
         }
         state.cubic_tail = None;
         state.position = target;
-        state.path_end = end;
         if is_zero {
             self.count_zero_length(match motion {
                 Motion::Rapid => Pace::Rapid,
@@ -112,17 +110,21 @@ impl Interpreter {
             }
         } else {
             let rate = match feed {
-                Some(feed) if motion != Motion::Rapid => Rate::Feed(feed.of_line(&start, &end)),
+                Some(feed) if motion != Motion::Rapid => {
+                    Rate::Feed(feed.of_line(&state.path_end, &end))
+                }
                 _ => Rate::Rapid,
             };
-            self.give_out(&start, &end, rate, out);
+            self.give_out(&end, rate, out);
         }
+        self.state.path_end = end;
         true
     }
 
+    /// Gives out the move from where the last one ended.
     #[inline]
-    fn give_out(&self, start: &AxisVector, end: &AxisVector, rate: Rate, out: &mut Vec<Item>) {
-        let (start, end) = (*start, *end);
+    fn give_out(&self, end: &AxisVector, rate: Rate, out: &mut Vec<Item>) {
+        let (start, end) = (self.state.path_end, *end);
         let item = Item {
             block: 0,
             line: self.line,
