@@ -1,5 +1,6 @@
 //! Tests of plain lines, which are read and executed in a way of their own: with the same outcome
-//! as any other line. An empty comment makes a line one that is not plain.
+//! as any other line. An empty comment makes a line one that is read as any other, and an assignment
+//! that nothing reads one that is executed so, too.
 
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
@@ -29,8 +30,8 @@ fn options() -> Options {
     }
 }
 
-/// The same program without a plain line.
-fn commented(text: &str) -> String {
+/// The same program with something behind every line of letters and numbers of which this is said.
+fn with_behind(text: &str, behind: &str, is_wanted: fn(&str) -> bool) -> String {
     let is_plain = |line: &str| {
         line.bytes()
             .all(|b| b.is_ascii_alphanumeric() || b" \t.+-".contains(&b))
@@ -38,10 +39,28 @@ fn commented(text: &str) -> String {
     text.split_inclusive('\n')
         .map(|line| {
             let body = line.trim_end_matches(['\r', '\n']);
-            let comment = if is_plain(body) { "()" } else { "" };
-            format!("{body}{comment}{}", &line[body.len()..])
+            let is_changed = is_plain(body) && is_wanted(body);
+            let behind = if is_changed { behind } else { "" };
+            format!("{body}{behind}{}", &line[body.len()..])
         })
         .collect()
+}
+
+/// The same program without a line that is read as a plain one.
+fn commented(text: &str) -> String {
+    with_behind(text, "()", |_| true)
+}
+
+/// The same program without a line that is executed as a plain one.
+fn assigning(text: &str) -> String {
+    with_behind(text, "#31=0", |line| {
+        let is_word = |b: u8| b.is_ascii_alphabetic() && b != b'N';
+        // Behind a letter alone it would be the letter's value, and a line with an O word takes none.
+        line.trim_end()
+            .ends_with(|c: char| c.is_ascii_digit() || c == '.')
+            && line.bytes().any(|b| is_word(b.to_ascii_uppercase()))
+            && !line.contains(['O', 'o'])
+    })
 }
 
 /// A diagnostic without the text it is in: line, column, length, what it says.
@@ -75,27 +94,37 @@ fn items(text: &[u8]) -> (Vec<Item>, Option<Place>) {
 
 /// Compares a program with the same one without a plain line.
 fn compare(text: &str) {
-    let other = commented(text);
-    // Bit for bit, as far as the shortest text that reads back tells.
-    assert_eq!(
-        format!("{:?}", items(text.as_bytes())),
-        format!("{:?}", items(other.as_bytes()))
-    );
-    let [plain, general] = [text, &other].map(|text| check(text.as_bytes(), options()));
-    let places = |found: &[Diagnostic]| found.iter().map(place).collect::<Vec<_>>();
-    assert_eq!(places(&plain.diagnostics), places(&general.diagnostics));
-    let rest = |report: &Report| {
-        format!(
-            "{} {:?} {:?} {:?} {:?}",
-            report.more, report.given_up_at, report.totals, report.survey, report.final_position
-        )
-    };
-    assert_eq!(rest(&plain), rest(&general));
+    compare_with(text, &commented(text));
+    compare_with(text, &assigning(text));
+    let plain = check(text.as_bytes(), options());
     let found = diagnostics(text.as_bytes(), options());
     assert_eq!(
         (found.diagnostics, found.more),
         (plain.diagnostics, plain.more)
     );
+}
+
+fn compare_with(text: &str, other: &str) {
+    // Bit for bit, as far as the shortest text that reads back tells.
+    assert_eq!(
+        format!("{:?}", items(text.as_bytes())),
+        format!("{:?}", items(other.as_bytes()))
+    );
+    let [plain, general] = [text, other].map(|text| check(text.as_bytes(), options()));
+    let places = |found: &[Diagnostic]| found.iter().map(place).collect::<Vec<_>>();
+    assert_eq!(places(&plain.diagnostics), places(&general.diagnostics));
+    let rest = |report: &Report| {
+        format!(
+            "{} {:?} {:?} {:?} {:?} {:?}",
+            report.more,
+            report.given_up_at,
+            report.totals,
+            report.part,
+            report.survey,
+            report.final_position
+        )
+    };
+    assert_eq!(rest(&plain), rest(&general));
 }
 
 /// Plain lines, and now and then one that changes what they mean.
