@@ -131,6 +131,10 @@ fn a_subprogram_behind_every_move() {
         xs_with(text, &[file]),
         [0.0, 1.0, 1.0, 1.0, 2.0, 2.0, 2.0, 3.0]
     );
+    let empty = "MCALL DOT()\nG0 X1\nMCALL\nG0 X0";
+    assert_eq!(xs_with(empty, &[file]), [1.0, 1.0, 1.0, 0.0]);
+    // Said where it is written, and once.
+    found("MCALL DOT(5)\nG0 X1\nX2", &[file], &["1:7 expression"]);
     let row = "MCALL DOT\nHOLES1(10,0,0,5,20,2)\nMCALL\nG0 X0";
     assert_eq!(
         xs_with(row, &[file]),

@@ -184,20 +184,15 @@ impl<R: BufRead> Program<R> {
         self.siemens_make_typed()
     }
 
-    /// Of a line that was typed the cycle is made at once, since it has its whole effect or none. In a program its
-    /// lines come one after the other: there may be very many.
-    fn siemens_make_typed(&mut self) -> Outcome<()> {
+    /// Of a line that was typed the steps are made at once, since it has its whole effect or none. In a program they
+    /// come one after the other: there may be very many.
+    pub(super) fn siemens_make_typed(&mut self) -> Outcome<()> {
         let mut items = core::mem::take(&mut self.items);
         while self.is_typed
             && let Some(step) = self.siemens.steps.pop_front()
         {
-            let is_last = matches!(step, Step::Restore(_));
-            self.items.clear();
             self.siemens_step(step)?;
             items.append(&mut self.items);
-            if is_last {
-                break;
-            }
         }
         self.items = items;
         Ok(())

@@ -8,6 +8,7 @@ use crate::diagnostic::span::SourceSpan;
 use crate::execute::dialect::siemens::arguments::Arguments;
 use crate::execute::dialect::siemens::flow::check_end;
 use crate::execute::dialect::siemens::steps::ModalCall;
+use crate::execute::dialect::siemens::subprogram::arguments_ahead;
 use crate::execute::program::Program;
 use crate::syntax::dialect::siemens::callee::{Callee, callee};
 use crate::syntax::dialect::siemens::statement::{Statement, name_at, statement};
@@ -61,11 +62,11 @@ impl<R: BufRead> Program<R> {
         };
         let scope = self.scope();
         let mut input = self.evaluator(&scope, text, callee.end);
-        let arguments = match input.next_visible() {
-            Some(b'(') => input.arguments()?,
-            _ => Vec::new(),
-        };
+        let arguments = arguments_ahead(&mut input)?;
         check_end(&mut input)?;
+        // What is wrong with it is said here, not at the next move.
+        let span = SourceSpan::new(callee.start, callee.end);
+        self.siemens_check_arguments(first, &arguments, span)?;
         self.siemens.modal_call = Some(ModalCall::Subprogram(first, arguments));
         Ok(true)
     }

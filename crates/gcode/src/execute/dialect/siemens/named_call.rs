@@ -15,6 +15,7 @@ use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::dialect::siemens::flow::check_end;
+use crate::execute::dialect::siemens::subprogram::arguments_ahead;
 use crate::execute::program::Program;
 use crate::syntax::dialect::siemens::callee::Callee;
 use crate::syntax::dialect::siemens::expression::Evaluator;
@@ -83,9 +84,9 @@ impl<R: BufRead> Program<R> {
             TextCall::External | TextCall::ByName => text_ahead(&mut input, call.word(), word)?,
         };
         let end = input.at.max(start + 1);
-        let arguments = match input.next_visible() {
-            Some(b'(') if call == TextCall::ByPath => input.arguments()?,
-            _ => Vec::new(),
+        let arguments = match call {
+            TextCall::ByPath => arguments_ahead(&mut input)?,
+            TextCall::External | TextCall::ByName => Vec::new(),
         };
         check_end(&mut input)?;
         let span = SourceSpan::new(start, end);
@@ -93,8 +94,7 @@ impl<R: BufRead> Program<R> {
         let Some(first) = self.siemens_subprogram(&callee)? else {
             return Ok(());
         };
-        let arguments = Some(arguments).filter(|all| all.as_slice() != [None]);
-        self.siemens_enter((first, 1), arguments.unwrap_or_default(), None, span)
+        self.siemens_enter((first, 1), arguments, None, span)
     }
 }
 

@@ -59,11 +59,7 @@ impl<R: BufRead> Program<R> {
         }
         if name == b"CYCLE802" {
             let plane = self.interpreter.state.modal.plane;
-            let places = single_places(&arguments, plane, span)?;
-            self.siemens
-                .steps
-                .extend(places.into_iter().map(Step::Position));
-            return Ok(());
+            return self.siemens_visit(single_places(&arguments, plane, span)?);
         }
         let count = PATTERNS.iter().find(|(known, _)| *known == name);
         let count = count.map_or(0, |(_, count)| *count);
@@ -95,10 +91,14 @@ impl<R: BufRead> Program<R> {
                 "write another number",
             );
         }
-        self.siemens
-            .steps
-            .extend(places(&name, &values).into_iter().map(Step::Position));
-        Ok(())
+        self.siemens_visit(places(&name, &values))
+    }
+
+    /// The positions come next.
+    fn siemens_visit(&mut self, places: Vec<[f64; 2]>) -> Outcome<()> {
+        let positions = places.into_iter().map(Step::Position);
+        self.siemens.steps.extend(positions);
+        self.siemens_make_typed()
     }
 }
 

@@ -23,6 +23,7 @@ use crate::execute::state::modal::Modal;
 use crate::execute::state::shared::Shared;
 use crate::setup::subroutine_file::{NoSubroutineFile, NotTaken};
 use crate::syntax::dialect::siemens::callee::Callee;
+use crate::syntax::dialect::siemens::expression::Evaluator;
 use crate::syntax::dialect::siemens::statement::{Statement, is_header_of, statement};
 use crate::syntax::dialect::siemens::variables::Variables;
 
@@ -59,6 +60,17 @@ fn file_names(callee: &Callee) -> Vec<String> {
     names
 }
 
+/// The arguments of a call; none without parentheses, or with nothing in them.
+pub(super) fn arguments_ahead(input: &mut Evaluator<'_>) -> Outcome<Vec<Option<f64>>> {
+    if input.next_visible() != Some(b'(') {
+        return Ok(Vec::new());
+    }
+    let arguments = input.arguments()?;
+    Ok(Some(arguments)
+        .filter(|all| all.as_slice() != [None])
+        .unwrap_or_default())
+}
+
 /// Whether a line is in front of the program that is called: of the name, and of the kind if one is said.
 fn is_wanted(line: &[u8], callee: &Callee) -> bool {
     let is_kind = |ending: &[u8]| {
@@ -79,10 +91,7 @@ impl<R: BufRead> Program<R> {
         };
         let scope = self.scope();
         let mut input = self.evaluator(&scope, text, callee.end);
-        let arguments = match input.next_visible() {
-            Some(b'(') => input.arguments()?,
-            _ => Vec::new(),
-        };
+        let arguments = arguments_ahead(&mut input)?;
         let mut turns = 1.0;
         let at = input.at;
         if input.next_visible() == Some(b'P') {
@@ -109,9 +118,6 @@ impl<R: BufRead> Program<R> {
             reason = "range checked"
         )]
         let turns = turns as u32;
-        // () is no argument.
-        let arguments = Some(arguments).filter(|all| all.as_slice() != [None]);
-        let arguments = arguments.unwrap_or_default();
         let span = SourceSpan::new(callee.start, callee.end);
         self.siemens_enter((first, turns), arguments, None, span)?;
         Ok(true)
@@ -133,14 +139,7 @@ impl<R: BufRead> Program<R> {
                     .help("check what should end the recursion"),
             );
         }
-        if !arguments.is_empty() && !self.siemens_takes_arguments(first)? {
-            let message = "arguments of a subprogram that takes none";
-            return Err(
-                BlockDiagnostic::new(DiagnosticCode::Expression, span, message)
-                    .because("its first line is no PROC with names for them")
-                    .help("write PROC NAME(REAL A, …) there, or leave the arguments out"),
-            );
-        }
+        self.siemens_check_arguments(first, &arguments, span)?;
         let Some(again) = turns.checked_sub(1) else {
             return Ok(());
         };
@@ -162,6 +161,24 @@ impl<R: BufRead> Program<R> {
         });
         self.tape.go_to(first);
         Ok(())
+    }
+
+    /// Refuses arguments of a subprogram that takes none.
+    pub(super) fn siemens_check_arguments(
+        &mut self,
+        first: TapePlace,
+        arguments: &[Option<f64>],
+        span: SourceSpan,
+    ) -> Outcome<()> {
+        if arguments.is_empty() || self.siemens_takes_arguments(first)? {
+            return Ok(());
+        }
+        let message = "arguments of a subprogram that takes none";
+        Err(
+            BlockDiagnostic::new(DiagnosticCode::Expression, span, message)
+                .because("its first line is no PROC with names for them")
+                .help("write PROC NAME(REAL A, …) there, or leave the arguments out"),
+        )
     }
 
     /// Whether the first statement of a subprogram is PROC.
