@@ -146,7 +146,8 @@ mod tests {
         assert_eq!(parts.len(), 1);
         near(&parts[0], "G54", [-20.0, 0.0, -2.0], [50.0, 20.0, 5.0]);
         // What changes the zero in between changes the coordinates of what comes then, and of nothing before.
-        let text = "G21 G90 G54 F600\nG0 X0 Y0 Z0\nG1 X10\nG92 X0\nG1 X-4 Y2\nG92.1\nG3 X6 Y14 J6\nM2\n";
+        let text =
+            "G21 G90 G54 F600\nG0 X0 Y0 Z0\nG1 X10\nG92 X0\nG1 X-4 Y2\nG92.1\nG3 X6 Y14 J6\nM2\n";
         let parts = boxes(text);
         assert_eq!(parts.len(), 1);
         near(&parts[0], "G54", [-4.0, 0.0, 0.0], [12.0, 14.0, 0.0]);
