@@ -5,7 +5,7 @@ use glidepath_program::PathMode;
 use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::span::SourceSpan;
-use crate::syntax::block::Block;
+use crate::syntax::block::{Block, CornerKind};
 use crate::syntax::codes::{FrameCode, TiltCode};
 use crate::syntax::dialect::Dialect;
 use crate::syntax::letters::{AXIS_WORDS, Letters};
@@ -306,8 +306,31 @@ pub(crate) fn check_named_words(
         Named::Vector(_) => is_straight,
     };
     match block.named.untaken(takes) {
-        None => Ok(()),
+        None => check_corner_word(block, motion),
         Some(word) => Err(no_use(word)),
+    }
+}
+
+/// Refuses a word that breaks a corner in a block that makes no move of G1, G2 or G3.
+fn check_corner_word(block: &Block, motion: Option<Motion>) -> Outcome<()> {
+    let is_move = matches!(
+        motion,
+        Some(Motion::Linear | Motion::ArcClockwise | Motion::ArcCounterclockwise)
+    );
+    match block.corner {
+        Some(word)
+            if word.kind != CornerKind::RoundAll
+                && word.value != 0.0
+                && !(is_move && block.has_axes()) =>
+        {
+            let message = "a corner that is broken in a block without a move of G1, G2 or G3";
+            Err(
+                BlockDiagnostic::new(DiagnosticCode::UnusedWord, word.span, message)
+                    .because("the word counts between two moves of these, and here it would have no effect")
+                    .help("remove it, or write it into the move that ends at the corner"),
+            )
+        }
+        _ => Ok(()),
     }
 }
 

@@ -198,28 +198,6 @@ impl Interpreter {
         made
     }
 
-    /// The places of a block's holes, program coordinates in the plane.
-    fn places(&self, block: &Block, holes: u32) -> Outcome<Vec<[Option<f64>; AXES]>> {
-        let (first, second) = self.state.modal.plane.axes();
-        let values = self.axis_values(block)?;
-        let incremental = self.state.modal.distance == Distance::Incremental;
-        let program = self.state.offsets.to_program(self.state.position);
-        let mut place = [None; AXES];
-        for axis in [first.index(), second.index()] {
-            place[axis] = values[axis].map(|value| if incremental { program[axis] } else { value });
-        }
-        let mut places = Vec::new();
-        for _ in 0..holes {
-            if incremental {
-                for axis in [first.index(), second.index()] {
-                    place[axis] = place[axis].zip(values[axis]).map(|(at, by)| at + by);
-                }
-            }
-            places.push(place);
-        }
-        Ok(places)
-    }
-
     /// The R plane and the bottom, coordinates. A FANUC keeps them as such: words of a block before mean
     /// what they meant there.
     fn levels(&self, block: &Block, sticky: &StickyWords, initial: f64) -> [f64; 2] {

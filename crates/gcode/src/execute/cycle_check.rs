@@ -1,5 +1,7 @@
 //! What a canned cycle needs: the feed, its axes, and a spindle that turns as it should.
 
+use glidepath_geometry::Axis;
+
 use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::span::SourceSpan;
@@ -31,7 +33,9 @@ impl Interpreter {
         let plane = self.state.modal.plane;
         let (first, second) = plane.axes();
         let of_cycle = [first, second, plane.normal()];
-        if let Some((axis, _)) = block.axes().find(|(axis, _)| !of_cycle.contains(axis)) {
+        let is_other =
+            |axis: &Axis| !of_cycle.contains(axis) && !self.turns_to_hole(block, *axis);
+        if let Some((axis, _)) = block.axes().find(|(axis, _)| is_other(axis)) {
             return refuse(
                 block.axis_span(axis),
                 format!("{axis} in a canned cycle"),

@@ -2,7 +2,7 @@
 //! by it where it is an axis.
 //!
 //! Rigidly where the machine is configured so (`rigid_tapping`), and behind FANUC's M29, for the
-//! series of holes that comes next. The way of a revolution is F / S, in G95 F. Behind M29, and as
+//! series of holes that comes next, and on a Haas where the spindle stands. The way of a revolution is F / S, in G95 F. Behind M29, and as
 //! an axis, the spindle stands between the holes, as on that control.
 
 use glidepath_program::{Event, Item, ItemKind};
@@ -15,7 +15,9 @@ use crate::execute::motion::rigid_tap::needs_axis;
 use crate::execute::motion::speed::Pace;
 use crate::execute::state::spindle::SpindleDirection;
 use crate::execute::state::sticky_words::StickyWords;
+use crate::setup::fanuc::OffsetMemory;
 use crate::syntax::block::Block;
+use crate::syntax::dialect::Dialect;
 use crate::syntax::modes::{CannedCycle, FeedMode};
 
 /// Which way a tap turns into a hole.
@@ -58,7 +60,13 @@ impl Interpreter {
         let options = &self.options;
         let is_configured = options.threading.is_some_and(|it| it.rigid_tapping)
             || options.spindle_axis.is_some_and(|it| it.rigid_tapping);
-        sticky.starts_spindle = is_armed || last.is_some_and(|last| last.starts_spindle);
+        // G84 of a Haas turns the spindle on by itself, where it stands.
+        let is_haas = block.dialect == Dialect::Fanuc
+            && options.fanuc.offset_memory == OffsetMemory::Haas
+            && is_configured;
+        let stands = self.state.spindle.turning.is_none();
+        sticky.starts_spindle =
+            is_armed || is_haas && stands || last.is_some_and(|last| last.starts_spindle);
         sticky.is_rigid = sticky.starts_spindle || is_configured;
         let has_pecks = sticky.peck > 0.0;
         if !sticky.is_rigid && has_pecks {

@@ -43,6 +43,7 @@ mod printers;
 mod probing;
 mod reference;
 mod saved_state;
+mod shop_programs;
 mod siemens;
 mod splines;
 mod subroutine_files;

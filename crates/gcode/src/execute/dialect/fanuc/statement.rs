@@ -26,6 +26,26 @@ fn without_head(text: &[u8], length: usize) -> Vec<u8> {
     rest
 }
 
+/// True for what stands behind a program number where it is more than a comment.
+fn has_words(behind: Option<&[u8]>) -> bool {
+    let text = behind.unwrap_or_default().trim_ascii();
+    !matches!(text, [] | [b'(' | b';', ..])
+}
+
+/// A program number with words behind it, inside of a program that has not ended.
+#[cold]
+fn numbered_block(text: &[u8], at: usize) -> Box<BlockDiagnostic> {
+    let start = body(text);
+    let message = "a program number in the middle of a program";
+    BlockDiagnostic::new(
+        DiagnosticCode::FlowStructure,
+        SourceSpan::new(start, at.max(start)),
+        message,
+    )
+    .because("another program begins here (: is O), and the one before has not ended by M30 or M99")
+    .help("write N and the number of the block, or M30 before it")
+}
+
 /// Most lines in front of the first percent sign.
 const MOST_LEADER: usize = 200;
 
@@ -121,6 +141,11 @@ impl<R: BufRead> Program<R> {
             Statement::Label(_) | Statement::Name if !self.tape.calls.is_empty() => {
                 self.end();
                 return Err(not_returned(&text));
+            }
+            // Posts write `:30 T6 M6` for a block that may be searched for.
+            Statement::Label(_) if self.begun && has_words(text.get(at..)) => {
+                self.end();
+                return Err(numbered_block(&text, at));
             }
             // The next program of the file: the one before has ended without M30.
             Statement::Label(_) | Statement::Name if self.begun => return self.end_of_input(),

@@ -1,0 +1,75 @@
+//! Where the holes of a block are: in the plane, and at the angles of rotary axes.
+//!
+//! A block of FANUC's cycles may have words of rotary axes: they turn on the way to the hole, and a
+//! block with nothing else makes one, too. With K0 or L0 a block makes none, and keeps its words.
+
+use glidepath_geometry::{AXES, Axis};
+
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
+use crate::diagnostic::code::DiagnosticCode;
+use crate::execute::interpreter::Interpreter;
+use crate::syntax::block::Block;
+use crate::syntax::dialect::Dialect;
+use crate::syntax::modes::Distance;
+
+/// Places nearer than this to where the tool is are there, mm or degrees.
+const HERE: f64 = 1e-6;
+
+impl Interpreter {
+    /// True for an axis that turns on the way to a hole: of FANUC's mills, where the tip of the tool does
+    /// not follow it.
+    pub(super) fn turns_to_hole(&self, block: &Block, axis: Axis) -> bool {
+        let is_mill = block.dialect == Dialect::Fanuc && !block.is_lathe;
+        is_mill && self.options.five_axis.is_none() && matches!(axis, Axis::A | Axis::B | Axis::C)
+    }
+
+    /// The places of a block's holes, program coordinates.
+    pub(super) fn places(&self, block: &Block, holes: u32) -> Outcome<Vec<[Option<f64>; AXES]>> {
+        let (first, second) = self.state.modal.plane.axes();
+        let values = self.axis_values(block)?;
+        let incremental = self.state.modal.distance == Distance::Incremental;
+        let program = self.state.offsets.to_program(self.state.position);
+        let of_place = Axis::ALL
+            .into_iter()
+            .filter(|axis| [first, second].contains(axis) || self.turns_to_hole(block, *axis))
+            .map(Axis::index);
+        let mut place = [None; AXES];
+        for axis in of_place.clone() {
+            place[axis] = values[axis].map(|value| if incremental { program[axis] } else { value });
+        }
+        if holes == 0 {
+            let elsewhere = of_place.clone().find(|axis| match (place[*axis], values[*axis]) {
+                (Some(_), Some(by)) if incremental => by.abs() > HERE,
+                (Some(to), _) => (to - program[*axis]).abs() > HERE,
+                _ => false,
+            });
+            return match elsewhere {
+                Some(axis) => Err(stored_place(block, Axis::ALL[axis])),
+                None => Ok(Vec::new()),
+            };
+        }
+        let mut places = Vec::new();
+        for _ in 0..holes {
+            if incremental {
+                for axis in of_place.clone() {
+                    place[axis] = place[axis].zip(values[axis]).map(|(at, by)| at + by);
+                }
+            }
+            places.push(place);
+        }
+        Ok(places)
+    }
+}
+
+/// A place beside K0 or L0: on some controls the tool goes there, and on others it stands.
+#[cold]
+fn stored_place(block: &Block, axis: Axis) -> Box<BlockDiagnostic> {
+    let message = format!("{axis} in a cycle that is only stored (K0, L0)");
+    BlockDiagnostic::new(
+        DiagnosticCode::AmbiguousWord,
+        block.axis_span(axis),
+        message,
+    )
+    .because("whether the tool goes to the place of a hole that is not made depends on the control")
+    .help("write the place into a block of its own before the cycle, or leave it out")
+}
