@@ -147,6 +147,7 @@ impl Interpreter {
             last: Some(sticky),
         };
         if holes == 0 {
+            self.check_stored_place(block)?;
             return Ok(());
         }
         let clear = match self.state.modal.retract {

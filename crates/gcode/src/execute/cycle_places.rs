@@ -37,17 +37,6 @@ impl Interpreter {
         for axis in of_place.clone() {
             place[axis] = values[axis].map(|value| if incremental { program[axis] } else { value });
         }
-        if holes == 0 {
-            let elsewhere = of_place.clone().find(|axis| match (place[*axis], values[*axis]) {
-                (Some(_), Some(by)) if incremental => by.abs() > HERE,
-                (Some(to), _) => (to - program[*axis]).abs() > HERE,
-                _ => false,
-            });
-            return match elsewhere {
-                Some(axis) => Err(stored_place(block, Axis::ALL[axis])),
-                None => Ok(Vec::new()),
-            };
-        }
         let mut places = Vec::new();
         for _ in 0..holes {
             if incremental {
@@ -58,6 +47,23 @@ impl Interpreter {
             places.push(place);
         }
         Ok(places)
+    }
+
+    /// Refuses another place than that of the tool in a block that makes no hole.
+    pub(super) fn check_stored_place(&self, block: &Block) -> Outcome<()> {
+        let program = self.state.offsets.to_program(self.state.position);
+        let normal = self.state.modal.plane.normal();
+        let places = self.places(block, 1)?;
+        let is_elsewhere = |axis: &Axis| {
+            let index = axis.index();
+            places.iter().any(|place| {
+                place[index].is_some_and(|to| (to - program[index]).abs() > HERE)
+            })
+        };
+        match Axis::ALL.into_iter().filter(|axis| *axis != normal).find(is_elsewhere) {
+            Some(axis) => Err(stored_place(block, axis)),
+            None => Ok(()),
+        }
     }
 }
 

@@ -55,7 +55,7 @@ pub(super) fn zero(name: &str, machine: &str) -> AxisVector {
     }
 }
 
-/// A tool: ten times its number long, of 10 mm; on lathes with an X (a radius), too, and with a tip.
+/// A tool: ten times its number long, of 10 mm; on lathes with an X (a radius), too, and sharp.
 pub(super) fn tool(number: u32, of_lathe: bool) -> Tool {
     let mut tool = Tool {
         diameter_mm: 10.0,
@@ -64,7 +64,9 @@ pub(super) fn tool(number: u32, of_lathe: bool) -> Tool {
     tool.offset[2] = 10.0 * f64::from(number);
     if of_lathe {
         tool.offset[0] = 0.5 * f64::from(number);
-        (tool.diameter_mm, tool.orientation) = (0.8, 2);
+        // One of them has a tip that is round.
+        tool.diameter_mm = if number == 6 { 0.8 } else { 0.0 };
+        tool.orientation = if number == 6 { 2 } else { 0 };
     }
     tool
 }
