@@ -1,7 +1,10 @@
 //! Tests of words that FANUC's mills take where others do not: modes, D, cycles, dwells.
 
-use glidepath_gcode::{Program, check};
-use glidepath_program::{ItemKind, Rate};
+use glidepath_gcode::{
+    FanucParameters, Machine, OffsetMemory, Options, Program, Threading, check,
+};
+use glidepath_geometry::Axis;
+use glidepath_program::{Event, ItemKind, Limits, Rate};
 
 use crate::fanuc_calls::{ends, finds, options};
 
@@ -160,4 +163,87 @@ fn levels_stay_where_distances_change_to_increments() {
         [9.0, 0.0, -1.0],
     ];
     assert_eq!(bottoms(text), expected);
+}
+
+#[test]
+fn a_corner_without_a_move_of_its_own_is_refused() {
+    for (text, place) in [
+        ("G0 X10. ,R2.\nG1 Y10. F100", "1:9"),
+        ("G81 X1. Z-5. R2. F100. ,R2.", "1:24"),
+        ("G4 X1. ,C2.", "1:8"),
+        ("G1 F100. ,R2.\nX5.", "1:10"),
+    ] {
+        finds(text, &[&format!("{place} unused-word")]);
+    }
+    finds("G0 X10. ,R0\nG1 Y10. F100", &[]);
+}
+
+#[test]
+fn a_block_that_is_another_program_does_not_end_this_one() {
+    for (number, place) in [(":30 T6 M6", "3:1"), ("O30 G0 X5", "3:1")] {
+        finds(
+            &format!("O1\nG0 X1\n{number}\nX9\nM30"),
+            &[&format!("{place} flow-structure")],
+        );
+    }
+    // With its comment it is, and the first line may go on.
+    finds("O1 G21\nG0 X1\nO30 (NEXT)\nG0 X9", &[]);
+}
+
+#[test]
+fn rotary_axes_turn_on_the_way_to_a_hole() {
+    let text = "G0 Z20\nG99 G81 X10 Y5 A90 Z-5 R2 F100\nA120\nG91 A30 K2";
+    use Axis::{A, X, Y, Z};
+    let options = Options {
+        machine: Machine::new(&[X, Y, Z, A]),
+        ..options()
+    };
+    let bottoms: Vec<[f64; 3]> = Program::new(text.as_bytes(), options)
+        .map(|item| item.unwrap_or_else(|d| panic!("{text}\n{d}")))
+        .filter_map(|item| match item.kind {
+            ItemKind::Move { segment, rate, .. } if !rate.is_rapid() => {
+                let end = segment.end();
+                Some([end[0], end[2], end[3]])
+            }
+            _ => None,
+        })
+        .collect();
+    let right = [90.0, 120.0, 150.0, 180.0].map(|a| [10.0, -5.0, a]);
+    assert_eq!(bottoms, right);
+}
+
+#[test]
+fn a_stored_cycle_has_no_place_of_its_own() {
+    finds("G81 X5 Z-5 R2 F100 K0\nX10", &["1:5 ambiguous-word"]);
+    finds("G91 G81 Y5 Z-5 R-2 F100 L0\nX10", &["1:9 ambiguous-word"]);
+    finds("G0 X5\nG81 X5 Y0 Z-5 R2 F100 K0\nX10", &[]);
+}
+
+#[test]
+fn a_haas_turns_its_spindle_on_for_a_rigid_tap() {
+    let codes = |text: &str, offset_memory: OffsetMemory| -> Vec<u32> {
+        let threading = Threading {
+            rigid_tapping: true,
+            ..Threading::new(Limits::uniform(200.0, 2_000.0, 40_000.0), 0.004)
+        };
+        let options = Options {
+            threading: Some(threading),
+            fanuc: FanucParameters {
+                offset_memory,
+                ..FanucParameters::default()
+            },
+            ..options()
+        };
+        Program::new(text.as_bytes(), options)
+            .map_while(Result::ok)
+            .filter_map(|item| match item.kind {
+                ItemKind::Event(Event::MCode(code)) => Some(code),
+                _ => None,
+            })
+            .collect()
+    };
+    let text = "S600\nG0 Z5\nG99 G84 Z-10 R2 F600\nX10\nG80\nG74 X20 Z-10 R2 F600";
+    assert_eq!(codes(text, OffsetMemory::Haas), [3, 5, 3, 5, 4, 5]);
+    // Others need M3, or M29.
+    assert_eq!(codes(text, OffsetMemory::C), [0_u32; 0]);
 }

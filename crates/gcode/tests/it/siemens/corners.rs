@@ -337,3 +337,18 @@ fn both_moves_of_a_corner_are_made_with_the_same() {
     let round = moves("RNDM=1\nG1 X10 F600\nCT X20 Y10");
     assert!(matches!(round[1].0, Segment::Arc(_)), "{round:?}");
 }
+
+#[test]
+fn a_corner_without_a_move_of_its_own_is_refused() {
+    for (text, place) in [
+        ("G0 X10 RND=2\nG1 Y10 F100", "1:8"),
+        ("G4 F1 RND=2\nG1 Y10 F100", "1:7"),
+        ("G1 F100 CHR=2\nX10", "1:9"),
+        ("G1 X10 F100\nCT X20 Y5 RND=1\nG1 X30", "2:11"),
+        ("F100\nCIP X30 Y5 I1=10 J1=10 CHF=2\nG1 X2", "2:24"),
+    ] {
+        finds(text, &[&format!("{place} unused-word")]);
+    }
+    // None is broken by zero, and RNDM may stand in any block.
+    finds("G0 X10 RND=0\nRNDM=1\nG1 Y10 F100", &[]);
+}

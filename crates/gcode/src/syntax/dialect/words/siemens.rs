@@ -27,8 +27,8 @@ pub(crate) const fn g(number: u32) -> Option<Meaning> {
         | 710
         | 961
         | 971..=973 => Own,
-        // Windows of exact stops, and how corners of G41 and G42 are gone round: see the manual.
-        450 | 601..=603 => ReadOver,
+        // Windows of exact stops, how corners of G41 and G42 are gone round, and this language: see the manual.
+        290 | 450 | 601..=603 => ReadOver,
         5 | 7 => Refused("an inclined axis", PLAIN),
         34 | 35 => Refused("a thread whose pitch changes", PLAIN),
         63 => Refused("tapping with a compensating chuck", "write CYCLE84"),
@@ -37,8 +37,8 @@ pub(crate) const fn g(number: u32) -> Option<Meaning> {
             "a smooth way to and from the contour",
             "write it as G1 and G2",
         ),
-        290 | 291 => Refused(
-            "the language of another control",
+        291 => Refused(
+            "the language of another control (ISO)",
             "read the program with --dialect fanuc",
         ),
         451 => Refused("a corner cut at the crossing of its sides", "write G450"),
