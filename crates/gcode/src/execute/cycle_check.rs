@@ -33,8 +33,7 @@ impl Interpreter {
         let plane = self.state.modal.plane;
         let (first, second) = plane.axes();
         let of_cycle = [first, second, plane.normal()];
-        let is_other =
-            |axis: &Axis| !of_cycle.contains(axis) && !self.turns_to_hole(block, *axis);
+        let is_other = |axis: &Axis| !of_cycle.contains(axis) && !self.turns_to_hole(block, *axis);
         if let Some((axis, _)) = block.axes().find(|(axis, _)| is_other(axis)) {
             return refuse(
                 block.axis_span(axis),

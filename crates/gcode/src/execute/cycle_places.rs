@@ -56,11 +56,15 @@ impl Interpreter {
         let places = self.places(block, 1)?;
         let is_elsewhere = |axis: &Axis| {
             let index = axis.index();
-            places.iter().any(|place| {
-                place[index].is_some_and(|to| (to - program[index]).abs() > HERE)
-            })
+            places
+                .iter()
+                .any(|place| place[index].is_some_and(|to| (to - program[index]).abs() > HERE))
         };
-        match Axis::ALL.into_iter().filter(|axis| *axis != normal).find(is_elsewhere) {
+        match Axis::ALL
+            .into_iter()
+            .filter(|axis| *axis != normal)
+            .find(is_elsewhere)
+        {
             Some(axis) => Err(stored_place(block, axis)),
             None => Ok(()),
         }

@@ -5,7 +5,7 @@ use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::bad_byte::bad_byte;
 use crate::syntax::block::{Assignment, Block, LineKind, PolarWord};
-use crate::syntax::block_reader_of_dialects::skip_brackets;
+use crate::syntax::block_reader_of_dialects::{check_behind_end_of_block, skip_brackets};
 use crate::syntax::cursor::Cursor;
 use crate::syntax::dialect::Dialect;
 use crate::syntax::dialect::marlin::{reads_words, shows_text};
@@ -56,7 +56,12 @@ impl Block {
                     self.comment.clear();
                     self.comment.extend_from_slice(said.unwrap_or_default());
                 }
-                b';' => break,
+                b';' => {
+                    if self.dialect == Dialect::Fanuc && !start_of_block {
+                        check_behind_end_of_block(cursor)?;
+                    }
+                    break;
+                }
                 b'A'..=b'Z' | b'a'..=b'z' => {
                     let letter = byte.to_ascii_uppercase();
                     self.word(&mut cursor, letter, start_of_block, scope)?;

@@ -277,3 +277,34 @@ fn without_point(letter: char, value: f64, span: SourceSpan) -> Box<BlockDiagnos
         .because("it is millimetres on one control, and least increments (0.001 mm) on another")
         .help("write the point, or say which it is: `point` of [program] in the configuration")
 }
+
+/// Refuses another block behind the end of one (`;` of a FANUC), which would be left out; the cursor stands at
+/// the end. Text that does not begin as a block is a comment.
+pub(super) fn check_behind_end_of_block(mut cursor: Cursor<'_>) -> Outcome<()> {
+    cursor.advance();
+    let start = cursor.next_visible().map(|_| cursor.at());
+    let bare: Vec<u8> = cursor
+        .rest()
+        .iter()
+        .filter(|byte| !byte.is_ascii_whitespace())
+        .copied()
+        .collect();
+    let is_block = match bare.as_slice() {
+        [b'#', ..] => true,
+        [letter, next, ..] => {
+            letter.is_ascii_alphabetic() && (next.is_ascii_digit() || b"+-.#[".contains(next))
+        }
+        _ => false,
+    };
+    match start {
+        Some(at) if is_block => {
+            let span = SourceSpan::new(at, at + 1);
+            Err(
+                BlockDiagnostic::new(DiagnosticCode::UnusedWord, span, "a second block in a line")
+                    .because("`;` ends the block, and what stands behind it would not be executed")
+                    .help("write each block on a line of its own, and comments in parentheses"),
+            )
+        }
+        _ => Ok(()),
+    }
+}

@@ -1,8 +1,6 @@
 //! Tests of words that FANUC's mills take where others do not: modes, D, cycles, dwells.
 
-use glidepath_gcode::{
-    FanucParameters, Machine, OffsetMemory, Options, Program, Threading, check,
-};
+use glidepath_gcode::{FanucParameters, Machine, OffsetMemory, Options, Program, Threading, check};
 use glidepath_geometry::Axis;
 use glidepath_program::{Event, ItemKind, Limits, Rate};
 
@@ -246,4 +244,36 @@ fn a_haas_turns_its_spindle_on_for_a_rigid_tap() {
     assert_eq!(codes(text, OffsetMemory::Haas), [3, 5, 3, 5, 4, 5]);
     // Others need M3, or M29.
     assert_eq!(codes(text, OffsetMemory::C), [0_u32; 0]);
+}
+
+#[test]
+fn a_second_block_in_a_line_is_refused() {
+    for (text, place) in [
+        ("N5G0X1;G0X2;", "1:8"),
+        ("G0 X1 ; Y-3", "1:9"),
+        ("#1=2; #2=3", "1:7"),
+    ] {
+        finds(text, &[&format!("{place} unused-word")]);
+    }
+    // The end of a block by itself, and comments.
+    finds(
+        "O1;\nG0 X1.;\n;\nG0 X2 ; beside the part\n; T1 END MILL",
+        &[],
+    );
+}
+
+#[test]
+fn statements_for_devices_and_names_stand_alone() {
+    for (text, place) in [
+        ("DPRNT[A] X5", "1:10"),
+        ("BPRNT[X#100[3]] X5", "1:17"),
+        ("SETVN 100[A] X5", "1:14"),
+        ("POPEN X5", "1:7"),
+    ] {
+        finds(text, &[&format!("{place} flow-structure")]);
+    }
+    finds(
+        "POPEN\nDPRNT[X#100[53]] (AT X)\nBPRNT[X#100[3]];\nSETVN 100[A,B] ;\nPCLOS",
+        &[],
+    );
 }

@@ -39,7 +39,10 @@ impl Frame {
     pub(super) fn shift(&self, at: &AxisVector) -> AxisVector {
         match self {
             Self::Joints { zero } => *zero,
-            Self::Axes { zero, along_tool_mm } => {
+            Self::Axes {
+                zero,
+                along_tool_mm,
+            } => {
                 // The tool on the work, where A tilts the table and C turns it: Rz(-C) Rx(-A) z.
                 let (sa, ca) = at[Axis::A.index()].to_radians().sin_cos();
                 let (sc, cc) = at[Axis::C.index()].to_radians().sin_cos();
@@ -151,7 +154,10 @@ fn read_frame(said: &str, machine: &str) -> Frame {
     if kind == "joints" {
         Frame::Joints { zero }
     } else {
-        Frame::Axes { zero, along_tool_mm }
+        Frame::Axes {
+            zero,
+            along_tool_mm,
+        }
     }
 }
 

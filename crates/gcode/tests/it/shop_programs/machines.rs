@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use glidepath_gcode::{
-    CoordinateSystem, Connections, Dialect, FanucControl, FanucParameters, Firmware, Machine,
+    Connections, CoordinateSystem, Dialect, FanucControl, FanucParameters, Firmware, Machine,
     OffsetMemory, Options, Threading, Tool, ToolTable, WorkOffsets,
 };
 use glidepath_geometry::{Axis, AxisVector};
@@ -26,10 +26,20 @@ fn systems(machine: &str) -> [AxisVector; 4] {
         return [AxisVector::zeros(); 4];
     }
     if machine.starts_with("five") {
-        return [xyz(0.0, 0.0, 0.0), xyz(20.0, 10.0, 5.0), xyz(0.0, 0.0, 0.0), xyz(0.0, 0.0, 0.0)];
+        return [
+            xyz(0.0, 0.0, 0.0),
+            xyz(20.0, 10.0, 5.0),
+            xyz(0.0, 0.0, 0.0),
+            xyz(0.0, 0.0, 0.0),
+        ];
     }
-    [(100.0, 50.0), (-100.0, 50.0), (100.0, -50.0), (-100.0, -50.0)]
-        .map(|(x, y)| xyz(x, y, -200.0))
+    [
+        (100.0, 50.0),
+        (-100.0, 50.0),
+        (100.0, -50.0),
+        (-100.0, -50.0),
+    ]
+    .map(|(x, y)| xyz(x, y, -200.0))
 }
 
 fn is_lathe(machine: &str) -> bool {

@@ -25,16 +25,46 @@ const NEAR: f64 = 2e-6;
 const SHOWN: usize = 8;
 
 const FILES: [(&str, &str); 10] = [
-    ("fanuc-mill", include_str!("../../../../../tests/data/gcode/shop/fanuc-mill.txt")),
-    ("haas-mill", include_str!("../../../../../tests/data/gcode/shop/haas-mill.txt")),
-    ("fanuc-lathe", include_str!("../../../../../tests/data/gcode/shop/fanuc-lathe.txt")),
-    ("haas-lathe", include_str!("../../../../../tests/data/gcode/shop/haas-lathe.txt")),
-    ("siemens-mill", include_str!("../../../../../tests/data/gcode/shop/siemens-mill.txt")),
-    ("siemens-lathe", include_str!("../../../../../tests/data/gcode/shop/siemens-lathe.txt")),
-    ("five-axis", include_str!("../../../../../tests/data/gcode/shop/five-axis.txt")),
-    ("linuxcnc", include_str!("../../../../../tests/data/gcode/shop/linuxcnc.txt")),
-    ("printers", include_str!("../../../../../tests/data/gcode/shop/printers.txt")),
-    ("other", include_str!("../../../../../tests/data/gcode/shop/other.txt")),
+    (
+        "fanuc-mill",
+        include_str!("../../../../../tests/data/gcode/shop/fanuc-mill.txt"),
+    ),
+    (
+        "haas-mill",
+        include_str!("../../../../../tests/data/gcode/shop/haas-mill.txt"),
+    ),
+    (
+        "fanuc-lathe",
+        include_str!("../../../../../tests/data/gcode/shop/fanuc-lathe.txt"),
+    ),
+    (
+        "haas-lathe",
+        include_str!("../../../../../tests/data/gcode/shop/haas-lathe.txt"),
+    ),
+    (
+        "siemens-mill",
+        include_str!("../../../../../tests/data/gcode/shop/siemens-mill.txt"),
+    ),
+    (
+        "siemens-lathe",
+        include_str!("../../../../../tests/data/gcode/shop/siemens-lathe.txt"),
+    ),
+    (
+        "five-axis",
+        include_str!("../../../../../tests/data/gcode/shop/five-axis.txt"),
+    ),
+    (
+        "linuxcnc",
+        include_str!("../../../../../tests/data/gcode/shop/linuxcnc.txt"),
+    ),
+    (
+        "printers",
+        include_str!("../../../../../tests/data/gcode/shop/printers.txt"),
+    ),
+    (
+        "other",
+        include_str!("../../../../../tests/data/gcode/shop/other.txt"),
+    ),
 ];
 
 /// What a program does, as far as it is judged here: its moves and dwells, by line.
@@ -93,10 +123,13 @@ fn faults(program: &ShopProgram) -> String {
         let _ = writeln!(faults, "  is taken for {}", told.dialect);
     }
     let report = check(program.text.as_bytes(), options.clone());
-    let refused = program.expected.iter().find_map(|(line, expected)| match expected {
-        Expected::Refused(text) => Some((*line, text)),
-        _ => None,
-    });
+    let refused = program
+        .expected
+        .iter()
+        .find_map(|(line, expected)| match expected {
+            Expected::Refused(text) => Some((*line, text)),
+            _ => None,
+        });
     match (refused, report.diagnostics.first()) {
         (None, Some(first)) => {
             let _ = writeln!(faults, "  refused: {first}");
@@ -107,7 +140,10 @@ fn faults(program: &ShopProgram) -> String {
         (Some((line, text)), Some(first)) => {
             let is_told = text == "*" || first.to_string().contains(text.as_str());
             if first.line != line || !is_told {
-                let _ = writeln!(faults, "  {line}: to be refused for {text}, and not: {first}");
+                let _ = writeln!(
+                    faults,
+                    "  {line}: to be refused for {text}, and not: {first}"
+                );
             }
         }
         (None, None) => {}
@@ -125,7 +161,10 @@ fn faults(program: &ShopProgram) -> String {
             }
             Expected::Claim(claim) => {
                 let from = at.entry(*line).or_insert(0_usize);
-                let found = of_line.iter().skip(*from).position(|item| is_met(claim, item));
+                let found = of_line
+                    .iter()
+                    .skip(*from)
+                    .position(|item| is_met(claim, item));
                 match found {
                     // The middle of a move, and then its end.
                     Some(index) => *from += index + usize::from(!claim.is_middle),
@@ -151,7 +190,9 @@ fn told_item(item: &Item, frame: &Frame) -> String {
                 Frame::Axes { .. } => end,
                 Frame::Joints { .. } => machines::joints(&end),
             } - frame.shift(&end);
-            let mut text = rate.feed_v().map_or_else(|| "rapid".to_owned(), |v| format!("F{:.3}", v * 60.0));
+            let mut text = rate
+                .feed_v()
+                .map_or_else(|| "rapid".to_owned(), |v| format!("F{:.3}", v * 60.0));
             for (index, letter) in expected::LETTERS.iter().enumerate() {
                 if found[index] != 0.0 || index < 3 {
                     let _ = write!(text, " {letter}{:.6}", found[index]);
@@ -170,10 +211,17 @@ fn programs_of_shops_are_read_right_or_refused() {
     for (file, text) in FILES {
         let programs = expected::programs(text);
         let is_refused = |program: &&ShopProgram| {
-            program.expected.iter().any(|(_, expected)| matches!(expected, Expected::Refused(_)))
+            program
+                .expected
+                .iter()
+                .any(|(_, expected)| matches!(expected, Expected::Refused(_)))
         };
         let refused = programs.iter().filter(is_refused).count();
-        let _ = writeln!(shares, "{file}: {} read, {refused} refused", programs.len() - refused);
+        let _ = writeln!(
+            shares,
+            "{file}: {} read, {refused} refused",
+            programs.len() - refused
+        );
         for program in &programs {
             let faults = faults(program);
             if !faults.is_empty() {

@@ -285,3 +285,13 @@ fn parts_of_the_program_are_called() {
         [3.0, 4.0, 3.0, 4.0, 1.0, 2.0, 5.0]
     );
 }
+
+#[test]
+fn a_declaration_of_a_subprogram_stands_alone() {
+    finds("EXTERN A1(REAL) G0 X5", &["1:17 flow-structure"]);
+    finds("EXTERN A1 G0 X5", &["1:11 flow-structure"]);
+    finds(
+        "N10 EXTERN A1(REAL, INT) ; of the shop\nEXTERN A1\nEXTERN A2 (REAL)",
+        &[],
+    );
+}

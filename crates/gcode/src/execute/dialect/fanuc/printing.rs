@@ -171,3 +171,40 @@ mod tests {
         assert_eq!(formatted(7.0, 2, 0), "  7");
     }
 }
+
+/// Refuses what stands behind a statement for devices or names, which would be left out; `at` is behind its
+/// keyword.
+pub(super) fn check_alone(text: &[u8], at: usize) -> Outcome<()> {
+    let rest = text.get(at..).unwrap_or_default();
+    let open = rest
+        .iter()
+        .position(|byte| !byte.is_ascii_whitespace() && !byte.is_ascii_digit())
+        .filter(|open| rest[*open] == b'[');
+    let mut depth = 0_u32;
+    let closed = |byte: &u8| {
+        match byte {
+            b'[' => depth += 1,
+            b']' => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+        depth == 0
+    };
+    let end = open.map_or(0, |open| {
+        let length = rest[open..].iter().position(closed);
+        length.map_or(rest.len(), |length| open + length + 1)
+    });
+    let behind = rest.get(end..).unwrap_or_default();
+    match behind.iter().position(|byte| !byte.is_ascii_whitespace()) {
+        Some(start) if !b"(;".contains(&behind[start]) => {
+            let span = SourceSpan::new(at + end + start, text.len());
+            Err(BlockDiagnostic::new(
+                DiagnosticCode::FlowStructure,
+                span,
+                "text behind the statement",
+            )
+            .because("it has a line of its own, and what stands behind it would not be executed")
+            .help("give it a line of its own"))
+        }
+        _ => Ok(()),
+    }
+}

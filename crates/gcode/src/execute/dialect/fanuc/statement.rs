@@ -9,6 +9,7 @@ use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::dialect::fanuc::call::not_returned;
+use crate::execute::dialect::fanuc::printing::check_alone;
 use crate::execute::program::{Program, is_percent};
 use crate::execute::scope::ProgramScope;
 use crate::syntax::codes::Coded;
@@ -171,9 +172,15 @@ impl<R: BufRead> Program<R> {
                 }
                 return self.fanuc_call(&text, call).inspect_err(|_| self.end());
             }
-            Statement::Print => self.fanuc_print(&text, at)?,
-            Statement::Names => self.fanuc_names(&text, at)?,
-            Statement::Device => {}
+            Statement::Print => {
+                check_alone(&text, at)?;
+                self.fanuc_print(&text, at)?;
+            }
+            Statement::Names => {
+                check_alone(&text, at)?;
+                self.fanuc_names(&text, at)?;
+            }
+            Statement::Device => check_alone(&text, at)?,
             // What follows depends on it, so a diagnostic ends the program.
             _ => {
                 return self

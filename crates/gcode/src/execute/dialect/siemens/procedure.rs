@@ -5,6 +5,7 @@ use std::io::BufRead;
 use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::span::SourceSpan;
+use crate::execute::dialect::siemens::flow::fault;
 use crate::execute::program::Program;
 use crate::syntax::dialect::siemens::variables::Kind;
 
@@ -131,4 +132,35 @@ fn no_parameter(word: &[u8], start: usize) -> Box<BlockDiagnostic> {
     BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
         .because("parameters are REAL, INT or BOOL, and have the value of the call (no VAR)")
         .help("give results back by R parameters")
+}
+
+/// Refuses what stands behind EXTERN, its name and its types, which would be left out; `at` is behind EXTERN.
+pub(super) fn check_extern(text: &[u8], at: usize) -> Outcome<()> {
+    let rest = text.get(at..).unwrap_or_default();
+    let is_gap = |byte: &u8| byte.is_ascii_whitespace();
+    let start = rest.iter().take_while(|byte| is_gap(byte)).count();
+    let name = rest[start..]
+        .iter()
+        .take_while(|byte| byte.is_ascii_alphanumeric() || **byte == b'_')
+        .count();
+    let gap = rest[start + name..]
+        .iter()
+        .take_while(|byte| is_gap(byte))
+        .count();
+    let types = start + name + gap;
+    let end = match rest.get(types) {
+        Some(b'(') => rest[types..]
+            .iter()
+            .position(|byte| *byte == b')')
+            .map_or(rest.len(), |length| types + length + 1),
+        _ => start + name,
+    };
+    let behind = rest.get(end..).unwrap_or_default();
+    match behind.iter().position(|byte| !is_gap(byte)) {
+        Some(more) if behind[more] != b';' => {
+            let span = SourceSpan::new(at + end + more, text.len());
+            Err(fault(span, "text behind the statement").help("give it a line of its own"))
+        }
+        _ => Ok(()),
+    }
 }

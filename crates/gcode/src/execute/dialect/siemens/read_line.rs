@@ -4,6 +4,7 @@ use std::io::BufRead;
 
 use crate::diagnostic::block_diagnostic::Outcome;
 use crate::diagnostic::span::SourceSpan;
+use crate::execute::dialect::siemens::procedure::check_extern;
 use crate::execute::dialect::siemens::steps::{Before, Step};
 use crate::execute::program::Program;
 use crate::execute::scope::ProgramScope;
@@ -85,7 +86,7 @@ impl<R: BufRead> Program<R> {
                 // What is called at the end of a move may be refused when the block itself was not.
                 self.whole_statement(|program| program.siemens_block(number, &text))
             }
-            Statement::Extern => Ok(true),
+            Statement::Extern => check_extern(&text, at).map(|()| true),
             Statement::TextCall(call) => {
                 let called = self.siemens_named_call(call, index, &text, at);
                 called.inspect_err(|_| self.end()).map(|()| true)
