@@ -306,9 +306,28 @@ pub(crate) fn check_named_words(
         Named::Vector(_) => is_straight,
     };
     match block.named.untaken(takes) {
+        None if block.dialect == Dialect::Marlin => check_places_of_printer(block, motion),
         None => check_corner_word(block, motion),
         Some(word) => Err(no_use(word)),
     }
+}
+
+/// Refuses words of axes beside a printer's command that moves nothing: to its firmware they are words of the
+/// command.
+fn check_places_of_printer(block: &Block, motion: Option<Motion>) -> Outcome<()> {
+    let codes = &block.codes;
+    let has_command = codes.any() || block.get(b'T').is_some();
+    if motion.is_none() || codes.motion.is_some() || !has_command || !block.has_axes() {
+        return Ok(());
+    }
+    let message = "a place beside a command that moves nothing";
+    Err(
+        BlockDiagnostic::new(DiagnosticCode::UnusedWord, block.first_span(), message)
+            .because(
+                "the firmware of a printer takes it for a word of the command, and does not move",
+            )
+            .help("write G0 or G1 and the place into a line of its own"),
+    )
 }
 
 /// Refuses a word that breaks a corner in a block that makes no move of G1, G2 or G3.

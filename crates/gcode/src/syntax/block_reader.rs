@@ -5,7 +5,9 @@ use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::bad_byte::bad_byte;
 use crate::syntax::block::{Assignment, Block, LineKind, PolarWord};
-use crate::syntax::block_reader_of_dialects::{check_behind_end_of_block, skip_brackets};
+use crate::syntax::block_reader_of_dialects::{
+    check_behind_end_of_block, check_one_command, skip_brackets,
+};
 use crate::syntax::cursor::Cursor;
 use crate::syntax::dialect::Dialect;
 use crate::syntax::dialect::marlin::{reads_words, shows_text};
@@ -44,6 +46,7 @@ impl Block {
             _ => {}
         }
         let (mut start_of_block, mut spindle) = (true, None);
+        let mut has_command = false;
         while let Some(byte) = cursor.next_visible() {
             match byte {
                 b'(' => {
@@ -64,6 +67,9 @@ impl Block {
                 }
                 b'A'..=b'Z' | b'a'..=b'z' => {
                     let letter = byte.to_ascii_uppercase();
+                    if self.dialect == Dialect::Marlin {
+                        check_one_command(&mut has_command, letter, cursor)?;
+                    }
                     self.word(&mut cursor, letter, start_of_block, scope)?;
                     start_of_block = false;
                     match self.codes.function.map(|function| function.code) {

@@ -308,3 +308,29 @@ pub(super) fn check_behind_end_of_block(mut cursor: Cursor<'_>) -> Outcome<()> {
         _ => Ok(()),
     }
 }
+
+/// Refuses a second command in the line of a printer's program, which its firmware would not execute; the
+/// cursor stands at a word.
+pub(super) fn check_one_command(
+    has_command: &mut bool,
+    letter: u8,
+    cursor: Cursor<'_>,
+) -> Outcome<()> {
+    match letter {
+        b'G' | b'M' if *has_command => {
+            let span = SourceSpan::new(cursor.at(), cursor.at() + 1);
+            Err(BlockDiagnostic::new(
+                DiagnosticCode::UnusedWord,
+                span,
+                "a second command in a line",
+            )
+            .because("the firmware of a printer executes the first command of a line alone")
+            .help("give it a line of its own"))
+        }
+        b'G' | b'M' | b'T' => {
+            *has_command = true;
+            Ok(())
+        }
+        _ => Ok(()),
+    }
+}

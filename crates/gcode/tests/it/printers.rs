@@ -165,3 +165,27 @@ fn settings_of_the_firmware_are_events() {
     };
     assert_eq!(stops("G1 X1\nM25\nG1 X2"), 1);
 }
+
+#[test]
+fn a_line_has_one_command() {
+    for (text, place) in [
+        ("G91 G1 Z5", "1:5"),
+        ("M83 G91", "1:5"),
+        ("G1 X5 M106 S255", "1:7"),
+    ] {
+        finds(text, &[&format!("{place} unused-word")]);
+    }
+    // To the firmware these are words of commands that move nothing.
+    for (text, place) in [
+        ("G1 X1\nG90 X5", "2:5"),
+        ("G1 X1\nM82 E5", "2:5"),
+        ("G1 X1\nT0 X5", "2:4"),
+        ("G1 X1\nM25 X5", "2:5"),
+    ] {
+        finds(text, &[&format!("{place} unused-word")]);
+    }
+    finds(
+        "N7 G1 X5\nG28 X Y\nG92 X0 E0\nM104 S200 T0\nG4 P1\nT0\nX6",
+        &[],
+    );
+}

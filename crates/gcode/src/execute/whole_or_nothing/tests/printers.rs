@@ -16,7 +16,7 @@ fn of_a_printer() {
         before: &[
             "G0 X1 Y1 Z1",
             "M82\nG1 X5 E3 F600\nG60 S1",
-            "M83 G91\nG1 X5 E3\nSAVE_GCODE_STATE NAME=A",
+            "M83\nG91\nG1 X5 E3\nSAVE_GCODE_STATE NAME=A",
             "SET_GCODE_OFFSET Z=1\nG92 E5\nG20",
         ],
         words: "\
