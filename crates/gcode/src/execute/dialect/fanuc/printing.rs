@@ -18,6 +18,7 @@ use crate::execute::program::Program;
 use crate::execute::remark::MOST_REMARKS;
 use crate::summary::remark::{Remark, RemarkKind};
 use crate::syntax::cursor::Cursor;
+use crate::syntax::dialect::fanuc::Statement;
 use crate::syntax::expression::scope::Parameter;
 use crate::syntax::expression::vacant::or_zero;
 use crate::syntax::expression::value::value;
@@ -28,8 +29,23 @@ const MOST_DIGITS: usize = 15;
 const MOST_NAME: usize = 8;
 
 impl<R: BufRead> Program<R> {
+    /// DPRNT, SETVN, and what is for devices that are not here; `at` is behind the keyword.
+    pub(super) fn fanuc_device(
+        &mut self,
+        statement: Statement,
+        text: &[u8],
+        at: usize,
+    ) -> Outcome<()> {
+        check_alone(text, at)?;
+        match statement {
+            Statement::Print => self.fanuc_print(text, at),
+            Statement::Names => self.fanuc_names(text, at),
+            _ => Ok(()),
+        }
+    }
+
     /// DPRNT, from its bracket on.
-    pub(super) fn fanuc_print(&mut self, text: &[u8], at: usize) -> Outcome<()> {
+    fn fanuc_print(&mut self, text: &[u8], at: usize) -> Outcome<()> {
         let printed = self.printed(text, at)?;
         if self.keeps_remarks && self.remarks.len() < MOST_REMARKS {
             self.remarks.push(Remark {
@@ -79,7 +95,7 @@ impl<R: BufRead> Program<R> {
     }
 
     /// SETVN, from the number of the first variable on.
-    pub(super) fn fanuc_names(&mut self, text: &[u8], at: usize) -> Outcome<()> {
+    fn fanuc_names(&mut self, text: &[u8], at: usize) -> Outcome<()> {
         let first = self.fanuc_number(text, at, false)?;
         let mut cursor = Cursor::new(text);
         cursor.seek(at);
@@ -160,21 +176,9 @@ fn not_closed(from: usize, to: usize) -> Box<BlockDiagnostic> {
     .help("write DPRNT[X#100[53]], or SETVN 510[NAME]")
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_have_their_digits() {
-        assert_eq!(formatted(-1.5, 3, 2), "-  1.50");
-        assert_eq!(formatted(128.4736, 5, 3), "   128.474");
-        assert_eq!(formatted(7.0, 2, 0), "  7");
-    }
-}
-
 /// Refuses what stands behind a statement for devices or names, which would be left out; `at` is behind its
 /// keyword.
-pub(super) fn check_alone(text: &[u8], at: usize) -> Outcome<()> {
+fn check_alone(text: &[u8], at: usize) -> Outcome<()> {
     let rest = text.get(at..).unwrap_or_default();
     let open = rest
         .iter()
@@ -206,5 +210,17 @@ pub(super) fn check_alone(text: &[u8], at: usize) -> Outcome<()> {
             .help("give it a line of its own"))
         }
         _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_their_digits() {
+        assert_eq!(formatted(-1.5, 3, 2), "-  1.50");
+        assert_eq!(formatted(128.4736, 5, 3), "   128.474");
+        assert_eq!(formatted(7.0, 2, 0), "  7");
     }
 }

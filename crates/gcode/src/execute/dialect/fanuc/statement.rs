@@ -9,7 +9,6 @@ use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::dialect::fanuc::call::not_returned;
-use crate::execute::dialect::fanuc::printing::check_alone;
 use crate::execute::program::{Program, is_percent};
 use crate::execute::scope::ProgramScope;
 use crate::syntax::codes::Coded;
@@ -143,13 +142,7 @@ impl<R: BufRead> Program<R> {
                 self.end();
                 return Err(not_returned(&text));
             }
-            // Posts write `:30 T6 M6` for a block that may be searched for.
-            Statement::Label(_) if self.begun && has_words(text.get(at..)) => {
-                self.end();
-                return Err(numbered_block(&text, at));
-            }
-            // The next program of the file: the one before has ended without M30.
-            Statement::Label(_) | Statement::Name if self.begun => return self.end_of_input(),
+            Statement::Label(_) | Statement::Name if self.begun => return self.end_at(&text, at),
             Statement::Label(_) | Statement::Name => {
                 if let Statement::Label(program) = statement {
                     self.interpreter.state.fanuc.program = program;
@@ -172,15 +165,9 @@ impl<R: BufRead> Program<R> {
                 }
                 return self.fanuc_call(&text, call).inspect_err(|_| self.end());
             }
-            Statement::Print => {
-                check_alone(&text, at)?;
-                self.fanuc_print(&text, at)?;
+            Statement::Print | Statement::Names | Statement::Device => {
+                self.fanuc_device(statement, &text, at)?;
             }
-            Statement::Names => {
-                check_alone(&text, at)?;
-                self.fanuc_names(&text, at)?;
-            }
-            Statement::Device => check_alone(&text, at)?,
             // What follows depends on it, so a diagnostic ends the program.
             _ => {
                 return self
@@ -277,6 +264,16 @@ impl<R: BufRead> Program<R> {
             _ => {}
         }
         Ok(true)
+    }
+
+    /// The next program of the file: the one before has ended without M30. Posts write `:30 T6 M6` for a block
+    /// that may be searched for, which is none.
+    fn end_at(&mut self, text: &[u8], at: usize) -> Outcome<bool> {
+        if has_words(text.get(at..)) {
+            self.end();
+            return Err(numbered_block(text, at));
+        }
+        self.end_of_input()
     }
 
     /// A whole number at `at`, computed or not; nothing may follow if it is the `last`.
