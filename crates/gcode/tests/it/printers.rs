@@ -179,7 +179,7 @@ fn a_line_has_one_command() {
     for (text, place) in [
         ("G1 X1\nG90 X5", "2:5"),
         ("G1 X1\nM82 E5", "2:5"),
-        ("G1 X1\nT0 X5", "2:4"),
+        ("G1 X1\nT0 X5", "2:1"),
         ("G1 X1\nM25 X5", "2:5"),
     ] {
         finds(text, &[&format!("{place} unused-word")]);
