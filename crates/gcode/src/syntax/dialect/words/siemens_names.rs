@@ -141,7 +141,14 @@ const REFUSED: &[(&[&str], &str, &str)] = &[
         "a measurement of the kinematics",
         "remove it",
     ),
-    (&["CYCLE978"], "a measurement", "write G38.3"),
+    (
+        &[
+            "CYCLE961", "CYCLE971", "CYCLE973", "CYCLE974", "CYCLE976", "CYCLE977", "CYCLE978",
+            "CYCLE979", "CYCLE982", "CYCLE994", "CYCLE995", "CYCLE997", "CYCLE998",
+        ],
+        "a measurement",
+        "write G38.3",
+    ),
     (
         &["SLOT1", "SLOT2"],
         "slots on a circle: where RAD leads, to their beginning or to their middle, is not known here",
