@@ -76,6 +76,24 @@ fn a_program_is_checked_and_planned_with_what_the_service_has_in_force() {
     bench.operate(&["run-file", &program]);
     bench.assert_at(wanted);
 
+    // A program begins where the machine stands.
+    let on = instance.file("on.ngc", "G91 G1 X2\nM2\n");
+    let report = bench.operate(&["check", &on, "--json"]).json();
+    let found = &report["programs"][0]["box"]["X"];
+    let ends = [0, 1].map(|end| found[end].as_f64().unwrap());
+    assert!(
+        (ends[0] - wanted[0]).abs() < 1e-9 && (ends[1] - wanted[0] - 50.8).abs() < 1e-9,
+        "{ends:?}"
+    );
+
+    // What an abort has stopped is not in force, whatever a program has left.
+    bench.operate(&["mdi", "M3 S500"]);
+    let said = || bench.operate(&["check", &program]).stderr;
+    assert!(said().contains(" M3 "), "{}", said());
+    bench.operate(&["abort"]);
+    bench.operate(&["mdi", "G4 P0.1"]);
+    assert!(said().contains(" M5 "), "{}", said());
+
     // A service that was killed has nothing in force any more, and neither has the next one.
     service.signal(Signal::KILL);
     let _killed = service.wait();

@@ -35,9 +35,9 @@ pub(crate) fn check_path(
     let Some(watch) = config.joint_watch() else {
         return Ok(None);
     };
-    let options = config.program_options(config.home());
+    let options = config.program_options(config.start());
     let mut source = FileSource::unchecked(path, options, &config.settings())?;
-    let home = config.home();
+    let home = config.start();
     if let Err(fault) = watch.stand(&home) {
         return Ok(Some(diagnostic(
             path,

@@ -13,7 +13,7 @@ const MOST_ITEMS: usize = 100_000;
 /// have none, and where the program cannot be read that far.
 #[must_use]
 pub(crate) fn find(path: &Path, config: &MachineConfig) -> Option<AxisVector> {
-    let options = config.program_options(config.home());
+    let options = config.program_options(config.start());
     let mut source = FileSource::unchecked(path, options, &config.settings()).ok()?;
     for _ in 0..MOST_ITEMS {
         match source.next_item() {

@@ -10,7 +10,8 @@
 //! The spindle turns until the motion rests: a tool that moves on in the material without it breaks. What
 //! is to stop is told as any program tells it, by the events of setpoints, so whoever works spindle and
 //! coolant needs to know nothing else; the record of what is latched follows from them. Nothing is told
-//! that is off already. No program begins before all is told.
+//! that is off already. What a life of the interpolator finds, left by one that was killed, nobody has told it: it counts as on
+//! until it is told. No program begins before all is told.
 
 use glidepath_program::Event;
 
@@ -73,8 +74,8 @@ impl Stops {
     pub(crate) const fn new(settings: StopSettings) -> Self {
         Self {
             settings,
-            spindle_on: false,
-            coolant_on: false,
+            spindle_on: true,
+            coolant_on: true,
             stops_spindle: false,
             stops_coolant: false,
             is_due: false,
@@ -118,5 +119,28 @@ impl Stops {
         };
         self.is_due = self.stops_spindle || self.stops_coolant;
         Some(event)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What a life that was killed has left on, the next one has not heard of.
+    #[test]
+    fn an_abort_stops_what_was_on_before_this_life_and_then_only_what_is_on() {
+        let mut stops = Stops::new(StopSettings::default());
+        stops.ask(StopCause::Abort);
+        let all: Vec<_> = core::iter::from_fn(|| stops.take()).collect();
+        assert_eq!(all, [Event::MCode(5), Event::MCode(9)]);
+        for event in all {
+            stops.hear(event);
+        }
+        stops.ask(StopCause::Abort);
+        assert!(!stops.is_due());
+        stops.hear(Event::MCode(3));
+        stops.ask(StopCause::Fault);
+        assert_eq!(stops.take(), Some(Event::MCode(5)));
+        assert_eq!(stops.take(), None);
     }
 }

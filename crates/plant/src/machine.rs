@@ -6,7 +6,11 @@ use crate::spindle::{Spindle, SpindleSettings};
 use bytemuck::Zeroable as _;
 use glidepath_link::servo::{JointState, JointStates};
 use glidepath_link::{DriveState, EventRecord, Feedback, LatchKind, Setpoint};
+use glidepath_program::Event;
 use std::collections::VecDeque;
+
+/// Setpoints that have stayed away for so long are those of nobody, ns.
+const SILENT_NS: u64 = 500_000_000;
 
 /// The input of the index pulse of joint 0; those of the others follow.
 pub const INDEX_INPUT: u32 = 16;
@@ -192,6 +196,10 @@ impl Plant {
         if let Some(setpoint) = setpoint {
             (self.reference, self.setpoint_number) = (setpoint.reference, setpoint.number);
             self.carry_out(setpoint);
+            if now_ns > setpoint.apply_ns.saturating_add(SILENT_NS) {
+                // Nobody is there who could stop it.
+                self.spindle.take(Event::MCode(5));
+            }
         }
         if !is_first && step_ns > 0 {
             let step_t = step_ns as f64 * 1e-9;
@@ -213,6 +221,10 @@ impl Plant {
     fn carry_out(&mut self, setpoint: &Setpoint) {
         let which = (setpoint.boot_id, setpoint.number);
         if self.carried_out != Some(which) {
+            if self.carried_out.is_some_and(|(life, _)| life != which.0) {
+                // What another life of the interpolator has told is nobody's any more.
+                self.spindle.take(Event::MCode(5));
+            }
             self.carried_out = Some(which);
             for event in setpoint.events().iter().flat_map(EventRecord::event) {
                 self.spindle.take(event);
@@ -324,5 +336,51 @@ impl Plant {
             newest = self.under_way.pop_front();
         }
         newest.filter(|_| !self.is_silent)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The plant with its spindle at speed, told by a setpoint that applies at a time.
+    fn turning(apply_ns: u64) -> (Plant, Setpoint) {
+        let mut plant = Plant::new(1, &[JointSettings::default()]);
+        let mut setpoint = Setpoint::zeroed();
+        (setpoint.boot_id, setpoint.number, setpoint.apply_ns) = (7, 1, apply_ns);
+        for event in [Event::SpindleSpeed(600.0), Event::MCode(3)] {
+            assert!(setpoint.tell(EventRecord::new(event, 0)));
+        }
+        for ms in 0..100 {
+            plant.step(apply_ns + ms * 1_000_000, Some(&setpoint), None);
+        }
+        assert!((plant.spindle().1 - 10.0).abs() < 1e-9);
+        (plant, setpoint)
+    }
+
+    #[test]
+    fn a_spindle_stops_when_nobody_is_there_who_could_stop_it() {
+        let begin_ns = 5_000_000_000;
+        let (mut plant, setpoint) = turning(begin_ns);
+        for ms in 100..490 {
+            plant.step(begin_ns + ms * 1_000_000, Some(&setpoint), None);
+        }
+        assert!(plant.spindle().1 > 9.0, "setpoints may be late");
+        for ms in 490..1000 {
+            plant.step(begin_ns + ms * 1_000_000, Some(&setpoint), None);
+        }
+        assert!(plant.spindle().1.abs() < 1e-9);
+
+        let (mut plant, setpoint) = turning(begin_ns);
+        let mut next = Setpoint::zeroed();
+        (next.boot_id, next.number) = (setpoint.boot_id + 1, 0);
+        for ms in 100..300 {
+            next.apply_ns = begin_ns + ms * 1_000_000;
+            plant.step(next.apply_ns, Some(&next), None);
+        }
+        assert!(
+            plant.spindle().1.abs() < 1e-9,
+            "another life has not told it to turn"
+        );
     }
 }

@@ -1,6 +1,8 @@
 //! What a program begins with on a machine, for whoever reads it beside the machine: what is kept, and what the
 //! planner's service has in force.
 
+use super::left_in_force::as_machine_tells;
+use super::operator::{auxiliary, read_status};
 use super::session;
 use crate::config::MachineConfig;
 use crate::in_force_note::{Served, served};
@@ -8,6 +10,8 @@ use crate::persistence::convert::axis_words;
 use crate::persistence::error::StateError;
 use crate::persistence::read::{read, set_up};
 use glidepath_gcode::InForce;
+use glidepath_geometry::AxisVector;
+use glidepath_link::{LinkConfig, MachineState, Operator};
 use glidepath_persistence::PersistentState;
 
 /// What a machine was found to begin programs with.
@@ -37,7 +41,10 @@ pub(super) fn begin_on_machine(config: &mut MachineConfig) -> Result<BeginsWith,
             ));
             None
         }
-        Served::State(in_force) => Some(*in_force),
+        Served::State(in_force) => Some(match auxiliary(&session::link(&instance, config)) {
+            Some(told) => as_machine_tells(&in_force, &told),
+            None => *in_force,
+        }),
     };
     config.program.in_force.clone_from(&in_force);
     let kept = read(config);
@@ -45,7 +52,12 @@ pub(super) fn begin_on_machine(config: &mut MachineConfig) -> Result<BeginsWith,
         begins.notes.extend(set_up(config, kept));
     }
     if let Some(in_force) = in_force {
-        begins.notes.push(told(&in_force));
+        config.program.stands = stands(&session::link(&instance, config));
+        let mut text = told(&in_force);
+        if config.program.stands.is_some() {
+            text += "; it begins where the machine stands";
+        }
+        begins.notes.push(text);
         if config.state_directory.is_none() {
             config.program.offsets = in_force.work_offsets();
             config.program.tools = in_force.tools().cloned().or(config.program.tools.take());
@@ -53,6 +65,14 @@ pub(super) fn begin_on_machine(config: &mut MachineConfig) -> Result<BeginsWith,
     }
     begins.kept = kept?;
     Ok(begins)
+}
+
+/// Where the machine stands; nothing while it moves, or if it does not tell.
+fn stands(link: &LinkConfig) -> Option<AxisVector> {
+    let operator = Operator::find(link).ok()?;
+    let status = read_status(&operator, link).ok()?;
+    let rests = status.state() == Ok(MachineState::Idle);
+    rests.then(|| AxisVector::from(status.position))
 }
 
 /// What is in force, in the words of a program.

@@ -55,7 +55,7 @@ pub(super) fn check(args: &CheckArgs, config: &MachineConfig) -> Result<Exit, Fa
 /// The file cannot be opened.
 fn read(file: &ProgramFile, config: &MachineConfig, json: bool) -> Result<Report, Failure> {
     let config = &for_program(file, config);
-    let options = config.program_options(config.home());
+    let options = config.program_options(config.start());
     let progress = progress(file, json);
     let report = check_file(file.path(), options, &config.settings(), &mut |bytes| {
         progress.at(bytes);
@@ -102,7 +102,7 @@ pub(super) fn accepted(
     json: bool,
 ) -> Result<Accepted, Failure> {
     let config = &for_program(file, config);
-    let options = config.program_options(config.home());
+    let options = config.program_options(config.start());
     let progress = progress(file, json);
     let found = find_in_file(file.path(), options, &config.settings(), &mut |bytes| {
         progress.at(bytes);

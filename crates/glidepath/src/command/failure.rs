@@ -223,6 +223,9 @@ pub(super) enum Failure {
         /// Why.
         reason: String,
     },
+    /// The axes did not come back to the path.
+    #[error("return: {0}")]
+    NotReturned(&'static str),
     /// A jog cannot begin: every axis of it is at the end of its travel already.
     #[error("{}", refused("jog", .reason))]
     AtEndOfTravel {

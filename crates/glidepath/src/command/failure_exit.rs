@@ -73,6 +73,7 @@ impl Failure {
             | Self::Terminal(_)
             | Self::NoInterpolator { .. }
             | Self::CommandRefused { .. }
+            | Self::NotReturned(_)
             | Self::CutShort { .. }
             | Self::NoService
             | Self::NotServing { .. }

@@ -20,8 +20,12 @@ pub(super) fn told(
     let point = publisher.resume_point().ok().filter(|_| is_known)?;
     let line = publisher.line();
     if point.block > 0 && point.block < first_block {
+        let beginning = match line {
+            0 => "the line".to_owned(),
+            line => format!("line {line},"),
+        };
         return Some(format!(
-            "it was left on the way to line {line}, where it was to begin: run it from that line again"
+            "it was left on the way to {beginning} where it was to begin: run it from that line again"
         ));
     }
     (point.block > 0 && line > 0).then(|| {

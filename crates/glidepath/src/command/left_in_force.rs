@@ -1,9 +1,17 @@
 //! What a job that ended before its end has left in force.
 
 use glidepath_gcode::InForce;
+use glidepath_link::{Auxiliary, SpindleState};
 use glidepath_planner::{Control, FramePublisher, ItemSource as _, ProgramSource, Refusal, Supply};
 use glidepath_program::{Event, ItemKind};
 use std::io::BufRead;
+
+/// What is in force on a machine whose spindle and coolant are as it tells: an abort, a fault and the loss of power stop
+/// both, whatever the last program has left.
+pub(super) fn as_machine_tells(in_force: &InForce, told: &Auxiliary) -> InForce {
+    let stands = told.spindle() == Ok(SpindleState::Stopped);
+    in_force.with_stopped(stands, told.coolant == 0)
+}
 
 /// Where a job ended, and what is known of the machine there.
 #[derive(Debug, Clone, Copy)]

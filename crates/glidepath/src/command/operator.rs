@@ -271,7 +271,7 @@ fn asked(link: &LinkConfig, config: &MachineConfig, status: &Status) -> AwaitedE
 }
 
 /// What spindle, coolant and tool are to do; `None` where nothing says so.
-fn auxiliary(link: &LinkConfig) -> Option<Auxiliary> {
+pub(super) fn auxiliary(link: &LinkConfig) -> Option<Auxiliary> {
     let transport = Ipc::connect(link).ok()?;
     let mut records = transport.auxiliary_source().ok()?;
     let started = Instant::now();

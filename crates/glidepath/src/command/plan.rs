@@ -134,7 +134,7 @@ pub(super) struct Pass {
 impl Pass {
     /// A pass that plans on all cores; what the plan was waited for is told as wall time.
     pub(super) fn on_all_cores(path: &Path, config: &MachineConfig) -> Result<Self, Failure> {
-        let steps = PlanSteps::on_all_cores(|| source(path, config), config, config.home());
+        let steps = PlanSteps::on_all_cores(|| source(path, config), config, config.start());
         let steps = steps.map_err(|refusal| cannot_read(path, refusal))?;
         Ok(Self::new(path, config, steps, clock::elapsed))
     }
@@ -142,7 +142,7 @@ impl Pass {
     /// A pass that plans in the calling thread, and tells its processor time.
     pub(super) fn on_one_core(path: &Path, config: &MachineConfig) -> Result<Self, Failure> {
         let source = source(path, config).map_err(|refusal| cannot_read(path, refusal))?;
-        let steps = PlanSteps::on_one_core(source, config, config.home());
+        let steps = PlanSteps::on_one_core(source, config, config.start());
         Ok(Self::new(path, config, steps, clock::processor))
     }
 
@@ -251,7 +251,7 @@ fn audit(config: &MachineConfig) -> Audit {
 
 /// The items of a file that was checked.
 fn source(path: &Path, config: &MachineConfig) -> Result<FileSource, Refusal> {
-    let options = config.program_options(config.home());
+    let options = config.program_options(config.start());
     FileSource::unchecked(path, options, &config.settings())
 }
 

@@ -179,15 +179,20 @@ fn come_back(operator: &Operator, link: &LinkConfig, interrupt: &Interrupt) -> R
                 return Ok(());
             }
             if has_begun || started.elapsed() > PATIENCE {
-                return Err(Failure::CommandRefused {
-                    command: "return",
-                    state: state.name(),
-                    reason: "the axes did not come back to the path: something ended their way; \
-                             `glidepath return` goes on with it"
-                        .to_owned(),
-                });
+                return Err(Failure::NotReturned(not_returned(&status)?));
             }
         }
         std::thread::sleep(POLL);
     }
+}
+
+/// What ended the way back to the path.
+fn not_returned(status: &Status) -> Result<&'static str, Failure> {
+    let is_open = status.end_of_epoch().map_err(LinkError::from)? == EndOfEpoch::Open;
+    Ok(if is_open {
+        "a hold ended the way back to the path; `glidepath return` goes on with it"
+    } else {
+        "an abort or a fault ended the program on the way back to its path; the axes stay where they are, and \
+         `glidepath run-file FILE --resume` goes on where they are back on it"
+    })
 }

@@ -393,6 +393,12 @@ impl MachineConfig {
         self.m_codes.iter().any(is_speed)
     }
 
+    /// Where a program begins that is read now: where the machine stands, or at home.
+    #[must_use]
+    pub fn start(&self) -> AxisVector {
+        self.program.stands.unwrap_or_else(|| self.home())
+    }
+
     /// Where a machine stands at the start of a program when nothing else is known: at zero, or at
     /// the nearest point of an axis' travel.
     #[must_use]

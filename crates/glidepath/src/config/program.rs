@@ -4,7 +4,7 @@ use glidepath_gcode::{
     Connections, Dialect, DialectQuestion, FanucParameters, Firmware, InForce, KeptVariables,
     ReadingWatch, SiemensParameters, Subroutines, ToolTable, WorkOffsets,
 };
-use glidepath_geometry::Axis;
+use glidepath_geometry::{Axis, AxisVector};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -40,6 +40,8 @@ pub struct ProgramConfig {
     pub firmware: Option<Firmware>,
     /// What is in force when the program begins, behind others of the same service.
     pub in_force: Option<InForce>,
+    /// Where the machine stands on which it would begin now, in machine coordinates; `None`: at home.
+    pub stands: Option<AxisVector>,
     /// Who watches the reading, and may end it.
     pub watch: Option<ReadingWatch>,
     /// Whether a program may run that could not be checked to its end.

@@ -11,7 +11,8 @@ pub(crate) enum StateError {
     Kept(StoreError),
     /// Another process writes it.
     #[error(
-        "{0}. End that process, or give this machine a folder of its own: `directory` of [state]"
+        "{0}. If it executes a program, wait for its end, or end it with `glidepath abort`; a planner's service takes \
+         programs itself, by `glidepath run-file`. Two machines need a `directory` of [state] each"
     )]
     Taken(StoreError),
     /// A file is damaged.

@@ -28,10 +28,7 @@ pub enum ResumeError {
     )]
     OtherProgram,
     /// The program was begun at a line, and left on the way there.
-    #[error(
-        "the program was left on the way to line {line}, where it was to begin: run it from that line \
-         again (--from-line {line})"
-    )]
+    #[error("the program was left on the way to {}", Beginning(*.line))]
     OnTheWay {
         /// The line.
         line: u32,
@@ -124,5 +121,22 @@ impl Display for WayBack {
             .collect();
         let verb = if commands.len() > 1 { "lead" } else { "leads" };
         write!(f, "{} {verb} back", commands.join(", and then "))
+    }
+}
+
+/// The line that a program was to begin with, which is not known before the way there has begun.
+struct Beginning(u32);
+
+impl Display for Beginning {
+    fn fmt(&self, f: &mut Formatter<'_>) -> FmtResult {
+        match self.0 {
+            0 => f.write_str(
+                "the line that it was to begin with: run it from that line again (--from-line)",
+            ),
+            line => write!(
+                f,
+                "line {line}, where it was to begin: run it from that line again (--from-line {line})"
+            ),
+        }
     }
 }

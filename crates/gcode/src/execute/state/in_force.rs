@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::execute::motion::position_offsets::PositionOffsets;
 use crate::execute::parameters::Parameters;
+use crate::execute::state::coolant::Coolant;
 use crate::execute::state::offsets::Offsets;
 use crate::execute::state::program_state::State;
 use crate::execute::state::shared::Shared;
@@ -131,6 +132,26 @@ impl InForce {
     pub fn before_tool_change(&self) -> Self {
         let mut parts = self.0.as_ref().clone();
         (parts.state.tool, parts.state.offsets.tool) = parts.state.tool_before;
+        Self(Arc::new(parts))
+    }
+
+    /// The same, for a machine at which spindle or coolant was stopped since by something else than a program: an
+    /// abort, a fault, the loss of power.
+    #[must_use]
+    pub fn with_stopped(&self, spindle: bool, coolant: bool) -> Self {
+        let state = &self.0.state;
+        let stops_spindle = spindle && state.spindle.turning.is_some();
+        let stops_coolant = coolant && state.coolant != Coolant::default();
+        if !stops_spindle && !stops_coolant {
+            return self.clone();
+        }
+        let mut parts = self.0.as_ref().clone();
+        if stops_spindle {
+            parts.state.spindle.turning = None;
+        }
+        if stops_coolant {
+            parts.state.coolant = Coolant::default();
+        }
         Self(Arc::new(parts))
     }
 

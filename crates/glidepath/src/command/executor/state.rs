@@ -3,10 +3,11 @@
 use glidepath_gcode::{Dialect, InForce};
 use glidepath_geometry::AxisVector;
 use glidepath_link::LinkConfig;
-use glidepath_planner::{FramePublisher, ResumePoint};
+use glidepath_planner::{Control, FramePublisher, ResumePoint};
 
 use crate::begun::Board;
 use crate::command::failure::Failure;
+use crate::command::left_in_force::as_machine_tells;
 use crate::command::run_supervisor::RunSupervisor;
 use crate::config::MachineConfig;
 use crate::in_force_note::InForceNote;
@@ -51,6 +52,7 @@ impl<'c> JobExecutor<'c> {
     pub(super) fn set_up(
         &self,
         publisher: &FramePublisher<'_>,
+        control: &mut Control<'_>,
     ) -> Result<(MachineConfig, RunSupervisor), Failure> {
         let mut config = self.config.clone();
         let supervisor = RunSupervisor::new(&mut config, self.link.directory(), true)?;
@@ -58,7 +60,12 @@ impl<'c> JobExecutor<'c> {
             config.program.offsets = in_force.work_offsets();
             config.program.tools = in_force.tools().cloned().or(config.program.tools);
         }
-        config.program.in_force = self.in_force.clone();
+        // A machine that does not tell is taken for what was left.
+        let told = publisher.auxiliary(control).ok();
+        config.program.in_force = self.in_force.as_ref().map(|in_force| match &told {
+            Some(told) => as_machine_tells(in_force, told),
+            None => in_force.clone(),
+        });
         config.program.watch = Some(publisher.watch());
         Ok((config, supervisor))
     }

@@ -81,6 +81,7 @@ impl Judge {
             extruder: self.choice("program.extruder", raw.extruder, &EXTRUDERS),
             firmware: self.choice("program.firmware", raw.firmware, &FIRMWARES),
             in_force: None,
+            stands: None,
             watch: None,
             may_run_unchecked: false,
         }
