@@ -45,12 +45,13 @@ class Setpoint(ctypes.Structure):
             "position", "velocity", "acceleration", "joint_position", "joint_velocity",
             "joint_acceleration", "away")),
         ("events", Event * 16),
+        ("superposed", Axes),
     ]
 
     @staticmethod
     def type_name():
         """What iceoryx2 compares, with size and alignment."""
-        return "glidepath.SetpointMirror.v4"
+        return "glidepath.SetpointMirror.v5"
 
 
 def main(instance, root=None):

@@ -34,7 +34,7 @@ struct Event {
 /// its size and its alignment.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, ZeroCopySend)]
-#[type_name("glidepath.SetpointMirror.v4")]
+#[type_name("glidepath.SetpointMirror.v5")]
 struct Setpoint {
     boot_id: u64,
     reference: u64,
@@ -66,6 +66,7 @@ struct Setpoint {
     joint_acceleration: [f64; 9],
     away: [f64; 9],
     events: [Event; 16],
+    superposed: [f64; 9],
 }
 
 fn main() -> Result<(), Box<dyn core::error::Error>> {

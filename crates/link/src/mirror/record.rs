@@ -10,13 +10,13 @@ use iceoryx2::prelude::ZeroCopySend;
 /// A copy of a [`Setpoint`], byte for byte. Its type name has the version of that record.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.SetpointMirror.v4")]
+#[type_name("glidepath.SetpointMirror.v5")]
 pub struct SetpointMirror(pub Setpoint);
 
 /// A copy of a [`Status`], byte for byte. Its type name has the version of that record.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.StatusMirror.v13")]
+#[type_name("glidepath.StatusMirror.v14")]
 pub struct StatusMirror(pub Status);
 
 #[cfg(test)]
