@@ -45,9 +45,13 @@ pub enum StartLineError {
     Refused(#[from] Refusal),
     /// Nothing is executed there.
     #[error(
-        "line {line} makes no motion and no event the {pass}. time{}",
+        "nothing is executed in line {line}{}{}",
+        match pass {
+            0 | 1 => String::new(),
+            pass => format!(" a further time: it was asked for time {pass}"),
+        },
         match next {
-            Some(next) => format!("; line {next} is the next one that does"),
+            Some(next) => format!("; line {next} is the next one in which something is"),
             None => String::new(),
         }
     )]

@@ -17,6 +17,10 @@ const DERIVED: &[(&str, &str)] = &[
         "the shortest number that reads back",
     ),
     (
+        "glidepath/src/command/setup/text.rs",
+        "numbers as TOML has them: with their point, and shortest",
+    ),
+    (
         "migration/src/draft.rs",
         "the shortest number that reads back",
     ),

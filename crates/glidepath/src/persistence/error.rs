@@ -12,7 +12,7 @@ pub(crate) enum StateError {
     /// Another process writes it.
     #[error(
         "{0}. If it executes a program, wait for its end, or end it with `glidepath abort`; a planner's service takes \
-         programs itself, by `glidepath run-file`. Two machines need a `directory` of [state] each"
+         programs itself, by `glidepath run-file FILE`. Two machines need a `directory` of [state] each"
     )]
     Taken(StoreError),
     /// A file is damaged.

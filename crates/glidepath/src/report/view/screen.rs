@@ -8,7 +8,7 @@ use crate::report::quantity::{counted, decimals, grouped};
 use crate::report::status::{adaptive_text, manner_text, remedy, superposition_text};
 use core::fmt::Write as _;
 use glidepath_geometry::AXES;
-use glidepath_link::{MachineState, Status};
+use glidepath_link::{MachineState, MotionMode, Status};
 
 /// Columns.
 const WIDTH: usize = 80;
@@ -50,7 +50,7 @@ pub fn view_text(view: &View<'_>) -> String {
         lines.push(format!("  input     {adaptive}"));
     }
     if let Some(superposed) = superposition_text(status) {
-        lines.push(format!("  superposed {superposed}"));
+        lines.extend(wrapped(&format!("  superposed {superposed}")));
     }
     let told = view.auxiliary.map(auxiliary_words);
     let told = told.unwrap_or_else(|| "nothing is known of it yet".to_owned());
@@ -95,7 +95,15 @@ fn program_lines(view: &View<'_>, lines: &mut Vec<String>) {
         _ if place.has_failed => "not known: it cannot be planned here".to_owned(),
         (Some(part), Some(all), left) => {
             let left = left.map_or_else(
-                || "stands at override 0".to_owned(),
+                || {
+                    let goes_back = view.status.mode() == Ok(MotionMode::Backwards);
+                    let does = if goes_back {
+                        "goes back along its path"
+                    } else {
+                        "stands at override 0"
+                    };
+                    does.to_owned()
+                },
                 |left| format!("about {} left", clock(left)),
             );
             let all = clock(all);
@@ -308,6 +316,42 @@ mod tests {
             (&object["spindle"], &object["coolant"]),
             (&"M3 S8000".into(), &"M8".into())
         );
+    }
+
+    #[test]
+    fn going_back_and_what_is_superposed_are_said() {
+        let mut status: Status = bytemuck::Zeroable::zeroed();
+        status.state = MachineState::Running.code();
+        (status.feed_override, status.adaptive_feed) = (-0.5, 1.0);
+        status.mode = MotionMode::Backwards.code();
+        status.superposition = glidepath_link::SuperpositionState::Frozen.code();
+        status.superposed[2] = 0.4125;
+        let view = View {
+            instance: "mill",
+            status: &status,
+            auxiliary: None,
+            axes: &[Axis::X, Axis::Y, Axis::Z],
+            not_homed: &[],
+            place: Some(ProgramPlace {
+                program: "part.ngc".to_owned(),
+                text: String::new(),
+                planned_t: Some(100.0),
+                elapsed_t: Some(25.0),
+                has_failed: false,
+            }),
+            offsets: None,
+            asked: AwaitedEvent::default(),
+            events: Vec::new(),
+        };
+        let text = view_text(&view);
+        for words in [
+            "25 % of 1:40, goes back along its path",
+            "  superposed Z 0.4125, in addition",
+        ] {
+            assert!(text.contains(words), "{words}\n{text}");
+        }
+        let is_narrow = text.lines().all(|line| line.chars().count() <= 80);
+        assert!(is_narrow, "{text}");
     }
 
     #[test]
