@@ -200,7 +200,7 @@ pub(super) fn superposition_text(status: &Status) -> Option<String> {
     Some(if offset.is_empty() {
         does.to_owned()
     } else {
-        format!("{offset}, {does}")
+        format!("{offset} beside the program; {does}")
     })
 }
 

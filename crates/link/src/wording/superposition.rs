@@ -22,15 +22,14 @@ impl SuperpositionState {
         match self {
             Self::None => "",
             Self::Off => "nothing is added to the motion of the program",
-            Self::Follows => "in addition to the program, by its input",
+            Self::Follows => "follows its input or wheel",
             Self::Frozen => {
-                "in addition to the program; it stands still: the motion is slow, at rest, rapid, or of a kind that \
-                 nothing is added to, or the input that enables it is off"
+                "stands still: the motion is slow, at rest, rapid, or of a kind that nothing is added to, or the input \
+                 that enables it is off"
             }
-            Self::Returns => "on the way back to the program",
+            Self::Returns => "returns to the program",
             Self::Silent => {
-                "in addition to the program; it stands still, because nobody sends its input: start the servo stack \
-                 that does"
+                "stands still, because nobody sends its input: start the servo stack that does"
             }
         }
     }

@@ -346,7 +346,7 @@ mod tests {
         let text = view_text(&view);
         for words in [
             "25 % of 1:40, goes back along its path",
-            "  superposed Z 0.4125, in addition",
+            "  superposed Z 0.4125 beside the program; stands still",
         ] {
             assert!(text.contains(words), "{words}\n{text}");
         }
