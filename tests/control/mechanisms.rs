@@ -374,11 +374,12 @@ proptest! {
     })]
     #[test]
     fn whatever_is_commanded_joints_keep_their_limits(
-        which in 0_usize..8,
+        which in any::<prop::sample::Index>(),
         effort in prop::sample::select(&EFFORTS[..]),
         commands in prop::collection::vec((command(), 1_usize..150), 1..25),
     ) {
-        let machine = &machines()[which];
+        let machines = machines();
+        let machine = which.get(&machines);
         let job = machine.job(effort);
         carry_out_and(&job, &commands, |supervisor| {
             let used = machine.used(&supervisor.setpoints);
@@ -392,7 +393,9 @@ proptest! {
 /// these by more than the tolerance of the configuration, and by less than that of the program.
 #[test]
 fn a_fast_arc_is_gone_back_along_within_the_tolerance_of_the_program() {
-    let job = machines()[3].job(Effort::Fast);
+    let machines = machines();
+    let scara = machines.iter().find(|machine| machine.name == "SCARA");
+    let job = scara.unwrap().job(Effort::Fast);
     let commands = [
         (Command::Reverse, 124),
         (Command::Forward, 120),

@@ -342,8 +342,8 @@ mod tests {
     /// A setpoint of a version to come.
     #[repr(C)]
     #[derive(Debug, Clone, Copy, ZeroCopySend)]
-    #[type_name("glidepath.Setpoint.v5")]
-    struct SetpointToCome([f64; 83]);
+    #[type_name("glidepath.Setpoint.v6")]
+    struct SetpointToCome([f64; size_of::<Setpoint>() / 8]);
 
     #[test]
     fn another_version_of_a_record_is_a_clear_error() {
@@ -373,7 +373,7 @@ mod tests {
             "{error}"
         );
         let text = error.to_string();
-        assert!(text.contains("glidepath.Setpoint.v5"), "{text}");
+        assert!(text.contains("glidepath.Setpoint.v6"), "{text}");
         assert!(text.contains("IncompatibleTypes"), "{text}");
         drop(service);
         open().unwrap();
