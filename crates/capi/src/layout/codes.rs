@@ -115,6 +115,27 @@ fn of_feedback() -> Vec<Codes> {
     ]
 }
 
+fn of_servos() -> Vec<Codes> {
+    vec![
+        bits(
+            "SPINDLE",
+            "What the spindle does.",
+            &[
+                ("AT_SPEED", SpindleFlags::AT_SPEED.0),
+                ("STOPPED", SpindleFlags::STOPPED.0),
+                ("ORIENTED", SpindleFlags::ORIENTED.0),
+                ("FAULT", SpindleFlags::FAULT.0),
+                ("ANGLE", SpindleFlags::ANGLE.0),
+                ("INDEX", SpindleFlags::INDEX.0),
+                ("SPEED", SpindleFlags::SPEED.0),
+            ],
+        ),
+        own!("STOPPED", "Why a servo stopped the joints by itself.", Stopped:
+            Not, Silence, Asked, Jump),
+        own!("JUMP", "What of a jump is too much.", TooMuch: None, Velocity, Acceleration),
+    ]
+}
+
 /// All that the library knows.
 pub(super) fn codes() -> Vec<Codes> {
     let mut codes = vec![
@@ -182,23 +203,8 @@ pub(super) fn codes() -> Vec<Codes> {
                 ("BEST_EFFORT", Grants::BEST_EFFORT.0),
             ],
         ),
-        bits(
-            "SPINDLE",
-            "What the spindle does.",
-            &[
-                ("AT_SPEED", SpindleFlags::AT_SPEED.0),
-                ("STOPPED", SpindleFlags::STOPPED.0),
-                ("ORIENTED", SpindleFlags::ORIENTED.0),
-                ("FAULT", SpindleFlags::FAULT.0),
-                ("ANGLE", SpindleFlags::ANGLE.0),
-                ("INDEX", SpindleFlags::INDEX.0),
-                ("SPEED", SpindleFlags::SPEED.0),
-            ],
-        ),
-        own!("STOPPED", "Why a servo stopped the joints by itself.", Stopped:
-            Not, Silence, Asked, Jump),
-        own!("JUMP", "What of a jump is too much.", TooMuch: None, Velocity, Acceleration),
     ];
+    codes.extend(of_servos());
     codes.extend(of_feedback());
     codes.extend(of_demands());
     codes

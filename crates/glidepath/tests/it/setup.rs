@@ -1,5 +1,7 @@
 //! Tests of `glidepath setup`: what is answered becomes a machine, and nothing is written that is not asked for.
 
+#![allow(clippy::expect_used, reason = "a test that fails may panic")]
+
 use crate::support::glidepath;
 use std::io::Write as _;
 use std::path::Path;

@@ -1,6 +1,12 @@
 //! Tests of the offset alone: whatever input and path do, it keeps to its share of the limits and to its range.
 
-#![allow(clippy::unwrap_used, clippy::float_cmp, reason = "a test")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::float_cmp,
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a test: numbers are small, and bits are compared on purpose"
+)]
 
 use super::*;
 use crate::testing::{Numbers, random_cases};

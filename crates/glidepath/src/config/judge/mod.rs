@@ -38,7 +38,6 @@ use glidepath_geometry::Axis;
 use glidepath_kinematics::Mechanism;
 use home::HomeSurroundings;
 use spindle::SpindleSurroundings;
-use toml::Spanned;
 
 /// Judges every value, beside what was found wrong with the text before.
 ///
@@ -72,18 +71,11 @@ pub(super) fn judge(
     let sources = (is_axes, feedback.is_expected);
     let superposition = judge.superposition(raw.superposition, &mut axes, sources);
     let axis_share = judge.axis_share(&mechanism, &joint_limits, &axes);
-    let interpolator = {
-        let raw_axes: Vec<_> = raw_axes()
-            .filter_map(|(_, raw)| raw.as_ref().map(Spanned::as_ref))
-            .collect();
-        judge.interpolator(&raw.interpolator, (&axes, &joint_limits), &raw_axes)
-    };
-    let jog = judge.jog(
-        raw.jog,
-        raw_axes().filter_map(|(axis, raw)| Some((axis, raw.as_ref()?.as_ref()))),
-    );
-    let of_axes = raw_axes().filter_map(|(axis, raw)| Some((axis, raw.as_ref()?.as_ref())));
-    let gantries = judge.gantries(of_axes, &mechanism, feedback.homing);
+    let of_axes: Vec<_> = given.iter().map(|(_, raw)| raw.as_ref()).collect();
+    let interpolator = judge.interpolator(&raw.interpolator, (&axes, &joint_limits), &of_axes);
+    let by_axis = || given.iter().map(|(axis, raw)| (*axis, raw.as_ref()));
+    let jog = judge.jog(raw.jog, by_axis());
+    let gantries = judge.gantries(by_axis(), &mechanism, feedback.homing);
     let home_of_joints = judge.homes(
         &raw.home,
         &HomeSurroundings {
