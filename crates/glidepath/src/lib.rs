@@ -72,4 +72,5 @@ pub mod service_manager;
 pub mod setpoints;
 mod shown_diagnostic;
 pub mod text_file;
+mod waiting_note;
 mod work_zero;

@@ -8,6 +8,7 @@
 //! `<(…)` are the same program as a file with their text.
 
 use crate::file_error::FileError;
+use crate::waiting_note::BlockedNote;
 use std::fs::File;
 use std::io::{self, IsTerminal as _, Read};
 use std::os::fd::AsRawFd as _;
@@ -138,7 +139,16 @@ impl ProgramFile {
         if self.kept.get().is_some() {
             return Ok(0);
         }
+        let name = if self.is_standard_input() {
+            "standard input".to_owned()
+        } else {
+            self.name.display().to_string()
+        };
+        let note = BlockedNote::new(format!(
+            "{name} is read to its end: until whoever writes it closes its pipe"
+        ));
         let kept = self.copied(most_bytes);
+        drop(note);
         let (kept, length) = kept.map_err(FileError::file("read", &self.name))?;
         // Nobody else opens it meanwhile: commands open programs before anything else.
         self.kept.set(Arc::new(kept)).ok();

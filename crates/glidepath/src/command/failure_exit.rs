@@ -8,6 +8,7 @@ use crate::persistence::error::StateError;
 use glidepath_ethercat as ethercat;
 use glidepath_hal::HalError;
 use glidepath_interpolator as interpolator;
+use glidepath_link::SegmentRefusal;
 use glidepath_link::mirror::MirrorError;
 use glidepath_planner::{self as planner, FeedError, Refusal};
 
@@ -49,6 +50,15 @@ impl Failure {
             | Self::NotOneCurve { .. }
             | Self::UnknownEvent(_)
             | Self::Jitter(JitterError::Cyclictest(CyclictestError::Absent)) => Exit::Usage,
+            // What the machine or its operator ended is no fault of the program.
+            Self::Feed(FeedError::RefusedByPlanner {
+                refusal:
+                    SegmentRefusal::Stopped
+                    | SegmentRefusal::Aborted
+                    | SegmentRefusal::Busy
+                    | SegmentRefusal::ShuttingDown,
+                ..
+            }) => Exit::Fault,
             Self::Rejected { .. }
             | Self::TooLong { .. }
             | Self::Curve(_)

@@ -11,6 +11,7 @@ use crate::config::MachineConfig;
 use crate::exit::Exit;
 use crate::interrupt::Interrupt;
 use crate::output;
+use crate::waiting_note::WaitingNote;
 use glidepath_link::{
     Command, EndOfEpoch, InterpolatorProcess, JobStage, LinkConfig, LinkError, MachineState,
     Operator, Power, RecordError, Status,
@@ -165,6 +166,8 @@ pub(super) fn return_to_path(args: &OperatorArgs, config: &MachineConfig) -> Res
 
 fn come_back(operator: &Operator, link: &LinkConfig, interrupt: &Interrupt) -> Result<(), Failure> {
     let (started, mut has_begun) = (Instant::now(), false);
+    let mut note =
+        WaitingNote::new("return: the axes are on their way; Ctrl-C stops them".to_owned());
     loop {
         if interrupt.is_set() {
             send(operator, link, Command::Hold)?;
@@ -182,6 +185,7 @@ fn come_back(operator: &Operator, link: &LinkConfig, interrupt: &Interrupt) -> R
                 return Err(Failure::NotReturned(not_returned(&status)?));
             }
         }
+        note.look();
         std::thread::sleep(POLL);
     }
 }

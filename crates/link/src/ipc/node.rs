@@ -373,7 +373,7 @@ mod tests {
             "{error}"
         );
         let text = error.to_string();
-        assert!(text.contains(<Setpoint as crate::Record>::NAME), "{text}");
+        assert!(text.contains(Setpoint::NAME), "{text}");
         assert!(text.contains("IncompatibleTypes"), "{text}");
         drop(service);
         open().unwrap();

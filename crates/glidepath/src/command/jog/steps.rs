@@ -12,6 +12,7 @@ use crate::interrupt::Interrupt;
 use crate::machine_options::complete;
 use crate::output;
 use crate::report::decimals;
+use crate::waiting_note::WaitingNote;
 use core::time::Duration;
 use glidepath_geometry::{AXES, Axis};
 use glidepath_link::{JogMode, MachineState, UnmetPrecondition};
@@ -69,6 +70,7 @@ pub(super) fn jog(
         .ask(asked_ns, JogMode::Incremental, value, most_v, by_joint)?;
     set_out(&mut panel, &interrupt)?;
     let mut has_let_go = false;
+    let mut note = WaitingNote::new("jog: the axes are on their way; Ctrl-C stops them".to_owned());
     // Held, the machine is slowing for as long as its last differences are not those of rest.
     while matches!(
         panel.state()?,
@@ -78,6 +80,7 @@ pub(super) fn jog(
             panel.demands.let_go()?;
             has_let_go = true;
         }
+        note.look();
         std::thread::sleep(POLL);
     }
     let asked = means_axes.then_some(&value);
