@@ -246,7 +246,7 @@ function digits() {
     $(`#w${axis.name}`).parentElement.classList.toggle('lost', lost);
     // What an input adds to the axis is in none of the positions.
     const added = (s.superposed || {})[axis.name] || 0, below = $(`#m${axis.name}`);
-    put(below, lost ? 'not homed' : added ? `${place(axis, machine[k])} ${added < 0 ? '−' : '+'} ${place(axis, Math.abs(added), 3)}` : s.offset ? place(axis, machine[k]) : axis.travel ? axis.travel.map(end => place(axis, end, 3)).join(' … ') : 'turns');
+    put(below, lost ? 'not homed' : added ? `Δ ${added < 0 ? '' : '+'}${place(axis, added)}` : s.offset ? place(axis, machine[k]) : axis.travel ? axis.travel.map(end => place(axis, end, 3)).join(' … ') : 'turns');
     below.title = added ? `in addition to the program: ${s.superposition}` : '';
     const rail = $(`#t${axis.name}`);
     rail.parentElement.hidden = !axis.travel;
