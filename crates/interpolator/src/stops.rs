@@ -10,8 +10,8 @@
 //! The spindle turns until the motion rests: a tool that moves on in the material without it breaks. What
 //! is to stop is told as any program tells it, by the events of setpoints, so whoever works spindle and
 //! coolant needs to know nothing else; the record of what is latched follows from them. Nothing is told
-//! that is off already. What a life of the interpolator finds, left by one that was killed, nobody has told it: it counts as on
-//! until it is told. No program begins before all is told.
+//! that is off already. An interpolator that has just started does not know what one before it left on:
+//! spindle and coolant count as on until something is told of them. No program begins before all is told.
 
 use glidepath_program::Event;
 

@@ -29,7 +29,8 @@ pub(super) struct BeginsWith {
 /// What is kept cannot be read, or belongs to another machine. What is in force counts all the same.
 pub(super) fn begin_on_machine(config: &mut MachineConfig) -> Result<BeginsWith, StateError> {
     let instance = session::named_instance(config);
-    let served = served(&session::link(&instance, config), config);
+    let link = session::link(&instance, config);
+    let served = served(&link, config);
     config.program.in_force = None;
     let mut begins = BeginsWith::default();
     let in_force = match served {
@@ -41,7 +42,7 @@ pub(super) fn begin_on_machine(config: &mut MachineConfig) -> Result<BeginsWith,
             ));
             None
         }
-        Served::State(in_force) => Some(match auxiliary(&session::link(&instance, config)) {
+        Served::State(in_force) => Some(match auxiliary(&link) {
             Some(told) => as_machine_tells(&in_force, &told),
             None => *in_force,
         }),
@@ -52,7 +53,7 @@ pub(super) fn begin_on_machine(config: &mut MachineConfig) -> Result<BeginsWith,
         begins.notes.extend(set_up(config, kept));
     }
     if let Some(in_force) = in_force {
-        config.program.stands = stands(&session::link(&instance, config));
+        config.program.stands = stands(&link);
         let mut text = told(&in_force);
         if config.program.stands.is_some() {
             text += "; it begins where the machine stands";

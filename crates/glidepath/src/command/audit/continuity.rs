@@ -1,6 +1,7 @@
 //! The check of continuity between setpoints: their numbers, their times, the limits of every axis
 //! by finite differences, its travel, and whether an axis stands still that says it moves.
 
+use super::axis_state::AxisState;
 use super::finding::{Finding, Findings};
 use super::led::Led;
 use super::trace::LOST;
@@ -33,53 +34,6 @@ pub(super) struct Continuity {
     pub(super) setpoints: u64,
     /// The largest velocity, acceleration and jerk over its limit.
     pub(super) most: [f64; 3],
-}
-
-struct AxisState {
-    axis: Axis,
-    /// It is what is superposed to the axis, and not its position.
-    is_superposed: bool,
-    limits: [f64; 3],
-    /// The ends of its travel.
-    travel: [f64; 2],
-    /// Last differences of first and second order.
-    differences: [f64; 2],
-    magnitude: f64,
-    /// Samples in a row.
-    run: u32,
-}
-
-impl AxisState {
-    fn new(axis: Axis, limits: [f64; 3], travel: [f64; 2]) -> Self {
-        Self {
-            axis,
-            is_superposed: false,
-            limits,
-            travel,
-            differences: [0.0; 2],
-            magnitude: 0.0,
-            run: 0,
-        }
-    }
-
-    /// Where it is.
-    fn place(&self, setpoint: &Setpoint) -> f64 {
-        let values = if self.is_superposed {
-            &setpoint.superposed
-        } else {
-            &setpoint.position
-        };
-        values.get(self.axis.index()).copied().unwrap_or(0.0)
-    }
-
-    /// What it is called.
-    fn name(&self) -> String {
-        if self.is_superposed {
-            format!("the superposition of {}", self.axis)
-        } else {
-            self.axis.to_string()
-        }
-    }
 }
 
 impl Continuity {
@@ -196,7 +150,8 @@ impl Continuity {
                 let (name, off) = (state.name(), (at - end).abs());
                 let unit = unit(state.axis);
                 format!(
-                    "{name} is at {at:.6}{unit}, {off:.6}{unit} beyond the end of its travel at {end}{unit}"
+                    "{name} is at {at:.6}{unit}, {off:.6}{unit} beyond the end of its {} at {end}{unit}",
+                    state.range_word()
                 )
             })
         });

@@ -1,5 +1,6 @@
 //! `glidepath audit`: judges what was recorded, by the limits of the machine, and by the program.
 
+mod axis_state;
 mod continuity;
 mod finding;
 mod follows;

@@ -41,13 +41,6 @@ impl Judge {
             help: "how far the tool axis goes up behind an abort",
         };
         let lift = self.number_or("jog.lift", &raw.lift, &range, 0.0);
-        let names = Axis::ALL.map(|axis| (axis.to_string(), axis));
-        let mut known: Vec<(&str, Axis)> = names
-            .iter()
-            .map(|(name, axis)| (name.as_str(), *axis))
-            .collect();
-        // The first is the default.
-        known.swap(0, Axis::Z.index());
         JogConfig {
             velocity: self.jog_velocities(velocity, axes),
             unhomed_velocity: unhomed,
@@ -56,7 +49,7 @@ impl Judge {
             // A value that does not fit was found already: the configuration is refused.
             dead_man_ms: dead_man.unwrap_or(150),
             lift,
-            tool_axis: self.choice("jog.tool_axis", raw.tool_axis, &known),
+            tool_axis: self.named_axis("jog.tool_axis", raw.tool_axis, Axis::Z),
         }
     }
 

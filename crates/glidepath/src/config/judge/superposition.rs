@@ -8,18 +8,6 @@ use glidepath_geometry::Axis;
 use glidepath_interpolator::{Superposition, SuperpositionControl};
 use toml::Spanned;
 
-const LETTERS: [(&str, Axis); 9] = [
-    ("X", Axis::X),
-    ("Y", Axis::Y),
-    ("Z", Axis::Z),
-    ("A", Axis::A),
-    ("B", Axis::B),
-    ("C", Axis::C),
-    ("U", Axis::U),
-    ("V", Axis::V),
-    ("W", Axis::W),
-];
-
 /// Travel that is left for programs at least, mm or degrees.
 const LEAST_TRAVEL: f64 = 1.0;
 
@@ -51,7 +39,7 @@ impl Judge {
         let bit = "the bit of the feedback's digital inputs";
         let enabled_by = whole("enabled_by", &raw.enabled_by, bit);
         let span = raw.axis.as_ref()?.span();
-        let wanted = self.choice("superposition.axis", raw.axis, &LETTERS);
+        let wanted = self.named_axis("superposition.axis", raw.axis, Axis::X);
         let input = self.superposition_input(raw.input, span.clone(), (is_wheel, expects_feedback));
         if !is_axes {
             let help = "only where joints are axes (kinematics = \"trivial\") is anything added to their motion";

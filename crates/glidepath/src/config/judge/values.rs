@@ -2,6 +2,7 @@
 
 use crate::config::diagnostic::ConfigDiagnostic;
 use crate::config::raw::Optional;
+use glidepath_geometry::Axis;
 use toml::Spanned;
 
 /// The range of a number.
@@ -129,5 +130,17 @@ impl Judge {
             });
         }
         found.map_or(default, |(_, value)| *value)
+    }
+
+    /// An axis by its letter, checked; the default if it is missing or not known.
+    pub(super) fn named_axis(&mut self, key: &str, value: Optional<String>, default: Axis) -> Axis {
+        let names = Axis::ALL.map(|axis| (axis.to_string(), axis));
+        let mut known: Vec<(&str, Axis)> = names
+            .iter()
+            .map(|(name, axis)| (name.as_str(), *axis))
+            .collect();
+        // The first is the default.
+        known.swap(0, default.index());
+        self.choice(key, value, &known)
     }
 }

@@ -198,7 +198,7 @@ fn slow_spindle(
 fn was_told_to_stop(bench: &Bench) -> bool {
     let told = |setpoint: &Setpoint| setpoint.event().ok().flatten();
     let codes: Vec<Event> = bench.setpoints.iter().filter_map(told).collect();
-    // Of the coolant nobody has told this life anything.
+    // Nothing was told of the coolant since the start, so it counts as on and is told to stop.
     codes.ends_with(&[Event::MCode(4), Event::MCode(5), Event::MCode(9)])
 }
 
