@@ -45,13 +45,13 @@ pub enum StartLineError {
     Refused(#[from] Refusal),
     /// Nothing is executed there.
     #[error(
-        "nothing is executed in line {line}{}{}",
+        "{}{}",
         match pass {
-            0 | 1 => String::new(),
-            pass => format!(" a further time: it was asked for time {pass}"),
+            0 | 1 => format!("nothing is executed in line {line}"),
+            pass => format!("line {line} is executed fewer than {pass} times"),
         },
         match next {
-            Some(next) => format!("; line {next} is the next one in which something is"),
+            Some(next) => format!("; line {next} is the next one in which something is executed"),
             None => String::new(),
         }
     )]

@@ -2,8 +2,8 @@
 //! by it where it is an axis.
 //!
 //! Rigidly where the machine is configured so (`rigid_tapping`), and behind FANUC's M29, for the
-//! series of holes that comes next, and on a Haas where the spindle stands. The way of a revolution is F / S, in G95 F. Behind M29, and as
-//! an axis, the spindle stands between the holes, as on that control.
+//! series of holes that comes next. The way of a revolution is F / S, in G95 F. Behind M29, as an axis,
+//! and on a Haas whose spindle stood, the spindle stands between the holes, as on those controls.
 
 use glidepath_program::{Event, Item, ItemKind};
 
