@@ -30,14 +30,16 @@ pub(crate) const REPORTS: usize = 256;
 /// Happenings under way, one less.
 pub(crate) const LOG_EVENTS: usize = 128;
 
-/// The rings between the threads. Large: to be kept on the heap.
+/// The rings between the threads. Large, so each has a place of its own on the heap: a box of all
+/// of them would be built on the stack first, and the thread that calls [`run`](crate::run) may have
+/// no more than the 2 MiB that a thread has by default.
 #[derive(Default)]
 pub(crate) struct Rings {
-    pub(crate) frames: Queue<SetpointFrame, FRAMES>,
-    pub(crate) orders: Queue<Order, ORDERS>,
-    pub(crate) demands: Queue<Demand, DEMANDS>,
-    pub(crate) observations: Queue<Observation, OBSERVATIONS>,
-    pub(crate) reports: Queue<TickReport, REPORTS>,
+    pub(crate) frames: Box<Queue<SetpointFrame, FRAMES>>,
+    pub(crate) orders: Box<Queue<Order, ORDERS>>,
+    pub(crate) demands: Box<Queue<Demand, DEMANDS>>,
+    pub(crate) observations: Box<Queue<Observation, OBSERVATIONS>>,
+    pub(crate) reports: Box<Queue<TickReport, REPORTS>>,
 }
 
 /// The ends of the rings that the real-time thread reads.

@@ -37,7 +37,7 @@ pub fn run(
 ) -> Result<Status, RunError> {
     validate(config)?;
     let boot_id = boot_id();
-    let mut rings = Box::<Rings>::default();
+    let mut rings = Rings::default();
     let mut events = Box::<Events<LogEvent, LOG_EVENTS>>::default();
     let ((mut inputs, mut reports), ends) = rings.split();
     let (writer, reader) = event_ring(&mut events);

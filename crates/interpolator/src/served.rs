@@ -41,7 +41,7 @@ pub fn served<R>(
     transport: Box<dyn Transport>,
     drive: impl FnOnce(&mut Served<'_>) -> R,
 ) -> Result<R, LinkError> {
-    let mut rings = Box::<Rings>::default();
+    let mut rings = Rings::default();
     let mut events = Box::<Events<LogEvent, LOG_EVENTS>>::default();
     let ((inputs, reports), ends) = rings.split();
     let (writer, reader) = event_ring(&mut events);

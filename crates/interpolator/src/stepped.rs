@@ -29,7 +29,7 @@ impl core::fmt::Debug for Stepped<'_> {
 
 /// Calls `drive` with an interpolator at rest.
 pub fn stepped<R>(config: &Config, drive: impl FnOnce(&mut Stepped<'_>) -> R) -> R {
-    let mut rings = Box::<Rings>::default();
+    let mut rings = Rings::default();
     let mut events = Box::<Events<LogEvent, LOG_EVENTS>>::default();
     let ((inputs, _reports), ends) = rings.split();
     let (writer, _happenings) = event_ring(&mut events);

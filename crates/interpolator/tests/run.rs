@@ -27,6 +27,8 @@ use synthetic::{audit, hexapod, lines, mill, records};
 /// Generous: the machine may be busy with other things.
 const PATIENCE: Duration = Duration::from_secs(60);
 const PERIOD_NS: u64 = 1_000_000;
+/// The stack of the thread that runs the interpolator: a quarter of what a thread has by default.
+const STACK_BYTES: usize = 512 << 10;
 
 fn config() -> Config {
     // The frames are made for 4 ms; the clock may run faster, which does not matter to the motion
@@ -118,8 +120,12 @@ fn with_interpolator(config: &Config, script: impl FnOnce(&mut Peer)) -> (Status
     std::thread::scope(|scope| {
         let transport = link.clone();
         let stop = &stop;
-        let thread = scope
-            .spawn(move || run(config, || Ok(Box::new(transport)), stop, &mut |_| {}).unwrap());
+        let thread = std::thread::Builder::new()
+            .stack_size(STACK_BYTES)
+            .spawn_scoped(scope, move || {
+                run(config, || Ok(Box::new(transport)), stop, &mut |_| {}).unwrap()
+            })
+            .unwrap();
         let mut peer = Peer::new(&link);
         // Also when the script panics: the scope waits for the thread.
         let result = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| script(&mut peer)));
