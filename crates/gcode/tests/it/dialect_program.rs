@@ -359,7 +359,11 @@ pub(crate) fn judge(dialect: Dialect, text: &str) {
             assert_eq!(segment.start(), end, "{text}\nline {}", item.line);
             end = segment.end();
             assert!(end.iter().all(|p| p.is_finite()), "{text}");
-            assert!(segment.length() > 0.0, "{text}\nline {}", item.line);
+            assert!(
+                segment.length() > 0.0,
+                "{text}\nline {}: {segment:?}",
+                item.line
+            );
         }
     }
 }

@@ -415,3 +415,24 @@ fn a_block_that_is_refused_leaves_tip_and_zero_as_they_were() {
             .all(|(right, found)| (right - found).abs() < 1e-6)
     );
 }
+
+#[test]
+fn several_turns_of_an_arc_are_driven_while_the_table_turns_a_little() {
+    // The joints go through four turns of radius 10, however little C turns meanwhile.
+    for c in ["", " C0.00001", " C0.01", " C40"] {
+        let text = format!("M429\nG0 X10 Y0 A10\nG2 X10 Y0 I-10 J0 P4{c} F600\nM2\n");
+        let length: f64 = moves(Dialect::LinuxCnc, &text)
+            .iter()
+            .filter(|(.., rate, _)| matches!(rate, Rate::Feed(_)))
+            .map(|(from, to, _, length)| {
+                let ends = joints(to).into_iter().zip(joints(from));
+                let way = ends.map(|(to, from)| to - from);
+                let way = way.fold(0.0, f64::hypot);
+                // A piece that is an arc itself: as long in the joints.
+                if c.is_empty() { *length } else { way }
+            })
+            .sum();
+        let turns = 4.0 * core::f64::consts::TAU * 10.0;
+        assert!((length / turns - 1.0).abs() < 1e-3, "{c}: {length} {turns}");
+    }
+}

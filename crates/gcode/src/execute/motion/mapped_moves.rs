@@ -1,5 +1,7 @@
 //! The mapping of a program's moves to those of the axes, on a machine with five axes.
 
+use core::f64::consts::TAU;
+
 use glidepath_geometry::{Arc, AxisVector, NurbsPath, Segment};
 use glidepath_kinematics::FiveAxis;
 use glidepath_program::{Event, Item, ItemKind, Rate};
@@ -229,6 +231,26 @@ impl Way<'_> {
         }
         self.map.axes(&place)
     }
+
+    /// The ends of the parts that chords are made of. A chord is compared with its curve at three
+    /// places, which in several turns of an arc may all be where it began: so no part is of more than one.
+    fn parts(&self, length: f64, end: AxisVector) -> impl Iterator<Item = Chord> {
+        let count = match self.segment {
+            Segment::Arc(arc) => (arc.sweep_rad.abs() / TAU).ceil().max(1.0),
+            Segment::Line(_) | Segment::Curve(_) => 1.0,
+        };
+        let numbers = std::iter::successors(Some(1.0), move |number| {
+            (*number < count).then_some(number + 1.0)
+        });
+        numbers.map(move |number| {
+            if number < count {
+                let s = length * (number / count);
+                (self.axes(s, length), s)
+            } else {
+                (end, length)
+            }
+        })
+    }
 }
 
 /// The pieces of a move, and how fast each is.
@@ -255,7 +277,11 @@ fn map_move(way: &Way<'_>, rate: Rate, start: AxisVector, error_mm: f64) -> Vec<
     }
     let length = segment.length();
     let mut chords = Vec::new();
-    halve(way, length, (start, 0.0), (end, length), 0, &mut chords);
+    let mut begins = (start, 0.0);
+    for ends in way.parts(length, end) {
+        halve(way, length, begins, ends, 0, &mut chords);
+        begins = ends;
+    }
     let mut pieces = Vec::with_capacity(chords.len());
     let (mut at, mut path) = (start, 0.0);
     for (place, s) in chords {
