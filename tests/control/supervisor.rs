@@ -275,6 +275,7 @@ impl Supervisor<'_, '_, '_> {
                 line: setpoint.line,
                 position: AxisVector::from(setpoint.position),
                 reported: None,
+                is_between_frames: setpoint.is_between_frames(),
             };
             let time = (setpoint.sequence, setpoint.fraction);
             match passed.off_mm(time, &sample.position) {

@@ -109,6 +109,7 @@ pub fn audit(items: &[Item], positions: impl Iterator<Item = AxisVector>) -> Aud
             line: 0,
             position,
             reported: None,
+            is_between_frames: false,
         });
     }
     audit.finish()

@@ -118,6 +118,7 @@ fn audit(stretch: &[Setpoint]) -> Vec<String> {
             line: setpoint.line,
             position: AxisVector::from(setpoint.position),
             reported: None,
+            is_between_frames: false,
         });
     }
     let last = stretch.last().map_or(0, |setpoint| setpoint.number);

@@ -134,6 +134,7 @@ mod tests {
                     line: 1,
                     position: AxisVector::zeros(),
                     reported: Some([velocity, acceleration]),
+                    is_between_frames: false,
                 };
                 let s = t * (speed_v + t * (0.5 * accel_a + t * jerk_j / 6.0));
                 audit.sample(&Seen::from(&sample), s);

@@ -203,6 +203,7 @@ mod tests {
                 line: 1,
                 position,
                 reported: None,
+                is_between_frames: false,
             });
             most = most.max(audit.matching.kept());
         }
@@ -211,6 +212,7 @@ mod tests {
             line: 1,
             position: spiral(100_000),
             reported: None,
+            is_between_frames: false,
         });
         assert!(audit.finish().is_clean());
         assert!(most < 5000, "{most}");
@@ -236,6 +238,7 @@ mod tests {
                     line: 1,
                     position,
                     reported: None,
+                    is_between_frames: false,
                 };
                 if is_away && tick == 2 {
                     audit.sample_away(&sample);
@@ -271,6 +274,7 @@ mod tests {
                 line: 1,
                 position,
                 reported: None,
+                is_between_frames: false,
             });
             most = most.max(audit.matching.kept());
         }

@@ -34,7 +34,13 @@
 //! for (tick, x_mm) in [0.0, 0.0, 1.0, 1.0].into_iter().enumerate() {
 //!     let mut position = AxisVector::zeros();
 //!     position[0] = x_mm; // 1 mm in 4 ms: 250 mm/s
-//!     audit.sample(&Sample { tick: tick as u64, line: 1, position, reported: None });
+//!     audit.sample(&Sample {
+//!         tick: tick as u64,
+//!         line: 1,
+//!         position,
+//!         reported: None,
+//!         is_between_frames: false,
+//!     });
 //! }
 //! let report = audit.finish();
 //! assert!(report.violations.iter().any(|found| matches!(found.kind, ViolationKind::Velocity { .. })));

@@ -14,6 +14,10 @@ pub struct Sample {
     pub position: AxisVector,
     /// Velocity and acceleration as reported, if they are to be checked.
     pub reported: Option<[AxisVector; 2]>,
+    /// Whether it lies between two frames of the plan, as it does where program time runs slower or
+    /// the frames were not played from the grid: there a motion may swing over an end of travel by
+    /// what no plan avoids.
+    pub is_between_frames: bool,
 }
 
 /// A sample where it lies: a frame is not copied to be judged.
@@ -23,6 +27,7 @@ pub(crate) struct Seen<'a> {
     pub(crate) line: u32,
     pub(crate) position: &'a AxisVector,
     pub(crate) reported: Option<[&'a AxisVector; 2]>,
+    pub(crate) is_between_frames: bool,
 }
 
 impl<'a> From<&'a Sample> for Seen<'a> {
@@ -32,6 +37,7 @@ impl<'a> From<&'a Sample> for Seen<'a> {
             line: sample.line,
             position: &sample.position,
             reported: sample.reported.as_ref().map(|[v, a]| [v, a]),
+            is_between_frames: sample.is_between_frames,
         }
     }
 }
@@ -43,6 +49,7 @@ impl<'a> From<&'a Frame> for Seen<'a> {
             line: frame.line,
             position: &frame.position,
             reported: Some([&frame.velocity, &frame.acceleration]),
+            is_between_frames: false,
         }
     }
 }
@@ -54,6 +61,7 @@ impl From<&Frame> for Sample {
             line: frame.line,
             position: frame.position,
             reported: Some([frame.velocity, frame.acceleration]),
+            is_between_frames: false,
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The check of travel: whether every axis stays inside, at samples and between them.
 //!
-//! At a sample an axis may be beyond an end by rounding alone: whoever plays the motion refuses more.
-//! Between two samples that report velocity and acceleration, the motion is the polynomial of degree
+//! At a frame an axis may be beyond an end by rounding alone: whoever plays the motion refuses more.
+//! Between two of them that report velocity and acceleration, the motion is the polynomial of degree
 //! five through both; that is what is played where time runs slower. With a jerk up to J it may swing
 //! over an end by a small share of J·T³, however exactly it comes to rest there: nothing on the grid
 //! of periods can avoid that, and it is nanometres.
@@ -76,7 +76,12 @@ impl TravelAudit {
         for span in &self.axes {
             let i = span.axis.index();
             let at = sample.position[i];
-            let here = (span.beyond(at) > Travel::ROUNDING).then_some(at);
+            let most = if sample.is_between_frames {
+                span.swing
+            } else {
+                Travel::ROUNDING
+            };
+            let here = (span.beyond(at) > most).then_some(at);
             let beyond = here.or_else(|| {
                 let (before_tick, from, Some([v0, a0])) = last? else {
                     return None;

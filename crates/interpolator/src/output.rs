@@ -8,6 +8,7 @@ use crate::jog::AxesMotion;
 use crate::joints::Joints;
 use crate::limited_joints::LimitedJoints;
 use crate::rate::Progress;
+use crate::rest::RestingTravel;
 use crate::setpoint::SetpointWriter;
 use crate::superposition::SuperposedAxis;
 use crate::track::Track;
@@ -36,6 +37,7 @@ pub(crate) struct Output {
     joints: Joints,
     /// Joints that are not the axes, with limits of their own.
     limited: Option<LimitedJoints>,
+    resting: RestingTravel,
 }
 
 impl Output {
@@ -49,6 +51,7 @@ impl Output {
             setpoints: SetpointWriter::new(period_t, boot_id, config.joints()),
             joints: Joints::new(config),
             limited,
+            resting: RestingTravel::of(config),
         }
     }
 
@@ -77,9 +80,15 @@ impl Output {
         self.setpoints.begin_epoch();
     }
 
-    /// The machine stays where it is.
+    /// The machine stays where it is, inside its travel.
     pub(crate) fn rest(&mut self) {
-        self.published = Differences::at_rest(&self.published.place());
+        let position: AxisVector = self.published.position();
+        let inside = self.resting.nearest(&position);
+        self.published = if inside == position {
+            Differences::at_rest(&self.published.place())
+        } else {
+            at_rest(self.limited.as_ref(), &inside)
+        };
     }
 
     /// Writes the setpoint at the present program time, and compares its position with the limits.

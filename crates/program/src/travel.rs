@@ -18,6 +18,13 @@ impl Travel {
     /// position allow as much: the reader of programs, the planner, the interpolator, the auditor.
     pub const ROUNDING: f64 = 1e-9;
 
+    /// What a motion may swing beyond an end of travel between two periods, as a share of what jerk
+    /// does in a period.
+    ///
+    /// A motion that comes to rest there within a period, with all of the jerk, swings over by J·T³/768
+    /// when it is half-way through that: nanometres. No motion on the grid of periods avoids it.
+    pub const SWING_R: f64 = 1.0 / 400.0;
+
     /// No soft limits.
     #[must_use]
     pub fn unlimited() -> Self {

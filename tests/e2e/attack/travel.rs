@@ -8,7 +8,8 @@ const ROUNDING_MM: f64 = 1e-9;
 const MOST: usize = 5;
 
 /// Setpoints of programs, and of jogs of a machine that is homed, that are beyond the travel of X, Y and Z, mm.
-pub(super) fn beyond(setpoints: &[Setpoint], travel: &[[f64; 2]; 3]) -> Vec<String> {
+/// `swing` is what a rest at an end, within a period, swings over between two frames.
+pub(super) fn beyond(setpoints: &[Setpoint], travel: &[[f64; 2]; 3], swing: f64) -> Vec<String> {
     let (mut found, mut before) = (Vec::new(), None);
     for setpoint in setpoints {
         let state = setpoint.state().ok();
@@ -16,9 +17,14 @@ pub(super) fn beyond(setpoints: &[Setpoint], travel: &[[f64; 2]; 3]) -> Vec<Stri
         if state != Some(MachineState::Jogging) {
             before = state;
         }
+        let most = if setpoint.is_between_frames() {
+            swing + ROUNDING_MM
+        } else {
+            ROUNDING_MM
+        };
         let places = setpoint.position.iter().zip(travel).zip(["X", "Y", "Z"]);
         for ((place, [low, high]), axis) in places.filter(|_| is_limited) {
-            if !(low - ROUNDING_MM..=high + ROUNDING_MM).contains(place) {
+            if !(low - most..=high + most).contains(place) {
                 let tick = setpoint.tick;
                 found.push(format!("tick {tick}: {axis} {place} in state {state:?}"));
             }

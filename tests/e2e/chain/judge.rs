@@ -163,6 +163,7 @@ pub(super) fn judge(all: &[Vec<Row>; JOINTS], period_t: f64, planned: f64) -> Ve
             line: 0,
             position,
             reported: None,
+            is_between_frames: false,
         });
     }
     let report = audit.finish();

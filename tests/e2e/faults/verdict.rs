@@ -135,6 +135,7 @@ fn audit(setpoints: &[Setpoint], items: &[Item], largest_override: f64) -> Verdi
             line: setpoint.line,
             position: AxisVector::from(setpoint.position),
             reported: None,
+            is_between_frames: setpoint.is_between_frames(),
         };
         let time = (setpoint.sequence, setpoint.fraction);
         match passed.off_mm(time, &sample.position) {

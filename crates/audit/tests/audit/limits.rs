@@ -31,6 +31,7 @@ fn state(tick: u64, p: f64, v: f64, a: f64) -> Sample {
         line: 7,
         position: axis(p),
         reported: Some([axis(v), axis(a)]),
+        is_between_frames: false,
     }
 }
 

@@ -63,6 +63,7 @@ fn sample(tick: u64, position: AxisVector) -> Sample {
         line: 1,
         position,
         reported: None,
+        is_between_frames: false,
     }
 }
 

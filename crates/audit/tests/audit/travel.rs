@@ -116,3 +116,19 @@ fn it_is_judged_away_from_the_path_too() {
     audit.sample_away(&sample(1, point(-1.0, 0.0)));
     assert!(audit.finish().max_beyond_travel_mm > 0.5);
 }
+
+#[test]
+fn between_frames_a_motion_may_swing_over_an_end() {
+    let swing = JERK * PERIOD.powi(3) / 768.0;
+    let judged = |x: f64, is_between_frames: bool| {
+        let mut audit = Audit::new(&settings());
+        audit.sample(&Sample {
+            is_between_frames,
+            ..sample(0, point(x, 0.0))
+        });
+        audit.finish().max_beyond_travel_mm > 0.0
+    };
+    assert!(!judged(100.0 + swing, true));
+    assert!(judged(100.0 + swing, false));
+    assert!(judged(100.0 + 3.0 * swing, true));
+}

@@ -29,6 +29,7 @@ pub(crate) fn audited(setup: &Setup, records: &[Vec<SyncRecord>]) -> AuditReport
             line: 0,
             position,
             reported: None,
+            is_between_frames: false,
         });
     }
     audit.finish()

@@ -109,6 +109,13 @@ impl Setpoint {
         Fields(Self::NAME).code("state", self.state)
     }
 
+    /// Whether it lies between two frames, or begins there: a jog away from a held path sets out from
+    /// wherever the motion was held.
+    #[must_use]
+    pub fn is_between_frames(&self) -> bool {
+        self.fraction > 0.0 || self.state() == Ok(MachineState::Jogging)
+    }
+
     /// What happens in the period from `scheduled_ns` to `apply_ns`, in order.
     #[must_use]
     pub fn events(&self) -> &[EventRecord] {

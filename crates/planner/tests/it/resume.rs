@@ -125,6 +125,7 @@ fn deviation(items: &[Item], positions: impl Iterator<Item = AxisVector>) -> f64
             line: 0,
             position,
             reported: None,
+            is_between_frames: false,
         });
     }
     let report = audit.finish();

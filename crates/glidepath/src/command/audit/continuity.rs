@@ -124,7 +124,7 @@ impl Continuity {
         });
     }
 
-    /// In a program every axis is inside its travel; by hand one that stands outside is brought back. The
+    /// In a program every axis is inside its travel, but for what it swings over between two frames; by hand one that stands outside is brought back. The
     /// ends of travel are places of a machine that knows where it is: on the way home, and before that, they
     /// mean nothing.
     fn judge_travel(&mut self, setpoint: &Setpoint) {
@@ -142,11 +142,17 @@ impl Continuity {
         if (by_hand && !is_row) || is_lost {
             return;
         }
+        let swing_per_jerk = Travel::SWING_R * self.period_t.powi(3);
         let beyond = self.axes.iter().find_map(|state| {
             let at = state.place(setpoint);
             let [low, high] = state.travel;
             let end = at.max(low).min(high);
-            ((at - end).abs() > Travel::ROUNDING).then(|| {
+            let most = if setpoint.is_between_frames() {
+                state.limits[2] * swing_per_jerk + Travel::ROUNDING
+            } else {
+                Travel::ROUNDING
+            };
+            ((at - end).abs() > most).then(|| {
                 let (name, off) = (state.name(), (at - end).abs());
                 let unit = unit(state.axis);
                 format!(
@@ -337,11 +343,11 @@ mod tests {
     fn an_axis_beyond_its_travel_in_a_program_is_found_and_by_hand_it_is_not() {
         let config = config::parse("built-in machine", config::EMBEDDED).unwrap();
         let end = config.limits().travel.highest[0];
-        let found = |x: f64, epoch: u64, state: MachineState| {
+        let found_at = |x: f64, epoch: u64, state: MachineState, fraction: f64| {
             let mut continuity = Continuity::new(&config);
             let mut setpoint = Setpoint::zeroed();
             (setpoint.boot_id, setpoint.number, setpoint.epoch) = (1, 1, epoch);
-            setpoint.state = state.code();
+            (setpoint.state, setpoint.fraction) = (state.code(), fraction);
             setpoint.position[0] = x;
             continuity.take(&setpoint);
             let texts = continuity.findings.listed.into_iter();
@@ -349,9 +355,15 @@ mod tests {
                 .filter(|finding| finding.text.contains("beyond"))
                 .count()
         };
+        let found = |x, epoch, state| found_at(x, epoch, state, 0.0);
         assert_eq!(found(end, 1, MachineState::Running), 0);
         assert_eq!(found(end + 1e-5, 1, MachineState::Running), 1);
         assert_eq!(found(end + 1e-5, 1, MachineState::Jogging), 0);
         assert_eq!(found(end + 1e-5, 0, MachineState::Idle), 0);
+        // A rest within a period swings over its place before.
+        let swing = config.limits().jerk[0] * config.period_t().powi(3) / 768.0;
+        assert_eq!(found_at(end + swing, 1, MachineState::Held, 0.5), 0);
+        assert_eq!(found_at(end + swing, 1, MachineState::Held, 0.0), 1);
+        assert_eq!(found_at(end + 4.0 * swing, 1, MachineState::Held, 0.5), 1);
     }
 }

@@ -107,6 +107,7 @@ impl Follows {
             line: setpoint.line,
             position: setpoint.position.into(),
             reported: None,
+            is_between_frames: setpoint.is_between_frames(),
         };
         for told in setpoint.events() {
             if let Ok(event) = told.event() {

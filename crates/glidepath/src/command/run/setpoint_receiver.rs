@@ -197,6 +197,7 @@ impl Judge {
             line: setpoint.line,
             position: AxisVector::from(setpoint.position),
             reported: None,
+            is_between_frames: setpoint.is_between_frames(),
         };
         self.audit
             .joints(judged.tick, judged.line, &setpoint.joint_position);

@@ -135,6 +135,7 @@ impl Case {
                 line,
                 position,
                 reported: Some(reported),
+                is_between_frames: false,
             });
         }
         audit.finish()

@@ -8,11 +8,6 @@ use super::between_periods::BetweenPeriods;
 use glidepath_geometry::AXES;
 use glidepath_program::{Limits, Travel};
 
-/// What a quintic may swing beyond an end of travel, as a share of what jerk does in a period.
-///
-/// A motion that comes to rest there within a period, with all of the jerk, swings over by J·T³/768
-/// when it is half-way through that: nanometres. No motion on the grid of periods avoids it.
-const SWING_R: f64 = 1.0 / 400.0;
 /// Halvings of a period at most.
 const HALVINGS: u32 = 6;
 
@@ -29,7 +24,7 @@ pub(super) fn is_inside(limits: &Limits, period: &BetweenPeriods<'_>) -> bool {
         if at < low - Travel::ROUNDING || at > high + Travel::ROUNDING {
             return false;
         }
-        let swing = SWING_R * limits.jerk[i] * t * t * t + Travel::ROUNDING;
+        let swing = Travel::SWING_R * limits.jerk[i] * t * t * t + Travel::ROUNDING;
         holds(&period.bezier(i), (low - swing, high + swing), HALVINGS)
     })
 }
