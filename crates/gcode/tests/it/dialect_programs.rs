@@ -88,3 +88,18 @@ fn whole_turns_of_a_large_arc_on_a_turned_table_are_driven() {
                 C=ACN(-10)\nG3 I=12 J=AC(10) TURN=3\nG1 X=0 ANG=0\n";
     judge(Dialect::Siemens, text);
 }
+
+#[test]
+fn a_scale_that_is_given_again_and_again_moves_nothing() {
+    // Z of its centre is where the tool is.
+    let text = "#1=0\nN7 #1=#1+1\nG44 H1\nG1 X1.\nG51 X-0.5 Y#1 P3\nIF[#1LT50]GOTO7\nM30\n";
+    judge(Dialect::Fanuc, text);
+    let items = Program::new(text.as_bytes(), options(Dialect::Fanuc));
+    let moves = items.filter_map(|item| match item.expect(text).kind {
+        ItemKind::Move { segment, .. } => Some(segment.end()),
+        _ => None,
+    });
+    for end in moves {
+        assert_eq!(end[2], 0.0, "{end}");
+    }
+}

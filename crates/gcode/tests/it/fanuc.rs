@@ -229,6 +229,16 @@ fn coordinates_are_turned_scaled_and_mirrored() {
     assert_eq!(last("G51 X10 Y0 P2000\nG0 X15 Y3"), [20.0, 6.0, 0.0]);
     assert_eq!(last("G51 X10 Y0 P2.\nG0 X15 Y3"), [20.0, 6.0, 0.0]);
     assert_eq!(last("G51 X0 Y0 I-1. J1.\nG0 X15 Y3"), [-15.0, 3.0, 0.0]);
+    // What has no word is about the place of the tool, whatever was in force before: X 20 after the first
+    // scale, 25 after the second.
+    assert_eq!(
+        last("G51 X0 Y0 P2.\nG0 X10 Y3\nG51 Y0 P5.\nX21"),
+        [25.0, 6.0, 0.0]
+    );
+    assert_eq!(
+        last("G51 X0 Y0 P2.\nG0 X10 Y0\nG68 R90.\nX11 Y0"),
+        [20.0, 2.0, 0.0]
+    );
     assert_eq!(last("G51.1 X20\nG0 X5 Y1\nG50.1 X0\nX5"), [5.0, 1.0, 0.0]);
     assert_eq!(ends("G51.1 X20\nG0 X5 Y1")[0], [35.0, 1.0, 0.0]);
     // A mirror image turns the other way round, about the image of the centre: (15, 1) is turned to (9, 5),

@@ -176,6 +176,11 @@ impl Offsets {
         self.to_program_in(self.system(), machine)
     }
 
+    /// Coordinates as they were with another frame in force.
+    pub(crate) fn to_program_by(&self, frame: &Frame, machine: AxisVector) -> AxisVector {
+        frame.undo(self.before_frame(self.system(), machine))
+    }
+
     /// Coordinates in the coordinate system of that index, without the offset of G92.
     pub(crate) fn in_fixture(&self, index: usize, machine: AxisVector) -> AxisVector {
         let system = self.systems.get(index).unwrap_or_else(|| self.system());
@@ -183,9 +188,13 @@ impl Offsets {
     }
 
     fn to_program_in(&self, system: &CoordinateSystem, machine: AxisVector) -> AxisVector {
+        self.frame.undo(self.before_frame(system, machine))
+    }
+
+    /// What the frame has made of the program's coordinates.
+    fn before_frame(&self, system: &CoordinateSystem, machine: AxisVector) -> AxisVector {
         let origin = system.origin + self.fanuc.added() + self.tool;
-        let place = system.rotate(machine - origin, -1.0) - self.shift;
-        self.frame.undo(place)
+        system.rotate(machine - origin, -1.0) - self.shift
     }
 
     /// G10 L20: moves the origin of a system so that the machine position has the given program

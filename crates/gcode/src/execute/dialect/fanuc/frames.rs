@@ -5,7 +5,7 @@
 use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
 use crate::execute::interpreter::Interpreter;
-use crate::execute::state::fanuc_offsets::{Scale, Turn};
+use crate::execute::state::fanuc_offsets::{FanucFrames, Scale, Turn};
 use crate::syntax::block::Block;
 use crate::syntax::codes::{Coded, FrameCode};
 use crate::syntax::modes::Distance;
@@ -68,10 +68,14 @@ impl Interpreter {
             .help("write G40 and a move before it"))
     }
 
-    /// X, Y and Z of the block in mm, or where the tool is.
-    fn centre(&self, block: &Block) -> Outcome<[f64; 3]> {
+    /// X, Y and Z of the block in mm, or where the tool is in the coordinates that the other frames leave:
+    /// that is the place which stays where it is. In the coordinates of the frame that is replaced the
+    /// tool is elsewhere, and a scale given again and again would multiply what rounding has left.
+    fn centre(&self, block: &Block, others: &FanucFrames) -> Outcome<[f64; 3]> {
         let words = self.axis_values(block)?;
-        let here = self.state.offsets.to_program(self.state.position);
+        let offsets = &self.state.offsets;
+        let frame = offsets.tilted.with(&others.frame());
+        let here = offsets.to_program_by(&frame, self.state.position);
         Ok([0, 1, 2].map(|axis| words[axis].unwrap_or(here[axis])))
     }
 
@@ -118,8 +122,12 @@ impl Interpreter {
                     .help("write the factor with its point: P2. doubles, and so does P2000"),
             );
         }
+        let others = FanucFrames {
+            scale: None,
+            ..self.state.offsets.fanuc.frames
+        };
         Ok(Scale {
-            about: self.centre(block)?,
+            about: self.centre(block, &others)?,
             factors,
         })
     }
@@ -176,9 +184,13 @@ impl Interpreter {
         let before = self.state.offsets.fanuc.frames.turn;
         let adds = self.state.modal.distance == Distance::Incremental;
         let base = before.filter(|_| adds).map_or(0.0, |turn| turn.degrees);
+        let others = FanucFrames {
+            turn: None,
+            ..self.state.offsets.fanuc.frames
+        };
         let about = match before {
             Some(turn) if !block.has_axes() => turn.about,
-            _ => self.centre(block)?,
+            _ => self.centre(block, &others)?,
         };
         Ok(Turn {
             plane,
