@@ -331,6 +331,9 @@ pub(crate) fn options(dialect: Dialect) -> Options {
     }
 }
 
+/// Items of a program that are looked at. In an endless loop hundreds of lines may come before each.
+const ITEMS: usize = 1_000;
+
 /// What has to be true of a program: diagnostics are of its text, moves begin where the last one
 /// ended, and what was checked to its end without a finding runs without one.
 pub(crate) fn judge(dialect: Dialect, text: &str) {
@@ -348,7 +351,7 @@ pub(crate) fn judge(dialect: Dialect, text: &str) {
         assert!(!diagnostic.message.is_empty());
     }
     let mut end = options.start;
-    for item in Program::new(text.as_bytes(), options).take(20_000) {
+    for item in Program::new(text.as_bytes(), options).take(ITEMS) {
         let Ok(item) = item else {
             // Loops that are too long are not checked to their end.
             let is_told = !report.diagnostics.is_empty() || report.given_up_at.is_some();

@@ -21,6 +21,8 @@ use crate::{Jet, LINEAR_XYZ};
 /// over the length on which |C′| changes. With more, one step is not enough; with less, there are more
 /// pieces.
 const SEED_MM: f64 = 1e-6;
+/// The same as a share of the piece's length, for curves of micrometres.
+const SEED_R: f64 = 1e-4;
 /// Largest difference of the length of a piece from the sum of its halves, mm and relative: thousands of
 /// pieces come to less than a picometre together. Rounding alone is some 1e-16 of a length.
 const LENGTH_MM: f64 = 1e-13;
@@ -211,7 +213,7 @@ fn cut(part: &MeasuredPart<'_>, pieces: &mut Vec<LengthPiece>) {
             piece.seed = seed;
             piece.newton_steps = 1;
         }
-        if part.halvings == 0 || seed_error_s(&piece, span) <= SEED_MM {
+        if part.halvings == 0 || seed_error_s(&piece, span) <= SEED_MM.min(SEED_R * piece.length) {
             pieces.push(piece);
             return;
         }

@@ -165,6 +165,24 @@ fn curves_with_rotary_axes_come_in_chords() {
     assert!(s <= path.length() && s > 0.9999 * path.length(), "{s}");
 }
 
+#[test]
+fn a_small_curve_comes_in_few_pieces() {
+    // A bend that is nearly a cusp, from kilometres down to ten nanometres.
+    let shape = [[0.0, 0.0], [1.0, 1.0], [2.0, 1.0], [1.0, 1.0]];
+    for size_mm in [1e-5, 1e-4, 1e-3, 1e-2, 1.0, 1e3] {
+        let points = shape.map(|[x, y]| {
+            let mut point = AxisVector::zeros();
+            (point[0], point[1]) = (x * size_mm, y * size_mm);
+            point
+        });
+        let knots = [0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0];
+        let path = NurbsPath::new(Nurbs::new(3, &points, &[1.0; 4], &knots).expect("valid"));
+        let segments = path.segments(1e-3);
+        assert!(segments.len() < 200, "{} of {size_mm} mm", segments.len());
+        assert!(segments.iter().all(|s| matches!(s, Segment::Curve(_))));
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(100))]
 
