@@ -19,18 +19,17 @@
 //! * [`stepped`] is the real-time thread's work without a thread, a clock or ports, for
 //!   measurements and simulation: it is driven tick by tick.
 //!
-//! Inside there are four rooms. An arrow is what a room may know, and no other way leads from one to another (a test
-//! holds them to it, see the map of the code):
+//! Inside there are four rooms, and an arrow is what a room may know (a test holds them to it, see the map of the code):
 //!
 //! ```text
-//!            process            both threads, started and ended
-//!            │     │
-//!        ports     real_time    everything that talks to others │ one setpoint a period
-//!            │     │
-//!            shared             the configuration, what passes between the threads, what is the same for both
+//!            ┌─► ports ─────┐       everything that talks to other processes
+//!  process ──┤              ├─► shared
+//!            └─► real_time ─┘       one setpoint a period
 //! ```
 //!
-//! The two threads do not know each other. What one wants of the other passes rings of fixed size (`shared::message`).
+//! `process` starts both threads, and ends them. The threads do not know each other: what one wants of the other passes
+//! rings of fixed size (`shared::message`). `shared` also has what both know: the configuration, and what has to be the
+//! same for both.
 //!
 //! What the real-time thread owns lies together, axes in `pairs`, and is not moved: after a period
 //! of sleep the caches are cold, and a tick takes as long as the lines of memory and of code it

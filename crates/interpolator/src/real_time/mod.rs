@@ -14,7 +14,7 @@
 //! * `drives` is their power, as it is seen here, and `tick_statistics` is how well the host kept time.
 //!
 //! It may know `shared`, and neither the ports thread nor who starts both. After the start nothing here allocates, locks,
-//! writes a log or makes a system call, and what is in no other room cannot bring that in.
+//! writes a log or makes a system call.
 
 pub(crate) mod block_end;
 pub(crate) mod compensated;
