@@ -6,8 +6,8 @@
 //! ```
 //!
 //! A job is a thing at the interpolator from the moment it is accepted, because that is where an abort,
-//! a hold, and everything that makes the machine unfit are settled without a race (the module `job`
-//! there). This side only looks, every few milliseconds, whether the claim still stands, and ends what
+//! a hold, and everything that makes the machine unfit are settled without a race (the module
+//! `ports::job` there). This side only looks, every few milliseconds, whether the claim still stands, and ends what
 //! it is at when it does not.
 
 use std::hash::{BuildHasher as _, Hasher as _, RandomState};

@@ -19,7 +19,7 @@
 //! * [`pass`]: whether a pass may begin, where it is to be, and whether the spindle still makes sense;
 //! * [`tap`]: into a hole and out of it, without a plan.
 //!
-//! Angle and speed of the spindle come with what is seen of the drives: see `feedback::spindle`.
+//! Angle and speed of the spindle come with what is seen of the drives: see `ports::feedback::spindle`.
 //!
 //! The tick asks it for a rate, and takes that only if what follows keeps the limits, with a stop in
 //! reserve: see [`crate::real_time::rate`].
