@@ -12,7 +12,7 @@ use crate::frame_validation::{FrameValidator, MachineSnapshot, FrameVerdict};
 
 // The judge is not public: it is compiled in here, with those of its neighbours that it uses.
 #[allow(dead_code, reason = "only the judge is used")]
-#[path = "../../src/ports/frame_validation.rs"]
+#[path = "../../src/ports/frame_validation/mod.rs"]
 mod frame_validation;
 #[allow(dead_code, reason = "only the judge is used")]
 #[path = "../../src/shared/fault.rs"]
