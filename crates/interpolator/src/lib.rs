@@ -19,21 +19,17 @@
 //! * [`stepped`] is the real-time thread's work without a thread, a clock or ports, for
 //!   measurements and simulation: it is driven tick by tick.
 //!
-//! Inside:
+//! Inside there are four rooms, and an arrow is what a room may know (a test holds them to it, see the map of the code):
 //!
-//! * `tick` is one period of the real-time thread, done just before the deadline but for the time
-//!   stamp. It owns a `track` (the frames ahead), a `rate` (of program time: the essay on hold,
-//!   resume and override is there, and the diagram of its states), a `queue_level` (are there frames
-//!   enough?), `stop_requests` (what stops the motion), a `single_block_stop` (the end of a block to
-//!   rest at) and a `wait` (for the answer to an event);
-//! * `spindle` is what a pass of a thread follows instead of the clock;
-//! * `jog` moves the axes by hand, and away from a path that is held and back to it, with a `tracker`
-//!   for what follows no program;
-//! * `setpoint` writes what is published, and `joints` turns its axes into those of the mechanism;
-//!   `limited_joints` are these along the frames ahead, as limits of the rate;
-//! * `frame_validation` judges every frame before the real-time thread sees it, and `commands` every
-//!   command;
-//! * `ports` is one turn of the ports thread, `loops` are the two threads on their common grid.
+//! ```text
+//!            ┌─► ports ─────┐       everything that talks to other processes
+//!  process ──┤              ├─► shared
+//!            └─► real_time ─┘       one setpoint a period
+//! ```
+//!
+//! `process` starts both threads, and ends them. The threads do not know each other: what one wants of the other passes
+//! rings of fixed size (`shared::message`). `shared` also has what both know: the configuration, and what has to be the
+//! same for both.
 //!
 //! What the real-time thread owns lies together, axes in `pairs`, and is not moved: after a period
 //! of sleep the caches are cold, and a tick takes as long as the lines of memory and of code it
@@ -98,74 +94,25 @@
 
 #![cfg_attr(glidepath_rtsan, feature(sanitize))]
 
-mod acknowledgements;
-mod auxiliary;
-mod block_end;
-mod block_starts;
-mod code_words;
-mod commands;
-mod compensated;
-mod config;
-mod counters;
-mod differences;
-mod drives;
-mod events_told;
-mod fault;
-mod feedback;
-mod frame_summary;
-mod frame_validation;
-mod homing;
-mod job;
-mod jog;
-mod joints;
-mod limited_joints;
-mod loops;
-mod m_code_waits;
-mod message;
-mod output;
-mod pairs;
 mod ports;
-mod probing;
-mod program_time;
-mod queue_level;
-mod quintic;
-mod ramp;
-mod rate;
-mod rest;
-mod retrace;
-mod run;
-mod served;
-mod setpoint;
-mod single_block_stop;
-mod spindle;
-mod status;
-mod stepped;
-mod stop_requests;
-mod stop_time;
-mod stops;
-mod superposition;
+mod process;
+mod real_time;
+mod shared;
 #[cfg(test)]
 mod testing;
-mod tick;
-mod tick_statistics;
-mod told_by_hand;
-mod tool_change;
-mod track;
-mod tracker;
-mod wait;
 
 /// Unit tests prove that the real-time thread does not allocate.
 #[cfg(test)]
 #[global_allocator]
 static ALLOCATOR: glidepath_realtime::CountingAllocator = glidepath_realtime::CountingAllocator;
 
-pub use config::{Config, Gantry, JogSettings, RealTime, SoftLimits};
-pub use feedback::{AdaptiveFeed, FeedbackSettings, JointFeedback, ProbeInput};
-pub use homing::{HomingError, JointBounds, JointHoming};
-pub use loops::{RunError, lead_ns};
-pub use m_code_waits::{AnswerSource, MAX_M_CODE_WAITS, MCodeWait, MCodeWaits};
-pub use run::run;
-pub use served::{Served, served};
-pub use stepped::{Stepped, stepped};
-pub use stops::StopSettings;
-pub use superposition::{Superposition, SuperpositionControl};
+pub use process::loops::{RunError, lead_ns};
+pub use process::run::run;
+pub use process::served::{Served, served};
+pub use process::stepped::{Stepped, stepped};
+pub use shared::config::feedback::{AdaptiveFeed, FeedbackSettings, JointFeedback, ProbeInput};
+pub use shared::config::homing::{HomingError, JointBounds, JointHoming};
+pub use shared::config::stops::StopSettings;
+pub use shared::config::superposition::{Superposition, SuperpositionControl};
+pub use shared::config::{Config, Gantry, JogSettings, RealTime, SoftLimits};
+pub use shared::m_code_waits::{AnswerSource, MAX_M_CODE_WAITS, MCodeWait, MCodeWaits};

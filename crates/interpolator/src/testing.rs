@@ -83,10 +83,10 @@ pub(crate) fn planned(
     records(&frames, 1, 4_000_000)
 }
 
-use crate::config::Config;
-use crate::jog::DemandReader;
-use crate::message::{Inputs, LOG_EVENTS, LogEvent, Order, PortsEnds, Rings, TickReport};
-use crate::tick::Interpolator;
+use crate::ports::demand_reader::DemandReader;
+use crate::real_time::tick::Interpolator;
+use crate::shared::config::Config;
+use crate::shared::message::{Inputs, LOG_EVENTS, LogEvent, Order, PortsEnds, Rings, TickReport};
 use glidepath_geometry::AxisVector;
 use glidepath_link::{Command, EventRecord, JogDemand, MachineState, Setpoint};
 use glidepath_motion::Planner;

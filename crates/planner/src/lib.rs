@@ -23,6 +23,18 @@
 //! * [`listen()`] and [`feed()`] are the two ends of a stream of segments from another process.
 //! * [`Remainder`] is what is left of a program whose planner died, or that was aborted.
 //!
+//! Inside there are six rooms, and an arrow is what a room may know (a test holds them to it, see the map of the code):
+//!
+//! ```text
+//!  service ─▶ publish ─▶ exchange ─┐
+//!                │                 ▼
+//!                └─────▶ plan ─▶ source ─▶ run
+//! ```
+//!
+//! Items come out of `source`, frames out of `plan`, and `publish` hands them to the interpolator, which `exchange` speaks
+//! to, as it does to clients. `service` says what is executed when. `run` is a run as its caller sees it. Whoever knows a
+//! room may know those behind it, too.
+//!
 //! What always holds:
 //!
 //! * Frames depend on the items and the settings alone: the same input gives the same frames to the
@@ -63,78 +75,40 @@
 //! # Ok::<(), glidepath_planner::Refusal>(())
 //! ```
 
-mod ahead;
-mod attend;
-mod blocks;
-mod changes;
-mod claim;
-mod claiming;
-mod client_watch;
-mod control;
-mod curve;
-mod epoch;
-mod epochs;
-mod error;
-mod feed;
-mod file;
-mod file_moves;
-mod fingerprint;
-mod history;
-mod input_arbiter;
-mod inputs;
-mod interval;
-mod job;
-mod job_client_handler;
-mod job_queue;
-mod joint_bounds;
-mod listen;
-mod machine;
-mod nurbs;
-mod parallel;
-mod pipe;
-mod pipeline;
-mod planning;
-mod program;
+mod exchange;
+mod plan;
 mod publish;
-mod readiness;
-mod refusal;
-mod remarks;
-mod restoring;
-mod resume;
-mod run_channels;
-mod sent;
+mod run;
+mod service;
 mod source;
-mod start_line;
-mod step;
-mod stream;
-mod unchanged_file;
 
-pub use attend::{Attend, Attended};
-pub use changes::{BlockLog, ChangeLog, PositionOffsetsLog, SetUp};
-pub use client_watch::CLIENT_SILENCE;
-pub use control::{Control, Notice, Progress};
-pub use curve::CurveSource;
-pub use epoch::Pace;
-pub use error::{LatchedFault, RunError};
-pub use feed::{Fed, FeedError, Feeding, feed};
-pub use file::{FileSource, LookedAt, check_file, find_in_file};
-pub use input_arbiter::{AnsweredInput, InputArbiter, InputJournal, InputResult};
-pub use job::{Job, JobEnd, JobRunner};
-pub use listen::{Listening, listen, serve};
-pub use nurbs::NurbsSource;
-pub use parallel::ParallelPipeline;
-pub use pipe::PipeSource;
-pub use pipeline::Pipeline;
-pub use program::ProgramSource;
-pub use publish::FramePublisher;
-pub use refusal::Refusal;
-pub use remarks::RemarkLog;
-pub use resume::{Remainder, ResumeError, ResumePoint};
-pub use run_channels::RunChannels;
-pub use sent::{Followed, LineFacts, LineInbox, SentLines};
-pub use source::{ItemSource, SILENCE, Settled, Supply};
-pub use start_line::{Approach, LineStart, StartLine, StartLineError};
-pub use step::{Output, Statistics, Step};
-use stream::Stream;
-pub use stream::{STREAM_QUEUE, SoftLimits};
-pub use unchanged_file::UnchangedFile;
+pub use exchange::attend::{Attend, Attended};
+pub use exchange::client_watch::CLIENT_SILENCE;
+pub use exchange::feed::{Fed, FeedError, Feeding, feed};
+pub use exchange::stream::{STREAM_QUEUE, SoftLimits};
+pub use plan::parallel::ParallelPipeline;
+pub use plan::pipeline::Pipeline;
+pub use plan::step::{Output, Step};
+pub use publish::epoch::Pace;
+pub use publish::frame_publisher::FramePublisher;
+pub use run::control::{Control, Notice, Progress};
+pub use run::error::{LatchedFault, RunError};
+pub use run::refusal::Refusal;
+pub use run::resume_error::ResumeError;
+pub use run::statistics::Statistics;
+pub use service::job::{Job, JobEnd, JobRunner};
+pub use service::listen::{Listening, listen, serve};
+pub use source::changes::{BlockLog, ChangeLog, PositionOffsetsLog, SetUp};
+pub use source::curve::CurveSource;
+pub use source::file::{FileSource, LookedAt, check_file, find_in_file};
+pub use source::input_arbiter::{AnsweredInput, InputArbiter, InputJournal, InputResult};
+pub use source::item_source::{ItemSource, SILENCE, Settled, Supply};
+pub use source::nurbs::NurbsSource;
+pub use source::pipe::PipeSource;
+pub use source::program::ProgramSource;
+pub use source::remarks::RemarkLog;
+pub use source::resume::{Remainder, ResumePoint};
+pub use source::run_channels::RunChannels;
+pub use source::sent::{Followed, LineFacts, LineInbox, SentLines};
+pub use source::start_line::{Approach, LineStart, StartLine, StartLineError};
+pub use source::unchanged_file::UnchangedFile;

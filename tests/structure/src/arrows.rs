@@ -55,7 +55,7 @@ fn measured(is_wanted: impl Fn(&str) -> bool) -> Arrows {
 }
 
 /// The lines of a fenced block of `crates/README.md`.
-fn block(name: &str) -> Vec<String> {
+pub(crate) fn block(name: &str) -> Vec<String> {
     let text = std::fs::read_to_string(crate::root().join("crates/README.md")).expect("the map");
     let begin = format!("```{name}");
     let lines = text

@@ -1,5 +1,5 @@
-//! The structure tests, which hold the plan of the code against it: which crate may know which, and
-//! that the files of a crate do not import each other in circles.
+//! The structure tests, which hold the plan of the code against it: which crate may know which, that
+//! the files of a crate do not import each other in circles, and which room of a crate may know which.
 //!
 //! * `arrows`: the dependencies between crates are those that `crates/README.md` draws, and what it
 //!   says must never know each other does not, directly or by way of others.
@@ -8,6 +8,7 @@
 //! * `links`: links between pages lead to what is there.
 //! * `names`: no public type name stands twice across crates that know each other.
 //! * `readmes`: the pages of crates on a registry say what their documentation says.
+//! * `rooms`: in a crate that has rooms, each imports those alone that `crates/README.md` draws, and every file is in one.
 //! * `told`: people are not told names of variants, and no state or command is forgotten.
 
 #![allow(
@@ -28,6 +29,8 @@ mod modules;
 mod names;
 #[cfg(test)]
 mod readmes;
+#[cfg(test)]
+mod rooms;
 #[cfg(test)]
 mod told;
 

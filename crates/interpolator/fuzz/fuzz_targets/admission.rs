@@ -12,22 +12,25 @@ use crate::frame_validation::{FrameValidator, MachineSnapshot, FrameVerdict};
 
 // The judge is not public: it is compiled in here, with those of its neighbours that it uses.
 #[allow(dead_code, reason = "only the judge is used")]
-#[path = "../../src/frame_validation.rs"]
+#[path = "../../src/ports/frame_validation/mod.rs"]
 mod frame_validation;
 #[allow(dead_code, reason = "only the judge is used")]
-#[path = "../../src/fault.rs"]
+#[path = "../../src/shared/fault.rs"]
 mod fault;
-#[path = "../../src/rest.rs"]
+#[path = "../../src/shared/rest.rs"]
 mod rest;
 #[allow(dead_code, reason = "what the tests share")]
 #[path = "../../tests/synthetic/mod.rs"]
 mod synthetic;
 
-mod m_code_waits {
-    pub(crate) use glidepath_interpolator::MCodeWaits;
-}
-mod config {
-    pub(crate) use glidepath_interpolator::{Config, SoftLimits};
+mod shared {
+    pub(crate) use crate::{fault, rest};
+    pub(crate) mod m_code_waits {
+        pub(crate) use glidepath_interpolator::MCodeWaits;
+    }
+    pub(crate) mod config {
+        pub(crate) use glidepath_interpolator::{Config, SoftLimits};
+    }
 }
 
 const PERIOD_NS: u64 = 4_000_000;
