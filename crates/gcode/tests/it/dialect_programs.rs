@@ -83,7 +83,7 @@ fn what_is_held_back_at_the_end_is_a_move_of_the_turned_axes() {
 }
 
 #[test]
-fn whole_turns_of_a_large_arc_on_a_turned_table_are_driven() {
+fn an_arc_beyond_a_kilometre_on_a_turned_table_is_refused() {
     let text = "G1 X=1000000 ANG=1\nG112 X=11\nG3 I=-45. J=AC(-45.) TURN=10\nENDLABEL:\nA_A:\nG1 A=7 C=3\n\
                 C=ACN(-10)\nG3 I=12 J=AC(10) TURN=3\nG1 X=0 ANG=0\n";
     judge(Dialect::Siemens, text);

@@ -436,3 +436,14 @@ fn several_turns_of_an_arc_are_driven_while_the_table_turns_a_little() {
         assert!((length / turns - 1.0).abs() < 1e-3, "{c}: {length} {turns}");
     }
 }
+
+#[test]
+fn arcs_of_a_turned_table_that_are_too_large_are_refused() {
+    for (arc, code) in [
+        ("G2 X10 Y0 I-10 J900000 P90", "3:1 spline"),
+        ("G2 X10 Y0 I-10 J900000 P90 C4", "3:1 not-supported"),
+    ] {
+        let text = format!("M429\nG0 X10 Y0 A10\n{arc} F600\nM2\n");
+        finds(Dialect::LinuxCnc, &text, &[code]);
+    }
+}

@@ -123,6 +123,10 @@ impl SpaceArc {
         Nurbs::new(2, &points, &weights, &knots).map_err(|error| {
             let span = SourceSpan::default();
             BlockDiagnostic::new(DiagnosticCode::Spline, span, error.to_string())
+                .because(
+                    "an arc of a plane that is turned or tilted is a curve with control points",
+                )
+                .help("check the centre and the radius of the arc")
         })
     }
 

@@ -1,7 +1,5 @@
 //! The mapping of a program's moves to those of the axes, on a machine with five axes.
 
-use core::f64::consts::TAU;
-
 use glidepath_geometry::{Arc, AxisVector, NurbsPath, Segment};
 use glidepath_kinematics::FiveAxis;
 use glidepath_program::{Event, Item, ItemKind, Rate};
@@ -10,22 +8,11 @@ use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::arc_in_space::SpaceArc;
+use crate::execute::motion::chords::MappedMove;
 use crate::execute::motion::great_circle::{GreatCircle, NoCircle};
 use crate::execute::motion::tip_map::TipMap;
 use crate::execute::state::tip::Tip;
 use crate::syntax::block::Block;
-
-/// How far a chord may be from the curve it stands for, mm.
-const CHORD_MM: f64 = 1e-4;
-/// How far a rotary axis may be from where it should be within a chord, degrees.
-const CHORD_DEG: f64 = 1e-3;
-/// Most that a rotary axis turns in a chord, degrees.
-const MOST_TURN_DEG: f64 = 30.0;
-/// Most times a move is halved.
-const MOST_HALVES: u32 = 16;
-
-/// A piece of a mapped move: where it ends, and which part of the move's path it is of.
-type Chord = (AxisVector, f64);
 
 impl Interpreter {
     /// The map in force; `None` where places of the program are the axes.
@@ -126,12 +113,16 @@ impl Interpreter {
                         }
                         self.state.axes_end = segment.start();
                     }
-                    let way = Way {
+                    let way = MappedMove {
                         map: &map,
                         segment: &segment,
                         circle,
                     };
                     let pieces = map_move(&way, rate, self.state.axes_end, self.piece_error_mm());
+                    let pieces = pieces.map_err(|mut fault| {
+                        fault.span = block.motion_span();
+                        fault
+                    })?;
                     for (segment, rate) in pieces {
                         let (low, high) = segment.bounding_box();
                         self.check_travel(block, &low, &high, &self.state.axes_end, "a point")?;
@@ -214,47 +205,13 @@ fn circle_of(
     })
 }
 
-/// A move, and the map that makes it one of the axes.
-#[derive(Clone, Copy)]
-struct Way<'a> {
-    map: &'a TipMap,
-    segment: &'a Segment,
-    circle: Option<GreatCircle>,
-}
-
-impl Way<'_> {
-    /// The axes at a place of the path, whose length is given.
-    fn axes(&self, s: f64, length: f64) -> AxisVector {
-        let mut place = self.segment.jet(s).position;
-        if let Some(circle) = &self.circle {
-            circle.turn(s / length, &mut place);
-        }
-        self.map.axes(&place)
-    }
-
-    /// The ends of the parts that chords are made of. A chord is compared with its curve at three
-    /// places, which in several turns of an arc may all be where it began: so no part is of more than one.
-    fn parts(&self, length: f64, end: AxisVector) -> impl Iterator<Item = Chord> {
-        let count = match self.segment {
-            Segment::Arc(arc) => (arc.sweep_rad.abs() / TAU).ceil().max(1.0),
-            Segment::Line(_) | Segment::Curve(_) => 1.0,
-        };
-        let numbers = std::iter::successors(Some(1.0), move |number| {
-            (*number < count).then_some(number + 1.0)
-        });
-        numbers.map(move |number| {
-            if number < count {
-                let s = length * (number / count);
-                (self.axes(s, length), s)
-            } else {
-                (end, length)
-            }
-        })
-    }
-}
-
 /// The pieces of a move, and how fast each is.
-fn map_move(way: &Way<'_>, rate: Rate, start: AxisVector, error_mm: f64) -> Vec<(Segment, Rate)> {
+fn map_move(
+    way: &MappedMove<'_>,
+    rate: Rate,
+    start: AxisVector,
+    error_mm: f64,
+) -> Outcome<Vec<(Segment, Rate)>> {
     let (map, segment) = (way.map, way.segment);
     let (from, to) = (segment.start(), segment.end());
     let turns = map.angles(&from).into_iter().zip(map.angles(&to));
@@ -262,26 +219,21 @@ fn map_move(way: &Way<'_>, rate: Rate, start: AxisVector, error_mm: f64) -> Vec<
     let end = map.axes(&to);
     if !is_turning {
         match segment {
-            _ if map.is_plain_at(&from) => return vec![(restarted(segment, start), rate)],
-            Segment::Line(_) => return vec![(Segment::line(start, end), rate)],
+            _ if map.is_plain_at(&from) => return Ok(vec![(restarted(segment, start), rate)]),
+            Segment::Line(_) => return Ok(vec![(Segment::line(start, end), rate)]),
             Segment::Arc(arc) => {
-                if let Some(segments) = map_arc(map, arc, (start, end), error_mm) {
-                    return segments
+                if let Some(segments) = map_arc(map, arc, (start, end), error_mm)? {
+                    return Ok(segments
                         .into_iter()
                         .map(|segment| (segment, rate))
-                        .collect();
+                        .collect());
                 }
             }
             Segment::Curve(_) => {}
         }
     }
     let length = segment.length();
-    let mut chords = Vec::new();
-    let mut begins = (start, 0.0);
-    for ends in way.parts(length, end) {
-        halve(way, length, begins, ends, 0, &mut chords);
-        begins = ends;
-    }
+    let chords = way.chords(length, (start, end))?;
     let mut pieces = Vec::with_capacity(chords.len());
     let (mut at, mut path) = (start, 0.0);
     for (place, s) in chords {
@@ -289,7 +241,7 @@ fn map_move(way: &Way<'_>, rate: Rate, start: AxisVector, error_mm: f64) -> Vec<
         pieces.push((piece, scaled(rate, piece.length() / (s - path))));
         (at, path) = (place, s);
     }
-    pieces
+    Ok(pieces)
 }
 
 /// The same piece, which begins where the last one ended.
@@ -307,13 +259,13 @@ fn map_arc(
     arc: &Arc,
     (start, end): (AxisVector, AxisVector),
     error_mm: f64,
-) -> Option<Vec<Segment>> {
+) -> Outcome<Option<Vec<Segment>>> {
     let (first, second) = arc.plane.axes();
     if first.index() >= 3 || second.index() >= 3 {
-        return None;
+        return Ok(None);
     }
     let flat = SpaceArc::in_plane(arc.plane, (arc.start, arc.end), arc.center, arc.sweep_rad);
-    let curve = flat.curve(|place| map.axes(&place)).ok()?;
+    let curve = flat.curve(|place| map.axes(&place))?;
     let mut segments = NurbsPath::new(curve).segments(error_mm);
     if let Some(first) = segments.first_mut() {
         *first = with_ends(first, start, first.end());
@@ -321,7 +273,7 @@ fn map_arc(
     if let Some(last) = segments.last_mut() {
         *last = with_ends(last, last.start(), end);
     }
-    Some(segments)
+    Ok(Some(segments))
 }
 
 /// A segment whose ends are put right by what rounding has made of them.
@@ -335,34 +287,6 @@ fn with_ends(segment: &Segment, start: AxisVector, end: AxisVector) -> Segment {
             Segment::Curve(curve)
         }
     }
-}
-
-/// Halves a part of a move until its chords are as near to the curve as they have to be.
-fn halve(
-    way: &Way<'_>,
-    length: f64,
-    (from, from_s): Chord,
-    (to, to_s): Chord,
-    depth: u32,
-    chords: &mut Vec<Chord>,
-) {
-    let at = |share: f64| way.axes(from_s + share * (to_s - from_s), length);
-    let is_off = |share: f64| {
-        let place = at(share) - (from + (to - from) * share);
-        place.fixed_rows::<3>(0).norm() > CHORD_MM || place.fixed_rows::<3>(3).amax() > CHORD_DEG
-    };
-    // A turn by whole rounds is back where it began.
-    let turn = (0..3)
-        .map(|i| (to[3 + i] - from[3 + i]).abs())
-        .fold(0.0, f64::max);
-    let is_near = turn <= MOST_TURN_DEG && ![0.25, 0.5, 0.75].into_iter().any(is_off);
-    if is_near || depth >= MOST_HALVES {
-        chords.push((to, to_s));
-        return;
-    }
-    let middle = (at(0.5), 0.5 * (from_s + to_s));
-    halve(way, length, (from, from_s), middle, depth + 1, chords);
-    halve(way, length, middle, (to, to_s), depth + 1, chords);
 }
 
 /// A rate of a piece whose path is that many times as long as the move's was.
