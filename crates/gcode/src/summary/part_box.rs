@@ -1,6 +1,6 @@
 //! Where the feed moves of a program go, in the coordinates of the part.
 
-use glidepath_geometry::{AxisVector, Segment};
+use glidepath_geometry::{AxisVector, Quintic, Segment};
 use glidepath_program::{Item, ItemKind};
 
 use crate::execute::interpreter::Interpreter;
@@ -9,7 +9,7 @@ use crate::execute::state::offsets::Offsets;
 use crate::execute::state::shared::Shared;
 use crate::summary::extent::enclose;
 
-/// Pieces of a curve whose ends are looked at where the axes of the program are not those of the machine.
+/// Most pieces of a curve whose ends are looked at where the axes of the program are not those of the machine.
 const PIECES: u32 = 512;
 
 /// Where the feed moves in one coordinate system go, in its coordinates as the program writes them: with the
@@ -74,13 +74,20 @@ impl PartBoxes {
             let place = map.map_or(*axes, |map| map.place(axes));
             offsets.to_program(place)
         };
+        let length = segment.length();
+        // How much larger the coordinates of the part are than those of the machine.
+        let stretch = 1.0 / offsets.frame.least_scale();
         let pieces = match segment {
             Segment::Line(_) => 1,
-            Segment::Arc(_) | Segment::Curve(_) => PIECES,
+            Segment::Arc(arc) => pieces_of(length * stretch, 1.0 / (arc.end_radius() * stretch)),
+            Segment::Curve(curve) => {
+                let bends = curve.bends.iter().map(|bend| bend.norm());
+                pieces_of(length * stretch, bends.fold(0.0, f64::max) / stretch)
+            }
         };
         let (start, end) = (place(&segment.start()), place(&segment.end()));
         let (mut low, mut high) = (start.inf(&end), start.sup(&end));
-        let (length, segment) = (segment.length(), segment.prepared());
+        let segment = segment.prepared();
         for piece in 1..pieces {
             let s = length * f64::from(piece) / f64::from(pieces);
             let at = place(&segment.position(s));
@@ -108,6 +115,20 @@ impl PartBoxes {
         self.end_run();
         self.boxes
     }
+}
+
+/// How many pieces of a curve are as near to it as a box is told. Most of the curves that a turned arc or a
+/// spline comes in hardly bend: a chord ℓ is ℓ²/8 times the bend from its arc.
+fn pieces_of(length: f64, bend: f64) -> u32 {
+    /// mm.
+    const NEAR_MM: f64 = 5e-4;
+    let wanted = length * (bend / (8.0 * NEAR_MM)).sqrt();
+    // Between the ends a curve may bend more: no fewer than four.
+    let mut pieces = 4;
+    while pieces < PIECES && f64::from(pieces) < wanted {
+        pieces *= 2;
+    }
+    pieces
 }
 
 #[cfg(test)]

@@ -323,8 +323,8 @@ pub(crate) fn options(dialect: Dialect) -> Options {
         }),
         tools: Some(Arc::new(tools)),
         loops: LoopLimits {
-            idle_lines: 2_000,
-            checked_lines: 4_000,
+            idle_lines: 500,
+            checked_lines: 1_000,
             may_run_unchecked: false,
         },
         ..Options::default()
