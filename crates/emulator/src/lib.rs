@@ -4,7 +4,7 @@
 //! ```text
 //!   frame ─► device 0 ─► device 1 ─► … ─► frame, with answers and working counters
 //!              │ registers, EEPROM, mailbox, clock          (this crate does no I/O)
-//!              ├ drive: CiA 402 at every SYNC0, motor with lag, or a spindle with inertia
+//!              ├ drive: CiA 402 at every SYNC0, motor with lag, or a spindle with inertia, touch probe
 //!              └ terminal: pins that follow frames, and fall with the watchdog
 //! ```
 //!
@@ -41,6 +41,7 @@ mod cable;
 mod channels;
 mod clock;
 mod coe;
+mod contact;
 mod device;
 mod dictionary;
 mod drive;
@@ -55,12 +56,15 @@ mod segment;
 mod settings;
 mod spindle;
 mod states;
+mod touch_probe;
 
 pub use cable::Cable;
 pub use channels::Channels;
 pub use clock::ClockKind;
+pub use contact::Probe;
 pub use injected_fault::InjectedFault;
 pub use pins::OutputRecord;
 pub use segment::{Segment, SyncRecord};
 pub use settings::{DriveSettings, HomeSwitch, ImageAccess, Maps, OutputWatchdog, SyncType};
 pub use spindle::SpindleMotor;
+pub use touch_probe::TouchProbe;

@@ -1,6 +1,6 @@
 //! The process data of a drive in the memory of its device.
 
-use crate::dictionary::{AxisObjects, Dictionary, MODE, Mapped, own};
+use crate::dictionary::{AxisObjects, Dictionary, MODE, Mapped, PROBE_FUNCTION, own};
 use crate::drive::{Inputs, Outputs};
 use crate::memory::Memory;
 
@@ -17,10 +17,11 @@ pub(crate) fn outputs(
     axis: u16,
 ) -> Outputs {
     let start = memory.sync_manager(2).start;
-    // The mode that was written as a parameter, unless it is mapped.
+    // What was written as a parameter, unless it is mapped.
     let own_objects = AxisObjects { all: objects, axis };
     let mut outputs = Outputs {
         mode: own_objects.value(MODE) as u8 as i8,
+        probe: own_objects.value(PROBE_FUNCTION) as u16,
         ..Outputs::default()
     };
     for object in mapped {
@@ -31,7 +32,8 @@ pub(crate) fn outputs(
             (of, 0x6060) if of == axis => outputs.mode = value as u8 as i8,
             (of, 0x60ff) if of == axis => outputs.velocity = value as u32 as i32,
             (of, 0x6042) if of == axis => outputs.speed_rpm = value as u16 as i16,
-            (_, 0x6040 | 0x607a | 0x6060 | 0x60ff | 0x6042) => {}
+            (of, 0x60b8) if of == axis => outputs.probe = value as u16,
+            (_, 0x6040 | 0x607a | 0x6060 | 0x60ff | 0x6042 | 0x60b8) => {}
             _ => objects.set((object.index, object.sub), value as u32),
         }
     }
@@ -52,6 +54,12 @@ pub(crate) fn put_inputs(memory: &mut Memory, mapped: &[Mapped], inputs: Inputs,
             0x603f => memory.put(at, &inputs.fault.to_le_bytes()),
             0x606c => memory.put(at, &inputs.velocity.to_le_bytes()),
             0x6044 => memory.put(at, &inputs.speed_rpm.to_le_bytes()),
+            0x60fd => memory.put(at, &inputs.digital.to_le_bytes()),
+            0x60b9 => memory.put(at, &inputs.probe.0.to_le_bytes()),
+            0x60ba..=0x60bd => {
+                let nth = usize::from(index - 0x60ba);
+                memory.put(at, &inputs.probe.1[nth / 2][nth % 2].to_le_bytes());
+            }
             _ => {}
         }
     }

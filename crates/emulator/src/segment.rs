@@ -1,6 +1,7 @@
 //! A segment of the bus: devices in a row, and the frames that pass them.
 
 use crate::cable::{Cable, passages};
+use crate::contact::{Contact, Probe};
 use crate::device::Device;
 use crate::frame::{Datagram, datagrams};
 use crate::injected_fault::InjectedFault;
@@ -17,6 +18,7 @@ const HOP_NS: u64 = 500;
 #[derive(Debug, Clone)]
 pub struct Segment {
     devices: Vec<Device>,
+    contacts: Vec<Contact>,
 }
 
 impl Segment {
@@ -39,6 +41,7 @@ impl Segment {
         // A row is always in order.
         Self::branched(drives, &cables, now_ns).unwrap_or(Self {
             devices: Vec::new(),
+            contacts: Vec::new(),
         })
     }
 
@@ -52,7 +55,26 @@ impl Segment {
             devices: devices
                 .map(|(drive, passage)| Device::new(drive, passage, now_ns))
                 .collect(),
+            contacts: Vec::new(),
         })
+    }
+
+    /// Puts a probe on the machine.
+    pub fn add_probe(&mut self, probe: Probe) {
+        self.devices.iter_mut().for_each(Device::keep_ways);
+        self.contacts.push(Contact::new(probe));
+    }
+
+    /// Takes all probes from the machine.
+    pub fn remove_probes(&mut self) {
+        self.contacts.clear();
+    }
+
+    /// Something comes to the digital inputs of all drives of a device (0x60FD).
+    pub fn set_drive_input(&mut self, device: usize, bit: u8, is_high: bool) {
+        if let Some(device) = self.devices.get_mut(device) {
+            device.show_at_drives(bit, is_high);
+        }
     }
 
     /// Keeps a record of every SYNC0 from here on.
@@ -135,6 +157,9 @@ impl Segment {
     pub fn advance(&mut self, now_ns: u64) {
         for device in &mut self.devices {
             device.advance(now_ns);
+        }
+        for contact in &mut self.contacts {
+            contact.watch(&mut self.devices, now_ns);
         }
     }
 

@@ -3,6 +3,7 @@
 use crate::channels::Channels;
 use crate::clock::ClockKind;
 use crate::spindle::SpindleMotor;
+use crate::touch_probe::TouchProbe;
 
 /// A switch at which a drive finds its home.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -106,6 +107,8 @@ pub struct DriveSettings {
     pub channels: Option<Channels>,
     /// What it turns, if that is a spindle, in a mode of velocity.
     pub spindle: Option<SpindleMotor>,
+    /// Its touch probe, of each of its drives; `None` if it lacks the objects.
+    pub touch_probe: Option<TouchProbe>,
     /// Its whole EEPROM; `None` for one that says what is said here.
     pub eeprom: Option<Vec<u8>>,
 }
@@ -215,6 +218,7 @@ impl Default for DriveSettings {
             has_mailbox: true,
             channels: None,
             spindle: None,
+            touch_probe: None,
             eeprom: None,
         }
     }

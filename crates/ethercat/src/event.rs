@@ -54,7 +54,16 @@ pub enum Event {
     NobodyStops,
     /// The interpolator was started anew.
     Restart,
+    /// The probe touched before the touch probes of all drives were armed again.
+    ProbeUnarmed,
+    /// A drive has not kept where it was when the probe touched.
+    ProbeMissed(usize),
+    /// What it has kept, mm or degrees, is not between these places, where the joint was then.
+    ProbeElsewhere(usize, f64, (f64, f64)),
 }
+
+/// The end of what is told of a touch probe.
+const SAMPLED: &str = "the place of the contact is found from positions, to the way of a period of the bus";
 
 impl fmt::Display for Event {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -129,6 +138,20 @@ impl fmt::Display for Event {
                 )
             }
             Self::Restart => write!(f, "the interpolator was started anew"),
+            Self::ProbeUnarmed => write!(
+                f,
+                "the probe changed before the drives were ready to keep that (0x60B9): {SAMPLED}"
+            ),
+            Self::ProbeMissed(joint) => write!(
+                f,
+                "J{joint}: its drive has not kept where it was when the probe changed (0x60B9): is the probe wired \
+                 to its input? {SAMPLED}"
+            ),
+            Self::ProbeElsewhere(joint, place, (from, to)) => write!(
+                f,
+                "J{joint}: its drive says that the probe changed at {place:.4}, and the joint was between {from:.4} \
+                 and {to:.4} then: {SAMPLED}"
+            ),
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::device::Device;
 use crate::entry::{Entry, bits};
+use crate::probe::TouchProbe;
 
 const CONTROL: Wanted = Wanted(0x6040, 16, "0x6040 (controlword)");
 const TARGET: Wanted = Wanted(0x607a, 32, "0x607A (target position)");
@@ -10,6 +11,9 @@ const STATUS: Wanted = Wanted(0x6041, 16, "0x6041 (statusword)");
 const ACTUAL: Wanted = Wanted(0x6064, 32, "0x6064 (actual position)");
 const SHOWN_MODE: Wanted = Wanted(0x6061, 8, "0x6061 (mode in force)");
 const FAULT: Wanted = Wanted(0x603f, 16, "0x603F (error code)");
+
+const PROBE_FUNCTION: Wanted = Wanted(0x60b8, 16, "0x60B8 (touch probe)");
+const PROBE_STATUS: Wanted = Wanted(0x60b9, 16, "0x60B9 (touch probe status)");
 
 /// An object: index, bits, and what it is called.
 #[derive(Debug, Clone, Copy)]
@@ -50,6 +54,47 @@ pub(crate) struct Layout {
     pub(crate) actual: usize,
     pub(crate) shown_mode: Option<usize>,
     pub(crate) fault: Option<usize>,
+    /// Its touch probe, if it has one that is used.
+    pub(crate) probe: Option<ProbeAccess>,
+}
+
+/// The touch probe of an axis: where its objects are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct ProbeAccess {
+    pub(crate) probe: TouchProbe,
+    /// Which axis of its device it is.
+    pub(crate) axis: u16,
+    /// 0x60B8 as it was.
+    pub(crate) before: u16,
+    /// Where it is in the process data; `None` if it is asked by the mailbox.
+    pub(crate) places: Option<ProbePlaces>,
+}
+
+/// The places of its objects in the process data, bytes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct ProbePlaces {
+    pub(crate) function: usize,
+    pub(crate) status: usize,
+    pub(crate) kept: [usize; 2],
+}
+
+impl ProbePlaces {
+    /// Where they are, if all are mapped.
+    pub(crate) fn find(
+        probe: TouchProbe,
+        (outputs, inputs): (&[Entry], &[Entry]),
+        own: &dyn Fn(u16) -> u16,
+    ) -> Option<Self> {
+        let mapped = |entries| Mapped { entries, own };
+        let (outputs, inputs) = (mapped(outputs), mapped(inputs));
+        let kept = |index| inputs.place(Wanted(index, 32, "what it keeps"));
+        let [rising, falling] = probe.places();
+        Some(Self {
+            function: outputs.place(PROBE_FUNCTION)?,
+            status: inputs.place(PROBE_STATUS)?,
+            kept: [kept(rising)?, kept(falling)?],
+        })
+    }
 }
 
 impl Layout {
@@ -75,6 +120,7 @@ impl Layout {
             actual: inputs.place_or_name(ACTUAL)?,
             shown_mode: inputs.place(SHOWN_MODE),
             fault: inputs.place(FAULT),
+            probe: None,
         })
     }
 }

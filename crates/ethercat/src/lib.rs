@@ -57,6 +57,7 @@ mod fault_text;
 mod frame;
 mod image;
 mod layout;
+mod probe;
 mod registers;
 mod run;
 mod settings;
@@ -82,6 +83,7 @@ pub use event::Event;
 pub use fault_text::text as fault_text;
 pub use frame::{Address, Answer, Command, Frame, Slot};
 pub use image::{Inputs, Outputs};
+pub use probe::{ProbeInputs, TouchProbe};
 pub use run::{Listeners, RunError, RunSettings, run};
 pub use settings::{BusSettings, DEVICE_AXES, DriveSettings, HomingSettings, Settings};
 pub use terminal::{

@@ -1,6 +1,7 @@
 //! The settings of the bus and of its drives.
 
 use crate::entry::Mapping;
+use crate::probe::TouchProbe;
 use crate::terminal::TerminalSettings;
 use glidepath_geometry::AXES;
 use glidepath_link::servo::ServoSettings;
@@ -92,6 +93,8 @@ pub struct DriveSettings {
     pub enable_window: f64,
     /// Deceleration of the drive's own stop, mm/s² or °/s².
     pub quick_stop_a: f64,
+    /// Its touch probe; of all drives or of none.
+    pub probe: Option<TouchProbe>,
     /// The joint's highest speed, mm/s or °/s. A target a fifth further away than that is not sent.
     pub max_v: f64,
 }
@@ -99,8 +102,13 @@ pub struct DriveSettings {
 impl DriveSettings {
     /// Where its axis has an object of CiA 402. Others are the whole device's.
     pub(crate) const fn own(&self, index: u16) -> u16 {
+        Self::of_axis(index, self.axis)
+    }
+
+    /// Where any axis has it.
+    pub(crate) const fn of_axis(index: u16, axis: u16) -> u16 {
         match index {
-            0x6000..0x6800 => index + OBJECT_STEP * self.axis,
+            0x6000..0x6800 => index + OBJECT_STEP * axis,
             _ => index,
         }
     }

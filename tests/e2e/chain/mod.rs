@@ -14,6 +14,7 @@
 mod between;
 mod judge;
 mod terminals;
+mod touch_probe;
 
 use std::fmt::Write as _;
 use std::time::Duration;

@@ -10,6 +10,7 @@ use crate::axis::{self, Axis, DriveCommand, DriveInputs};
 use crate::device_state::DeviceState;
 use crate::event::Event;
 use crate::image::{Inputs, Outputs};
+use crate::probe::Probing;
 use crate::settings::Settings;
 use crate::state;
 use crate::terminal::Terminals;
@@ -80,6 +81,8 @@ pub struct Bridge<S: Subscriber<Setpoint>> {
     is_bus_lost: bool,
     /// What was lost, and stopped something.
     loss: Option<BridgeLoss>,
+    /// The touch probes of the drives, if they are used.
+    probing: Option<Probing>,
 }
 
 impl<S: Subscriber<Setpoint>> Bridge<S> {
@@ -117,6 +120,7 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
             patience_ns: settings.servo.patience_ns,
             is_bus_lost: false,
             loss: None,
+            probing: Probing::new(settings, WINDOW),
         }
     }
 
@@ -143,6 +147,9 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
             ) {
                 (*actual, *window) = (place, settings.enable_window);
             }
+        }
+        if let Some(probing) = &mut self.probing {
+            probing.begin();
         }
         if is_first {
             self.servo.rearm_at(&actual, &window);
@@ -236,6 +243,9 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
             if let Some(terminals) = &mut self.terminals {
                 terminals.note(&setpoint);
             }
+            if let Some(probing) = &mut self.probing {
+                probing.note(&setpoint);
+            }
             self.look_at_state();
         }
         if self.ends && !self.servo.comes_to_rest() {
@@ -291,9 +301,23 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
                     tell(event);
                 });
         }
+        self.lead_probes(tell);
         if latches {
             self.is_latched = true;
             self.drives.iter_mut().for_each(|drive| drive.axis.latch());
+        }
+    }
+
+    /// Switches touch probes on and off.
+    fn lead_probes(&mut self, tell: &mut dyn FnMut(Event)) {
+        let Some(probing) = &mut self.probing else {
+            return;
+        };
+        for (nth, output) in self.outputs.iter_mut().enumerate() {
+            (output.is_probe_on, output.asks_probe) = (probing.is_on(nth), probing.asks(nth));
+        }
+        if let Some(event) = probing.take_event() {
+            tell(event);
         }
     }
 

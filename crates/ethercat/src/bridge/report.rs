@@ -1,6 +1,7 @@
 //! The feedback of a bridge: what is known of the joints and of the inputs.
 
 use super::{Bridge, WINDOW};
+use crate::probe::Seen;
 use crate::state;
 use bytemuck::Zeroable as _;
 use glidepath_geometry::AXES;
@@ -52,6 +53,16 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
         }
         if let Some(terminals) = &self.terminals {
             terminals.tell(&mut feedback);
+        }
+        if let Some(probing) = &mut self.probing {
+            let seen = self.drives.iter().map(|drive| Seen {
+                settings: &drive.axis.settings,
+                inputs: drive.inputs.probe,
+                is_present: drive.is_present(),
+                places: &drive.places,
+                newest: slot,
+            });
+            probing.sample(&mut feedback, seen);
         }
         self.tell_loss(&mut feedback);
         self.number += 1;

@@ -5,6 +5,7 @@
 //!  who is there          parameters, mapping     inputs, clocks     cycles
 //! ```
 
+mod aside;
 mod bus_time;
 mod clocks;
 mod group;
@@ -14,6 +15,8 @@ mod op;
 mod others;
 mod parameters;
 mod pre_op;
+mod probe_mail;
+mod probes;
 mod safe_op;
 mod state;
 mod tree;

@@ -20,6 +20,7 @@ mod losses;
 mod machine;
 mod maps;
 mod matrix;
+mod probing;
 mod spindle;
 mod terminals;
 mod terminals_up;

@@ -47,7 +47,7 @@ struct Devices<'j> {
 pub(super) fn devices(
     judge: &mut Judge,
     raw: Vec<Spanned<RawDevice>>,
-    drives: &[DriveSettings],
+    drives: &[(DriveSettings, Span<usize>)],
     joints: usize,
 ) -> (Vec<TerminalSettings>, Vec<Place>) {
     let mut devices = Devices {
@@ -56,7 +56,7 @@ pub(super) fn devices(
         claims: Claims::default(),
         places: Vec::new(),
     };
-    for drive in drives {
+    for (drive, _) in drives {
         // Those of one device are at the same.
         devices.claims.take("position", drive.position);
     }

@@ -2,6 +2,7 @@
 //!
 //! Read like a configuration: names first, values second, every diagnostic at once, with its place.
 
+mod bus;
 mod config;
 mod device;
 mod judge;
@@ -12,6 +13,7 @@ mod spindle;
 mod tables;
 #[cfg(test)]
 mod tests;
+mod touch_probe;
 mod words;
 mod written;
 

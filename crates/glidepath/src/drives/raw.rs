@@ -49,6 +49,17 @@ pub(super) struct RawDrive {
     pub(super) enable_window: Optional<f64>,
     pub(super) quick_stop: Spanned<f64>,
     pub(super) homing: Optional<RawHoming>,
+    pub(super) probe: Option<RawTouchProbe>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawTouchProbe {
+    pub(super) number: Spanned<i64>,
+    pub(super) unit: Optional<i64>,
+    pub(super) source: Optional<i64>,
+    #[serde(default)]
+    pub(super) invert: bool,
 }
 
 #[derive(Debug, Deserialize)]

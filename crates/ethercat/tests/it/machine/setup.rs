@@ -40,6 +40,7 @@ pub(crate) fn drive(joint: usize) -> DriveSettings {
         following_ms: 10,
         enable_window: 0.05,
         quick_stop_a: 4000.0,
+        probe: None,
         max_v: 200.0,
     }
 }

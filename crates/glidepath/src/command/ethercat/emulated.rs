@@ -1,7 +1,8 @@
 //! The bridge to emulated drives, together with them.
 
 use super::bridge;
-use super::emulated_inputs::{self, InputFile, Level, Pins};
+use super::desk;
+use super::emulated_inputs::{InputFile, Level, Pins};
 use super::emulated_terminals;
 use super::namespace::{self, DRIVES, MASTER};
 use crate::cli::EthercatArgs;
@@ -12,10 +13,12 @@ use crate::drives::{self, DrivesSource};
 use crate::exit::Exit;
 use crate::file_error::FileError;
 use core::sync::atomic::{AtomicBool, Ordering};
-use glidepath_emulator::{DriveSettings as Emulated, HomeSwitch, Segment};
+use glidepath_emulator::{
+    DriveSettings as Emulated, HomeSwitch, Segment, TouchProbe as EmulatedProbe,
+};
 use glidepath_ethercat::{
     BusSettings, Demand, DriveSettings, HomingSettings, MAX_FRAME, Mapping, PacketWire, Settings,
-    TerminalSettings, Wire as _,
+    TerminalSettings, TouchProbe, Wire as _,
 };
 use glidepath_realtime::{Mode, Request, enter};
 use std::fs::File;
@@ -122,8 +125,10 @@ pub(super) fn drive(args: &EthercatArgs, config: &MachineConfig) -> Result<Exit,
 
 /// Something else stands at inputs.
 fn put(segment: &mut Segment, levels: &[Level]) {
+    segment.remove_probes();
     for level in levels {
         match level {
+            Level::Passing(probe) => segment.add_probe(probe.clone()),
             Level::Bit(device, bit, is_high) => segment.set_input(*device, *bit, *is_high),
             Level::Number(device, from, bytes) => segment.set_input_bytes(*device, *from, bytes),
         }
@@ -213,12 +218,13 @@ fn machine(args: &EthercatArgs, config: &MachineConfig) -> Result<Machine, Failu
         following_ms: 50,
         enable_window: 0.05,
         quick_stop_a: 4000.0,
+        probe: None,
         max_v,
     };
     let (drives, terminals, source): (Vec<_>, Vec<_>, _) = given.map_or_else(
         || {
             let joints = velocities.len();
-            let desk = || emulated_inputs::desk(joints, joints);
+            let desk = || desk::desk(joints, joints);
             let terminals = args.emulated_inputs.iter().map(|_| desk()).collect();
             let drives = velocities.into_iter().enumerate().map(drive).collect();
             (drives, terminals, DrivesSource::default())
@@ -226,7 +232,8 @@ fn machine(args: &EthercatArgs, config: &MachineConfig) -> Result<Machine, Failu
         |given| (given.drives, given.terminals, given.source),
     );
     let mut emulated = as_they_are(&drives, &terminals, &begins);
-    let mut pins = Pins::default();
+    let begun = drives.iter().map(|drive| (*drive, begins[drive.joint]));
+    let mut pins = Pins::beside(begun.collect());
     for terminal in &terminals {
         emulated[terminal.position] = emulated_terminals::emulated(terminal);
         pins.add(terminal, &|at| {
@@ -237,6 +244,11 @@ fn machine(args: &EthercatArgs, config: &MachineConfig) -> Result<Machine, Failu
     let drives = drives.into_iter();
     let drives = drives.map(|drive| DriveSettings {
         map_step: MAP_STEP,
+        // What it is wired to by 0x60D0 is its own input.
+        probe: drive.probe.map(|probe| TouchProbe {
+            source: None,
+            ..probe
+        }),
         ..drive
     });
     Ok(Machine {
@@ -262,6 +274,9 @@ fn as_they_are(
         let begin = drive.counts(begins[drive.joint]).unwrap_or(0);
         let there = &mut emulated[drive.position];
         there.axes = there.axes.max(usize::from(drive.axis) + 1);
+        if drive.probe.is_some() {
+            there.touch_probe = Some(EmulatedProbe::default());
+        }
         there.identity[0] = if drive.vendor == 0 {
             there.identity[0]
         } else {

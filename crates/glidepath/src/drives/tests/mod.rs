@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests")]
 
 mod devices;
+mod touch_probe;
 
 use super::{Found, parse, written};
 use crate::config::{self, MachineConfig};
