@@ -3,11 +3,11 @@
 //! The motor follows its target with a lag of first order, so that at a speed v it is v·τ behind:
 //! `x += (target − x) (1 − e^(−T/τ))`. A motor without current stands: it has a brake.
 
+use crate::contact::{Way, Ways};
 use crate::dictionary::{
     AxisObjects, FOLLOWING_TIMEOUT, FOLLOWING_WINDOW, HOME_OFFSET, HOMING_METHOD, HOMING_SPEED,
     MOST_TORQUE, QUICK_STOP,
 };
-use crate::contact::{Way, Ways};
 use crate::injected_fault::InjectedFault;
 use crate::power::Power;
 use crate::settings::{DriveSettings, HomeSwitch};

@@ -97,7 +97,14 @@ mod tests {
         let mut units = ProbeUnits::default();
         let sources = [0; 2];
         let mut places = Vec::new();
-        for (function, at_ns) in [(0x31, 10), (0x31, 20), (0x31, 30), (0, 40), (0x1100, 50), (0, 60)] {
+        for (function, at_ns) in [
+            (0x31, 10),
+            (0x31, 20),
+            (0x31, 30),
+            (0, 40),
+            (0x1100, 50),
+            (0, 60),
+        ] {
             units.step(function, at_ns);
             // One that was before the unit was on does not count.
             units.capture(true, at_ns - 1, 7, sources);

@@ -63,7 +63,8 @@ pub enum Event {
 }
 
 /// The end of what is told of a touch probe.
-const SAMPLED: &str = "the place of the contact is found from positions, to the way of a period of the bus";
+const SAMPLED: &str =
+    "the place of the contact is found from positions, to the way of a period of the bus";
 
 impl fmt::Display for Event {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -81,10 +81,10 @@ impl Outputs {
             write(at, &self.mode.to_le_bytes());
         }
         if let Some(access) = layout.probe
-            && let Some(places) = access.places
+            && let Some(at) = access.function
         {
             let function = access.probe.function(access.before, self.is_probe_on);
-            write(places.function, &function.to_le_bytes());
+            write(at, &function.to_le_bytes());
         }
     }
 }

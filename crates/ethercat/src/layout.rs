@@ -66,34 +66,42 @@ pub(crate) struct ProbeAccess {
     pub(crate) axis: u16,
     /// 0x60B8 as it was.
     pub(crate) before: u16,
-    /// Where it is in the process data; `None` if it is asked by the mailbox.
+    /// Where 0x60B8 is in the process data, bytes; `None` if it is written by the mailbox.
+    pub(crate) function: Option<usize>,
+    /// Where what it answers is; `None` if it is asked by the mailbox.
     pub(crate) places: Option<ProbePlaces>,
 }
 
-/// The places of its objects in the process data, bytes.
+/// The places of what a touch probe answers, bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct ProbePlaces {
-    pub(crate) function: usize,
     pub(crate) status: usize,
     pub(crate) kept: [usize; 2],
 }
 
-impl ProbePlaces {
-    /// Where they are, if all are mapped.
+impl ProbeAccess {
+    /// The same where it is in the process data, as far as it is mapped.
     pub(crate) fn find(
-        probe: TouchProbe,
+        mut self,
         (outputs, inputs): (&[Entry], &[Entry]),
         own: &dyn Fn(u16) -> u16,
-    ) -> Option<Self> {
+    ) -> Self {
         let mapped = |entries| Mapped { entries, own };
         let (outputs, inputs) = (mapped(outputs), mapped(inputs));
-        let kept = |index| inputs.place(Wanted(index, 32, "what it keeps"));
-        let [rising, falling] = probe.places();
-        Some(Self {
-            function: outputs.place(PROBE_FUNCTION)?,
-            status: inputs.place(PROBE_STATUS)?,
-            kept: [kept(rising)?, kept(falling)?],
-        })
+        let kept = self
+            .probe
+            .places()
+            .map(|index| inputs.place(Wanted(index, 32, "what it keeps")));
+        let places = (inputs.place(PROBE_STATUS), kept);
+        self.function = outputs.place(PROBE_FUNCTION);
+        self.places = match places {
+            (Some(status), [Some(rising), Some(falling)]) => Some(ProbePlaces {
+                status,
+                kept: [rising, falling],
+            }),
+            _ => None,
+        };
+        self
     }
 }
 

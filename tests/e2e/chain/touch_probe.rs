@@ -90,7 +90,10 @@ fn a_contact_is_where_the_drives_have_kept_it_at_any_speed() {
         bench.operate(&["mdi", "G0 Z0"]);
     }
     let ended = bus.end().expect(0);
-    assert!(!ended.stderr.contains("is found from positions"), "{ended:?}");
+    assert!(
+        !ended.stderr.contains("is found from positions"),
+        "{ended:?}"
+    );
     for process in [service, interpolator] {
         let _ended = process.end().expect(0);
     }

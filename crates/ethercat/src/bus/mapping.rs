@@ -7,7 +7,7 @@ use crate::device::Device;
 use crate::entry::{Entry, Mapping, bytes};
 use crate::error::BusError;
 use crate::exchange::Exchange;
-use crate::layout::{Layout, ProbeAccess, ProbePlaces};
+use crate::layout::Layout;
 use crate::settings::DriveSettings;
 use crate::wire::Wire;
 
@@ -76,12 +76,8 @@ pub(super) fn set<W: Wire>(
             write(bus, device, mode, CYCLIC_POSITION)?;
         }
         if let Some(probe) = drive.probe {
-            layout.probe = Some(ProbeAccess {
-                probe,
-                axis: drive.axis,
-                before: probes::prepare(bus, device, drive, probe)?,
-                places: ProbePlaces::find(probe, (&outputs, &inputs), &own),
-            });
+            let access = probes::prepare(bus, device, drive, probe)?;
+            layout.probe = Some(access.find((&outputs, &inputs), &own));
         }
         layouts.push(layout);
     }
@@ -173,8 +169,18 @@ fn map<W: Wire>(
     let mut map_all = |with_probes| {
         map_as(bus, device, &|split| {
             (
-                of_all(drives, OUTPUT_MAP, &|drive| outputs(drive, with_probes), split),
-                of_all(drives, INPUT_MAP, &|drive| inputs(drive, with_probes), split),
+                of_all(
+                    drives,
+                    OUTPUT_MAP,
+                    &|drive| outputs(drive, with_probes),
+                    split,
+                ),
+                of_all(
+                    drives,
+                    INPUT_MAP,
+                    &|drive| inputs(drive, with_probes),
+                    split,
+                ),
             )
         })
     };

@@ -1,6 +1,6 @@
 //! The questions to touch probes that are not in the process data: one at a time, in the cycles of OP.
 //!
-//! A unit is switched by 0x60B8. While somebody wants to know, 0x60B9 is read over and over, and behind it
+//! A unit is switched by 0x60B8, where that is not in the process data. While somebody wants to know, 0x60B9 is read over and over, and behind it
 //! the places that it says are kept. What is told is that of one such reading.
 
 use super::aside::Mailbox;
@@ -65,19 +65,19 @@ pub(super) struct ProbeMail {
 }
 
 impl ProbeMail {
-    /// Those of the drives whose touch probes have no place in the process data. `number` is that of the
+    /// Those of the drives whose touch probes are not, or not all, in the process data. `number` is that of the
     /// last message to a device.
-    pub(super) fn new(
-        drives: &Drives,
-        mailboxes: &[Mailbox],
-        number: impl Fn(u16) -> u8,
-    ) -> Self {
+    pub(super) fn new(drives: &Drives, mailboxes: &[Mailbox], number: impl Fn(u16) -> u8) -> Self {
         let axes = drives.axes.iter().enumerate();
         let probes = axes.filter_map(|(axis, led)| {
-            let access = led.layout.probe.filter(|access| access.places.is_none())?;
+            let is_mailed =
+                |access: &ProbeAccess| access.places.is_none() || access.function.is_none();
+            let access = led.layout.probe.filter(is_mailed)?;
             let device = &drives.devices.get(led.device)?.device;
             let at = station(device.position);
-            let mailbox = mailboxes.iter().position(|mailbox| mailbox.station() == at)?;
+            let mailbox = mailboxes
+                .iter()
+                .position(|mailbox| mailbox.station() == at)?;
             let own = |index, size| object(DriveSettings::of_axis(index, access.axis), 0, size);
             Some(Mailed {
                 axis,
@@ -97,7 +97,10 @@ impl ProbeMail {
             probes: probes.collect(),
             question: None,
             turn: 0,
-            numbers: mailboxes.iter().map(|mailbox| number(mailbox.station())).collect(),
+            numbers: mailboxes
+                .iter()
+                .map(|mailbox| number(mailbox.station()))
+                .collect(),
         }
     }
 
@@ -113,7 +116,8 @@ impl ProbeMail {
 
     /// What it has answered; `None` if it is not asked here.
     pub(super) fn told(&self, axis: usize) -> Option<ProbeInputs> {
-        let probe = self.probes.iter().find(|probe| probe.axis == axis);
+        let mut probes = self.probes.iter();
+        let probe = probes.find(|probe| probe.axis == axis && probe.access.places.is_none());
         probe.map(|probe| probe.told)
     }
 
@@ -123,9 +127,10 @@ impl ProbeMail {
         for step in 1..=count {
             let nth = (self.turn + step) % count;
             let probe = &self.probes[nth];
-            let what = if probe.was_told != Some(probe.is_on) {
+            let is_mapped = probe.access.function.is_some();
+            let what = if !is_mapped && probe.was_told != Some(probe.is_on) {
                 What::Switch(probe.is_on)
-            } else if probe.asks {
+            } else if probe.asks && probe.access.places.is_none() {
                 What::Status
             } else {
                 continue;

@@ -5,17 +5,18 @@ use crate::coe::{object, read, write};
 use crate::device::Device;
 use crate::error::BusError;
 use crate::exchange::Exchange;
+use crate::layout::ProbeAccess;
 use crate::probe::TouchProbe;
 use crate::settings::DriveSettings;
 use crate::wire::Wire;
 
-/// Looks whether a drive has the objects, and chooses the source. Returns 0x60B8 as it was.
+/// Looks whether a drive has the objects, and chooses the source. Nothing is mapped yet, as far as is known here.
 pub(super) fn prepare<W: Wire>(
     bus: &mut Exchange<'_, W>,
     device: &Device,
     drive: &DriveSettings,
     probe: TouchProbe,
-) -> Result<u16, BusError> {
+) -> Result<ProbeAccess, BusError> {
     let own = |index, sub, size| object(drive.own(index), sub, size);
     let lacks = |error| unfit(device, drive, error);
     let function = read(bus, device, own(0x60b8, 0, 2)).map_err(lacks)?;
@@ -26,7 +27,13 @@ pub(super) fn prepare<W: Wire>(
     if let Some(source) = probe.source {
         write(bus, device, own(0x60d0, probe.unit, 2), source.into()).map_err(lacks)?;
     }
-    Ok(u16::try_from(function).unwrap_or(0))
+    Ok(ProbeAccess {
+        probe,
+        axis: drive.axis,
+        before: u16::try_from(function).unwrap_or(0),
+        function: None,
+        places: None,
+    })
 }
 
 /// A drive that has not what `probe` in its table asks for.

@@ -203,7 +203,9 @@ impl Probing {
         }
         for (span, drive) in self.spans.iter_mut().zip(drives) {
             *span = Span::new(drive.place(self.before));
-            (0..self.before).rev().for_each(|nth| span.add(drive.place(nth)));
+            (0..self.before)
+                .rev()
+                .for_each(|nth| span.add(drive.place(nth)));
         }
         self.edge = Some(Edge {
             rises,
@@ -228,7 +230,9 @@ impl Probing {
             samples: edge.samples.saturating_add(1),
             ..edge
         });
-        let lacks = drives.clone().find(|drive| drive.kept(edge.rises).is_none());
+        let lacks = drives
+            .clone()
+            .find(|drive| drive.kept(edge.rises).is_none());
         if let Some(drive) = lacks {
             if now_ns.saturating_sub(edge.sample_ns) > PATIENCE_NS {
                 self.end_edge(Some(Event::ProbeMissed(drive.settings.joint)));

@@ -74,7 +74,8 @@ pub(super) fn together(
     if !numbers.any(|input| input == usize::from(number)) {
         tell(
             format!("no input of this file has number = {number}"),
-            "the probe stops the motion by that input: give an input of a [[device]] this number".to_owned(),
+            "the probe stops the motion by that input: give an input of a [[device]] this number"
+                .to_owned(),
             &span,
         );
     }

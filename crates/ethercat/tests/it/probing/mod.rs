@@ -76,7 +76,11 @@ fn probe() -> Probe {
 }
 
 /// Runs searches one after the other; what was found, and what happened on the bus.
-fn searched(setup: &Setup, probe: Probe, programs: &'static [&'static str]) -> (Search, Vec<Event>) {
+fn searched(
+    setup: &Setup,
+    probe: Probe,
+    programs: &'static [&'static str],
+) -> (Search, Vec<Event>) {
     run_search(setup, probe, Search::new(programs))
 }
 
@@ -86,10 +90,8 @@ fn with_emergency(
     probe: Probe,
     programs: &'static [&'static str],
 ) -> (Search, Vec<Event>) {
-    let search = Search {
-        emergency: Some((1, 0x7380)),
-        ..Search::new(programs)
-    };
+    let mut search = Search::new(programs);
+    search.emergency = Some((1, 0x7380));
     run_search(setup, probe, search)
 }
 

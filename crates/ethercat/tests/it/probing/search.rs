@@ -50,7 +50,10 @@ impl Case for Search {
             if status.epoch != self.epoch {
                 return;
             }
-            let stands = matches!(hands.state(), Some(MachineState::Waiting | MachineState::Idle));
+            let stands = matches!(
+                hands.state(),
+                Some(MachineState::Waiting | MachineState::Idle)
+            );
             if stands && self.stood.is_none() {
                 self.stood = Some(hands.tick);
                 if let Some((device, code)) = self.emergency {

@@ -135,8 +135,13 @@ fn what_cannot_be_is_not_told_and_the_place_of_samples_is() {
         let mut setup = setup(4_000_000, Some(TOUCH));
         setup.emulated[nth].touch_probe.as_mut().unwrap().off_counts = off_counts;
         let (search, events) = searched(&setup, probe(), FAST[0].1);
-        let found = |event: &&Event| matches!(event, Event::ProbeElsewhere(joint, ..) if *joint == nth);
-        assert_eq!(events.iter().any(|event| found(&event)), is_seen, "{events:?}");
+        let found =
+            |event: &&Event| matches!(event, Event::ProbeElsewhere(joint, ..) if *joint == nth);
+        assert_eq!(
+            events.iter().any(|event| found(&event)),
+            is_seen,
+            "{events:?}"
+        );
         let error = error(&search.found[0], [0.0, 0.0]);
         let most = if is_seen { 0.02 * 9.0 } else { 1.5e-6 };
         assert!(error <= most, "{nth} {off_counts}: {error}");
@@ -158,5 +163,9 @@ fn a_drive_that_is_not_wired_is_told_and_the_program_goes_on() {
     let error = error(&search.found[0], [0.0, 0.0]);
     assert!(error < 0.02 * 9.0, "{error}");
     // Two seconds, in ticks.
-    assert!((450..600).contains(&search.waited[0]), "{:?}", search.waited);
+    assert!(
+        (450..600).contains(&search.waited[0]),
+        "{:?}",
+        search.waited
+    );
 }

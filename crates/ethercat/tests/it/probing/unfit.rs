@@ -25,14 +25,23 @@ fn refusal(touch: TouchProbe, change: impl FnOnce(&mut crate::machine::Setup)) -
 #[test]
 fn a_drive_without_the_objects_is_refused_by_name() {
     let told = refusal(TOUCH, |setup| setup.emulated[1].touch_probe = None);
-    assert!(told.contains("device 1") && told.contains("J1 has no touch probe"), "{told}");
-    assert!(told.contains("0x60b8:0") && told.contains("leave `probe` out"), "{told}");
+    assert!(
+        told.contains("device 1") && told.contains("J1 has no touch probe"),
+        "{told}"
+    );
+    assert!(
+        told.contains("0x60b8:0") && told.contains("leave `probe` out"),
+        "{told}"
+    );
     let chosen = TouchProbe {
         source: Some(1),
         ..TOUCH
     };
     let told = refusal(chosen, |_| {});
-    assert!(told.contains("device 0") && told.contains("0x60d0:1"), "{told}");
+    assert!(
+        told.contains("device 0") && told.contains("0x60d0:1"),
+        "{told}"
+    );
 }
 
 #[test]
@@ -54,24 +63,39 @@ const TWICE: &[&str] = &[
 
 #[test]
 fn drives_that_do_not_let_it_be_mapped_are_asked_by_their_mailbox() {
-    // All of them; one; one whose maps are its own, with a part of the objects in them.
-    let changes: [fn(&mut crate::machine::Setup); 3] = [
+    /// Maps that are the drive's own.
+    fn keep(setup: &mut crate::machine::Setup, outputs: &[u32], inputs: &[u32]) {
+        setup.drives[1].mapping = Mapping::Kept;
+        setup.emulated[1].maps = Maps::Fixed {
+            outputs: [&[0x6040_0010, 0x607a_0020], outputs].concat(),
+            inputs: [&[0x6041_0010, 0x6064_0020], inputs].concat(),
+        };
+    }
+    // All of them; one; one whose maps are its own, with a part of the objects in them, all, or none.
+    let changes: [fn(&mut crate::machine::Setup); 6] = [
         |setup| {
             for nth in 0..3 {
-                setup.emulated[nth].touch_probe.as_mut().unwrap().is_mappable = false;
+                setup.emulated[nth]
+                    .touch_probe
+                    .as_mut()
+                    .unwrap()
+                    .is_mappable = false;
             }
         },
         |setup| {
             setup.emulated[2].touch_probe.as_mut().unwrap().is_mappable = false;
             setup.emulated[2].drops_repeats = true;
         },
+        |setup| keep(setup, &[0x60b8_0010], &[0x60b9_0010, 0x60ba_0020]),
+        |setup| keep(setup, &[], &[0x60b9_0010, 0x60ba_0020, 0x60bb_0020]),
         |setup| {
-            setup.drives[1].mapping = Mapping::Kept;
-            setup.emulated[1].maps = Maps::Fixed {
-                outputs: vec![0x6040_0010, 0x607a_0020, 0x60b8_0010],
-                inputs: vec![0x6041_0010, 0x6064_0020, 0x60b9_0010, 0x60ba_0020],
-            };
+            keep(
+                setup,
+                &[0x60b8_0010],
+                &[0x60bb_0020, 0x60ba_0020, 0x60b9_0010],
+            )
         },
+        |setup| keep(setup, &[], &[]),
     ];
     for (case, change) in changes.into_iter().enumerate() {
         let mut setup = setup(2_000_000, Some(TOUCH));
@@ -93,7 +117,10 @@ fn an_emergency_is_told_while_drives_are_asked() {
     let mut setup = setup(2_000_000, Some(TOUCH));
     setup.emulated[1].touch_probe.as_mut().unwrap().is_mappable = false;
     let (search, events) = super::with_emergency(&setup, probe(), TWICE);
-    assert!(events.contains(&glidepath_ethercat::Event::Emergency(1, 0x7380)), "{events:?}");
+    assert!(
+        events.contains(&glidepath_ethercat::Event::Emergency(1, 0x7380)),
+        "{events:?}"
+    );
     let error = search.found[2].contact[2] - PART_Z;
     assert!(error.abs() <= 1.5 / COUNTS, "{error}");
 }

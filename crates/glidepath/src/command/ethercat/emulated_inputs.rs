@@ -130,7 +130,12 @@ impl Pins {
 
     /// An input that is on at a place of a joint and beyond it, as seen from where the joint begins. All
     /// touch probes of drives are wired to it.
-    fn passing(&self, input: (usize, usize), what: &DigitalInput, (joint, place): (usize, f64)) -> Level {
+    fn passing(
+        &self,
+        input: (usize, usize),
+        what: &DigitalInput,
+        (joint, place): (usize, f64),
+    ) -> Level {
         let Some((drive, begins, counts)) = self.drive(joint, place) else {
             return Level::Bit(input.0, input.1, what.is_inverted);
         };

@@ -40,9 +40,19 @@ fn every_drive_has_the_probe_or_none() {
     let probe = "probe = { number = 4 }";
     let other = "probe = { number = 4, unit = 2, source = 5, invert = true }";
     let drives = parse("drives.toml", &file([probe, probe, other], 4), &machine(4)).unwrap();
-    let probes: Vec<_> = drives.drives.iter().map(|drive| drive.probe.unwrap()).collect();
-    assert_eq!((probes[0].unit, probes[0].source, probes[0].is_inverted), (1, None, false));
-    assert_eq!((probes[2].unit, probes[2].source, probes[2].is_inverted), (2, Some(5), true));
+    let probes: Vec<_> = drives
+        .drives
+        .iter()
+        .map(|drive| drive.probe.unwrap())
+        .collect();
+    assert_eq!(
+        (probes[0].unit, probes[0].source, probes[0].is_inverted),
+        (1, None, false)
+    );
+    assert_eq!(
+        (probes[2].unit, probes[2].source, probes[2].is_inverted),
+        (2, Some(5), true)
+    );
     let told = wrong(&file([probe, "", probe], 4), &machine(4));
     assert_eq!(told, [(10, "J1 has no `probe`, and J0 has".to_owned())]);
 }
@@ -51,20 +61,39 @@ fn every_drive_has_the_probe_or_none() {
 fn the_probe_is_an_input_of_the_file_and_that_of_the_machine() {
     let probe = "probe = { number = 4 }";
     let told = wrong(&file([probe; 3], 5), &machine(4));
-    assert_eq!(told, [(3, "no input of this file has number = 4".to_owned())]);
+    assert_eq!(
+        told,
+        [(3, "no input of this file has number = 4".to_owned())]
+    );
     let told = wrong(&file([probe; 3], 4), &machine(5));
-    assert_eq!(told, [(3, "input 4 is not the probe of the machine".to_owned())]);
+    assert_eq!(
+        told,
+        [(3, "input 4 is not the probe of the machine".to_owned())]
+    );
     let other = "probe = { number = 6 }";
     let told = wrong(&file([probe, probe, other], 4), &machine(4));
     let message = "J2 has the probe of input 6, and J0 that of input 4".to_owned();
     assert_eq!(told, [(17, message)]);
     for (bad, message) in [
-        ("probe = { number = 4, unit = 3 }", "drive.probe.unit = 3 is out of range"),
-        ("probe = { number = 64 }", "drive.probe.number = 64 is out of range"),
-        ("probe = { number = 4, source = 0 }", "drive.probe.source = 0 is out of range"),
+        (
+            "probe = { number = 4, unit = 3 }",
+            "drive.probe.unit = 3 is out of range",
+        ),
+        (
+            "probe = { number = 64 }",
+            "drive.probe.number = 64 is out of range",
+        ),
+        (
+            "probe = { number = 4, source = 0 }",
+            "drive.probe.source = 0 is out of range",
+        ),
         ("probe = { number = 4, edge = 1 }", "unknown key `edge`"),
     ] {
         let told = wrong(&file([bad, probe, probe], 4), &machine(4));
-        assert!(told.iter().any(|(line, m)| *line == 9 && m.contains(message)), "{told:?}");
+        assert!(
+            told.iter()
+                .any(|(line, m)| *line == 9 && m.contains(message)),
+            "{told:?}"
+        );
     }
 }
