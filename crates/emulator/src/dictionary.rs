@@ -1,7 +1,6 @@
 //! The object dictionary of a drive, as CoE tells it.
 
 use crate::channels::Channels;
-use crate::drive::Inputs;
 use crate::eeprom::Identity;
 use std::collections::BTreeMap;
 
@@ -26,7 +25,7 @@ pub(crate) const SYNC_OUTPUTS: Object = (0x1c32, 1);
 pub(crate) const SYNC_INPUTS: Object = (0x1c33, 1);
 
 /// How far the objects of an axis are from those of the one before, and its maps.
-const OBJECT_STEP: u16 = 0x800;
+pub(crate) const OBJECT_STEP: u16 = 0x800;
 const MAP_STEP: u16 = 0x10;
 
 /// The objects of one axis of a device.
@@ -232,18 +231,6 @@ impl Dictionary {
                 add(PROBE_SOURCE, 1, 2, 5);
                 add(PROBE_SOURCE, 2, 2, 5);
             }
-        }
-    }
-
-    /// What the touch probe and the inputs of an axis have come to.
-    #[allow(clippy::cast_sign_loss, reason = "the bits of a number with a sign")]
-    pub(crate) fn put_inputs(&mut self, inputs: &Inputs, axis: u16) {
-        let first = OBJECT_STEP * axis;
-        let (status, places) = inputs.probe;
-        self.set((DIGITAL_INPUTS.0 + first, 0), inputs.digital);
-        self.set((0x60b9 + first, 0), status.into());
-        for (index, place) in (0x60ba..).zip(places.as_flattened()) {
-            self.set((index + first, 0), *place as u32);
         }
     }
 

@@ -3,7 +3,6 @@
 //! The motor follows its target with a lag of first order, so that at a speed v it is v·τ behind:
 //! `x += (target − x) (1 − e^(−T/τ))`. A motor without current stands: it has a brake.
 
-use crate::contact::{Way, Ways};
 use crate::dictionary::{
     AxisObjects, FOLLOWING_TIMEOUT, FOLLOWING_WINDOW, HOME_OFFSET, HOMING_METHOD, HOMING_SPEED,
     MOST_TORQUE, QUICK_STOP,
@@ -13,6 +12,7 @@ use crate::power::Power;
 use crate::settings::{DriveSettings, HomeSwitch};
 use crate::spindle::SpindleMotor;
 use crate::touch_probe::{ProbeUnits, TouchProbe};
+use crate::way::{Way, Ways};
 
 const CYCLIC_POSITION: i8 = 8;
 const HOMING: i8 = 6;
@@ -201,6 +201,15 @@ impl Drive {
             digital: self.digital,
             probe: (self.probe_units.status, self.probe_units.places),
         }
+    }
+
+    /// How far a spindle has turned at a time, not before that of the last step.
+    #[allow(clippy::cast_precision_loss, reason = "a period")]
+    pub(crate) fn revolutions(&self, now_ns: u64) -> Option<f64> {
+        let motor = self.spindle.as_ref()?;
+        let since_ns = now_ns.saturating_sub(self.ways.as_ref()?.last_ns());
+        let place = self.place + self.velocity * since_ns as f64 * 1e-9;
+        Some(place / motor.counts_per_rev)
     }
 
     /// How fast a spindle turns, rev/min.

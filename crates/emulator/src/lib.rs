@@ -18,7 +18,7 @@
 //!
 //! Devices hang in a row, or in a tree of cables of any length, and answer as real ones were seen to:
 //! garbage in the times of closed ports, terminals that note times and have no clock. Terminals have
-//! digital inputs and outputs without a mailbox, or analog ones with; any part of the line can be unplugged.
+//! digital inputs and outputs without a mailbox, or analog ones and encoders with; any part of the line can be unplugged.
 //!
 //! What it does not have: redundancy, segmented SDO and complete access, hot connect.
 //!
@@ -46,6 +46,7 @@ mod device;
 mod dictionary;
 mod drive;
 mod eeprom;
+mod encoder;
 mod frame;
 mod injected_fault;
 mod memory;
@@ -57,11 +58,13 @@ mod settings;
 mod spindle;
 mod states;
 mod touch_probe;
+mod way;
 
 pub use cable::Cable;
 pub use channels::Channels;
 pub use clock::ClockKind;
 pub use contact::Probe;
+pub use encoder::Encoder;
 pub use injected_fault::InjectedFault;
 pub use pins::OutputRecord;
 pub use segment::{Segment, SyncRecord};

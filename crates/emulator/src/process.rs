@@ -1,8 +1,11 @@
 //! The process data of a drive in the memory of its device.
 
-use crate::dictionary::{AxisObjects, Dictionary, MODE, Mapped, PROBE_FUNCTION, own};
+use crate::dictionary::{
+    AxisObjects, DIGITAL_INPUTS, Dictionary, MODE, Mapped, OBJECT_STEP, PROBE_FUNCTION, own,
+};
 use crate::drive::{Inputs, Outputs};
 use crate::memory::Memory;
+use crate::touch_probe::TouchProbe;
 
 /// What the master has written for an axis; what is no demand goes to the objects.
 #[allow(
@@ -62,6 +65,25 @@ pub(crate) fn put_inputs(memory: &mut Memory, mapped: &[Mapped], inputs: Inputs,
             }
             _ => {}
         }
+    }
+}
+
+/// Whether an entry of a map is no object of a touch probe, or one that can be mapped.
+pub(crate) fn is_mappable(probe: Option<TouchProbe>, entry: u32) -> bool {
+    let (_, index) = own(u16::try_from(entry >> 16).unwrap_or(0));
+    let is_of_probe = matches!(index, 0x60b8..=0x60bd);
+    !is_of_probe || probe.is_some_and(|probe| probe.is_mappable)
+}
+
+/// What the touch probe and the inputs of an axis have come to, as objects.
+#[allow(clippy::cast_sign_loss, reason = "the bits of a number with a sign")]
+pub(crate) fn put_objects(objects: &mut Dictionary, inputs: &Inputs, axis: u16) {
+    let first = OBJECT_STEP * axis;
+    let (status, places) = inputs.probe;
+    objects.set((DIGITAL_INPUTS.0 + first, 0), inputs.digital);
+    objects.set((0x60b9 + first, 0), status.into());
+    for (index, place) in (0x60ba..).zip(places.as_flattened()) {
+        objects.set((index + first, 0), *place as u32);
     }
 }
 

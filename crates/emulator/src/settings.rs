@@ -179,6 +179,23 @@ impl DriveSettings {
         }
     }
 
+    /// An encoder's counter with a mailbox, as an EL5151 has it: 16 or 32 bits.
+    #[must_use]
+    pub fn encoder(bits: u32) -> Self {
+        let numbers = [0x6000_1100, 0x6000_1200].map(|number| number | bits);
+        let inputs = [&[0x6000_0101, 0x6000_0201, 14], &numbers[..]].concat();
+        Self {
+            identity: [2, 0x141f_3052, 1, 0],
+            has_mailbox: true,
+            channels: Some(Channels {
+                inputs: vec![inputs],
+                outputs: vec![vec![0x7000_0101, 0x7000_0201, 14]],
+                ..Channels::default()
+            }),
+            ..Self::terminal("ENCODER", ClockKind::ReceiveTimes)
+        }
+    }
+
     /// Analog outputs with a mailbox, as an EL4002 has two: a value each.
     #[must_use]
     pub fn analog_outputs(count: u16) -> Self {

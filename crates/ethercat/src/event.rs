@@ -54,6 +54,8 @@ pub enum Event {
     NobodyStops,
     /// The interpolator was started anew.
     Restart,
+    /// The counter of the spindle's encoder was off at its index, by so many counts.
+    EncoderSlipped(i64),
     /// The probe touched before the touch probes of all drives were armed again.
     ProbeUnarmed,
     /// A drive has not kept where it was when the probe touched.
@@ -139,6 +141,11 @@ impl fmt::Display for Event {
                 )
             }
             Self::Restart => write!(f, "the interpolator was started anew"),
+            Self::EncoderSlipped(off) => write!(
+                f,
+                "the spindle's encoder is off by {off} counts at its index: a cable or its shield, or \
+                 counts_per_rev in drives.toml; its angle is not used until the next index"
+            ),
             Self::ProbeUnarmed => write!(
                 f,
                 "the probe changed before the drives were ready to keep that (0x60B9): {SAMPLED}"

@@ -31,6 +31,8 @@ pub struct Inputs {
     pub mode: i8,
     /// Error code, 0x603F.
     pub fault: u16,
+    /// Digital inputs, 0x60FD; 0 if they are not mapped.
+    pub digital: u32,
     /// Touch probe, 0x60B9 and what it keeps.
     pub probe: ProbeInputs,
 }
@@ -116,6 +118,10 @@ impl Inputs {
             fault: match layout.fault {
                 Some(at) => word(at)?,
                 None if is_faulted => ANY_FAULT,
+                None => 0,
+            },
+            digital: match layout.digital {
+                Some(at) => u32::from_le_bytes(*bytes.get(at..)?.first_chunk()?),
                 None => 0,
             },
             probe: match layout.probe {

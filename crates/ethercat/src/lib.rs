@@ -88,6 +88,6 @@ pub use run::{Listeners, RunError, RunSettings, run};
 pub use settings::{BusSettings, DEVICE_AXES, DriveSettings, HomingSettings, Settings};
 pub use terminal::{
     ANALOG_INPUTS, AnalogInput, AnalogOutput, At, DIGITAL_INPUTS, DigitalInput, DigitalOutput,
-    Parameter, Quantity, Signal, SpindleMode, SpindleSettings, TerminalSettings,
+    EncoderSettings, Parameter, Quantity, Signal, SpindleMode, SpindleSettings, TerminalSettings,
 };
 pub use wire::{MAX_FRAME, PacketWire, Wire, WireError};

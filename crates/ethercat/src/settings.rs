@@ -2,7 +2,7 @@
 
 use crate::entry::Mapping;
 use crate::probe::TouchProbe;
-use crate::terminal::TerminalSettings;
+use crate::terminal::{DigitalInput, TerminalSettings};
 use glidepath_geometry::AXES;
 use glidepath_link::servo::ServoSettings;
 
@@ -95,6 +95,8 @@ pub struct DriveSettings {
     pub quick_stop_a: f64,
     /// Its touch probe; of all drives or of none.
     pub probe: Option<TouchProbe>,
+    /// Its digital inputs (0x60FD) are to be read.
+    pub has_inputs: bool,
     /// The joint's highest speed, mm/s or °/s. A target a fifth further away than that is not sent.
     pub max_v: f64,
 }
@@ -161,6 +163,8 @@ pub struct Settings {
     pub bus: BusSettings,
     /// The drives, one for each joint, at most nine, no place and no joint twice.
     pub drives: Vec<DriveSettings>,
+    /// Inputs of drives, with the number of the drive among these; `at` is a bit of its 0x60FD.
+    pub drive_inputs: Vec<(usize, DigitalInput)>,
     /// All devices besides that are led: none of them at the place of a drive, and none twice.
     pub terminals: Vec<TerminalSettings>,
     /// What the joints' own stop may use.

@@ -12,6 +12,7 @@
 )]
 
 mod between;
+mod encoder;
 mod judge;
 mod terminals;
 mod touch_probe;

@@ -250,12 +250,12 @@ impl Device {
             let is_fixed = self.state() > PRE_OP;
             let is_told = self.settings.sync_type == SyncType::Written;
             let (maps, is_drive) = (&self.settings.maps, self.settings.channels.is_none());
-            let settings = &self.settings;
+            let touch_probe = self.settings.touch_probe;
             let refusal = |objects: &Dictionary, object: Object, value: u32| match object {
                 (0x1600..=0x1bff | 0x1c12 | 0x1c13, _) if is_fixed => Some(NO_ACCESS),
                 (0x1c12 | 0x1c13, _) if matches!(maps, Maps::Fixed { .. }) => Some(READ_ONLY),
                 (0x1600..=0x1bff, _) if !is_drive => Some(READ_ONLY),
-                (0x1600..=0x1bff, 1..) if !probing::is_mappable(settings, value) => {
+                (0x1600..=0x1bff, 1..) if !process::is_mappable(touch_probe, value) => {
                     Some(NOT_MAPPABLE)
                 }
                 (0x1600..=0x1bff, 1..)

@@ -43,7 +43,7 @@ impl Device {
         drive.end_step((from_ns, at_ns.max(from_ns + 1)), from);
         let inputs = drive.inputs();
         process::put_inputs(&mut self.memory, &self.inputs, inputs, axis);
-        self.objects.put_inputs(&inputs, axis);
+        process::put_objects(&mut self.objects, &inputs, axis);
         let index = self.index;
         if let Some(records) = &mut self.records {
             records[nth].push(SyncRecord {

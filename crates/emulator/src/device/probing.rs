@@ -1,17 +1,9 @@
 //! The touch probes of the drives of a device, and their inputs.
 
 use super::Device;
-use crate::contact::Ways;
-use crate::dictionary::{AxisObjects, PROBE_SOURCE, own};
+use crate::dictionary::{AxisObjects, PROBE_SOURCE};
 use crate::process;
-use crate::settings::DriveSettings;
-
-/// Whether an entry of a map is no object of a touch probe, or one that can be mapped.
-pub(super) fn is_mappable(settings: &DriveSettings, entry: u32) -> bool {
-    let (_, index) = own(u16::try_from(entry >> 16).unwrap_or(0));
-    let is_of_probe = matches!(index, 0x60b8..=0x60bd);
-    !is_of_probe || settings.touch_probe.is_some_and(|probe| probe.is_mappable)
-}
+use crate::way::Ways;
 
 impl Device {
     /// Whether its drives have touch probes.
@@ -37,9 +29,9 @@ impl Device {
         self.show_drives();
     }
 
-    /// A bit of the inputs of all of its drives is high or low.
-    pub(crate) fn show_at_drives(&mut self, bit: u8, is_high: bool) {
-        for drive in &mut self.drives {
+    /// A bit of the inputs of a drive is high or low.
+    pub(crate) fn show_at_drive(&mut self, axis: usize, bit: u8, is_high: bool) {
+        if let Some(drive) = self.drives.get_mut(axis) {
             drive.set_digital(bit, is_high);
         }
         self.show_drives();
@@ -50,7 +42,7 @@ impl Device {
         for (axis, drive) in (0..).zip(&self.drives) {
             let inputs = drive.inputs();
             process::put_inputs(&mut self.memory, &self.inputs, inputs, axis);
-            self.objects.put_inputs(&inputs, axis);
+            process::put_objects(&mut self.objects, &inputs, axis);
         }
     }
 }

@@ -13,7 +13,7 @@ use crate::image::{Inputs, Outputs};
 use crate::probe::Probing;
 use crate::settings::Settings;
 use crate::state;
-use crate::terminal::Terminals;
+use crate::terminal::{DigitalInput, Terminals};
 use glidepath_geometry::AXES;
 use glidepath_link::servo::{JointStates, OwnStop, Servo, ServoCounts};
 use glidepath_link::{DriveState, MachineState, Setpoint, Subscriber};
@@ -81,6 +81,8 @@ pub struct Bridge<S: Subscriber<Setpoint>> {
     is_bus_lost: bool,
     /// What was lost, and stopped something.
     loss: Option<BridgeLoss>,
+    /// Their inputs, by the number of the drive.
+    drive_inputs: Vec<(usize, DigitalInput)>,
     /// The touch probes of the drives, if they are used.
     probing: Option<Probing>,
 }
@@ -116,10 +118,11 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
             stops_told: 0,
             restarts_told: 0,
             terminals: (!settings.terminals.is_empty())
-                .then(|| Terminals::new(settings.bus.lost_frames)),
+                .then(|| Terminals::new(settings.bus.lost_frames, settings.bus.delay_ns)),
             patience_ns: settings.servo.patience_ns,
             is_bus_lost: false,
             loss: None,
+            drive_inputs: settings.drive_inputs.clone(),
             probing: Probing::new(settings, WINDOW),
         }
     }

@@ -3,6 +3,7 @@
 use super::{Bridge, WINDOW};
 use crate::probe::Seen;
 use crate::state;
+use crate::terminal::At;
 use bytemuck::Zeroable as _;
 use glidepath_geometry::AXES;
 use glidepath_link::{DriveState, Feedback, Setpoint, Subscriber};
@@ -51,8 +52,17 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
                 0
             };
         }
-        if let Some(terminals) = &self.terminals {
+        if let Some(terminals) = &mut self.terminals {
             terminals.tell(&mut feedback);
+        }
+        for (nth, input) in &self.drive_inputs {
+            let digital = self
+                .drives
+                .get(*nth)
+                .map_or(0, |drive| drive.inputs.digital);
+            if let At::Bit(bit) = input.at {
+                input.tell(digital >> (bit & 31) & 1 == 1, &mut feedback);
+            }
         }
         if let Some(probing) = &mut self.probing {
             let seen = self.drives.iter().map(|drive| Seen {

@@ -6,10 +6,9 @@
 //!  Look ─┴── empty ──────────┴─► Look at the next one, or Post, or Look for the answer to that
 //! ```
 
+use super::mailbox::Mailbox;
 use super::probe_mail::{MESSAGE, ProbeMail};
 use crate::coe::emergency;
-use crate::device::Device;
-use crate::exchange::station;
 use crate::frame::{Address, Command, Frame, Slot};
 use crate::probe::ProbeInputs;
 use crate::registers::MAILBOX_IN_STATUS;
@@ -26,32 +25,6 @@ enum Matter {
     Take(usize),
     /// A question.
     Post,
-}
-
-/// The mailbox of a device: whose, and where and how long both ways are.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Mailbox {
-    /// The number of the device, drives first.
-    nth: usize,
-    station: u16,
-    out: (u16, u16),
-    back: (u16, u16),
-}
-
-impl Mailbox {
-    pub(super) fn of(nth: usize, device: &Device) -> Option<Self> {
-        let (out, back) = device.mailbox?;
-        Some(Self {
-            nth,
-            station: station(device.position),
-            out: (out.start, out.length),
-            back: (back.start, back.length),
-        })
-    }
-
-    pub(super) const fn station(&self) -> u16 {
-        self.station
-    }
 }
 
 /// The datagrams of one frame after the other.

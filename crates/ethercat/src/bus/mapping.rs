@@ -14,6 +14,8 @@ use crate::wire::Wire;
 /// What is mapped: index, subindex and bits of each object.
 const OUTPUTS: [u32; 3] = [0x6040_0010, 0x607a_0020, 0x6060_0008];
 const INPUTS: [u32; 4] = [0x6041_0010, 0x6064_0020, 0x6061_0008, 0x603f_0010];
+/// Digital inputs of a drive, if they are wanted.
+const DIGITAL: u32 = 0x60fd_0020;
 /// The same of a touch probe: what it is to do; what it has done, in front of what it keeps.
 const PROBE_OUTPUT: u32 = 0x60b8_0010;
 const PROBE_STATUS: u32 = 0x60b9_0010;
@@ -61,7 +63,8 @@ pub(super) fn set<W: Wire>(
     let mut layouts = Vec::new();
     for drive in drives {
         let own = |index| drive.own(index);
-        let layout = Layout::of(&outputs, &inputs, &own, drive.homing.is_some());
+        let needs = (drive.homing.is_some(), drive.has_inputs);
+        let layout = Layout::of(&outputs, &inputs, &own, needs);
         let mut layout = layout.map_err(|lacks| BusError::Unfit {
             device: device.position,
             name: device.name.clone(),
@@ -202,6 +205,7 @@ fn outputs(drive: &DriveSettings, with_probe: bool) -> Vec<u32> {
 /// The inputs that a drive needs.
 fn inputs(drive: &DriveSettings, with_probe: bool) -> Vec<u32> {
     let mut entries = INPUTS.to_vec();
+    entries.extend(drive.has_inputs.then_some(DIGITAL));
     if let Some(probe) = drive.probe.filter(|_| with_probe) {
         let kept = probe.places().map(|index| u32::from(index) << 16 | 0x20);
         entries.push(PROBE_STATUS);

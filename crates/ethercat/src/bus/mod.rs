@@ -10,6 +10,7 @@ mod bus_time;
 mod clocks;
 mod group;
 mod init;
+mod mailbox;
 mod mapping;
 mod op;
 mod others;

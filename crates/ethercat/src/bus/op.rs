@@ -11,9 +11,10 @@
 //! what state it is and why. The last datagram looks whether a mailbox is full, of one device after the
 //! other, and if one is, takes the message out: emergencies come that way.
 
-use super::aside::{Asides, Mailbox};
+use super::aside::Asides;
 use super::bus_time::BusTime;
 use super::group::Group;
+use super::mailbox::Mailbox;
 use super::others::Others;
 use super::probe_mail::ProbeMail;
 use super::state::{ERROR, INIT};
@@ -160,6 +161,7 @@ impl<'w, W: Wire> Op<'w, W> {
     /// What those have answered.
     pub(crate) fn answered(&self) -> Answered<'_> {
         Answered {
+            sent_ns: self.sent_ns,
             is_whole: self.are_others_whole,
             inputs: &self.others_inputs,
             states: self

@@ -3,7 +3,7 @@
 //! A unit is switched by 0x60B8, where that is not in the process data. While somebody wants to know, 0x60B9 is read over and over, and behind it
 //! the places that it says are kept. What is told is that of one such reading.
 
-use super::aside::Mailbox;
+use super::mailbox::Mailbox;
 use crate::coe::{self, Object, Reply, object};
 use crate::exchange::station;
 use crate::layout::{Drives, ProbeAccess};
@@ -75,9 +75,7 @@ impl ProbeMail {
             let access = led.layout.probe.filter(is_mailed)?;
             let device = &drives.devices.get(led.device)?.device;
             let at = station(device.position);
-            let mailbox = mailboxes
-                .iter()
-                .position(|mailbox| mailbox.station() == at)?;
+            let mailbox = mailboxes.iter().position(|mailbox| mailbox.station == at)?;
             let own = |index, size| object(DriveSettings::of_axis(index, access.axis), 0, size);
             Some(Mailed {
                 axis,
@@ -99,7 +97,7 @@ impl ProbeMail {
             turn: 0,
             numbers: mailboxes
                 .iter()
-                .map(|mailbox| number(mailbox.station()))
+                .map(|mailbox| number(mailbox.station))
                 .collect(),
         }
     }

@@ -13,6 +13,7 @@
 mod axes;
 mod bring_up;
 mod captures;
+mod encoder;
 mod ending;
 mod judge;
 mod life;

@@ -8,6 +8,7 @@ use super::raw::{RawDrive, RawDrives, RawHoming};
 use super::source::{DrivesSource, Place};
 use super::touch_probe;
 use crate::config::{ConfigDiagnostic, HomingBy, Judge, MachineConfig, Range};
+use core::mem::take;
 use core::ops::Range as Span;
 use glidepath_ethercat::{DEVICE_AXES, DriveSettings, HomingSettings, Mapping, RefusedPart};
 use glidepath_geometry::AXES;
@@ -78,7 +79,12 @@ pub(super) fn judge(
     let interface = raw.bus.interface.clone();
     let bus = bus(&mut judge, &raw.bus);
     let velocities = joint_velocities(machine);
-    let drives = drives(&mut judge, raw.drive, machine, &velocities);
+    let mut tables = raw.drive;
+    let inputs = tables
+        .iter_mut()
+        .map(|drive| take(&mut drive.as_mut().inputs));
+    let inputs: Vec<_> = inputs.collect();
+    let drives = drives(&mut judge, tables, machine, &velocities);
     let missing =
         (0..velocities.len()).find(|joint| !drives.iter().any(|(d, _)| d.joint == *joint));
     if let Some(joint) = missing {
@@ -99,16 +105,29 @@ pub(super) fn judge(
             span: span.clone(),
         })
         .collect();
-    let (terminals, of_devices) =
-        device::devices(&mut judge, raw.device, &drives, velocities.len());
-    touch_probe::together(&mut judge, &drives, &terminals, machine);
-    let drives: Vec<_> = drives.into_iter().map(|(drive, _)| drive).collect();
+    let tables = (inputs, raw.device);
+    let (drive_inputs, terminals, of_devices) =
+        device::devices(&mut judge, tables, &drives, velocities.len());
+    let of_terminals = terminals.iter().flat_map(|device| &device.inputs);
+    let all_inputs = of_terminals.chain(drive_inputs.iter().map(|(_, input)| input));
+    let numbers: Vec<usize> = all_inputs.filter_map(|input| input.number).collect();
+    touch_probe::together(&mut judge, &drives, &numbers, machine);
+    let reads = |nth: usize| drive_inputs.iter().any(|(of, _)| *of == nth);
+    let drives = drives
+        .into_iter()
+        .enumerate()
+        .map(|(nth, (drive, _))| DriveSettings {
+            has_inputs: reads(nth),
+            ..drive
+        });
+    let drives: Vec<_> = drives.collect();
     places.extend(of_devices);
     if judge.diagnostics.is_empty() {
         Ok(DrivesConfig {
             interface,
             bus,
             drives,
+            drive_inputs,
             terminals,
             source: DrivesSource {
                 places,
@@ -272,6 +291,7 @@ fn drive(judge: &mut Judge, raw: RawDrive, velocities: &[f64]) -> DriveSettings 
         probe: raw
             .probe
             .and_then(|probe| touch_probe::touch_probe(judge, &probe)),
+        has_inputs: false,
         max_v: velocities.get(joint).copied().unwrap_or(1.0),
     }
 }

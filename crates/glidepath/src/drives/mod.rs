@@ -5,6 +5,7 @@
 mod bus;
 mod config;
 mod device;
+mod encoder;
 mod judge;
 mod raw;
 mod raw_device;

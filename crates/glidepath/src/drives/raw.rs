@@ -1,6 +1,6 @@
 //! The raw `drives.toml`, as it is written, before any value is judged.
 
-use super::raw_device::{Optional, RawDevice, RawMap};
+use super::raw_device::{Optional, RawDevice, RawInput, RawMap};
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -50,6 +50,8 @@ pub(super) struct RawDrive {
     pub(super) quick_stop: Spanned<f64>,
     pub(super) homing: Optional<RawHoming>,
     pub(super) probe: Option<RawTouchProbe>,
+    #[serde(default)]
+    pub(super) inputs: Vec<Spanned<RawInput>>,
 }
 
 #[derive(Debug, Deserialize)]

@@ -3,7 +3,7 @@
 use super::raw::RawTouchProbe;
 use crate::config::{ConfigDiagnostic, Judge, MachineConfig};
 use core::ops::Range as Span;
-use glidepath_ethercat::{DIGITAL_INPUTS, DriveSettings, TerminalSettings, TouchProbe};
+use glidepath_ethercat::{DIGITAL_INPUTS, DriveSettings, TouchProbe};
 
 /// Judges that of a drive.
 pub(super) fn touch_probe(judge: &mut Judge, raw: &RawTouchProbe) -> Option<TouchProbe> {
@@ -26,11 +26,12 @@ pub(super) fn touch_probe(judge: &mut Judge, raw: &RawTouchProbe) -> Option<Touc
     })
 }
 
-/// Judges all together: every drive has one or none has, and all of the same probe, whose input is there.
+/// Judges all together: every drive has one or none has, and all of the same probe, whose input is among these
+/// numbers.
 pub(super) fn together(
     judge: &mut Judge,
     drives: &[(DriveSettings, Span<usize>)],
-    terminals: &[TerminalSettings],
+    numbers: &[usize],
     machine: &MachineConfig,
 ) {
     let Some((first, probe, span)) = drives.iter().find_map(|(drive, span)| {
@@ -69,13 +70,10 @@ pub(super) fn together(
         }
     }
     let number = probe.number;
-    let of_terminals = terminals.iter().flat_map(|device| &device.inputs);
-    let mut numbers = of_terminals.filter_map(|input| input.number);
-    if !numbers.any(|input| input == usize::from(number)) {
+    if !numbers.contains(&usize::from(number)) {
         tell(
             format!("no input of this file has number = {number}"),
-            "the probe stops the motion by that input: give an input of a [[device]] this number"
-                .to_owned(),
+            "the probe stops the motion by that input: give an input of a [[device]] or a [[drive]] this number".to_owned(),
             &span,
         );
     }

@@ -5,6 +5,7 @@
 //!       └─ the probe is wired to each of them ─┘
 //! ```
 
+mod inputs;
 mod search;
 mod telling;
 mod unfit;
@@ -71,7 +72,7 @@ fn probe() -> Probe {
         is_closed_above: false,
         inputs: vec![(INPUTS, 1)],
         filter_ns: 3_000_000,
-        drive_bit: None,
+        drive_inputs: Vec::new(),
     }
 }
 

@@ -4,7 +4,7 @@ use super::telling::is_of_probe;
 use super::{PART_Z, TOUCH, probe, searched, setup};
 use crate::machine::{COUNTS, servo};
 use crate::wire::{MemoryWire, Quiet};
-use glidepath_emulator::{Maps, Segment};
+use glidepath_emulator::{ClockKind, DriveSettings as Emulated, Maps, Probe, Segment};
 use glidepath_ethercat::{Init, Mapping, Settings, TouchProbe};
 
 /// Why a bus does not come up.
@@ -14,6 +14,7 @@ fn refusal(touch: TouchProbe, change: impl FnOnce(&mut crate::machine::Setup)) -
     let settings = Settings {
         bus: setup.bus,
         drives: setup.drives,
+        drive_inputs: setup.drive_inputs,
         terminals: setup.terminals,
         servo: servo(),
     };
@@ -123,4 +124,26 @@ fn an_emergency_is_told_while_drives_are_asked() {
     );
     let error = search.found[2].contact[2] - PART_Z;
     assert!(error.abs() <= 1.5 / COUNTS, "{error}");
+}
+
+/// J0 and J2 are of one device: objects of the second are 0x800 behind those of the first.
+#[test]
+fn drives_of_one_device_keep_the_place_of_each() {
+    for is_mappable in [true, false] {
+        let mut setup = setup(2_000_000, Some(TOUCH));
+        (setup.drives[2].position, setup.drives[2].axis) = (0, 1);
+        let device = &mut setup.emulated[0];
+        (device.axes, device.start_counts) = (2, vec![0; 2]);
+        device.touch_probe.as_mut().unwrap().is_mappable = is_mappable;
+        setup.emulated[2] = Emulated::terminal("COUPLER", ClockKind::Bits64);
+        let of_second = Probe {
+            drive: (0, 1),
+            ..probe()
+        };
+        let (search, events) = searched(&setup, of_second, &["G21 G90 F1200\nG38.2 X-2 Z-4\n"]);
+        assert!(!events.iter().any(is_of_probe), "{events:?}");
+        let [x, _, z, ..] = search.found[0].contact;
+        let off = [x - PART_Z / 2.0, z - PART_Z];
+        assert!(off.iter().all(|off| off.abs() <= 1.5 / COUNTS), "{off:?}");
+    }
 }

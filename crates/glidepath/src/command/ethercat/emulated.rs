@@ -2,8 +2,9 @@
 
 use super::bridge;
 use super::desk;
-use super::emulated_inputs::{InputFile, Level, Pins};
+use super::emulated_inputs::{Level, Pins};
 use super::emulated_terminals;
+use super::input_file::InputFile;
 use super::namespace::{self, DRIVES, MASTER};
 use crate::cli::EthercatArgs;
 use crate::command::failure::Failure;
@@ -17,8 +18,8 @@ use glidepath_emulator::{
     DriveSettings as Emulated, HomeSwitch, Segment, TouchProbe as EmulatedProbe,
 };
 use glidepath_ethercat::{
-    BusSettings, Demand, DriveSettings, HomingSettings, MAX_FRAME, Mapping, PacketWire, Settings,
-    TerminalSettings, TouchProbe, Wire as _,
+    BusSettings, Demand, DigitalInput, DriveSettings, HomingSettings, MAX_FRAME, Mapping,
+    PacketWire, Settings, TerminalSettings, TouchProbe, Wire as _,
 };
 use glidepath_realtime::{Mode, Request, enter};
 use std::fs::File;
@@ -55,6 +56,7 @@ pub(super) fn drive(args: &EthercatArgs, config: &MachineConfig) -> Result<Exit,
     namespace::make_interfaces()?;
     let Machine {
         drives,
+        drive_inputs,
         terminals,
         emulated,
         source,
@@ -69,6 +71,7 @@ pub(super) fn drive(args: &EthercatArgs, config: &MachineConfig) -> Result<Exit,
             ..BusSettings::default()
         },
         drives,
+        drive_inputs,
         terminals,
         servo: servo::settings(config),
     };
@@ -80,6 +83,9 @@ pub(super) fn drive(args: &EthercatArgs, config: &MachineConfig) -> Result<Exit,
     }
     let (mut master, mut there) = (PacketWire::open(MASTER)?, PacketWire::open(DRIVES)?);
     let mut segment = Segment::new_at(&emulated, master.now_ns());
+    if let Some(encoder) = emulated_terminals::encoder(&settings.terminals) {
+        segment.add_encoder(encoder);
+    }
     let record = args.emulated_record.as_deref();
     if record.is_some() {
         segment.keep_records();
@@ -129,6 +135,9 @@ fn put(segment: &mut Segment, levels: &[Level]) {
     for level in levels {
         match level {
             Level::Passing(probe) => segment.add_probe(probe.clone()),
+            Level::OfDrive(device, axis, bit, is_high) => {
+                segment.set_drive_input((*device, *axis), *bit, *is_high);
+            }
             Level::Bit(device, bit, is_high) => segment.set_input(*device, *bit, *is_high),
             Level::Number(device, from, bytes) => segment.set_input_bytes(*device, *from, bytes),
         }
@@ -167,6 +176,7 @@ fn answer(
 struct Machine {
     /// Drives and other devices as the bridge knows them.
     drives: Vec<DriveSettings>,
+    drive_inputs: Vec<(usize, DigitalInput)>,
     terminals: Vec<TerminalSettings>,
     /// All of them as they are.
     emulated: Vec<Emulated>,
@@ -219,21 +229,29 @@ fn machine(args: &EthercatArgs, config: &MachineConfig) -> Result<Machine, Failu
         enable_window: 0.05,
         quick_stop_a: 4000.0,
         probe: None,
+        has_inputs: false,
         max_v,
     };
-    let (drives, terminals, source): (Vec<_>, Vec<_>, _) = given.map_or_else(
+    let (drives, drive_inputs, terminals, source): (Vec<_>, Vec<_>, Vec<_>, _) = given.map_or_else(
         || {
             let joints = velocities.len();
             let desk = || desk::desk(joints, joints);
             let terminals = args.emulated_inputs.iter().map(|_| desk()).collect();
             let drives = velocities.into_iter().enumerate().map(drive).collect();
-            (drives, terminals, DrivesSource::default())
+            (drives, Vec::new(), terminals, DrivesSource::default())
         },
-        |given| (given.drives, given.terminals, given.source),
+        |given| {
+            (
+                given.drives,
+                given.drive_inputs,
+                given.terminals,
+                given.source,
+            )
+        },
     );
     let mut emulated = as_they_are(&drives, &terminals, &begins);
     let begun = drives.iter().map(|drive| (*drive, begins[drive.joint]));
-    let mut pins = Pins::beside(begun.collect());
+    let mut pins = Pins::beside(begun.collect(), &drive_inputs);
     for terminal in &terminals {
         emulated[terminal.position] = emulated_terminals::emulated(terminal);
         pins.add(terminal, &|at| {
@@ -253,6 +271,7 @@ fn machine(args: &EthercatArgs, config: &MachineConfig) -> Result<Machine, Failu
     });
     Ok(Machine {
         drives: drives.collect(),
+        drive_inputs,
         terminals,
         emulated,
         source,

@@ -9,20 +9,9 @@
 //! ```
 
 use super::input_line::{InputError, Meaning, Stands, line_of};
-use crate::command::failure::Failure;
-use crate::file_error::FileError;
-use crate::{output, text_file};
-use core::sync::atomic::{AtomicBool, Ordering};
-use core::time::Duration;
 use glidepath_emulator::Probe;
 use glidepath_ethercat::{AnalogInput, At, DigitalInput, DriveSettings, TerminalSettings};
-use std::path::{Path, PathBuf};
-use std::sync::mpsc::Sender;
 
-/// Largest file, bytes.
-const MOST_BYTES: u64 = 1 << 16;
-/// Between two looks at the file.
-const POLL: Duration = Duration::from_millis(50);
 /// What stands at inputs of a device: bytes from one on, and which of their bits are meant.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Level {
@@ -30,6 +19,8 @@ pub(super) enum Level {
     Bit(usize, usize, bool),
     /// Two bytes, from one on.
     Number(usize, usize, [u8; 2]),
+    /// A bit of the inputs of a drive: device, axis, bit.
+    OfDrive(usize, usize, u8, bool),
     /// A bit that changes where a drive passes a place.
     Passing(Probe),
 }
@@ -45,15 +36,31 @@ enum Pin {
 #[derive(Debug, Default)]
 pub(super) struct Pins {
     pins: Vec<(usize, usize, Pin)>,
+    /// Those of drives: device, axis, bit of 0x60FD.
+    of_drives: Vec<(usize, usize, u8, DigitalInput)>,
     /// The drives, and where the joint of each begins.
     drives: Vec<(DriveSettings, f64)>,
 }
 
 impl Pins {
-    /// Those of no device yet, beside these drives.
-    pub(super) const fn beside(drives: Vec<(DriveSettings, f64)>) -> Self {
-        let pins = Vec::new();
-        Self { pins, drives }
+    /// Those of these drives, and of no device yet.
+    pub(super) fn beside(
+        drives: Vec<(DriveSettings, f64)>,
+        inputs: &[(usize, DigitalInput)],
+    ) -> Self {
+        let of_drives = inputs.iter().filter_map(|(nth, input)| {
+            let (drive, _) = drives.get(*nth)?;
+            let At::Bit(bit) = input.at else {
+                return None;
+            };
+            let bit = u8::try_from(bit).ok()?;
+            Some((drive.position, drive.axis.into(), bit, *input))
+        });
+        Self {
+            of_drives: of_drives.collect(),
+            pins: Vec::new(),
+            drives,
+        }
     }
 
     /// Adds those of a device; `place` is where it has each, bits.
@@ -85,7 +92,9 @@ impl Pins {
                 column,
                 what: what.to_owned(),
             };
-            if !self.pins.iter().any(|(.., pin)| pin.means(meaning)) {
+            let is_of_drive = |(.., input): &(_, _, _, DigitalInput)| means(input, meaning);
+            let is_there = self.pins.iter().any(|(.., pin)| pin.means(meaning));
+            if !is_there && !self.of_drives.iter().any(is_of_drive) {
                 return Err(error("no device has such an input"));
             }
             if let Stands::At(joint, place) = stands
@@ -102,12 +111,11 @@ impl Pins {
             let stands = said.iter().find(|(meaning, _)| pin.means(*meaning));
             let stands = stands.map(|(_, stands)| *stands);
             match (pin, stands) {
-                (Pin::Digital(input), Some(Stands::At(joint, place))) => {
-                    self.passing((*position, *bit), input, (joint, place))
-                }
                 (Pin::Digital(input), stands) => {
-                    let is_on = stands == Some(Stands::On);
-                    Level::Bit(*position, *bit, is_on != input.is_inverted)
+                    let level = |is_high| Level::Bit(*position, *bit, is_high);
+                    self.digital(input, stands, level, |probe| {
+                        probe.inputs.push((*position, *bit));
+                    })
                 }
                 (Pin::Analog(input), stands) => {
                     let value = match stands {
@@ -118,7 +126,32 @@ impl Pins {
                 }
             }
         });
-        Ok(levels.collect())
+        let of_drives = self.of_drives.iter().map(|(device, axis, bit, input)| {
+            let stands = said.iter().find(|(meaning, _)| means(input, *meaning));
+            let stands = stands.map(|(_, stands)| *stands);
+            let level = |is_high| Level::OfDrive(*device, *axis, *bit, is_high);
+            self.digital(input, stands, level, |probe| {
+                probe.drive_inputs.push((*device, *axis, *bit));
+            })
+        });
+        Ok(levels.chain(of_drives).collect())
+    }
+
+    /// What stands at a digital input, as a level or as a probe that is wired to it.
+    fn digital(
+        &self,
+        input: &DigitalInput,
+        stands: Option<Stands>,
+        level: impl Fn(bool) -> Level,
+        wire: impl Fn(&mut Probe),
+    ) -> Level {
+        if let Some(Stands::At(joint, place)) = stands
+            && let Some(mut probe) = self.passing(input, (joint, place))
+        {
+            wire(&mut probe);
+            return Level::Passing(probe);
+        }
+        level((stands == Some(Stands::On)) != input.is_inverted)
     }
 
     /// The drive of a joint: itself, where the joint begins, and its counts at a place.
@@ -128,38 +161,39 @@ impl Pins {
         Some((drive, *begins, drive.counts(place)?))
     }
 
-    /// An input that is on at a place of a joint and beyond it, as seen from where the joint begins. All
-    /// touch probes of drives are wired to it.
-    fn passing(
-        &self,
-        input: (usize, usize),
-        what: &DigitalInput,
-        (joint, place): (usize, f64),
-    ) -> Level {
-        let Some((drive, begins, counts)) = self.drive(joint, place) else {
-            return Level::Bit(input.0, input.1, what.is_inverted);
-        };
+    /// A probe that is on at a place of a joint and beyond it, as seen from where the joint begins. All touch
+    /// probes of drives are wired to it.
+    fn passing(&self, what: &DigitalInput, (joint, place): (usize, f64)) -> Option<Probe> {
+        let (drive, begins, counts) = self.drive(joint, place)?;
         let is_on_above = begins < place;
-        Level::Passing(Probe {
+        Some(Probe {
             drive: (drive.position, drive.axis.into()),
             at_counts: counts.into(),
             is_closed_above: is_on_above != (drive.is_inverted != what.is_inverted),
-            inputs: vec![input],
+            inputs: Vec::new(),
             filter_ns: 0,
-            drive_bit: None,
+            drive_inputs: Vec::new(),
         })
+    }
+}
+
+/// Whether a digital input is what is meant.
+fn means(input: &DigitalInput, meaning: Meaning) -> bool {
+    match meaning {
+        Meaning::Input(number) => input.number == Some(number),
+        Meaning::Home(joint) => input.home == Some(joint),
+        Meaning::LimitLow(joint) => input.limit_low == Some(joint),
+        Meaning::LimitHigh(joint) => input.limit_high == Some(joint),
+        Meaning::Analog(_) => false,
     }
 }
 
 impl Pin {
     fn means(&self, meaning: Meaning) -> bool {
         match (self, meaning) {
-            (Self::Digital(input), Meaning::Input(number)) => input.number == Some(number),
-            (Self::Digital(input), Meaning::Home(joint)) => input.home == Some(joint),
-            (Self::Digital(input), Meaning::LimitLow(joint)) => input.limit_low == Some(joint),
-            (Self::Digital(input), Meaning::LimitHigh(joint)) => input.limit_high == Some(joint),
+            (Self::Digital(input), meaning) => means(input, meaning),
             (Self::Analog(input), Meaning::Analog(number)) => input.number == number,
-            _ => false,
+            (Self::Analog(_), _) => false,
         }
     }
 }
@@ -178,58 +212,6 @@ fn counts(input: &AnalogInput, value: f64) -> [u8; 2] {
     };
     let counts = ((value - input.offset) / input.scale).round();
     (counts.clamp(least, most) as i32 as u16).to_le_bytes()
-}
-
-/// The file, and what it said last.
-#[derive(Debug)]
-pub(super) struct InputFile {
-    path: PathBuf,
-    pins: Pins,
-    text: String,
-}
-
-impl InputFile {
-    /// Reads the file for the first time: what is wrong in it then is refused.
-    ///
-    /// # Errors
-    /// It cannot be read, or is wrong.
-    pub(super) fn open(path: &Path, pins: Pins) -> Result<(Self, Vec<Level>), Failure> {
-        let text = read(path).map_err(FileError::file("read", path))?;
-        let levels = pins.read(&text).map_err(|error| Failure::Inputs {
-            file: path.display().to_string(),
-            error: error.to_string(),
-        })?;
-        let path = path.to_owned();
-        Ok((Self { path, pins, text }, levels))
-    }
-
-    /// Looks at the file until it is over, and hands on what is new in it. What is wrong in it, or a file
-    /// that is gone, is told once, and changes nothing.
-    pub(super) fn watch(&mut self, changed: &Sender<Vec<Level>>, is_over: &AtomicBool) {
-        while !is_over.load(Ordering::Relaxed) {
-            std::thread::sleep(POLL);
-            // One that is being written is there again at the next look.
-            let Ok(text) = read(&self.path) else {
-                continue;
-            };
-            if text == self.text {
-                continue;
-            }
-            self.text = text;
-            match self.pins.read(&self.text) {
-                // Nobody is left to be told.
-                Ok(levels) => drop(changed.send(levels)),
-                Err(error) => output::note(&format!(
-                    "ethercat: {}:{error}; the inputs stay as they are",
-                    self.path.display()
-                )),
-            }
-        }
-    }
-}
-
-fn read(path: &Path) -> std::io::Result<String> {
-    text_file::read(path, MOST_BYTES)
 }
 
 #[cfg(test)]
@@ -307,6 +289,7 @@ mod tests {
             enable_window: 0.05,
             quick_stop_a: 1000.0,
             probe: None,
+            has_inputs: false,
             max_v: 100.0,
         };
         (drive, 1.0)

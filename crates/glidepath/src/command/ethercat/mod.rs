@@ -5,6 +5,7 @@ mod desk;
 mod emulated;
 mod emulated_inputs;
 mod emulated_terminals;
+mod input_file;
 mod input_line;
 mod namespace;
 mod scan;
