@@ -69,10 +69,10 @@ impl Contact {
             self.coming.push_back((at_ns, rises));
         }
         let filter_ns = self.probe.filter_ns;
-        while let Some((_, level)) = self
-            .coming
-            .pop_front_if(|(at_ns, _)| *at_ns + filter_ns <= now_ns)
+        while let Some((at_ns, level)) = self.coming.front().copied()
+            && at_ns + filter_ns <= now_ns
         {
+            self.coming.pop_front();
             for (device, bit) in &self.probe.inputs {
                 if let Some(device) = devices.get_mut(*device) {
                     device.change_inputs(|pins| pins.set_bit(*bit, level));

@@ -1,6 +1,7 @@
 //! The events on the bus, for the log.
 
 use crate::bus_fault::BusFault;
+use crate::probe_trouble::ProbeTrouble;
 use crate::{al_status, fault_text, state};
 use core::fmt;
 use glidepath_link::{DriveState, FaultCause, FaultReport};
@@ -56,17 +57,9 @@ pub enum Event {
     Restart,
     /// The counter of the spindle's encoder was off at its index, by so many counts.
     EncoderSlipped(i64),
-    /// The probe touched before the touch probes of all drives were armed again.
-    ProbeUnarmed,
-    /// A drive has not kept where it was when the probe touched.
-    ProbeMissed(usize),
-    /// What it has kept, mm or degrees, is not between these places, where the joint was then.
-    ProbeElsewhere(usize, f64, (f64, f64)),
+    /// Touch probes of drives have not told where the probe touched.
+    Probe(ProbeTrouble),
 }
-
-/// The end of what is told of a touch probe.
-const SAMPLED: &str =
-    "the place of the contact is found from positions, to the way of a period of the bus";
 
 impl fmt::Display for Event {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -146,20 +139,7 @@ impl fmt::Display for Event {
                 "the spindle's encoder is off by {off} counts at its index: a cable or its shield, or \
                  counts_per_rev in drives.toml; its angle is not used until the next index"
             ),
-            Self::ProbeUnarmed => write!(
-                f,
-                "the probe changed before the drives were ready to keep that (0x60B9): {SAMPLED}"
-            ),
-            Self::ProbeMissed(joint) => write!(
-                f,
-                "J{joint}: its drive has not kept where it was when the probe changed (0x60B9): is the probe wired \
-                 to its input? {SAMPLED}"
-            ),
-            Self::ProbeElsewhere(joint, place, (from, to)) => write!(
-                f,
-                "J{joint}: its drive says that the probe changed at {place:.4}, and the joint was between {from:.4} \
-                 and {to:.4} then: {SAMPLED}"
-            ),
+            Self::Probe(trouble) => write!(f, "{trouble}"),
         }
     }
 }

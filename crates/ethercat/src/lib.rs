@@ -58,6 +58,7 @@ mod frame;
 mod image;
 mod layout;
 mod probe;
+mod probe_trouble;
 mod registers;
 mod run;
 mod settings;
@@ -84,6 +85,7 @@ pub use fault_text::text as fault_text;
 pub use frame::{Address, Answer, Command, Frame, Slot};
 pub use image::{Inputs, Outputs};
 pub use probe::{ProbeInputs, TouchProbe};
+pub use probe_trouble::ProbeTrouble;
 pub use run::{Listeners, RunError, RunSettings, run};
 pub use settings::{BusSettings, DEVICE_AXES, DriveSettings, HomingSettings, Settings};
 pub use terminal::{

@@ -11,7 +11,7 @@ const PATIENCE: Duration = Duration::from_secs(240);
 /// How old what drives say may be, ns: a host of tests stands still now and then.
 const FRESH_NS: u64 = 100_000_000;
 /// Where the part begins, mm.
-const PART_Z: f64 = -3.141_592;
+const PART_Z: f64 = -3.271_83;
 /// Counts a mm: a micrometre is a hundred.
 const COUNTS: f64 = 100_000.0;
 

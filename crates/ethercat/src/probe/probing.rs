@@ -4,6 +4,7 @@
 use super::plausible::{Span, samples_before};
 use super::unit::{FALLING, ProbeInputs, RISING, Unit};
 use crate::event::Event;
+use crate::probe_trouble::ProbeTrouble;
 use crate::settings::{DriveSettings, Settings};
 use glidepath_geometry::AXES;
 use glidepath_link::{Feedback, Latch, LatchKind, Setpoint};
@@ -197,7 +198,7 @@ impl Probing {
     ) {
         // One that can be older than the arming may not be the one that they keep.
         if self.armed <= self.before {
-            self.told = Some(Event::ProbeUnarmed);
+            self.told = Some(Event::Probe(ProbeTrouble::Unarmed));
             self.clear();
             return;
         }
@@ -235,7 +236,9 @@ impl Probing {
             .find(|drive| drive.kept(edge.rises).is_none());
         if let Some(drive) = lacks {
             if now_ns.saturating_sub(edge.sample_ns) > PATIENCE_NS {
-                self.end_edge(Some(Event::ProbeMissed(drive.settings.joint)));
+                self.end_edge(Some(Event::Probe(ProbeTrouble::Missed(
+                    drive.settings.joint,
+                ))));
             }
             return;
         }
@@ -244,8 +247,8 @@ impl Probing {
             let joint = drive.settings.joint;
             let place = drive.kept(edge.rises).unwrap_or(f64::NAN);
             if !span.contains(place) {
-                let event = Event::ProbeElsewhere(joint, place, span.ends());
-                self.end_edge(Some(event));
+                let trouble = ProbeTrouble::Elsewhere(joint, place, span.ends());
+                self.end_edge(Some(Event::Probe(trouble)));
                 return;
             }
             position[joint.min(AXES - 1)] = place;

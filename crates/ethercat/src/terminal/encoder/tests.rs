@@ -1,4 +1,10 @@
 //! Tests of an encoder, frame by frame.
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_precision_loss,
+    reason = "tests: a counter wraps"
+)]
 
 use super::*;
 use bytemuck::Zeroable as _;

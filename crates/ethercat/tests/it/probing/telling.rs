@@ -3,7 +3,7 @@
 use super::{PART_Z, TOUCH, probe, searched, setup};
 use crate::machine::COUNTS;
 use glidepath_emulator::Probe;
-use glidepath_ethercat::{Event, TouchProbe};
+use glidepath_ethercat::{Event, ProbeTrouble, TouchProbe};
 use glidepath_link::{ContactKind, Status};
 
 /// Searches at 20 mm/s, from the machine's zero, where nothing is touched: the way of the other axes for
@@ -37,11 +37,8 @@ fn worst(period_ns: u64, touch: Option<TouchProbe>) -> f64 {
     worst
 }
 
-pub(super) fn is_of_probe(event: &Event) -> bool {
-    matches!(
-        event,
-        Event::ProbeUnarmed | Event::ProbeMissed(_) | Event::ProbeElsewhere(..)
-    )
+pub(super) const fn is_of_probe(event: &Event) -> bool {
+    matches!(event, Event::Probe(_))
 }
 
 #[test]
@@ -135,8 +132,7 @@ fn what_cannot_be_is_not_told_and_the_place_of_samples_is() {
         let mut setup = setup(4_000_000, Some(TOUCH));
         setup.emulated[nth].touch_probe.as_mut().unwrap().off_counts = off_counts;
         let (search, events) = searched(&setup, probe(), FAST[0].1);
-        let found =
-            |event: &&Event| matches!(event, Event::ProbeElsewhere(joint, ..) if *joint == nth);
+        let found = |event: &&Event| matches!(event, Event::Probe(ProbeTrouble::Elsewhere(joint, ..)) if *joint == nth);
         assert_eq!(
             events.iter().any(|event| found(&event)),
             is_seen,
@@ -159,7 +155,10 @@ fn a_drive_that_is_not_wired_is_told_and_the_program_goes_on() {
         ..TOUCH
     });
     let (search, events) = searched(&setup, probe(), FAST[0].1);
-    assert!(events.contains(&Event::ProbeMissed(1)), "{events:?}");
+    assert!(
+        events.contains(&Event::Probe(ProbeTrouble::Missed(1))),
+        "{events:?}"
+    );
     let error = error(&search.found[0], [0.0, 0.0]);
     assert!(error < 0.02 * 9.0, "{error}");
     // Two seconds, in ticks.

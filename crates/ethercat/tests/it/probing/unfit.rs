@@ -94,7 +94,7 @@ fn drives_that_do_not_let_it_be_mapped_are_asked_by_their_mailbox() {
                 setup,
                 &[0x60b8_0010],
                 &[0x60bb_0020, 0x60ba_0020, 0x60b9_0010],
-            )
+            );
         },
         |setup| keep(setup, &[], &[]),
     ];

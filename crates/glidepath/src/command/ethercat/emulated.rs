@@ -186,15 +186,12 @@ struct Machine {
     pins: Pins,
 }
 
-/// The drives of a machine, as the bridge and as they themselves know them.
-fn machine(args: &EthercatArgs, config: &MachineConfig) -> Result<Machine, Failure> {
-    let given = args
-        .drives
-        .as_deref()
-        .map(|file| drives::load(file, config))
-        .transpose()?;
-    let velocities = drives::joint_velocities(config);
-    let begins = servo::begins(config);
+/// Drives that no file describes.
+fn desk_drives(
+    args: &EthercatArgs,
+    config: &MachineConfig,
+    begins: &[f64],
+) -> impl Iterator<Item = DriveSettings> {
     let reach = config.travel();
     let reach = reach
         .0
@@ -203,7 +200,8 @@ fn machine(args: &EthercatArgs, config: &MachineConfig) -> Result<Machine, Failu
         .filter(|place| place.is_finite());
     let reach = reach.fold(1000.0_f64, |most, place| most.max(place.abs()));
     let homes = config.feedback.homing == HomingBy::Drive;
-    let drive = |(joint, max_v): (usize, f64)| DriveSettings {
+    let velocities = drives::joint_velocities(config).into_iter().enumerate();
+    velocities.map(move |(joint, max_v)| DriveSettings {
         joint,
         position: joint,
         axis: 0,
@@ -231,13 +229,23 @@ fn machine(args: &EthercatArgs, config: &MachineConfig) -> Result<Machine, Failu
         probe: None,
         has_inputs: false,
         max_v,
-    };
+    })
+}
+
+/// The drives of a machine, as the bridge and as they themselves know them.
+fn machine(args: &EthercatArgs, config: &MachineConfig) -> Result<Machine, Failure> {
+    let given = args
+        .drives
+        .as_deref()
+        .map(|file| drives::load(file, config))
+        .transpose()?;
+    let begins = servo::begins(config);
     let (drives, drive_inputs, terminals, source): (Vec<_>, Vec<_>, Vec<_>, _) = given.map_or_else(
         || {
-            let joints = velocities.len();
+            let joints = drives::joint_velocities(config).len();
             let desk = || desk::desk(joints, joints);
             let terminals = args.emulated_inputs.iter().map(|_| desk()).collect();
-            let drives = velocities.into_iter().enumerate().map(drive).collect();
+            let drives = desk_drives(args, config, &begins).collect();
             (drives, Vec::new(), terminals, DrivesSource::default())
         },
         |given| {
