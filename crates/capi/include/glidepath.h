@@ -47,9 +47,9 @@ extern "C" {
 
 /* layout: begin, written by a test of the library */
 /* The version of the ABI: functions and structures. */
-#define GP_ABI 9u
+#define GP_ABI 10u
 /* What the structures of this header are, as one number. */
-#define GP_LAYOUT UINT64_C(0x7789c1b2858aeb66)
+#define GP_LAYOUT UINT64_C(0x8ebc88975b858ae9)
 /* Axes X Y Z A B C U V W, and joints J0 to J8. */
 #define GP_AXES 9
 
@@ -317,7 +317,8 @@ enum {
     GP_LATCH_NONE = 0,
     GP_LATCH_DRIVE = 1,
     GP_LATCH_INTERPOLATED = 2,
-    GP_LATCH_SAMPLED = 3
+    GP_LATCH_SAMPLED = 3,
+    GP_LATCH_AWAITED = 4
 };
 
 /* How a jog moves the machine. */
@@ -854,7 +855,7 @@ GP_FIELD(gp_status, superposition, 1804, 4);
 GP_FIELD(gp_status, superposed, 1808, 72);
 
 /* What a servo stack knows of the joints it drives, at one moment. The record
-   glidepath.Feedback.v2. */
+   glidepath.Feedback.v3. */
 typedef struct gp_feedback {
     /* Identifies one life of the stack: another stack, or the same started again, has
        another. */

@@ -18,11 +18,14 @@ pub(crate) const HOMING_SPEED: Object = (0x6099, 1);
 pub(crate) const MODE: Object = (0x6060, 0);
 /// The limit of torque, thousandths of the rated one.
 pub(crate) const MOST_TORQUE: Object = (0x6072, 0);
+pub(crate) const PROBE_FUNCTION: Object = (0x60b8, 0);
+pub(crate) const PROBE_SOURCE: u16 = 0x60d0;
+pub(crate) const DIGITAL_INPUTS: Object = (0x60fd, 0);
 pub(crate) const SYNC_OUTPUTS: Object = (0x1c32, 1);
 pub(crate) const SYNC_INPUTS: Object = (0x1c33, 1);
 
 /// How far the objects of an axis are from those of the one before, and its maps.
-const OBJECT_STEP: u16 = 0x800;
+pub(crate) const OBJECT_STEP: u16 = 0x800;
 const MAP_STEP: u16 = 0x10;
 
 /// The objects of one axis of a device.
@@ -96,7 +99,7 @@ impl Dictionary {
         }
         // Room for the maps of all.
         for assignment in [OUTPUTS_ASSIGNED, INPUTS_ASSIGNED] {
-            for sub in 3..u8::try_from(2 * axes + 1).unwrap_or(u8::MAX) {
+            for sub in 3..=u8::try_from(4 * axes).unwrap_or(u8::MAX) {
                 all.0.insert((assignment, sub), (2, 0));
             }
         }
@@ -133,9 +136,11 @@ impl Dictionary {
             for sub in 3..=8 {
                 set(map, sub, 4, 0);
             }
-            for sub in 0..=8 {
-                let size = if sub == 0 { 1 } else { 4 };
-                set(map + 1, sub, size, 0);
+            for more in 1..=3 {
+                for sub in 0..=8 {
+                    let size = if sub == 0 { 1 } else { 4 };
+                    set(map + more, sub, size, 0);
+                }
             }
         }
         set(0x1c12, 2, 2, 0);
@@ -169,6 +174,7 @@ impl Dictionary {
         set(0x60c2, 0, 1, 2);
         set(0x60c2, 1, 1, 1);
         set(0x60c2, 2, 1, 0xfd);
+        set(0x60fd, 0, 4, 0);
         // Cyclic position and velocity, homing, profile velocity, velocity.
         set(0x6502, 0, 4, 1 << 8 | 1 << 7 | 1 << 5 | 1 << 2 | 1 << 1);
         Self(objects)
@@ -207,6 +213,25 @@ impl Dictionary {
         // A setting, as terminals have them from here on.
         set(0x8000, 1, 2, 0);
         Self(objects)
+    }
+
+    /// The objects of touch probes; 0x60D0 with the sources of both units, if they are to be chosen.
+    pub(crate) fn add_touch_probes(&mut self, axes: u16, has_sources: bool) {
+        for first in (0..axes).map(|axis| OBJECT_STEP * axis) {
+            let mut add = |index: u16, sub, size, value| {
+                self.0.insert((index + first, sub), (size, value));
+            };
+            add(0x60b8, 0, 2, 0);
+            add(0x60b9, 0, 2, 0);
+            for index in 0x60ba..=0x60bd {
+                add(index, 0, 4, 0);
+            }
+            if has_sources {
+                add(PROBE_SOURCE, 0, 1, 2);
+                add(PROBE_SOURCE, 1, 2, 5);
+                add(PROBE_SOURCE, 2, 2, 5);
+            }
+        }
     }
 
     /// Maps that stay: where the master looks for others, there are none.

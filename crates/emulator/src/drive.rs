@@ -11,6 +11,8 @@ use crate::injected_fault::InjectedFault;
 use crate::power::Power;
 use crate::settings::{DriveSettings, HomeSwitch};
 use crate::spindle::SpindleMotor;
+use crate::touch_probe::{ProbeUnits, TouchProbe};
+use crate::way::{Way, Ways};
 
 const CYCLIC_POSITION: i8 = 8;
 const HOMING: i8 = 6;
@@ -32,6 +34,8 @@ pub(crate) struct Outputs {
     pub(crate) velocity: i32,
     /// 0x6042, rev/min.
     pub(crate) speed_rpm: i16,
+    /// 0x60B8.
+    pub(crate) probe: u16,
 }
 
 /// The inputs of the master from the drive.
@@ -45,6 +49,10 @@ pub(crate) struct Inputs {
     pub(crate) velocity: i32,
     /// 0x6044, rev/min.
     pub(crate) speed_rpm: i16,
+    /// 0x60FD.
+    pub(crate) digital: u32,
+    /// 0x60B9, and 0x60BA to 0x60BD.
+    pub(crate) probe: (u16, [[i32; 2]; 2]),
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -79,6 +87,12 @@ pub(crate) struct Drive {
     refuses_power: bool,
     has_voltage: bool,
     is_stuck: bool,
+    touch_probe: Option<TouchProbe>,
+    probe_units: ProbeUnits,
+    /// 0x60FD.
+    digital: u32,
+    /// Its last ways, if somebody looks at them.
+    pub(crate) ways: Option<Ways>,
 }
 
 impl Drive {
@@ -100,6 +114,10 @@ impl Drive {
             refuses_power: false,
             has_voltage: true,
             is_stuck: false,
+            touch_probe: settings.touch_probe,
+            probe_units: ProbeUnits::default(),
+            digital: 0,
+            ways: None,
         }
     }
 
@@ -107,6 +125,8 @@ impl Drive {
     pub(crate) fn rebooted(&self, settings: &DriveSettings) -> Self {
         Self {
             place: self.place,
+            digital: self.digital,
+            ways: self.ways.clone(),
             ..Self::new(settings, 0)
         }
     }
@@ -142,9 +162,14 @@ impl Drive {
         }
     }
 
+    /// Where the motor is, as it is told.
+    pub(crate) const fn told_place(&self) -> f64 {
+        self.place + self.offset
+    }
+
     #[allow(clippy::cast_possible_truncation, reason = "a drive wraps, too")]
     const fn actual(&self) -> i32 {
-        (self.place + self.offset).round() as i64 as i32
+        self.told_place().round() as i64 as i32
     }
 
     /// What it tells.
@@ -173,7 +198,18 @@ impl Drive {
             fault: self.fault,
             velocity: self.velocity.round() as i32,
             speed_rpm: self.speed_rpm().round() as i16,
+            digital: self.digital,
+            probe: (self.probe_units.status, self.probe_units.places),
         }
+    }
+
+    /// How far a spindle has turned at a time, not before that of the last step.
+    #[allow(clippy::cast_precision_loss, reason = "a period")]
+    pub(crate) fn revolutions(&self, now_ns: u64) -> Option<f64> {
+        let motor = self.spindle.as_ref()?;
+        let since_ns = now_ns.saturating_sub(self.ways.as_ref()?.last_ns());
+        let place = self.place + self.velocity * since_ns as f64 * 1e-9;
+        Some(place / motor.counts_per_rev)
     }
 
     /// How fast a spindle turns, rev/min.
@@ -233,6 +269,45 @@ impl Drive {
         if self.power == Power::FaultReaction && self.velocity == 0.0 {
             self.power = Power::Fault;
         }
+    }
+
+    /// The end of a step: the way that was done in it, and what the touch probe is to do from here on.
+    pub(crate) fn end_step(&mut self, (from_ns, to_ns): (u64, u64), from: f64) {
+        let is_led = self.power == Power::Enabled && self.outputs.mode == CYCLIC_POSITION;
+        let way = Way {
+            from_ns,
+            to_ns,
+            from,
+            to: self.told_place(),
+            lag_t: if is_led { self.lag_t } else { 0.0 },
+        };
+        if let Some(ways) = &mut self.ways {
+            ways.push(way);
+        }
+        if self.touch_probe.is_some() {
+            self.probe_units.step(self.outputs.probe, to_ns);
+        }
+    }
+
+    /// An edge at the input of its touch probe.
+    #[allow(clippy::cast_possible_truncation, reason = "a drive wraps, too")]
+    pub(crate) fn capture(&mut self, rises: bool, at_ns: u64, sources: [u32; 2]) {
+        let place = self.ways.as_ref().and_then(|ways| ways.at(at_ns));
+        let place = place.unwrap_or_else(|| self.told_place()).round() as i64 as i32;
+        if let Some(probe) = self.touch_probe {
+            let place = place.wrapping_add(probe.off_counts);
+            self.probe_units.capture(rises, at_ns, place, sources);
+        }
+    }
+
+    /// A bit of its digital inputs is high or low.
+    pub(crate) const fn set_digital(&mut self, bit: u8, is_high: bool) {
+        let mask = 1 << (bit & 31);
+        self.digital = if is_high {
+            self.digital | mask
+        } else {
+            self.digital & !mask
+        };
     }
 
     fn change_power(&mut self, step_t: f64, resets: bool) {

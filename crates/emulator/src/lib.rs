@@ -4,7 +4,7 @@
 //! ```text
 //!   frame ─► device 0 ─► device 1 ─► … ─► frame, with answers and working counters
 //!              │ registers, EEPROM, mailbox, clock          (this crate does no I/O)
-//!              ├ drive: CiA 402 at every SYNC0, motor with lag, or a spindle with inertia
+//!              ├ drive: CiA 402 at every SYNC0, motor with lag, or a spindle with inertia, touch probe
 //!              └ terminal: pins that follow frames, and fall with the watchdog
 //! ```
 //!
@@ -18,7 +18,7 @@
 //!
 //! Devices hang in a row, or in a tree of cables of any length, and answer as real ones were seen to:
 //! garbage in the times of closed ports, terminals that note times and have no clock. Terminals have
-//! digital inputs and outputs without a mailbox, or analog ones with; any part of the line can be unplugged.
+//! digital inputs and outputs without a mailbox, or analog ones and encoders with; any part of the line can be unplugged.
 //!
 //! What it does not have: redundancy, segmented SDO and complete access, hot connect.
 //!
@@ -41,10 +41,12 @@ mod cable;
 mod channels;
 mod clock;
 mod coe;
+mod contact;
 mod device;
 mod dictionary;
 mod drive;
 mod eeprom;
+mod encoder;
 mod frame;
 mod injected_fault;
 mod memory;
@@ -55,12 +57,17 @@ mod segment;
 mod settings;
 mod spindle;
 mod states;
+mod touch_probe;
+mod way;
 
 pub use cable::Cable;
 pub use channels::Channels;
 pub use clock::ClockKind;
+pub use contact::Probe;
+pub use encoder::Encoder;
 pub use injected_fault::InjectedFault;
 pub use pins::OutputRecord;
 pub use segment::{Segment, SyncRecord};
 pub use settings::{DriveSettings, HomeSwitch, ImageAccess, Maps, OutputWatchdog, SyncType};
 pub use spindle::SpindleMotor;
+pub use touch_probe::TouchProbe;

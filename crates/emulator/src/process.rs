@@ -1,8 +1,11 @@
 //! The process data of a drive in the memory of its device.
 
-use crate::dictionary::{AxisObjects, Dictionary, MODE, Mapped, own};
+use crate::dictionary::{
+    AxisObjects, DIGITAL_INPUTS, Dictionary, MODE, Mapped, OBJECT_STEP, PROBE_FUNCTION, own,
+};
 use crate::drive::{Inputs, Outputs};
 use crate::memory::Memory;
+use crate::touch_probe::TouchProbe;
 
 /// What the master has written for an axis; what is no demand goes to the objects.
 #[allow(
@@ -17,10 +20,11 @@ pub(crate) fn outputs(
     axis: u16,
 ) -> Outputs {
     let start = memory.sync_manager(2).start;
-    // The mode that was written as a parameter, unless it is mapped.
+    // What was written as a parameter, unless it is mapped.
     let own_objects = AxisObjects { all: objects, axis };
     let mut outputs = Outputs {
         mode: own_objects.value(MODE) as u8 as i8,
+        probe: own_objects.value(PROBE_FUNCTION) as u16,
         ..Outputs::default()
     };
     for object in mapped {
@@ -31,7 +35,8 @@ pub(crate) fn outputs(
             (of, 0x6060) if of == axis => outputs.mode = value as u8 as i8,
             (of, 0x60ff) if of == axis => outputs.velocity = value as u32 as i32,
             (of, 0x6042) if of == axis => outputs.speed_rpm = value as u16 as i16,
-            (_, 0x6040 | 0x607a | 0x6060 | 0x60ff | 0x6042) => {}
+            (of, 0x60b8) if of == axis => outputs.probe = value as u16,
+            (_, 0x6040 | 0x607a | 0x6060 | 0x60ff | 0x6042 | 0x60b8) => {}
             _ => objects.set((object.index, object.sub), value as u32),
         }
     }
@@ -52,8 +57,33 @@ pub(crate) fn put_inputs(memory: &mut Memory, mapped: &[Mapped], inputs: Inputs,
             0x603f => memory.put(at, &inputs.fault.to_le_bytes()),
             0x606c => memory.put(at, &inputs.velocity.to_le_bytes()),
             0x6044 => memory.put(at, &inputs.speed_rpm.to_le_bytes()),
+            0x60fd => memory.put(at, &inputs.digital.to_le_bytes()),
+            0x60b9 => memory.put(at, &inputs.probe.0.to_le_bytes()),
+            0x60ba..=0x60bd => {
+                let nth = usize::from(index - 0x60ba);
+                memory.put(at, &inputs.probe.1[nth / 2][nth % 2].to_le_bytes());
+            }
             _ => {}
         }
+    }
+}
+
+/// Whether an entry of a map is no object of a touch probe, or one that can be mapped.
+pub(crate) fn is_mappable(probe: Option<TouchProbe>, entry: u32) -> bool {
+    let (_, index) = own(u16::try_from(entry >> 16).unwrap_or(0));
+    let is_of_probe = matches!(index, 0x60b8..=0x60bd);
+    !is_of_probe || probe.is_some_and(|probe| probe.is_mappable)
+}
+
+/// What the touch probe and the inputs of an axis have come to, as objects.
+#[allow(clippy::cast_sign_loss, reason = "the bits of a number with a sign")]
+pub(crate) fn put_objects(objects: &mut Dictionary, inputs: &Inputs, axis: u16) {
+    let first = OBJECT_STEP * axis;
+    let (status, places) = inputs.probe;
+    objects.set((DIGITAL_INPUTS.0 + first, 0), inputs.digital);
+    objects.set((0x60b9 + first, 0), status.into());
+    for (index, place) in (0x60ba..).zip(places.as_flattened()) {
+        objects.set((index + first, 0), *place as u32);
     }
 }
 

@@ -1,7 +1,9 @@
 //! A segment of the bus: devices in a row, and the frames that pass them.
 
 use crate::cable::{Cable, passages};
+use crate::contact::{Contact, Probe};
 use crate::device::Device;
+use crate::encoder::{Encoder, EncoderAtWork};
 use crate::frame::{Datagram, datagrams};
 use crate::injected_fault::InjectedFault;
 use crate::pins::OutputRecord;
@@ -17,6 +19,8 @@ const HOP_NS: u64 = 500;
 #[derive(Debug, Clone)]
 pub struct Segment {
     devices: Vec<Device>,
+    contacts: Vec<Contact>,
+    encoders: Vec<EncoderAtWork>,
 }
 
 impl Segment {
@@ -39,6 +43,8 @@ impl Segment {
         // A row is always in order.
         Self::branched(drives, &cables, now_ns).unwrap_or(Self {
             devices: Vec::new(),
+            contacts: Vec::new(),
+            encoders: Vec::new(),
         })
     }
 
@@ -52,7 +58,51 @@ impl Segment {
             devices: devices
                 .map(|(drive, passage)| Device::new(drive, passage, now_ns))
                 .collect(),
+            contacts: Vec::new(),
+            encoders: Vec::new(),
         })
+    }
+
+    /// Puts a probe on the machine.
+    pub fn add_probe(&mut self, probe: Probe) {
+        self.devices.iter_mut().for_each(Device::keep_ways);
+        self.contacts.push(Contact::new(probe));
+    }
+
+    /// Puts an encoder on a spindle.
+    pub fn add_encoder(&mut self, encoder: Encoder) {
+        self.devices.iter_mut().for_each(Device::keep_ways);
+        self.encoders.push(EncoderAtWork::new(encoder));
+    }
+
+    /// How far a spindle has turned at a time that is not before the last frame; `None` where there is none.
+    #[must_use]
+    pub fn revolutions(&self, (device, axis): (usize, usize), now_ns: u64) -> Option<f64> {
+        self.devices
+            .get(device)?
+            .drives
+            .get(axis)?
+            .revolutions(now_ns)
+    }
+
+    /// The encoder at a terminal loses counts, or counts what is not there.
+    pub fn slip_encoder(&mut self, device: usize, counts: i64) {
+        let mut encoders = self.encoders.iter_mut();
+        if let Some(encoder) = encoders.find(|encoder| encoder.device() == device) {
+            encoder.slip(counts);
+        }
+    }
+
+    /// Takes all probes from the machine.
+    pub fn remove_probes(&mut self) {
+        self.contacts.clear();
+    }
+
+    /// Something comes to a digital input of a drive of a device (0x60FD).
+    pub fn set_drive_input(&mut self, (device, axis): (usize, usize), bit: u8, is_high: bool) {
+        if let Some(device) = self.devices.get_mut(device) {
+            device.show_at_drive(axis, bit, is_high);
+        }
     }
 
     /// Keeps a record of every SYNC0 from here on.
@@ -135,6 +185,12 @@ impl Segment {
     pub fn advance(&mut self, now_ns: u64) {
         for device in &mut self.devices {
             device.advance(now_ns);
+        }
+        for contact in &mut self.contacts {
+            contact.watch(&mut self.devices, now_ns);
+        }
+        for encoder in &mut self.encoders {
+            encoder.watch(&mut self.devices, now_ns);
         }
     }
 

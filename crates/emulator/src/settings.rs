@@ -3,6 +3,7 @@
 use crate::channels::Channels;
 use crate::clock::ClockKind;
 use crate::spindle::SpindleMotor;
+use crate::touch_probe::TouchProbe;
 
 /// A switch at which a drive finds its home.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -106,6 +107,8 @@ pub struct DriveSettings {
     pub channels: Option<Channels>,
     /// What it turns, if that is a spindle, in a mode of velocity.
     pub spindle: Option<SpindleMotor>,
+    /// Its touch probe, of each of its drives; `None` if it lacks the objects.
+    pub touch_probe: Option<TouchProbe>,
     /// Its whole EEPROM; `None` for one that says what is said here.
     pub eeprom: Option<Vec<u8>>,
 }
@@ -176,6 +179,23 @@ impl DriveSettings {
         }
     }
 
+    /// An encoder's counter with a mailbox, as an EL5151 has it: 16 or 32 bits.
+    #[must_use]
+    pub fn encoder(bits: u32) -> Self {
+        let numbers = [0x6000_1100, 0x6000_1200].map(|number| number | bits);
+        let inputs = [&[0x6000_0101, 0x6000_0201, 14], &numbers[..]].concat();
+        Self {
+            identity: [2, 0x141f_3052, 1, 0],
+            has_mailbox: true,
+            channels: Some(Channels {
+                inputs: vec![inputs],
+                outputs: vec![vec![0x7000_0101, 0x7000_0201, 14]],
+                ..Channels::default()
+            }),
+            ..Self::terminal("ENCODER", ClockKind::ReceiveTimes)
+        }
+    }
+
     /// Analog outputs with a mailbox, as an EL4002 has two: a value each.
     #[must_use]
     pub fn analog_outputs(count: u16) -> Self {
@@ -215,6 +235,7 @@ impl Default for DriveSettings {
             has_mailbox: true,
             channels: None,
             spindle: None,
+            touch_probe: None,
             eeprom: None,
         }
     }

@@ -35,21 +35,29 @@ pub const fn object(index: u16, sub: u8, size: u8) -> Object {
     Object { index, sub, size }
 }
 
-enum Reply {
+/// What a message from a device is, to whom has asked for a parameter.
+pub(crate) enum Reply {
+    /// The parameter, or that it was written.
     Value(u32),
+    /// The code of the refusal.
     Abort(u32),
+    /// Something else.
     Other,
 }
 
-fn head(object: Object, command: u8, number: u8) -> [u8; 12] {
+/// The message that reads an object, or writes it.
+pub(crate) fn message(object: Object, value: Option<u32>, number: u8) -> [u8; 16] {
     let [low, high] = object.index.to_le_bytes();
     let kind = 3 | (number & 7) << 4;
+    let command = value.map_or(0x40, |_| 0x23 | (4 - object.size.clamp(1, 4)) << 2);
+    let [a, b, c, d] = value.unwrap_or(0).to_le_bytes();
     [
-        10, 0, 0, 0, 0, kind, 0, 0x20, command, low, high, object.sub,
+        10, 0, 0, 0, 0, kind, 0, 0x20, command, low, high, object.sub, a, b, c, d,
     ]
 }
 
-fn reply(message: &[u8], object: Object) -> Reply {
+/// What a message is, where an object was asked for.
+pub(crate) fn reply(message: &[u8], object: Object) -> Reply {
     let Some(
         &[
             _,
@@ -126,12 +134,10 @@ fn transfer<W: Wire>(
     for _ in 0..TRIES {
         // What is left of a question before.
         while take(bus, nth, back.start, back.length)?.is_some() {}
-        let command = value.map_or(0x40, |_| 0x23 | (4 - object.size.clamp(1, 4)) << 2);
-        let mut message = vec![0; out.length.into()];
-        message[..12].copy_from_slice(&head(object, command, bus.next_number(nth)));
-        message[12..16].copy_from_slice(&value.unwrap_or(0).to_le_bytes());
+        let mut sent = vec![0; out.length.into()];
+        sent[..16].copy_from_slice(&message(object, value, bus.next_number(nth)));
         wait_until_free(bus, nth)?;
-        bus.write(nth, out.start, &message, "to a message")?;
+        bus.write(nth, out.start, &sent, "to a message")?;
         let until_ns = bus.wire.now_ns() + PATIENCE_NS;
         let mut others = 0;
         while bus.wire.now_ns() < until_ns && others < MOST_OTHERS {

@@ -1,6 +1,7 @@
 //! The events on the bus, for the log.
 
 use crate::bus_fault::BusFault;
+use crate::probe_trouble::ProbeTrouble;
 use crate::{al_status, fault_text, state};
 use core::fmt;
 use glidepath_link::{DriveState, FaultCause, FaultReport};
@@ -54,6 +55,10 @@ pub enum Event {
     NobodyStops,
     /// The interpolator was started anew.
     Restart,
+    /// The counter of the spindle's encoder was off at its index, by so many counts.
+    EncoderSlipped(i64),
+    /// Touch probes of drives have not told where the probe touched.
+    Probe(ProbeTrouble),
 }
 
 impl fmt::Display for Event {
@@ -129,6 +134,12 @@ impl fmt::Display for Event {
                 )
             }
             Self::Restart => write!(f, "the interpolator was started anew"),
+            Self::EncoderSlipped(off) => write!(
+                f,
+                "the spindle's encoder is off by {off} counts at its index: a cable or its shield, or \
+                 counts_per_rev in drives.toml; its angle is not used until the next index"
+            ),
+            Self::Probe(trouble) => write!(f, "{trouble}"),
         }
     }
 }

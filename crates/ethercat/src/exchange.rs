@@ -51,6 +51,12 @@ impl<'w, W: Wire> Exchange<'w, W> {
         *number
     }
 
+    /// The number of the last message to the mailbox of the device with a station address; 0 before the first.
+    pub(crate) fn last_number(&self, address: u16) -> u8 {
+        let nth = usize::from(address.wrapping_sub(station(0)));
+        self.numbers.get(nth).copied().unwrap_or(0)
+    }
+
     /// Asks once more and once more; returns the working counter, and when the question was sent
     /// and answered. `data` becomes the answer's. `None` if nothing came back.
     pub(crate) fn ask(

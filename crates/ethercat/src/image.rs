@@ -1,6 +1,7 @@
 //! Process data of one drive: what it means.
 
-use crate::layout::Layout;
+use crate::layout::{Layout, ProbeAccess};
+use crate::probe::ProbeInputs;
 use crate::state;
 use glidepath_link::DriveState;
 
@@ -13,6 +14,10 @@ pub struct Outputs {
     pub target: i32,
     /// Mode of operation, 0x6060.
     pub mode: i8,
+    /// The unit of its touch probe is on, 0x60B8.
+    pub is_probe_on: bool,
+    /// What it keeps is to be asked, where it is not in the process data.
+    pub asks_probe: bool,
 }
 
 /// The inputs of the master from a drive.
@@ -26,6 +31,10 @@ pub struct Inputs {
     pub mode: i8,
     /// Error code, 0x603F.
     pub fault: u16,
+    /// Digital inputs, 0x60FD; 0 if they are not mapped.
+    pub digital: u32,
+    /// Touch probe, 0x60B9 and what it keeps.
+    pub probe: ProbeInputs,
 }
 
 /// "Generic error" by CiA 301.
@@ -42,6 +51,8 @@ impl Default for Outputs {
             control: 0,
             target: 0,
             mode: CYCLIC_POSITION,
+            is_probe_on: false,
+            asks_probe: false,
         }
     }
 }
@@ -54,6 +65,8 @@ impl Outputs {
             control: 0,
             target: inputs.actual,
             mode: CYCLIC_POSITION,
+            is_probe_on: false,
+            asks_probe: false,
         }
     }
 
@@ -68,6 +81,12 @@ impl Outputs {
         write(layout.target, &self.target.to_le_bytes());
         if let Some(at) = layout.mode {
             write(at, &self.mode.to_le_bytes());
+        }
+        if let Some(access) = layout.probe
+            && let Some(at) = access.function
+        {
+            let function = access.probe.function(access.before, self.is_probe_on);
+            write(at, &function.to_le_bytes());
         }
     }
 }
@@ -101,6 +120,27 @@ impl Inputs {
                 None if is_faulted => ANY_FAULT,
                 None => 0,
             },
+            digital: match layout.digital {
+                Some(at) => u32::from_le_bytes(*bytes.get(at..)?.first_chunk()?),
+                None => 0,
+            },
+            probe: match layout.probe {
+                Some(access) => probe(access, bytes)?,
+                None => ProbeInputs::default(),
+            },
         })
     }
+}
+
+/// What a touch probe that is mapped says; nothing of one that is not.
+fn probe(access: ProbeAccess, bytes: &[u8]) -> Option<ProbeInputs> {
+    let Some(places) = access.places else {
+        return Some(ProbeInputs::default());
+    };
+    let status = *bytes.get(places.status..)?.first_chunk()?;
+    let kept = |at: usize| Some(i32::from_le_bytes(*bytes.get(at..)?.first_chunk()?));
+    Some(ProbeInputs {
+        status: access.probe.status(u16::from_le_bytes(status)),
+        places: [kept(places.kept[0])?, kept(places.kept[1])?],
+    })
 }

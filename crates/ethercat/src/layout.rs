@@ -2,6 +2,7 @@
 
 use crate::device::Device;
 use crate::entry::{Entry, bits};
+use crate::probe::TouchProbe;
 
 const CONTROL: Wanted = Wanted(0x6040, 16, "0x6040 (controlword)");
 const TARGET: Wanted = Wanted(0x607a, 32, "0x607A (target position)");
@@ -10,6 +11,10 @@ const STATUS: Wanted = Wanted(0x6041, 16, "0x6041 (statusword)");
 const ACTUAL: Wanted = Wanted(0x6064, 32, "0x6064 (actual position)");
 const SHOWN_MODE: Wanted = Wanted(0x6061, 8, "0x6061 (mode in force)");
 const FAULT: Wanted = Wanted(0x603f, 16, "0x603F (error code)");
+
+const DIGITAL: Wanted = Wanted(0x60fd, 32, "0x60FD (digital inputs)");
+const PROBE_FUNCTION: Wanted = Wanted(0x60b8, 16, "0x60B8 (touch probe)");
+const PROBE_STATUS: Wanted = Wanted(0x60b9, 16, "0x60B9 (touch probe status)");
 
 /// An object: index, bits, and what it is called.
 #[derive(Debug, Clone, Copy)]
@@ -50,22 +55,76 @@ pub(crate) struct Layout {
     pub(crate) actual: usize,
     pub(crate) shown_mode: Option<usize>,
     pub(crate) fault: Option<usize>,
+    pub(crate) digital: Option<usize>,
+    /// Its touch probe, if it has one that is used.
+    pub(crate) probe: Option<ProbeAccess>,
+}
+
+/// The touch probe of an axis: where its objects are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct ProbeAccess {
+    pub(crate) probe: TouchProbe,
+    /// Which axis of its device it is.
+    pub(crate) axis: u16,
+    /// 0x60B8 as it was.
+    pub(crate) before: u16,
+    /// Where 0x60B8 is in the process data, bytes; `None` if it is written by the mailbox.
+    pub(crate) function: Option<usize>,
+    /// Where what it answers is; `None` if it is asked by the mailbox.
+    pub(crate) places: Option<ProbePlaces>,
+}
+
+/// The places of what a touch probe answers, bytes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct ProbePlaces {
+    pub(crate) status: usize,
+    pub(crate) kept: [usize; 2],
+}
+
+impl ProbeAccess {
+    /// The same where it is in the process data, as far as it is mapped.
+    pub(crate) fn find(
+        mut self,
+        (outputs, inputs): (&[Entry], &[Entry]),
+        own: &dyn Fn(u16) -> u16,
+    ) -> Self {
+        let mapped = |entries| Mapped { entries, own };
+        let (outputs, inputs) = (mapped(outputs), mapped(inputs));
+        let kept = self
+            .probe
+            .places()
+            .map(|index| inputs.place(Wanted(index, 32, "what it keeps")));
+        let places = (inputs.place(PROBE_STATUS), kept);
+        self.function = outputs.place(PROBE_FUNCTION);
+        self.places = match places {
+            (Some(status), [Some(rising), Some(falling)]) => Some(ProbePlaces {
+                status,
+                kept: [rising, falling],
+            }),
+            _ => None,
+        };
+        self
+    }
 }
 
 impl Layout {
     /// The layout of what is mapped, or the object that is missing or not where a byte begins. `own`
-    /// is where the axis has an object. `switches_mode` if the mode has to be switched and seen.
+    /// is where the axis has an object. `switches_mode` if the mode has to be switched and seen, `has_inputs`
+    /// if its digital inputs have to.
     pub(crate) fn of(
         outputs: &[Entry],
         inputs: &[Entry],
         own: &dyn Fn(u16) -> u16,
-        switches_mode: bool,
+        (switches_mode, has_inputs): (bool, bool),
     ) -> Result<Self, &'static str> {
         let mapped = |entries| Mapped { entries, own };
         let (outputs, inputs) = (mapped(outputs), mapped(inputs));
         if switches_mode {
             outputs.place_or_name(MODE)?;
             inputs.place_or_name(SHOWN_MODE)?;
+        }
+        if has_inputs {
+            inputs.place_or_name(DIGITAL)?;
         }
         Ok(Self {
             control: outputs.place_or_name(CONTROL)?,
@@ -75,6 +134,8 @@ impl Layout {
             actual: inputs.place_or_name(ACTUAL)?,
             shown_mode: inputs.place(SHOWN_MODE),
             fault: inputs.place(FAULT),
+            digital: inputs.place(DIGITAL),
+            probe: None,
         })
     }
 }
@@ -159,7 +220,7 @@ mod tests {
         let outputs = entries(&[0x6040_0010, 0x607a_0020, 0x6840_0010, 0x687a_0020]);
         let inputs = entries(&[0x6841_0010, 0x6864_0020, 0x6041_0010, 0x6064_0020]);
         let second = |index| index + 0x800;
-        let layout = Layout::of(&outputs, &inputs, &second, false).unwrap();
+        let layout = Layout::of(&outputs, &inputs, &second, (false, false)).unwrap();
         let seen = (layout.control, layout.target, layout.status, layout.actual);
         assert_eq!(seen, (6, 8, 0, 2));
         assert!(outputs.iter().all(|entry| entry.is_led()));
@@ -171,21 +232,29 @@ mod tests {
         // As an Omron G5 has it.
         let outputs = entries(&[0x6040_0010, 0x607a_0020, 0x60b8_0010, 0x60fe_0120]);
         let inputs = entries(&[0x603f_0010, 0x6041_0010, 0x6064_0020, 0x60fd_0020]);
-        let layout = Layout::of(&outputs, &inputs, &own, false).unwrap();
+        let layout = Layout::of(&outputs, &inputs, &own, (false, false)).unwrap();
         assert_eq!((layout.control, layout.target, layout.mode), (0, 2, None));
         let seen = (layout.fault, layout.status, layout.actual);
         assert_eq!(seen, (Some(0), 2, 4));
-        let refused = Layout::of(&outputs, &inputs, &own, true);
+        let refused = Layout::of(&outputs, &inputs, &own, (true, false));
         assert_eq!(refused, Err("0x6060 (mode)"));
+        assert_eq!(layout.digital, Some(8));
+        let refused = Layout::of(&outputs, &inputs[..3], &own, (false, true));
+        assert_eq!(refused, Err("0x60FD (digital inputs)"));
     }
 
     #[test]
     fn what_is_inside_a_byte_or_of_another_size_does_not_count() {
         let outputs = entries(&[0x0000_0004, 0x6040_0010, 0x0000_0004, 0x607a_0020]);
         let inputs = entries(&[0x6041_0010, 0x6064_0010]);
-        let refused = Layout::of(&outputs, &inputs, &own, false);
+        let refused = Layout::of(&outputs, &inputs, &own, (false, false));
         assert_eq!(refused, Err("0x6040 (controlword)"));
-        let refused = Layout::of(&entries(&[0x6040_0010, 0x607a_0020]), &inputs, &own, false);
+        let refused = Layout::of(
+            &entries(&[0x6040_0010, 0x607a_0020]),
+            &inputs,
+            &own,
+            (false, false),
+        );
         assert_eq!(refused, Err("0x6064 (actual position)"));
     }
 }

@@ -57,6 +57,8 @@ mod fault_text;
 mod frame;
 mod image;
 mod layout;
+mod probe;
+mod probe_trouble;
 mod registers;
 mod run;
 mod settings;
@@ -82,10 +84,12 @@ pub use event::Event;
 pub use fault_text::text as fault_text;
 pub use frame::{Address, Answer, Command, Frame, Slot};
 pub use image::{Inputs, Outputs};
+pub use probe::{ProbeInputs, TouchProbe};
+pub use probe_trouble::ProbeTrouble;
 pub use run::{Listeners, RunError, RunSettings, run};
 pub use settings::{BusSettings, DEVICE_AXES, DriveSettings, HomingSettings, Settings};
 pub use terminal::{
     ANALOG_INPUTS, AnalogInput, AnalogOutput, At, DIGITAL_INPUTS, DigitalInput, DigitalOutput,
-    Parameter, Quantity, Signal, SpindleMode, SpindleSettings, TerminalSettings,
+    EncoderSettings, Parameter, Quantity, Signal, SpindleMode, SpindleSettings, TerminalSettings,
 };
 pub use wire::{MAX_FRAME, PacketWire, Wire, WireError};

@@ -1,7 +1,8 @@
 //! The settings of the bus and of its drives.
 
 use crate::entry::Mapping;
-use crate::terminal::TerminalSettings;
+use crate::probe::TouchProbe;
+use crate::terminal::{DigitalInput, TerminalSettings};
 use glidepath_geometry::AXES;
 use glidepath_link::servo::ServoSettings;
 
@@ -92,6 +93,10 @@ pub struct DriveSettings {
     pub enable_window: f64,
     /// Deceleration of the drive's own stop, mm/s² or °/s².
     pub quick_stop_a: f64,
+    /// Its touch probe; of all drives or of none.
+    pub probe: Option<TouchProbe>,
+    /// Its digital inputs (0x60FD) are to be read.
+    pub has_inputs: bool,
     /// The joint's highest speed, mm/s or °/s. A target a fifth further away than that is not sent.
     pub max_v: f64,
 }
@@ -99,8 +104,13 @@ pub struct DriveSettings {
 impl DriveSettings {
     /// Where its axis has an object of CiA 402. Others are the whole device's.
     pub(crate) const fn own(&self, index: u16) -> u16 {
+        Self::of_axis(index, self.axis)
+    }
+
+    /// Where any axis has it.
+    pub(crate) const fn of_axis(index: u16, axis: u16) -> u16 {
         match index {
-            0x6000..0x6800 => index + OBJECT_STEP * self.axis,
+            0x6000..0x6800 => index + OBJECT_STEP * axis,
             _ => index,
         }
     }
@@ -153,6 +163,8 @@ pub struct Settings {
     pub bus: BusSettings,
     /// The drives, one for each joint, at most nine, no place and no joint twice.
     pub drives: Vec<DriveSettings>,
+    /// Inputs of drives, with the number of the drive among these; `at` is a bit of its 0x60FD.
+    pub drive_inputs: Vec<(usize, DigitalInput)>,
     /// All devices besides that are led: none of them at the place of a drive, and none twice.
     pub terminals: Vec<TerminalSettings>,
     /// What the joints' own stop may use.

@@ -148,7 +148,7 @@ layout!(command_reply, CommandReply, "glidepath.CommandReply.v3", 152,
     CommandReply { state: 1, ..Zeroable::zeroed() }, {
     boot_id: 0, number: 8, refusal: 16, state: 20, message: 24,
 });
-layout!(feedback, Feedback, "glidepath.Feedback.v2", 816,
+layout!(feedback, Feedback, "glidepath.Feedback.v3", 816,
     Zeroable::zeroed(), {
     boot_id: 0, number: 8, sample_ns: 16, reference: 24, setpoint_number: 32, joints: 40,
     enabled: 44, homed: 48, homing: 52, fault: 56, limit_low: 60, limit_high: 64, home_switch: 68,

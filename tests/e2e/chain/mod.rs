@@ -12,8 +12,10 @@
 )]
 
 mod between;
+mod encoder;
 mod judge;
 mod terminals;
+mod touch_probe;
 
 use std::fmt::Write as _;
 use std::time::Duration;

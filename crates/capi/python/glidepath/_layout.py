@@ -6,8 +6,8 @@ Written by a test of the library: do not change it here.
 import ctypes
 import enum
 
-ABI = 9
-LAYOUT = 0x7789c1b2858aeb66
+ABI = 10
+LAYOUT = 0x8ebc88975b858ae9
 AXES = 9
 
 
@@ -297,6 +297,7 @@ class Latch(enum.IntEnum):
     DRIVE = 1
     INTERPOLATED = 2
     SAMPLED = 3
+    AWAITED = 4
 
 
 class JogMode(enum.IntEnum):

@@ -1,13 +1,14 @@
 //! An emulated device: what its registers do when they are read and written, and when time passes.
 
 mod motion;
+mod probing;
 mod simple;
 mod time;
 mod watchdog;
 
 use crate::cable::Passage;
 use crate::clock::{ClockKind, DeviceClock};
-use crate::coe::{Mailbox, NO_ACCESS, READ_ONLY, TOO_LONG};
+use crate::coe::{Mailbox, NO_ACCESS, NOT_MAPPABLE, READ_ONLY, TOO_LONG};
 use crate::dictionary::{
     Dictionary, INPUTS_ASSIGNED, Mapped, OUTPUTS_ASSIGNED, Object, SYNC_INPUTS, SYNC_OUTPUTS,
 };
@@ -95,6 +96,9 @@ impl Device {
         };
         if let Maps::Fixed { outputs, inputs } = &settings.maps {
             objects.fix_maps(outputs, inputs);
+        }
+        if let Some(probe) = settings.touch_probe {
+            objects.add_touch_probes(axes, probe.has_sources);
         }
         Self {
             eeprom: eeprom::image(settings),
@@ -246,10 +250,14 @@ impl Device {
             let is_fixed = self.state() > PRE_OP;
             let is_told = self.settings.sync_type == SyncType::Written;
             let (maps, is_drive) = (&self.settings.maps, self.settings.channels.is_none());
+            let touch_probe = self.settings.touch_probe;
             let refusal = |objects: &Dictionary, object: Object, value: u32| match object {
                 (0x1600..=0x1bff | 0x1c12 | 0x1c13, _) if is_fixed => Some(NO_ACCESS),
                 (0x1c12 | 0x1c13, _) if matches!(maps, Maps::Fixed { .. }) => Some(READ_ONLY),
                 (0x1600..=0x1bff, _) if !is_drive => Some(READ_ONLY),
+                (0x1600..=0x1bff, 1..) if !process::is_mappable(touch_probe, value) => {
+                    Some(NOT_MAPPABLE)
+                }
                 (0x1600..=0x1bff, 1..)
                     if *maps == Maps::Short && !objects.is_short(object, value) =>
                 {
@@ -325,9 +333,7 @@ impl Device {
             }
             (self.outputs, _) = self.objects.mapped(OUTPUTS_ASSIGNED);
             (self.inputs, _) = self.objects.mapped(INPUTS_ASSIGNED);
-            for (axis, drive) in (0..).zip(&self.drives) {
-                process::put_inputs(&mut self.memory, &self.inputs, drive.inputs(), axis);
-            }
+            self.show_drives();
         }
         self.heard_ns = now_ns;
         self.set_state(wanted, 0);

@@ -21,14 +21,15 @@ impl Device {
         if self.settings.channels.is_some() {
             return;
         }
-        let step_t = at_ns.saturating_sub(self.stepped_ns).max(1) as f64 * 1e-9;
-        self.stepped_ns = at_ns;
+        let from_ns = core::mem::replace(&mut self.stepped_ns, at_ns);
         for axis in 0..self.drives.len() {
-            self.step_axis(axis, step_t, at_ns);
+            self.step_axis(axis, from_ns, at_ns);
         }
     }
 
-    fn step_axis(&mut self, nth: usize, step_t: f64, at_ns: u64) {
+    #[allow(clippy::cast_precision_loss, reason = "a period")]
+    fn step_axis(&mut self, nth: usize, from_ns: u64, at_ns: u64) {
+        let step_t = at_ns.saturating_sub(from_ns).max(1) as f64 * 1e-9;
         let axis = u16::try_from(nth).unwrap_or(0);
         let outputs = if self.state() == OP {
             process::outputs(&self.memory, &self.outputs, &mut self.objects, axis)
@@ -36,9 +37,13 @@ impl Device {
             Outputs::default()
         };
         let all = &self.objects;
-        self.drives[nth].step(step_t, outputs, AxisObjects { all, axis });
-        let inputs = self.drives[nth].inputs();
+        let drive = &mut self.drives[nth];
+        let from = drive.told_place();
+        drive.step(step_t, outputs, AxisObjects { all, axis });
+        drive.end_step((from_ns, at_ns.max(from_ns + 1)), from);
+        let inputs = drive.inputs();
         process::put_inputs(&mut self.memory, &self.inputs, inputs, axis);
+        process::put_objects(&mut self.objects, &inputs, axis);
         let index = self.index;
         if let Some(records) = &mut self.records {
             records[nth].push(SyncRecord {

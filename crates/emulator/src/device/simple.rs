@@ -45,6 +45,46 @@ impl Device {
         self.show_inputs();
     }
 
+    /// Where an object is in maps, bits, and how many it has there.
+    fn place(maps: &[Vec<u32>], (index, sub): (u16, u8)) -> Option<(usize, u32)> {
+        let wanted = u32::from(index) << 8 | u32::from(sub);
+        let mut bits = 0;
+        for entry in maps.iter().flatten() {
+            if entry >> 8 == wanted {
+                return Some((bits, entry & 0xff));
+            }
+            bits += (entry & 0xff) as usize;
+        }
+        None
+    }
+
+    /// Whether an output of one bit is on.
+    pub(crate) fn output_bit(&self, object: (u16, u8)) -> bool {
+        let channels = self.settings.channels.as_ref();
+        let place = channels.and_then(|channels| Self::place(&channels.outputs, object));
+        place.is_some_and(|(bit, _)| {
+            let byte = self.pins.outputs.get(bit / 8).copied().unwrap_or(0);
+            byte >> (bit % 8) & 1 == 1
+        })
+    }
+
+    /// A number comes to an input: a bit, or whole bytes.
+    pub(crate) fn put_input(&mut self, object: (u16, u8), value: i64) {
+        let channels = self.settings.channels.as_ref();
+        let place = channels.and_then(|channels| Self::place(&channels.inputs, object));
+        let Some((bit, bits)) = place else {
+            return;
+        };
+        self.change_inputs(|pins| {
+            if bits == 1 {
+                pins.set_bit(bit, value != 0);
+            } else {
+                let bytes = value.to_le_bytes();
+                pins.set_inputs(bit / 8, &bytes[..(bits / 8).min(8) as usize]);
+            }
+        });
+    }
+
     /// The master reads what is at its inputs.
     pub(super) fn show_inputs(&mut self) {
         let mut at = 0;

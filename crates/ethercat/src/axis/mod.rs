@@ -63,6 +63,8 @@ impl Axis {
                 control: 0,
                 target: 0,
                 mode: crate::image::CYCLIC_POSITION,
+                is_probe_on: false,
+                asks_probe: false,
             },
             is_homed: settings.homing.is_none(),
             is_latched: false,

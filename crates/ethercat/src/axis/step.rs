@@ -22,6 +22,8 @@ impl Step<'_> {
             control,
             target: self.drive_inputs.inputs.actual,
             mode: CYCLIC_POSITION,
+            is_probe_on: false,
+            asks_probe: false,
         };
     }
 }

@@ -10,9 +10,10 @@ use crate::axis::{self, Axis, DriveCommand, DriveInputs};
 use crate::device_state::DeviceState;
 use crate::event::Event;
 use crate::image::{Inputs, Outputs};
+use crate::probe::Probing;
 use crate::settings::Settings;
 use crate::state;
-use crate::terminal::Terminals;
+use crate::terminal::{DigitalInput, Terminals};
 use glidepath_geometry::AXES;
 use glidepath_link::servo::{JointStates, OwnStop, Servo, ServoCounts};
 use glidepath_link::{DriveState, MachineState, Setpoint, Subscriber};
@@ -80,6 +81,10 @@ pub struct Bridge<S: Subscriber<Setpoint>> {
     is_bus_lost: bool,
     /// What was lost, and stopped something.
     loss: Option<BridgeLoss>,
+    /// Their inputs, by the number of the drive.
+    drive_inputs: Vec<(usize, DigitalInput)>,
+    /// The touch probes of the drives, if they are used.
+    probing: Option<Probing>,
 }
 
 impl<S: Subscriber<Setpoint>> Bridge<S> {
@@ -113,10 +118,12 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
             stops_told: 0,
             restarts_told: 0,
             terminals: (!settings.terminals.is_empty())
-                .then(|| Terminals::new(settings.bus.lost_frames)),
+                .then(|| Terminals::new(settings.bus.lost_frames, settings.bus.delay_ns)),
             patience_ns: settings.servo.patience_ns,
             is_bus_lost: false,
             loss: None,
+            drive_inputs: settings.drive_inputs.clone(),
+            probing: Probing::new(settings, WINDOW),
         }
     }
 
@@ -143,6 +150,9 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
             ) {
                 (*actual, *window) = (place, settings.enable_window);
             }
+        }
+        if let Some(probing) = &mut self.probing {
+            probing.begin();
         }
         if is_first {
             self.servo.rearm_at(&actual, &window);
@@ -236,6 +246,9 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
             if let Some(terminals) = &mut self.terminals {
                 terminals.note(&setpoint);
             }
+            if let Some(probing) = &mut self.probing {
+                probing.note(&setpoint);
+            }
             self.look_at_state();
         }
         if self.ends && !self.servo.comes_to_rest() {
@@ -291,9 +304,23 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
                     tell(event);
                 });
         }
+        self.lead_probes(tell);
         if latches {
             self.is_latched = true;
             self.drives.iter_mut().for_each(|drive| drive.axis.latch());
+        }
+    }
+
+    /// Switches touch probes on and off.
+    fn lead_probes(&mut self, tell: &mut dyn FnMut(Event)) {
+        let Some(probing) = &mut self.probing else {
+            return;
+        };
+        for (nth, output) in self.outputs.iter_mut().enumerate() {
+            (output.is_probe_on, output.asks_probe) = (probing.is_on(nth), probing.asks(nth));
+        }
+        if let Some(event) = probing.take_event() {
+            tell(event);
         }
     }
 

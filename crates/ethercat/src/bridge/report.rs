@@ -1,7 +1,9 @@
 //! The feedback of a bridge: what is known of the joints and of the inputs.
 
 use super::{Bridge, WINDOW};
+use crate::probe::Seen;
 use crate::state;
+use crate::terminal::At;
 use bytemuck::Zeroable as _;
 use glidepath_geometry::AXES;
 use glidepath_link::{DriveState, Feedback, Setpoint, Subscriber};
@@ -50,8 +52,27 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
                 0
             };
         }
-        if let Some(terminals) = &self.terminals {
+        if let Some(terminals) = &mut self.terminals {
             terminals.tell(&mut feedback);
+        }
+        for (nth, input) in &self.drive_inputs {
+            let digital = self
+                .drives
+                .get(*nth)
+                .map_or(0, |drive| drive.inputs.digital);
+            if let At::Bit(bit) = input.at {
+                input.tell(digital >> (bit & 31) & 1 == 1, &mut feedback);
+            }
+        }
+        if let Some(probing) = &mut self.probing {
+            let seen = self.drives.iter().map(|drive| Seen {
+                settings: &drive.axis.settings,
+                inputs: drive.inputs.probe,
+                is_present: drive.is_present(),
+                places: &drive.places,
+                newest: slot,
+            });
+            probing.sample(&mut feedback, seen);
         }
         self.tell_loss(&mut feedback);
         self.number += 1;

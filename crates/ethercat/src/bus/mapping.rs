@@ -1,5 +1,6 @@
 //! What is in the process data of a drive: mapped by the master, or taken as the drive has it.
 
+use super::probes;
 use crate::abort_text;
 use crate::coe::{Object, object, read, write};
 use crate::device::Device;
@@ -13,6 +14,11 @@ use crate::wire::Wire;
 /// What is mapped: index, subindex and bits of each object.
 const OUTPUTS: [u32; 3] = [0x6040_0010, 0x607a_0020, 0x6060_0008];
 const INPUTS: [u32; 4] = [0x6041_0010, 0x6064_0020, 0x6061_0008, 0x603f_0010];
+/// Digital inputs of a drive, if they are wanted.
+const DIGITAL: u32 = 0x60fd_0020;
+/// The same of a touch probe: what it is to do; what it has done, in front of what it keeps.
+const PROBE_OUTPUT: u32 = 0x60b8_0010;
+const PROBE_STATUS: u32 = 0x60b9_0010;
 /// A gap of a byte.
 const GAP: u32 = 0x0000_0008;
 
@@ -57,8 +63,9 @@ pub(super) fn set<W: Wire>(
     let mut layouts = Vec::new();
     for drive in drives {
         let own = |index| drive.own(index);
-        let layout = Layout::of(&outputs, &inputs, &own, drive.homing.is_some());
-        let layout = layout.map_err(|lacks| BusError::Unfit {
+        let needs = (drive.homing.is_some(), drive.has_inputs);
+        let layout = Layout::of(&outputs, &inputs, &own, needs);
+        let mut layout = layout.map_err(|lacks| BusError::Unfit {
             device: device.position,
             name: device.name.clone(),
             what: format!(
@@ -70,6 +77,10 @@ pub(super) fn set<W: Wire>(
         if layout.mode.is_none() {
             let mode = object(drive.own(0x6060), 0, 1);
             write(bus, device, mode, CYCLIC_POSITION)?;
+        }
+        if let Some(probe) = drive.probe {
+            let access = probes::prepare(bus, device, drive, probe)?;
+            layout.probe = Some(access.find((&outputs, &inputs), &own));
         }
         layouts.push(layout);
     }
@@ -151,18 +162,56 @@ type Maps = Vec<(u16, Vec<u32>)>;
 /// How entries are spread over maps.
 type Split = fn(&[u32]) -> Vec<Vec<u32>>;
 
-/// Maps what is needed of each drive. Returns both ways.
+/// Maps what is needed of each drive. Returns both ways. Touch probes that a drive does not let be mapped
+/// are asked by its mailbox.
 fn map<W: Wire>(
     bus: &mut Exchange<'_, W>,
     device: &Device,
     drives: &[&DriveSettings],
 ) -> Result<(Vec<Entry>, Vec<Entry>), BusError> {
-    map_as(bus, device, &|split| {
-        (
-            of_all(drives, OUTPUT_MAP, &OUTPUTS, split),
-            of_all(drives, INPUT_MAP, &INPUTS, split),
-        )
-    })
+    let mut map_all = |with_probes| {
+        map_as(bus, device, &|split| {
+            (
+                of_all(
+                    drives,
+                    OUTPUT_MAP,
+                    &|drive| outputs(drive, with_probes),
+                    split,
+                ),
+                of_all(
+                    drives,
+                    INPUT_MAP,
+                    &|drive| inputs(drive, with_probes),
+                    split,
+                ),
+            )
+        })
+    };
+    let has_probes = drives.iter().any(|drive| drive.probe.is_some());
+    match map_all(has_probes) {
+        Err(BusError::Unfit { .. }) if has_probes => map_all(false),
+        done => done,
+    }
+}
+
+/// The outputs that a drive needs.
+fn outputs(drive: &DriveSettings, with_probe: bool) -> Vec<u32> {
+    let probe = drive.probe.filter(|_| with_probe);
+    let mut entries = OUTPUTS.to_vec();
+    entries.extend(probe.map(|_| PROBE_OUTPUT));
+    entries
+}
+
+/// The inputs that a drive needs.
+fn inputs(drive: &DriveSettings, with_probe: bool) -> Vec<u32> {
+    let mut entries = INPUTS.to_vec();
+    entries.extend(drive.has_inputs.then_some(DIGITAL));
+    if let Some(probe) = drive.probe.filter(|_| with_probe) {
+        let kept = probe.places().map(|index| u32::from(index) << 16 | 0x20);
+        entries.push(PROBE_STATUS);
+        entries.extend(kept);
+    }
+    entries
 }
 
 /// Maps these outputs and inputs.
@@ -215,10 +264,15 @@ fn map_as<W: Wire>(
 }
 
 /// The maps of all drives of a device, with the objects that are each one's own.
-fn of_all(drives: &[&DriveSettings], first: u16, entries: &[u32], split: Split) -> Maps {
+fn of_all(
+    drives: &[&DriveSettings],
+    first: u16,
+    wanted: &dyn Fn(&DriveSettings) -> Vec<u32>,
+    split: Split,
+) -> Maps {
     let of = |drive: &&DriveSettings| {
         let first = first + drive.map_step * drive.axis;
-        let entries: Vec<u32> = entries
+        let entries: Vec<u32> = wanted(drive)
             .iter()
             .map(|entry| {
                 let own = drive.own(Entry::new(*entry).index);

@@ -5,15 +5,19 @@
 //!  who is there          parameters, mapping     inputs, clocks     cycles
 //! ```
 
+mod aside;
 mod bus_time;
 mod clocks;
 mod group;
 mod init;
+mod mailbox;
 mod mapping;
 mod op;
 mod others;
 mod parameters;
 mod pre_op;
+mod probe_mail;
+mod probes;
 mod safe_op;
 mod state;
 mod tree;

@@ -1,7 +1,7 @@
 //! The bus in OP: one frame a cycle.
 //!
 //! ```text
-//! FRMW 0x0910 │ LRW: drives │ LRW: all others │ FPRD 0x0130 of each │ FPRD of one mailbox
+//! FRMW 0x0910 │ LRW: drives │ LRW: all others │ FPRD 0x0130 of each │ one mailbox
 //! ```
 //!
 //! A device that does not know LRW gets LWR and LRD in its place, and then all do. What there is not
@@ -11,20 +11,21 @@
 //! what state it is and why. The last datagram looks whether a mailbox is full, of one device after the
 //! other, and if one is, takes the message out: emergencies come that way.
 
+use super::aside::Asides;
 use super::bus_time::BusTime;
 use super::group::Group;
+use super::mailbox::Mailbox;
 use super::others::Others;
+use super::probe_mail::ProbeMail;
 use super::state::{ERROR, INIT};
 use crate::bus_clock::{BusClock, FrameTimes};
-use crate::coe::emergency;
-use crate::device::Device;
 use crate::device_state::DeviceState;
 use crate::error::BusError;
 use crate::exchange::{Exchange, station};
 use crate::frame::{Address, Command, Frame, Slot};
 use crate::image::{Inputs, Outputs};
 use crate::layout::Drives;
-use crate::registers::{AL_CONTROL, AL_STATUS, MAILBOX_IN_STATUS, SYSTEM_TIME};
+use crate::registers::{AL_CONTROL, AL_STATUS, SYSTEM_TIME};
 use crate::terminal::{Answered, Wiring, at_rest};
 use crate::wire::{MAX_FRAME, Wire};
 use std::io;
@@ -45,36 +46,6 @@ pub enum Reception {
     Lost,
 }
 
-/// What the last datagram of a frame is about.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Aside {
-    /// Whether the mailbox of this device is full.
-    Look(usize),
-    /// The message in it.
-    Take(usize),
-}
-
-/// The mailbox from a device: whose, where, and how long.
-#[derive(Debug, Clone, Copy, Default)]
-struct Mailbox {
-    nth: usize,
-    station: u16,
-    start: u16,
-    length: u16,
-}
-
-impl Mailbox {
-    fn of(nth: usize, device: &Device) -> Option<Self> {
-        let (_, back) = device.mailbox?;
-        Some(Self {
-            nth,
-            station: station(device.position),
-            start: back.start,
-            length: back.length,
-        })
-    }
-}
-
 /// A bus in operation.
 #[derive(Debug)]
 pub struct Op<'w, W> {
@@ -87,13 +58,11 @@ pub struct Op<'w, W> {
     /// All others; `None` if they have no process data.
     others_group: Option<Group>,
     status: Vec<Slot>,
-    aside: Option<(Slot, Aside)>,
-    next_aside: Aside,
+    asides: Asides,
     reference: u16,
     bus_time: BusTime,
     /// Drives first, then all others.
     stations: Vec<u16>,
-    mailboxes: Vec<Mailbox>,
     /// Of each drive, and of each other device.
     states: Vec<DeviceState>,
     /// Of each device.
@@ -107,13 +76,12 @@ pub struct Op<'w, W> {
     sent_ns: u64,
     /// Frames that came back when they were not waited for any more.
     stale: u64,
-    emergency: Option<(usize, u16)>,
     clock: Option<BusClock>,
 }
 
 impl<'w, W: Wire> Op<'w, W> {
     pub(super) fn new(
-        wire: &'w mut W,
+        bus: Exchange<'w, W>,
         drives: Drives,
         others: Others,
         (reference, bus_time): (usize, BusTime),
@@ -134,9 +102,12 @@ impl<'w, W: Wire> Op<'w, W> {
         let numbers = of_drives.chain(of_others);
         let mailboxes = numbers.zip(devices());
         let mailboxes = mailboxes.filter_map(|(nth, device)| Mailbox::of(nth, device));
+        let mailboxes: Vec<Mailbox> = mailboxes.collect();
+        let number = |station| bus.last_number(station);
+        let mail = ProbeMail::new(&drives, &mailboxes, number);
         let stations: Vec<u16> = devices().map(|device| station(device.position)).collect();
         Self {
-            wire,
+            wire: bus.wire,
             frame: Frame::default(),
             received: vec![0; MAX_FRAME],
             index: 0,
@@ -145,11 +116,9 @@ impl<'w, W: Wire> Op<'w, W> {
             are_others_whole: others_group.is_none(),
             others_group,
             status: Vec::with_capacity(stations.len()),
-            aside: None,
-            next_aside: Aside::Look(0),
+            asides: Asides::new(mailboxes, mail),
             reference: station(reference),
             bus_time,
-            mailboxes: mailboxes.collect(),
             states: vec![DeviceState::default(); drives.axes.len() + others.devices.len()],
             of_devices: vec![DeviceState::default(); stations.len()],
             stations,
@@ -159,7 +128,6 @@ impl<'w, W: Wire> Op<'w, W> {
             others,
             sent_ns: 0,
             stale: 0,
-            emergency: None,
             clock: None,
         }
     }
@@ -193,6 +161,7 @@ impl<'w, W: Wire> Op<'w, W> {
     /// What those have answered.
     pub(crate) fn answered(&self) -> Answered<'_> {
         Answered {
+            sent_ns: self.sent_ns,
             is_whole: self.are_others_whole,
             inputs: &self.others_inputs,
             states: self
@@ -215,7 +184,7 @@ impl<'w, W: Wire> Op<'w, W> {
 
     /// The emergency that came last, and from which device, drives first; `None` if that was told.
     pub const fn take_emergency(&mut self) -> Option<(usize, u16)> {
-        self.emergency.take()
+        self.asides.take_emergency()
     }
 
     /// The number of the datagrams of the frame that was sent last.
@@ -274,19 +243,10 @@ impl<'w, W: Wire> Op<'w, W> {
             self.status
                 .extend(frame.push(Command::Fprd, index, address, 6));
         }
-        let (Aside::Look(nth) | Aside::Take(nth)) = self.next_aside;
-        let mailbox = self.mailboxes.get(nth).copied().unwrap_or_default();
-        let (register, length) = match self.next_aside {
-            Aside::Look(_) => (MAILBOX_IN_STATUS, 1),
-            Aside::Take(_) => (mailbox.start, mailbox.length.into()),
-        };
-        let slot = frame.push(
-            Command::Fprd,
-            index,
-            Address::station(mailbox.station, register),
-            length,
-        );
-        self.aside = slot.map(|slot| (slot, self.next_aside));
+        for (nth, output) in outputs.iter().enumerate() {
+            self.asides.want(nth, output.is_probe_on, output.asks_probe);
+        }
+        self.asides.push(frame, index);
         self.sent_ns = self.wire.now_ns();
         self.wire.send(self.frame.bytes())
     }
@@ -342,49 +302,22 @@ impl<'w, W: Wire> Op<'w, W> {
                 self.others_inputs.copy_from_slice(others.inputs);
             }
         }
-        let mailboxes = &self.mailboxes;
-        self.next_aside = next_aside(self.aside.as_ref(), mailboxes.len(), |slot, aside| {
-            let answer = self.frame.answer(slot, received)?;
-            let full = answer.counter == 1 && answer.data.first().is_some_and(|s| s & 8 != 0);
-            if let (Aside::Take(nth), 1) = (aside, answer.counter) {
-                self.emergency = emergency(answer.data)
-                    .zip(mailboxes.get(nth))
-                    .map(|(code, mailbox)| (mailbox.nth, code))
-                    .or(self.emergency);
-            }
-            Some(full)
-        });
+        self.asides.hear(&self.frame, received);
         if drives.counted != drives.expected {
             return Some(Reception::Short {
                 counted: drives.counted,
                 expected: drives.expected,
             });
         }
-        for (axis, input) in self.drives.axes.iter().zip(inputs) {
+        for (nth, (axis, input)) in self.drives.axes.iter().zip(inputs).enumerate() {
             let led = self.drives.devices.get(axis.device)?;
             *input = Inputs::take(&axis.layout, drives.inputs.get(led.inputs_at..)?)?;
+            input.probe = self.asides.told(nth).unwrap_or(input.probe);
         }
         Some(Reception::Good(FrameTimes {
             sent_ns: self.sent_ns,
             received_ns,
             bus_ns: self.bus_time.now_ns(),
         }))
-    }
-}
-
-/// What the last datagram of the next frame is about: the message, if a mailbox is full, else the
-/// next one's.
-fn next_aside(
-    last: Option<&(Slot, Aside)>,
-    mailboxes: usize,
-    mut is_full: impl FnMut(&Slot, Aside) -> Option<bool>,
-) -> Aside {
-    let Some((slot, aside)) = last else {
-        return Aside::Look(0);
-    };
-    let full = is_full(slot, *aside).unwrap_or(false);
-    match aside {
-        Aside::Look(nth) if full => Aside::Take(*nth),
-        Aside::Look(nth) | Aside::Take(nth) => Aside::Look((nth + 1) % mailboxes.max(1)),
     }
 }

@@ -55,7 +55,7 @@ impl<'w, W: Wire> SafeOp<'w, W> {
         let now_ns = self.bus.wire.now_ns();
         let clock = BusClock::new(settings, self.start_ns, now_ns);
         let op = Op::new(
-            self.bus.wire,
+            self.bus,
             self.drives.clone(),
             self.others.clone(),
             self.reference,

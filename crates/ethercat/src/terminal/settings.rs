@@ -1,8 +1,10 @@
 //! The settings of a device that is no drive: what its inputs mean, and what its outputs obey.
 
+use super::encoder_settings::EncoderSettings;
 use super::signal::{Quantity, Signal};
 use super::spindle_settings::SpindleSettings;
 use core::fmt;
+use glidepath_link::Feedback;
 
 /// Digital inputs that feedback has room for.
 pub const DIGITAL_INPUTS: usize = 64;
@@ -48,6 +50,20 @@ pub struct DigitalInput {
     pub limit_high: Option<usize>,
     /// It means the other thing: a switch that opens.
     pub is_inverted: bool,
+}
+
+impl DigitalInput {
+    /// Adds what it is, while its level is high or low.
+    pub(crate) fn tell(&self, is_high: bool, feedback: &mut Feedback) {
+        if is_high == self.is_inverted {
+            return;
+        }
+        feedback.digital_in |= self.number.map_or(0, |number| 1 << (number & 63));
+        let of_joint = |joint: Option<usize>| joint.map_or(0, |joint| 1 << (joint & 31));
+        feedback.home_switch |= of_joint(self.home);
+        feedback.limit_low |= of_joint(self.limit_low);
+        feedback.limit_high |= of_joint(self.limit_high);
+    }
 }
 
 /// An analog input.
@@ -131,6 +147,8 @@ pub struct TerminalSettings {
     pub outputs: Vec<DigitalOutput>,
     /// Its analog outputs.
     pub analog_outputs: Vec<AnalogOutput>,
+    /// The spindle's encoder is wired to it: to one device at most.
+    pub encoder: Option<EncoderSettings>,
     /// It is the drive of the spindle: of one device at most.
     pub spindle: Option<SpindleSettings>,
 }

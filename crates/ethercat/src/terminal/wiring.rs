@@ -1,13 +1,15 @@
 //! The wiring of devices: where in the image of all each input and output is.
 
+use super::encoder::WiredEncoder;
+use super::encoder_settings::EncoderSettings;
 use super::settings::{
     AnalogInput, AnalogOutput, At, DigitalInput, DigitalOutput, TerminalSettings,
 };
 use super::spindle_settings::SpindleSettings;
 use super::spindle_wiring::WiredSpindle;
+use super::unwired::{NotThere, Unwired};
 use crate::device::Window;
 use crate::entry::{Entry, bits, bytes};
-use core::fmt;
 
 /// A bit or a number in the image, and what it is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,6 +29,8 @@ pub(crate) struct Wiring {
     pub(crate) analog_inputs: Vec<Wired<AnalogInput>>,
     pub(crate) outputs: Vec<Wired<DigitalOutput>>,
     pub(crate) analog_outputs: Vec<Wired<AnalogOutput>>,
+    /// The encoder of the spindle.
+    pub(crate) encoder: Option<WiredEncoder>,
     /// The drive of the spindle.
     pub(crate) spindle: Option<WiredSpindle>,
     /// Bytes of the outputs and of the inputs.
@@ -35,85 +39,6 @@ pub(crate) struct Wiring {
     pub(crate) unwired: Vec<u8>,
     /// Devices so far.
     pub(crate) devices: usize,
-}
-
-/// Why a device cannot be wired as the file says.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Unwired {
-    /// Something is not where the file says.
-    NotThere(NotThere),
-    /// Two outputs are the same bits, named differently.
-    Twice(At, At),
-}
-
-impl fmt::Display for Unwired {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NotThere(it) => it.fmt(f),
-            Self::Twice(one, other) => write!(
-                f,
-                "output {one} and output {other} are the same bits, and an output obeys one thing"
-            ),
-        }
-    }
-}
-
-impl Unwired {
-    /// Where the file says that it is, and whether it is an output.
-    pub(crate) fn at(&self) -> (At, bool) {
-        match self {
-            Self::NotThere(it) => (it.at, it.what == "output"),
-            Self::Twice(_, other) => (*other, true),
-        }
-    }
-}
-
-impl From<NotThere> for Unwired {
-    fn from(it: NotThere) -> Self {
-        Self::NotThere(it)
-    }
-}
-
-/// Something that is not where the file says.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct NotThere {
-    /// "input" or "output".
-    what: &'static str,
-    at: At,
-    /// What is there instead, bits.
-    found: Option<u32>,
-    /// What could be meant.
-    known: Vec<Entry>,
-}
-
-impl fmt::Display for NotThere {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { what, at, .. } = self;
-        match self.found {
-            Some(bits) => write!(
-                f,
-                "{what} {at} is {bits} bits long, and cannot be what the file says"
-            )?,
-            None => write!(f, "there is no {what} {at} in its process data")?,
-        }
-        let known: Vec<String> = self
-            .known
-            .iter()
-            .filter(|entry| entry.index != 0)
-            .map(|entry| {
-                let at = At::Object {
-                    index: entry.index,
-                    sub: entry.sub,
-                };
-                format!("{at} ({} bit)", entry.bits)
-            })
-            .collect();
-        if known.is_empty() {
-            write!(f, ", which has none that can be named")
-        } else {
-            write!(f, ", which has {}", known.join(", "))
-        }
-    }
 }
 
 /// The windows of one way of a device, one after the other, each in whole bytes.
@@ -172,14 +97,40 @@ impl Row<'_> {
             let bit = self.from + bit;
             return Ok(Wired { bit, bits, what });
         }
+        Err(self.lacks(at))
+    }
+
+    /// That there is nothing that would fit at a place.
+    fn lacks(&self, at: At) -> NotThere {
         let entries = self.windows().flat_map(|window| &window.entries);
-        Err(NotThere {
+        NotThere {
             what: self.what,
             at,
-            found: found.map(|(_, bits)| bits),
+            found: self.place(at).map(|(_, bits)| bits),
             known: entries.copied().collect(),
-        })
+        }
     }
+}
+
+/// The encoder of the spindle, in the image.
+fn encoder_of(
+    encoder: (EncoderSettings, usize),
+    outputs: &Row<'_>,
+    inputs: &Row<'_>,
+) -> Result<WiredEncoder, NotThere> {
+    let at = |(index, sub)| At::Object { index, sub };
+    let place = |row: &Row<'_>, object| {
+        let (bit, bits) = row.place(at(object))?;
+        Some((row.from + bit, bits))
+    };
+    let (of_outputs, of_inputs) = (
+        |object| place(outputs, object),
+        |object| place(inputs, object),
+    );
+    WiredEncoder::find(encoder, of_outputs, of_inputs).map_err(|(object, is_output)| {
+        let row = if is_output { outputs } else { inputs };
+        row.lacks(at(object))
+    })
 }
 
 /// The drive of the spindle, in the image.
@@ -196,16 +147,7 @@ fn spindle_of(
     let (of_outputs, of_inputs) = (|index| place(outputs, index), |index| place(inputs, index));
     WiredSpindle::find(spindle, of_outputs, of_inputs).map_err(|(index, is_output)| {
         let row = if is_output { outputs } else { inputs };
-        NotThere {
-            what: row.what,
-            at: at(index),
-            found: row.place(at(index)).map(|(_, bits)| bits),
-            known: row
-                .windows()
-                .flat_map(|window| &window.entries)
-                .copied()
-                .collect(),
-        }
+        row.lacks(at(index))
     })
 }
 
@@ -250,6 +192,9 @@ impl Wiring {
         }
         if let Some(spindle) = settings.spindle {
             self.spindle = Some(spindle_of((spindle, self.devices), &outputs, &inputs)?);
+        }
+        if let Some(encoder) = settings.encoder {
+            self.encoder = Some(encoder_of((encoder, self.devices), &outputs, &inputs)?);
         }
         self.devices += 1;
         self.sizes.0 += outputs.bytes();

@@ -3,6 +3,7 @@
 use super::bits::{bit, number};
 use super::commands::Commands;
 use super::driven::DrivenOutputs;
+use super::encoder::Encoder;
 use super::settings::AnalogInput;
 use super::spindle_drive::{SpindleCycle, SpindleDrive};
 use super::wiring::{Wired, Wiring};
@@ -13,6 +14,8 @@ use glidepath_link::{Auxiliary, Feedback, Setpoint};
 /// The answers of all devices in one cycle.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Answered<'a> {
+    /// When the frame was sent, ns.
+    pub(crate) sent_ns: u64,
     /// Whether all took part in the process data.
     pub(crate) is_whole: bool,
     /// Their inputs, as they came last.
@@ -27,6 +30,9 @@ pub(crate) struct Terminals {
     commands: Commands,
     outputs: DrivenOutputs,
     spindle: Option<SpindleDrive>,
+    encoder: Option<Encoder>,
+    /// By how much samples are stamped earlier, ns.
+    delay_ns: u64,
     wiring: Wiring,
     inputs: Vec<u8>,
     /// Place in the line of each, and the state that was told last.
@@ -38,12 +44,15 @@ pub(crate) struct Terminals {
 }
 
 impl Terminals {
-    /// Devices of which nothing is known yet; so many frames in a row may be without one of them.
-    pub(crate) fn new(most_short: u32) -> Self {
+    /// Devices of which nothing is known yet; so many frames in a row may be without one of them, and samples
+    /// are stamped earlier by `delay_ns`.
+    pub(crate) fn new(most_short: u32, delay_ns: u64) -> Self {
         Self {
             commands: Commands::new(),
             outputs: DrivenOutputs::default(),
             spindle: None,
+            encoder: None,
+            delay_ns,
             wiring: Wiring::default(),
             inputs: Vec::new(),
             told: Vec::new(),
@@ -58,6 +67,8 @@ impl Terminals {
         self.wiring = wiring.clone();
         self.outputs = DrivenOutputs::new(wiring);
         self.spindle = wiring.spindle.map(SpindleDrive::new);
+        let encoder = |wired| Encoder::new(wired, self.delay_ns);
+        self.encoder = wiring.encoder.map(encoder);
         self.inputs = vec![0; wiring.sizes.1];
         let told = positions.map(|position| (position, DeviceState::in_op()));
         self.told = told.collect();
@@ -80,6 +91,12 @@ impl Terminals {
             for (own, byte) in self.inputs.iter_mut().zip(answered.inputs) {
                 *own = *byte;
             }
+        }
+        if let Some(encoder) = &mut self.encoder {
+            let state = answered.states.get(encoder.nth());
+            let is_there = answered.is_whole && state.is_some_and(|state| state.is_in_op());
+            let inputs = is_there.then_some(&self.inputs[..]);
+            encoder.hear(inputs, answered.sent_ns, tell);
         }
         self.short = if answered.is_whole {
             0
@@ -139,6 +156,9 @@ impl Terminals {
             };
             spindle.cycle(cycle, &self.inputs, image, tell);
         }
+        if let Some(encoder) = &mut self.encoder {
+            encoder.put(image, self.outputs.spindle_rpm() / 60.0);
+        }
         has_dropped
     }
 
@@ -153,20 +173,15 @@ impl Terminals {
     }
 
     /// Adds what they know.
-    pub(crate) fn tell(&self, feedback: &mut Feedback) {
+    pub(crate) fn tell(&mut self, feedback: &mut Feedback) {
         for wired in &self.wiring.inputs {
-            let what = &wired.what;
-            if bit(&self.inputs, wired.bit) == what.is_inverted {
-                continue;
-            }
-            feedback.digital_in |= what.number.map_or(0, |number| 1 << (number & 63));
-            let of_joint = |joint: Option<usize>| joint.map_or(0, |joint| 1 << (joint & 31));
-            feedback.home_switch |= of_joint(what.home);
-            feedback.limit_low |= of_joint(what.limit_low);
-            feedback.limit_high |= of_joint(what.limit_high);
+            wired.what.tell(bit(&self.inputs, wired.bit), feedback);
         }
         if let Some(spindle) = &self.spindle {
             spindle.tell(feedback);
+        }
+        if let Some(encoder) = &mut self.encoder {
+            encoder.tell(feedback, self.spindle.is_some());
         }
         for wired in &self.wiring.analog_inputs {
             if let Some(place) = feedback.analog_in.get_mut(wired.what.number) {
@@ -232,12 +247,12 @@ mod tests {
             sizes: (0, 3),
             ..Wiring::default()
         };
-        let mut terminals = Terminals::new(3);
+        let mut terminals = Terminals::new(3, 0);
         terminals.begin(&wiring, [4, 6].into_iter());
         terminals
     }
 
-    fn told(terminals: &Terminals) -> Feedback {
+    fn told(terminals: &mut Terminals) -> Feedback {
         let mut feedback = Feedback {
             joints: 7,
             fault: 2,
@@ -255,12 +270,13 @@ mod tests {
         let mut events = Vec::new();
         let inputs = &[0b01, 0xfe, 0xff];
         let whole = Answered {
+            sent_ns: 0,
             is_whole: true,
             inputs,
             states: &states,
         };
         terminals.hear(whole, &mut |event| events.push(event));
-        let said = told(&terminals);
+        let said = told(&mut terminals);
         assert_eq!(said.digital_in, 0b11 << 60);
         let switches = (said.home_switch, said.limit_low, said.limit_high);
         assert_eq!(switches, (0b11, 0, 0b100));
@@ -276,13 +292,14 @@ mod tests {
         let (op, gone) = (DeviceState::in_op(), DeviceState::default());
         let mut hear = |is_whole, states: [DeviceState; 2], inputs: &[u8]| {
             let answered = Answered {
+                sent_ns: 0,
                 is_whole,
                 inputs,
                 states: &states,
             };
             terminals.hear(answered, &mut |event| events.push(event));
             (
-                told(&terminals).digital_in,
+                told(&mut terminals).digital_in,
                 terminals.has_lost(),
                 terminals.missing(),
             )

@@ -18,6 +18,7 @@ fn settings(drives: usize) -> Settings {
     Settings {
         bus: BusSettings::default(),
         drives: (0..drives).map(crate::machine::drive).collect(),
+        drive_inputs: Vec::new(),
         terminals: Vec::new(),
         servo: ServoSettings::default(),
     }

@@ -162,6 +162,7 @@ fn come_up(line: &[Emulated], terminals: Vec<TerminalSettings>) -> Result<(), Bu
     let settings = Settings {
         bus: BusSettings::default(),
         drives: vec![crate::machine::drive(0)],
+        drive_inputs: Vec::new(),
         terminals,
         servo: ServoSettings::default(),
     };

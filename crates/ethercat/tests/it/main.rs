@@ -13,6 +13,7 @@
 mod axes;
 mod bring_up;
 mod captures;
+mod encoder;
 mod ending;
 mod judge;
 mod life;
@@ -20,6 +21,7 @@ mod losses;
 mod machine;
 mod maps;
 mod matrix;
+mod probing;
 mod spindle;
 mod terminals;
 mod terminals_up;

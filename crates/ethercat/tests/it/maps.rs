@@ -79,6 +79,7 @@ fn refusal(setup: &Setup) -> String {
     let settings = Settings {
         bus: setup.bus,
         drives: setup.drives.clone(),
+        drive_inputs: Vec::new(),
         terminals: setup.terminals.clone(),
         servo: ServoSettings::default(),
     };

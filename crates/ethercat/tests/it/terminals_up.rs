@@ -45,6 +45,7 @@ fn settings(terminals: Vec<TerminalSettings>) -> Settings {
     Settings {
         bus: BusSettings::default(),
         drives: vec![crate::machine::drive(0)],
+        drive_inputs: Vec::new(),
         terminals,
         servo: ServoSettings::default(),
     }

@@ -77,6 +77,7 @@ fn settings() -> Settings {
             ..BusSettings::default()
         },
         drives: vec![crate::machine::drive(0)],
+        drive_inputs: Vec::new(),
         terminals: vec![TerminalSettings {
             position: 1,
             outputs: vec![

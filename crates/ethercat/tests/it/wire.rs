@@ -7,7 +7,7 @@ use std::collections::VecDeque;
 use std::io;
 
 /// From the port to the first drive, and back, ns.
-const WAY_NS: u64 = 30_000;
+pub(crate) const WAY_NS: u64 = 30_000;
 
 /// What becomes of a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

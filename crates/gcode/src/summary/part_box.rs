@@ -1,6 +1,6 @@
 //! Where the feed moves of a program go, in the coordinates of the part.
 
-use glidepath_geometry::{AxisVector, Quintic, Segment};
+use glidepath_geometry::{AxisVector, Segment};
 use glidepath_program::{Item, ItemKind};
 
 use crate::execute::interpreter::Interpreter;

@@ -3,14 +3,16 @@
 mod inputs;
 mod outputs;
 
-use super::raw_device::{RawDevice, RawParameter, RawSpindle};
+use super::encoder::encoder;
+use super::raw_device::{RawDevice, RawEncoder, RawInput, RawParameter, RawSpindle};
 use super::source::Place;
 use super::spindle::spindle;
 use super::words::{OBJECT, object};
 use crate::config::{ConfigDiagnostic, Judge};
 use core::ops::Range as Span;
 use glidepath_ethercat::{
-    At, DriveSettings, Parameter, RefusedPart, SpindleSettings, TerminalSettings,
+    At, DigitalInput, DriveSettings, EncoderSettings, Parameter, RefusedPart, SpindleSettings,
+    TerminalSettings,
 };
 use toml::Spanned;
 
@@ -43,25 +45,35 @@ struct Devices<'j> {
     places: Vec<Place>,
 }
 
-/// Judges all devices that are no drives.
+/// Inputs of drives, by the number of the drive.
+type DriveInputs = Vec<(usize, DigitalInput)>;
+
+/// Judges inputs of drives, a list for each, and all devices that are no drives.
 pub(super) fn devices(
     judge: &mut Judge,
-    raw: Vec<Spanned<RawDevice>>,
-    drives: &[DriveSettings],
+    (inputs, raw): (Vec<Vec<Spanned<RawInput>>>, Vec<Spanned<RawDevice>>),
+    drives: &[(DriveSettings, Span<usize>)],
     joints: usize,
-) -> (Vec<TerminalSettings>, Vec<Place>) {
+) -> (DriveInputs, Vec<TerminalSettings>, Vec<Place>) {
     let mut devices = Devices {
         judge,
         joints,
         claims: Claims::default(),
         places: Vec::new(),
     };
-    for drive in drives {
+    for (drive, _) in drives {
         // Those of one device are at the same.
         devices.claims.take("position", drive.position);
     }
+    let mut drive_inputs = Vec::new();
+    for (nth, inputs) in inputs.into_iter().enumerate() {
+        let judged = inputs
+            .into_iter()
+            .filter_map(|raw| devices.input(raw, true));
+        drive_inputs.extend(judged.map(|input| (nth, input)));
+    }
     let each = raw.into_iter().map(|raw| devices.device(raw)).collect();
-    (each, devices.places)
+    (drive_inputs, each, devices.places)
 }
 
 impl Devices<'_> {
@@ -122,7 +134,7 @@ impl Devices<'_> {
         terminal.parameters = parameters.collect();
         for raw in raw.inputs {
             let span = raw.span();
-            if let Some(input) = self.input(raw) {
+            if let Some(input) = self.input(raw, false) {
                 self.note(position, Some((input.at, false)), span);
                 terminal.inputs.push(input);
             }
@@ -135,6 +147,7 @@ impl Devices<'_> {
         }
         self.outputs(&mut terminal, raw.outputs, &raw.analog_outputs);
         terminal.spindle = raw.spindle.and_then(|raw| self.spindle(&raw));
+        terminal.encoder = raw.encoder.and_then(|raw| self.encoder(&raw));
         terminal
     }
 
@@ -150,6 +163,16 @@ impl Devices<'_> {
             );
         }
         spindle(self.judge, raw.as_ref())
+    }
+
+    /// The encoder of the spindle, which one device has.
+    fn encoder(&mut self, raw: &Spanned<RawEncoder>) -> Option<EncoderSettings> {
+        if !self.claims.take("encoder", 0) {
+            let message = "two devices have the encoder of the spindle".to_owned();
+            let help = "programs have one spindle, and it has one angle";
+            self.tell("device.encoder", message, help, raw.span());
+        }
+        encoder(self.judge, raw.as_ref())
     }
 
     fn maps(&mut self, key: &str, raw: Option<Vec<Spanned<i64>>>, first: i64) -> Option<Vec<u16>> {

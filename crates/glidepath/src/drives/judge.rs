@@ -1,15 +1,16 @@
 //! The judgement of `drives.toml`, [`RawDrives`] to [`DrivesConfig`]: every value by its range, and
 //! the whole against the machine.
 
+use super::bus::bus;
 use super::config::DrivesConfig;
 use super::device;
-use super::raw::{RawBus, RawDrive, RawDrives, RawHoming};
+use super::raw::{RawDrive, RawDrives, RawHoming};
 use super::source::{DrivesSource, Place};
+use super::touch_probe;
 use crate::config::{ConfigDiagnostic, HomingBy, Judge, MachineConfig, Range};
+use core::mem::take;
 use core::ops::Range as Span;
-use glidepath_ethercat::{
-    BusSettings, DEVICE_AXES, DriveSettings, HomingSettings, Mapping, RefusedPart,
-};
+use glidepath_ethercat::{DEVICE_AXES, DriveSettings, HomingSettings, Mapping, RefusedPart};
 use glidepath_geometry::AXES;
 use toml::Spanned;
 
@@ -78,7 +79,12 @@ pub(super) fn judge(
     let interface = raw.bus.interface.clone();
     let bus = bus(&mut judge, &raw.bus);
     let velocities = joint_velocities(machine);
-    let drives = drives(&mut judge, raw.drive, machine, &velocities);
+    let mut tables = raw.drive;
+    let inputs = tables
+        .iter_mut()
+        .map(|drive| take(&mut drive.as_mut().inputs));
+    let inputs: Vec<_> = inputs.collect();
+    let drives = drives(&mut judge, tables, machine, &velocities);
     let missing =
         (0..velocities.len()).find(|joint| !drives.iter().any(|(d, _)| d.joint == *joint));
     if let Some(joint) = missing {
@@ -99,15 +105,29 @@ pub(super) fn judge(
             span: span.clone(),
         })
         .collect();
-    let drives: Vec<_> = drives.into_iter().map(|(drive, _)| drive).collect();
-    let (terminals, of_devices) =
-        device::devices(&mut judge, raw.device, &drives, velocities.len());
+    let tables = (inputs, raw.device);
+    let (drive_inputs, terminals, of_devices) =
+        device::devices(&mut judge, tables, &drives, velocities.len());
+    let of_terminals = terminals.iter().flat_map(|device| &device.inputs);
+    let all_inputs = of_terminals.chain(drive_inputs.iter().map(|(_, input)| input));
+    let numbers: Vec<usize> = all_inputs.filter_map(|input| input.number).collect();
+    touch_probe::together(&mut judge, &drives, &numbers, machine);
+    let reads = |nth: usize| drive_inputs.iter().any(|(of, _)| *of == nth);
+    let drives = drives
+        .into_iter()
+        .enumerate()
+        .map(|(nth, (drive, _))| DriveSettings {
+            has_inputs: reads(nth),
+            ..drive
+        });
+    let drives: Vec<_> = drives.collect();
     places.extend(of_devices);
     if judge.diagnostics.is_empty() {
         Ok(DrivesConfig {
             interface,
             bus,
             drives,
+            drive_inputs,
             terminals,
             source: DrivesSource {
                 places,
@@ -197,76 +217,6 @@ const fn of_device(drive: &DriveSettings) -> ([u32; 2], u16, u16, Option<(u16, u
     (ids, alias, step, drive.process_at, drive.mapping)
 }
 
-fn bus(judge: &mut Judge, raw: &RawBus) -> BusSettings {
-    let default = BusSettings::default();
-    let mut whole = |key, value: &Option<Spanned<i64>>, range, help, unit_ns: u64, default| {
-        let value = value
-            .as_ref()
-            .map(|value| judge.whole(key, value, range, help));
-        value
-            .flatten()
-            .map_or(default, |value: u64| value * unit_ns)
-    };
-    let help = "1000, 2000 or 4000 is what most drives like";
-    let period_ns = whole(
-        "bus.period_us",
-        &raw.period_us,
-        (250, 20_000),
-        help,
-        1000,
-        default.period_ns,
-    );
-    let most = i64::try_from(period_ns / 1000).unwrap_or(i64::MAX) * 9 / 10;
-    let help =
-        "half of the period; more for a host that wakes late, less for a drive that computes long";
-    let shift_ns = whole(
-        "bus.shift_us",
-        &raw.shift_us,
-        (50, most),
-        help,
-        1000,
-        period_ns / 2,
-    );
-    let least = i64::try_from(shift_ns / 1000).unwrap_or(0);
-    let help = "more than the shift, by what setpoints may be late: 2000 µs on a quiet host";
-    let delay_ns = whole(
-        "bus.delay_us",
-        &raw.delay_us,
-        (least, 100_000),
-        help,
-        1000,
-        shift_ns + 2_000_000,
-    );
-    let help = "frames in a row after which every drive stops by itself";
-    let lost = whole(
-        "bus.lost_frames",
-        &raw.lost_frames,
-        (1, 100),
-        help,
-        1,
-        default.lost_frames.into(),
-    );
-    // A drive is not to stop by itself before the bus counts as lost.
-    let least_ns = (lost + 1) * period_ns;
-    let least = i64::try_from(least_ns.div_ceil(1_000_000)).unwrap_or(i64::MAX);
-    let help = "longer than lost_frames periods: then a drive that hears nothing stops by itself";
-    let watchdog_ns = whole(
-        "bus.watchdog_ms",
-        &raw.watchdog_ms,
-        (least, 1000),
-        help,
-        1_000_000,
-        default.watchdog_ns.max(least_ns),
-    );
-    BusSettings {
-        period_ns,
-        shift_ns,
-        delay_ns,
-        lost_frames: u32::try_from(lost).unwrap_or(u32::MAX),
-        watchdog_ns,
-    }
-}
-
 fn drive(judge: &mut Judge, raw: RawDrive, velocities: &[f64]) -> DriveSettings {
     let most = i64::try_from(velocities.len()).unwrap_or(1) - 1;
     let joint: usize = judge
@@ -338,6 +288,10 @@ fn drive(judge: &mut Judge, raw: RawDrive, velocities: &[f64]) -> DriveSettings 
         following_ms: following_ms.unwrap_or(10),
         enable_window: judge.number_or("drive.enable_window", &raw.enable_window, &WINDOW, 0.05),
         quick_stop_a: judge.number("drive.quick_stop", &raw.quick_stop, &RATE),
+        probe: raw
+            .probe
+            .and_then(|probe| touch_probe::touch_probe(judge, &probe)),
+        has_inputs: false,
         max_v: velocities.get(joint).copied().unwrap_or(1.0),
     }
 }

@@ -2,8 +2,10 @@
 //!
 //! Read like a configuration: names first, values second, every diagnostic at once, with its place.
 
+mod bus;
 mod config;
 mod device;
+mod encoder;
 mod judge;
 mod raw;
 mod raw_device;
@@ -12,6 +14,7 @@ mod spindle;
 mod tables;
 #[cfg(test)]
 mod tests;
+mod touch_probe;
 mod words;
 mod written;
 

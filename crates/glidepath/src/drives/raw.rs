@@ -1,6 +1,6 @@
 //! The raw `drives.toml`, as it is written, before any value is judged.
 
-use super::raw_device::{Optional, RawDevice, RawMap};
+use super::raw_device::{Optional, RawDevice, RawInput, RawMap};
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -49,6 +49,19 @@ pub(super) struct RawDrive {
     pub(super) enable_window: Optional<f64>,
     pub(super) quick_stop: Spanned<f64>,
     pub(super) homing: Optional<RawHoming>,
+    pub(super) probe: Option<RawTouchProbe>,
+    #[serde(default)]
+    pub(super) inputs: Vec<Spanned<RawInput>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawTouchProbe {
+    pub(super) number: Spanned<i64>,
+    pub(super) unit: Optional<i64>,
+    pub(super) source: Optional<i64>,
+    #[serde(default)]
+    pub(super) invert: bool,
 }
 
 #[derive(Debug, Deserialize)]

@@ -26,6 +26,19 @@ pub(super) struct RawDevice {
     #[serde(default)]
     pub(super) analog_outputs: Vec<RawAnalogOutput>,
     pub(super) spindle: Optional<RawSpindle>,
+    pub(super) encoder: Optional<RawEncoder>,
+}
+
+/// The spindle's encoder.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawEncoder {
+    pub(super) counts_per_rev: Spanned<i64>,
+    #[serde(default = "yes")]
+    pub(super) index: bool,
+    #[serde(default)]
+    pub(super) invert: bool,
+    pub(super) at_speed: Optional<f64>,
 }
 
 /// The drive of the spindle.

@@ -23,14 +23,14 @@ const RAMP: Range = Range {
     unit: "rev/min per s",
     help: "what the drive can follow with the heaviest tool, up and down",
 };
-const NEAR: Range = Range {
+pub(super) const NEAR: Range = Range {
     min: 1e-3,
     max: 0.5,
     unit: "of the speed",
     help: "how far it may be from its speed at speed: 0.03 is 3 %",
 };
 /// How near it is at speed, if the file does not say.
-const NEAR_R: f64 = 0.03;
+pub(super) const NEAR_R: f64 = 0.03;
 const MODES: &str = "give \"cyclic-velocity\" (0x6060 = 9, by SYNC0), \"profile-velocity\" (3), or \
                      \"velocity\" (2, an inverter)";
 

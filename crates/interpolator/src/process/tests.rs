@@ -21,6 +21,7 @@ mod hostile;
 mod injected_faults;
 mod jobs;
 mod jogging;
+mod late_latches;
 mod life_cycle;
 mod m_code_waits;
 mod matrix;

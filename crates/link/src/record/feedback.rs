@@ -45,6 +45,9 @@ coded! {
         Interpolated = 2,
         /// The next sample after the edge.
         Sampled = 3,
+        /// Not yet: this record has the edge among its inputs, and a later one has the position, or any
+        /// other kind if there is none to come.
+        Awaited = 4,
     }
 }
 
@@ -123,7 +126,7 @@ pub struct Latch {
 /// To be sent once a period or more often; 1 kHz is good.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.Feedback.v2")]
+#[type_name("glidepath.Feedback.v3")]
 pub struct Feedback {
     /// Identifies one life of the stack: another stack, or the same started again, has another.
     pub boot_id: u64,
@@ -193,7 +196,7 @@ impl Feedback {
 }
 
 impl Record for Feedback {
-    const NAME: &'static str = "glidepath.Feedback.v2";
+    const NAME: &'static str = "glidepath.Feedback.v3";
 
     fn check(&self) -> Result<(), RecordError> {
         let fields = Fields(Self::NAME);

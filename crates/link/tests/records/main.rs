@@ -258,7 +258,7 @@ fn unknown_codes_and_bits_are_refused() {
         refused(good_status(), |s| s.power = 4),
         refused(good_status(), |s| s.mode = 6),
         refused(Feedback::zeroed(), |f| f.drive_state[8] = 9),
-        refused(Feedback::zeroed(), |f| f.latch[3].kind = 4),
+        refused(Feedback::zeroed(), |f| f.latch[3].kind = 5),
         refused(Feedback::zeroed(), |f| f.loss = 5),
         refused(JogDemand::zeroed(), |j| j.mode = 5),
         refused(CommandRequest::new(1, 1, Command::Ping), |c| c.kind = 0),
@@ -357,7 +357,7 @@ fn codes_are_consecutive_and_known() {
     in_sequence(Power::ALL.iter().map(|code| code.code()), 0, 3);
     in_sequence(MotionMode::ALL.iter().map(|code| code.code()), 0, 5);
     in_sequence(JogMode::ALL.iter().map(|code| code.code()), 0, 4);
-    in_sequence(LatchKind::ALL.iter().map(|code| code.code()), 0, 3);
+    in_sequence(LatchKind::ALL.iter().map(|code| code.code()), 0, 4);
     in_sequence(Loss::ALL.iter().map(|code| code.code()), 0, 4);
     in_sequence(DriveState::ALL.iter().map(|code| code.code()), 0, 8);
     in_sequence(EventKind::ALL.iter().map(|code| code.code()), 0, 14);

@@ -57,6 +57,7 @@ fn with_bridge(
     let settings = Settings {
         bus: setup.bus,
         drives: setup.drives.clone(),
+        drive_inputs: setup.drive_inputs.clone(),
         terminals: setup.terminals.clone(),
         servo: servo(),
     };

@@ -2,7 +2,9 @@
 
 use core::time::Duration;
 use glidepath_emulator::{DriveSettings as Emulated, HomeSwitch};
-use glidepath_ethercat::{BusSettings, DriveSettings, HomingSettings, Mapping, TerminalSettings};
+use glidepath_ethercat::{
+    BusSettings, DigitalInput, DriveSettings, HomingSettings, Mapping, TerminalSettings,
+};
 use glidepath_geometry::{AXES, Axis};
 use glidepath_interpolator::{
     Config, FeedbackSettings, JointFeedback, JointHoming, MCodeWait, MCodeWaits, ProbeInput,
@@ -40,6 +42,8 @@ pub(crate) fn drive(joint: usize) -> DriveSettings {
         following_ms: 10,
         enable_window: 0.05,
         quick_stop_a: 4000.0,
+        probe: None,
+        has_inputs: false,
         max_v: 200.0,
     }
 }
@@ -77,6 +81,7 @@ pub(crate) struct Setup {
     pub(crate) bus: BusSettings,
     pub(crate) drives: Vec<DriveSettings>,
     pub(crate) emulated: Vec<Emulated>,
+    pub(crate) drive_inputs: Vec<(usize, DigitalInput)>,
     pub(crate) terminals: Vec<TerminalSettings>,
     /// The first joint is brought home by the controller.
     pub(crate) homing: Option<JointHoming>,
@@ -99,6 +104,7 @@ impl Setup {
             },
             drives: (0..3).map(drive).collect(),
             emulated: vec![Emulated::default(); 3],
+            drive_inputs: Vec::new(),
             terminals: Vec::new(),
             homing: None,
             probe: None,

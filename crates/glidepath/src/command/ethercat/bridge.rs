@@ -42,6 +42,7 @@ pub(super) fn drive(args: &EthercatArgs, config: &MachineConfig) -> Result<Exit,
     let settings = Settings {
         bus: drives.bus,
         drives: drives.drives,
+        drive_inputs: drives.drive_inputs,
         terminals: drives.terminals,
         servo: servo::settings(config),
     };

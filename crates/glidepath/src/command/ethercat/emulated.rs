@@ -1,8 +1,10 @@
 //! The bridge to emulated drives, together with them.
 
 use super::bridge;
-use super::emulated_inputs::{self, InputFile, Level, Pins};
+use super::desk;
+use super::emulated_inputs::{Level, Pins};
 use super::emulated_terminals;
+use super::input_file::InputFile;
 use super::namespace::{self, DRIVES, MASTER};
 use crate::cli::EthercatArgs;
 use crate::command::failure::Failure;
@@ -12,10 +14,12 @@ use crate::drives::{self, DrivesSource};
 use crate::exit::Exit;
 use crate::file_error::FileError;
 use core::sync::atomic::{AtomicBool, Ordering};
-use glidepath_emulator::{DriveSettings as Emulated, HomeSwitch, Segment};
+use glidepath_emulator::{
+    DriveSettings as Emulated, HomeSwitch, Segment, TouchProbe as EmulatedProbe,
+};
 use glidepath_ethercat::{
-    BusSettings, Demand, DriveSettings, HomingSettings, MAX_FRAME, Mapping, PacketWire, Settings,
-    TerminalSettings, Wire as _,
+    BusSettings, Demand, DigitalInput, DriveSettings, HomingSettings, MAX_FRAME, Mapping,
+    PacketWire, Settings, TerminalSettings, TouchProbe, Wire as _,
 };
 use glidepath_realtime::{Mode, Request, enter};
 use std::fs::File;
@@ -52,6 +56,7 @@ pub(super) fn drive(args: &EthercatArgs, config: &MachineConfig) -> Result<Exit,
     namespace::make_interfaces()?;
     let Machine {
         drives,
+        drive_inputs,
         terminals,
         emulated,
         source,
@@ -66,6 +71,7 @@ pub(super) fn drive(args: &EthercatArgs, config: &MachineConfig) -> Result<Exit,
             ..BusSettings::default()
         },
         drives,
+        drive_inputs,
         terminals,
         servo: servo::settings(config),
     };
@@ -77,6 +83,9 @@ pub(super) fn drive(args: &EthercatArgs, config: &MachineConfig) -> Result<Exit,
     }
     let (mut master, mut there) = (PacketWire::open(MASTER)?, PacketWire::open(DRIVES)?);
     let mut segment = Segment::new_at(&emulated, master.now_ns());
+    if let Some(encoder) = emulated_terminals::encoder(&settings.terminals) {
+        segment.add_encoder(encoder);
+    }
     let record = args.emulated_record.as_deref();
     if record.is_some() {
         segment.keep_records();
@@ -122,8 +131,13 @@ pub(super) fn drive(args: &EthercatArgs, config: &MachineConfig) -> Result<Exit,
 
 /// Something else stands at inputs.
 fn put(segment: &mut Segment, levels: &[Level]) {
+    segment.remove_probes();
     for level in levels {
         match level {
+            Level::Passing(probe) => segment.add_probe(probe.clone()),
+            Level::OfDrive(device, axis, bit, is_high) => {
+                segment.set_drive_input((*device, *axis), *bit, *is_high);
+            }
             Level::Bit(device, bit, is_high) => segment.set_input(*device, *bit, *is_high),
             Level::Number(device, from, bytes) => segment.set_input_bytes(*device, *from, bytes),
         }
@@ -162,6 +176,7 @@ fn answer(
 struct Machine {
     /// Drives and other devices as the bridge knows them.
     drives: Vec<DriveSettings>,
+    drive_inputs: Vec<(usize, DigitalInput)>,
     terminals: Vec<TerminalSettings>,
     /// All of them as they are.
     emulated: Vec<Emulated>,
@@ -171,15 +186,12 @@ struct Machine {
     pins: Pins,
 }
 
-/// The drives of a machine, as the bridge and as they themselves know them.
-fn machine(args: &EthercatArgs, config: &MachineConfig) -> Result<Machine, Failure> {
-    let given = args
-        .drives
-        .as_deref()
-        .map(|file| drives::load(file, config))
-        .transpose()?;
-    let velocities = drives::joint_velocities(config);
-    let begins = servo::begins(config);
+/// Drives that no file describes.
+fn desk_drives(
+    args: &EthercatArgs,
+    config: &MachineConfig,
+    begins: &[f64],
+) -> impl Iterator<Item = DriveSettings> {
     let reach = config.travel();
     let reach = reach
         .0
@@ -188,7 +200,8 @@ fn machine(args: &EthercatArgs, config: &MachineConfig) -> Result<Machine, Failu
         .filter(|place| place.is_finite());
     let reach = reach.fold(1000.0_f64, |most, place| most.max(place.abs()));
     let homes = config.feedback.homing == HomingBy::Drive;
-    let drive = |(joint, max_v): (usize, f64)| DriveSettings {
+    let velocities = drives::joint_velocities(config).into_iter().enumerate();
+    velocities.map(move |(joint, max_v)| DriveSettings {
         joint,
         position: joint,
         axis: 0,
@@ -213,20 +226,40 @@ fn machine(args: &EthercatArgs, config: &MachineConfig) -> Result<Machine, Failu
         following_ms: 50,
         enable_window: 0.05,
         quick_stop_a: 4000.0,
+        probe: None,
+        has_inputs: false,
         max_v,
-    };
-    let (drives, terminals, source): (Vec<_>, Vec<_>, _) = given.map_or_else(
+    })
+}
+
+/// The drives of a machine, as the bridge and as they themselves know them.
+fn machine(args: &EthercatArgs, config: &MachineConfig) -> Result<Machine, Failure> {
+    let given = args
+        .drives
+        .as_deref()
+        .map(|file| drives::load(file, config))
+        .transpose()?;
+    let begins = servo::begins(config);
+    let (drives, drive_inputs, terminals, source): (Vec<_>, Vec<_>, Vec<_>, _) = given.map_or_else(
         || {
-            let joints = velocities.len();
-            let desk = || emulated_inputs::desk(joints, joints);
+            let joints = drives::joint_velocities(config).len();
+            let desk = || desk::desk(joints, joints);
             let terminals = args.emulated_inputs.iter().map(|_| desk()).collect();
-            let drives = velocities.into_iter().enumerate().map(drive).collect();
-            (drives, terminals, DrivesSource::default())
+            let drives = desk_drives(args, config, &begins).collect();
+            (drives, Vec::new(), terminals, DrivesSource::default())
         },
-        |given| (given.drives, given.terminals, given.source),
+        |given| {
+            (
+                given.drives,
+                given.drive_inputs,
+                given.terminals,
+                given.source,
+            )
+        },
     );
     let mut emulated = as_they_are(&drives, &terminals, &begins);
-    let mut pins = Pins::default();
+    let begun = drives.iter().map(|drive| (*drive, begins[drive.joint]));
+    let mut pins = Pins::beside(begun.collect(), &drive_inputs);
     for terminal in &terminals {
         emulated[terminal.position] = emulated_terminals::emulated(terminal);
         pins.add(terminal, &|at| {
@@ -237,10 +270,16 @@ fn machine(args: &EthercatArgs, config: &MachineConfig) -> Result<Machine, Failu
     let drives = drives.into_iter();
     let drives = drives.map(|drive| DriveSettings {
         map_step: MAP_STEP,
+        // What it is wired to by 0x60D0 is its own input.
+        probe: drive.probe.map(|probe| TouchProbe {
+            source: None,
+            ..probe
+        }),
         ..drive
     });
     Ok(Machine {
         drives: drives.collect(),
+        drive_inputs,
         terminals,
         emulated,
         source,
@@ -262,6 +301,9 @@ fn as_they_are(
         let begin = drive.counts(begins[drive.joint]).unwrap_or(0);
         let there = &mut emulated[drive.position];
         there.axes = there.axes.max(usize::from(drive.axis) + 1);
+        if drive.probe.is_some() {
+            there.touch_probe = Some(EmulatedProbe::default());
+        }
         there.identity[0] = if drive.vendor == 0 {
             there.identity[0]
         } else {

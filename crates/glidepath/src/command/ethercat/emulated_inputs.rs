@@ -5,72 +5,24 @@
 //! input 3 on
 //! home 0 on
 //! analog 1 4.5
+//! input 1 at J2 -7.25
 //! ```
 
-use crate::command::failure::Failure;
-use crate::file_error::FileError;
-use crate::{output, text_file};
-use core::fmt;
-use core::sync::atomic::{AtomicBool, Ordering};
-use core::time::Duration;
-use glidepath_ethercat::{AnalogInput, At, DigitalInput, TerminalSettings};
-use std::path::{Path, PathBuf};
-use std::sync::mpsc::Sender;
-
-/// Largest file, bytes.
-const MOST_BYTES: u64 = 1 << 16;
-/// Between two looks at the file.
-const POLL: Duration = Duration::from_millis(50);
-/// Digital and analog inputs of a device that no file names.
-const INPUTS: usize = 16;
-const ANALOG_INPUTS: usize = 4;
-const KNOWN: &str = "a line is `input 3 on`, `home 0 on`, `limit_low 0 on`, `limit_high 0 on` or \
-                     `analog 1 4.5`";
-
-/// What an input is to programs and to the machine.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Meaning {
-    Input(usize),
-    Home(usize),
-    LimitLow(usize),
-    LimitHigh(usize),
-    Analog(usize),
-}
-
-impl Meaning {
-    fn of(word: &str, number: usize) -> Option<Self> {
-        Some(match word {
-            "input" => Self::Input(number),
-            "home" => Self::Home(number),
-            "limit_low" => Self::LimitLow(number),
-            "limit_high" => Self::LimitHigh(number),
-            "analog" => Self::Analog(number),
-            _ => return None,
-        })
-    }
-}
-
-/// What is wrong in the file, and where.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct InputError {
-    line: usize,
-    column: usize,
-    what: String,
-}
-
-impl fmt::Display for InputError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}:{}: {}", self.line, self.column, self.what)
-    }
-}
+use super::input_line::{InputError, Meaning, Stands, line_of};
+use glidepath_emulator::Probe;
+use glidepath_ethercat::{AnalogInput, At, DigitalInput, DriveSettings, TerminalSettings};
 
 /// What stands at inputs of a device: bytes from one on, and which of their bits are meant.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) enum Level {
     /// A bit of the inputs of the device at a position.
     Bit(usize, usize, bool),
     /// Two bytes, from one on.
     Number(usize, usize, [u8; 2]),
+    /// A bit of the inputs of a drive: device, axis, bit.
+    OfDrive(usize, usize, u8, bool),
+    /// A bit that changes where a drive passes a place.
+    Passing(Probe),
 }
 
 /// An input of an emulated device.
@@ -82,9 +34,35 @@ enum Pin {
 
 /// The inputs of all emulated devices.
 #[derive(Debug, Default)]
-pub(super) struct Pins(Vec<(usize, usize, Pin)>);
+pub(super) struct Pins {
+    pins: Vec<(usize, usize, Pin)>,
+    /// Those of drives: device, axis, bit of 0x60FD.
+    of_drives: Vec<(usize, usize, u8, DigitalInput)>,
+    /// The drives, and where the joint of each begins.
+    drives: Vec<(DriveSettings, f64)>,
+}
 
 impl Pins {
+    /// Those of these drives, and of no device yet.
+    pub(super) fn beside(
+        drives: Vec<(DriveSettings, f64)>,
+        inputs: &[(usize, DigitalInput)],
+    ) -> Self {
+        let of_drives = inputs.iter().filter_map(|(nth, input)| {
+            let (drive, _) = drives.get(*nth)?;
+            let At::Bit(bit) = input.at else {
+                return None;
+            };
+            let bit = u8::try_from(bit).ok()?;
+            Some((drive.position, drive.axis.into(), bit, *input))
+        });
+        Self {
+            of_drives: of_drives.collect(),
+            pins: Vec::new(),
+            drives,
+        }
+    }
+
     /// Adds those of a device; `place` is where it has each, bits.
     pub(super) fn add(&mut self, settings: &TerminalSettings, place: &dyn Fn(At) -> Option<usize>) {
         let digital = settings
@@ -98,15 +76,15 @@ impl Pins {
         let placed = digital
             .chain(analog)
             .filter_map(|(at, pin)| Some((settings.position, place(at)?, pin)));
-        self.0.extend(placed);
+        self.pins.extend(placed);
     }
 
     /// What stands at all of them by a text.
     pub(super) fn read(&self, text: &str) -> Result<Vec<Level>, InputError> {
-        let mut said: Vec<(Meaning, f64)> = Vec::new();
+        let mut said: Vec<(Meaning, Stands)> = Vec::new();
         for (line, written) in (1..).zip(text.lines()) {
             let told = line_of(line, written)?;
-            let Some((meaning, column, value)) = told else {
+            let Some((meaning, column, stands)) = told else {
                 continue;
             };
             let error = |what: &str| InputError {
@@ -114,40 +92,108 @@ impl Pins {
                 column,
                 what: what.to_owned(),
             };
-            if !self.0.iter().any(|(.., pin)| pin.means(meaning)) {
+            let is_of_drive = |(.., input): &(_, _, _, DigitalInput)| means(input, meaning);
+            let is_there = self.pins.iter().any(|(.., pin)| pin.means(meaning));
+            if !is_there && !self.of_drives.iter().any(is_of_drive) {
                 return Err(error("no device has such an input"));
+            }
+            if let Stands::At(joint, place) = stands
+                && self.drive(joint, place).is_none()
+            {
+                return Err(error("no drive gets there"));
             }
             if said.iter().any(|(other, _)| *other == meaning) {
                 return Err(error("this input is in the file already"));
             }
-            said.push((meaning, value));
+            said.push((meaning, stands));
         }
-        let levels = self.0.iter().map(|(position, bit, pin)| match pin {
-            Pin::Digital(input) => {
-                let is_on = said
-                    .iter()
-                    .any(|(meaning, value)| *value != 0.0 && pin.means(*meaning));
-                Level::Bit(*position, *bit, is_on != input.is_inverted)
-            }
-            Pin::Analog(input) => {
-                let value = said.iter().find(|(meaning, _)| pin.means(*meaning));
-                let counts = counts(input, value.map_or(0.0, |(_, value)| *value));
-                Level::Number(*position, bit / 8, counts)
+        let levels = self.pins.iter().map(|(position, bit, pin)| {
+            let stands = said.iter().find(|(meaning, _)| pin.means(*meaning));
+            let stands = stands.map(|(_, stands)| *stands);
+            match (pin, stands) {
+                (Pin::Digital(input), stands) => {
+                    let level = |is_high| Level::Bit(*position, *bit, is_high);
+                    self.digital(input, stands, level, |probe| {
+                        probe.inputs.push((*position, *bit));
+                    })
+                }
+                (Pin::Analog(input), stands) => {
+                    let value = match stands {
+                        Some(Stands::Value(value)) => value,
+                        _ => 0.0,
+                    };
+                    Level::Number(*position, bit / 8, counts(input, value))
+                }
             }
         });
-        Ok(levels.collect())
+        let of_drives = self.of_drives.iter().map(|(device, axis, bit, input)| {
+            let stands = said.iter().find(|(meaning, _)| means(input, *meaning));
+            let stands = stands.map(|(_, stands)| *stands);
+            let level = |is_high| Level::OfDrive(*device, *axis, *bit, is_high);
+            self.digital(input, stands, level, |probe| {
+                probe.drive_inputs.push((*device, *axis, *bit));
+            })
+        });
+        Ok(levels.chain(of_drives).collect())
+    }
+
+    /// What stands at a digital input, as a level or as a probe that is wired to it.
+    fn digital(
+        &self,
+        input: &DigitalInput,
+        stands: Option<Stands>,
+        level: impl Fn(bool) -> Level,
+        wire: impl Fn(&mut Probe),
+    ) -> Level {
+        if let Some(Stands::At(joint, place)) = stands
+            && let Some(mut probe) = self.passing(input, (joint, place))
+        {
+            wire(&mut probe);
+            return Level::Passing(probe);
+        }
+        level((stands == Some(Stands::On)) != input.is_inverted)
+    }
+
+    /// The drive of a joint: itself, where the joint begins, and its counts at a place.
+    fn drive(&self, joint: usize, place: f64) -> Option<(&DriveSettings, f64, i32)> {
+        let mut drives = self.drives.iter();
+        let (drive, begins) = drives.find(|(drive, _)| drive.joint == joint)?;
+        Some((drive, *begins, drive.counts(place)?))
+    }
+
+    /// A probe that is on at a place of a joint and beyond it, as seen from where the joint begins. All touch
+    /// probes of drives are wired to it.
+    fn passing(&self, what: &DigitalInput, (joint, place): (usize, f64)) -> Option<Probe> {
+        let (drive, begins, counts) = self.drive(joint, place)?;
+        let is_on_above = begins < place;
+        Some(Probe {
+            drive: (drive.position, drive.axis.into()),
+            at_counts: counts.into(),
+            is_closed_above: is_on_above != (drive.is_inverted != what.is_inverted),
+            inputs: Vec::new(),
+            filter_ns: 0,
+            drive_inputs: Vec::new(),
+        })
+    }
+}
+
+/// Whether a digital input is what is meant.
+fn means(input: &DigitalInput, meaning: Meaning) -> bool {
+    match meaning {
+        Meaning::Input(number) => input.number == Some(number),
+        Meaning::Home(joint) => input.home == Some(joint),
+        Meaning::LimitLow(joint) => input.limit_low == Some(joint),
+        Meaning::LimitHigh(joint) => input.limit_high == Some(joint),
+        Meaning::Analog(_) => false,
     }
 }
 
 impl Pin {
     fn means(&self, meaning: Meaning) -> bool {
         match (self, meaning) {
-            (Self::Digital(input), Meaning::Input(number)) => input.number == Some(number),
-            (Self::Digital(input), Meaning::Home(joint)) => input.home == Some(joint),
-            (Self::Digital(input), Meaning::LimitLow(joint)) => input.limit_low == Some(joint),
-            (Self::Digital(input), Meaning::LimitHigh(joint)) => input.limit_high == Some(joint),
+            (Self::Digital(input), meaning) => means(input, meaning),
             (Self::Analog(input), Meaning::Analog(number)) => input.number == number,
-            _ => false,
+            (Self::Analog(_), _) => false,
         }
     }
 }
@@ -168,143 +214,11 @@ fn counts(input: &AnalogInput, value: f64) -> [u8; 2] {
     (counts.clamp(least, most) as i32 as u16).to_le_bytes()
 }
 
-/// What a line says, and in which column; `None` if it says nothing.
-fn line_of(line: usize, written: &str) -> Result<Option<(Meaning, usize, f64)>, InputError> {
-    let text = written.split('#').next().unwrap_or_default();
-    let column = 1 + text
-        .chars()
-        .take_while(|letter| letter.is_whitespace())
-        .count();
-    let error = |what: String| InputError { line, column, what };
-    let words: Vec<&str> = text.split_whitespace().collect();
-    let [word, number, value] = words[..] else {
-        return match words[..] {
-            [] => Ok(None),
-            _ => Err(error(KNOWN.to_owned())),
-        };
-    };
-    let meaning = number
-        .parse()
-        .ok()
-        .and_then(|number| Meaning::of(word, number));
-    let meaning = meaning.ok_or_else(|| error(KNOWN.to_owned()))?;
-    let value = match (meaning, value) {
-        (Meaning::Analog(_), value) => value.parse().ok().filter(|value: &f64| value.is_finite()),
-        (_, "on" | "1") => Some(1.0),
-        (_, "off" | "0") => Some(0.0),
-        _ => None,
-    };
-    let value = value.ok_or_else(|| error(KNOWN.to_owned()))?;
-    Ok(Some((meaning, column, value)))
-}
-
-/// A device that has inputs of every kind, for a machine that no file describes.
-pub(super) fn desk(position: usize, joints: usize) -> TerminalSettings {
-    let object = |index: usize, sub| At::Object {
-        index: u16::try_from(index).unwrap_or(u16::MAX),
-        sub,
-    };
-    let blank = |at| DigitalInput {
-        at,
-        number: None,
-        home: None,
-        limit_low: None,
-        limit_high: None,
-        is_inverted: false,
-    };
-    let mut inputs: Vec<_> = (0..INPUTS)
-        .map(|number| DigitalInput {
-            number: Some(number),
-            ..blank(object(0x6000 + 0x10 * number, 1))
-        })
-        .collect();
-    for joint in 0..joints {
-        let at = |sub| object(0x6400 + 0x10 * joint, sub);
-        let (home, low, high) = (blank(at(1)), blank(at(2)), blank(at(3)));
-        inputs.push(DigitalInput {
-            home: Some(joint),
-            ..home
-        });
-        inputs.push(DigitalInput {
-            limit_low: Some(joint),
-            ..low
-        });
-        inputs.push(DigitalInput {
-            limit_high: Some(joint),
-            ..high
-        });
-    }
-    let analog = |number| AnalogInput {
-        at: object(0x6800 + 0x10 * number, 0x11),
-        number,
-        scale: 0.001,
-        offset: 0.0,
-        is_signed: true,
-    };
-    TerminalSettings {
-        position,
-        inputs,
-        analog_inputs: (0..ANALOG_INPUTS).map(analog).collect(),
-        ..TerminalSettings::default()
-    }
-}
-
-/// The file, and what it said last.
-#[derive(Debug)]
-pub(super) struct InputFile {
-    path: PathBuf,
-    pins: Pins,
-    text: String,
-}
-
-impl InputFile {
-    /// Reads the file for the first time: what is wrong in it then is refused.
-    ///
-    /// # Errors
-    /// It cannot be read, or is wrong.
-    pub(super) fn open(path: &Path, pins: Pins) -> Result<(Self, Vec<Level>), Failure> {
-        let text = read(path).map_err(FileError::file("read", path))?;
-        let levels = pins.read(&text).map_err(|error| Failure::Inputs {
-            file: path.display().to_string(),
-            error: error.to_string(),
-        })?;
-        let path = path.to_owned();
-        Ok((Self { path, pins, text }, levels))
-    }
-
-    /// Looks at the file until it is over, and hands on what is new in it. What is wrong in it, or a file
-    /// that is gone, is told once, and changes nothing.
-    pub(super) fn watch(&mut self, changed: &Sender<Vec<Level>>, is_over: &AtomicBool) {
-        while !is_over.load(Ordering::Relaxed) {
-            std::thread::sleep(POLL);
-            // One that is being written is there again at the next look.
-            let Ok(text) = read(&self.path) else {
-                continue;
-            };
-            if text == self.text {
-                continue;
-            }
-            self.text = text;
-            match self.pins.read(&self.text) {
-                // Nobody is left to be told.
-                Ok(levels) => drop(changed.send(levels)),
-                Err(error) => output::note(&format!(
-                    "ethercat: {}:{error}; the inputs stay as they are",
-                    self.path.display()
-                )),
-            }
-        }
-    }
-}
-
-fn read(path: &Path) -> std::io::Result<String> {
-    text_file::read(path, MOST_BYTES)
-}
-
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
 
+    use super::super::desk::desk;
     use super::*;
 
     fn pins() -> Pins {
@@ -354,6 +268,55 @@ mod tests {
         );
     }
 
+    /// A drive that counts the other way, whose joint begins at 1 mm.
+    fn drive() -> (DriveSettings, f64) {
+        let drive = DriveSettings {
+            joint: 2,
+            position: 5,
+            axis: 1,
+            map_step: 0x10,
+            vendor: 0,
+            product: 0,
+            alias: 0,
+            process_at: None,
+            mapping: glidepath_ethercat::Mapping::Written,
+            counts_per_unit: 1000.0,
+            is_inverted: true,
+            home_offset: 0.0,
+            homing: None,
+            following_error: 1.0,
+            following_ms: 10,
+            enable_window: 0.05,
+            quick_stop_a: 1000.0,
+            probe: None,
+            has_inputs: false,
+            max_v: 100.0,
+        };
+        (drive, 1.0)
+    }
+
+    #[test]
+    fn an_input_can_be_on_from_a_place_of_a_joint_on() {
+        let mut pins = pins();
+        pins.drives = vec![drive()];
+        let passing = |text: &str| {
+            let levels = pins.read(text).unwrap();
+            levels.into_iter().find_map(|level| match level {
+                Level::Passing(probe) => Some(probe),
+                _ => None,
+            })
+        };
+        // Down to -7.25 mm, which is up in counts.
+        let probe = passing("input 0 at J2 -7.25\n").unwrap();
+        assert_eq!((probe.drive, probe.inputs.clone()), ((5, 1), vec![(7, 0)]));
+        assert!((probe.at_counts - 7250.0).abs() < 1e-9 && probe.is_closed_above);
+        assert!(!passing("input 0 at J2 3\n").unwrap().is_closed_above);
+        // One that opens.
+        assert!(!passing("input 3 at J2 -7.25\n").unwrap().is_closed_above);
+        let error = pins.read("input 0 at J1 5\n").unwrap_err().to_string();
+        assert!(error.starts_with("1:1: no drive gets there"), "{error}");
+    }
+
     #[test]
     fn what_is_wrong_is_told_with_its_place() {
         for (text, told) in [
@@ -369,6 +332,10 @@ mod tests {
             ("input 0 high", "1:1: a line is"),
             ("analog 0 nan", "1:1: a line is"),
             ("output 0 on", "1:1: a line is"),
+            ("input 0 at J2", "1:1: a line is"),
+            ("input 0 at 2 3.5", "1:1: a line is"),
+            ("analog 0 at J2 3.5", "1:1: a line is"),
+            ("input 0 at J2 3.5", "1:1: no drive gets there"),
             ("input -1 on", "1:1: a line is"),
         ] {
             let error = pins().read(text).unwrap_err().to_string();

@@ -1,12 +1,14 @@
 //! Emulated devices that are no drives: each has what the file names, and nothing to set.
 
-use glidepath_emulator::{Channels, ClockKind, DriveSettings as Emulated, SpindleMotor};
+use glidepath_emulator::{Channels, ClockKind, DriveSettings as Emulated, Encoder, SpindleMotor};
 use glidepath_ethercat::{At, Mapping, SpindleMode, SpindleSettings, TerminalSettings};
 
 /// Bits of an entry at most.
 const MOST_BITS: u32 = 248;
 /// Counts of a revolution, where nobody is told.
 const COUNTS_PER_REV: f64 = 10_000.0;
+/// Where in a revolution the index of an encoder is.
+const INDEX_AT: f64 = 0.25;
 /// Counts of a number of 16 bits.
 const SHORT: u32 = 0xffff;
 
@@ -21,6 +23,13 @@ pub(super) fn emulated(settings: &TerminalSettings) -> Emulated {
     let outputs = maps(digital.collect(), analog.collect());
     if let Some(spindle) = &settings.spindle {
         return emulated_spindle(settings, spindle);
+    }
+    if settings.encoder.is_some() {
+        let like = Emulated::encoder(32);
+        return Emulated {
+            identity: identity(settings, &like),
+            ..like
+        };
     }
     let like = Emulated::terminal("EMULATED", ClockKind::ReceiveTimes);
     Emulated {
@@ -64,6 +73,23 @@ fn emulated_spindle(settings: &TerminalSettings, spindle: &SpindleSettings) -> E
         }),
         ..like
     }
+}
+
+/// The spindle's encoder of a file, if its spindle is on a drive, which turns it.
+pub(super) fn encoder(terminals: &[TerminalSettings]) -> Option<Encoder> {
+    let place = |is_it: &dyn Fn(&TerminalSettings) -> bool| {
+        let mut devices = terminals.iter();
+        devices
+            .find(|device| is_it(device))
+            .map(|device| device.position)
+    };
+    let settings = terminals.iter().find_map(|device| device.encoder)?;
+    Some(Encoder {
+        device: place(&|device| device.encoder.is_some())?,
+        spindle: (place(&|device| device.spindle.is_some())?, 0),
+        counts_per_rev: f64::from(settings.counts_per_rev),
+        index_at: INDEX_AT,
+    })
 }
 
 /// Where a device that has what a file names has an input, bits.

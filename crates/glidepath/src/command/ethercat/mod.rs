@@ -1,9 +1,12 @@
 //! `glidepath ethercat`: drives on EtherCAT.
 
 mod bridge;
+mod desk;
 mod emulated;
 mod emulated_inputs;
 mod emulated_terminals;
+mod input_file;
+mod input_line;
 mod namespace;
 mod scan;
 

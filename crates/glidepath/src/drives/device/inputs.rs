@@ -3,6 +3,7 @@
 use super::Devices;
 use crate::config::{Judge, Range};
 use crate::drives::raw_device::{RawAnalogInput, RawInput};
+use core::ops::Range as Span;
 use glidepath_ethercat::{ANALOG_INPUTS, AnalogInput, At, DIGITAL_INPUTS, DigitalInput};
 use toml::Spanned;
 
@@ -20,6 +21,9 @@ const OFFSET: Range = Range {
     unit: "units",
     help: "what the input is at 0 counts",
 };
+
+const DRIVE_BIT: &str = "give bit = 0 to 31: by CiA 402 the limit switches are 0 and 1 and the home switch is 2, \
+                         and from 16 on they are the manufacturer's";
 
 impl Devices<'_> {
     /// The number of something that there is once.
@@ -40,10 +44,25 @@ impl Devices<'_> {
         Some(number)
     }
 
-    pub(super) fn input(&mut self, raw: Spanned<RawInput>) -> Option<DigitalInput> {
+    /// A bit of the inputs of a drive.
+    fn drive_bit(&mut self, raw: &RawInput, span: Span<usize>) -> Option<At> {
+        if let (None, Some(bit)) = (&raw.at, &raw.bit) {
+            let key = "drive.inputs.bit";
+            return self.judge.whole(key, bit, (0, 31), DRIVE_BIT).map(At::Bit);
+        }
+        let message = "an input of a drive is a `bit` of its 0x60FD".to_owned();
+        self.tell("drive.inputs", message, DRIVE_BIT, span);
+        None
+    }
+
+    pub(super) fn input(&mut self, raw: Spanned<RawInput>, of_drive: bool) -> Option<DigitalInput> {
         let (span, key) = (raw.span(), "device.inputs");
         let raw = raw.into_inner();
-        let at = self.at(key, (raw.at.as_ref(), raw.bit.as_ref()), span.clone());
+        let at = if of_drive {
+            self.drive_bit(&raw, span.clone())
+        } else {
+            self.at(key, (raw.at.as_ref(), raw.bit.as_ref()), span.clone())
+        };
         let joints = self.joints;
         let number = ("device.inputs.number", "digital input");
         let number = self.claimed(number, raw.number.as_ref(), DIGITAL_INPUTS);

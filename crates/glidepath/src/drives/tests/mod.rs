@@ -2,6 +2,9 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests")]
 
 mod devices;
+mod drive_inputs;
+mod encoder;
+mod touch_probe;
 
 use super::{Found, parse, written};
 use crate::config::{self, MachineConfig};

@@ -17,7 +17,7 @@ use crate::shared::message::TickReport;
 use crate::shared::message::observation::Observation;
 use glidepath_geometry::AxisVector;
 use glidepath_kinematics::{JOINTS, JointCompensation, JointVector, Kinematics as _, Mechanism};
-use glidepath_link::{ContactKind, FaultCause, Feedback, Power, Status};
+use glidepath_link::{ContactKind, EndOfEpoch, FaultCause, Feedback, Power, Status};
 
 /// Slower than this a joint is at rest, mm/s or °/s: more than a count in a millisecond.
 const REST_V: f64 = 1.0;
@@ -305,6 +305,10 @@ impl DriveMonitor {
         status.adaptive_feed = self.adaptive.told() * self.revolutions.told();
         if status.adaptive_feed < 0.0 {
             status.mode = turned_round(status.mode);
+        }
+        let ends = [EndOfEpoch::Tripped, EndOfEpoch::Completed].map(EndOfEpoch::code);
+        if self.probe.keeps_open() == Some(status.epoch) && ends.contains(&status.end_of_epoch) {
+            status.end_of_epoch = EndOfEpoch::Open.code();
         }
         let contact = self.probe.found();
         status.contact_kind = contact

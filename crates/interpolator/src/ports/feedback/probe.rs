@@ -3,14 +3,15 @@
 //! The real-time thread says in a setpoint that a search begins, and stops when it is told of the
 //! contact. Where that was is kept here, from the records of the drives themselves: what was
 //! latched by hardware if there is such, else the middle between the samples before and after, so
-//! that it is off by half of the way between them at most. What follows the first contact, bounces
+//! that it is off by half of the way between them at most. Hardware may tell its place later than the
+//! contact: the end of the epoch is told when it is known. What follows the first contact, bounces
 //! above all, changes nothing.
 
 use super::joint_ownership::Joints;
 use crate::shared::config::feedback::ProbeInput;
 use crate::shared::message::TickReport;
 use glidepath_kinematics::{JOINTS, JointVector};
-use glidepath_link::{ContactKind, EndOfEpoch, Feedback};
+use glidepath_link::{ContactKind, EndOfEpoch, Feedback, LatchKind};
 use glidepath_program::Event;
 
 /// The contact that a search has found.
@@ -30,6 +31,17 @@ struct ContactSearch {
     /// The sample before the contact.
     before: Option<[f64; JOINTS]>,
     found: Option<Contact>,
+    /// Hardware is to tell where that was.
+    awaits_latch: bool,
+}
+
+/// What hardware tells of the edge that is looked for.
+enum Latched {
+    /// It has none, or not of that edge.
+    No,
+    /// It will tell.
+    Awaited,
+    At(JointVector),
 }
 
 /// Looks at the probe.
@@ -79,6 +91,7 @@ impl ProbeWatch {
                 since_ns: setpoint.scheduled_ns,
                 before: None,
                 found: None,
+                awaits_latch: false,
             });
         } else if self
             .search
@@ -110,7 +123,8 @@ impl ProbeWatch {
     /// Whether there is anything to look for.
     pub(super) fn is_searching(&self) -> bool {
         let is_open = |search: ContactSearch| search.found.is_none() && self.is_open;
-        self.input.is_some() && self.search.is_some_and(is_open)
+        let looks = |search: ContactSearch| is_open(search) || search.awaits_latch;
+        self.input.is_some() && self.search.is_some_and(looks)
     }
 
     /// Looks at what a stack sends, after it was taken into the `joints`.
@@ -118,6 +132,14 @@ impl ProbeWatch {
         let (Some(input), Some(search)) = (self.input, &mut self.search) else {
             return;
         };
+        if let Some(found) = &mut search.found {
+            let latched = latched(feedback, input, (search.release, search.since_ns), joints);
+            search.awaits_latch = matches!(latched, Latched::Awaited);
+            if let Latched::At(place) = latched {
+                found.joints = place;
+            }
+            return;
+        }
         if touches(input, joints) == search.release {
             search.before = Some(joints.position);
             return;
@@ -129,16 +151,25 @@ impl ProbeWatch {
         let sampled = search
             .before
             .map_or_else(|| JointVector::from(joints.position), middle);
+        let latched = latched(feedback, input, (search.release, search.since_ns), joints);
+        search.awaits_latch = matches!(latched, Latched::Awaited);
         search.found = Some(Contact {
             kind: if search.before.is_some() {
                 ContactKind::Made
             } else {
                 ContactKind::AlreadySo
             },
-            joints: latched(feedback, input, search)
-                .filter(|_| joints.claimed & !feedback.joints == 0)
-                .unwrap_or(sampled),
+            joints: match latched {
+                Latched::At(place) => place,
+                Latched::No | Latched::Awaited => sampled,
+            },
         });
+    }
+
+    /// The epoch whose end is not to be told yet, because where its contact was is not known.
+    pub(super) fn keeps_open(&self) -> Option<u64> {
+        let search = self.search.filter(|search| search.awaits_latch);
+        search.map(|search| search.epoch)
     }
 
     /// What the search of this or the last epoch has found.
@@ -158,12 +189,24 @@ fn touches(input: ProbeInput, joints: &Joints) -> bool {
 }
 
 /// What the hardware of a stack with all joints has latched since the search began.
-fn latched(feedback: &Feedback, input: ProbeInput, search: &ContactSearch) -> Option<JointVector> {
+fn latched(
+    feedback: &Feedback,
+    input: ProbeInput,
+    (release, since_ns): (bool, u64),
+    joints: &Joints,
+) -> Latched {
     let is_it = |latch: &&glidepath_link::Latch| {
-        let rising = (latch.rising == 1) == (input.high != search.release);
-        let is_new = latch.count > 0 && latch.latch_ns >= search.since_ns;
-        latch.input == u32::from(input.number) && rising && is_new
+        let rising = (latch.rising == 1) == (input.high != release);
+        latch.input == u32::from(input.number) && rising
     };
-    let latch = feedback.latch.iter().find(is_it)?;
-    Some(JointVector::from(latch.position))
+    let has_all = joints.claimed & !feedback.joints == 0;
+    let mut latches = feedback.latch.iter().filter(is_it).filter(|_| has_all);
+    let told = latches.find_map(|latch| {
+        if latch.kind == LatchKind::Awaited.code() {
+            return Some(Latched::Awaited);
+        }
+        let is_new = latch.count > 0 && latch.latch_ns >= since_ns;
+        is_new.then(|| Latched::At(JointVector::from(latch.position)))
+    });
+    told.unwrap_or(Latched::No)
 }

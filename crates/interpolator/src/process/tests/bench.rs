@@ -47,6 +47,8 @@ pub(super) struct Bench {
     config: Config,
     /// What the last report told to be awaited.
     reported: Option<Awaited>,
+    /// What becomes of the plant's feedback on its way.
+    pub(super) on_the_way: fn(&mut Feedback, u64),
 }
 
 /// What joints of the tests are allowed.
@@ -110,6 +112,7 @@ impl Bench {
             tick: 0,
             config,
             reported: None,
+            on_the_way: |_, _| {},
         }
     }
 
@@ -155,7 +158,8 @@ impl Bench {
             while self.servo.receive(now_ns).unwrap().is_some() {}
             let demand = self.servo.demand(now_ns);
             self.plant.step(now_ns, self.servo.last(), demand.as_ref());
-            if let Some(feedback) = self.plant.feedback() {
+            if let Some(mut feedback) = self.plant.feedback() {
+                (self.on_the_way)(&mut feedback, now_ns);
                 self.sink.publish(&feedback).unwrap();
             }
         }

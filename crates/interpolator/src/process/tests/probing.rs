@@ -19,7 +19,7 @@ const ACCELERATION: f64 = 2_000.0;
 const JERK: f64 = 40_000.0;
 const START: [f64; 3] = [12.5, -3.0, 40.0];
 
-fn bench(
+pub(super) fn bench(
     lag_t: f64,
     change: impl FnOnce(glidepath_plant::Plant) -> glidepath_plant::Plant,
 ) -> Bench {
@@ -65,7 +65,7 @@ fn ramp_t(v: f64) -> f64 {
 }
 
 /// A search along a line at the speed `v`, to a place `way` from where the machine stands.
-fn search(bench: &Bench, way: AxisVector, v: f64, release: bool) -> Vec<SetpointFrame> {
+pub(super) fn search(bench: &Bench, way: AxisVector, v: f64, release: bool) -> Vec<SetpointFrame> {
     let (start, length) = (AxisVector::from(bench.last().position), way.norm());
     let ramp_t = ramp_t(v);
     let steady_t = ((length / v - ramp_t) / T).ceil().max(0.0) * T;

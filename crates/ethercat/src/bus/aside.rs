@@ -1,0 +1,156 @@
+//! The last datagrams of a frame, beside its process data: whether a mailbox is full, of one device after
+//! the other; the message in one that is; and a question to a drive whose touch probe is asked that way.
+//!
+//! ```text
+//!        ┌── full ──► Take ──┐
+//!  Look ─┴── empty ──────────┴─► Look at the next one, or Post, or Look for the answer to that
+//! ```
+
+use super::mailbox::Mailbox;
+use super::probe_mail::{MESSAGE, ProbeMail};
+use crate::coe::emergency;
+use crate::frame::{Address, Command, Frame, Slot};
+use crate::probe::ProbeInputs;
+use crate::registers::MAILBOX_IN_STATUS;
+
+/// Bit of a mailbox' status.
+const FULL: u8 = 8;
+
+/// What the datagrams are about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Matter {
+    /// Whether the mailbox of this device is full.
+    Look(usize),
+    /// The message in it.
+    Take(usize),
+    /// A question.
+    Post,
+}
+
+/// The datagrams of one frame after the other.
+#[derive(Debug)]
+pub(super) struct Asides {
+    mailboxes: Vec<Mailbox>,
+    next: Matter,
+    sent: Option<(Matter, Slot, Option<Slot>)>,
+    /// The mailbox that is looked at next, if nobody is asked.
+    turn: usize,
+    /// It was the turn of a question.
+    was_mail: bool,
+    mail: ProbeMail,
+    emergency: Option<(usize, u16)>,
+}
+
+impl Asides {
+    pub(super) const fn new(mailboxes: Vec<Mailbox>, mail: ProbeMail) -> Self {
+        Self {
+            mailboxes,
+            next: Matter::Look(0),
+            sent: None,
+            turn: 0,
+            was_mail: false,
+            mail,
+            emergency: None,
+        }
+    }
+
+    /// The emergency that came last, and from which device; `None` if that was told.
+    pub(super) const fn take_emergency(&mut self) -> Option<(usize, u16)> {
+        self.emergency.take()
+    }
+
+    /// Whether the touch probe of a drive is to be on, and is to be asked what it keeps.
+    pub(super) fn want(&mut self, axis: usize, is_on: bool, asks: bool) {
+        self.mail.want(axis, is_on, asks);
+    }
+
+    /// What the touch probe of a drive has answered; `None` if it is not asked by its mailbox.
+    pub(super) fn told(&self, axis: usize) -> Option<ProbeInputs> {
+        self.mail.told(axis)
+    }
+
+    /// Adds the datagrams to a frame.
+    pub(super) fn push(&mut self, frame: &mut Frame, index: u8) {
+        self.sent = match self.next {
+            Matter::Look(nth) => {
+                let mailbox = self.mailbox(nth);
+                let at = Address::station(mailbox.station, MAILBOX_IN_STATUS);
+                let slot = frame.push(Command::Fprd, index, at, 1);
+                slot.map(|slot| (self.next, slot, None))
+            }
+            Matter::Take(nth) => {
+                let mailbox = self.mailbox(nth);
+                let (start, length) = mailbox.back;
+                let at = Address::station(mailbox.station, start);
+                let slot = frame.push(Command::Fprd, index, at, length.into());
+                slot.map(|slot| (self.next, slot, None))
+            }
+            Matter::Post => self.post(frame, index),
+        };
+    }
+
+    fn mailbox(&self, nth: usize) -> Mailbox {
+        self.mailboxes.get(nth).copied().unwrap_or_default()
+    }
+
+    /// A question: its bytes, and the last byte of the mailbox, by which it is handed over.
+    fn post(&self, frame: &mut Frame, index: u8) -> Option<(Matter, Slot, Option<Slot>)> {
+        let (nth, message) = self.mail.question()?;
+        let mailbox = self.mailbox(nth);
+        let (start, length) = mailbox.out;
+        let at = Address::station(mailbox.station, start);
+        let slot = frame.push(Command::Fpwr, index, at, MESSAGE)?;
+        frame.data(&slot).copy_from_slice(&message);
+        let end = start + length.saturating_sub(1);
+        let at = Address::station(mailbox.station, end);
+        let last = frame.push(Command::Fpwr, index, at, 1)?;
+        Some((Matter::Post, slot, Some(last)))
+    }
+
+    /// What came back of them; what the next ones are about follows from that.
+    pub(super) fn hear(&mut self, frame: &Frame, received: &[u8]) {
+        let Some((matter, slot, last)) = self.sent.take() else {
+            self.next = Matter::Look(self.turn);
+            return;
+        };
+        let Some(answer) = frame.answer(&slot, received) else {
+            return;
+        };
+        let is_there = answer.counter == 1;
+        self.mail.pass();
+        match matter {
+            Matter::Look(nth) if is_there && answer.data.first().is_some_and(|s| s & FULL != 0) => {
+                self.next = Matter::Take(nth);
+                return;
+            }
+            Matter::Take(nth) if is_there && !self.mail.hear(nth, answer.data) => {
+                let code = emergency(answer.data).zip(self.mailboxes.get(nth));
+                let told = code.map(|(code, mailbox)| (mailbox.nth, code));
+                self.emergency = told.or(self.emergency);
+            }
+            Matter::Post => {
+                let last = last.and_then(|last| frame.answer(&last, received));
+                let is_taken = is_there && last.is_some_and(|last| last.counter == 1);
+                self.mail.posted(is_taken);
+            }
+            _ => {}
+        }
+        self.next = self.after();
+    }
+
+    /// What the next datagrams are about: mailboxes in turn, and every other time a question, if there is
+    /// one.
+    fn after(&mut self) -> Matter {
+        self.was_mail = !self.was_mail;
+        if self.was_mail {
+            if self.mail.question().is_some() {
+                return Matter::Post;
+            }
+            if let Some(nth) = self.mail.waits_for() {
+                return Matter::Look(nth);
+            }
+        }
+        self.turn = (self.turn + 1) % self.mailboxes.len().max(1);
+        Matter::Look(self.turn)
+    }
+}

@@ -1,0 +1,265 @@
+//! The questions to touch probes that are not in the process data: one at a time, in the cycles of OP.
+//!
+//! A unit is switched by 0x60B8, where that is not in the process data. While somebody wants to know, 0x60B9 is read over and over, and behind it
+//! the places that it says are kept. What is told is that of one such reading.
+
+use super::mailbox::Mailbox;
+use crate::coe::{self, Object, Reply, object};
+use crate::exchange::station;
+use crate::layout::{Drives, ProbeAccess};
+use crate::probe::ProbeInputs;
+use crate::settings::DriveSettings;
+
+/// Bytes of a question.
+pub(super) const MESSAGE: usize = 16;
+/// Frames that an answer may take until the question is asked again.
+const PATIENCE: u32 = 1000;
+/// The bits of a status that say that a place is kept, at a rising and at a falling edge.
+const KEPT: [u8; 2] = [2, 4];
+
+/// The touch probe of a drive.
+#[derive(Debug, Clone, Copy)]
+struct Mailed {
+    /// The number of the drive, and of its mailbox.
+    axis: usize,
+    mailbox: usize,
+    access: ProbeAccess,
+    /// Its objects: 0x60B8, 0x60B9, and the places.
+    function: Object,
+    status: Object,
+    places: [Object; 2],
+    /// What is wanted of it, and what it was told.
+    is_on: bool,
+    asks: bool,
+    was_told: Option<bool>,
+    /// What is being read, and what was read.
+    reading: ProbeInputs,
+    told: ProbeInputs,
+}
+
+/// A question under way.
+#[derive(Debug, Clone, Copy)]
+struct Question {
+    nth: usize,
+    what: What,
+    number: u8,
+    /// Frames since the device has taken it; `None` before.
+    since: Option<u32>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum What {
+    Switch(bool),
+    Status,
+    Place(usize),
+}
+
+/// All touch probes that are asked by their mailbox.
+#[derive(Debug, Default)]
+pub(super) struct ProbeMail {
+    probes: Vec<Mailed>,
+    question: Option<Question>,
+    turn: usize,
+    /// The numbers of the last messages, by mailbox.
+    numbers: Vec<u8>,
+}
+
+impl ProbeMail {
+    /// Those of the drives whose touch probes are not, or not all, in the process data. `number` is that of the
+    /// last message to a device.
+    pub(super) fn new(drives: &Drives, mailboxes: &[Mailbox], number: impl Fn(u16) -> u8) -> Self {
+        let axes = drives.axes.iter().enumerate();
+        let probes = axes.filter_map(|(axis, led)| {
+            let is_mailed =
+                |access: &ProbeAccess| access.places.is_none() || access.function.is_none();
+            let access = led.layout.probe.filter(is_mailed)?;
+            let device = &drives.devices.get(led.device)?.device;
+            let at = station(device.position);
+            let mailbox = mailboxes.iter().position(|mailbox| mailbox.station == at)?;
+            let own = |index, size| object(DriveSettings::of_axis(index, access.axis), 0, size);
+            Some(Mailed {
+                axis,
+                mailbox,
+                access,
+                function: own(0x60b8, 2),
+                status: own(0x60b9, 2),
+                places: access.probe.places().map(|index| own(index, 4)),
+                is_on: false,
+                asks: false,
+                was_told: None,
+                reading: ProbeInputs::default(),
+                told: ProbeInputs::default(),
+            })
+        });
+        Self {
+            probes: probes.collect(),
+            question: None,
+            turn: 0,
+            numbers: mailboxes
+                .iter()
+                .map(|mailbox| number(mailbox.station))
+                .collect(),
+        }
+    }
+
+    /// What is wanted of the touch probe of a drive.
+    pub(super) fn want(&mut self, axis: usize, is_on: bool, asks: bool) {
+        if let Some(probe) = self.probes.iter_mut().find(|probe| probe.axis == axis) {
+            (probe.is_on, probe.asks) = (is_on, asks);
+        }
+        if self.question.is_none() {
+            self.ask_next();
+        }
+    }
+
+    /// What it has answered; `None` if it is not asked here.
+    pub(super) fn told(&self, axis: usize) -> Option<ProbeInputs> {
+        let mut probes = self.probes.iter();
+        let probe = probes.find(|probe| probe.axis == axis && probe.access.places.is_none());
+        probe.map(|probe| probe.told)
+    }
+
+    /// The next probe of which something is wanted.
+    fn ask_next(&mut self) {
+        let count = self.probes.len();
+        for step in 1..=count {
+            let nth = (self.turn + step) % count;
+            let probe = &self.probes[nth];
+            let is_mapped = probe.access.function.is_some();
+            let what = if !is_mapped && probe.was_told != Some(probe.is_on) {
+                What::Switch(probe.is_on)
+            } else if probe.asks && probe.access.places.is_none() {
+                What::Status
+            } else {
+                continue;
+            };
+            self.turn = nth;
+            self.ask(nth, what);
+            return;
+        }
+    }
+
+    fn ask(&mut self, nth: usize, what: What) {
+        let number = self
+            .probes
+            .get(nth)
+            .and_then(|probe| self.numbers.get_mut(probe.mailbox));
+        if let Some(number) = number {
+            *number = *number % 7 + 1;
+            self.question = Some(Question {
+                nth,
+                what,
+                number: *number,
+                since: None,
+            });
+        }
+    }
+
+    /// The message that is to be sent, and to which mailbox.
+    pub(super) fn question(&self) -> Option<(usize, [u8; MESSAGE])> {
+        let question = self.question.filter(|question| question.since.is_none())?;
+        let probe = self.probes.get(question.nth)?;
+        let value = match question.what {
+            What::Switch(is_on) => {
+                let access = probe.access;
+                Some(access.probe.function(access.before, is_on).into())
+            }
+            What::Status | What::Place(_) => None,
+        };
+        let message = coe::message(probe.object(question.what), value, question.number);
+        Some((probe.mailbox, message))
+    }
+
+    /// Whether the message that was sent last was taken.
+    pub(super) const fn posted(&mut self, is_taken: bool) {
+        if let Some(question) = &mut self.question
+            && is_taken
+        {
+            question.since = Some(0);
+        }
+    }
+
+    /// The mailbox that an answer is to come from.
+    pub(super) fn waits_for(&self) -> Option<usize> {
+        let question = self.question.filter(|question| question.since.is_some())?;
+        self.probes.get(question.nth).map(|probe| probe.mailbox)
+    }
+
+    /// A frame has passed.
+    pub(super) fn pass(&mut self) {
+        let Some(question) = &mut self.question else {
+            return;
+        };
+        if let Some(since) = &mut question.since {
+            *since += 1;
+            if *since > PATIENCE {
+                self.question = None;
+                self.ask_next();
+            }
+        }
+    }
+
+    /// A message has come from a mailbox; whether it was the answer.
+    pub(super) fn hear(&mut self, mailbox: usize, message: &[u8]) -> bool {
+        if self.waits_for() != Some(mailbox) {
+            return false;
+        }
+        let Some(Question { nth, what, .. }) = self.question else {
+            return false;
+        };
+        let Some(probe) = self.probes.get_mut(nth) else {
+            return false;
+        };
+        let next = match coe::reply(message, probe.object(what)) {
+            Reply::Value(value) => probe.take(what, value),
+            // What it refuses now it took before the cycles began: asked again in its turn.
+            Reply::Abort(_) => None,
+            Reply::Other => return false,
+        };
+        self.question = None;
+        match next {
+            Some(what) => self.ask(nth, what),
+            None => self.ask_next(),
+        }
+        true
+    }
+}
+
+impl Mailed {
+    const fn object(&self, what: What) -> Object {
+        match what {
+            What::Switch(_) => self.function,
+            What::Status => self.status,
+            What::Place(0) => self.places[0],
+            What::Place(_) => self.places[1],
+        }
+    }
+
+    /// Takes an answer. Returns what is to be asked next.
+    #[allow(
+        clippy::cast_possible_wrap,
+        reason = "the bits of a number with a sign"
+    )]
+    fn take(&mut self, what: What, value: u32) -> Option<What> {
+        let from = match what {
+            What::Switch(is_on) => {
+                self.was_told = Some(is_on);
+                return None;
+            }
+            What::Status => {
+                let status = u16::try_from(value).unwrap_or(0);
+                self.reading.status = self.access.probe.status(status);
+                0
+            }
+            What::Place(edge) => {
+                self.reading.places[edge.min(1)] = value as i32;
+                edge + 1
+            }
+        };
+        let next = (from..2).find(|edge| self.reading.status & KEPT[*edge] != 0);
+        if next.is_none() {
+            self.told = self.reading;
+        }
+        next.map(What::Place)
+    }
+}

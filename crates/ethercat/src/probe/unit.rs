@@ -1,0 +1,62 @@
+//! A unit of a touch probe: switched off and on again, it keeps the next edge.
+
+/// The bits of a unit's status.
+const IS_ON: u8 = 1;
+pub(super) const RISING: u8 = 2;
+pub(super) const FALLING: u8 = 4;
+
+/// The answers of a unit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct ProbeInputs {
+    /// On, stored at a rising edge, at a falling one: bits 0 to 2.
+    pub status: u8,
+    /// The places that it keeps, counts: at a rising edge, and at a falling one.
+    pub places: [i32; 2],
+}
+
+impl ProbeInputs {
+    /// Whether it keeps an edge, of those of a mask.
+    pub(crate) const fn has(&self, edges: u8) -> bool {
+        self.status & edges != 0
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+enum Phase {
+    #[default]
+    Off,
+    Arming,
+    Armed,
+}
+
+/// A unit, as it is led.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Unit(Phase);
+
+impl Unit {
+    /// Takes up what it answers.
+    pub(super) const fn hear(&mut self, inputs: &ProbeInputs) {
+        let is_on = inputs.status & IS_ON != 0;
+        self.0 = match self.0 {
+            Phase::Off if !is_on => Phase::Arming,
+            Phase::Arming if is_on => Phase::Armed,
+            // Its drive has begun anew.
+            Phase::Armed if !is_on => Phase::Off,
+            same => same,
+        };
+    }
+
+    /// Forgets what it keeps.
+    pub(super) const fn clear(&mut self) {
+        self.0 = Phase::Off;
+    }
+
+    pub(super) const fn is_armed(self) -> bool {
+        matches!(self.0, Phase::Armed)
+    }
+
+    /// Whether it is to be on.
+    pub(super) const fn is_on(self) -> bool {
+        !matches!(self.0, Phase::Off)
+    }
+}

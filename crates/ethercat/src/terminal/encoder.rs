@@ -1,0 +1,286 @@
+//! The spindle's encoder at a terminal: a counter, and what it was at the index.
+//!
+//! ```text
+//!  arm ──index──► valid: the counter at the index is kept ──► disarm ──not valid──► arm
+//! ```
+//!
+//! The counter runs on at the index, which it is only compared with: the first index says where the angle is
+//! whole, and at every later one it has to be whole again. Between two frames it turns evenly.
+
+use super::bits::{bit, number, put_bit};
+use super::encoder_settings::EncoderSettings;
+use crate::event::Event;
+use glidepath_link::{Feedback, SpindleFlags};
+
+/// How far the counter may be from whole revolutions at the index, counts.
+const SLACK: i64 = 2;
+/// Revolutions without an index behind which pulses are not counted any more.
+const MISSING_R: f64 = 4.0;
+/// How long no angle is told after the counter was wrong, ns: nothing that follows the spindle goes on.
+const QUIET_NS: u64 = 500_000_000;
+/// How long it is at its speed before it is told to be, ns.
+const SETTLED_NS: u64 = 20_000_000;
+/// How near it is at rest, and at any speed at least, rev/s.
+const STILL_V: f64 = 0.05;
+/// Samples over which a speed is taken.
+const WINDOW: usize = 16;
+
+/// The places of its values in the image of all, bits.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct WiredEncoder {
+    pub(crate) settings: EncoderSettings,
+    /// Which of the devices that are no drives it is.
+    pub(crate) nth: usize,
+    /// Where the counter is, and how many bits it has.
+    pub(crate) counter: (usize, u32),
+    pub(crate) index: Option<WiredIndex>,
+}
+
+/// The places of what is kept at the index.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct WiredIndex {
+    pub(crate) latch: usize,
+    pub(crate) valid: usize,
+    /// Among the outputs.
+    pub(crate) arm: usize,
+}
+
+/// What of the counter is known at the index.
+#[derive(Debug, Clone, Copy)]
+struct Index {
+    /// The counter where the angle is whole.
+    origin: i64,
+    /// Revolutions from there when the index was seen last.
+    seen: f64,
+}
+
+/// An encoder at work.
+#[derive(Debug)]
+pub(super) struct Encoder {
+    wired: WiredEncoder,
+    /// How much later than they say setpoints are played, by which samples are stamped earlier, ns.
+    delay_ns: u64,
+    /// When this frame was sent, and the one before, ns.
+    sent_ns: u64,
+    sent_before_ns: u64,
+    raw: Option<u32>,
+    /// The counter without wraps, in this frame and the one before.
+    count: i64,
+    before: i64,
+    /// This frame was without it.
+    is_missed: bool,
+    is_armed: bool,
+    index: Option<Index>,
+    pulses: u64,
+    slipped: bool,
+    quiet_until_ns: Option<u64>,
+    /// The last samples: time, ns, and angle.
+    samples: [(u64, f64); WINDOW],
+    nth: usize,
+    wanted_v: f64,
+    near_ns: Option<u64>,
+}
+
+impl Encoder {
+    pub(super) const fn new(wired: WiredEncoder, delay_ns: u64) -> Self {
+        Self {
+            wired,
+            delay_ns,
+            sent_ns: 0,
+            sent_before_ns: 0,
+            raw: None,
+            count: 0,
+            before: 0,
+            is_missed: true,
+            is_armed: false,
+            index: None,
+            pulses: 0,
+            slipped: false,
+            quiet_until_ns: None,
+            samples: [(0, 0.0); WINDOW],
+            nth: 0,
+            wanted_v: 0.0,
+            near_ns: None,
+        }
+    }
+
+    pub(super) const fn nth(&self) -> usize {
+        self.wired.nth
+    }
+
+    /// How far a counter is from another, over its end if that is nearer.
+    #[allow(
+        clippy::cast_possible_wrap,
+        reason = "the bits of a number with a sign"
+    )]
+    fn apart(&self, raw: u32, from: u32) -> i64 {
+        let unused = 32 - self.wired.counter.1.clamp(1, 32);
+        ((raw.wrapping_sub(from) << unused) as i32 >> unused).into()
+    }
+
+    /// Takes what a frame says that was sent at a time; nothing if its device did not take part.
+    pub(super) fn hear(
+        &mut self,
+        inputs: Option<&[u8]>,
+        sent_ns: u64,
+        tell: &mut dyn FnMut(Event),
+    ) {
+        self.is_missed = inputs.is_none();
+        let Some(inputs) = inputs else {
+            return;
+        };
+        let (at, bits) = self.wired.counter;
+        let raw = number(inputs, at, bits);
+        let way = self.apart(raw, self.raw.unwrap_or(raw));
+        let from = self.count;
+        self.before = self.count;
+        self.count += way;
+        self.raw = Some(raw);
+        self.sent_before_ns = core::mem::replace(&mut self.sent_ns, sent_ns);
+        let pulses = (self.revolutions(self.count).floor() - self.revolutions(from).floor()).abs();
+        if let Some(wired) = self.wired.index {
+            self.take_index(wired, (inputs, raw), tell);
+            self.count_pulses(pulses);
+        }
+    }
+
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a few whole revolutions, not negative"
+    )]
+    fn count_pulses(&mut self, pulses: f64) {
+        let revolutions = self.revolutions(self.count);
+        if let Some(index) = self.index
+            && (revolutions - index.seen).abs() <= MISSING_R
+        {
+            self.pulses += pulses as u64;
+        }
+    }
+
+    fn take_index(
+        &mut self,
+        wired: WiredIndex,
+        (inputs, raw): (&[u8], u32),
+        tell: &mut dyn FnMut(Event),
+    ) {
+        let is_valid = bit(inputs, wired.valid);
+        if !self.is_armed {
+            self.is_armed = !is_valid;
+            return;
+        }
+        if !is_valid {
+            return;
+        }
+        self.is_armed = false;
+        let kept = number(inputs, wired.latch, self.wired.counter.1);
+        let at = self.count - self.apart(raw, kept);
+        let origin = self.index.map_or(at, |index| index.origin);
+        let seen = self.turns(at - origin);
+        let off = self.counts_off(at - origin);
+        if off.abs() > SLACK {
+            tell(Event::EncoderSlipped(off));
+            (self.index, self.slipped) = (None, true);
+            return;
+        }
+        self.index = Some(Index { origin, seen });
+    }
+
+    /// How many counts there are beside whole revolutions.
+    fn counts_off(&self, counts: i64) -> i64 {
+        let of_turn = i64::from(self.wired.settings.counts_per_rev);
+        let rest = counts.rem_euclid(of_turn);
+        if 2 * rest > of_turn {
+            rest - of_turn
+        } else {
+            rest
+        }
+    }
+
+    /// Revolutions of so many counts, clockwise.
+    #[allow(clippy::cast_precision_loss, reason = "far below 2⁵³")]
+    fn turns(&self, counts: i64) -> f64 {
+        let sign = if self.wired.settings.is_inverted {
+            -1.0
+        } else {
+            1.0
+        };
+        sign * counts as f64 / f64::from(self.wired.settings.counts_per_rev)
+    }
+
+    fn revolutions(&self, count: i64) -> f64 {
+        let origin = self.index.map_or(0, |index| index.origin);
+        self.turns(count - origin)
+    }
+
+    /// Whether the angle is known: with an index, when that was passed.
+    const fn is_known(&self) -> bool {
+        let knows = self.wired.index.is_none() || self.index.is_some();
+        self.raw.is_some() && knows && self.quiet_until_ns.is_none()
+    }
+
+    /// The angle at a time around the last two frames, between which it turns evenly.
+    #[allow(clippy::cast_precision_loss, reason = "some periods")]
+    fn angle_at(&self, at_ns: u64) -> f64 {
+        let (now, before) = (self.revolutions(self.count), self.revolutions(self.before));
+        let younger_ns = self.sent_ns.saturating_sub(at_ns) as f64;
+        let span_ns = self.sent_ns.saturating_sub(self.sent_before_ns).max(1) as f64;
+        now - (now - before) * (younger_ns / span_ns).min(1.0)
+    }
+
+    /// Arms the index.
+    pub(super) fn put(&mut self, image: &mut [u8], wanted_v: f64) {
+        if wanted_v.to_bits() != self.wanted_v.to_bits() {
+            self.near_ns = None;
+        }
+        self.wanted_v = wanted_v;
+        if let Some(wired) = self.wired.index {
+            put_bit(image, wired.arm, self.is_armed);
+        }
+    }
+
+    /// Adds what is known of it. `has_drive` if the spindle's drive says how fast it is.
+    pub(super) fn tell(&mut self, feedback: &mut Feedback, has_drive: bool) {
+        let now_ns = feedback.sample_ns;
+        if core::mem::take(&mut self.slipped) {
+            self.quiet_until_ns = Some(now_ns + QUIET_NS);
+        }
+        self.quiet_until_ns = self.quiet_until_ns.filter(|until| now_ns < *until);
+        if self.is_missed || !self.is_known() {
+            self.near_ns = None;
+            return;
+        }
+        let angle = self.angle_at(now_ns + self.delay_ns);
+        let old = core::mem::replace(&mut self.samples[self.nth], (now_ns, angle));
+        self.nth = (self.nth + 1) % WINDOW;
+        let mut set = |flag: SpindleFlags, is: bool| {
+            feedback.spindle_flags |= if is { flag.0 } else { 0 };
+        };
+        set(SpindleFlags::ANGLE, true);
+        set(SpindleFlags::INDEX, self.wired.index.is_some());
+        feedback.spindle_angle = angle;
+        feedback.spindle_index_count = self.pulses;
+        if has_drive || old.0 == 0 || now_ns <= old.0 {
+            return;
+        }
+        #[allow(clippy::cast_precision_loss, reason = "some periods")]
+        let speed_v = (angle - old.1) / ((now_ns - old.0) as f64 * 1e-9);
+        let near_v = (self.wired.settings.near_r * self.wanted_v.abs()).max(STILL_V);
+        if (speed_v - self.wanted_v).abs() > near_v {
+            self.near_ns = None;
+        } else {
+            self.near_ns = self.near_ns.or(Some(now_ns));
+        }
+        let is_settled = self
+            .near_ns
+            .is_some_and(|since| now_ns >= since + SETTLED_NS);
+        let stands = self.wanted_v.abs() <= 0.0;
+        feedback.spindle_v = speed_v;
+        set(SpindleFlags::SPEED, true);
+        set(SpindleFlags::AT_SPEED, is_settled && !stands);
+        set(SpindleFlags::STOPPED, is_settled && stands);
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,94 @@
+//! A thread by the encoder of an emulated spindle, with the processes of a machine.
+
+use std::time::{Duration, Instant};
+
+use glidepath_link::{MachineState, SpindleFlags, Status};
+use glidepath_testing::{is_crowded, leave_out, skip};
+use glidepath_tests::{Instance, Operated, Watchdog};
+
+const PATIENCE: Duration = Duration::from_secs(240);
+/// How old what drives say may be, ns: a host of tests stands still now and then.
+const FRESH_NS: u64 = 100_000_000;
+/// S, rev/min.
+const SPEED: f64 = 600.0;
+
+fn line() -> String {
+    let drive = |joint: usize| {
+        format!(
+            "[[drive]]\njoint = {joint}\nposition = {joint}\ncounts_per_mm = 100000.0\nfollowing_error = 50.0\n\
+             quick_stop = 2000.0\n"
+        )
+    };
+    let drives: String = (0..3).map(drive).collect();
+    format!(
+        "[bus]\ninterface = \"none\"\n{drives}[[device]]\nposition = 3\n\
+         spindle = {{ mode = \"velocity\", max_rpm = 6000.0, ramp = 4000.0 }}\n\
+         [[device]]\nposition = 4\nencoder = {{ counts_per_rev = 4096 }}\n"
+    )
+}
+
+#[test]
+fn a_thread_follows_an_encoder_at_a_terminal() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let changes = [
+        ("inputs_outputs = \"none\"", "inputs_outputs = \"feedback\""),
+        ("encoder = false", "encoder = true"),
+    ];
+    let bench = Operated::new(&instance, &changes, "");
+    let drives = instance.file("drives.toml", &line());
+    let interpolator = bench.process(&["interpolator", "--best-effort"]);
+    let emulated = [
+        "ethercat",
+        "--emulated",
+        "--best-effort",
+        "--drives",
+        &drives,
+    ];
+    let mut bus = bench.process(&emulated);
+    let (began, off) = (Instant::now(), MachineState::Off.code());
+    let is_there = || {
+        let status = instance.wait_for_status(|_| true);
+        status.state == off && status.feedback_age_ns < FRESH_NS
+    };
+    while !is_there() {
+        if !bus.runs() {
+            let output = bus.wait();
+            assert!(
+                output.stderr.contains("cannot emulate drives"),
+                "{output:?}"
+            );
+            leave_out("emulated drives", &output.stderr);
+            let _ended = interpolator.end().expect(0);
+            return;
+        }
+        assert!(began.elapsed() < PATIENCE);
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    let service = bench.service();
+    bench.operate(&["enable"]);
+    let _ready = bench.wait_for(MachineState::Idle);
+    bench.operate(&["mdi", "M3 S600"]);
+    let turns = |status: &Status| (status.spindle_v - SPEED / 60.0).abs() < 0.1;
+    let status = instance.wait_for_status(turns);
+    assert!(status.spindle().contains(SpindleFlags::ANGLE));
+    assert!(status.spindle().contains(SpindleFlags::INDEX));
+    let program = instance.file(
+        "thread.ngc",
+        "G21 G90 G97 S600 M3\nG0 Z2\nG33 Z-10 K1.5\nM5\nM2\n",
+    );
+    let output = bench.process(&["run-file", &program]).wait();
+    // In a thread nothing can be slowed down: what comes late is a fault, and should be.
+    let is_late = |text: &str| text.contains("frames ran out") || text.contains("old");
+    let is_skipped = output.status.code() != Some(0) && is_late(&output.stderr) && is_crowded();
+    if is_skipped {
+        skip("a thread by an encoder", &output.stderr);
+    } else {
+        let _done = output.expect(0);
+        bench.assert_at([0.0, 0.0, -10.0]);
+    }
+    let ended = bus.end().expect(0);
+    assert!(!ended.stderr.contains("is off by"), "{ended:?}");
+    for process in [service, interpolator] {
+        let _ended = process.end();
+    }
+}
