@@ -6,8 +6,8 @@ Written by a test of the library: do not change it here.
 import ctypes
 import enum
 
-ABI = 9
-LAYOUT = 0x7789c1b2858aeb66
+ABI = 10
+LAYOUT = 0x6daa61f9ced4d88f
 AXES = 9
 
 
@@ -164,6 +164,19 @@ class Superposition(enum.IntEnum):
     FROZEN = 3
     RETURNS = 4
     SILENT = 5
+
+
+class FreezeReason(enum.IntEnum):
+    """Why the superposition of an axis is frozen."""
+
+    NONE = 0
+    NOT_ONWARD = 1
+    PROBING = 2
+    FOLLOWS_SPINDLE = 3
+    RAPID = 4
+    SLOW = 5
+    NOT_ENABLED = 6
+    SWITCHED_OFF = 7
 
 
 class Contact(enum.IntEnum):
@@ -544,6 +557,8 @@ class StatusRecord(ctypes.Structure):
         ("spindle_flags", ctypes.c_uint32),
         ("superposition", ctypes.c_uint32),
         ("superposed", ctypes.c_double * 9),
+        ("freeze_reason", ctypes.c_uint32),
+        ("job_stream", ctypes.c_uint32),
     ]
 
 
@@ -800,7 +815,7 @@ PLACES = {
         "events": 648,
         "superposed": 1160,
     }),
-    StatusRecord: (1880, {
+    StatusRecord: (1888, {
         "boot_id": 0,
         "updated_ns": 8,
         "period_ns": 16,
@@ -886,6 +901,8 @@ PLACES = {
         "spindle_flags": 1800,
         "superposition": 1804,
         "superposed": 1808,
+        "freeze_reason": 1880,
+        "job_stream": 1884,
     }),
     FeedbackRecord: (816, {
         "boot_id": 0,

@@ -80,10 +80,12 @@ impl Interpolator<'_> {
         self.end_of_epoch = EndOfEpoch::Open;
         self.is_unanswered = false;
         self.output.begin_epoch();
-        if let Some(superposed) = &mut self.superposed
-            && !self.probing.goes_on()
-        {
-            superposed.begin_program();
+        if let Some(superposed) = &mut self.superposed {
+            let at = frame.position.get(superposed.axis().index()).copied();
+            superposed.begin_epoch(at.unwrap_or(0.0));
+            if !self.probing.goes_on() {
+                superposed.begin_program();
+            }
         }
         self.single_block_stop = SingleBlockStop::none();
         self.queue_level.begin_epoch();
