@@ -342,6 +342,12 @@ impl Plan {
                 is_on_its_way: true,
             });
         }
+        // Behind the way to a line near the beginning, which has more blocks than there are in front of that line, blocks
+        // have higher numbers than in the plan.
+        let mut back = begins.get(..at)?.iter().rev().take(MOST_WAY as usize);
+        let back = back.position(|begin| begin.line == status.line);
+        let at = at - back.unwrap_or(0);
+        let begin = begins.get(at.checked_sub(1)?)?;
         let (end, end_s) = match begins.get(at) {
             Some(next) => (next.sequence, next.path_s),
             None => (self.frames, self.path_s),

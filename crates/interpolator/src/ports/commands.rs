@@ -154,11 +154,15 @@ impl CommandContext<'_, '_> {
 
     /// Why a motion ends, or a job, that an abort ends or the loss of power; empty where an operator has it aborted.
     pub(crate) fn why_it_ends<'r>(&self, request: &'r CommandRequest) -> &'r str {
-        match request.command() {
-            Ok(Command::Disable) if self.drives.is_some() => SWITCHED_OFF,
-            Ok(Command::Disable) => DISABLED,
-            Ok(Command::Abort) => request.text.as_str(),
-            Ok(_) | Err(_) => "",
+        let command = request.command();
+        if command == Ok(Command::Abort) {
+            request.text.as_str()
+        } else if command != Ok(Command::Disable) {
+            ""
+        } else if self.drives.is_some() {
+            SWITCHED_OFF
+        } else {
+            DISABLED
         }
     }
 
@@ -171,10 +175,13 @@ impl CommandContext<'_, '_> {
             let is_open = self.report.end_of_epoch == EndOfEpoch::Open;
             self.jobs.hold_what_was_asked(self.now_ns, is_open);
         }
-        let (stage, why) = match (command, why) {
-            (Command::Abort, "") => (JobStage::Aborted, "aborted before anything moved"),
-            (Command::Abort | Command::Disable, why) => (JobStage::Refused, why),
-            _ => return,
+        if !matches!(command, Command::Abort | Command::Disable) {
+            return;
+        }
+        let (stage, why) = if why.is_empty() {
+            (JobStage::Aborted, "aborted before anything moved")
+        } else {
+            (JobStage::Refused, why)
         };
         self.jobs.stop(self.now_ns, (stage, why));
         let had_machine = self.jobs.end(stage, why);

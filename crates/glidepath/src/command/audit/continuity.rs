@@ -177,14 +177,12 @@ impl Continuity {
     /// Where what is judged began: an epoch where the machine stood before it, what goes on behind a position that was
     /// taken over, or behind an offset that became part of it, where it is now.
     fn watch_beginning(&mut self, setpoint: &Setpoint) {
+        let follows = |last: &Setpoint| {
+            (last.boot_id, last.reference) == (setpoint.boot_id, setpoint.reference)
+        };
         match self.last.map(|(last, _)| last) {
-            Some(last)
-                if (last.boot_id, last.reference) == (setpoint.boot_id, setpoint.reference) =>
-            {
-                if last.epoch != setpoint.epoch {
-                    self.begin_at(&last);
-                }
-            }
+            Some(last) if follows(&last) && last.epoch == setpoint.epoch => {}
+            Some(last) if follows(&last) => self.begin_at(&last),
             Some(_) => self.begin_at(setpoint),
             None if setpoint.state() == Ok(MachineState::Idle) => self.begin_at(setpoint),
             // In the middle of a program, of which statuses tell where it began.

@@ -73,6 +73,8 @@ fn on_the_way_to_a_line_it_is_where_that_line_begins() {
             "{behind}"
         );
     }
+    let shifted = at(block + 1, 4, 0.0);
+    assert_eq!((shifted.sequence, shifted.is_on_its_way), (of_line, false));
     let there = at(block, 4, 0.5);
     assert!(
         !there.is_on_its_way && there.sequence > of_line,

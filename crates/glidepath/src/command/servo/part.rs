@@ -3,7 +3,12 @@
 use crate::cli::ServoArgs;
 use crate::command::failure::Failure;
 use crate::config::MachineConfig;
-use glidepath_link::{DrivesLock, Ipc};
+use glidepath_link::{DrivesLock, Ipc, LinkError};
+use std::time::{Duration, Instant};
+
+/// How long one that was killed may take to be gone.
+const SETTLE: Duration = Duration::from_millis(500);
+const POLL: Duration = Duration::from_millis(20);
 
 /// Takes the part of the one that answers for all drives, where these are to say where they are. Of a second one the
 /// interpolator uses nothing. Where no feedback is expected, and where a servo only listens, there may be any number.
@@ -12,6 +17,14 @@ pub(super) fn part(
     args: &ServoArgs,
     config: &MachineConfig,
 ) -> Result<Option<DrivesLock>, Failure> {
-    let answers = config.feedback.is_expected && !args.listens;
-    Ok(answers.then(|| transport.answer_for_drives()).transpose()?)
+    if args.listens || !config.feedback.is_expected {
+        return Ok(None);
+    }
+    let began = Instant::now();
+    loop {
+        match transport.answer_for_drives() {
+            Err(LinkError::Taken { .. }) if began.elapsed() < SETTLE => std::thread::sleep(POLL),
+            taken => return Ok(Some(taken?)),
+        }
+    }
 }

@@ -274,8 +274,7 @@ mod tests {
                 text: "G1 X10 F1200 ".to_owned() + &"(a long comment)".repeat(9),
                 planned_t: Some(100.0),
                 elapsed_t: Some(25.0),
-                is_on_its_way: false,
-                has_failed: false,
+                ..ProgramPlace::default()
             }),
             offsets: Some(WorkOffset {
                 name: "G54".to_owned(),
@@ -345,8 +344,7 @@ mod tests {
                 text: String::new(),
                 planned_t: Some(100.0),
                 elapsed_t: Some(25.0),
-                is_on_its_way: false,
-                has_failed: false,
+                ..ProgramPlace::default()
             }),
             offsets: None,
             asked: AwaitedEvent::default(),

@@ -7,7 +7,7 @@ use glidepath_geometry::Axis;
 use glidepath_link::{Auxiliary, Status};
 
 /// The place of the machine in a program that is known.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct ProgramPlace {
     /// The program's name.
     pub program: String,
