@@ -251,6 +251,54 @@ fn an_interpolator_that_hangs_is_not_told_as_gone() {
     let _interpolator = interpolator.wait();
 }
 
+/// Its client hears within seconds that it hangs, what to do, and of the fault that the motion ended by.
+#[test]
+fn a_planner_that_hangs_is_told_to_its_client_and_so_is_the_fault() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let mut bench = Bench::start(&instance);
+    let part = instance.file("part.ngc", "G21 G90\nG1 X60 F600\nM2\n");
+    let client = bench.operated.process(&["run-file", &part]);
+    let _moving = bench.operated.wait(|status| status.position[0] > 3.0);
+    let service = bench.processes.pop().unwrap();
+    service.signal(Signal::STOP);
+    let output = client.wait().expect(5);
+    let hangs = format!("(process {}) lives and does not answer", service.id());
+    for told in ["no more frames came", &hangs, "--resume"] {
+        assert!(output.stderr.contains(told), "{told}: {output:#?}");
+    }
+    // Nothing was taken of the next one, and no fault is its own: it waits, and says for whom.
+    let waits = bench.operated.process(&["run-file", &part]);
+    std::thread::sleep(Duration::from_secs(5));
+    waits.signal(Signal::INT);
+    let output = waits.wait();
+    assert!(output.stderr.contains(&hangs), "{output:#?}");
+    service.signal(Signal::CONT);
+}
+
+/// Of a second one the interpolator uses nothing: it is not to say that it is ready.
+#[test]
+fn a_second_servo_is_refused_and_told_who_answers_for_the_drives() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let bench = Bench::start(&instance);
+    let [_, servo, planner] = &bench.processes[..] else {
+        unreachable!("interpolator, servo and planner");
+    };
+    let output = bench.operated.process(&["servo"]).wait().expect(5);
+    let holder = format!("(process {})", servo.id());
+    assert!(
+        output.stderr.contains("no place for another servo"),
+        "{output:#?}"
+    );
+    assert!(output.stderr.contains(&holder), "{output:#?}");
+    let output = bench
+        .operated
+        .process(&["planner", "--listen"])
+        .wait()
+        .expect(5);
+    let holder = format!("(process {})", planner.id());
+    assert!(output.stderr.contains(&holder), "{output:#?}");
+}
+
 #[test]
 fn a_planner_without_a_service_is_answerable_too() {
     let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));

@@ -25,7 +25,9 @@ fn the_end_of_its_client_ends_a_stream_and_its_motion() {
         let _moving = bench.operated.wait(|status| status.position[0] > 2.0);
         client.signal(signal);
         let output = ended_within(client, SOON).expect(130);
-        let told = output.stderr.contains("the stream has ended");
+        let told = output
+            .stderr
+            .contains("the stream has ended: the command that asked for it was ended");
         assert!(told, "{output:#?}");
         let rests = bench.operated.wait_for(MachineState::Idle);
         assert!(rests.position[0] < 100.0, "{:?}", rests.position);

@@ -124,7 +124,7 @@ fn what_a_stop_said_is_not_said_of_the_next_one() {
     let rests = bench.wait_for(MachineState::Idle);
     assert!(rests.position[0] < 49.0, "{:?}", rests.position);
     let told = running.wait().expect(5).stderr;
-    assert!(told.contains("aborted by an operator"), "{told}");
+    assert!(told.contains("`disable` ended it"), "{told}");
     bench.refused(&["disable"], 5, "no feedback is configured");
 
     // What was moved away in a hold does not stand where the program goes on.

@@ -1,5 +1,6 @@
 //! The settings of an audit: limits, period and tolerance that a motion is judged by.
 
+use glidepath_geometry::AxisVector;
 use glidepath_program::{Corners, Limits, Settings};
 
 /// The settings of an audit: what a motion is judged by.
@@ -14,6 +15,16 @@ pub struct AuditSettings {
     pub tolerance_mm: f64,
     /// On which side of the program's corners the motion is to be.
     pub corners: Corners,
+}
+
+impl AuditSettings {
+    /// The same for a motion that begins at a place: an axis that stands beyond its travel there may stay or come
+    /// inwards.
+    #[must_use]
+    pub fn beginning_at(mut self, start: &AxisVector) -> Self {
+        self.limits.travel = self.limits.travel.beginning_at(start);
+        self
+    }
 }
 
 /// What a motion that was planned with these settings is judged by.

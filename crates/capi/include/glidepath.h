@@ -49,7 +49,7 @@ extern "C" {
 /* The version of the ABI: functions and structures. */
 #define GP_ABI 10u
 /* What the structures of this header are, as one number. */
-#define GP_LAYOUT UINT64_C(0x8ebc88975b858ae9)
+#define GP_LAYOUT UINT64_C(0xc4ce896a1a90435c)
 /* Axes X Y Z A B C U V W, and joints J0 to J8. */
 #define GP_AXES 9
 
@@ -197,6 +197,18 @@ enum {
     GP_SUPERPOSITION_FROZEN = 3,
     GP_SUPERPOSITION_RETURNS = 4,
     GP_SUPERPOSITION_SILENT = 5
+};
+
+/* Why the superposition of an axis is frozen. */
+enum {
+    GP_FREEZE_REASON_NONE = 0,
+    GP_FREEZE_REASON_NOT_ONWARD = 1,
+    GP_FREEZE_REASON_PROBING = 2,
+    GP_FREEZE_REASON_FOLLOWS_SPINDLE = 3,
+    GP_FREEZE_REASON_RAPID = 4,
+    GP_FREEZE_REASON_SLOW = 5,
+    GP_FREEZE_REASON_NOT_ENABLED = 6,
+    GP_FREEZE_REASON_SWITCHED_OFF = 7
 };
 
 /* What a probe has found. */
@@ -582,7 +594,7 @@ GP_FIELD(gp_setpoint, events, 648, 512);
 GP_FIELD(gp_setpoint, superposed, 1160, 72);
 
 /* What the interpolator does and how well. Counts are of this life of it. The record
-   glidepath.Status.v14. */
+   glidepath.Status.v15. */
 typedef struct gp_status {
     /* Identifies one life of the interpolator. */
     uint64_t boot_id;
@@ -766,8 +778,12 @@ typedef struct gp_status {
     uint32_t superposition;
     /* How far the axes are from position by a superposition, mm or degrees. */
     double superposed[9];
+    /* A GP_FREEZE_REASON_: why the superposition is frozen. */
+    uint32_t freeze_reason;
+    /* 1 if the job that a planner has told of last is a stream of segments, 0 if not. */
+    uint32_t job_stream;
 } gp_status;
-GP_ASSERT(sizeof(gp_status) == 1880, "gp_status has another size");
+GP_ASSERT(sizeof(gp_status) == 1888, "gp_status has another size");
 GP_FIELD(gp_status, boot_id, 0, 8);
 GP_FIELD(gp_status, updated_ns, 8, 8);
 GP_FIELD(gp_status, period_ns, 16, 8);
@@ -853,6 +869,8 @@ GP_FIELD(gp_status, spindle_v, 1792, 8);
 GP_FIELD(gp_status, spindle_flags, 1800, 4);
 GP_FIELD(gp_status, superposition, 1804, 4);
 GP_FIELD(gp_status, superposed, 1808, 72);
+GP_FIELD(gp_status, freeze_reason, 1880, 4);
+GP_FIELD(gp_status, job_stream, 1884, 4);
 
 /* What a servo stack knows of the joints it drives, at one moment. The record
    glidepath.Feedback.v3. */

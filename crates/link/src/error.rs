@@ -78,12 +78,14 @@ pub enum LinkError {
         detail: BoxedError,
     },
     /// All places at the service are taken.
-    #[error("{service}: no place for another {role}; end the one that runs")]
+    #[error("{service}: no place for another {role}; end the one that runs{}", process_text(.holder))]
     Taken {
         /// The service.
         service: &'static str,
         /// What wanted to connect.
         role: &'static str,
+        /// The process that has the place, where there is one place and that is known.
+        holder: Option<i32>,
     },
     /// There is nobody at the other end.
     #[error("{}", nobody(.service))]
@@ -149,6 +151,18 @@ impl LinkError {
         }
     }
 
+    /// The same, with the process that has the place.
+    pub(crate) fn held_by(self, process: Option<i32>) -> Self {
+        match self {
+            Self::Taken { service, role, .. } => Self::Taken {
+                service,
+                role,
+                holder: process,
+            },
+            error => error,
+        }
+    }
+
     /// Why a port could not be made: no place is left at the service, or something else.
     pub(crate) fn no_port(
         service: &'static str,
@@ -157,7 +171,11 @@ impl LinkError {
         detail: impl Into<BoxedError>,
     ) -> Self {
         if is_full {
-            Self::Taken { service, role }
+            Self::Taken {
+                service,
+                role,
+                holder: None,
+            }
         } else {
             Self::Transport {
                 service,
@@ -166,6 +184,10 @@ impl LinkError {
             }
         }
     }
+}
+
+fn process_text(process: &Option<i32>) -> String {
+    process.map_or_else(String::new, |process| format!(" (process {process})"))
 }
 
 /// Who should serve a service and does not.

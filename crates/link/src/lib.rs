@@ -65,7 +65,9 @@ mod wording;
 
 pub use error::{BoxedError, LinkError};
 pub use in_process::InProcess;
-pub use ipc::{ActiveProgram, InterpolatorProcess, Ipc, LinkConfig, Operator, remove_leftovers};
+pub use ipc::{
+    ActiveProgram, DrivesLock, InterpolatorProcess, Ipc, LinkConfig, Operator, remove_leftovers,
+};
 pub use port::{
     Client, Delivery, FrameSink, MAX_UNANSWERED, Publisher, Server, Subscriber, Transport,
 };
@@ -73,16 +75,16 @@ pub use record::{
     ALL_JOINTS, ANALOG_OUTPUTS, Auxiliary, COMMAND_KINDS, CodeWords, Command, CommandKind,
     CommandOutcome, CommandRefusal, CommandReply, CommandRequest, ContactKind, Coolant, DriveState,
     EVENTS_MOST, EndOfEpoch, EventId, EventKind, EventRecord, FRAME_REFUSALS, FaultCause, Feedback,
-    FrameRefusal, Grants, JobKind, JobPhase, JobReply, JobRequest, JobStage, JobState, JobWish,
-    JogDemand, JogMode, LATCHES, Latch, LatchKind, LinesReply, LinesRequest, LinesState, LinesWish,
-    LongText, Loss, MachineState, ModeCode, MotionMode, OVERRIDE_MAX, PERIOD_NS_MAX, PlaneCode,
-    Power, Quantiles, Record, RecordError, RequestKind, STREAM_JOB, SegmentOutcome, SegmentRefusal,
-    SegmentReply, SegmentRequest, Setpoint, SetpointFrame, SetpointMarks, SpindleFlags,
-    SpindleState, Status, StreamItem, SuperpositionState, TOLD_SYSTEMS, Text, decode,
+    FrameRefusal, FreezeReason, Grants, JobKind, JobPhase, JobReply, JobRequest, JobStage,
+    JobState, JobWish, JogDemand, JogMode, LATCHES, Latch, LatchKind, LinesReply, LinesRequest,
+    LinesState, LinesWish, LongText, Loss, MachineState, ModeCode, MotionMode, OVERRIDE_MAX,
+    PERIOD_NS_MAX, PlaneCode, Power, Quantiles, Record, RecordError, RequestKind, SegmentOutcome,
+    SegmentRefusal, SegmentReply, SegmentRequest, Setpoint, SetpointFrame, SetpointMarks,
+    SpindleFlags, SpindleState, Status, StreamItem, SuperpositionState, TOLD_SYSTEMS, Text, decode,
 };
 pub use service::Capacity;
 pub use stall::STALL;
 pub use wording::{
-    AtRest, FaultReport, SWITCHED_OFF, StateChange, TOLD_TO_END, UnmetPrecondition, is_printable,
-    printable, refused,
+    AtRest, CALLED_OFF, DISABLED, FaultReport, SWITCHED_OFF, StateChange, TOLD_TO_END,
+    UnmetPrecondition, is_printable, printable, refused, tells_end,
 };

@@ -115,7 +115,7 @@ layout!(setpoint, Setpoint, "glidepath.Setpoint.v5", 1232,
     acceleration: 288, joint_position: 360, joint_velocity: 432, joint_acceleration: 504,
     away: 576, events: 648, superposed: 1160,
 });
-layout!(status, Status, "glidepath.Status.v14", 1880,
+layout!(status, Status, "glidepath.Status.v15", 1888,
     Status { state: MachineState::Idle.code(), ..Zeroable::zeroed() }, {
     boot_id: 0, updated_ns: 8, period_ns: 16, tick: 24, epoch: 32, frames_received: 40,
     frames_executed: 48, queue_depth: 56, queue_capacity: 60, pid: 64, state: 68, end_of_epoch: 72,
@@ -132,11 +132,11 @@ layout!(status, Status, "glidepath.Status.v14", 1880,
     frames_refused: 888, lateness: 984, work: 1016, latency: 1048, response: 1080,
     job_number: 1112, next_epoch: 1120, job_stage: 1128, job_held: 1132, last_error: 1136,
     last_event: 1264, message: 1392, job: 1520, job_end: 1648,
-    jog_client: 1776, jog_number: 1784, spindle_v: 1792, spindle_flags: 1800, superposition: 1804, superposed: 1808,
+    jog_client: 1776, jog_number: 1784, spindle_v: 1792, spindle_flags: 1800, superposition: 1804, superposed: 1808, freeze_reason: 1880, job_stream: 1884,
 });
-layout!(command_request, CommandRequest, "glidepath.CommandRequest.v7", 200,
+layout!(command_request, CommandRequest, "glidepath.CommandRequest.v8", 208,
     CommandRequest::new(1, 1, Command::Ping), {
-    client: 0, number: 8, value: 16, kind: 24, joints: 28, event: 32, job: 56, asked_ns: 64, text: 72,
+    client: 0, number: 8, value: 16, kind: 24, joints: 28, event: 32, job: 56, asked_ns: 64, job_stream: 72, reserved: 76, text: 80,
 });
 layout!(auxiliary, Auxiliary, "glidepath.Auxiliary.v2", 656,
     Zeroable::zeroed(), {

@@ -247,7 +247,7 @@ function digits() {
     // What an input adds to the axis is in none of the positions.
     const added = (s.superposed || {})[axis.name] || 0, below = $(`#m${axis.name}`);
     put(below, lost ? 'not homed' : added ? `Δ ${added < 0 ? '' : '+'}${place(axis, added)}` : s.offset ? place(axis, machine[k]) : axis.travel ? axis.travel.map(end => place(axis, end, 3)).join(' … ') : 'turns');
-    below.title = added ? `in addition to the program: ${s.superposition}` : '';
+    below.title = added ? `in addition to the program: ${s.superposition_text}` : '';
     const rail = $(`#t${axis.name}`);
     rail.parentElement.hidden = !axis.travel;
     if (axis.travel) rail.style.left = `${Math.max(0, Math.min(100, (machine[k] - axis.travel[0]) / (axis.travel[1] - axis.travel[0]) * 100)).toFixed(2)}%`;

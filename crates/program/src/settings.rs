@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::Limits;
+use glidepath_geometry::AxisVector;
 
 /// The way in which corners are passed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -71,4 +72,14 @@ pub struct Settings {
     pub period_t: f64,
     /// Planning effort.
     pub effort: Effort,
+}
+
+impl Settings {
+    /// The same for a motion that begins at a place: an axis that stands beyond its travel there may stay or come
+    /// inwards ([`crate::Travel::beginning_at`]).
+    #[must_use]
+    pub fn beginning_at(mut self, start: &AxisVector) -> Self {
+        self.limits.travel = self.limits.travel.beginning_at(start);
+        self
+    }
 }

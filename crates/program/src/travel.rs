@@ -33,4 +33,14 @@ impl Travel {
             highest: AxisVector::repeat(f64::INFINITY),
         }
     }
+
+    /// The travel of a motion from this place. An axis that stands beyond an end (by hand, or by what was
+    /// superposed to it) may stay there and come inwards, but goes no further out.
+    #[must_use]
+    pub fn beginning_at(self, place: &AxisVector) -> Self {
+        Self {
+            lowest: self.lowest.inf(place),
+            highest: self.highest.sup(place),
+        }
+    }
 }

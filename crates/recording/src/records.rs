@@ -136,6 +136,8 @@ message!(Status, "glidepath.Status", {
     83 spindle_flags,
     85 superposition,
     86 superposed,
+    87 freeze_reason,
+    88 job_stream,
 });
 
 #[cfg(test)]

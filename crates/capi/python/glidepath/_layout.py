@@ -7,7 +7,7 @@ import ctypes
 import enum
 
 ABI = 10
-LAYOUT = 0x8ebc88975b858ae9
+LAYOUT = 0xc4ce896a1a90435c
 AXES = 9
 
 
@@ -164,6 +164,19 @@ class Superposition(enum.IntEnum):
     FROZEN = 3
     RETURNS = 4
     SILENT = 5
+
+
+class FreezeReason(enum.IntEnum):
+    """Why the superposition of an axis is frozen."""
+
+    NONE = 0
+    NOT_ONWARD = 1
+    PROBING = 2
+    FOLLOWS_SPINDLE = 3
+    RAPID = 4
+    SLOW = 5
+    NOT_ENABLED = 6
+    SWITCHED_OFF = 7
 
 
 class Contact(enum.IntEnum):
@@ -545,6 +558,8 @@ class StatusRecord(ctypes.Structure):
         ("spindle_flags", ctypes.c_uint32),
         ("superposition", ctypes.c_uint32),
         ("superposed", ctypes.c_double * 9),
+        ("freeze_reason", ctypes.c_uint32),
+        ("job_stream", ctypes.c_uint32),
     ]
 
 
@@ -801,7 +816,7 @@ PLACES = {
         "events": 648,
         "superposed": 1160,
     }),
-    StatusRecord: (1880, {
+    StatusRecord: (1888, {
         "boot_id": 0,
         "updated_ns": 8,
         "period_ns": 16,
@@ -887,6 +902,8 @@ PLACES = {
         "spindle_flags": 1800,
         "superposition": 1804,
         "superposed": 1808,
+        "freeze_reason": 1880,
+        "job_stream": 1884,
     }),
     FeedbackRecord: (816, {
         "boot_id": 0,

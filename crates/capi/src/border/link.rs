@@ -139,6 +139,8 @@ fn request(kind: u32, value: f64, joints: u32, event: EventId) -> CommandRequest
         event,
         job: 0,
         asked_ns: 0,
+        job_stream: 0,
+        reserved: 0,
         text: Text::default(),
     }
 }

@@ -4,8 +4,8 @@ use super::own::{Stopped, TooMuch};
 use crate::failure::Code;
 use glidepath_link::{
     CommandKind, CommandRefusal, ContactKind, DriveState, EndOfEpoch, EventKind, FaultCause,
-    Grants, JobStage, JogMode, LatchKind, Loss, MachineState, ModeCode, MotionMode, PlaneCode,
-    Power, RequestKind, SegmentRefusal, SetpointMarks, SpindleFlags, SuperpositionState,
+    FreezeReason, Grants, JobStage, JogMode, LatchKind, Loss, MachineState, ModeCode, MotionMode,
+    PlaneCode, Power, RequestKind, SegmentRefusal, SetpointMarks, SpindleFlags, SuperpositionState,
 };
 use glidepath_program::FrameFlags;
 
@@ -156,6 +156,11 @@ pub(super) fn codes() -> Vec<Codes> {
             "SUPERPOSITION",
             "What the superposition of an axis does.",
             SuperpositionState
+        ),
+        all!(
+            "FREEZE_REASON",
+            "Why the superposition of an axis is frozen.",
+            FreezeReason
         ),
         all!("CONTACT", "What a probe has found.", ContactKind),
         all!("JOB", "How the job of a planner stands.", JobStage),

@@ -165,7 +165,7 @@ structure! {
 
 structure! {
     /// What the interpolator does and how well. Counts are of this life of it.
-    STATUS: "gp_status" = Status, Status::NAME, 1880 {
+    STATUS: "gp_status" = Status, Status::NAME, 1888 {
         /// Identifies one life of the interpolator.
         boot_id: u64,
         /// When this was true, ns of CLOCK_MONOTONIC. A reader takes an old one for a dead
@@ -346,6 +346,10 @@ structure! {
         superposition: u32,
         /// How far the axes are from position by a superposition, mm or degrees.
         superposed: Each<f64>,
+        /// A GP_FREEZE_REASON_: why the superposition is frozen.
+        freeze_reason: u32,
+        /// 1 if the job that a planner has told of last is a stream of segments, 0 if not.
+        job_stream: u32,
     }
 }
 

@@ -32,6 +32,8 @@ struct Attention {
     m_code_waits: MCodeWaits,
     /// Whether anything was heard of an interpolator.
     is_heard: bool,
+    /// The fault that the machine stands by, and what to do about it.
+    fault: Option<String>,
     /// Where something was asked, since when, and whether that was told: the epoch, the frames
     /// executed and the code of the state. What is said of it comes a moment later.
     asked: Option<((u64, u64, u32), Instant, bool)>,
@@ -73,6 +75,11 @@ impl Waiting {
         }
     }
 
+    /// The fault that the machine stands by, as far as it was looked at.
+    pub(super) fn fault(&self) -> Option<&str> {
+        self.attention.as_ref()?.fault.as_deref()
+    }
+
     /// The same of a client that says by nothing else that it waits for an interpolator.
     pub(super) fn pause_for_interpolator(&mut self, time: Duration) {
         self.pause(time);
@@ -96,6 +103,7 @@ impl Attention {
             names: ToolNames::new(config),
             m_code_waits: config.m_code_waits(),
             is_heard: false,
+            fault: None,
             asked: None,
         })
     }
@@ -115,6 +123,7 @@ impl Attention {
             return Ok(());
         };
         self.is_heard = true;
+        self.fault = fault_of(&status);
         let Some(words) = self.words(&status) else {
             self.asked = None;
             return Ok(());
@@ -185,6 +194,16 @@ impl Attention {
             "line {line}: {asked}; {done}, and if it cannot be done: `glidepath acknowledge --fail \"why\"`"
         ))
     }
+}
+
+/// What is to be said of a fault that is latched.
+fn fault_of(status: &Status) -> Option<String> {
+    let cause = status.fault().ok()??;
+    Some(format!(
+        "the machine stopped by a fault: {}; {}",
+        status.fault_text().unwrap_or_default(),
+        cause.remedy()
+    ))
 }
 
 /// Whether no job can begin, for as long as the state lasts.

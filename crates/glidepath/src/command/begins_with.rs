@@ -11,7 +11,7 @@ use crate::persistence::error::StateError;
 use crate::persistence::read::{read, set_up};
 use glidepath_gcode::InForce;
 use glidepath_geometry::AxisVector;
-use glidepath_link::{LinkConfig, MachineState, Operator};
+use glidepath_link::{EndOfEpoch, LinkConfig, MachineState, Operator};
 use glidepath_persistence::PersistentState;
 
 /// What a machine was found to begin programs with.
@@ -31,7 +31,7 @@ pub(super) fn begin_on_machine(config: &mut MachineConfig) -> Result<BeginsWith,
     let instance = session::named_instance(config);
     let link = session::link(&instance, config);
     let served = served(&link, config);
-    config.program.in_force = None;
+    (config.program.in_force, config.program.stands) = (None, None);
     let mut begins = BeginsWith::default();
     let in_force = match served {
         Served::Nothing => None,
@@ -74,6 +74,26 @@ fn stands(link: &LinkConfig) -> Option<AxisVector> {
     let status = read_status(&operator, link).ok()?;
     let rests = status.state() == Ok(MachineState::Idle);
     rests.then(|| AxisVector::from(status.position))
+}
+
+/// Where a program begins that is read now beside the planner's service: where the machine stands, if it rests.
+pub(super) fn begins_now(config: &MachineConfig) -> Option<AxisVector> {
+    let link = session::link(&session::named_instance(config), config);
+    let is_served = matches!(served(&link, config), Served::State(_));
+    is_served.then(|| stands(&link)).flatten()
+}
+
+/// Where the machine stood when the program of this fingerprint began, or without one the program that is under way;
+/// nothing where it executes another one.
+pub(super) fn program_start(config: &MachineConfig, program: Option<u64>) -> Option<AxisVector> {
+    let link = session::link(&session::named_instance(config), config);
+    let operator = Operator::find(&link).ok()?;
+    let status = read_status(&operator, &link).ok()?;
+    let is_meant = match program {
+        Some(program) => status.program == program,
+        None => status.end_of_epoch() == Ok(EndOfEpoch::Open),
+    };
+    is_meant.then(|| AxisVector::from(status.program_start))
 }
 
 /// What is in force, in the words of a program.

@@ -50,12 +50,38 @@ impl Failure {
     /// A failure to deliver a command; of one that brings the machine to rest, with what is left.
     #[must_use]
     pub(super) fn of_command(self, command: &'static str) -> Self {
-        let stops = matches!(command, "hold" | "abort" | "stop-at-block-end");
+        let stops = matches!(command, "hold" | "abort" | "disable" | "stop-at-block-end");
         if stops && !matches!(self, Self::NoInterpolator { .. }) {
             let source = Box::new(self);
             Self::NotStopped { command, source }
         } else {
             self
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whoever wants the machine to rest is told what is left where nobody answers.
+    #[test]
+    fn of_every_command_that_stops_the_last_resort_is_told() {
+        let told = |command| {
+            let silent = Failure::Silent {
+                instance: "mill".to_owned(),
+                process: 7,
+                waited_s: 2,
+            };
+            silent.of_command(command).to_string()
+        };
+        for command in ["hold", "abort", "disable", "stop-at-block-end"] {
+            assert!(
+                told(command).contains("`glidepath abort --signal"),
+                "{}",
+                told(command)
+            );
+        }
+        assert!(!told("enable").contains("abort"));
     }
 }

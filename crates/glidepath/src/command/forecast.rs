@@ -1,7 +1,7 @@
 //! The forecast of a program: how far it is, and how long it takes yet. It is planned beside the
 //! machine, since planned time is run time.
 
-use super::begins_with::begin_on_machine;
+use super::begins_with::{begin_on_machine, program_start};
 use super::changed::{Change, Changed};
 use super::fitting::{is_all_that_is_wrong, without_travel};
 use super::program_diagnostics::refusal_text;
@@ -14,6 +14,7 @@ use crate::persistence::read::set_up_as_begun;
 use crate::program_file::ProgramFile;
 use crate::report::ProgramPlace;
 use glidepath_gcode::ReadingWatch;
+use glidepath_geometry::AxisVector;
 use glidepath_link::Status;
 use glidepath_planner::{FileSource, Pipeline, Refusal, Step};
 use glidepath_program::{Frame, Item};
@@ -31,9 +32,13 @@ const MOST_BLOCKS: usize = 4_000_000;
 #[derive(Debug, Clone, Copy)]
 struct Begin {
     block: u32,
+    line: u32,
     sequence: u64,
     path_s: f64,
 }
+
+/// Blocks that the way to a line has at most: three moves, and what spindle, coolant and outputs have to be.
+const MOST_WAY: u32 = 64;
 
 /// What a program is planned for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -86,6 +91,7 @@ pub(super) struct Forecast {
     name: String,
     lines: TextLines,
     period_t: f64,
+    begins: AxisVector,
     plan: Arc<Mutex<Plan>>,
     over: Arc<AtomicBool>,
     /// Ends the reading of a program that is not wanted any more.
@@ -128,6 +134,11 @@ impl Forecast {
             // Of one that is not under way any more, what is kept now is all that is known.
             let _known = set_up_as_begun(&mut machine, &kept, program);
         }
+        if let PlannedFor::Following(program) = planned_for
+            && let Some(start) = program_start(&machine, program)
+        {
+            machine.program.stands = Some(start);
+        }
         change.machine(&mut machine);
         let watch = ReadingWatch::default();
         machine.program.watch = Some(watch.clone());
@@ -136,6 +147,7 @@ impl Forecast {
             ..Plan::default()
         };
         let (plan, over) = (Arc::new(Mutex::new(plan)), Arc::<AtomicBool>::default());
+        let begins = machine.start();
         let planner = {
             let (path, plan, over) = (path.to_owned(), Arc::clone(&plan), Arc::clone(&over));
             std::thread::spawn(move || {
@@ -148,11 +160,17 @@ impl Forecast {
             name: path.display().to_string(),
             lines,
             period_t: config.period_t(),
+            begins,
             plan,
             over,
             watch,
             planner: Some(planner),
         })
+    }
+
+    /// Where it begins: where the machine stood.
+    pub(super) const fn begins(&self) -> AxisVector {
+        self.begins
     }
 
     /// Lines of its text; none if it is too long.
@@ -202,14 +220,15 @@ impl Forecast {
         if plan.fingerprint != Some(status.program) {
             return None;
         }
-        let now = plan.sequence(status);
+        let now = plan.at(status);
         let whole = plan.is_whole.then_some(plan.frames);
         let time = |frames: u64| self.time(frames);
         Some(ProgramPlace {
             program: self.name.clone(),
             text: text.unwrap_or_default().to_owned(),
             planned_t: whole.map(time),
-            elapsed_t: now.map(time),
+            elapsed_t: now.map(|at| time(at.sequence)),
+            is_on_its_way: now.is_some_and(|at| at.is_on_its_way),
             has_failed: plan.has_failed,
         })
     }
@@ -233,7 +252,7 @@ fn work(
 ) -> Option<String> {
     // What was found is of that text, too.
     let open = |config: &MachineConfig| {
-        let options = config.program_options(config.home());
+        let options = config.program_options(config.start());
         let looked = FileSource::look(path, options, &config.settings())?;
         let mut plan = plan.lock().unwrap_or_else(PoisonError::into_inner);
         plan.fingerprint = Some(looked.fingerprint).filter(|fingerprint| *fingerprint != 0);
@@ -252,7 +271,7 @@ fn work(
         Err(refusal) => return Some(refusal_text(&refusal)),
     };
     let changed = Changed { source, change };
-    let steps = Pipeline::new(changed, config.settings(), config.home());
+    let steps = Pipeline::new(changed, config.settings(), config.start());
     let mut steps = steps.with_joints(config.limited_mechanism());
     while !over.load(Ordering::Relaxed) {
         let step = steps.step();
@@ -296,6 +315,7 @@ impl Plan {
         if last.is_none_or(|last| last.block != frame.block) {
             begins.push(Begin {
                 block: frame.block,
+                line: frame.line,
                 sequence: frame.sequence,
                 path_s: frame.path_s,
             });
@@ -303,17 +323,30 @@ impl Plan {
         self.has_failed = begins.len() > MOST_BLOCKS;
     }
 
-    /// The planned frame of what is executed: by the block and the part of its path that is done, so
-    /// that it holds under overrides and after a program was gone on with.
+    /// The place in the plan of what is executed: by the block and the part of its path that is done, so
+    /// that it holds under overrides and after a program was gone on with. On the way to a line that the program
+    /// begins with it is the beginning of that line: the way is of no plan.
     #[allow(
         clippy::cast_precision_loss,
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
         reason = "counts of frames are exact, and a part of them is below"
     )]
-    fn sequence(&self, status: &Status) -> Option<u64> {
+    fn at(&self, status: &Status) -> Option<At> {
         let begins = self.begins.as_ref()?;
         let at = begins.partition_point(|begin| begin.block <= status.block);
+        let begin = begins.get(at.checked_sub(1)?)?;
+        if let Some(ahead) = line_ahead(begin, begins.get(at..)?, status) {
+            return Some(At {
+                sequence: ahead.sequence,
+                is_on_its_way: true,
+            });
+        }
+        // Behind the way to a line near the beginning, which has more blocks than there are in front of that line, blocks
+        // have higher numbers than in the plan.
+        let mut back = begins.get(..at)?.iter().rev().take(MOST_WAY as usize);
+        let back = back.position(|begin| begin.line == status.line);
+        let at = at - back.unwrap_or(0);
         let begin = begins.get(at.checked_sub(1)?)?;
         let (end, end_s) = match begins.get(at) {
             Some(next) => (next.sequence, next.path_s),
@@ -327,6 +360,32 @@ impl Plan {
             0.0
         };
         let frames = end.saturating_sub(begin.sequence) as f64 * part;
-        Some(begin.sequence + frames as u64)
+        Some(At {
+            sequence: begin.sequence + frames as u64,
+            is_on_its_way: false,
+        })
     }
 }
+
+/// A place in the plan.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct At {
+    sequence: u64,
+    /// The machine is on its way there.
+    is_on_its_way: bool,
+}
+
+/// Where the line begins to which the machine is on its way. Such a way is executed under that line, and under the
+/// numbers of the blocks in front of it, which are those of other lines.
+fn line_ahead<'b>(begin: &Begin, ahead: &'b [Begin], status: &Status) -> Option<&'b Begin> {
+    if status.line == 0 || begin.line == status.line {
+        return None;
+    }
+    let near = ahead
+        .iter()
+        .take_while(|next| next.block - status.block <= MOST_WAY);
+    near.into_iter().find(|next| next.line == status.line)
+}
+
+#[cfg(test)]
+mod tests;

@@ -12,8 +12,8 @@ use crate::interrupt::Interrupt;
 use crate::machine_options::{self, complete};
 use crate::output;
 use glidepath_link::{
-    Client, Command, CommandRequest, JobKind, JobReply, JobRequest, JobStage, JobState, JobWish,
-    LinkConfig, LinkError, Operator, Record as _, Transport as _,
+    CALLED_OFF, Client, Command, CommandRequest, Ipc, JobKind, JobReply, JobRequest, JobStage,
+    JobState, JobWish, LinkConfig, LinkError, Operator, Record as _, Transport as _,
 };
 use serde_json::json;
 use std::io::{self, BufRead as _, IsTerminal as _};
@@ -28,6 +28,10 @@ const END_PATIENCE: Duration = Duration::from_millis(600);
 const ABORT_PATIENCE: Duration = Duration::from_millis(100);
 /// When it is said for the first time what is being done; each time after that, twice as much later.
 const TELL_INTERVAL: Duration = Duration::from_secs(1);
+/// After how long without an answer it is said that the planner does not answer.
+const SILENCE: Duration = Duration::from_secs(3);
+/// A planner that answers tells of a fault itself, within so long.
+const FAULT_PATIENCE: Duration = Duration::from_secs(1);
 /// Between two looks at how a job stands.
 const POLL: Duration = Duration::from_millis(20);
 
@@ -107,10 +111,12 @@ fn execute(
     let interrupt = Interrupt::install().map_err(Failure::Signals)?;
     let transport = session::join(args, config)?;
     // Where the machine cannot be watched, the job goes on, and this waits for its end.
-    let mut waiting = Waiting::new(Some((&transport, config)));
+    let waiting = Waiting::new(Some((&transport, config)));
     let link = session::link(&session::instance(args, config), config);
     let mut desk = Desk {
         client: transport.job_client()?,
+        transport: &transport,
+        waiting,
         link: &link,
         interrupt: &interrupt,
         interrupted: None,
@@ -158,13 +164,15 @@ fn execute(
                 });
             }
         }
-        waiting.pause(POLL);
+        desk.waiting.pause(POLL);
     }
 }
 
 /// Where the job is handed in, and what has come of it.
 struct Desk<'d> {
     client: Box<dyn Client<JobRequest, JobReply>>,
+    transport: &'d Ipc,
+    waiting: Waiting,
     link: &'d LinkConfig,
     interrupt: &'d Interrupt,
     /// When the interrupt was seen.
@@ -212,6 +220,36 @@ impl Desk<'_> {
         Err(Failure::NoAnswer)
     }
 
+    /// The fault that has ended a job whose planner does not say so.
+    fn look_for_fault(&self, asked: Instant) -> Result<(), Failure> {
+        let fault = self.waiting.fault();
+        let Some(fault) = fault.filter(|_| self.is_taken && asked.elapsed() >= FAULT_PATIENCE)
+        else {
+            return Ok(());
+        };
+        let mut text = format!("{fault}; {}", self.hangs());
+        if let Some(resume) = &self.resume {
+            text.push_str(&format!("; then {resume} goes on with the program"));
+        }
+        Err(Failure::Job {
+            text,
+            exit: Exit::Fault,
+        })
+    }
+
+    /// What is to be done about a planner that does not answer.
+    fn hangs(&self) -> String {
+        let Some(process) = self.transport.planner_process() else {
+            return "the planner does not answer, and none runs: start `glidepath planner --listen`"
+                .to_owned();
+        };
+        format!(
+            "the planner (process {process}) lives and does not answer: it is stopped or hangs; `kill -CONT {process}` lets \
+             one go on that was stopped; else end it by `kill -KILL {process}`, and start `glidepath planner --listen`. \
+             `glidepath abort` stops the machine without it"
+        )
+    }
+
     fn lost(&self) -> Failure {
         let resume = self.resume.clone();
         Failure::ServiceLost { resume }
@@ -245,6 +283,7 @@ impl Desk<'_> {
             }
         }
         let started = Instant::now();
+        let mut is_told = false;
         loop {
             let reply = match self.client.reply() {
                 Err(LinkError::NoServer { .. }) if self.is_taken => {
@@ -258,14 +297,20 @@ impl Desk<'_> {
             }
             self.told.wait_for("an answer of the planner", started);
             self.give_up()?;
-            std::thread::sleep(Duration::from_millis(1));
+            self.look_for_fault(started)?;
+            if !is_told && started.elapsed() >= SILENCE {
+                is_told = true;
+                output::note(&self.hangs());
+            }
+            self.waiting.pause(Duration::from_millis(1));
         }
     }
 }
 
 /// Has the motion of a job or a stream aborted that was given up. What it comes to is seen by how that ends.
 pub(super) fn abort(link: &LinkConfig) {
-    let request = CommandRequest::new(u64::from(std::process::id()), 1, Command::Abort);
+    let request =
+        CommandRequest::new(u64::from(std::process::id()), 1, Command::Abort).saying(CALLED_OFF);
     if let Ok(operator) = reach(link) {
         let _answer = operator.call(&request, ABORT_PATIENCE);
     }

@@ -1,11 +1,12 @@
 //! The drives and joints of a status, as text and as JSON.
 
 use super::quantity::microseconds;
+use super::superposition;
 use crate::machine_options::complete;
 use core::fmt::{self, Write as _};
 use glidepath_geometry::{AXES, Axis};
 use glidepath_interpolator::AnswerSource;
-use glidepath_link::{MotionMode, Power, SpindleFlags, Status, SuperpositionState};
+use glidepath_link::{MotionMode, Power, SpindleFlags, Status};
 use glidepath_program::{CodeWord, Event};
 use serde_json::{Map, Value, json};
 
@@ -175,17 +176,12 @@ fn spindle_rpm(status: &Status) -> Option<f64> {
     is_measured.then_some(60.0 * status.spindle_v + 0.0)
 }
 
-/// What the superposition does; nothing on a machine without one.
-fn superposition_name(status: &Status) -> Option<&'static str> {
-    let state = status.superposition().ok()?;
-    (state != SuperpositionState::None).then(|| state.name())
-}
-
 /// What a status says about drives and joints.
 pub(super) fn machine_object(status: &Status, asked: &AwaitedEvent) -> Map<String, Value> {
     let object = json!({
         "away": by_axis(&status.away),
-        "superposition": superposition_name(status),
+        "superposition": superposition::name(status),
+        "superposition_text": superposition::does(status),
         "superposed": by_axis(&status.superposed),
         "power": status.power().map_or("unknown", Power::name),
         "mode": status.mode().map_or("unknown", MotionMode::name),

@@ -14,6 +14,7 @@ mod run;
 mod shape;
 mod smoothness;
 mod status;
+mod superposition;
 mod view;
 mod work_offset;
 

@@ -3,12 +3,12 @@
 use super::beside::Beside;
 use super::machine::{AwaitedEvent, awaited_text, by_axis, machine_object, power_text};
 use super::quantity::{decimals, grouped, microseconds};
+use super::superposition;
 use crate::machine_options::complete;
 use core::fmt::Write as _;
 use glidepath_geometry::{AXES, Axis};
 use glidepath_link::{
     EndOfEpoch, FaultCause, Grants, JobStage, MachineState, MotionMode, Quantiles, Status,
-    SuperpositionState,
 };
 use serde_json::{Map, Value, json};
 
@@ -191,14 +191,10 @@ pub(super) fn adaptive_text(status: &Status) -> Option<String> {
 
 /// What is added to the motion of an axis, and whether that goes on; nothing on a machine without a superposition.
 pub(super) fn superposition_text(status: &Status) -> Option<String> {
-    let state = status.superposition().ok()?;
-    let does = state.text();
-    if state == SuperpositionState::None {
-        return None;
-    }
+    let does = superposition::does(status)?;
     let offset = positions_text(&status.superposed, &[], |_, value| value != 0.0);
     Some(if offset.is_empty() {
-        does.to_owned()
+        does
     } else {
         format!("{offset} beside the program; {does}")
     })

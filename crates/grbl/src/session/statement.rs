@@ -210,14 +210,16 @@ impl Session {
         let axes = letters.zip(from.iter().zip(target));
         let moved = axes.filter(|(_, (from, target))| from.total_cmp(target).is_ne());
         moved
-            .map(|((axis, letter), (_, target))| {
+            .map(|((axis, letter), (from, target))| {
                 if !self.settings.axes.contains(&axis) {
                     return Some(format!("the machine has no axis {letter}"));
                 }
                 // One that does not know where it is knows no travel either.
                 let is_known = self.machine.doing != Doing::NotHomed;
                 let (least, most) = (self.settings.least(axis), self.settings.most(axis));
-                let is_inside = (least - INSIDE_MM..=most + INSIDE_MM).contains(target);
+                // One that stands outside may come inwards.
+                let reach = (least.min(*from) - INSIDE_MM)..=(most.max(*from) + INSIDE_MM);
+                let is_inside = reach.contains(target);
                 (is_known && !is_inside).then(|| {
                     format!("{letter}{target:.3} is beyond the travel of {least} to {most}")
                 })

@@ -308,6 +308,14 @@ fn the_end_of_a_program_is_told_and_what_follows_is_executed() {
 }
 
 #[test]
+fn an_axis_that_stands_outside_jogs_inwards() {
+    let mut desk = Desk::new();
+    desk.machine.position[0] = desk.session.settings.most(0) + 3.0;
+    let said = desk.says(b"$J=G91 X1 F600\n$J=G91 X-1 F600\n");
+    assert_eq!(answers(&said), ["error:15", "ok"]);
+}
+
+#[test]
 fn jogs_are_queued_bounded_by_travel_and_ended() {
     let mut desk = Desk::new();
     let said = desk.says(b"$J=G91 X5 F600\n$J=G91 X5 F600\n$J=X99999 F1\n");

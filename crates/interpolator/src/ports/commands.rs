@@ -9,8 +9,8 @@ use crate::ports::frame_validation::FrameValidator;
 use crate::ports::job::{JobBook, Told, unfit};
 use crate::shared::message::{Order, PortsEnds, TickReport};
 use glidepath_link::{
-    Command, CommandOutcome, CommandRefusal, CommandReply, CommandRequest, EndOfEpoch, JobPhase,
-    JobStage, MachineState, SWITCHED_OFF, UnmetPrecondition,
+    Command, CommandOutcome, CommandRefusal, CommandReply, CommandRequest, DISABLED, EndOfEpoch,
+    JobPhase, JobStage, MachineState, SWITCHED_OFF, UnmetPrecondition,
 };
 
 /// Orders that one command comes to, at most.
@@ -77,11 +77,11 @@ impl CommandContext<'_, '_> {
                 number,
                 phase,
                 asked_ns,
+                is_stream,
             }) => {
-                return match self.hear_job((number, phase, asked_ns), request) {
-                    Ok(()) => done,
-                    Err(why) => wrong(why),
-                };
+                let heard = self.hear_job((number, phase, asked_ns), request);
+                self.jobs.note_stream(number, is_stream);
+                return heard.map_or_else(wrong, |()| done);
             }
             Ok(Command::Acknowledge {
                 event,
@@ -106,7 +106,7 @@ impl CommandContext<'_, '_> {
         match self.judge(command) {
             Err(why) => return wrong(why.text().to_owned()),
             Ok(is_for_motion) => {
-                self.tell_job(command);
+                self.tell_job(command, self.why_it_ends(request));
                 if is_for_motion {
                     self.order(Order::Command(command));
                 }
@@ -152,8 +152,22 @@ impl CommandContext<'_, '_> {
         Ok(())
     }
 
+    /// Why a motion ends, or a job, that an abort ends or the loss of power; empty where an operator has it aborted.
+    pub(crate) fn why_it_ends<'r>(&self, request: &'r CommandRequest) -> &'r str {
+        let command = request.command();
+        if command == Ok(Command::Abort) {
+            request.text.as_str()
+        } else if command != Ok(Command::Disable) {
+            ""
+        } else if self.drives.is_some() {
+            SWITCHED_OFF
+        } else {
+            DISABLED
+        }
+    }
+
     /// What a command is to a job that has not begun.
-    fn tell_job(&mut self, command: Command) {
+    fn tell_job(&mut self, command: Command, why: &str) {
         if matches!(command, Command::Hold | Command::Resume) {
             self.jobs.hold(command == Command::Hold);
         }
@@ -161,16 +175,15 @@ impl CommandContext<'_, '_> {
             let is_open = self.report.end_of_epoch == EndOfEpoch::Open;
             self.jobs.hold_what_was_asked(self.now_ns, is_open);
         }
-        if matches!(command, Command::Abort | Command::Disable) {
-            self.jobs.stop(self.now_ns);
-        }
-        let (stage, why) = if command == Command::Abort {
-            (JobStage::Aborted, "aborted before anything moved")
-        } else if command == Command::Disable {
-            (JobStage::Refused, SWITCHED_OFF)
-        } else {
+        if !matches!(command, Command::Abort | Command::Disable) {
             return;
+        }
+        let (stage, why) = if why.is_empty() {
+            (JobStage::Aborted, "aborted before anything moved")
+        } else {
+            (JobStage::Refused, why)
         };
+        self.jobs.stop(self.now_ns, (stage, why));
         let had_machine = self.jobs.end(stage, why);
         if let Some(epoch) = self.frame_validator.opening(self.report.setpoint.epoch) {
             self.frame_validator.bar(epoch);

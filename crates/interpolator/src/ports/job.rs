@@ -42,12 +42,15 @@ pub(crate) struct JobBook {
     stage: JobStage,
     /// It is to begin held.
     is_held: bool,
+    is_stream: bool,
     heard_ns: u64,
     text: Text,
     /// Why it does not begin.
     end: Text,
     /// When an abort, or the loss of power, was ordered last, ns: what was asked for before does not begin.
     stopped_ns: u64,
+    /// How that ends such a job, and why.
+    stopped_by: (JobStage, Text),
     /// When a hold was ordered last with nothing to hold, ns: what was asked for before begins held.
     held_ns: u64,
     /// When any hold was ordered last, ns.
@@ -60,10 +63,12 @@ impl JobBook {
             number: 0,
             stage: JobStage::None,
             is_held: false,
+            is_stream: false,
             heard_ns: 0,
             text: Text::default(),
             end: Text::default(),
             stopped_ns: 0,
+            stopped_by: (JobStage::Aborted, Text::default()),
             held_ns: 0,
             any_hold_ns: 0,
         }
@@ -141,8 +146,13 @@ impl JobBook {
     fn take_up(&mut self, number: u64, asked_ns: u64) {
         let is_before = |stop_ns| asked_ns != 0 && asked_ns < stop_ns;
         let (stage, end) = if is_before(self.stopped_ns) {
-            let why = "the machine was stopped after this was asked for, and before its planner told of it";
-            (JobStage::Aborted, Text::new(why))
+            match self.stopped_by {
+                (JobStage::Aborted, _) => {
+                    let why = "the machine was stopped after this was asked for, and before its planner told of it";
+                    (JobStage::Aborted, Text::new(why))
+                }
+                by => by,
+            }
         } else {
             (JobStage::Waiting, Text::default())
         };
@@ -152,15 +162,23 @@ impl JobBook {
             end,
             is_held: stage == JobStage::Waiting && is_before(self.held_ns),
             stopped_ns: self.stopped_ns,
+            stopped_by: self.stopped_by,
             held_ns: self.held_ns,
             any_hold_ns: self.any_hold_ns,
             ..Self::new()
         };
     }
 
-    /// An abort, or the power is taken.
-    pub(crate) fn stop(&mut self, now_ns: u64) {
-        self.stopped_ns = now_ns;
+    /// Whether it is a stream of segments.
+    pub(crate) fn note_stream(&mut self, number: u64, is_stream: bool) {
+        if self.number == number {
+            self.is_stream = is_stream;
+        }
+    }
+
+    /// An abort, or the power is taken: so end jobs that were asked for before, and for this reason.
+    pub(crate) fn stop(&mut self, now_ns: u64, (stage, why): (JobStage, &str)) {
+        (self.stopped_ns, self.stopped_by) = (now_ns, (stage, Text::new(why)));
     }
 
     /// A hold; `is_open`: there was a program to hold, so that it does not count for one to come.
@@ -238,6 +256,7 @@ impl JobBook {
         status.job_number = self.number;
         status.job_stage = self.stage.code();
         status.job_held = self.is_held.into();
+        status.job_stream = self.is_stream.into();
         (status.job, status.job_end) = (self.text, self.end);
     }
 }

@@ -170,7 +170,9 @@ impl StatusBook {
         status.position = setpoint.position;
         status.away = setpoint.away;
         status.superposed = setpoint.superposed;
-        status.superposition = report.superposition.code();
+        let (superposition, freeze_reason) = report.superposition;
+        status.superposition = superposition.code();
+        status.freeze_reason = freeze_reason.code();
         status.reference = setpoint.reference;
         status.joint_actual = setpoint.joint_position;
         for (joint, by) in self.compensation.iter().enumerate() {

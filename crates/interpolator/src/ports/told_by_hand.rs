@@ -3,14 +3,15 @@
 
 use crate::shared::message::TickReport;
 use crate::shared::message::jog_demand::Demand;
-use glidepath_link::{Command, JogMode, MachineState, SWITCHED_OFF};
+use glidepath_link::{Command, JogMode, MachineState};
 
 /// What a command says of the motion that it ends, once it is accepted; an empty text where
-/// a motion begins with it.
+/// a motion begins with it. `why` is what the command says of that itself.
 pub(crate) const fn of_command(
     state: MachineState,
     command: Option<Command>,
-) -> Option<&'static str> {
+    why: &str,
+) -> Option<&str> {
     use MachineState::{Faulted, Homing, Idle, Jogging, NotHomed, Off};
     let jogs = matches!(state, Jogging);
     let is_at_rest = matches!(state, Idle | NotHomed | Faulted | Off);
@@ -22,8 +23,8 @@ pub(crate) const fn of_command(
         Some("an abort ended the jog")
     } else if matches!(state, Homing) && matches!(command, Some(Command::Abort)) {
         Some("an abort ended the way home")
-    } else if !is_at_rest && matches!(command, Some(Command::Disable)) {
-        Some(SWITCHED_OFF)
+    } else if !is_at_rest && !why.is_empty() {
+        Some(why)
     } else {
         None
     }

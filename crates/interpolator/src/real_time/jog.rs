@@ -285,7 +285,13 @@ impl Jog {
     }
 
     fn travel(&self, position: &AxisVector) -> Travel {
-        Travel::from(&self.soft_limits, position, &self.began_at, &self.is_homed)
+        // A path that is held may be outside, where its program began: the way back leads there.
+        let path = self
+            .path
+            .as_ref()
+            .map(|path| self.soft_limits.beginning_at(path));
+        let soft_limits = path.as_ref().unwrap_or(&self.soft_limits);
+        Travel::from(soft_limits, position, &self.began_at, &self.is_homed)
     }
 
     /// Nothing moves: what was wanted is done, or cannot be.

@@ -80,28 +80,26 @@ impl Output {
         self.setpoints.begin_epoch();
     }
 
-    /// The machine stays where it is, inside its travel.
+    /// The machine stays where it is.
     pub(crate) fn rest(&mut self) {
-        let position: AxisVector = self.published.position();
-        let inside = self.resting.nearest(&position);
-        self.published = if inside == position {
-            Differences::at_rest(&self.published.place())
-        } else {
-            at_rest(self.limited.as_ref(), &inside)
-        };
+        self.published = Differences::at_rest(&self.published.place());
     }
 
-    /// Writes the setpoint at the present program time, and compares its position with the limits.
+    /// Writes the setpoint at the present program time, and compares its position with the limits. Where the path
+    /// is `dropped` there, at rest, that is inside the travel.
     pub(crate) fn write_moving(
         &mut self,
         epoch: u64,
-        now: &Progress,
+        (now, dropped): (&Progress, bool),
         track: &Track,
         setpoint: &mut Setpoint,
     ) -> Written {
         let writer = &mut self.setpoints;
         if writer.write_moving(epoch, now, track, setpoint).is_none() {
             return Written::Nothing;
+        }
+        if dropped {
+            setpoint.position = self.resting.nearest(&setpoint.position.into()).into();
         }
         self.joints.look_ahead(track, now.time.sequence, setpoint);
         self.go_to(&setpoint.position.into())

@@ -38,6 +38,15 @@ impl SoftLimits {
             highest: AxisVector::repeat(f64::INFINITY),
         }
     }
+
+    /// Those of a motion from a place: an axis that stands outside may stay there and come inwards, but goes no
+    /// further out.
+    pub(crate) fn beginning_at(&self, place: &AxisVector) -> Self {
+        Self {
+            lowest: self.lowest.inf(place),
+            highest: self.highest.sup(place),
+        }
+    }
 }
 
 /// The scheduling of the threads.

@@ -14,8 +14,8 @@ use crate::shared::fault::Fault;
 use core::fmt;
 use glidepath_kinematics::JointVector;
 use glidepath_link::{
-    Command, EndOfEpoch, EventId, MachineState, Power, Setpoint, SetpointFrame, StateChange,
-    SuperpositionState,
+    Command, EndOfEpoch, EventId, FreezeReason, MachineState, Power, Setpoint, SetpointFrame,
+    StateChange, SuperpositionState,
 };
 use heapless::spsc::{Consumer, Producer, Queue};
 use jog_demand::{Demand, Jogged};
@@ -217,7 +217,7 @@ pub(crate) struct TickReport {
     pub(crate) barred: u64,
     /// On which side of its play each joint is, -1 to 1.
     pub(crate) sides: JointVector,
-    pub(crate) superposition: SuperpositionState,
+    pub(crate) superposition: (SuperpositionState, FreezeReason),
 }
 
 impl TickReport {
@@ -258,7 +258,7 @@ impl TickReport {
             moved: Moved::default(),
             barred: 0,
             sides: JointVector::zeros(),
-            superposition: SuperpositionState::None,
+            superposition: (SuperpositionState::None, FreezeReason::None),
         }
     }
 }

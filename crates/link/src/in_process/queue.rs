@@ -35,6 +35,7 @@ impl Sink {
             return Err(LinkError::Taken {
                 service: inner.service,
                 role: "planner",
+                holder: None,
             });
         }
         inner.has_sender = true;
@@ -71,6 +72,7 @@ impl Source {
             return Err(LinkError::Taken {
                 service: inner.service,
                 role: "consumer",
+                holder: None,
             });
         }
         inner.has_consumer = true;

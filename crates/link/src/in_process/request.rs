@@ -54,6 +54,7 @@ impl<Q, A> Asking<Q, A> {
             return Err(LinkError::Taken {
                 service: inner.service,
                 role: "client",
+                holder: None,
             });
         }
         let id = inner.next_id;
@@ -122,6 +123,7 @@ impl<Q, A> Answering<Q, A> {
             return Err(LinkError::Taken {
                 service: inner.service,
                 role: "server",
+                holder: None,
             });
         }
         inner.has_server = true;

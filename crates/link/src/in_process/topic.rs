@@ -79,6 +79,7 @@ impl<R> Sink<R> {
             return Err(LinkError::Taken {
                 service: inner.service,
                 role: "publisher",
+                holder: None,
             });
         }
         inner.publishers += 1;
@@ -124,6 +125,7 @@ impl<R> Source<R> {
             return Err(LinkError::Taken {
                 service: inner.service,
                 role: "subscriber",
+                holder: None,
             });
         }
         let id = inner.next_id;

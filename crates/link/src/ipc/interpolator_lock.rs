@@ -54,6 +54,10 @@ impl InterpolatorLock {
             Err(Errno::AGAIN | Errno::ACCESS) => Err(LinkError::Taken {
                 service,
                 role: "interpolator",
+                holder: holder(&file)
+                    .ok()
+                    .flatten()
+                    .map(|pid| pid.as_raw_nonzero().get()),
             }),
             Err(error) => Err(failed(error.into())),
         }

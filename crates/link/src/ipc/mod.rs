@@ -15,6 +15,7 @@
 mod active_program;
 mod config;
 mod directory;
+mod drives_lock;
 mod interpolator_lock;
 mod mapping;
 mod node;
@@ -31,6 +32,7 @@ mod trouble;
 
 pub use active_program::ActiveProgram;
 pub use config::LinkConfig;
+pub use drives_lock::DrivesLock;
 pub use interpolator_lock::InterpolatorProcess;
 pub use operator::Operator;
 pub use presence::remove_leftovers;
@@ -108,6 +110,22 @@ impl Ipc {
         Ok(topic::receivers(&service))
     }
 
+    /// Takes the part of the one process that answers for all drives of the instance.
+    ///
+    /// # Errors
+    ///
+    /// [`LinkError::Taken`] with the process that has it, or the file cannot be had.
+    pub fn answer_for_drives(&self) -> Result<DrivesLock, LinkError> {
+        DrivesLock::take(self.session.config(), FEEDBACK)
+    }
+
+    /// The process of the planner's service, if one serves jobs.
+    #[must_use]
+    pub fn planner_process(&self) -> Option<i32> {
+        let service = self.session.exchange::<JobRequest, JobReply>(JOBS).ok()?;
+        request::server_of(&service)
+    }
+
     const fn status(&self) -> TopicSettings {
         let subscribers = self.capacity.subscribers;
         TopicSettings {
@@ -166,7 +184,9 @@ impl Ipc {
     ) -> Result<Box<dyn Server<Q, A>>, LinkError> {
         let service = self.session.exchange(name)?;
         let make = || request::Answering::new(name, &service, &self.session);
-        Ok(Box::new(self.session.claim(make)?))
+        let port = self.session.claim(make);
+        let port = port.map_err(|error| error.held_by(request::server_of(&service)))?;
+        Ok(Box::new(port))
     }
 }
 
@@ -178,7 +198,8 @@ impl Transport for Ipc {
     }
 
     fn frame_source(&self) -> Result<Box<dyn Subscriber<SetpointFrame>>, LinkError> {
-        self.subscriber(FRAMES, self.frames())
+        let source = self.subscriber(FRAMES, self.frames());
+        source.map_err(|error| error.held_by(self.interpolator_process()))
     }
 
     fn setpoint_sink(&self) -> Result<Box<dyn Publisher<Setpoint>>, LinkError> {

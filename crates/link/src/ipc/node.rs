@@ -116,7 +116,11 @@ impl Session {
         role: &'static str,
     ) -> Result<File, LinkError> {
         let claimed = self.presence.claim(role)?;
-        claimed.ok_or(LinkError::Taken { service, role })
+        claimed.ok_or(LinkError::Taken {
+            service,
+            role,
+            holder: None,
+        })
     }
 
     /// Opens the service of a topic or of the frames.

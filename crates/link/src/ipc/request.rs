@@ -7,12 +7,26 @@ use iceoryx2::pending_response::PendingResponse;
 use iceoryx2::port::client::{Client as RawClient, RequestSendError};
 use iceoryx2::port::server::Server as RawServer;
 use iceoryx2::port::{BackpressureAction, DegradationAction, SendError};
-use iceoryx2::prelude::BackpressureStrategy;
+use iceoryx2::prelude::{BackpressureStrategy, CallbackProgression, PortFactory as _};
 use iceoryx2::service::port_factory::{client::ClientCreateError, server::ServerCreateError};
 use std::collections::VecDeque;
 use std::rc::Rc;
 
 type Pending<Q, A> = PendingResponse<PrivateIpc, Q, (), A, ()>;
+
+/// The process that answers at a service; none where nobody does.
+pub(super) fn server_of<Q: Record, A: Record>(service: &ExchangeService<Q, A>) -> Option<i32> {
+    let mut found = None;
+    service.dynamic_config().list_servers(|server| {
+        found = server
+            .node_id
+            .pid::<PrivateIpc>()
+            .ok()
+            .map(|pid| pid.value());
+        CallbackProgression::Continue
+    });
+    found
+}
 
 /// The asking end.
 pub(super) struct Asking<Q: Record, A: Record> {

@@ -2,7 +2,7 @@
 
 use super::check::{Fields, RecordError};
 use super::code::coded;
-use super::{ALL_JOINTS, HIGHEST_JOINT, JobPhase, Record, Text};
+use super::{ALL_JOINTS, EventId, HIGHEST_JOINT, JobPhase, Record, Text};
 use iceoryx2::prelude::ZeroCopySend;
 
 coded! {
@@ -125,21 +125,9 @@ pub enum Command {
         /// When somebody asked for it, ns of the host's steady clock; 0 where nobody knows. A job that was
         /// asked for before an abort does not begin, however late its planner hears of it.
         asked_ns: u64,
+        /// Whether it is a stream of segments.
+        is_stream: bool,
     },
-}
-
-/// The identity of an event: no two have the same.
-#[repr(C)]
-#[derive(
-    Debug, Clone, Copy, PartialEq, Eq, Default, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend,
-)]
-pub struct EventId {
-    /// The life of the interpolator that published it.
-    pub boot_id: u64,
-    /// The epoch it happened in.
-    pub epoch: u64,
-    /// The sequence of its frame.
-    pub sequence: u64,
 }
 
 impl Command {
@@ -200,7 +188,7 @@ impl Command {
 /// A command on its way.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.CommandRequest.v7")]
+#[type_name("glidepath.CommandRequest.v8")]
 pub struct CommandRequest {
     /// Who asks: any number the client keeps, for the log.
     pub client: u64,
@@ -221,8 +209,12 @@ pub struct CommandRequest {
     /// When it, or the job that is told of, was asked for, ns of the host's steady clock; 0 if that is not
     /// known. What was asked for before the machine was stopped moves nothing, however late it comes.
     pub asked_ns: u64,
-    /// Why what an event asked for has failed, what the program says, or what is being done for a job,
-    /// for people; else empty.
+    /// 1 if the job that is told of is a stream of segments, else 0.
+    pub job_stream: u32,
+    /// Must be zero.
+    pub reserved: u32,
+    /// Why what an event asked for has failed, what the program says, what is being done for a job, or why the
+    /// motion is aborted, for people; else empty.
     pub text: Text,
 }
 
@@ -239,6 +231,8 @@ impl CommandRequest {
             event: EventId::default(),
             job: 0,
             asked_ns: 0,
+            job_stream: 0,
+            reserved: 0,
             text: Text::default(),
         };
         match command {
@@ -257,7 +251,9 @@ impl CommandRequest {
                 number,
                 phase,
                 asked_ns,
+                is_stream,
             } => {
+                record.job_stream = is_stream.into();
                 (record.job, record.asked_ns) = (number, asked_ns);
                 record.value = f64::from(phase.code());
             }
@@ -302,6 +298,9 @@ impl CommandRequest {
         let fields = Fields(Self::NAME);
         fields.finite("value", self.value)?;
         self.check_joints()?;
+        fields.zero("reserved", self.reserved)?;
+        let is_of_job = self.kind == CommandKind::Job.code();
+        fields.flags("job_stream", self.job_stream, is_of_job.into())?;
         Ok(match fields.code::<CommandKind>("kind", self.kind)? {
             CommandKind::Ping => Command::Ping,
             CommandKind::Hold => Command::Hold,
@@ -339,6 +338,7 @@ impl CommandRequest {
                 number: self.job,
                 phase: fields.code("value", fields.whole("value", self.value)?)?,
                 asked_ns: self.asked_ns,
+                is_stream: self.job_stream == 1,
             },
             CommandKind::JogOverride => {
                 fields.range("value", self.value, 0.0, 1.0)?;
@@ -389,7 +389,7 @@ impl CommandRequest {
 }
 
 impl Record for CommandRequest {
-    const NAME: &'static str = "glidepath.CommandRequest.v7";
+    const NAME: &'static str = "glidepath.CommandRequest.v8";
 
     fn check(&self) -> Result<(), RecordError> {
         self.command()?;

@@ -6,9 +6,6 @@ use super::code::coded;
 use super::{LongText, Record};
 use iceoryx2::prelude::ZeroCopySend;
 
-/// What a stream of segments is called among jobs.
-pub const STREAM_JOB: &str = "a stream of segments";
-
 coded! {
     /// The kind of a job.
     pub enum JobKind {

@@ -20,12 +20,15 @@ mod code_words;
 mod command;
 mod command_reply;
 mod event;
+mod event_id;
 mod feedback;
 mod frame;
+mod grants;
 mod job;
 mod jog;
 mod joint;
 mod lines;
+mod quantiles;
 mod segment;
 mod segment_reply;
 mod setpoint;
@@ -37,16 +40,19 @@ mod text;
 pub use auxiliary::{ANALOG_OUTPUTS, Auxiliary, Coolant, SpindleState};
 pub use check::{RecordError, decode};
 pub use code_words::CodeWords;
-pub use command::{COMMAND_KINDS, Command, CommandKind, CommandRequest, EventId};
+pub use command::{COMMAND_KINDS, Command, CommandKind, CommandRequest};
 pub use command_reply::{CommandOutcome, CommandRefusal, CommandReply};
 pub use event::{EventKind, EventRecord};
+pub use event_id::EventId;
 pub use feedback::{DriveState, Feedback, LATCHES, Latch, LatchKind, Loss, SpindleFlags};
 pub use frame::{PERIOD_NS_MAX, SetpointFrame};
 pub use glidepath_program::EVENTS_MOST;
-pub use job::{JobKind, JobPhase, JobReply, JobRequest, JobStage, JobState, JobWish, STREAM_JOB};
+pub use grants::Grants;
+pub use job::{JobKind, JobPhase, JobReply, JobRequest, JobStage, JobState, JobWish};
 pub use jog::{JogDemand, JogMode};
 pub use joint::ALL_JOINTS;
 pub use lines::{LinesReply, LinesRequest, LinesState, LinesWish, TOLD_SYSTEMS};
+pub use quantiles::Quantiles;
 pub use segment::{ModeCode, PlaneCode, RequestKind, SegmentRequest, StreamItem};
 pub use segment_reply::{SegmentOutcome, SegmentRefusal, SegmentReply};
 pub use setpoint::{Setpoint, SetpointMarks};
@@ -54,8 +60,8 @@ pub use state::{
     ContactKind, EndOfEpoch, FRAME_REFUSALS, FaultCause, FrameRefusal, MachineState, MotionMode,
     Power,
 };
-pub use status::{Grants, Quantiles, Status};
-pub use superposition::SuperpositionState;
+pub use status::Status;
+pub use superposition::{FreezeReason, SuperpositionState};
 pub use text::{LongText, Text};
 
 use iceoryx2::prelude::ZeroCopySend;

@@ -1,68 +1,21 @@
 //! The status record, from the interpolator to everybody: what it does and how well.
 
+mod check;
+
 use super::check::{Fields, RecordError};
 use super::{
-    ALL_JOINTS, CodeWords, ContactKind, EndOfEpoch, FRAME_REFUSALS, FaultCause, JobStage,
-    MachineState, MotionMode, OVERRIDE_MAX, Power, Record, STREAM_JOB, SpindleFlags,
-    SuperpositionState, Text, event,
+    CodeWords, ContactKind, EndOfEpoch, FRAME_REFUSALS, FaultCause, FreezeReason, Grants, JobStage,
+    MachineState, MotionMode, Power, Quantiles, Record as _, SpindleFlags, SuperpositionState,
+    Text, event,
 };
 use glidepath_geometry::{AXES, Axis};
 use glidepath_program::Event;
 use iceoryx2::prelude::ZeroCopySend;
 
-/// The real-time grants that the interpolator holds, one bit each.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Grants(pub u32);
-
-impl Grants {
-    /// Scheduled by `SCHED_FIFO`.
-    pub const FIFO: Self = Self(1);
-    /// Pinned to its CPU.
-    pub const PINNED: Self = Self(1 << 1);
-    /// Memory locked.
-    pub const MEMORY_LOCKED: Self = Self(1 << 2);
-    /// Stack and rings touched beforehand.
-    pub const PREFAULTED: Self = Self(1 << 3);
-    /// `/dev/cpu_dma_latency` held.
-    pub const DMA_LATENCY: Self = Self(1 << 4);
-    /// Started with leave to go on without some of the above.
-    pub const BEST_EFFORT: Self = Self(1 << 5);
-
-    /// These and others.
-    #[must_use]
-    pub const fn with(self, other: Self) -> Self {
-        Self(self.0 | other.0)
-    }
-
-    /// True if all of `other` are held.
-    #[must_use]
-    pub const fn contains(self, other: Self) -> bool {
-        self.0 & other.0 == other.0
-    }
-
-    const KNOWN: u32 = (1 << 6) - 1;
-}
-
-/// Quantiles of a time, ns.
-#[repr(C)]
-#[derive(
-    Debug, Clone, Copy, PartialEq, Eq, Default, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend,
-)]
-pub struct Quantiles {
-    /// Median.
-    pub p50_ns: u64,
-    /// 99 % are no longer.
-    pub p99_ns: u64,
-    /// 99.9 % are no longer.
-    pub p999_ns: u64,
-    /// The longest.
-    pub max_ns: u64,
-}
-
 /// The status of the interpolator: what it does and how well. Counts are of this life of it.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.Status.v14")]
+#[type_name("glidepath.Status.v15")]
 pub struct Status {
     /// Identifies one life of the interpolator.
     pub boot_id: u64,
@@ -246,6 +199,10 @@ pub struct Status {
     pub superposition: u32,
     /// See [`super::Setpoint::superposed`].
     pub superposed: [f64; AXES],
+    /// Code of a [`FreezeReason`].
+    pub freeze_reason: u32,
+    /// 1 if the job that a planner has told of last is a stream of segments, 0 if not.
+    pub job_stream: u32,
 }
 
 /// Drives that have said nothing for so long are silent: nobody knows where they are, ns.
@@ -356,7 +313,7 @@ impl Status {
     /// program that streams.
     #[must_use]
     pub fn is_of_stream(&self) -> bool {
-        self.job_stage == JobStage::Begun.code() && self.job.as_str().starts_with(STREAM_JOB)
+        self.job_stage == JobStage::Begun.code() && self.job_stream == 1
     }
 
     /// The state of the superposition.
@@ -368,85 +325,18 @@ impl Status {
         Fields(Self::NAME).code("superposition", self.superposition)
     }
 
+    /// The reason why it is frozen.
+    ///
+    /// # Errors
+    ///
+    /// An unknown code.
+    pub fn freeze_reason(&self) -> Result<FreezeReason, RecordError> {
+        Fields(Self::NAME).code("freeze_reason", self.freeze_reason)
+    }
+
     /// The real-time grants.
     #[must_use]
     pub const fn grants(&self) -> Grants {
         Grants(self.grants)
-    }
-}
-
-impl Record for Status {
-    const NAME: &'static str = "glidepath.Status.v14";
-
-    fn check(&self) -> Result<(), RecordError> {
-        let fields = Fields(Self::NAME);
-        fields.all_finite("position", &self.position)?;
-        fields.all_finite("program_start", &self.program_start)?;
-        fields.all_finite("away", &self.away)?;
-        fields.all_finite("joint_actual", &self.joint_actual)?;
-        fields.all_finite("following_error", &self.following_error)?;
-        fields.all_finite("following_peak", &self.following_peak)?;
-        fields.finite("path_s", self.path_s)?;
-        fields.finite("block_path_s", self.block_path_s)?;
-        fields.finite("feed_v", self.feed_v)?;
-        fields.finite("fault_value", self.fault_value)?;
-        fields.finite("fault_limit", self.fault_limit)?;
-        fields.signed_override("feed_override", self.feed_override)?;
-        fields.override_ratio("rapid_override", self.rapid_override)?;
-        fields.range("jog_override", self.jog_override, 0.0, 1.0)?;
-        fields.range(
-            "effective_override",
-            self.effective_override,
-            0.0,
-            OVERRIDE_MAX,
-        )?;
-        fields.range("adaptive_feed", self.adaptive_feed, -1.0, 1.0)?;
-        fields.flags("grants", self.grants, Grants::KNOWN)?;
-        fields.flags("single_block", self.single_block, 1)?;
-        for (field, mask) in [
-            ("joints", self.joints),
-            ("enabled", self.enabled),
-            ("homed", self.homed),
-            ("drive_faults", self.drive_faults),
-        ] {
-            fields.flags(field, mask, ALL_JOINTS)?;
-        }
-        fields.all_finite("contact", &self.contact)?;
-        fields.flags("unanswered", self.unanswered, 1)?;
-        self.power()?;
-        self.mode()?;
-        self.contact()?;
-        if self.fault_joint().is_some_and(|joint| joint >= AXES) {
-            let (record, field) = (Self::NAME, "fault_joint");
-            return Err(RecordError::UnknownCode {
-                record,
-                field,
-                code: self.fault_joint,
-            });
-        }
-        if self.fault_axis != 0 && self.fault_axis().is_none() {
-            let (record, field) = (Self::NAME, "fault_axis");
-            return Err(RecordError::UnknownCode {
-                record,
-                field,
-                code: self.fault_axis,
-            });
-        }
-        self.state()?;
-        self.awaited_event()?;
-        self.awaited_words.check(Self::NAME)?;
-        self.end_of_epoch()?;
-        self.fault()?;
-        self.last_event.check(Self::NAME, "last_event")?;
-        self.message.check(Self::NAME, "message")?;
-        self.job_stage()?;
-        fields.flags("job_held", self.job_held, 1)?;
-        fields.finite("spindle_v", self.spindle_v)?;
-        fields.flags("spindle_flags", self.spindle_flags, SpindleFlags::KNOWN)?;
-        fields.all_finite("superposed", &self.superposed)?;
-        self.superposition()?;
-        self.job.check(Self::NAME, "job")?;
-        self.job_end.check(Self::NAME, "job_end")?;
-        self.last_error.check(Self::NAME, "last_error")
     }
 }

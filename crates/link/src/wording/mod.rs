@@ -20,4 +20,4 @@ pub use precondition::UnmetPrecondition;
 pub(crate) use printable::in_one_line;
 pub use printable::{is_printable, printable};
 pub use refusal::refused;
-pub use state::{SWITCHED_OFF, StateChange, TOLD_TO_END};
+pub use state::{CALLED_OFF, DISABLED, SWITCHED_OFF, StateChange, TOLD_TO_END, tells_end};

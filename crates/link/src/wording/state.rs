@@ -9,6 +9,16 @@ use core::fmt;
 pub const SWITCHED_OFF: &str = "the drives were switched off";
 /// The same where the interpolator was told to end.
 pub const TOLD_TO_END: &str = "the interpolator was told to end";
+/// The same where `disable` was given to a machine that has no power to lose.
+pub const DISABLED: &str = "`disable` ended it";
+/// The same where the command that asked for the motion was ended (Ctrl-C).
+pub const CALLED_OFF: &str = "the command that asked for it was ended";
+
+/// Whether a text is one of those, which tell what ended a motion, or a job.
+#[must_use]
+pub fn tells_end(text: &str) -> bool {
+    [SWITCHED_OFF, TOLD_TO_END, DISABLED, CALLED_OFF].contains(&text)
+}
 
 impl MachineState {
     /// The name, as `status` and recordings have it.

@@ -6,7 +6,7 @@ use glidepath_gcode::Probed;
 use glidepath_geometry::AxisVector;
 use glidepath_link::{
     Client, Command, CommandReply, CommandRequest, ContactKind, EndOfEpoch, JobStage, LinkError,
-    MachineState, Record, SWITCHED_OFF, Status, Subscriber, TOLD_TO_END, Transport,
+    MachineState, Record, Status, Subscriber, Transport, tells_end,
 };
 use glidepath_program::Override;
 
@@ -163,7 +163,9 @@ impl MachinePorts {
             // Another epoch in the middle of ours means that somebody ended ours and started again.
             // So does an abort of the epoch before, behind which the program was to go on.
             let is_ended = end == EndOfEpoch::Aborted && goes_on;
-            return if started || is_ended {
+            return if is_ended {
+                Err(aborted(status))
+            } else if started {
                 Err(RunError::Aborted)
             } else {
                 Ok(Standing::NotStarted)
@@ -288,9 +290,13 @@ impl MachinePorts {
 }
 
 /// Who ended an epoch that was aborted.
-fn aborted(status: &Status) -> RunError {
-    let told = status.last_error.as_str();
-    if told == SWITCHED_OFF || told == TOLD_TO_END {
+pub(crate) fn aborted(status: &Status) -> RunError {
+    // Of a job that ended while its first frame was on the way the end of the job tells.
+    let told = match status.job_stage() {
+        Ok(JobStage::Refused) => status.job_end.as_str(),
+        _ => status.last_error.as_str(),
+    };
+    if tells_end(told) {
         return RunError::Ended {
             why: told.to_owned(),
         };
@@ -314,7 +320,7 @@ fn why_not_begun(status: &Status, end: EndOfEpoch) -> RunError {
         )
         | Err(_) => {
             if end == EndOfEpoch::Aborted {
-                return RunError::Aborted;
+                return aborted(status);
             }
             let told = status.last_error.as_str();
             let why = if told.is_empty() { GIVEN_AWAY } else { told };

@@ -40,6 +40,14 @@ pub struct SoftLimits {
 }
 
 impl SoftLimits {
+    /// Those of a stream that begins at a place: an axis that stands outside may stay there or come inwards.
+    fn beginning_at(self, place: &AxisVector) -> Self {
+        Self {
+            low: self.low.inf(place),
+            high: self.high.sup(place),
+        }
+    }
+
     /// The first axis on which a segment leaves the limits.
     fn broken_by(&self, segment: &Segment) -> Option<(Axis, f64)> {
         let (low, high) = segment.bounding_box();
@@ -117,7 +125,7 @@ impl Stream {
             session: request.session,
             accepted: 0,
             position,
-            limits,
+            limits: limits.map(|limits| limits.beginning_at(&position)),
             queue: VecDeque::with_capacity(STREAM_QUEUE),
             has_items: false,
             phase: Phase::Open,

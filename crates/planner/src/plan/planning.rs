@@ -48,7 +48,7 @@ impl Planning {
     /// From a machine at rest at `start`, `start_s` along the path of the program.
     pub(crate) fn new(settings: Settings, start: AxisVector, blocks: Blocks, start_s: f64) -> Self {
         Self {
-            planner: Planner::new(settings, start),
+            planner: Planner::new(settings.beginning_at(&start), start),
             joints: None,
             is_stream: false,
             blocks,

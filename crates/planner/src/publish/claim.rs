@@ -28,6 +28,7 @@ pub(crate) struct Claim {
     pub(crate) number: u64,
     /// When somebody asked for it, ns of the host's steady clock; 0 if that is not known.
     asked_ns: u64,
+    is_stream: bool,
     name: String,
     pub(crate) doing: String,
     pub(crate) phase: JobPhase,
@@ -42,6 +43,7 @@ impl Claim {
     pub(crate) fn new(name: &str, asked_ns: u64) -> Self {
         Self {
             asked_ns,
+            is_stream: false,
             number: RandomState::new().build_hasher().finish().max(1),
             name: name.to_owned(),
             doing: "waits for the machine".to_owned(),
@@ -52,11 +54,20 @@ impl Claim {
         }
     }
 
+    /// The claim of a stream of segments.
+    pub(crate) fn of_stream(asked_ns: u64) -> Self {
+        Self {
+            is_stream: true,
+            ..Self::new("a stream of segments", asked_ns)
+        }
+    }
+
     pub(crate) const fn command(&self, phase: JobPhase) -> Command {
         Command::Job {
             number: self.number,
             phase,
             asked_ns: self.asked_ns,
+            is_stream: self.is_stream,
         }
     }
 

@@ -19,7 +19,10 @@ impl FramePublisher<'_> {
     /// known). From now on it can be aborted and held there, whatever it is at; so it could before, by who had
     /// asked for it by then.
     pub fn claim(&mut self, name: &str, asked_ns: u64, control: &mut Control<'_>) {
-        let claim = Claim::new(name, asked_ns);
+        self.stake(Claim::new(name, asked_ns), control);
+    }
+
+    fn stake(&mut self, claim: Claim, control: &mut Control<'_>) {
         let (command, text) = (claim.command(JobPhase::Waiting), claim.text());
         self.claim = Some(claim);
         if self.machine.status().is_some() {
@@ -71,18 +74,17 @@ impl FramePublisher<'_> {
         Ok(None)
     }
 
-    /// Takes the machine, which is known to be ready, for what was asked for at a time (as [`FramePublisher::claim`] has it), and
-    /// waits a moment for it.
+    /// Takes the machine, which is known to be ready, for a stream of segments that was asked for at a time (as
+    /// [`FramePublisher::claim`] has it), and waits a moment for it.
     ///
     /// # Errors
     /// As [`FramePublisher::take`].
-    pub(crate) fn take_now(
+    pub(crate) fn take_for_stream(
         &mut self,
-        name: &str,
         (asked_ns, patience): (u64, Duration),
         control: &mut Control<'_>,
     ) -> Result<Option<AxisVector>, RunError> {
-        self.claim(name, asked_ns, control);
+        self.stake(Claim::of_stream(asked_ns), control);
         let mut waited = Duration::ZERO;
         while waited < patience {
             if let Some(position) = self.take(control)? {

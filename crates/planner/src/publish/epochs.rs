@@ -12,7 +12,7 @@ use glidepath_geometry::AxisVector;
 use glidepath_link::{Command, LinkError, MachineState};
 
 use crate::exchange::attend::Attend;
-use crate::exchange::machine::POLL;
+use crate::exchange::machine::{POLL, aborted};
 use crate::plan::pipeline::Pipeline;
 use crate::publish::frame_publisher::FramePublisher;
 use crate::run::control::Control;
@@ -103,7 +103,7 @@ impl FramePublisher<'_> {
                 MachineState::Waiting => return Ok(AxisVector::from(status.position)),
                 MachineState::Faulted => return Err(RunError::fault(status)),
                 MachineState::Idle | MachineState::Off | MachineState::NotHomed => {
-                    return Err(RunError::Aborted);
+                    return Err(aborted(status));
                 }
                 MachineState::Running
                 | MachineState::Holding

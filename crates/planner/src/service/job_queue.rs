@@ -15,7 +15,8 @@ use std::collections::VecDeque;
 use std::time::Duration;
 
 use glidepath_link::{
-    JobReply, JobRequest, JobState, JobWish, LinkError, LongText, Record as _, Server, Transport,
+    CALLED_OFF, JobReply, JobRequest, JobState, JobWish, LinkError, LongText, Record as _, Server,
+    Transport,
 };
 
 use crate::exchange::client_watch::ClientWatch;
@@ -72,7 +73,7 @@ impl Current {
     /// Why it is to end, if it is.
     fn unwanted(&self) -> Option<&'static str> {
         if self.is_unwanted {
-            return Some("the command that asked for it was ended");
+            return Some(CALLED_OFF);
         }
         self.watch.why_not_begun()
     }

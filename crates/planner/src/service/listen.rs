@@ -17,7 +17,7 @@ use std::time::Duration;
 
 use glidepath_geometry::AxisVector;
 use glidepath_kinematics::LimitedMechanism;
-use glidepath_link::{STREAM_JOB, SegmentRefusal, Transport};
+use glidepath_link::{SegmentRefusal, Transport, tells_end};
 use glidepath_program::Settings;
 
 use crate::exchange::client_watch::ClientWatch;
@@ -248,7 +248,7 @@ impl Listener<'_> {
                 };
                 // A machine that is not ready is told all the same: whoever stopped what was asked for ended it.
                 let patience = if is_ready { NEWS } else { LOOK };
-                let taken = publisher.take_now(STREAM_JOB, (asked_ns, patience), control);
+                let taken = publisher.take_for_stream((asked_ns, patience), control);
                 let refused = match taken {
                     Ok(Some(position)) => match Stream::open(request, position, limits) {
                         Ok(mut stream) => {
@@ -262,6 +262,10 @@ impl Listener<'_> {
                     Err(RunError::Aborted) => {
                         let refusal = SegmentRefusal::Aborted;
                         (refusal, refusal.text().to_owned())
+                    }
+                    // Nor does it begin by being asked for again.
+                    Err(RunError::NotBegun { why }) if tells_end(&why) => {
+                        (SegmentRefusal::Aborted, format!("nothing moved: {why}"))
                     }
                     Err(error) => stopped(error.to_string()),
                 };

@@ -12,12 +12,14 @@
 use core::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::io::Cursor;
+use std::num::NonZeroUsize;
 
 use crate::support::random::Random;
 use glidepath_audit::{Audit, AuditReport, AuditSettings};
 use glidepath_gcode::{AxisTravel, Machine, Options, Program};
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_motion::{PlanError, Planner};
+use glidepath_planner::{ParallelPipeline, Pipeline, ProgramSource, Step};
 use glidepath_program::{Effort, Frame, Limits, Override, Settings, Smoothing};
 
 /// A place on an axis, more often than not at one of its ends.
@@ -284,5 +286,60 @@ fn no_axis_leaves_its_travel() {
                 );
             }
         }
+    }
+}
+
+/// An axis that stands outside when a program begins stays there while others move, and comes inwards: one plan by
+/// one thread or by several.
+#[test]
+fn an_axis_that_stands_outside_stays_or_comes_inwards() {
+    let machine = BOXES[0];
+    let start = AxisVector::from_fn(|i, _| [50.0, 50.0, 4.0].get(i).copied().unwrap_or(0.0));
+    let text =
+        "G21 G90 G64 P0.1\nG1 X60 F3000\nX60 Y70 Z3\nX20 Z1\nG0 X80 Z-10\nG1 Z0\nX10 Y10\nM2\n";
+    for effort in [Effort::Fast, Effort::Optimal] {
+        let settings = machine.settings(effort, 0.004, 0.1);
+        let source = || {
+            let options = Options {
+                start,
+                ..machine.options()
+            };
+            ProgramSource::new(text.as_bytes(), options)
+        };
+        let mut pipeline = Pipeline::new(source(), settings, start);
+        let mut frames: Vec<Frame> = Vec::new();
+        let mut audit = Audit::new(&AuditSettings::from(&settings).beginning_at(&start));
+        loop {
+            match pipeline.step().expect("a plan") {
+                Step::Item => audit.program(pipeline.item()),
+                Step::Frame => {
+                    audit.frame(pipeline.frame());
+                    frames.push(*pipeline.frame());
+                }
+                Step::Pending => {}
+                Step::End => break,
+            }
+        }
+        let report = audit.finish();
+        assert!(report.is_clean(), "{effort:?}: {report:?}");
+        let highest = frames.iter().map(|frame| frame.position[2]);
+        assert!(highest.fold(f64::MIN, f64::max) <= 4.0 + 1e-9);
+        let mut parallel = ParallelPipeline::start(
+            source(),
+            settings,
+            start,
+            None,
+            NonZeroUsize::MIN.saturating_add(1),
+        )
+        .expect("threads");
+        let mut planned = frames.iter();
+        loop {
+            match parallel.step().expect("the same plan") {
+                Step::Frame => assert_eq!(planned.next(), Some(parallel.frame())),
+                Step::End => break,
+                Step::Item | Step::Pending => {}
+            }
+        }
+        assert_eq!(planned.next(), None);
     }
 }

@@ -11,6 +11,8 @@ pub(super) struct AxisState {
     pub(super) limits: [f64; 3],
     /// The ends of its travel, or of what may be superposed to it.
     pub(super) travel: [f64; 2],
+    /// The same, and the place beyond them where what goes on began: there it may stand, and come inwards.
+    pub(super) reach: [f64; 2],
     /// Last differences of first and second order.
     pub(super) differences: [f64; 2],
     pub(super) magnitude: f64,
@@ -25,6 +27,7 @@ impl AxisState {
             is_superposed: false,
             limits,
             travel,
+            reach: travel,
             differences: [0.0; 2],
             magnitude: 0.0,
             run: 0,
@@ -39,6 +42,12 @@ impl AxisState {
             &setpoint.position
         };
         values.get(self.axis.index()).copied().unwrap_or(0.0)
+    }
+
+    /// What is judged from now on began here.
+    pub(super) const fn begin_at(&mut self, place: f64) {
+        let [low, high] = self.travel;
+        self.reach = [low.min(place), high.max(place)];
     }
 
     /// What it is called.

@@ -6,6 +6,7 @@ use super::finding::{Finding, Findings};
 use super::led::Led;
 use super::trace::LOST;
 use crate::config::MachineConfig;
+use bytemuck::Zeroable as _;
 use glidepath_geometry::{AXES, Axis};
 use glidepath_link::{MachineState, Record as _, Setpoint, Status};
 use glidepath_program::Travel;
@@ -63,8 +64,13 @@ impl Continuity {
     }
 
     /// Takes what a status tells of the joints that know where they are.
-    pub(super) const fn know(&mut self, status: &Status) {
+    pub(super) fn know(&mut self, status: &Status) {
         self.is_lost = status.joints & !status.homed != 0;
+        if self.last.is_none() && status.epoch != 0 {
+            let mut began = Setpoint::zeroed();
+            began.position = status.program_start;
+            self.begin_at(&began);
+        }
     }
 
     pub(super) fn take(&mut self, setpoint: &Setpoint) {
@@ -124,8 +130,8 @@ impl Continuity {
         });
     }
 
-    /// In a program every axis is inside its travel, but for what it swings over between two frames; by hand one that stands outside is brought back. The
-    /// ends of travel are places of a machine that knows where it is: on the way home, and before that, they
+    /// In a program every axis is inside its travel, but for what it swings over between two frames. One that stood outside
+    /// when the program began goes no further out; by hand it is brought back. The ends of travel are places of a machine that knows where it is: on the way home, and before that, they
     /// mean nothing.
     fn judge_travel(&mut self, setpoint: &Setpoint) {
         let state = setpoint.state();
@@ -140,12 +146,14 @@ impl Continuity {
         let is_lost = state.is_ok_and(|state| LOST.contains(&state));
         let is_lost = is_lost || (self.is_lost && is_out_of_program);
         if (by_hand && !is_row) || is_lost {
+            self.begin_at(setpoint);
             return;
         }
+        self.watch_beginning(setpoint);
         let swing_per_jerk = Travel::SWING_R * self.period_t.powi(3);
         let beyond = self.axes.iter().find_map(|state| {
             let at = state.place(setpoint);
-            let [low, high] = state.travel;
+            let [low, high] = state.reach;
             let end = at.max(low).min(high);
             let most = if setpoint.is_between_frames() {
                 state.limits[2] * swing_per_jerk + Travel::ROUNDING
@@ -163,6 +171,28 @@ impl Continuity {
         });
         if let Some(text) = beyond {
             self.find(setpoint, "limit", text);
+        }
+    }
+
+    /// Where what is judged began: an epoch where the machine stood before it, what goes on behind a position that was
+    /// taken over, or behind an offset that became part of it, where it is now.
+    fn watch_beginning(&mut self, setpoint: &Setpoint) {
+        let follows = |last: &Setpoint| {
+            (last.boot_id, last.reference) == (setpoint.boot_id, setpoint.reference)
+        };
+        match self.last.map(|(last, _)| last) {
+            Some(last) if follows(&last) && last.epoch == setpoint.epoch => {}
+            Some(last) if follows(&last) => self.begin_at(&last),
+            Some(_) => self.begin_at(setpoint),
+            None if setpoint.state() == Ok(MachineState::Idle) => self.begin_at(setpoint),
+            // In the middle of a program, of which statuses tell where it began.
+            None => {}
+        }
+    }
+
+    fn begin_at(&mut self, setpoint: &Setpoint) {
+        for axis in &mut self.axes {
+            axis.begin_at(axis.place(setpoint));
         }
     }
 
@@ -269,101 +299,4 @@ fn unit(axis: Axis) -> &'static str {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::config;
-    use bytemuck::Zeroable as _;
-
-    #[test]
-    fn what_drives_report_is_no_motion_and_what_follows_it_is() {
-        let config = config::parse("built-in machine", config::EMBEDDED).unwrap();
-        let found = |change: &dyn Fn(&mut Setpoint)| {
-            let mut continuity = Continuity::new(&config);
-            for tick in 1..40_u32 {
-                let mut setpoint = Setpoint::zeroed();
-                setpoint.boot_id = 1;
-                (setpoint.number, setpoint.tick) = (tick.into(), tick.into());
-                setpoint.scheduled_ns = setpoint.tick * config.period_ns();
-                setpoint.apply_ns = setpoint.scheduled_ns + config.period_ns();
-                setpoint.state = MachineState::Idle.code();
-                setpoint.position[0] = if tick < 20 { 0.0 } else { 3.0 };
-                if tick < 30 {
-                    change(&mut setpoint);
-                }
-                continuity.take(&setpoint);
-            }
-            continuity.findings.count
-        };
-        assert_eq!(
-            found(&|setpoint| setpoint.state = MachineState::Off.code()),
-            0
-        );
-        assert_eq!(found(&|setpoint| setpoint.home = 1), 0);
-        // A fault takes the power, and keeps its own state.
-        let faulted = |setpoint: &mut Setpoint, has_power: bool| {
-            setpoint.state = MachineState::Faulted.code();
-            setpoint.enable = if has_power { 7 } else { 0 };
-        };
-        assert_eq!(found(&|setpoint| faulted(setpoint, false)), 0);
-        assert!(found(&|setpoint| faulted(setpoint, true)) > 0);
-        assert!(found(&|_| {}) > 0, "a step of 3 mm in a period");
-    }
-
-    #[test]
-    fn travel_is_not_judged_before_a_machine_knows_where_it_is() {
-        let config = config::parse("built-in machine", config::EMBEDDED).unwrap();
-        let end = config.limits().travel.highest[0];
-        let found = |homed: u32, state: MachineState| {
-            let mut continuity = Continuity::new(&config);
-            let mut status = Status::zeroed();
-            (status.joints, status.homed) = (0b111, homed);
-            continuity.know(&status);
-            let mut setpoint = Setpoint::zeroed();
-            // A program was executed before, whose epoch is told on.
-            (setpoint.boot_id, setpoint.number, setpoint.epoch) = (1, 1, 4);
-            (setpoint.state, setpoint.enable) = (state.code(), 0b111);
-            setpoint.position[0] = end + 2.0;
-            continuity.take(&setpoint);
-            let findings = continuity.findings.listed.iter();
-            findings
-                .filter(|finding| finding.text.contains("beyond"))
-                .count()
-        };
-        for state in [MachineState::Homing, MachineState::NotHomed] {
-            assert_eq!(found(0b111, state), 0, "{state:?}: a status may be late");
-        }
-        for state in [MachineState::Stopping, MachineState::Faulted] {
-            assert_eq!(found(0b101, state), 0, "{state:?}");
-            assert_eq!(found(0b111, state), 1, "{state:?}");
-        }
-        assert_eq!(found(0b101, MachineState::Running), 1);
-    }
-
-    #[test]
-    fn an_axis_beyond_its_travel_in_a_program_is_found_and_by_hand_it_is_not() {
-        let config = config::parse("built-in machine", config::EMBEDDED).unwrap();
-        let end = config.limits().travel.highest[0];
-        let found_at = |x: f64, epoch: u64, state: MachineState, fraction: f64| {
-            let mut continuity = Continuity::new(&config);
-            let mut setpoint = Setpoint::zeroed();
-            (setpoint.boot_id, setpoint.number, setpoint.epoch) = (1, 1, epoch);
-            (setpoint.state, setpoint.fraction) = (state.code(), fraction);
-            setpoint.position[0] = x;
-            continuity.take(&setpoint);
-            let texts = continuity.findings.listed.into_iter();
-            texts
-                .filter(|finding| finding.text.contains("beyond"))
-                .count()
-        };
-        let found = |x, epoch, state| found_at(x, epoch, state, 0.0);
-        assert_eq!(found(end, 1, MachineState::Running), 0);
-        assert_eq!(found(end + 1e-5, 1, MachineState::Running), 1);
-        assert_eq!(found(end + 1e-5, 1, MachineState::Jogging), 0);
-        assert_eq!(found(end + 1e-5, 0, MachineState::Idle), 0);
-        // A rest within a period swings over its place before.
-        let swing = config.limits().jerk[0] * config.period_t().powi(3) / 768.0;
-        assert_eq!(found_at(end + swing, 1, MachineState::Held, 0.5), 0);
-        assert_eq!(found_at(end + swing, 1, MachineState::Held, 0.0), 1);
-        assert_eq!(found_at(end + 4.0 * swing, 1, MachineState::Held, 0.5), 1);
-    }
-}
+mod tests;

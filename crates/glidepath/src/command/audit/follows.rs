@@ -49,7 +49,7 @@ impl Follows {
             let options = config.program_options(stands);
             FileSource::unchecked(path, options, &config.settings())
         };
-        let settings = config.judged();
+        let settings = config.judged().beginning_at(&stands);
         // Another override plans other frames.
         #[allow(clippy::float_cmp, reason = "an override of 100 % is exactly 1")]
         let is_plain = least == 1.0 && most == 1.0;

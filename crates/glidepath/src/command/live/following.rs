@@ -88,7 +88,7 @@ impl Following {
         board.file(path, planned_for);
         let forecast = Forecast::start(path, &self.config, planned_for, planned)?;
         board.text(forecast.lines());
-        let reading = planned::read(path, &self.config, board);
+        let reading = planned::read(path, &self.config, forecast.begins(), board);
         Ok(Followed {
             fingerprint,
             epoch: 0,

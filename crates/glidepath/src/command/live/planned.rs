@@ -11,6 +11,7 @@ use crate::sample::TickSample;
 use glidepath_audit::AuditSettings;
 use glidepath_audit::diagnosis::Diagnosis;
 use glidepath_gcode::ReadingWatch;
+use glidepath_geometry::AxisVector;
 use glidepath_kinematics::JointVector;
 use glidepath_live::Motion;
 use glidepath_planner::{FileSource, ItemSource as _, Supply};
@@ -96,8 +97,13 @@ impl Drop for Reading {
     }
 }
 
-/// Reads a program for its path.
-pub(super) fn read(path: &Path, config: &MachineConfig, board: Board) -> Reading {
+/// Reads a program for its path from where it begins.
+pub(super) fn read(
+    path: &Path,
+    config: &MachineConfig,
+    begins: AxisVector,
+    board: Board,
+) -> Reading {
     let over = Arc::<AtomicBool>::default();
     let watch = ReadingWatch::default();
     // Its subroutines are read apart from those of the plan, whose fingerprint is made of them.
@@ -106,7 +112,7 @@ pub(super) fn read(path: &Path, config: &MachineConfig, board: Board) -> Reading
     config.program.watch = Some(watch.clone());
     let flag = Arc::clone(&over);
     let thread = std::thread::spawn(move || {
-        let options = config.program_options(config.home());
+        let options = config.program_options(begins);
         // What is wrong with it is told by whoever plans it.
         let Ok(mut source) = FileSource::unchecked(&path, options, &config.settings()) else {
             return;

@@ -8,6 +8,7 @@
 
 use super::planned::{self, Planned, Reading};
 use super::shown::Shown;
+use crate::command::begins_with::begins_now;
 use crate::command::forecast::{Forecast, PlannedFor};
 use crate::config::MachineConfig;
 use serde_json::Value;
@@ -123,7 +124,13 @@ impl Preview {
             return Err(GivenUp);
         }
         let is_doubted = (looker, look) == (Looker::Seat, Look::Anew);
-        let is_known = |it: &LookedAt| it.stamp == stamp && !is_doubted;
+        // Whoever chooses it wants it from where the machine stands now.
+        let chosen = (look == Look::First).then(|| begins_now(&self.config));
+        let is_from_there = |it: &LookedAt| {
+            let begins = it.forecast.as_ref().map(Forecast::begins);
+            chosen.flatten().is_none_or(|now| begins == Some(now))
+        };
+        let is_known = |it: &LookedAt| it.stamp == stamp && !is_doubted && is_from_there(it);
         let (looked_at, given_up) = match before {
             Some(it) if is_known(&it) => (it, None),
             before => {
@@ -151,7 +158,7 @@ impl Preview {
             match Forecast::start(file, &self.config, PlannedFor::Preview, planned) {
                 Ok(forecast) => {
                     board.text(forecast.lines());
-                    let reading = planned::read(file, &self.config, board);
+                    let reading = planned::read(file, &self.config, forecast.begins(), board);
                     (Some(forecast), Some(reading))
                 }
                 Err(failure) => {

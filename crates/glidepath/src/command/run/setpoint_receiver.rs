@@ -160,7 +160,7 @@ impl Judge {
     fn new(path: &Path, config: &MachineConfig, stands: AxisVector) -> Result<Self, Failure> {
         let options = config.program_options(stands);
         let program = FileSource::unchecked(path, options, &config.settings())?;
-        let judged = config.judged();
+        let judged = config.judged().beginning_at(&stands);
         let mut audit = Audit::new(&judged);
         if let Some(mut bounds) = config.joint_bounds() {
             // Drives may count from elsewhere.

@@ -1,6 +1,7 @@
 //! The simulated machine of a desk, on which setpoints are played.
 
 use super::notices::Notices;
+use super::part::part;
 use super::settings::settings;
 use super::silence::Silence;
 use crate::cli::ServoArgs;
@@ -36,6 +37,7 @@ pub(super) fn play(
     mut take: impl FnMut(Told<'_>) -> Result<bool, Failure>,
 ) -> Result<ServoCounts, Failure> {
     let transport = session::join(&args.instance, config)?;
+    let _drives = part(&transport, args, config)?;
     let settings = settings(config);
     let mut servo = Servo::new(transport.setpoint_source()?, settings);
     // What only passes setpoints on leaves the drives to somebody else.

@@ -1,6 +1,7 @@
 //! The servo on LinuxCNC's HAL, which stands in the place of the drives.
 
 use super::notices::Notices;
+use super::part::part;
 use super::settings::settings;
 use super::silence::Silence;
 use crate::cli::{HalArgs, ServoArgs};
@@ -107,6 +108,7 @@ pub(super) fn play(
     check(&args.hal, config)?;
     let layout = Layout::new(config.drives())?;
     let transport = session::join(&args.instance, config)?;
+    let _drives = part(&transport, args, config)?;
     let settings = settings(config);
     let servo = Servo::new(transport.setpoint_source()?, settings);
     let mut sink = transport.feedback_sink()?;

@@ -4,6 +4,7 @@
 mod desk;
 mod hal;
 mod notices;
+mod part;
 mod settings;
 mod silence;
 

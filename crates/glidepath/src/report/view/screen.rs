@@ -93,6 +93,12 @@ fn program_lines(view: &View<'_>, lines: &mut Vec<String>) {
     lines.push(cut(&text));
     let progress = match (view.progress(), place.planned_t, view.left_t()) {
         _ if place.has_failed => "not known: it cannot be planned here".to_owned(),
+        (Some(_), Some(_), _) if place.is_on_its_way => {
+            let behind = view.left_behind_t().map_or_else(String::new, |left| {
+                format!(", from where it takes about {}", clock(left))
+            });
+            format!("on the way to line {}{behind}", status.line)
+        }
         (Some(part), Some(all), left) => {
             let left = left.map_or_else(
                 || {
@@ -268,7 +274,7 @@ mod tests {
                 text: "G1 X10 F1200 ".to_owned() + &"(a long comment)".repeat(9),
                 planned_t: Some(100.0),
                 elapsed_t: Some(25.0),
-                has_failed: false,
+                ..ProgramPlace::default()
             }),
             offsets: Some(WorkOffset {
                 name: "G54".to_owned(),
@@ -325,6 +331,7 @@ mod tests {
         (status.feed_override, status.adaptive_feed) = (-0.5, 1.0);
         status.mode = MotionMode::Backwards.code();
         status.superposition = glidepath_link::SuperpositionState::Frozen.code();
+        status.freeze_reason = glidepath_link::FreezeReason::Rapid.code();
         status.superposed[2] = 0.4125;
         let view = View {
             instance: "mill",
@@ -337,7 +344,7 @@ mod tests {
                 text: String::new(),
                 planned_t: Some(100.0),
                 elapsed_t: Some(25.0),
-                has_failed: false,
+                ..ProgramPlace::default()
             }),
             offsets: None,
             asked: AwaitedEvent::default(),
@@ -346,7 +353,7 @@ mod tests {
         let text = view_text(&view);
         for words in [
             "25 % of 1:40, goes back along its path",
-            "  superposed Z 0.4125 beside the program; stands still",
+            "  superposed Z 0.4125 beside the program; stands still: nothing is added",
         ] {
             assert!(text.contains(words), "{words}\n{text}");
         }

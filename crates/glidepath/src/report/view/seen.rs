@@ -7,7 +7,7 @@ use glidepath_geometry::Axis;
 use glidepath_link::{Auxiliary, Status};
 
 /// The place of the machine in a program that is known.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct ProgramPlace {
     /// The program's name.
     pub program: String,
@@ -17,6 +17,9 @@ pub struct ProgramPlace {
     pub planned_t: Option<f64>,
     /// How much of that is done, s.
     pub elapsed_t: Option<f64>,
+    /// It is on its way to where that much counts as done: to the line that it is to begin with. How long the way takes
+    /// is not known.
+    pub is_on_its_way: bool,
     /// It could not be planned here.
     pub has_failed: bool,
 }
@@ -70,6 +73,15 @@ impl View<'_> {
 
     /// How long it takes yet under the present override, s.
     pub(super) fn left_t(&self) -> Option<f64> {
+        let place = self.place.as_ref()?;
+        if place.is_on_its_way {
+            return None;
+        }
+        self.left_behind_t()
+    }
+
+    /// The same from the place on that [`ProgramPlace::elapsed_t`] tells.
+    pub(super) fn left_behind_t(&self) -> Option<f64> {
         let place = self.place.as_ref()?;
         let left = place.planned_t? - place.elapsed_t?;
         let ratio = self.status.feed_override * self.status.adaptive_feed;

@@ -65,6 +65,8 @@ pub(crate) struct FrameValidator {
     period_t: f64,
     limits: Limits,
     soft_limits: SoftLimits,
+    /// Those of the epoch, which may have begun outside.
+    travel: SoftLimits,
     joints: Option<JointWatch>,
     /// The epoch that frames passed of, 0 before the first.
     epoch: u64,
@@ -85,6 +87,7 @@ impl FrameValidator {
             period_t: config.period_t(),
             limits: config.limits,
             soft_limits: config.soft_limits,
+            travel: config.soft_limits,
             joints: config.joint_watch(),
             epoch: 0,
             last: None,
@@ -236,9 +239,6 @@ impl FrameValidator {
         if (AxisVector::from(frame.position) - machine.position).amax() > SAME_POSITION {
             return FrameVerdict::Refused(FrameRefusal::Elsewhere);
         }
-        if outside(frame, &self.soft_limits).is_some() {
-            return FrameVerdict::Refused(FrameRefusal::SoftLimit);
-        }
         if let Some(joints) = &mut self.joints {
             joints.rest();
         }
@@ -248,6 +248,7 @@ impl FrameValidator {
             return FrameVerdict::Refused(refusal);
         }
         self.epoch = frame.epoch;
+        self.travel = self.soft_limits.beginning_at(&machine.position);
         self.broken = false;
         self.is_pass = announces_pass(frame);
         let zero = AxisVector::zeros();
@@ -283,7 +284,7 @@ impl FrameValidator {
             limit,
             ..fault(refusal)
         };
-        if let Some(found) = outside(frame, &self.soft_limits) {
+        if let Some(found) = outside(frame, &self.travel) {
             return Err(on_axis(FrameRefusal::SoftLimit, found));
         }
         let t = self.period_t;

@@ -3,6 +3,8 @@
     clippy::unwrap_used,
     clippy::panic,
     clippy::cast_possible_truncation,
+    clippy::cast_precision_loss,
+    clippy::float_cmp,
     reason = "a test"
 )]
 
@@ -354,4 +356,50 @@ fn what_a_joint_cannot_do_is_refused_like_what_an_axis_cannot() {
         assert_eq!(refusal, expected);
         assert!(value.abs() > limit.abs(), "{expected:?}: {value} {limit}");
     }
+}
+
+/// Frames of three axes that begin at a place of X, on the way of the others.
+#[test]
+fn an_axis_that_stands_outside_may_stay_and_come_inwards_but_goes_no_further_out() {
+    let at = |x: f64| {
+        let mut frames = frames(1);
+        for frame in &mut frames {
+            frame.position[0] += x - frame.position[0];
+            (frame.velocity[0], frame.acceleration[0]) = (0.0, 0.0);
+        }
+        frames
+    };
+    let judged = |frames: &[SetpointFrame], stands: f64| {
+        let mut frame_validator = FrameValidator::new(&config());
+        let mut position = AxisVector::zeros();
+        position[0] = stands;
+        let verdicts = frames.iter().enumerate().map(|(i, frame)| {
+            let machine = if i == 0 { idle() } else { running(1) };
+            frame_validator.judge(
+                frame,
+                &MachineSnapshot {
+                    position,
+                    ..machine
+                },
+            )
+        });
+        let mut refused = verdicts.enumerate();
+        refused.find(|(_, verdict)| *verdict != FrameVerdict::Pass)
+    };
+    assert_eq!(judged(&at(503.0), 503.0), None, "it stays");
+    // By a nanometre a frame, which no limit minds.
+    let drifting = |by: f64| {
+        let mut frames = at(503.0);
+        for frame in &mut frames {
+            frame.position[0] += by * frame.sequence as f64;
+        }
+        frames
+    };
+    assert_eq!(judged(&drifting(-1e-8), 503.0), None, "it comes inwards");
+    let (at, verdict) = judged(&drifting(1e-8), 503.0).unwrap();
+    assert!(
+        matches!(verdict, FrameVerdict::Fault(Fault { cause: FaultCause::Frame(FrameRefusal::SoftLimit), limit, .. })
+            if limit == 503.0),
+        "{at}: {verdict:?}"
+    );
 }

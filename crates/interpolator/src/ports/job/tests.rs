@@ -132,6 +132,42 @@ fn a_planner_that_is_started_anew_ends_the_job_before() {
     assert!(jobs.is_to_come(), "what is over is the other one");
 }
 
+const ABORT: (JobStage, &str) = (JobStage::Aborted, "aborted before anything moved");
+
+/// `disable` just behind a job that its planner has not told of: its client hears of the power, not of an abort.
+#[test]
+fn a_job_that_was_asked_for_before_a_stop_is_told_which_stop_it_was() {
+    let ended = |by| {
+        let mut jobs = JobBook::new();
+        jobs.stop(50, by);
+        let told = jobs.tell((7, JobPhase::Waiting, 49), Text::new(""), 100, FREE);
+        (jobs.stage, told.unwrap_err())
+    };
+    let switched_off = (JobStage::Refused, "the drives were switched off");
+    let (stage, why) = ended(switched_off);
+    assert_eq!((stage, why.as_str()), switched_off);
+    let (stage, why) = ended(ABORT);
+    assert!(stage == JobStage::Aborted && why.contains("was stopped after this was asked for"));
+}
+
+#[test]
+fn a_stream_is_known_by_what_its_planner_says_and_not_by_a_name() {
+    let is_of_stream = |number, name: &str, is_stream| {
+        let mut jobs = JobBook::new();
+        for phase in [JobPhase::Waiting, JobPhase::Preparing] {
+            jobs.tell((7, phase, 0), Text::new(name), 0, FREE).unwrap();
+        }
+        jobs.note_stream(number, is_stream);
+        jobs.begin();
+        let mut status = bytemuck::Zeroable::zeroed();
+        jobs.write(&mut status);
+        status.is_of_stream()
+    };
+    assert!(!is_of_stream(7, "a stream of segments.ngc", false));
+    assert!(is_of_stream(7, "anything", true));
+    assert!(!is_of_stream(6, "anything", true), "it is of another job");
+}
+
 #[test]
 fn a_stop_counts_for_what_was_asked_for_before_it_whenever_its_planner_tells() {
     let asked = |jobs: &mut JobBook, number, asked_ns| {
@@ -143,7 +179,7 @@ fn a_stop_counts_for_what_was_asked_for_before_it_whenever_its_planner_tells() {
         )
     };
     let mut jobs = JobBook::new();
-    jobs.stop(50);
+    jobs.stop(50, ABORT);
     assert!(asked(&mut jobs, 7, 49).is_err());
     assert!(!jobs.is_to_come());
     for asked_ns in [50, 51, 0] {
@@ -165,7 +201,7 @@ fn a_stop_counts_for_what_was_asked_for_before_it_whenever_its_planner_tells() {
         told(&mut jobs, 71, JobPhase::Preparing, 101),
         Ok(Told::Takes)
     );
-    jobs.stop(110);
+    jobs.stop(110, ABORT);
     assert_eq!(asked(&mut jobs, 72, 109), Ok(Told::GivesBack));
     assert!(asked(&mut jobs, 72, 109).is_err());
 }
@@ -205,7 +241,7 @@ fn a_job_that_rests_under_way_is_an_orphan_when_its_planner_falls_silent() {
 fn what_was_asked_for_before_a_stop_is_known() {
     let mut jobs = JobBook::new();
     assert!(!jobs.was_stopped_after(1));
-    jobs.stop(50);
+    jobs.stop(50, ABORT);
     jobs.hold_what_was_asked(60, true);
     for (asked_ns, was_stopped) in [(0, false), (49, true), (59, true), (60, false), (61, false)] {
         assert_eq!(jobs.was_stopped_after(asked_ns), was_stopped, "{asked_ns}");

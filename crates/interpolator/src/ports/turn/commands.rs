@@ -32,7 +32,8 @@ impl Ports<'_> {
                 let reply = desk.answer(request);
                 let text = request.text.as_str();
                 let command = request.command().ok().map(|command| desk.meant(command));
-                let by_hand = told_by_hand::of_command(desk.report.state, command);
+                let why = desk.why_it_ends(request);
+                let by_hand = told_by_hand::of_command(desk.report.state, command, why);
                 let has_failed = matches!(command, Some(Command::Acknowledge { done: false, .. }));
                 if command == Some(Command::Tell) {
                     log(text);

@@ -14,6 +14,7 @@ fn tell(bench: &mut Bench, number: u64, phase: JobPhase) -> Result<(), String> {
         number,
         phase,
         asked_ns: 0,
+        is_stream: false,
     })
 }
 

@@ -2,8 +2,8 @@
 //! and holds, aborts and ends leave the axis where it is.
 
 use super::bench::{Bench, config, numbers};
-use crate::shared::config::Config;
 use crate::shared::config::superposition::{Superposition, SuperpositionControl};
+use crate::shared::config::{Config, SoftLimits};
 use crate::testing::{audit, blocks, planned, random_cases};
 use bytemuck::Zeroable as _;
 use glidepath_geometry::{Axis, AxisVector, Segment};
@@ -43,6 +43,11 @@ fn torch() -> Superposition {
 }
 
 fn bench(torch: Superposition) -> Bench {
+    bench_within(torch, 0.0, SoftLimits::none())
+}
+
+/// The axis of the torch stands at a place.
+fn bench_within(torch: Superposition, stands: f64, soft_limits: SoftLimits) -> Bench {
     let joint = |start| JointSettings {
         start,
         count: start,
@@ -57,9 +62,10 @@ fn bench(torch: Superposition) -> Bench {
         limits,
         hand_limits: limits,
         superposition: Some(torch),
+        soft_limits,
         ..config(false)
     };
-    let mut bench = Bench::new(settings, &[joint(0.0), joint(0.0), joint(0.0)]);
+    let mut bench = Bench::new(settings, &[joint(0.0), joint(0.0), joint(stands)]);
     bench.enable(MachineState::Idle);
     bench
 }
@@ -340,4 +346,43 @@ fn it_stands_where_nobody_sends_its_input() {
         Ok(SuperpositionState::Silent)
     );
     assert_eq!(bench.last().superposed[2], 0.0);
+}
+
+/// A program that ended with an offset leaves the axis outside of what programs have of its travel. The next one may
+/// leave it there and bring it inwards, and no offset takes it out of the travel of the machine.
+#[test]
+fn an_axis_that_an_offset_left_outside_may_stay_or_come_inwards_and_stays_in_the_travel_of_the_machine()
+ {
+    let top = 50.0;
+    let mut soft_limits = SoftLimits::none();
+    soft_limits.highest[2] = top;
+    let mut bench = bench_within(torch(), top - 1.0, soft_limits);
+    bench.inject(InjectedFault::Analog(INPUT, 120.0));
+    bench.run(5);
+    let abort = |bench: &mut Bench, volts: f64| {
+        bench.inject(InjectedFault::Analog(INPUT, volts));
+        assert!(bench.run_to(MachineState::Running, 50));
+        bench.run(900);
+        bench.command(Command::Abort).unwrap();
+        assert!(bench.run_to(MachineState::Idle, 200));
+        bench.run(2);
+    };
+    cut(&mut bench, &[[300.0, 0.0]], 50.0, &[]);
+    abort(&mut bench, 112.0);
+    let outside = bench.last().position[2];
+    assert!((outside - (top - 1.0 + RANGE[1])).abs() < 1e-9, "{outside}");
+    // It stays, and the torch still asks for more than there is left.
+    cut(&mut bench, &[[0.0, 0.0]], 50.0, &[]);
+    abort(&mut bench, 112.0);
+    assert_eq!(bench.fault(), None);
+    let stays = bench.last().position[2];
+    assert!((stays - (top + RANGE[1])).abs() < 1e-9, "{stays}");
+    // Downwards there is all of the range, and it comes inwards.
+    cut(&mut bench, &[[300.0, 0.0]], 50.0, &[]);
+    abort(&mut bench, 128.0);
+    let inwards = bench.last().position[2];
+    assert!((inwards - (stays + RANGE[0])).abs() < 1e-9, "{inwards}");
+    let highest = bench.setpoints.iter().map(|s| s.joint_position[2]);
+    assert!(highest.fold(0.0, f64::max) <= top + RANGE[1] + 1e-9);
+    assert_inside(&bench, "outside");
 }

@@ -21,10 +21,8 @@ impl Travel {
         began_at: &AxisVector,
         is_homed: &[bool; AXES],
     ) -> Self {
-        let mut travel = Self {
-            lowest: soft_limits.lowest.inf(position),
-            highest: soft_limits.highest.sup(position),
-        };
+        let SoftLimits { lowest, highest } = soft_limits.beginning_at(position);
+        let mut travel = Self { lowest, highest };
         let length = soft_limits.highest - soft_limits.lowest;
         let ends = travel.lowest.iter_mut().zip(travel.highest.iter_mut());
         let around = began_at.iter().zip(&length);

@@ -49,7 +49,7 @@ fn switched(on: bool) -> Setpoint {
 
 /// An axis that is switched on.
 fn on(control: SuperpositionControl) -> SuperposedAxis {
-    let mut axis = SuperposedAxis::new(settings(control), PERIOD_T);
+    let mut axis = SuperposedAxis::new(settings(control), &SoftLimits::none(), PERIOD_T);
     axis.hear(&switched(true));
     axis
 }
@@ -171,7 +171,7 @@ fn it_stands_while_the_path_does_not_go_on_at_its_feed() {
         let mut axis = on(SuperpositionControl::Velocity);
         run(&mut axis, AT_FEED, 100.0, 40);
         let stops = run(&mut axis, path, 100.0, 100);
-        assert_eq!(axis.state(), SuperpositionState::Frozen);
+        assert_eq!(axis.state().0, SuperpositionState::Frozen);
         // A quarter of a second is more than enough to come to rest.
         assert!(axis.is_at_rest());
         assert_eq!(stops[63], stops[99]);
@@ -200,7 +200,7 @@ fn switched_off_it_returns_or_keeps_its_offset() {
     };
     let back = run(&mut axis, slow, 100.0, 300);
     assert_eq!(axis.now(), Motion::at(0.0));
-    assert_eq!(axis.state(), SuperpositionState::Off);
+    assert_eq!(axis.state().0, SuperpositionState::Off);
     assert!(back.windows(2).skip(20).all(|pair| pair[1] <= pair[0]));
     let mut axis = on(SuperpositionControl::Velocity);
     axis.settings.returns = false;
@@ -213,4 +213,56 @@ fn switched_off_it_returns_or_keeps_its_offset() {
     axis.begin_program();
     run(&mut axis, AT_FEED, 100.0, 100);
     assert_eq!(axis.now(), Motion::at(0.0));
+}
+
+#[test]
+fn what_keeps_it_still_is_told() {
+    let reason = |change: &dyn Fn(&mut SuperposedAxis, &mut Setpoint, &mut PathMotion)| {
+        let mut axis = on(SuperpositionControl::Velocity);
+        run(&mut axis, AT_FEED, 100.0, 100);
+        let (mut setpoint, mut path) = (Setpoint::zeroed(), AT_FEED);
+        change(&mut axis, &mut setpoint, &mut path);
+        axis.step(&setpoint, path, SuperpositionDemand::Value(100.0));
+        axis.state()
+    };
+    let frozen = |why| (SuperpositionState::Frozen, why);
+    assert_eq!(
+        reason(&|_, _, _| ()),
+        (SuperpositionState::Follows, FreezeReason::None)
+    );
+    assert_eq!(
+        reason(&|_, _, path| path.goes_on = false),
+        frozen(FreezeReason::NotOnward)
+    );
+    assert_eq!(
+        reason(&|_, _, path| path.is_probing = true),
+        frozen(FreezeReason::Probing)
+    );
+    assert_eq!(
+        reason(&|_, setpoint, _| setpoint.flags = FrameFlags::SYNC.0),
+        frozen(FreezeReason::FollowsSpindle)
+    );
+    assert_eq!(
+        reason(&|_, setpoint, _| setpoint.flags = FrameFlags::RAPID.0),
+        frozen(FreezeReason::Rapid)
+    );
+    assert_eq!(
+        reason(&|_, _, path| path.feed_r = 0.5),
+        frozen(FreezeReason::Slow)
+    );
+    assert_eq!(
+        reason(&|axis, _, _| {
+            axis.settings.returns = false;
+            axis.hear(&switched(false));
+        }),
+        frozen(FreezeReason::SwitchedOff)
+    );
+    let mut axis = on(SuperpositionControl::Velocity);
+    axis.step(&Setpoint::zeroed(), AT_FEED, SuperpositionDemand::Barred);
+    assert_eq!(axis.state(), frozen(FreezeReason::NotEnabled));
+    axis.step(&Setpoint::zeroed(), AT_FEED, SuperpositionDemand::Silent);
+    assert_eq!(
+        axis.state(),
+        (SuperpositionState::Silent, FreezeReason::None)
+    );
 }

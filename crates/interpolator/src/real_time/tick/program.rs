@@ -80,10 +80,12 @@ impl Interpolator<'_> {
         self.end_of_epoch = EndOfEpoch::Open;
         self.is_unanswered = false;
         self.output.begin_epoch();
-        if let Some(superposed) = &mut self.superposed
-            && !self.probing.goes_on()
-        {
-            superposed.begin_program();
+        if let Some(superposed) = &mut self.superposed {
+            let at = frame.position.get(superposed.axis().index()).copied();
+            superposed.begin_epoch(at.unwrap_or(0.0));
+            if !self.probing.goes_on() {
+                superposed.begin_program();
+            }
         }
         self.single_block_stop = SingleBlockStop::none();
         self.queue_level.begin_epoch();
@@ -194,8 +196,9 @@ impl Interpolator<'_> {
     /// Writes the setpoint at the present program time, and says if it should not be.
     pub(super) fn write_moving(&mut self, tick: u64, setpoint: &mut Setpoint) {
         let now = self.rate.now();
+        let dropped = now.rate <= 0.0 && self.requests.is_stopping();
         let (output, track) = (&mut self.output, &self.track);
-        let written = output.write_moving(self.epoch, &now, track, setpoint);
+        let written = output.write_moving(self.epoch, (&now, dropped), track, setpoint);
         self.judge(written, tick);
         if written == Written::Nothing {
             // Every committed ramp ends on frames at hand, so this cannot be; if it were, standing

@@ -102,7 +102,7 @@ impl<'a> Interpolator<'a> {
             output: Output::new(config, boot_id),
             superposed: config
                 .superposition
-                .map(|settings| SuperposedAxis::new(settings, period_t)),
+                .map(|settings| SuperposedAxis::new(settings, &config.soft_limits, period_t)),
             offset_moves: false,
             epoch: 0,
             barred: 0,

@@ -95,6 +95,20 @@ fn refuses_what_is_out_of_order_and_goes_on() {
 }
 
 #[test]
+fn an_axis_that_stands_outside_may_come_inwards() {
+    let limits = SoftLimits {
+        low: point(-5.0),
+        high: point(5.0),
+    };
+    let open = request(SESSION, 0, StreamItem::Open { asked_ns: 0 });
+    let mut stream = Stream::open(&open, point(7.0), Some(limits)).unwrap();
+    assert_eq!(stream.answer(&open).outcome(), Ok(Ok(())));
+    assert_refused(&mut stream, line(7.0, 7.5), SegmentRefusal::SoftLimit);
+    let inwards = request(SESSION, 1, line(7.0, 6.0));
+    assert_eq!(stream.answer(&inwards).outcome(), Ok(Ok(())));
+}
+
+#[test]
 fn refuses_a_gap_and_what_leaves_the_travel() {
     let limits = SoftLimits {
         low: point(-5.0),

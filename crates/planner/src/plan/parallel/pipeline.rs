@@ -55,6 +55,7 @@ impl ParallelPipeline {
         joints: Option<LimitedMechanism>,
         workers: NonZeroUsize,
     ) -> io::Result<Self> {
+        let settings = settings.beginning_at(&start);
         let bounds = Arc::new(Bounds::new());
         let (threads, parts) = Threads::start(source, (settings, start), joints, workers, &bounds)?;
         Ok(Self {
