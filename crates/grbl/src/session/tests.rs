@@ -311,6 +311,7 @@ fn the_end_of_a_program_is_told_and_what_follows_is_executed() {
 fn an_axis_that_stands_outside_jogs_inwards() {
     let mut desk = Desk::new();
     desk.machine.position[0] = desk.session.settings.most(0) + 3.0;
+    desk.looks(1);
     let said = desk.says(b"$J=G91 X1 F600\n$J=G91 X-1 F600\n");
     assert_eq!(answers(&said), ["error:15", "ok"]);
 }
