@@ -141,8 +141,43 @@ fn an_abort_leads_out_of_the_hole() {
     assert!(deepest < 8.0, "{deepest}");
     let status = bench.status();
     assert_eq!(status.end_of_epoch(), Ok(EndOfEpoch::Aborted));
-    assert_eq!(status.position[2], start[2]);
+    // The move behind the hole has not begun.
+    assert_eq!(status.position, start);
     assert!(bench.worst_ratio() < 1.0 + 1e-6);
+}
+
+#[test]
+fn what_stops_the_motion_in_a_hole_stops_it_above_the_hole() {
+    // Whether the next block is a rapid is known with its first frame.
+    for (stop, most) in [
+        (Command::Hold, 0.0),
+        (Command::StopAtEndOfBlock, 0.0),
+        (Command::RapidOverride(0.0), 0.01),
+    ] {
+        let mut bench = bench();
+        let start = AxisVector::from(bench.last().position);
+        bench.load_frames(program(start));
+        let mut is_asked = false;
+        for _ in 0..1_500 {
+            let place = AxisVector::from(bench.tick().position);
+            if start[2] - place[2] > 5.0 && !core::mem::replace(&mut is_asked, true) {
+                bench.command(stop).unwrap();
+            }
+            assert!((place[0] - start[0]).abs() <= most, "{stop:?}: {place}");
+        }
+        assert!(is_asked);
+        let off = AxisVector::from(bench.last().position) - start;
+        assert!(off.amax() <= most, "{stop:?}: {off}");
+        let resume = if stop == Command::RapidOverride(0.0) {
+            Command::RapidOverride(1.0)
+        } else {
+            Command::Resume
+        };
+        bench.command(resume).unwrap();
+        assert!(bench.run_to(MachineState::Idle, 4_000), "{stop:?}");
+        assert_eq!(AxisVector::from(bench.last().position), start);
+        assert!(bench.worst_ratio() < 1.0 + 1e-6);
+    }
 }
 
 #[test]

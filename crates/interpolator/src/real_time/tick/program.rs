@@ -167,7 +167,7 @@ impl Interpolator<'_> {
     }
 
     /// The rate that is wanted: the commanded override over the planned one, if nothing stops.
-    fn goal(&self) -> f64 {
+    pub(super) fn goal(&self) -> f64 {
         if self.queue_level.is_short() || self.probing.is_tripped() {
             return 0.0;
         }
