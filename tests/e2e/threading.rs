@@ -2,8 +2,10 @@
 
 use std::time::Duration;
 
+use glidepath_link::MachineState;
 use glidepath_testing::{is_crowded, skip};
-use glidepath_tests::{Instance, Process, Watchdog};
+use glidepath_tests::{Instance, Operated, Process, Watchdog};
+use rustix::process::Signal;
 
 const PATIENCE: Duration = Duration::from_secs(240);
 
@@ -80,6 +82,42 @@ fn a_thread_is_cut_by_the_machine_that_is_shipped_and_refused_by_one_without_an_
         said.contains("[spindle]") && said.contains("encoder = true"),
         "{said}"
     );
+}
+
+#[test]
+fn an_abort_in_a_thread_does_not_lift_the_tool() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let lift = ("\nlift = 0.0 ", "\nlift = 3.5 ");
+    let encoder = ("encoder = false", "encoder = true ");
+    let bench = Operated::new(&instance, &[lift, encoder], "");
+    let interpolator = bench.process(&["interpolator", "--best-effort"]);
+    let servo = bench.process(&["servo", "--stands", "0,0,0"]);
+    let _seen = bench.wait_for_drives();
+    let service = bench.service();
+    bench.operate(&["enable"]);
+    let _ready = bench.wait_for(MachineState::Idle);
+
+    let part = "G21 G90 G97 S300 M3\nG0 X1 Z2\nG33 Z-6 K1\nG0 X9\nM2\n";
+    let part = instance.file("pass.ngc", part);
+    let running = bench.process(&["run-file", &part]);
+    let _in_pass = bench.wait(|status| status.position[2] < 0.0);
+    let told = bench.operate(&["abort"]);
+    assert!(told.stderr.contains("not lifted"), "{}", told.stderr);
+    let _ended = running.wait();
+    let status = bench.wait_for(MachineState::Idle);
+    assert_eq!(status.position[..3], [1.0, 0.0, -6.0]);
+
+    // Anywhere else it is.
+    let part = instance.file("cut.ngc", "G21 G90\nG0 Z-6\nG1 X60 F1200\nM2\n");
+    let running = bench.process(&["run-file", &part]);
+    let _cuts = bench.wait(|status| status.position[0] > 5.0);
+    bench.operate(&["abort"]);
+    let _ended = running.wait();
+    let status = bench.wait_for(MachineState::Idle);
+    assert!((status.position[2] + 2.5).abs() < 1e-9);
+    for process in [&service, &servo, &interpolator] {
+        process.signal(Signal::TERM);
+    }
 }
 
 /// The positions of both axes in a row of setpoints: behind six columns, with velocity and
