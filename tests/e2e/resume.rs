@@ -149,3 +149,41 @@ fn what_was_left_on_the_way_to_its_line_is_begun_there_again() {
     assert!((bench.position()[0] - 60.0).abs() < 1e-9);
     let _ended = (service.end(), interpolator.end());
 }
+
+#[test]
+fn behind_the_loss_of_its_interpolator_no_older_run_is_gone_on_with() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let bench = Operated::new(&instance, &[], "");
+    let mut interpolator = bench.process(&["interpolator", "--best-effort"]);
+    let servo = bench.process(&["servo", "--stands", "0,0,0"]);
+    let _seen = bench.wait_for_drives();
+    let service = bench.service();
+    bench.operate(&["enable"]);
+    let _ready = bench.wait_for(MachineState::Idle);
+    let part = instance.file("part.ngc", "G21 G90\nG0 X0 Y0 Z0\nG1 X100 F1800\nM2\n");
+
+    // Left at 20 mm, then a line, then again from the beginning.
+    let running = bench.process(&["run-file", &part]);
+    let _far = bench.wait(|status| status.position[0] > 20.0);
+    bench.operate(&["abort"]);
+    let _aborted = running.wait();
+    bench.operate(&["mdi", "G90 G0 X0 Y0 Z0"]);
+    let running = bench.process(&["run-file", &part]);
+    let _near = bench.wait(|status| status.position[0] > 3.0);
+    interpolator.signal(Signal::KILL);
+    let _killed = interpolator.wait();
+    let _lost = running.wait();
+
+    interpolator = bench.process(&["interpolator", "--best-effort"]);
+    let _seen = bench.wait_for_drives();
+    bench.operate(&["enable"]);
+    let _ready = bench.wait_for(MachineState::Idle);
+    bench.refused(
+        &["run-file", &part, "--resume"],
+        1,
+        "no program was under way",
+    );
+    for process in [&service, &servo, &interpolator] {
+        process.signal(Signal::TERM);
+    }
+}

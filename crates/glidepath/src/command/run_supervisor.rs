@@ -23,6 +23,8 @@ pub(super) struct RunSupervisor {
     quiet: bool,
     /// The epoch of which a frame was delivered first.
     first_epoch: Cell<Option<u64>>,
+    /// Nobody answered any more when the motion ended.
+    lost: Cell<bool>,
     state_store: RefCell<Option<StateStore>>,
     position_offsets: PositionOffsetsLog,
     /// Where the offsets in force are noted.
@@ -53,6 +55,7 @@ impl RunSupervisor {
         Ok(Self {
             quiet,
             first_epoch: Cell::new(None),
+            lost: Cell::new(false),
             state_store: RefCell::new(state_store),
             position_offsets: PositionOffsetsLog::default(),
             note: PositionOffsetsNote::new(directory),
@@ -104,6 +107,12 @@ impl RunSupervisor {
         first
             .zip(publisher.epoch())
             .is_some_and(|(first, now)| now >= first)
+    }
+
+    /// Whether nobody knows any more how far the machine came in the program: its interpolator ended in it, or does
+    /// not answer.
+    pub(super) fn is_lost(&self) -> bool {
+        self.has_started() && self.lost.get()
     }
 
     /// Whether what programs leave behind is kept in files.
@@ -215,6 +224,14 @@ impl RunSupervisor {
         publisher: &FramePublisher<'_>,
         config: &MachineConfig,
     ) -> Result<(), Failure> {
+        // Where nobody answers any more, nobody knows whether the machine rests, or how far it came.
+        let is_lost = matches!(
+            published,
+            Err(RunError::InterpolatorLost
+                | RunError::InterpolatorSilent { .. }
+                | RunError::Link(_))
+        );
+        self.lost.set(is_lost);
         let point = publisher.resume_point();
         // Before the program has begun, the machine tells of the one before it.
         let has_begun = self.has_begun(publisher);
@@ -229,13 +246,6 @@ impl RunSupervisor {
         let Some(state_store) = self.state_store.take() else {
             return Ok(());
         };
-        // Where nobody answers any more, nobody knows whether the machine rests, or how far it came.
-        let is_lost = matches!(
-            published,
-            Err(RunError::InterpolatorLost
-                | RunError::InterpolatorSilent { .. }
-                | RunError::Link(_))
-        );
         let kept = match (published, point) {
             (Ok(_), _) => state_store.completed(publisher.position(), config),
             (Err(_), Err(RunError::Resume(ResumeError::Completed))) if has_begun => {

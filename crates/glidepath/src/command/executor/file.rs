@@ -86,6 +86,8 @@ impl JobExecutor<'_> {
         let run = context.publish(pipeline, (config, supervisor), start, FileSource::in_force);
         if supervisor.has_begun(context.publisher) {
             self.begin(fingerprint, start, config);
+        } else if supervisor.is_lost() {
+            self.forget();
         }
         run
     }
@@ -117,6 +119,8 @@ impl JobExecutor<'_> {
         // Until then it can be resumed as before.
         if supervisor.has_begun(context.publisher) {
             (self.has_lines, self.left) = (false, None);
+        } else if supervisor.is_lost() {
+            self.forget();
         }
         Ok(run)
     }
@@ -149,6 +153,8 @@ impl JobExecutor<'_> {
         });
         if supervisor.has_begun(context.publisher) {
             self.begin(fingerprint, start, config);
+        } else if supervisor.is_lost() {
+            self.forget();
         }
         Ok(run)
     }

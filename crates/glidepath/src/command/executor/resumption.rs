@@ -30,6 +30,12 @@ impl JobExecutor<'_> {
         (self.has_lines, self.left) = (false, None);
     }
 
+    /// A program has begun of which nobody knows how far it came: no other one is resumed either, which would go on
+    /// where an older run was left.
+    pub(super) fn forget(&mut self) {
+        (self.begun, self.has_lines, self.left) = (None, false, None);
+    }
+
     /// A line is about to take the place, at the interpolator, of a program that may have been left.
     pub(super) fn keep_resume_point(&mut self, publisher: &FramePublisher<'_>) {
         if !self.has_lines {
