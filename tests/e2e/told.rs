@@ -187,3 +187,36 @@ fn a_watch_waits_for_an_interpolator_that_is_silent_and_says_so() {
     );
     let _ended = interpolator.wait();
 }
+
+#[test]
+fn what_ended_a_way_back_to_the_path_is_told_as_it_was() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let bench = Operated::new(&instance, &[], "");
+    let interpolator = bench.process(&["interpolator", "--best-effort"]);
+    let servo = bench.process(&["servo", "--stands", "0,0,0"]);
+    let _seen = bench.wait_for_drives();
+    let service = bench.service();
+    bench.operate(&["enable"]);
+    let _ready = bench.wait_for(MachineState::Idle);
+    for (ends, told) in [
+        ("hold", "a hold ended the way back"),
+        ("abort", "an abort or a fault ended the program"),
+    ] {
+        bench.operate(&["mdi", "G90 G0 X0 Y0 Z0"]);
+        let running = bench.process(&["mdi", "G1 X50 F600"]);
+        let _far = bench.wait(|status| status.position[0] > 2.0);
+        bench.operate(&["hold"]);
+        bench.operate(&["jog", "X30"]);
+        let returning = bench.process(&["return"]);
+        let _on_the_way = bench.wait_for(MachineState::Jogging);
+        bench.operate(&[ends]);
+        let said = returning.wait().stderr;
+        assert!(said.contains(told), "{ends}: {said}");
+        bench.operate(&["abort"]);
+        let _ended = running.wait();
+        let _rests = bench.wait_for(MachineState::Idle);
+    }
+    for process in [&service, &servo, &interpolator] {
+        process.signal(Signal::TERM);
+    }
+}

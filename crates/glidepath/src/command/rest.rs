@@ -205,11 +205,14 @@ fn come_back(operator: &Operator, link: &LinkConfig, interrupt: &Interrupt) -> R
         let state = status.state().map_err(LinkError::from)?;
         let is_away = status.away.iter().any(|away| *away != 0.0);
         has_begun |= state == MachineState::Jogging;
-        if state != MachineState::Jogging {
-            if !is_away {
+        // What ends the way is told when the motion has come to rest: until then the program is open, and behind it
+        // there is no path to be away from.
+        if !state.is_moving() {
+            let is_open = status.end_of_epoch().map_err(LinkError::from)? == EndOfEpoch::Open;
+            if is_open && !is_away {
                 return Ok(());
             }
-            if has_begun || started.elapsed() > PATIENCE {
+            if !is_open || has_begun || started.elapsed() > PATIENCE {
                 return Err(Failure::NotReturned(not_returned(&status)?));
             }
         }
