@@ -130,9 +130,9 @@ impl Continuity {
         });
     }
 
-    /// In a program every axis is inside its travel, but for what it swings over between two frames. One that stood outside
-    /// when the program began goes no further out; by hand it is brought back. The ends of travel are places of a machine that knows where it is: on the way home, and before that, they
-    /// mean nothing.
+    /// In a program every axis is inside its travel, but for what it swings over between two frames. One that stood
+    /// outside when the program began goes no further out; by hand it is brought back. The ends of travel are places
+    /// of a machine that knows where it is: on the way home, and before that, they mean nothing.
     fn judge_travel(&mut self, setpoint: &Setpoint) {
         let state = setpoint.state();
         let by_hand = setpoint.epoch == 0 || state == Ok(MachineState::Jogging);
