@@ -97,12 +97,14 @@ fn an_abort_in_a_thread_does_not_lift_the_tool() {
     bench.operate(&["enable"]);
     let _ready = bench.wait_for(MachineState::Idle);
 
-    let part = "G21 G90 G97 S300 M3\nG0 X1 Z2\nG33 Z-6 K1\nG0 X9\nM2\n";
+    // Five seconds of it are left at the abort.
+    let part = "G21 G90 G97 S60 M3\nG0 X1 Z2\nG33 Z-6 K1\nG0 X9\nM2\n";
     let part = instance.file("pass.ngc", part);
     let running = bench.process(&["run-file", &part]);
     let _in_pass = bench.wait(|status| status.position[2] < 0.0);
     let told = bench.operate(&["abort"]);
     assert!(told.stderr.contains("not lifted"), "{}", told.stderr);
+    assert!(told.stderr.contains("still moves"), "{}", told.stderr);
     let _ended = running.wait();
     let status = bench.wait_for(MachineState::Idle);
     assert_eq!(status.position[..3], [1.0, 0.0, -6.0]);

@@ -165,7 +165,8 @@ fn has_job(status: &Status) -> Result<bool, RecordError> {
     ))
 }
 
-/// Waits for something, but no longer than an answer may take: the command was accepted all the same.
+/// Waits for something, but no longer than an answer may take: the command was accepted all the same. A machine that
+/// still moves then is told.
 fn wait(
     operator: &Operator,
     link: &LinkConfig,
@@ -174,9 +175,13 @@ fn wait(
     let started = Instant::now();
     while started.elapsed() < PATIENCE {
         if is_so(&read_status(operator, link)?).map_err(LinkError::from)? {
-            break;
+            return Ok(());
         }
         std::thread::sleep(POLL);
+    }
+    let state = read_status(operator, link)?.state();
+    if state.map_err(LinkError::from)?.is_moving() {
+        output::note("the machine still moves: a pass of a thread or a tap comes to its end first");
     }
     Ok(())
 }
