@@ -38,8 +38,8 @@ impl AtRest {
     #[must_use]
     pub const fn states(self) -> &'static [MachineState] {
         match self {
-            Self::Away => &[MachineState::Held, MachineState::ProgramStop],
-            Self::Backwards | Self::NoOverride | Self::NoFeed | Self::NoRapid | Self::Adaptive => {
+            Self::Away | Self::Backwards => &[MachineState::Held, MachineState::ProgramStop],
+            Self::NoOverride | Self::NoFeed | Self::NoRapid | Self::Adaptive => {
                 &[MachineState::Held]
             }
             Self::Silent => &[MachineState::Off],
@@ -56,7 +56,7 @@ impl AtRest {
             }
             Self::Backwards => {
                 "at rest on the way back along the path; `glidepath forward` turns round, and \
-                 `glidepath resume` goes on after a hold"
+                 `glidepath resume` goes back on, after a hold or a stop of the program"
             }
             Self::NoOverride => {
                 "at rest on the path at overrides of 0 %; `glidepath override 100 --rapid 100` goes \
