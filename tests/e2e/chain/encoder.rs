@@ -81,7 +81,7 @@ fn a_thread_follows_an_encoder_at_a_terminal() {
     let is_late = |text: &str| text.contains("frames ran out") || text.contains("old");
     let is_skipped = output.status.code() != Some(0) && is_late(&output.stderr) && is_crowded();
     if is_skipped {
-        skip("a thread by an encoder", &output.stderr);
+        skip("a thread", &output.stderr);
     } else {
         let _done = output.expect(0);
         bench.assert_at([0.0, 0.0, -10.0]);
