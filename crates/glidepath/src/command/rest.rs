@@ -2,7 +2,7 @@
 //! command was to bring it, so that what is typed next finds it there.
 
 use super::jog::lift;
-use super::operator::{PATIENCE, command_and_wait, of_link, reach, read_status, send};
+use super::operator::{PATIENCE, command_and_wait, reach, read_status, send};
 use super::other_users::OtherUsers;
 use super::session;
 use crate::cli::{AbortArgs, OperatorArgs};
@@ -14,7 +14,7 @@ use crate::output;
 use crate::waiting_note::WaitingNote;
 use glidepath_link::{
     Command, EndOfEpoch, InterpolatorProcess, Ipc, JobStage, LinkConfig, LinkError, MachineState,
-    Operator, Power, RecordError, Status, Transport as _,
+    Operator, Power, RecordError, Setpoint, Status, Subscriber, Transport as _,
 };
 use glidepath_program::FrameFlags;
 use serde_json::json;
@@ -26,8 +26,6 @@ const POLL: Duration = Duration::from_millis(10);
 const TELL_AFTER: Duration = Duration::from_millis(500);
 /// How long an interpolator that was signalled may take to end: 5 s to come to rest, and to clean up.
 const END_PATIENCE: Duration = Duration::from_secs(10);
-/// How long a setpoint is waited for, of which one comes in every period.
-const SETPOINT_PATIENCE: Duration = Duration::from_millis(200);
 
 /// Holds the motion, and waits until it rests; not longer than an answer may take: a thread is cut to its end first.
 ///
@@ -95,36 +93,44 @@ fn abort_and_lift(args: &AbortArgs, config: &MachineConfig) -> Result<Exit, Fail
         && reach(&link)?
             .status(PATIENCE)?
             .is_some_and(|status| status.end_of_epoch() == Ok(EndOfEpoch::Open));
-    let in_thread = was_open && may_be_in_thread(&link, config)?;
+    // Heard from before the abort on, which waits for nothing of it and is sent whatever becomes of it.
+    let setpoints = was_open.then(|| Ipc::connect(&link)?.setpoint_source());
     let exit = abort_and_wait(&args.operator, config)?;
-    if in_thread {
+    let Some(setpoints) = setpoints else {
+        return Ok(exit);
+    };
+    if may_be_in_thread(config, setpoints.ok()) {
         output::note(
             "abort: the tool may be in a thread or a tapped hole, so it is not lifted; turn it out, or jog it away \
              where nothing holds it",
         );
-    } else if was_open {
+    } else {
         lift(&link, config)?;
     }
     Ok(exit)
 }
 
-/// Whether the tool may be in a thread, which a lift would tear out: in a pass that follows the spindle, or anywhere
-/// in a program where the spindle is an axis, whose taps are moves like others.
-fn may_be_in_thread(link: &LinkConfig, config: &MachineConfig) -> Result<bool, Failure> {
+/// Whether the tool may be in a thread, which a lift would tear out: in a pass that follows the spindle, as setpoints
+/// have told it since, or anywhere in a program where the spindle is an axis, whose taps are moves like others. Where
+/// no setpoint was heard, nobody knows.
+fn may_be_in_thread(
+    config: &MachineConfig,
+    setpoints: Option<Box<dyn Subscriber<Setpoint>>>,
+) -> bool {
     if config.spindle.is_some_and(|spindle| spindle.axis.is_some()) {
-        return Ok(true);
+        return true;
     }
-    let open = || Ipc::connect(link)?.setpoint_source();
-    let mut setpoints = open().map_err(|error| of_link(error, link))?;
-    let started = Instant::now();
-    while started.elapsed() < SETPOINT_PATIENCE {
-        if let Some(setpoint) = setpoints.take().map_err(|error| of_link(error, link))? {
-            return Ok(FrameFlags(setpoint.flags).contains(FrameFlags::SYNC));
+    let Some(mut setpoints) = setpoints else {
+        return true;
+    };
+    let mut is_heard = false;
+    while let Ok(Some(setpoint)) = setpoints.take() {
+        is_heard = true;
+        if FrameFlags(setpoint.flags).contains(FrameFlags::SYNC) {
+            return true;
         }
-        std::thread::sleep(POLL);
     }
-    // Nobody knows.
-    Ok(true)
+    !is_heard
 }
 
 /// Ends the motion and the job, and waits until it rests and its planner has let go of it; not longer than an answer
