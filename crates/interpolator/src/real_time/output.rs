@@ -90,8 +90,9 @@ impl Output {
     pub(crate) fn write_moving(
         &mut self,
         epoch: u64,
-        (now, dropped): (&Progress, bool),
+        now: &Progress,
         track: &Track,
+        dropped: bool,
         setpoint: &mut Setpoint,
     ) -> Written {
         let writer = &mut self.setpoints;

@@ -7,7 +7,7 @@
 use super::state::Interpolator;
 use crate::real_time::jog::AxesMotion;
 use crate::real_time::program_time::ProgramTime;
-use crate::real_time::rate::{BESIDE_FULL, Situation, beside_full};
+use crate::real_time::rate::{BESIDE_FULL, Situation};
 use crate::real_time::spindle::{Follow, Hole, Lead, LeadOutcome, SpindleSeen, Tap};
 use glidepath_geometry::AxisVector;
 use glidepath_link::{EventRecord, FaultCause, Setpoint, SpindleFlags};
@@ -312,19 +312,9 @@ impl Interpolator<'_> {
             self.tap = None;
             self.pass.end();
             self.track.pass_m_code_wait();
-            self.take_rate_behind_tap();
+            // What was ordered in the hole counts from here on. The plan rests, so the rate changes at once: by a
+            // ramp the next block would be begun.
+            self.rate.rest_at(self.rate.now().time, self.goal());
         }
-    }
-
-    /// What was ordered in the hole counts from here on. The plan rests, so the rate changes at once: by a ramp
-    /// the next block would be begun.
-    fn take_rate_behind_tap(&mut self) {
-        let time = self.rate.now().time;
-        let next = self.track.frame(time.sequence + 1);
-        let is_rapid = next.is_some_and(|frame| frame.has(FrameFlags::RAPID));
-        let planned_override = self.present().planned_override;
-        let of_next = self.requests.wanted_rate(is_rapid, planned_override);
-        self.rate
-            .rest_at(time, beside_full(of_next).min(self.goal()));
     }
 }

@@ -198,7 +198,7 @@ impl Interpolator<'_> {
         let now = self.rate.now();
         let dropped = now.rate <= 0.0 && self.requests.is_stopping();
         let (output, track) = (&mut self.output, &self.track);
-        let written = output.write_moving(self.epoch, (&now, dropped), track, setpoint);
+        let written = output.write_moving(self.epoch, &now, track, dropped, setpoint);
         self.judge(written, tick);
         if written == Written::Nothing {
             // Every committed ramp ends on frames at hand, so this cannot be; if it were, standing
