@@ -1,14 +1,12 @@
 //! A thread by the encoder of an emulated spindle, with the processes of a machine.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use glidepath_link::{MachineState, SpindleFlags, Status};
-use glidepath_testing::{is_crowded, leave_out, skip};
+use glidepath_testing::{is_crowded, skip};
 use glidepath_tests::{Instance, Operated, Watchdog};
 
 const PATIENCE: Duration = Duration::from_secs(240);
-/// How old what drives say may be, ns: a host of tests stands still now and then.
-const FRESH_NS: u64 = 100_000_000;
 /// S, rev/min.
 const SPEED: f64 = 600.0;
 
@@ -44,26 +42,11 @@ fn a_thread_follows_an_encoder_at_a_terminal() {
         "--drives",
         &drives,
     ];
-    let mut bus = bench.process(&emulated);
-    let (began, off) = (Instant::now(), MachineState::Off.code());
-    let is_there = || {
-        let status = instance.wait_for_status(|_| true);
-        status.state == off && status.feedback_age_ns < FRESH_NS
+    let bus = bench.process(&emulated);
+    let Some(bus) = super::emulated(&instance, bus) else {
+        let _ended = interpolator.end().expect(0);
+        return;
     };
-    while !is_there() {
-        if !bus.runs() {
-            let output = bus.wait();
-            assert!(
-                output.stderr.contains("cannot emulate drives"),
-                "{output:?}"
-            );
-            leave_out("emulated drives", &output.stderr);
-            let _ended = interpolator.end().expect(0);
-            return;
-        }
-        assert!(began.elapsed() < PATIENCE);
-        std::thread::sleep(Duration::from_millis(20));
-    }
     let service = bench.service();
     bench.operate(&["enable"]);
     let _ready = bench.wait_for(MachineState::Idle);

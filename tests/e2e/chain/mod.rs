@@ -18,8 +18,9 @@ mod terminals;
 mod touch_probe;
 
 use std::fmt::Write as _;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
+use glidepath_link::MachineState;
 use glidepath_testing::leave_out;
 use glidepath_tests::{Instance, Process, Watchdog, planned};
 use judge::{COUNTS, Row, judge, rows, was_left_alone};
@@ -30,6 +31,35 @@ const LIMITS: &str = "limits of the chain over emulated drives";
 const TOO_FAR: &str = "a joint is too far from where it is to be";
 /// Time constant of their lag, s.
 const LAG_T: f64 = 0.002;
+
+/// How old what drives say may be, ns: a host of tests stands still now and then.
+const FRESH_NS: u64 = 100_000_000;
+/// How long emulated drives may take to come up.
+const UP: Duration = Duration::from_secs(240);
+
+/// A bridge that emulates its drives, when they are there, without power. `None`, and told, if this host cannot
+/// emulate drives.
+fn emulated(instance: &Instance, mut bus: Process) -> Option<Process> {
+    let (began, off) = (Instant::now(), MachineState::Off.code());
+    let is_there = || {
+        let status = instance.wait_for_status(|_| true);
+        status.state == off && status.feedback_age_ns < FRESH_NS
+    };
+    while !is_there() {
+        if !bus.runs() {
+            let output = bus.wait();
+            assert!(
+                output.stderr.contains("cannot emulate drives"),
+                "{output:?}"
+            );
+            leave_out("emulated drives", &output.stderr);
+            return None;
+        }
+        assert!(began.elapsed() < UP);
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    Some(bus)
+}
 
 /// A zigzag of about so many seconds.
 fn program(seconds: u32) -> String {

@@ -1,15 +1,12 @@
 //! Terminals beside emulated drives, with the processes of a machine: a program waits for an input and
 //! moves by what it reads, and the bridge goes on without a terminal missing.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use glidepath_link::{MachineState, SpindleFlags, Status};
-use glidepath_testing::leave_out;
 use glidepath_tests::{Instance, Operated, Watchdog};
 
 const PATIENCE: Duration = Duration::from_secs(240);
-/// How old what drives say may be, ns: a host of tests stands still now and then.
-const FRESH_NS: u64 = 100_000_000;
 
 /// Two drives in one device, one in another, terminals whose inputs are low, and the drive of a spindle.
 const LINE: &str = r#"[bus]
@@ -73,26 +70,11 @@ fn programs_read_terminals_and_switch_them() {
         "--emulated-inputs",
         &inputs,
     ];
-    let mut bus = bench.process(&emulated);
-    let (began, off) = (Instant::now(), MachineState::Off.code());
-    let is_there = || {
-        let status = instance.wait_for_status(|_| true);
-        status.state == off && status.feedback_age_ns < FRESH_NS
+    let bus = bench.process(&emulated);
+    let Some(bus) = super::emulated(&instance, bus) else {
+        let _ended = interpolator.end().expect(0);
+        return;
     };
-    while !is_there() {
-        if !bus.runs() {
-            let output = bus.wait();
-            assert!(
-                output.stderr.contains("cannot emulate drives"),
-                "{output:?}"
-            );
-            leave_out("emulated drives", &output.stderr);
-            let _ended = interpolator.end().expect(0);
-            return;
-        }
-        assert!(began.elapsed() < PATIENCE);
-        std::thread::sleep(Duration::from_millis(20));
-    }
     bench.operate(&["enable"]);
     let _ready = bench.wait_for(MachineState::Idle);
     let program = instance.file("inputs.ngc", PROGRAM);

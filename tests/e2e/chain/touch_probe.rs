@@ -1,15 +1,12 @@
 //! Touch probes of emulated drives, with the processes of a machine: where a contact was is what the drives
 //! have kept, at any speed, and however late this host is.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use glidepath_link::MachineState;
-use glidepath_testing::leave_out;
 use glidepath_tests::{Instance, Operated, Watchdog};
 
 const PATIENCE: Duration = Duration::from_secs(240);
-/// How old what drives say may be, ns: a host of tests stands still now and then.
-const FRESH_NS: u64 = 100_000_000;
 /// Where the part begins, mm.
 const PART_Z: f64 = -3.271_83;
 /// Counts a mm: a micrometre is a hundred.
@@ -49,26 +46,11 @@ fn a_contact_is_where_the_drives_have_kept_it_at_any_speed() {
         "--emulated-inputs",
         &inputs,
     ];
-    let mut bus = bench.process(&emulated);
-    let (began, off) = (Instant::now(), MachineState::Off.code());
-    let is_there = || {
-        let status = instance.wait_for_status(|_| true);
-        status.state == off && status.feedback_age_ns < FRESH_NS
+    let bus = bench.process(&emulated);
+    let Some(bus) = super::emulated(&instance, bus) else {
+        let _ended = interpolator.end().expect(0);
+        return;
     };
-    while !is_there() {
-        if !bus.runs() {
-            let output = bus.wait();
-            assert!(
-                output.stderr.contains("cannot emulate drives"),
-                "{output:?}"
-            );
-            leave_out("emulated drives", &output.stderr);
-            let _ended = interpolator.end().expect(0);
-            return;
-        }
-        assert!(began.elapsed() < PATIENCE);
-        std::thread::sleep(Duration::from_millis(20));
-    }
     let service = bench.service();
     bench.operate(&["enable"]);
     let _ready = bench.wait_for(MachineState::Idle);
