@@ -38,4 +38,5 @@ mod subscribers;
 mod telemetry;
 mod threading;
 mod told;
+mod tolerance;
 mod unanswered;

@@ -50,6 +50,9 @@ pub(crate) struct Begun {
     may_run_unchecked: bool,
     effort: Effort,
     tolerance_mm: f64,
+    /// How many times the tolerance that the program says was used. `tolerance_mm` has it already.
+    #[serde(default = "once", skip_serializing_if = "is_once")]
+    tolerance_ratio: f64,
     /// The text of the configuration.
     configuration: String,
     offsets: WorkOffsets,
@@ -104,6 +107,7 @@ impl Board {
             may_run_unchecked: config.program.may_run_unchecked,
             effort: config.path.effort,
             tolerance_mm: config.path.tolerance_mm,
+            tolerance_ratio: config.program.tolerance_ratio,
             configuration: self.configuration.clone(),
             offsets: config.program.offsets.clone(),
             tools: config.program.tools.clone(),
@@ -161,6 +165,7 @@ impl Begun {
         path.effort = self.effort;
         path.tolerance_mm =
             config::tolerance(&self.tolerance_mm.to_string()).unwrap_or(path.tolerance_mm);
+        config.program.tolerance_ratio = self.tolerance_ratio;
         Ok(config)
     }
 
@@ -183,6 +188,19 @@ impl Begun {
             })
         }));
     }
+}
+
+/// A run with the tolerance as it is.
+const fn once() -> f64 {
+    1.0
+}
+
+#[expect(
+    clippy::trivially_copy_pass_by_ref,
+    reason = "serde hands a reference on"
+)]
+const fn is_once(ratio: &f64) -> bool {
+    ratio.to_bits() == once().to_bits()
 }
 
 /// A fingerprint as sixteen digits: TOML's whole numbers are too small for all of them.

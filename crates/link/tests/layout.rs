@@ -161,10 +161,10 @@ layout!(jog_demand, JogDemand, "glidepath.JogDemand.v2", 136,
     client: 0, number: 8, sent_ns: 16, asked_ns: 24, mode: 32, mask: 36, by_joint: 40, reserved: 44,
     velocity_v: 48, scale: 56, value: 64,
 });
-layout!(job_request, JobRequest, "glidepath.JobRequest.v4", 1080,
-    JobRequest { kind: 1, wish: 1, ..Zeroable::zeroed() }, {
-    client: 0, number: 8, asked_ns: 16, program: 24, kind: 32, from_line: 36, pass: 40, confirmed: 44, resumes: 48,
-    wish: 52, text: 56,
+layout!(job_request, JobRequest, "glidepath.JobRequest.v5", 1088,
+    JobRequest { kind: 1, wish: 1, tolerance_ratio: 1.0, ..Zeroable::zeroed() }, {
+    client: 0, number: 8, asked_ns: 16, program: 24, tolerance_ratio: 32, kind: 40, from_line: 44, pass: 48,
+    confirmed: 52, resumes: 56, wish: 60, text: 64,
 });
 layout!(job_reply, JobReply, "glidepath.JobReply.v3", 1048,
     JobReply { state: 1, ..Zeroable::zeroed() }, {

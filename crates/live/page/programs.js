@@ -81,19 +81,20 @@ function paintChosen() {
   if (!name) { fill($('#title'), '<span class="lab-text">Choose a program.</span>'); fill($('#runkeys'), ''); fill($('#found'), ''); return; }
   // What changes while it is planned stands by itself, so that a finger on a key is not lost.
   fill($('#title'), `<b>${safe(name)}</b><span class="lab">${info && info.program ? `${grouped(info.program.lines)} lines` : ''}${info && info.seconds ? `, ${span(info.seconds)} of motion at 100 %` : info && !info.failed ? `, is planned: ${span(info.planned_so_far_s || 0)} so far` : ''}</span>`);
-  fill($('#runkeys'), `${key('queue-add', 'Queue', { why: notOperating(), data: `data-name="${safe(name)}"` })}${key('from-line', 'From line…', { why: notOperating() })}${key('run', 'Run', { press: SHORT, why, sub: 'press ½ s', data: `data-of="${safe(name)}"`, kind: why || (info && info.failed) ? '' : 'main' })}`);
+  fill($('#runkeys'), `${key('queue-add', 'Queue', { why: notOperating() || (LOOK.ratio === 1 ? '' : 'with its own tolerance'), data: `data-name="${safe(name)}"` })}${key('from-line', 'From line…', { why: notOperating() })}${key('run', 'Run', { press: SHORT, why, sub: LOOK.ratio === 1 ? 'press ½ s' : `press ½ s, ${num(chosenTolerance(), 3)} mm`, data: `data-of="${safe(name)}"`, kind: why || (info && info.failed) ? '' : 'main' })}`);
   const failed = info && info.failed;
   fill($('#found'), S.agree ? agreement() : failed ? `<div class="h"><b>${icon('warn', 'warn')} What was found</b></div>${findings(failed)}` : `<div class="h"><b>${info && info.report ? `${icon('ok', 'ok')} Nothing was found` : LOOK.lost ? safe(sentence(plain(LOOK.lost))) : 'It is read'}</b>${LOOK.lost ? key('choose', 'Look at it', { data: `data-name="${safe(name)}"` }) : ''}</div>${tolerances()}<pre class="lines">${safe((LOOK.lines || []).slice(0, 6).join('\n'))}</pre>`);
 }
-/* How long it would take with another tolerance, before it runs: what runs is planned as it is configured. */
+/* How long it takes with another tolerance, before it runs: it runs with the one that is chosen. */
 const TOLERANCES = [[0.5, '× ½'], [1, 'as it is'], [2, '× 2'], [5, '× 5']];
+const chosenTolerance = () => LOOK.info.report.tolerance_mm * LOOK.ratio;
 function tolerances() {
   const info = LOOK.info, report = info && info.report;
   if (!report || !info.seconds) return '';
   const mm = report.tolerance_mm, answer = LOOK.times[LOOK.ratio], less = answer && answer.seconds ? info.seconds - answer.seconds : 0;
   const keys = TOLERANCES.map(([ratio, name]) => `<button role="radio" class="choice" aria-checked="${ratio === LOOK.ratio}" data-do="try-tolerance" data-ratio="${ratio}">${name}<span class="lab">${num(mm * ratio, 3)} mm</span></button>`).join('');
   const said = LOOK.ratio === 1 ? `${span(info.seconds)}` : !answer ? 'is planned' : answer.failed ? safe(answer.failed) : answer.seconds === null ? `is planned: ${span(answer.so_far_s)} so far` : `${span(answer.seconds)}, ${Math.abs(less) < 0.05 ? 'the same' : `${num(Math.abs(less), 1)} s ${less > 0 ? 'less' : 'more'}`}`;
-  return `<div class="tolerances"><div class="choices" role="radiogroup" aria-label="tolerance">${keys}</div><p>Cycle time: <b>${said}</b>.<br><span class="lab">Only a look: Run is planned with ${num(mm, 3)} mm.</span></p></div>`;
+  return `<div class="tolerances"><div class="choices" role="radiogroup" aria-label="tolerance">${keys}</div><p>Cycle time: <b>${said}</b>.<br><span class="lab">Run is planned with ${num(chosenTolerance(), 3)} mm${LOOK.ratio === 1 ? '' : ', this run alone'}.</span></p></div>`;
 }
 DEEDS['try-tolerance'] = async b => {
   const ratio = LOOK.ratio = +b.dataset.ratio, info = LOOK.info;
@@ -121,7 +122,7 @@ async function fetchFindings(info) {
   }
   paintChosen();
 }
-DEEDS.run = b => runLooked(b.dataset.of, {}, LOOK.info);
+DEEDS.run = b => runLooked(b.dataset.of, { tolerance_ratio: LOOK.ratio }, LOOK.info);
 /* Runs what was looked at, and agreed to, and no other text: `info` is of that. Whoever reads the file sees to it that it still
    is. What it was planned with, its part zero and tools, is looked at here. */
 async function runLooked(name, more, info) {
@@ -167,8 +168,8 @@ async function fetchAround() {
   if (lines && S.agree === a) { a.around = lines.map((text, k) => [from + k, text]); paintChosen(); }
 }
 const count = id => { const n = numberOf($(id).value); if (Number.isInteger(n) && n > 0) return n; $(id).focus(); return null; };
-DEEDS.compare = () => { const pass = count('#pass'), from_line = count('#fromline'); if (pass && from_line) runLooked(FOLDER.chosen, { from_line, pass }, LOOK.info); };
-DEEDS['begin-there'] = () => { const { name, info, from_line, pass } = S.agree; runLooked(name, { from_line, pass, agreed: true }, info); };
+DEEDS.compare = () => { const pass = count('#pass'), from_line = count('#fromline'); if (pass && from_line) runLooked(FOLDER.chosen, { from_line, pass, tolerance_ratio: LOOK.ratio }, LOOK.info); };
+DEEDS['begin-there'] = () => { const { name, info, from_line, pass, tolerance_ratio } = S.agree; runLooked(name, { from_line, pass, tolerance_ratio, agreed: true }, info); };
 
 /* ---- programs that are dropped */
 const PIECE = 1 << 19;

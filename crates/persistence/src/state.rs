@@ -82,6 +82,22 @@ pub struct UnderWay {
     /// The parameters it began with.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub variables: Vec<Variable>,
+    /// How many times its tolerance it may use.
+    #[serde(default = "once", skip_serializing_if = "is_once")]
+    pub tolerance_ratio: f64,
+}
+
+/// A run with the tolerance as it is.
+const fn once() -> f64 {
+    1.0
+}
+
+#[expect(
+    clippy::trivially_copy_pass_by_ref,
+    reason = "serde hands a reference on"
+)]
+const fn is_once(ratio: &f64) -> bool {
+    ratio.to_bits() == once().to_bits()
 }
 
 /// Everything that is kept.
@@ -171,6 +187,13 @@ impl PersistentState {
         let rest = self.rest.iter().flat_map(|rest| rest.position);
         if !rest.into_iter().all(is_place) {
             return Some("the position of the last rest is no number, or beyond 1e9".to_owned());
+        }
+        let ratio = under_way.map_or_else(once, |program| program.tolerance_ratio);
+        if !(ratio > 0.0 && ratio.is_finite()) {
+            return Some(
+                "the tolerance of the program that has begun is no number of times its own"
+                    .to_owned(),
+            );
         }
         let begun = under_way.and_then(|program| program.offsets.fault());
         self.offsets.fault().or(begun)

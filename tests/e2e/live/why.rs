@@ -72,7 +72,7 @@ fn a_slow_place_says_why_and_what_a_change_would_bring() {
         "{answers} {now}"
     );
 
-    // Before a run: the time with another tolerance, and what runs stays what it is.
+    // Before a run: the time with another tolerance, which it would run with.
     // It may be asked as soon as the time is known, while the motion is still on its way to the page.
     browser.evaluate(
         "window.fetchNow = window.fetch; window.fetch = async (url, how) => { if (('' + url).includes('preview/path.bin')) await new Promise(done => window.letPass = done); return fetchNow(url, how); }",
@@ -90,7 +90,7 @@ fn a_slow_place_says_why_and_what_a_change_would_bring() {
     assert!(
         told.as_str()
             .unwrap()
-            .contains("Run is planned with 0.020 mm"),
+            .contains("Run is planned with 0.040 mm, this run alone"),
         "{told}"
     );
     let time = browser.evaluate("LOOK.times[2].seconds").as_f64().unwrap();

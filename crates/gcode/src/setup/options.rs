@@ -74,6 +74,9 @@ pub struct Options {
     /// How far the pieces a spline is made of may be away from it, mm, > 0. G64 P overrides it with
     /// a thousandth of P.
     pub spline_tolerance_mm: f64,
+    /// How many times the tolerance of G64 P moves may use, > 0: a run may be made with more or less than its
+    /// program says. What is in force stays what the program says, and so does what a cycle asks for itself.
+    pub tolerance_ratio: f64,
     /// M codes that the machine has beside those of every program.
     pub m_codes: Arc<MCodes>,
     /// A change of the spindle's speed is told once more at rest, by the code of its direction, so
@@ -192,6 +195,7 @@ impl Default for Options {
             spindle_axis: None,
             adaptive_feed: AdaptiveFeed::None,
             spline_tolerance_mm: 1e-5,
+            tolerance_ratio: 1.0,
             m_codes: Arc::default(),
             waits_for_speed: false,
             in_force: None,

@@ -204,6 +204,44 @@ fn path_modes() {
     assert_eq!(mode("G64 P0\nG0 X1"), PathMode::ExactPath);
 }
 
+/// What is in force afterwards is what the program says, and so is what a thread asks for its corners.
+#[test]
+fn a_run_may_use_more_of_its_tolerance() {
+    let text = "G20 G64 P0.5 F9\nG0 X1\nG1 Y1\nG2 X2 Y2 R1\nG42.1 D0.1 G1 X3\nY3\nG40 X4 Y4\nG64 G1 X9\nG61 G1 X8\nG64 P0.25\n";
+    let said = |ratio| {
+        let options = Options {
+            tolerance_ratio: ratio,
+            ..Options::default()
+        };
+        let mut program = Program::new(text.as_bytes(), options);
+        let mut modes = Vec::new();
+        for item in program.by_ref() {
+            if let ItemKind::Move { mode, .. } = item.unwrap().kind {
+                modes.push(mode);
+            }
+        }
+        (modes, program.in_force().words())
+    };
+    let (own, in_force) = said(1.0);
+    let twice = |mode: &PathMode| match *mode {
+        PathMode::Continuous {
+            tolerance_mm: Some(own),
+        } => PathMode::Continuous {
+            tolerance_mm: Some(2.0 * own),
+        },
+        mode => mode,
+    };
+    assert_eq!(
+        own[0],
+        twice(&PathMode::Continuous {
+            tolerance_mm: Some(6.35)
+        })
+    );
+    assert!(own.contains(&PathMode::ExactPath), "{own:?}");
+    let expected: Vec<PathMode> = own.iter().map(twice).collect();
+    assert_eq!(said(2.0), (expected, in_force));
+}
+
 #[test]
 fn a_block_acts_in_the_prescribed_order() {
     let all = items("M0 G1 X1 G4 P2.5 M8 M3 M6 T7 S1000 F60 M48\nM1 M9\nM60\nM2\nM3");

@@ -1,6 +1,7 @@
 //! Arguments of an operator's commands.
 
 use super::basic::{BasicArgs, InstanceArgs};
+use crate::config;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
@@ -122,6 +123,12 @@ pub struct RunFileArgs {
     /// Continue this program where it was left, after an abort or a fault
     #[arg(long, conflicts_with = "from_line")]
     pub resume: bool,
+    /// Plan with so many times the tolerance of the configuration and of G64 P, .1 to 10
+    ///
+    /// `plan --tolerance` and the page tell what it saves. A run that is resumed keeps what it began with.
+    #[arg(long, value_name = "RATIO", default_value_t = 1.0, conflicts_with = "resume",
+          value_parser = config::tolerance_ratio)]
+    pub tolerance_ratio: f64,
     /// Configuration and form of the report.
     #[command(flatten)]
     pub basic: BasicArgs,

@@ -11,8 +11,9 @@ use crate::persistence::error::StateError;
 use crate::persistence::read::{read, set_up};
 use glidepath_gcode::InForce;
 use glidepath_geometry::AxisVector;
-use glidepath_link::{EndOfEpoch, LinkConfig, MachineState, Operator};
+use glidepath_link::{ActiveProgram, EndOfEpoch, LinkConfig, MachineState, Operator};
 use glidepath_persistence::PersistentState;
+use std::path::Path;
 
 /// What a machine was found to begin programs with.
 #[derive(Debug, Default)]
@@ -94,6 +95,20 @@ pub(super) fn program_start(config: &MachineConfig, program: Option<u64>) -> Opt
         None => status.end_of_epoch() == Ok(EndOfEpoch::Open),
     };
     is_meant.then(|| AxisVector::from(status.program_start))
+}
+
+/// How many times its tolerance a program uses that runs, or ran last: that of this fingerprint, or without one the
+/// program in this file.
+pub(super) fn ratio_begun_with(config: &MachineConfig, path: &Path, program: Option<u64>) -> f64 {
+    let link = session::link(&session::named_instance(config), config);
+    // A note that cannot be read says nothing.
+    let note = ActiveProgram::read(&link).ok().flatten();
+    let is_meant = |note: &ActiveProgram| match program {
+        Some(program) => note.fingerprint == program,
+        None => path.canonicalize().is_ok_and(|path| path == note.file),
+    };
+    note.filter(is_meant)
+        .map_or(1.0, |note| note.tolerance_ratio)
 }
 
 /// What is in force, in the words of a program.

@@ -2,12 +2,10 @@
 //! stays as it is.
 
 use crate::config::MachineConfig;
+use glidepath_link::TOLERANCE_RATIOS;
 use glidepath_motion::PlanError;
 use glidepath_planner::{FileSource, InputResult, ItemSource, Refusal, Settled, Supply};
-use glidepath_program::{ItemKind, PathMode, Rate};
-
-/// How many times as large something is, at most and at least.
-const RANGE: core::ops::RangeInclusive<f64> = 0.1..=10.0;
+use glidepath_program::{ItemKind, Rate};
 
 /// What is changed: each is so many times what it is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,12 +26,12 @@ impl Change {
     /// Whether it is one that is planned.
     pub(crate) fn is_in_range(&self) -> bool {
         let all = [self.tolerance, self.jerk, self.feed];
-        all.iter().all(|ratio| RANGE.contains(ratio))
+        all.iter().all(|ratio| TOLERANCE_RATIOS.contains(ratio))
     }
 
     /// Changes what a machine gives a plan.
     pub(crate) fn machine(&self, config: &mut MachineConfig) {
-        config.path.tolerance_mm *= self.tolerance;
+        config.use_tolerance_ratio(config.program.tolerance_ratio * self.tolerance);
         config.path.bounds.jerk_j *= self.jerk;
         for axis in &mut config.axes {
             axis.max_jerk *= self.jerk;
@@ -45,7 +43,7 @@ impl Change {
 
     /// Changes what a program gives a plan. A move that follows the spindle stays: it would be another thread.
     fn item(&self, kind: &mut ItemKind) {
-        let ItemKind::Move { rate, mode, .. } = kind else {
+        let ItemKind::Move { rate, .. } = kind else {
             return;
         };
         match rate {
@@ -53,12 +51,6 @@ impl Change {
             | Rate::FeedUpTo { feed_v, .. }
             | Rate::PerRevolution { feed_v, .. } => *feed_v *= self.feed,
             Rate::Rapid | Rate::RapidUpTo(_) | Rate::Synchronised(_) => {}
-        }
-        if let PathMode::Continuous {
-            tolerance_mm: Some(tolerance_mm),
-        } = mode
-        {
-            *tolerance_mm *= self.tolerance;
         }
     }
 }
@@ -108,8 +100,9 @@ impl ItemSource for Changed {
 mod tests {
     use super::*;
     use glidepath_geometry::{AxisVector, Line, Segment};
+    use glidepath_program::PathMode;
 
-    fn moved(rate: Rate, tolerance_mm: Option<f64>) -> ItemKind {
+    fn moved(rate: Rate) -> ItemKind {
         let mut end = AxisVector::zeros();
         end[0] = 1.0;
         ItemKind::Move {
@@ -118,7 +111,7 @@ mod tests {
                 end,
             }),
             rate,
-            mode: PathMode::Continuous { tolerance_mm },
+            mode: PathMode::Continuous { tolerance_mm: None },
         }
     }
 
@@ -134,11 +127,9 @@ mod tests {
             (Rate::Rapid, Rate::Rapid),
             (Rate::Synchronised(4.0), Rate::Synchronised(4.0)),
         ] {
-            for (own, becomes) in [(None, None), (Some(0.01), Some(0.02))] {
-                let mut kind = moved(rate, own);
-                change.item(&mut kind);
-                assert_eq!(kind, moved(changed, becomes));
-            }
+            let mut kind = moved(rate);
+            change.item(&mut kind);
+            assert_eq!(kind, moved(changed));
         }
         let mut config = crate::config::load(None).unwrap();
         let before = config.clone();
@@ -148,6 +139,8 @@ mod tests {
             ratio(config.path.tolerance_mm, before.path.tolerance_mm).to_bits(),
             2.0_f64.to_bits()
         );
+        let said = config.program_options(config.start()).tolerance_ratio;
+        assert_eq!(said.to_bits(), 2.0_f64.to_bits());
         for (now, then) in config.axes.iter().zip(&before.axes) {
             assert_eq!(
                 ratio(now.max_jerk, then.max_jerk).to_bits(),

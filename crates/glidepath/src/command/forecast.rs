@@ -1,7 +1,7 @@
 //! The forecast of a program: how far it is, and how long it takes yet. It is planned beside the
 //! machine, since planned time is run time.
 
-use super::begins_with::{begin_on_machine, program_start};
+use super::begins_with::{begin_on_machine, program_start, ratio_begun_with};
 use super::changed::{Change, Changed};
 use super::fitting::{is_all_that_is_wrong, without_travel};
 use super::program_diagnostics::refusal_text;
@@ -138,6 +138,9 @@ impl Forecast {
             && let Some(start) = program_start(&machine, program)
         {
             machine.program.stands = Some(start);
+        }
+        if let PlannedFor::Following(program) = planned_for {
+            machine.use_tolerance_ratio(ratio_begun_with(&machine, path, program));
         }
         change.machine(&mut machine);
         let watch = ReadingWatch::default();

@@ -80,6 +80,7 @@ pub(super) fn run_file(
         ));
     }
     (request.from_line, request.pass) = (args.from_line.unwrap_or(0), args.pass);
+    request.tolerance_ratio = args.tolerance_ratio;
     request.confirmed = u32::from(args.yes);
     request.resumes = u32::from(args.resume);
     let text = execute(&args.instance, config, request, true)?;

@@ -240,7 +240,8 @@ impl Job<'_> {
             .with_clock(clock::elapsed);
         let fingerprint = pipeline.source().fingerprint();
         self.supervisor.begin(fingerprint, &start)?;
-        self.note.leave(fingerprint);
+        self.note
+            .leave(fingerprint, self.config.program.tolerance_ratio);
         let published = self.publisher.publish(&mut pipeline, control);
         let kept = self
             .supervisor

@@ -340,6 +340,7 @@ impl MachineConfig {
             m_codes: Arc::new(m_codes),
             waits_for_speed: self.waits_for_speed(),
             spline_tolerance_mm: SPLINE_SHARE * self.path.tolerance_mm,
+            tolerance_ratio: self.program.tolerance_ratio,
             loops: LoopLimits {
                 may_run_unchecked: self.program.may_run_unchecked,
                 ..LoopLimits::default()

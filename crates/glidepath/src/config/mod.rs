@@ -26,7 +26,7 @@ pub use compensation::Compensation;
 pub use diagnostic::{ConfigDiagnostic, ConfigError, DiagnosticReport};
 pub use instance::{INSTANCE_RULE, is_instance_name};
 pub(crate) use judge::{Judge, Range};
-pub use judge::{MAX_FRAMES_AHEAD, effort, tolerance};
+pub use judge::{MAX_FRAMES_AHEAD, effort, tolerance, tolerance_ratio};
 pub use machine::MachineConfig;
 pub use probe::ProbeConfig;
 pub use program::ProgramConfig;

@@ -42,6 +42,8 @@ pub struct ProgramConfig {
     pub in_force: Option<InForce>,
     /// Where the machine stands on which it would begin now, in machine coordinates; `None`: at home.
     pub stands: Option<AxisVector>,
+    /// How many times its tolerance this run may use: see [`super::MachineConfig::use_tolerance_ratio`].
+    pub tolerance_ratio: f64,
     /// Who watches the reading, and may end it.
     pub watch: Option<ReadingWatch>,
     /// Whether a program may run that could not be checked to its end.

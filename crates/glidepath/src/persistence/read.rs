@@ -93,6 +93,7 @@ pub(crate) fn set_up_as_begun<'k>(
     let begun = begun.filter(|begun| begun.program == program)?;
     config.program.offsets = begun_with(&begun.offsets);
     config.program.variables = begun_variables(&begun.variables);
+    config.use_tolerance_ratio(begun.tolerance_ratio);
     if let Some(table) = &config.program.tools {
         config.program.tools = Some(with_tools(table, &begun.tools));
     }

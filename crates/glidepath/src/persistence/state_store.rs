@@ -33,6 +33,8 @@ pub(crate) struct StateStore {
     before: (Offsets, Arc<ToolTable>),
     log: ChangeLog,
     is_resumed: bool,
+    /// How many times its tolerance the program may use.
+    tolerance_ratio: f64,
     /// The program under way before it.
     replaced: Option<UnderWay>,
     folder: PathBuf,
@@ -86,6 +88,7 @@ impl StateStore {
             kept,
             log: ChangeLog::default(),
             is_resumed: false,
+            tolerance_ratio: config.program.tolerance_ratio,
             replaced: None,
             folder,
             store: Writing::Here(store),
@@ -137,6 +140,7 @@ impl StateStore {
                 offsets: self.before.0.clone(),
                 tools: self.kept.tools.clone(),
                 variables: self.kept.variables.clone(),
+                tolerance_ratio: self.tolerance_ratio,
             };
             (program != 0).then_some(begun)
         });

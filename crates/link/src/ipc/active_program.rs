@@ -9,6 +9,7 @@
 use super::config::LinkConfig;
 use super::directory;
 use crate::LinkError;
+use crate::record::TOLERANCE_RATIOS;
 use crate::wording::in_one_line;
 use std::ffi::OsStr;
 use std::fs::File;
@@ -17,17 +18,19 @@ use std::os::unix::ffi::OsStrExt as _;
 use std::path::{Path, PathBuf};
 
 /// How a note begins: what has another form is not read.
-const MARK: &str = "glidepath.ActiveProgram.v1";
+const MARK: &str = "glidepath.ActiveProgram.v2";
 /// Longest note, bytes.
 const MOST: u64 = 16 << 10;
 
 /// The program in a file that a planner has begun last.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct ActiveProgram {
     /// Which text it is, not 0: see [`crate::SetpointFrame::program`].
     pub fingerprint: u64,
     /// Its length, bytes.
     pub bytes: u64,
+    /// How many times its tolerance its motion may use: see [`crate::JobRequest::tolerance_ratio`].
+    pub tolerance_ratio: f64,
     /// Its file, with its full path.
     pub file: PathBuf,
 }
@@ -73,24 +76,29 @@ impl ActiveProgram {
     }
 
     fn note(&self) -> Vec<u8> {
-        let (fingerprint, bytes) = (self.fingerprint, self.bytes);
-        let mut note = format!("{MARK}\n{fingerprint:016x}\n{bytes}\n").into_bytes();
+        let (fingerprint, bytes, ratio) = (self.fingerprint, self.bytes, self.tolerance_ratio);
+        let mut note = format!("{MARK}\n{fingerprint:016x}\n{bytes}\n{ratio}\n").into_bytes();
         note.extend_from_slice(self.file.as_os_str().as_bytes());
         note
     }
 
     fn of_note(note: &[u8]) -> Option<Self> {
-        let mut parts = note.splitn(4, |byte| *byte == b'\n');
+        let mut parts = note.splitn(5, |byte| *byte == b'\n');
         let mut line = || str::from_utf8(parts.next()?).ok();
         if line()? != MARK {
             return None;
         }
         let fingerprint = u64::from_str_radix(line()?, 16).ok()?;
         let bytes = line()?.parse().ok()?;
+        let tolerance_ratio = line()?
+            .parse()
+            .ok()
+            .filter(|it| TOLERANCE_RATIOS.contains(it))?;
         let file = Path::new(OsStr::from_bytes(parts.next()?));
         file.is_absolute().then(|| Self {
             fingerprint,
             bytes,
+            tolerance_ratio,
             file: file.to_owned(),
         })
     }
@@ -116,6 +124,7 @@ mod tests {
         ActiveProgram {
             fingerprint: 0x00ab_cdef_0123_4567,
             bytes: 1234,
+            tolerance_ratio: 2.5,
             file: PathBuf::from(OsStr::from_bytes(file)),
         }
     }
@@ -135,7 +144,7 @@ mod tests {
         for length in 0..=note.len() - b"/srv/part.ngc".len() {
             assert_eq!(ActiveProgram::of_note(&note[..length]), None, "{length}");
         }
-        let other = b"glidepath.ActiveProgram.v2\n1\n2\n/srv/part.ngc";
+        let other = b"glidepath.ActiveProgram.v1\n1\n2\n1\n/srv/part.ngc";
         assert_eq!(ActiveProgram::of_note(other), None);
         // A path from nowhere names nothing.
         assert_eq!(ActiveProgram::of_note(&program(b"part.ngc").note()), None);

@@ -6,6 +6,9 @@ use super::code::coded;
 use super::{LongText, Record};
 use iceoryx2::prelude::ZeroCopySend;
 
+/// How many times its tolerance a program may use, at least and at most.
+pub const TOLERANCE_RATIOS: core::ops::RangeInclusive<f64> = 0.1..=10.0;
+
 coded! {
     /// The kind of a job.
     pub enum JobKind {
@@ -35,7 +38,7 @@ coded! {
 /// A request about a job: to execute a line or a file, or a wish about one handed in before.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.JobRequest.v4")]
+#[type_name("glidepath.JobRequest.v5")]
 pub struct JobRequest {
     /// Who asks: any number that no other client has.
     pub client: u64,
@@ -47,6 +50,9 @@ pub struct JobRequest {
     /// The fingerprint of the program that was looked at and is meant: of a file that has become another program
     /// since nothing is executed. 0 if the file is meant whatever is in it.
     pub program: u64,
+    /// How many times the tolerance of the configuration and of the program the motion of a file may use, in
+    /// [`TOLERANCE_RATIOS`]; 1: as they say. One that goes on where it was left keeps what it began with.
+    pub tolerance_ratio: f64,
     /// Code of a [`JobKind`].
     pub kind: u32,
     /// The line of a file to begin with, 0 for its beginning.
@@ -72,6 +78,7 @@ impl JobRequest {
             number,
             asked_ns,
             program: 0,
+            tolerance_ratio: 1.0,
             kind: kind.code(),
             from_line: 0,
             pass: 0,
@@ -111,12 +118,14 @@ impl JobRequest {
 }
 
 impl Record for JobRequest {
-    const NAME: &'static str = "glidepath.JobRequest.v4";
+    const NAME: &'static str = "glidepath.JobRequest.v5";
 
     fn check(&self) -> Result<(), RecordError> {
         let fields = Fields(Self::NAME);
         self.kind()?;
         self.wish()?;
+        let (low, high) = TOLERANCE_RATIOS.into_inner();
+        fields.range("tolerance_ratio", self.tolerance_ratio, low, high)?;
         fields.flags("confirmed", self.confirmed, 1)?;
         fields.flags("resumes", self.resumes, 1)?;
         self.text.check(Self::NAME, "text")

@@ -48,7 +48,9 @@ pub use feedback::{DriveState, Feedback, LATCHES, Latch, LatchKind, Loss, Spindl
 pub use frame::{PERIOD_NS_MAX, SetpointFrame};
 pub use glidepath_program::EVENTS_MOST;
 pub use grants::Grants;
-pub use job::{JobKind, JobPhase, JobReply, JobRequest, JobStage, JobState, JobWish};
+pub use job::{
+    JobKind, JobPhase, JobReply, JobRequest, JobStage, JobState, JobWish, TOLERANCE_RATIOS,
+};
 pub use jog::{JogDemand, JogMode};
 pub use joint::ALL_JOINTS;
 pub use lines::{LinesReply, LinesRequest, LinesState, LinesWish, TOLD_SYSTEMS};

@@ -12,7 +12,7 @@ use crate::source::sent::{LineFacts, LineInbox};
 use crate::source::start_line::StartLine;
 
 /// A job: something to execute.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Job {
     /// A line.
     Line(String),
@@ -24,6 +24,8 @@ pub enum Job {
         path: PathBuf,
         /// The fingerprint of the program that is meant; `None`: whatever is in the file.
         looked_at: Option<u64>,
+        /// How many times its tolerance it may use.
+        tolerance_ratio: f64,
         /// Where to begin; `None`: at its beginning.
         from: Option<StartLine>,
         /// What was told of that beginning is agreed to.
@@ -49,6 +51,7 @@ impl Job {
             JobKind::File => Self::File {
                 path: text.into(),
                 looked_at: Some(request.program).filter(|program| *program != 0),
+                tolerance_ratio: request.tolerance_ratio,
                 from: (request.from_line > 0).then(|| StartLine {
                     line: request.from_line,
                     pass: request.pass.max(1),

@@ -41,7 +41,7 @@ impl Interpreter {
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
         let line = self.line;
-        let mode = self.state.modal.path_mode;
+        let mode = self.path_mode();
         let arc_feed = self.state.arc_feed;
         let Some(compensation) = &mut self.state.open.compensation else {
             return Ok(());

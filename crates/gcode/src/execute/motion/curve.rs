@@ -12,9 +12,22 @@ use crate::syntax::block::Block;
 const PIECE_R: f64 = 1e-3;
 
 impl Interpreter {
+    /// The path mode of moves: what is in force, with the tolerance that this run may use.
+    #[inline]
+    pub(crate) const fn path_mode(&self) -> PathMode {
+        match self.state.modal.path_mode {
+            PathMode::Continuous {
+                tolerance_mm: Some(tolerance_mm),
+            } => PathMode::Continuous {
+                tolerance_mm: Some(tolerance_mm * self.options.tolerance_ratio),
+            },
+            mode => mode,
+        }
+    }
+
     /// How far the pieces of a curve may be away from it, mm.
     pub(super) const fn piece_error_mm(&self) -> f64 {
-        match self.state.modal.path_mode {
+        match self.path_mode() {
             PathMode::Continuous {
                 tolerance_mm: Some(tolerance_mm),
             } => PIECE_R * tolerance_mm,

@@ -131,7 +131,7 @@ impl Interpreter {
             kind: ItemKind::Move {
                 segment: Segment::Line(Line { start, end }),
                 rate,
-                mode: self.state.modal.path_mode,
+                mode: self.path_mode(),
             },
         };
         // Not `push`, which copies twice.

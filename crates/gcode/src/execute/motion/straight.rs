@@ -71,7 +71,7 @@ impl Interpreter {
         let kind = ItemKind::Move {
             segment,
             rate: speed.rate(&segment),
-            mode: self.state.modal.path_mode,
+            mode: self.path_mode(),
         };
         self.push(out, kind);
     }

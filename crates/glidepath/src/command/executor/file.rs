@@ -36,7 +36,8 @@ impl JobExecutor<'_> {
         context: &mut RunContext<'_, '_, '_>,
     ) -> End {
         must_be_a_file(file.path)?;
-        let (config, supervisor) = self.set_up(context.publisher, context.control)?;
+        let ratio = file.tolerance_ratio;
+        let (config, supervisor) = self.set_up(ratio, context.publisher, context.control)?;
         let mut config = for_program(&ProgramFile::named(file.path), &config);
         let begins = self.begins(file, start, &mut config, (&supervisor, &*context))?;
         let config = config;

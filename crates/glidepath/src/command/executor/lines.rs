@@ -25,7 +25,7 @@ impl JobExecutor<'_> {
         start: AxisVector,
         context: &mut RunContext<'_, '_, '_>,
     ) -> End {
-        let (config, supervisor) = self.set_up(context.publisher, context.control)?;
+        let (config, supervisor) = self.set_up(1.0, context.publisher, context.control)?;
         let config = of_sender(config);
         self.board.clear();
         let options = config.program_options(start);
@@ -84,7 +84,7 @@ impl JobExecutor<'_> {
         start: AxisVector,
         context: &mut RunContext<'_, '_, '_>,
     ) -> End {
-        let (config, supervisor) = self.set_up(context.publisher, context.control)?;
+        let (config, supervisor) = self.set_up(1.0, context.publisher, context.control)?;
         let config = read_as(config);
         let text = format!("{text}\n").into_bytes();
         let options = || config.program_options(start);

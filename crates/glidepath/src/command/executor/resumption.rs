@@ -25,6 +25,7 @@ impl JobExecutor<'_> {
         self.begun = Some(Begun {
             program,
             start,
+            tolerance_ratio: config.program.tolerance_ratio,
             in_force,
         });
         (self.has_lines, self.left) = (false, None);
@@ -77,6 +78,7 @@ impl JobExecutor<'_> {
         let known = known.filter(|begun| begun.program == point.program);
         if let Some(begun) = known {
             point.program_start = begun.start;
+            config.use_tolerance_ratio(begun.tolerance_ratio);
         }
         let in_force = known.and_then(|begun| begun.in_force.clone());
         if let Some(in_force) = in_force.as_ref().filter(|_| !supervisor.keeps()) {

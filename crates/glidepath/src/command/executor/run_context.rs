@@ -60,7 +60,7 @@ impl RunContext<'_, '_, '_> {
         if let Err(failure) = begun {
             return (Err(failure.into()), None);
         }
-        self.note.leave(fingerprint);
+        self.note.leave(fingerprint, config.program.tolerance_ratio);
         let published = {
             let control = &mut *self.control;
             let mut notify = |notice: &Notice<'_>| {

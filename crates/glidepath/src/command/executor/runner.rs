@@ -58,6 +58,7 @@ impl JobRunner for JobExecutor<'_> {
             Job::File {
                 path,
                 looked_at,
+                tolerance_ratio,
                 from,
                 confirmed,
                 resumes,
@@ -66,6 +67,7 @@ impl JobRunner for JobExecutor<'_> {
                 let file = FileJob {
                     path,
                     looked_at: *looked_at,
+                    tolerance_ratio: *tolerance_ratio,
                     from,
                     confirmed,
                     resumes,

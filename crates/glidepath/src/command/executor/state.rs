@@ -48,13 +48,15 @@ impl<'c> JobExecutor<'c> {
         }
     }
 
-    /// The configuration and the supervisor of the next job.
+    /// The configuration and the supervisor of the next job, which may use so many times its tolerance.
     pub(super) fn set_up(
         &self,
+        tolerance_ratio: f64,
         publisher: &FramePublisher<'_>,
         control: &mut Control<'_>,
     ) -> Result<(MachineConfig, RunSupervisor), Failure> {
         let mut config = self.config.clone();
+        config.use_tolerance_ratio(tolerance_ratio);
         let supervisor = RunSupervisor::new(&mut config, self.link.directory(), true)?;
         if let Some(in_force) = self.in_force.as_ref().filter(|_| !supervisor.keeps()) {
             config.program.offsets = in_force.work_offsets();
@@ -76,6 +78,7 @@ impl<'c> JobExecutor<'c> {
 pub(super) struct Begun {
     pub(super) program: u64,
     pub(super) start: AxisVector,
+    pub(super) tolerance_ratio: f64,
     pub(super) in_force: Option<InForce>,
 }
 

@@ -11,6 +11,7 @@
 use super::planned::{self, Planned, Reading};
 use super::shown::Shown;
 use crate::command::active_program::active_program;
+use crate::command::begins_with::ratio_begun_with;
 use crate::command::failure::Failure;
 use crate::command::forecast::{Forecast, PlannedFor};
 use crate::config::MachineConfig;
@@ -19,7 +20,7 @@ use crate::report::ProgramPlace;
 use glidepath_link::{ActiveProgram, EndOfEpoch, LinkConfig, Status};
 use glidepath_persistence::{Offsets, Tool};
 use serde_json::{Value, json};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -46,6 +47,7 @@ struct Followed {
     /// The epoch that was looked at last, and what the program began with there.
     epoch: u64,
     begun: Option<Begun>,
+    path: PathBuf,
     forecast: Forecast,
     _reading: Reading,
 }
@@ -83,7 +85,7 @@ impl Following {
     ) -> Result<Followed, Failure> {
         let board = self.shown.begin(Some(name));
         let planned = Planned::new(&self.config, board.clone());
-        let begun = fingerprint.and_then(|program| begun(&self.config, program));
+        let begun = fingerprint.map(|program| begun(&self.config, path, program));
         let planned_for = PlannedFor::Following(fingerprint);
         board.file(path, planned_for);
         let forecast = Forecast::start(path, &self.config, planned_for, planned)?;
@@ -93,6 +95,7 @@ impl Following {
             fingerprint,
             epoch: 0,
             begun,
+            path: path.to_owned(),
             forecast,
             _reading: reading,
         })
@@ -198,15 +201,26 @@ impl Followed {
         if core::mem::replace(&mut self.epoch, status.epoch) == status.epoch {
             return false;
         }
-        let begun = begun(config, status.program);
-        core::mem::replace(&mut self.begun, begun) != self.begun
+        let begun = begun(config, &self.path, status.program);
+        self.begun.replace(begun) != self.begun
     }
 }
 
-/// What a program began with, as far as it is kept.
-type Begun = (Offsets, Vec<Tool>);
+/// What a program began with, as far as it is kept, and how many times its tolerance it uses.
+#[derive(PartialEq)]
+struct Begun {
+    kept: Option<(Offsets, Vec<Tool>)>,
+    tolerance_ratio: f64,
+}
 
-fn begun(config: &MachineConfig, program: u64) -> Option<Begun> {
+fn begun(config: &MachineConfig, path: &Path, program: u64) -> Begun {
+    Begun {
+        kept: kept(config, program),
+        tolerance_ratio: ratio_begun_with(config, path, Some(program)),
+    }
+}
+
+fn kept(config: &MachineConfig, program: u64) -> Option<(Offsets, Vec<Tool>)> {
     let kept = read(config).ok()??;
     let begun = kept.under_way.filter(|begun| begun.program == program);
     Some(begun.map_or((kept.offsets, kept.tools), |begun| {

@@ -39,6 +39,8 @@ pub(super) enum Wanted {
         path: String,
         /// The fingerprint of the program that was looked at.
         program: u64,
+        /// How many times its tolerance it may use.
+        tolerance_ratio: f64,
         from_line: u32,
         pass: u32,
         agreed: bool,
@@ -56,6 +58,7 @@ impl Wanted {
         let mut request = JobRequest::new(client, number, kind, text, asked_ns);
         if let Self::File {
             program,
+            tolerance_ratio,
             from_line,
             pass,
             agreed,
@@ -63,7 +66,7 @@ impl Wanted {
             ..
         } = self
         {
-            request.program = *program;
+            (request.program, request.tolerance_ratio) = (*program, *tolerance_ratio);
             (request.from_line, request.pass) = (*from_line, *pass);
             request.confirmed = u32::from(*agreed);
             request.resumes = u32::from(*resumes);
@@ -356,12 +359,14 @@ mod tests {
         let file = Wanted::File {
             path: "/srv/programs/part.ngc".to_owned(),
             program: 99,
+            tolerance_ratio: 2.0,
             from_line: 7,
             pass: 2,
             agreed: true,
             resumes: false,
         };
         let request = file.request(3, 4, 5).unwrap();
+        assert_eq!(request.tolerance_ratio.to_bits(), 2.0_f64.to_bits());
         assert_eq!(
             (request.from_line, request.pass, request.confirmed),
             (7, 2, 1)

@@ -80,6 +80,8 @@ pub(super) enum Order {
         name: String,
         /// The fingerprint of the program that was looked at, sixteen digits.
         program: String,
+        /// How many times its tolerance it may use.
+        tolerance_ratio: Option<f64>,
         from_line: Option<u32>,
         pass: Option<u32>,
         #[serde(default)]

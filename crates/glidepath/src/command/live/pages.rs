@@ -15,7 +15,9 @@ use super::what_if::WhatIf;
 use crate::command::operator::PATIENCE;
 use crate::config::MachineConfig;
 use crate::machine_options::complete;
-use glidepath_link::{Command, CommandRequest, LinkConfig, LinkError, Operator, refused};
+use glidepath_link::{
+    Command, CommandRequest, LinkConfig, LinkError, Operator, TOLERANCE_RATIOS, refused,
+};
 use glidepath_live::{Caller, ContentType, Response, Role, Seat, Site, Status};
 use glidepath_realtime::{Clock as _, Monotonic};
 use serde_json::{Value, json};
@@ -64,6 +66,12 @@ fn nobody_jogs() -> (Status, String) {
     not_now("nobody jogs for this page any more: start it anew")
 }
 
+/// How many times its tolerance a program may use; as it is, if nothing is said.
+fn ratio(said: Option<f64>) -> Option<f64> {
+    let ratio = said.unwrap_or(1.0);
+    TOLERANCE_RATIOS.contains(&ratio).then_some(ratio)
+}
+
 fn malformed() -> (Status, String) {
     let text = "no such command, or its value is out of range";
     (Status::BadRequest, text.to_owned())
@@ -105,6 +113,7 @@ impl Pages {
             Order::Run {
                 name,
                 program,
+                tolerance_ratio,
                 from_line,
                 pass,
                 agreed,
@@ -115,6 +124,7 @@ impl Pages {
                 let wanted = Wanted::File {
                     path: self.program(&name)?,
                     program: fingerprint(&program).ok_or_else(malformed)?,
+                    tolerance_ratio: ratio(tolerance_ratio).ok_or_else(malformed)?,
                     from_line: from_line.unwrap_or(0),
                     pass: pass.unwrap_or(0),
                     agreed,

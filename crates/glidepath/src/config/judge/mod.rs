@@ -27,7 +27,7 @@ mod superposition;
 mod values;
 
 pub use horizon::MAX_FRAMES_AHEAD;
-pub use path_words::{effort, tolerance};
+pub use path_words::{effort, tolerance, tolerance_ratio};
 pub(crate) use values::{Judge, Range};
 
 use super::diagnostic::ConfigDiagnostic;

@@ -2,6 +2,7 @@
 
 use super::path::{EFFORTS, TOLERANCE};
 use super::values::Judge;
+use glidepath_link::TOLERANCE_RATIOS;
 use glidepath_program::Effort;
 use toml::Spanned;
 
@@ -31,6 +32,17 @@ pub fn tolerance(text: &str) -> Result<f64, String> {
     };
     let tolerance = judge.number("path.tolerance", &Spanned::new(0..0, number), &TOLERANCE);
     found_right(tolerance, judge)
+}
+
+/// How many times its tolerance a program may use, as it is written.
+///
+/// # Errors
+/// How to mend it.
+pub fn tolerance_ratio(text: &str) -> Result<f64, String> {
+    let ratio = text.parse().ok();
+    ratio
+        .filter(|ratio| TOLERANCE_RATIOS.contains(ratio))
+        .ok_or_else(|| "give a number from 0.1 to 10, such as 2 for twice the tolerance".to_owned())
 }
 
 /// The value, unless something is wrong with it.

@@ -82,6 +82,7 @@ impl Judge {
             firmware: self.choice("program.firmware", raw.firmware, &FIRMWARES),
             in_force: None,
             stands: None,
+            tolerance_ratio: 1.0,
             watch: None,
             may_run_unchecked: false,
         }

@@ -57,6 +57,11 @@ pub(crate) fn kept_of(generation: u64) -> PersistentState {
             offsets,
             tools: Vec::new(),
             variables: variables.clone(),
+            tolerance_ratio: if generation.is_multiple_of(2) {
+                1.0
+            } else {
+                2.5
+            },
         }),
         tools,
         variables,
