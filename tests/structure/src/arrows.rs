@@ -17,8 +17,8 @@ struct Never {
     reason: String,
 }
 
-/// The arrows that Cargo sees: what is built into production, and what tests use too.
-fn measured(is_wanted: impl Fn(&str) -> bool) -> Arrows {
+/// What Cargo knows of the packages of the workspace.
+pub(crate) fn metadata() -> serde_json::Value {
     let output = Command::new(env!("CARGO"))
         .args([
             "metadata",
@@ -31,7 +31,12 @@ fn measured(is_wanted: impl Fn(&str) -> bool) -> Arrows {
         .output()
         .expect("cargo runs");
     assert!(output.status.success(), "cargo metadata: {output:?}");
-    let metadata: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    serde_json::from_slice(&output.stdout).expect("JSON")
+}
+
+/// The arrows that Cargo sees: what is built into production, and what tests use too.
+fn measured(is_wanted: impl Fn(&str) -> bool) -> Arrows {
+    let metadata = metadata();
     let short = |name: &serde_json::Value| {
         let name = name.as_str().expect("a name");
         name.strip_prefix("glidepath-").unwrap_or(name).to_owned()

@@ -8,6 +8,7 @@
 //! * `links`: links between pages lead to what is there.
 //! * `names`: no public type name stands twice across crates that know each other.
 //! * `readmes`: the pages of crates on a registry say what their documentation says.
+//! * `recipes`: what the recipes in the page for contributors name is there, and so are the tests that it runs.
 //! * `rooms`: in a crate that has rooms, each imports those alone that `crates/README.md` draws, and every file is in one.
 //! * `told`: people are not told names of variants, and no state or command is forgotten.
 
@@ -29,6 +30,8 @@ mod modules;
 mod names;
 #[cfg(test)]
 mod readmes;
+#[cfg(test)]
+mod recipes;
 #[cfg(test)]
 mod rooms;
 #[cfg(test)]
