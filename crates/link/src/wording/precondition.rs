@@ -142,9 +142,7 @@ impl UnmetPrecondition {
                 "a job has the machine, and is being prepared; `glidepath abort` ends it"
             }
             Self::NoPathBack => "no program runs, so there is no path to go back along",
-            Self::NoPathForward => {
-                "no program runs, so there is no path to go forward along; every program starts forward by itself"
-            }
+            Self::NoPathForward => "no program runs, and each one begins forward by itself",
             Self::NothingHeld => "nothing is held; `glidepath status` says what the machine does",
             Self::NoFeed => {
                 "nothing is held, but the feed override is 0 %; `glidepath override 100` goes on"
