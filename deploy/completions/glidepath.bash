@@ -2217,12 +2217,16 @@ _glidepath() {
             return 0
             ;;
         glidepath__subcmd__offsets__subcmd__adopt)
-            opts="-c -h --config --json --help"
+            opts="-c -h --instance --config --json --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 3 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
             fi
             case "${prev}" in
+                --instance)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
                 --config)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
@@ -2239,7 +2243,7 @@ _glidepath() {
             return 0
             ;;
         glidepath__subcmd__offsets__subcmd__export)
-            opts="-c -h --linear-units --angular-units --config --json --help"
+            opts="-c -h --linear-units --angular-units --instance --config --json --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 3 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -2251,6 +2255,10 @@ _glidepath() {
                     ;;
                 --angular-units)
                     COMPREPLY=($(compgen -W "degree radian grad" -- "${cur}"))
+                    return 0
+                    ;;
+                --instance)
+                    COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
                 --config)
@@ -2395,7 +2403,7 @@ _glidepath() {
             return 0
             ;;
         glidepath__subcmd__offsets__subcmd__import)
-            opts="-c -h --linear-units --angular-units --config --json --help"
+            opts="-c -h --linear-units --angular-units --instance --config --json --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 3 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -2407,6 +2415,10 @@ _glidepath() {
                     ;;
                 --angular-units)
                     COMPREPLY=($(compgen -W "degree radian grad" -- "${cur}"))
+                    return 0
+                    ;;
+                --instance)
+                    COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
                 --config)
@@ -2425,12 +2437,16 @@ _glidepath() {
             return 0
             ;;
         glidepath__subcmd__offsets__subcmd__recover)
-            opts="-c -h --config --json --help"
+            opts="-c -h --instance --config --json --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 3 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
             fi
             case "${prev}" in
+                --instance)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
                 --config)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
@@ -2447,12 +2463,16 @@ _glidepath() {
             return 0
             ;;
         glidepath__subcmd__offsets__subcmd__set)
-            opts="-c -h --config --json --help"
+            opts="-c -h --instance --config --json --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 3 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
             fi
             case "${prev}" in
+                --instance)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
                 --config)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
@@ -2469,12 +2489,16 @@ _glidepath() {
             return 0
             ;;
         glidepath__subcmd__offsets__subcmd__show)
-            opts="-c -h --config --json --help"
+            opts="-c -h --instance --config --json --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 3 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
             fi
             case "${prev}" in
+                --instance)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
                 --config)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
@@ -2491,12 +2515,16 @@ _glidepath() {
             return 0
             ;;
         glidepath__subcmd__offsets__subcmd__use)
-            opts="-c -h --config --json --help"
+            opts="-c -h --instance --config --json --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 3 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
             fi
             case "${prev}" in
+                --instance)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
                 --config)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0

@@ -370,12 +370,15 @@ complete -c glidepath -n "__fish_glidepath_using_subcommand offsets; and not __f
 complete -c glidepath -n "__fish_glidepath_using_subcommand offsets; and not __fish_seen_subcommand_from show set use import export adopt recover help" -f -a "adopt" -d 'Use the kept state of a machine with other axes or kinematics for this machine'
 complete -c glidepath -n "__fish_glidepath_using_subcommand offsets; and not __fish_seen_subcommand_from show set use import export adopt recover help" -f -a "recover" -d 'After a file was damaged: use the newest intact generation'
 complete -c glidepath -n "__fish_glidepath_using_subcommand offsets; and not __fish_seen_subcommand_from show set use import export adopt recover help" -f -a "help" -d 'Print this message or the help of the given subcommand(s)'
+complete -c glidepath -n "__fish_glidepath_using_subcommand offsets; and __fish_seen_subcommand_from show" -l instance -d 'Name of the machine\'s shared memory; overrides `link.instance` of the configuration' -r
 complete -c glidepath -n "__fish_glidepath_using_subcommand offsets; and __fish_seen_subcommand_from show" -s c -l config -d 'Machine configuration (TOML); without it the built-in 3-axis mill' -r -F
 complete -c glidepath -n "__fish_glidepath_using_subcommand offsets; and __fish_seen_subcommand_from show" -l json -d 'Print one JSON object instead of text'
 complete -c glidepath -n "__fish_glidepath_using_subcommand offsets; and __fish_seen_subcommand_from show" -s h -l help -d 'Print help'
+complete -c glidepath -n "__fish_glidepath_using_subcommand offsets; and __fish_seen_subcommand_from set" -l instance -d 'Name of the machine\'s shared memory; overrides `link.instance` of the configuration' -r
 complete -c glidepath -n "__fish_glidepath_using_subcommand offsets; and __fish_seen_subcommand_from set" -s c -l config -d 'Machine configuration (TOML); without it the built-in 3-axis mill' -r -F
 complete -c glidepath -n "__fish_glidepath_using_subcommand offsets; and __fish_seen_subcommand_from set" -l json -d 'Print one JSON object instead of text'
 complete -c glidepath -n "__fish_glidepath_using_subcommand offsets; and __fish_seen_subcommand_from set" -s h -l help -d 'Print help'
+complete -c glidepath -n "__fish_glidepath_using_subcommand offsets; and __fish_seen_subcommand_from use" -l instance -d 'Name of the machine\'s shared memory; overrides `link.instance` of the configuration' -r
 complete -c glidepath -n "__fish_glidepath_using_subcommand offsets; and __fish_seen_subcommand_from use" -s c -l config -d 'Machine configuration (TOML); without it the built-in 3-axis mill' -r -F
 complete -c glidepath -n "__fish_glidepath_using_subcommand offsets; and __fish_seen_subcommand_from use" -l json -d 'Print one JSON object instead of text'
 complete -c glidepath -n "__fish_glidepath_using_subcommand offsets; and __fish_seen_subcommand_from use" -s h -l help -d 'Print help'
@@ -384,6 +387,7 @@ inch\t'Inches'"
 complete -c glidepath -n "__fish_glidepath_using_subcommand offsets; and __fish_seen_subcommand_from import" -l angular-units -d '`ANGULAR_UNITS` of `[TRAJ]`' -r -f -a "degree\t'Degrees'
 radian\t'Radians'
 grad\t'Gradians: 400 in a turn'"
+complete -c glidepath -n "__fish_glidepath_using_subcommand offsets; and __fish_seen_subcommand_from import" -l instance -d 'Name of the machine\'s shared memory; overrides `link.instance` of the configuration' -r
 complete -c glidepath -n "__fish_glidepath_using_subcommand offsets; and __fish_seen_subcommand_from import" -s c -l config -d 'Machine configuration (TOML); without it the built-in 3-axis mill' -r -F
 complete -c glidepath -n "__fish_glidepath_using_subcommand offsets; and __fish_seen_subcommand_from import" -l json -d 'Print one JSON object instead of text'
 complete -c glidepath -n "__fish_glidepath_using_subcommand offsets; and __fish_seen_subcommand_from import" -s h -l help -d 'Print help (see more with \'--help\')'
@@ -392,12 +396,15 @@ inch\t'Inches'"
 complete -c glidepath -n "__fish_glidepath_using_subcommand offsets; and __fish_seen_subcommand_from export" -l angular-units -d '`ANGULAR_UNITS` of `[TRAJ]`' -r -f -a "degree\t'Degrees'
 radian\t'Radians'
 grad\t'Gradians: 400 in a turn'"
+complete -c glidepath -n "__fish_glidepath_using_subcommand offsets; and __fish_seen_subcommand_from export" -l instance -d 'Name of the machine\'s shared memory; overrides `link.instance` of the configuration' -r
 complete -c glidepath -n "__fish_glidepath_using_subcommand offsets; and __fish_seen_subcommand_from export" -s c -l config -d 'Machine configuration (TOML); without it the built-in 3-axis mill' -r -F
 complete -c glidepath -n "__fish_glidepath_using_subcommand offsets; and __fish_seen_subcommand_from export" -l json -d 'Print one JSON object instead of text'
 complete -c glidepath -n "__fish_glidepath_using_subcommand offsets; and __fish_seen_subcommand_from export" -s h -l help -d 'Print help (see more with \'--help\')'
+complete -c glidepath -n "__fish_glidepath_using_subcommand offsets; and __fish_seen_subcommand_from adopt" -l instance -d 'Name of the machine\'s shared memory; overrides `link.instance` of the configuration' -r
 complete -c glidepath -n "__fish_glidepath_using_subcommand offsets; and __fish_seen_subcommand_from adopt" -s c -l config -d 'Machine configuration (TOML); without it the built-in 3-axis mill' -r -F
 complete -c glidepath -n "__fish_glidepath_using_subcommand offsets; and __fish_seen_subcommand_from adopt" -l json -d 'Print one JSON object instead of text'
 complete -c glidepath -n "__fish_glidepath_using_subcommand offsets; and __fish_seen_subcommand_from adopt" -s h -l help -d 'Print help'
+complete -c glidepath -n "__fish_glidepath_using_subcommand offsets; and __fish_seen_subcommand_from recover" -l instance -d 'Name of the machine\'s shared memory; overrides `link.instance` of the configuration' -r
 complete -c glidepath -n "__fish_glidepath_using_subcommand offsets; and __fish_seen_subcommand_from recover" -s c -l config -d 'Machine configuration (TOML); without it the built-in 3-axis mill' -r -F
 complete -c glidepath -n "__fish_glidepath_using_subcommand offsets; and __fish_seen_subcommand_from recover" -l json -d 'Print one JSON object instead of text'
 complete -c glidepath -n "__fish_glidepath_using_subcommand offsets; and __fish_seen_subcommand_from recover" -s h -l help -d 'Print help'

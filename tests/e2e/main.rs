@@ -14,6 +14,7 @@ mod grbl;
 mod hal;
 mod jobs;
 mod jog;
+mod left;
 mod libraries;
 mod life;
 mod live;

@@ -121,20 +121,25 @@ fn what_was_left_on_the_way_to_its_line_is_begun_there_again() {
     let service = bench.service();
     bench.operate(&["mdi", "G0 X30 Y30 Z20"]);
     let part = instance.file("part.ngc", SQUARE);
-    let begun = ["run-file", &part, "--from-line", "7", "--yes"];
-    let before = bench.wait(|_| true).epoch;
-    let running = bench.process(&begun);
-    let _moves = bench.wait(|status| status.epoch > before && status.frames_executed > 2);
-    bench.operate(&["abort"]);
-    let told = running.wait().expect(5).stderr;
-    assert!(told.contains("left on the way to line 7"), "{told}");
-    let place = bench.position();
-    bench.refused(&["run-file", &part, "--resume"], 1, "--from-line 7");
-    let moved = bench.position().map(f64::to_bits) != place.map(f64::to_bits);
-    assert!(!moved, "refused, and moved all the same");
+    // The way to line 3 has more parts than there are blocks in front of it.
+    for line in ["3", "7"] {
+        let begun = ["run-file", &part, "--from-line", line, "--yes"];
+        let before = bench.wait(|_| true).epoch;
+        let running = bench.process(&begun);
+        let _moves = bench.wait(|status| status.epoch > before && status.frames_executed > 2);
+        bench.operate(&["abort"]);
+        let told = running.wait().expect(5).stderr;
+        let way = format!("left on the way to line {line}");
+        assert!(told.contains(&way), "{told}");
+        let place = bench.position();
+        let again = format!("--from-line {line}");
+        bench.refused(&["run-file", &part, "--resume"], 1, &again);
+        let moved = bench.position().map(f64::to_bits) != place.map(f64::to_bits);
+        assert!(!moved, "refused, and moved all the same");
+    }
 
     // In its line it is resumed as ever.
-    let running = bench.process(&begun);
+    let running = bench.process(&["run-file", &part, "--from-line", "7", "--yes"]);
     let _cuts = bench.wait(|status| {
         status.state == MachineState::Running.code()
             && status.line == 7

@@ -102,9 +102,15 @@ fn an_abort_in_a_thread_does_not_lift_the_tool() {
     let part = instance.file("pass.ngc", part);
     let running = bench.process(&["run-file", &part]);
     let _in_pass = bench.wait(|status| status.position[2] < 0.0);
-    let told = bench.operate(&["abort"]);
+    // Stops that were accepted, and have not come to their end: neither is a machine at rest.
+    let told = bench.process(&["hold"]).wait().expect(8);
+    assert!(told.stdout.contains("still moves"), "{}", told.stdout);
+    let told = bench.process(&["abort"]).wait().expect(8);
     assert!(told.stderr.contains("not lifted"), "{}", told.stderr);
-    assert!(told.stderr.contains("still moves"), "{}", told.stderr);
+    assert!(told.stdout.contains("still moves"), "{}", told.stdout);
+    let status = bench.operate(&["status", "--json"]).json();
+    let text = status["state_text"].as_str().unwrap();
+    assert!(text.contains("comes to its end first"), "{text}");
     let _ended = running.wait();
     let status = bench.wait_for(MachineState::Idle);
     assert_eq!(status.position[..3], [1.0, 0.0, -6.0]);

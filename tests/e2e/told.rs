@@ -135,7 +135,8 @@ fn what_a_stop_said_is_not_said_of_the_next_one() {
     bench.operate(&["jog", "Z5"]);
     bench.operate(&["abort"]);
     let told = running.wait().expect(5).stderr;
-    assert!(told.contains("which were jogged away, are back"), "{told}");
+    assert!(told.contains("once the axes are back: "), "{told}");
+    assert!(told.contains("`glidepath jog Z-5"), "{told}");
     bench.refused(&["return"], 5, "no program is held");
 
     // A planner with a program of its own takes no jobs, and is not said to be away.

@@ -22,6 +22,8 @@ pub enum Exit {
     Unchecked = 6,
     /// A jog ended before what was asked for, because the travel or the reach of the machine ends there.
     Short = 7,
+    /// A stop was accepted, and has not come to its end yet: the machine still moves, or has power.
+    NotYet = 8,
     /// Interrupted from the keyboard or by a signal.
     Interrupted = 130,
 }

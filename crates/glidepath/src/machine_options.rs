@@ -8,9 +8,7 @@ use std::path::Path;
 use std::sync::OnceLock;
 
 /// Commands that work on a configuration alone.
-const WITHOUT_INSTANCE: [&str; 7] = [
-    "audit", "bench", "doctor", "fit", "jitter", "offsets", "preview",
-];
+const WITHOUT_INSTANCE: [&str; 6] = ["audit", "bench", "doctor", "fit", "jitter", "preview"];
 /// Commands that know no machine.
 const WITHOUT_MACHINE: [&str; 3] = ["config", "help", "setup"];
 
@@ -107,7 +105,7 @@ pub fn complete(text: &str) -> String {
 mod tests {
     use super::*;
     use crate::cli::Cli;
-    use clap::CommandFactory as _;
+    use clap::{CommandFactory as _, Parser as _};
 
     #[test]
     fn commands_that_are_told_name_the_machine() {
@@ -126,6 +124,29 @@ mod tests {
         assert_eq!(
             options.put_into("an open `glidepath reset"),
             "an open `glidepath reset"
+        );
+    }
+
+    #[test]
+    fn what_is_kept_is_of_the_machine_that_was_asked() {
+        for words in [
+            &["show"][..],
+            &["adopt"],
+            &["recover"],
+            &["use", "G55"],
+            &["set", "G55", "X1"],
+            &["export", "--linear-units", "mm"],
+            &["import", "a.var", "--linear-units", "mm"],
+        ] {
+            let line = [&["glidepath", "offsets"], words, &["--instance", "b"]].concat();
+            let cli = Cli::try_parse_from(line);
+            let instance = cli.as_ref().map(|cli| cli.command.instance());
+            assert!(matches!(instance, Ok(Some("b"))), "{words:?}");
+        }
+        let options = MachineOptions::new(None, Some("b"));
+        assert_eq!(
+            options.put_into("`glidepath abort`, `glidepath offsets recover`"),
+            "`glidepath abort --instance b`, `glidepath offsets recover --instance b`"
         );
     }
 

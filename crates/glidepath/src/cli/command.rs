@@ -322,8 +322,8 @@ impl CliCommand {
             Self::Jog(args) => &args.operator.instance,
             Self::Plan(args) => &args.instance,
             Self::Check(args) => &args.instance,
+            Self::Offsets(command) => command.instance(),
             Self::Audit(_)
-            | Self::Offsets(_)
             | Self::Config(_)
             | Self::Setup(_)
             | Self::Fit(_)

@@ -1,6 +1,6 @@
 //! Arguments of `offsets`.
 
-use super::basic::BasicArgs;
+use super::basic::{BasicArgs, InstanceArgs};
 use clap::{Args, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -49,11 +49,26 @@ impl OffsetsCommand {
             Self::Export(args) => &args.basic,
         }
     }
+
+    /// The machine.
+    #[must_use]
+    pub const fn instance(&self) -> &InstanceArgs {
+        match self {
+            Self::Show(args) | Self::Adopt(args) | Self::Recover(args) => &args.instance,
+            Self::Set(args) => &args.instance,
+            Self::Use(args) => &args.instance,
+            Self::Import(args) => &args.instance,
+            Self::Export(args) => &args.instance,
+        }
+    }
 }
 
 /// Arguments of `offsets show` and the like.
 #[derive(Debug, Args)]
 pub struct ShowArgs {
+    /// The machine that commands in messages are for.
+    #[command(flatten)]
+    pub instance: InstanceArgs,
     /// Configuration and form of the report.
     #[command(flatten)]
     pub basic: BasicArgs,
@@ -68,6 +83,9 @@ pub struct SetArgs {
     /// coordinate system, degrees
     #[arg(required = true, value_name = "WORD")]
     pub words: Vec<String>,
+    /// The machine that commands in messages are for.
+    #[command(flatten)]
+    pub instance: InstanceArgs,
     /// Configuration and form of the report.
     #[command(flatten)]
     pub basic: BasicArgs,
@@ -78,6 +96,9 @@ pub struct SetArgs {
 pub struct UseArgs {
     /// G54 … G59, G59.1, G59.2 or G59.3
     pub system: String,
+    /// The machine that commands in messages are for.
+    #[command(flatten)]
+    pub instance: InstanceArgs,
     /// Configuration and form of the report.
     #[command(flatten)]
     pub basic: BasicArgs,
@@ -122,6 +143,9 @@ pub struct ImportArgs {
     /// Its units.
     #[command(flatten)]
     pub units: UnitArgs,
+    /// The machine that commands in messages are for.
+    #[command(flatten)]
+    pub instance: InstanceArgs,
     /// Configuration and form of the report.
     #[command(flatten)]
     pub basic: BasicArgs,
@@ -133,6 +157,9 @@ pub struct ExportArgs {
     /// Its units.
     #[command(flatten)]
     pub units: UnitArgs,
+    /// The machine that commands in messages are for.
+    #[command(flatten)]
+    pub instance: InstanceArgs,
     /// Configuration and form of the report.
     #[command(flatten)]
     pub basic: BasicArgs,

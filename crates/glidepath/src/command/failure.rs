@@ -270,14 +270,14 @@ pub(super) enum Failure {
     /// The planner's service ended with a job that it had taken.
     #[error(
         "the planner's service ended before this was done; `glidepath status` says where the machine stands; \
-         start `glidepath planner --listen` again{}", match resume {
-            Some(command) => format!("; {command} goes on with the program"),
+         start `glidepath planner --listen` again{}", match left {
+            Some(left) => format!("; {left}"),
             None => String::new(),
         }
     )]
     ServiceLost {
-        /// What goes on with the program, if the job was one.
-        resume: Option<String>,
+        /// What is to be done for the program, if the job was one.
+        left: Option<String>,
     },
     /// The interpolator could not start or failed.
     #[error(transparent)]

@@ -1,6 +1,7 @@
 //! `glidepath mdi` and `glidepath run-file`: what the planner's service is to execute.
 
 use super::attention::Waiting;
+use super::lost_planner;
 use super::operator::reach;
 use super::session;
 use crate::cli::{InstanceArgs, MdiArgs, RunFileArgs};
@@ -180,15 +181,21 @@ struct Desk<'d> {
     interrupted: Option<Instant>,
     /// The service has taken the job.
     is_taken: bool,
-    /// The command that goes on with it, if it is a program.
-    resume: Option<String>,
+    /// The name of its file and the command that goes on with it, if it is a program.
+    resume: Option<(String, String)>,
     told: Told,
 }
 
-/// What goes on with a job after its end, if it is a program.
-fn resume(request: &JobRequest) -> Option<String> {
-    let is_file = request.kind() == Ok(JobKind::File);
-    is_file.then(|| machine_options::resume("run-file", request.text.as_str()))
+/// The name of a job's file, and what goes on with it after its end, if it is a program.
+fn resume(request: &JobRequest) -> Option<(String, String)> {
+    let file = request.text.as_str();
+    let name = Path::new(file)
+        .file_name()
+        .filter(|_| request.kind() == Ok(JobKind::File))?;
+    Some((
+        name.to_string_lossy().into_owned(),
+        machine_options::resume("run-file", file),
+    ))
 }
 
 impl Desk<'_> {
@@ -229,8 +236,8 @@ impl Desk<'_> {
             return Ok(());
         };
         let mut text = format!("{fault}; {}", self.hangs());
-        if let Some(resume) = &self.resume {
-            text.push_str(&format!("; then {resume} goes on with the program"));
+        if let Some(left) = self.left() {
+            text.push_str(&format!("; {left}"));
         }
         Err(Failure::Job {
             text,
@@ -252,8 +259,13 @@ impl Desk<'_> {
     }
 
     fn lost(&self) -> Failure {
-        let resume = self.resume.clone();
-        Failure::ServiceLost { resume }
+        Failure::ServiceLost { left: self.left() }
+    }
+
+    /// What is to be done for the program whose planner is no more, or does not answer.
+    fn left(&self) -> Option<String> {
+        let (name, resume) = self.resume.as_ref()?;
+        Some(lost_planner::told(self.link, name, resume))
     }
 
     fn abort(&self) {

@@ -32,6 +32,7 @@ mod jobs;
 mod jog;
 mod left_in_force;
 mod live;
+mod lost_planner;
 mod mirror;
 mod offsets;
 mod operator;

@@ -12,6 +12,7 @@ use crate::clock;
 use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::exit::Exit;
+use crate::machine_options::complete;
 use crate::output;
 use crate::report::{
     AwaitedEvent, Beside, active_object, active_text, names, status_object, status_text,
@@ -40,7 +41,16 @@ pub(super) fn command(
     name: &'static str,
     command: Command,
 ) -> Result<Exit, Failure> {
-    command_and_wait(args, config, name, command, |_, _| Ok(()))
+    command_and_wait(args, config, name, command, |_, _| Ok(Effect::Reached))
+}
+
+/// What a command that was accepted has come to when it ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Effect {
+    /// The effect that was waited for.
+    Reached,
+    /// It is still to come: what the machine does until then.
+    ToCome(&'static str),
 }
 
 /// Sends a command, waits until it has the effect that is waited for, and reports the answer.
@@ -52,7 +62,7 @@ pub(super) fn command_and_wait(
     config: &MachineConfig,
     name: &'static str,
     command: Command,
-    wait: impl FnOnce(&Operator, &LinkConfig) -> Result<(), Failure>,
+    wait: impl FnOnce(&Operator, &LinkConfig) -> Result<Effect, Failure>,
 ) -> Result<Exit, Failure> {
     commands(args, config, name, &[command], wait)
 }
@@ -66,12 +76,12 @@ pub(super) fn enable(args: &OperatorArgs, config: &MachineConfig) -> Result<Exit
 }
 
 /// Waits until the drives have power: what is typed next is not to be refused for the want of it.
-fn wait_for_power(operator: &Operator, link: &LinkConfig) -> Result<(), Failure> {
+fn wait_for_power(operator: &Operator, link: &LinkConfig) -> Result<Effect, Failure> {
     let (started, mut has_begun) = (Instant::now(), false);
     loop {
         let status = read_status(operator, link)?;
         match status.power().map_err(LinkError::from)? {
-            Power::On | Power::Simulated => return Ok(()),
+            Power::On | Power::Simulated => return Ok(Effect::Reached),
             Power::Enabling => has_begun = true,
             Power::Off if has_begun || started.elapsed() > PATIENCE => {
                 return Err(Failure::CommandRefused {
@@ -117,7 +127,9 @@ pub(super) fn overrides(args: &OverrideArgs, config: &MachineConfig) -> Result<E
     let rapid = args.rapid.map(|p| Command::RapidOverride(p / 100.0));
     let jog = args.jog.map(|p| Command::JogOverride(p / 100.0));
     let given: Vec<Command> = feed.into_iter().chain(rapid).chain(jog).collect();
-    commands(&args.operator, config, "override", &given, |_, _| Ok(()))
+    commands(&args.operator, config, "override", &given, |_, _| {
+        Ok(Effect::Reached)
+    })
 }
 
 /// Sends commands one after the other, up to the first that is refused, waits until they have the
@@ -127,7 +139,7 @@ fn commands(
     config: &MachineConfig,
     name: &'static str,
     commands: &[Command],
-    wait: impl FnOnce(&Operator, &LinkConfig) -> Result<(), Failure>,
+    wait: impl FnOnce(&Operator, &LinkConfig) -> Result<Effect, Failure>,
 ) -> Result<Exit, Failure> {
     let instance = session::instance(&args.instance, config);
     let link = session::link(&instance, config);
@@ -147,18 +159,35 @@ fn commands(
             });
         }
     }
-    wait(&operator, &link).map_err(|failure| failure.of_command(name))?;
-    if args.basic.json {
-        output::object(&json!({
+    let effect = wait(&operator, &link).map_err(|failure| failure.of_command(name))?;
+    Ok(accepted((name, &instance), state, effect, args.basic.json))
+}
+
+/// Reports that a command was accepted in a state, and what it has come to.
+fn accepted((name, instance): (&str, &str), state: &str, effect: Effect, as_json: bool) -> Exit {
+    let (exit, to_come) = match effect {
+        Effect::Reached => (Exit::Done, None),
+        Effect::ToCome(doing) => (Exit::NotYet, Some(doing)),
+    };
+    if as_json {
+        let mut object = json!({
             "command": name,
             "instance": instance,
             "accepted": true,
             "state": state,
-        }));
+        });
+        if let Some(doing) = to_come {
+            object["not_yet"] = complete(doing).into();
+            object["exit_code"] = (exit as u8).into();
+        }
+        output::object(&object);
     } else {
-        output::result(&format!("{name}: accepted; state before it: {state}\n"));
+        let doing = to_come.map_or_else(String::new, |doing| format!("; not done yet: {doing}"));
+        output::result(&format!(
+            "{name}: accepted; state before it: {state}{doing}\n"
+        ));
     }
-    Ok(Exit::Done)
+    exit
 }
 
 /// Finds the interpolator of an instance.

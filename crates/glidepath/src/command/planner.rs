@@ -2,9 +2,9 @@
 
 use super::attention::Waiting;
 use super::executor::JobExecutor;
-use super::going_on;
+use super::going_on::{self, Obstacle, Resumption};
 use super::program_note::ProgramNote;
-use super::run_supervisor::{RunSupervisor, tell};
+use super::run_supervisor::{RunSupervisor, recalling, tell};
 use super::session;
 use crate::begun::{Board, Part};
 use crate::cli::PlannerArgs;
@@ -27,6 +27,7 @@ use glidepath_planner::{
     Remainder, RunError, SoftLimits, Statistics, serve as serve_jobs,
 };
 use serde_json::{Value, json};
+use std::path::PathBuf;
 use std::time::Duration;
 
 /// Plans and publishes until the motion is executed that was asked for at `asked_ns`, ns of the host's steady clock, or,
@@ -96,6 +97,7 @@ pub(super) fn planner(
         config: &config,
         supervisor: &supervisor,
         board: &board,
+        directory: link.directory(),
         file,
         asked_ns,
         note: ProgramNote::of_file(&link, file.name()),
@@ -133,6 +135,8 @@ struct Job<'a> {
     config: &'a MachineConfig,
     supervisor: &'a RunSupervisor,
     board: &'a Board,
+    /// The directory of the instance.
+    directory: PathBuf,
     file: &'a ProgramFile,
     /// When it was asked for, ns of the host's steady clock.
     asked_ns: u64,
@@ -248,7 +252,7 @@ impl Job<'_> {
             .end(&published, &self.publisher, self.config);
         let statistics = published.map_err(|error| match error {
             RunError::Refused(refusal) => Failure::refused(&self.name(), refusal, is_pipe),
-            error => self.ended_early(error, is_pipe),
+            error => self.ended_early(error, (is_pipe, fingerprint), control),
         })?;
         kept?;
         Ok(statistics)
@@ -256,18 +260,46 @@ impl Job<'_> {
 
     /// Why the motion ended before the program, with what goes on with it, if that is a file. Whoever
     /// started this one has a way of its own.
-    fn ended_early(&self, error: RunError, is_pipe: bool) -> Failure {
+    fn ended_early(
+        &self,
+        error: RunError,
+        (is_pipe, fingerprint): (bool, u64),
+        control: &mut Control<'_>,
+    ) -> Failure {
         let has_begun = self.supervisor.has_begun(&self.publisher);
         let may_go_on = !is_pipe && !self.supervisor.is_quiet() && has_begun;
-        let how = ("planner", self.file.path(), 0);
-        let left = may_go_on.then(|| going_on::told(&error, &self.publisher, how));
-        match left.flatten() {
-            Some(left) => Failure::Left {
-                source: error,
-                left,
-            },
-            None => error.into(),
+        if !may_go_on || !going_on::may_go_on(&error, &self.publisher) {
+            return error.into();
         }
+        let how = Resumption {
+            command: "planner",
+            file: self.file.path(),
+            lifts: self.config.jog.lift > 0.0,
+        };
+        let tried = self.try_to_resume(fingerprint, control);
+        Failure::Left {
+            left: going_on::told(&error, &self.publisher, how, tried),
+            source: error,
+        }
+    }
+
+    /// Does what a resumption does up to its motion.
+    fn try_to_resume(&self, fingerprint: u64, control: &mut Control<'_>) -> Result<(), Obstacle> {
+        let mut config = self.config.clone();
+        let supervisor = RunSupervisor::new(&mut config, self.directory.clone(), true)?;
+        let point = self.publisher.resume_point()?;
+        supervisor.resume(point.program, &mut config)?;
+        let (options, settings) = (
+            config.program_options(point.program_start),
+            config.settings(),
+        );
+        let source = FileSource::unchecked(self.file.path(), options, &settings);
+        let source = source.map_err(RunError::from)?.known_as(fingerprint);
+        let source = source.attended(recalling(&config, fingerprint));
+        let rest = Remainder::find(source, point, settings.tolerance_mm)?;
+        let now = self.publisher.auxiliary(control).map_err(RunError::from)?;
+        rest.restoring(&now).map_err(RunError::from)?;
+        Ok(())
     }
 
     /// The rest of a program, from where the machine stands on its path.

@@ -2,7 +2,7 @@
 //! command was to bring it, so that what is typed next finds it there.
 
 use super::jog::lift;
-use super::operator::{PATIENCE, command_and_wait, reach, read_status, send};
+use super::operator::{Effect, PATIENCE, command_and_wait, reach, read_status, send};
 use super::other_users::OtherUsers;
 use super::session;
 use crate::cli::{AbortArgs, OperatorArgs};
@@ -33,7 +33,12 @@ const END_PATIENCE: Duration = Duration::from_secs(10);
 /// The errors of a command.
 pub(super) fn hold(args: &OperatorArgs, config: &MachineConfig) -> Result<Exit, Failure> {
     command_and_wait(args, config, "hold", Command::Hold, |operator, link| {
-        wait(operator, link, |status| Ok(!status.state()?.is_moving()))
+        wait(
+            operator,
+            link,
+            |status| Ok(!status.state()?.is_moving()),
+            still,
+        )
     })
 }
 
@@ -140,9 +145,8 @@ fn may_be_in_thread(
 /// The errors of a command.
 fn abort_and_wait(args: &OperatorArgs, config: &MachineConfig) -> Result<Exit, Failure> {
     command_and_wait(args, config, "abort", Command::Abort, |operator, link| {
-        wait(operator, link, |status| {
-            Ok(!has_job(status)? && !status.state()?.is_moving())
-        })
+        let is_so = |status: &Status| Ok(!has_job(status)? && !status.state()?.is_moving());
+        wait(operator, link, is_so, still)
     })
 }
 
@@ -154,11 +158,12 @@ fn abort_and_wait(args: &OperatorArgs, config: &MachineConfig) -> Result<Exit, F
 pub(super) fn disable(args: &OperatorArgs, config: &MachineConfig) -> Result<Exit, Failure> {
     let command = Command::Disable;
     command_and_wait(args, config, "disable", command, |operator, link| {
-        wait(operator, link, |status| {
+        let is_so = |status: &Status| {
             let has_none = matches!(status.power()?, Power::Off | Power::Simulated);
             let is_off = has_none && !status.state()?.is_moving();
             Ok(is_off && !has_job(status)?)
-        })
+        };
+        wait(operator, link, is_so, still_on)
     })
 }
 
@@ -172,24 +177,46 @@ fn has_job(status: &Status) -> Result<bool, RecordError> {
 }
 
 /// Waits for something, but no longer than an answer may take: the command was accepted all the same. A machine that
-/// still moves then is told.
+/// still moves then, or has power that it is to lose, is told.
 fn wait(
     operator: &Operator,
     link: &LinkConfig,
     is_so: impl Fn(&Status) -> Result<bool, RecordError>,
-) -> Result<(), Failure> {
+    still: impl Fn(&Status) -> Result<Effect, RecordError>,
+) -> Result<Effect, Failure> {
     let started = Instant::now();
     while started.elapsed() < PATIENCE {
         if is_so(&read_status(operator, link)?).map_err(LinkError::from)? {
-            return Ok(());
+            return Ok(Effect::Reached);
         }
         std::thread::sleep(POLL);
     }
-    let state = read_status(operator, link)?.state();
-    if state.map_err(LinkError::from)?.is_moving() {
-        output::note("the machine still moves: a pass of a thread or a tap comes to its end first");
-    }
-    Ok(())
+    let status = read_status(operator, link)?;
+    Ok(still(&status).map_err(LinkError::from)?)
+}
+
+/// What a machine does that was stopped, and is not where the stop leads after so long. One that rests is stopped,
+/// whoever does not let go of it.
+fn still(status: &Status) -> Result<Effect, RecordError> {
+    Ok(if status.state()?.is_moving() {
+        Effect::ToCome(
+            "the machine still moves: a pass of a thread or a tap comes to its end first; `glidepath status` tells \
+             when it rests",
+        )
+    } else {
+        Effect::Reached
+    })
+}
+
+/// The same of one whose drives were to be switched off.
+fn still_on(status: &Status) -> Result<Effect, RecordError> {
+    let has_power = !matches!(status.power()?, Power::Off | Power::Simulated);
+    Ok(match still(status)? {
+        Effect::Reached if has_power => Effect::ToCome(
+            "the drives still have power; `glidepath status` tells when they have none",
+        ),
+        effect => effect,
+    })
 }
 
 /// Brings the axes back to the path, and waits until they are there. An interrupt ends their way.
@@ -203,7 +230,11 @@ pub(super) fn return_to_path(args: &OperatorArgs, config: &MachineConfig) -> Res
     })
 }
 
-fn come_back(operator: &Operator, link: &LinkConfig, interrupt: &Interrupt) -> Result<(), Failure> {
+fn come_back(
+    operator: &Operator,
+    link: &LinkConfig,
+    interrupt: &Interrupt,
+) -> Result<Effect, Failure> {
     let (started, mut has_begun) = (Instant::now(), false);
     let mut note =
         WaitingNote::new("return: the axes are on their way; Ctrl-C stops them".to_owned());
@@ -221,7 +252,7 @@ fn come_back(operator: &Operator, link: &LinkConfig, interrupt: &Interrupt) -> R
         if !state.is_moving() {
             let is_open = status.end_of_epoch().map_err(LinkError::from)? == EndOfEpoch::Open;
             if is_open && !is_away {
-                return Ok(());
+                return Ok(Effect::Reached);
             }
             if !is_open || has_begun || started.elapsed() > PATIENCE {
                 return Err(Failure::NotReturned(not_returned(&status)?));
@@ -241,4 +272,36 @@ fn not_returned(status: &Status) -> Result<&'static str, Failure> {
         "an abort or a fault ended the program on the way back to its path; the axes stay where they are, and \
          `glidepath run-file FILE --resume` goes on where they are back on it"
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_moves_or_has_power_is_not_said_to_be_stopped() {
+        let mut status: Status = bytemuck::Zeroable::zeroed();
+        for state in [
+            MachineState::Holding,
+            MachineState::Stopping,
+            MachineState::Running,
+        ] {
+            status.state = state.code();
+            for still in [still, still_on] {
+                let effect = still(&status);
+                assert!(matches!(effect, Ok(Effect::ToCome(text)) if text.contains("still moves")));
+            }
+        }
+        status.state = MachineState::Idle.code();
+        for (power, reached) in [
+            (Power::Simulated, true),
+            (Power::Off, true),
+            (Power::Enabling, false),
+            (Power::On, false),
+        ] {
+            status.power = power.code();
+            assert_eq!(still(&status), Ok(Effect::Reached));
+            assert_eq!(still_on(&status) == Ok(Effect::Reached), reached);
+        }
+    }
 }

@@ -238,16 +238,15 @@ fn precondition(
     let (is_possible, why) = match command {
         Command::Ping
         | Command::Tell
-        | Command::Forward
         | Command::Abort
         | Command::RapidOverride(_)
         | Command::JogOverride(_)
         | Command::SingleBlock(_) => return None,
         Command::FeedOverride(ratio) if ratio >= 0.0 => return None,
-        Command::FeedOverride(_) | Command::Reverse => (
-            !matches!(state, Idle | Preparing | Faulted | Off | NotHomed | Homing),
-            UnmetPrecondition::NoPathBack,
-        ),
+        Command::FeedOverride(_) | Command::Reverse => {
+            (may_have_path(state), UnmetPrecondition::NoPathBack)
+        }
+        Command::Forward => (may_have_path(state), UnmetPrecondition::NoPathForward),
         // At rest it is held already.
         Command::Hold => (state != Homing, UnmetPrecondition::HomingNotHeld),
         Command::Resume | Command::Step if is_away => (false, UnmetPrecondition::Away),
@@ -295,6 +294,12 @@ fn precondition(
         Command::Acknowledge { .. } | Command::Job { .. } => return None,
     };
     (!is_possible).then_some(why)
+}
+
+/// Whether a program runs, or may, in a state: there is a path then, to go back and forward along.
+const fn may_have_path(state: MachineState) -> bool {
+    use MachineState::{Faulted, Homing, Idle, NotHomed, Off, Preparing};
+    !matches!(state, Idle | Preparing | Faulted | Off | NotHomed | Homing)
 }
 
 /// Whether an override of 0 keeps the machine at rest, and nothing that a resume ends. On the way back

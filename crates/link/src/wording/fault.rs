@@ -61,8 +61,8 @@ impl FaultCause {
                 "keep the recording and report it, unless two planners ran; `glidepath reset`"
             }
             Self::PlannerLost => {
-                "read in the planner's log why; `glidepath reset`, then start the program again, or, \
-                 where it is a file, go on with it by --resume"
+                "read in the planner's log why; `glidepath reset`, then start the program again; where it is a \
+                 file, --resume goes on with it, or says why that cannot be"
             }
             Self::MissedTicks => {
                 "`glidepath doctor` says what keeps this host from being in time; `glidepath reset`"

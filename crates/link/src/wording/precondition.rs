@@ -10,6 +10,8 @@ pub enum UnmetPrecondition {
     JobHasMachine,
     /// The way back without a program.
     NoPathBack,
+    /// The way forward without a program.
+    NoPathForward,
     /// A resume of what is not held.
     NothingHeld,
     /// A resume at a feed override of 0 of what is not held.
@@ -90,6 +92,7 @@ impl UnmetPrecondition {
         Self::HomingNotHeld,
         Self::JobHasMachine,
         Self::NoPathBack,
+        Self::NoPathForward,
         Self::NothingHeld,
         Self::NoFeed,
         Self::NoRapid,
@@ -139,6 +142,7 @@ impl UnmetPrecondition {
                 "a job has the machine, and is being prepared; `glidepath abort` ends it"
             }
             Self::NoPathBack => "no program runs, so there is no path to go back along",
+            Self::NoPathForward => "no program runs, and each one begins forward by itself",
             Self::NothingHeld => "nothing is held; `glidepath status` says what the machine does",
             Self::NoFeed => {
                 "nothing is held, but the feed override is 0 %; `glidepath override 100` goes on"

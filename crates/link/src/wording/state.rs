@@ -52,7 +52,8 @@ impl MachineState {
             Self::Idle => "at rest, ready for a program",
             Self::Running => "the program runs",
             Self::Holding => {
-                "slowing down on the path, for a hold, for an override of 0 %, or to turn round"
+                "coming to rest on the path, for a hold, for an override of 0 %, or to turn round; a pass that \
+                 follows the spindle (thread, tap) comes to its end first"
             }
             Self::Held => "held at rest on the path; `glidepath resume` goes on",
             Self::Starving => {
@@ -64,7 +65,10 @@ impl MachineState {
             Self::ProgramStop => {
                 "at rest at a stop of the program, or at the end of a block; `glidepath resume` goes on"
             }
-            Self::Stopping => "coming to rest on the path; the rest of the program is dropped",
+            Self::Stopping => {
+                "coming to rest on the path; the rest of the program is dropped; after an abort a pass that follows \
+                 the spindle (thread, tap) comes to its end first"
+            }
             Self::Faulted => "at rest by a fault, which stays until `glidepath reset`",
             Self::Waiting => {
                 "at rest where the program known so far ends; it goes on by itself when more comes"

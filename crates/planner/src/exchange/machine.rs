@@ -53,9 +53,6 @@ pub(crate) struct MachinePorts {
     status: Box<dyn Subscriber<Status>>,
     commands: Box<dyn Client<CommandRequest, CommandReply>>,
     latest: Option<Status>,
-    /// Whether the axes were off the path of the newest epoch when that was last heard of as open: its
-    /// end forgets the path.
-    was_off_path: bool,
     /// Whether a status was heard that is newer than the first, which may be a dead process'
     /// legacy.
     alive: bool,
@@ -80,7 +77,6 @@ impl MachinePorts {
             status: transport.status_source()?,
             commands: transport.command_client()?,
             latest: None,
-            was_off_path: false,
             alive: false,
             silent: Duration::ZERO,
             client: u64::from(std::process::id()),
@@ -99,17 +95,9 @@ impl MachinePorts {
                 self.alive = true;
                 self.silent = Duration::ZERO;
             }
-            if status.end_of_epoch().map_err(LinkError::from)? == EndOfEpoch::Open {
-                self.was_off_path = status.away.iter().any(|away| *away != 0.0);
-            }
             self.latest = Some(status);
         }
         Ok(())
-    }
-
-    /// Whether the axes stood off the path when the newest epoch ended: a jog in a hold has moved them.
-    pub(crate) const fn was_off_path(&self) -> bool {
-        self.was_off_path
     }
 
     /// Waits a little, and counts it as silence until the next news.

@@ -47,7 +47,7 @@ pub struct Pipeline<S> {
     goes_on: bool,
     /// It may be brought to rest for a source that is silent.
     may_rest: bool,
-    /// Events to come before the first item, which are not of the program.
+    /// Items to come before the first one, which are not of the program.
     before: VecDeque<Item>,
     /// Frames of the epochs before.
     frames_before: u64,
@@ -63,10 +63,19 @@ pub struct Pipeline<S> {
 impl<S: ItemSource> Pipeline<Remainder<S>> {
     /// A pipeline for the rest of a program, from where the machine stands.
     #[must_use]
-    pub fn resuming(rest: Remainder<S>, settings: Settings) -> Self {
-        let (point, blocks) = (*rest.point(), Blocks::from(rest.first_block()));
+    pub fn resuming(mut rest: Remainder<S>, settings: Settings) -> Self {
+        let before = rest.take_aside();
+        let blocks = if before.is_empty() {
+            Blocks::from(rest.first_block())
+        } else {
+            Blocks::whole()
+        };
+        let point = *rest.point();
         let planning = Planning::new(settings, point.position, blocks, point.path_s);
-        Self::from(rest, settings, planning)
+        Self {
+            before,
+            ..Self::from(rest, settings, planning)
+        }
     }
 }
 

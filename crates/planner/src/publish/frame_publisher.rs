@@ -35,7 +35,7 @@ mod progress_notices;
 use std::time::Duration;
 
 use glidepath_geometry::AxisVector;
-use glidepath_link::{Auxiliary, FrameSink, LinkError, Record as _, Transport};
+use glidepath_link::{Auxiliary, EndOfEpoch, FrameSink, LinkError, Record as _, Transport};
 
 use crate::exchange::inputs::InputWatch;
 use crate::exchange::machine::{MachinePorts, POLL, SILENCE};
@@ -137,10 +137,10 @@ impl<'t> FramePublisher<'t> {
         self.machine.line()
     }
 
-    /// Whether a jog in a hold has moved the axes off the path of the newest epoch, as far as is known.
+    /// The end of the newest epoch; `None` if unknown.
     #[must_use]
-    pub const fn was_off_path(&self) -> bool {
-        self.machine.was_off_path()
+    pub fn end_of_epoch(&self) -> Option<EndOfEpoch> {
+        self.machine.status()?.end_of_epoch().ok()
     }
 
     /// Number of the epoch that the machine is in, or was in last; `None` if unknown.

@@ -101,7 +101,8 @@ impl Display for WayBack {
             write!(f, "{space}{axis}{away:+.4}")?;
         }
         f.write_str(
-            "). It was moved, as `lift` of [jog] does after an abort, or another configuration was used. \
+            "). It was moved, as a jog, a superposition, or `lift` of [jog] after an abort does, or another \
+             configuration was used. \
              Where nothing is in the way, ",
         )?;
         // Down to the work comes last, up from it first.

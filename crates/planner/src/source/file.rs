@@ -103,6 +103,16 @@ impl FileSource {
         Self::unchecked(path, options, settings)
     }
 
+    /// The same source, of a program whose fingerprint is known: it was opened before, and is read once more. A curve
+    /// knows its own.
+    #[must_use]
+    pub fn known_as(self, fingerprint: u64) -> Self {
+        match self {
+            Self::Program(source) => Self::Program(Box::new(source.known_as(fingerprint))),
+            curve @ (Self::Curve(_) | Self::Nurbs(_)) => curve,
+        }
+    }
+
     /// The same source, which shares what it comes to with whoever attends to its run.
     #[must_use]
     pub fn attended(self, channels: RunChannels) -> Self {

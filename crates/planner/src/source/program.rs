@@ -62,6 +62,13 @@ impl<R: BufRead> ProgramSource<R> {
         }
     }
 
+    /// The same source, of a program whose fingerprint is known: it was opened before, and is read once more.
+    #[must_use]
+    pub(crate) const fn known_as(mut self, fingerprint: u64) -> Self {
+        self.fingerprint = fingerprint;
+        self
+    }
+
     /// A program whose lines come one after the other: [`Program::typed`].
     pub(crate) fn typed(reader: R, options: Options) -> Self {
         let source = Self::new(reader, options);

@@ -226,15 +226,19 @@ impl<S: ItemSource> LineStart<S> {
         let feed_v = self.way_down_v();
         push_move(&mut items, over, self.begins_at, Rate::Feed(feed_v));
         let line = self.ahead.front().map_or(0, |item| item.line);
-        let count = u32::try_from(items.len()).unwrap_or(u32::MAX);
-        for kind in items.into_iter().rev() {
-            self.ahead.push_front(Item {
-                line,
-                block: 0,
-                kind,
-            });
+        let items = items.into_iter().map(|kind| Item {
+            line,
+            block: 0,
+            kind,
+        });
+        // They have the numbers of the blocks in front of the line, as far as there are any: that of the line stays.
+        let mut aside: VecDeque<Item> = items.collect();
+        let in_front = usize::try_from(self.block - 1).unwrap_or(usize::MAX);
+        let numbered = aside.split_off(aside.len().saturating_sub(in_front));
+        let first_block = self.block - u32::try_from(numbered.len()).unwrap_or(0);
+        for item in numbered.into_iter().rev() {
+            self.ahead.push_front(item);
         }
-        let first_block = self.block.saturating_sub(count).max(1);
         let point = ResumePoint {
             line: 0,
             position: approach.position,
@@ -246,7 +250,8 @@ impl<S: ItemSource> LineStart<S> {
             unanswered: false,
             found: None,
         };
-        Remainder::beginning_with(self.source, point, first_block, (self.ahead, self.last))
+        let begins = (first_block, aside);
+        Remainder::beginning_with(self.source, point, begins, (self.ahead, self.last))
     }
 
     /// The speed at which the tool axis goes down, mm/s: at the feed of the first feed move ahead;

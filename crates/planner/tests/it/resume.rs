@@ -13,10 +13,11 @@ use std::path::Path;
 use crate::support::items::settings;
 use glidepath_audit::{Audit, AuditSettings, Sample};
 use glidepath_gcode::Options;
-use glidepath_geometry::AxisVector;
+use glidepath_geometry::{Axis, AxisVector};
+use glidepath_link::Auxiliary;
 use glidepath_planner::{
-    ItemSource, Output, Pipeline, ProgramSource, Remainder, ResumeError, ResumePoint, RunError,
-    Supply,
+    Approach, ItemSource, LineStart, Output, Pipeline, ProgramSource, Remainder, ResumeError,
+    ResumePoint, RunError, StartLine, Supply,
 };
 use glidepath_program::{Frame, Item, Limits};
 
@@ -239,6 +240,55 @@ fn what_cannot_be_resumed_is_refused() {
         refused(beyond),
         ResumeError::OffPath { line: 0, .. }
     ));
+}
+
+/// The way to a line near the beginning has more parts than there are blocks in front: blocks keep their numbers, and
+/// what was left on the way is not taken for the program.
+#[test]
+fn a_program_begun_at_a_line_near_its_beginning_goes_on_from_wherever_it_was_left() {
+    const SHORT: &str = "G21 G90 F6000\nM3 S500\nG1 X20\nY20\nX0\nY0\nM2\n";
+    let start = AxisVector::repeat(2.0);
+    let (whole, _) = run(Pipeline::new(Text::new(SHORT, start), settings(), start));
+    for line in 2..=6 {
+        let approach = Approach {
+            position: start,
+            now: Auxiliary::default(),
+            tool_axis: Axis::Z,
+            top: Some(6.0),
+        };
+        let begin = StartLine { line, pass: 1 };
+        let found = LineStart::find(Text::new(SHORT, start), begin, &approach).unwrap();
+        let block = found.block();
+        let (frames, _) = run(Pipeline::resuming(found.approached(&approach), settings()));
+        // Each block is the one of its line.
+        let lines: BTreeMap<u32, u32> = whole.iter().map(|(f, block)| (*block, f.line)).collect();
+        let (mut on_the_way, mut beyond) = (0, 0);
+        for stop in (1..frames.len() - 1).step_by(5) {
+            let point = ResumePoint {
+                program_start: start,
+                ..left_at(&frames, stop)
+            };
+            let rest = Remainder::find(Text::new(SHORT, start), point, 0.02);
+            if point.block < block {
+                let refused = matches!(
+                    rest,
+                    Err(RunError::Resume(ResumeError::OnTheWay { line: told })) if told == line
+                );
+                assert!(refused, "line {line}, {point:?}");
+                on_the_way += 1;
+                continue;
+            }
+            assert_eq!(lines.get(&point.block), Some(&point.line), "{point:?}");
+            let rest = rest.unwrap_or_else(|error| panic!("line {line}, {point:?}: {error}"));
+            // What has happened is not done again.
+            assert!(rest.line() == 0 || rest.line() >= point.line, "{point:?}");
+            beyond += 1;
+        }
+        assert!(
+            on_the_way > 0 && beyond > 0,
+            "{line}: {on_the_way}, {beyond}"
+        );
+    }
 }
 
 /// Lifted by an abort, jogged along the path, or both: the refusal tells how far, and what leads back.

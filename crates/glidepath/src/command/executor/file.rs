@@ -65,6 +65,7 @@ impl JobExecutor<'_> {
                 FileSource::Curve(_) | FileSource::Nurbs(_) => None,
             })
         });
+        self.tell_going_on(&mut run, (file.path, fingerprint), context);
         let statistics = run?;
         Ok(format!(
             "{}: executed; {}, {}",
@@ -146,7 +147,6 @@ impl JobExecutor<'_> {
             return Err(Stop::ToConfirm(text));
         }
         supervisor.begin_with(found.block())?;
-        context.first_block = found.block();
         let rest = found.approached(&approach);
         let pipeline = Pipeline::resuming(rest, config.settings());
         let run = context.publish(pipeline, (config, supervisor), start, |rest| {

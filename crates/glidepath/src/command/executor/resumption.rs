@@ -1,14 +1,20 @@
 //! The program that can be resumed: what it began with, and where it was left.
 
+use std::path::Path;
+use std::time::Duration;
+
 use glidepath_geometry::AxisVector;
-use glidepath_planner::{FramePublisher, ResumePoint, RunError};
+use glidepath_planner::{FileSource, FramePublisher, Remainder, ResumePoint, RunError, Statistics};
 
 use super::file_job::FileJob;
 use super::run_context::RunContext;
-use super::state::{Begun, JobExecutor};
+use super::state::{Begun, JobExecutor, unwatched};
 use super::stop::Stop;
-use crate::command::run_supervisor::RunSupervisor;
+use crate::command::going_on::{self, Obstacle, Resumption};
+use crate::command::reading::for_program;
+use crate::command::run_supervisor::{RunSupervisor, recalling};
 use crate::config::MachineConfig;
+use crate::program_file::ProgramFile;
 
 /// What a program is read from.
 pub(super) struct Begins {
@@ -91,5 +97,67 @@ impl JobExecutor<'_> {
             start: point.program_start,
             point: Some(point),
         })
+    }
+
+    /// Adds to why a program was not executed to its end how to go on with it.
+    pub(super) fn tell_going_on(
+        &self,
+        run: &mut Result<Statistics, Stop>,
+        (file, fingerprint): (&Path, u64),
+        context: &mut RunContext<'_, '_, '_>,
+    ) {
+        let Some(error) = context.left_by.take() else {
+            return;
+        };
+        let tried = self.try_to_resume((file, fingerprint), context);
+        if let Err(Stop::Failed(text)) = run {
+            let how = Resumption {
+                command: "run-file",
+                file,
+                lifts: self.config.jog.lift > 0.0,
+            };
+            let left = going_on::told(&error, context.publisher, how, tried);
+            *text = format!("{text}; {left}");
+        }
+    }
+
+    /// Does what a resumption does up to its motion.
+    fn try_to_resume(
+        &self,
+        (file, fingerprint): (&Path, u64),
+        context: &mut RunContext<'_, '_, '_>,
+    ) -> Result<(), Obstacle> {
+        let (config, supervisor) = self.set_up(context.publisher, context.control)?;
+        let mut config = for_program(&ProgramFile::named(file), &unwatched(&config));
+        let job = FileJob {
+            path: file,
+            looked_at: None,
+            from: None,
+            confirmed: false,
+            resumes: true,
+        };
+        let start = context.publisher.position().ok_or(Obstacle::Untried)?;
+        let begins = self.begins(&job, start, &mut config, (&supervisor, &*context));
+        let begins = begins.map_err(|stop| Obstacle::Other(stop.text()))?;
+        let point = begins.point.ok_or(Obstacle::Untried)?;
+        let settings = config.settings();
+        let find = || {
+            let options = config.program_options(begins.start);
+            let source = FileSource::unchecked(file, options, &settings)?.known_as(fingerprint);
+            let source = source.attended(recalling(&config, fingerprint));
+            Remainder::find(source, point, settings.tolerance_mm)
+        };
+        // Whoever wanted the job may not want it any more, and is told all the same.
+        let attend = &mut *context.attend;
+        let mut attend = |waited: Duration| {
+            let _ended = attend.attend(waited, "");
+        };
+        let publisher = &mut *context.publisher;
+        let found = publisher.work("", &mut attend, context.control, find);
+        let rest = found.map_err(|_| Obstacle::Untried)??;
+        let now = publisher.auxiliary(context.control);
+        rest.restoring(&now.map_err(RunError::from)?)
+            .map_err(RunError::from)?;
+        Ok(())
     }
 }

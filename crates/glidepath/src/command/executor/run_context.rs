@@ -1,8 +1,6 @@
 //! The run context: the service's side of a job that runs. Long work is done while the service answers,
 //! and what was planned is published.
 
-use std::path::Path;
-
 use glidepath_gcode::InForce;
 use glidepath_geometry::AxisVector;
 use glidepath_planner::{
@@ -23,10 +21,8 @@ pub(super) struct RunContext<'b, 't, 'c> {
     pub(super) attend: &'b mut dyn Attend,
     pub(super) control: &'b mut Control<'c>,
     pub(super) note: ProgramNote<'b>,
-    /// The program, if the job is one.
-    pub(super) file: Option<&'b Path>,
-    /// The block that it begins at; on the way there the machine is on one before it.
-    pub(super) first_block: u32,
+    /// Why the motion ended before the program did, if that may be gone on with.
+    pub(super) left_by: Option<RunError>,
 }
 
 impl RunContext<'_, '_, '_> {
@@ -87,14 +83,11 @@ impl RunContext<'_, '_, '_> {
                 stop => stop,
             },
             error => {
-                let file = self.file.filter(|_| supervisor.has_begun(self.publisher));
-                let left = file.and_then(|file| {
-                    going_on::told(&error, self.publisher, ("run-file", file, self.first_block))
-                });
-                Stop::Failed(match left {
-                    Some(left) => format!("{error}; {left}"),
-                    None => error.to_string(),
-                })
+                let stop = Stop::Failed(error.to_string());
+                let may_go_on = supervisor.has_begun(self.publisher)
+                    && going_on::may_go_on(&error, self.publisher);
+                self.left_by = may_go_on.then_some(error);
+                stop
             }
         });
         // It was executed, and cannot be refused any more.

@@ -44,11 +44,7 @@ impl JobRunner for JobExecutor<'_> {
             attend,
             control,
             note: ProgramNote::of_job(&link, job),
-            file: match job {
-                Job::File { path, .. } => Some(path),
-                Job::Line(_) | Job::Sequence(_) | Job::Lines { .. } => None,
-            },
-            first_block: 0,
+            left_by: None,
         };
         let before = self.in_force.clone();
         let end = match job {

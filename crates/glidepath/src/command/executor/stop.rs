@@ -14,6 +14,18 @@ pub(super) enum Stop {
     Changed(String),
 }
 
+impl Stop {
+    /// The reason, for people.
+    pub(super) fn text(self) -> String {
+        match self {
+            Self::Refused(text)
+            | Self::Failed(text)
+            | Self::ToConfirm(text)
+            | Self::Changed(text) => text,
+        }
+    }
+}
+
 pub(super) type End = Result<String, Stop>;
 
 impl From<Failure> for Stop {

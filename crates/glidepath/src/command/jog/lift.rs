@@ -48,7 +48,7 @@ pub(in crate::command) fn lift(link: &LinkConfig, config: &MachineConfig) -> Res
         std::thread::sleep(POLL);
     }
     output::note(&format!(
-        "abort: {axis} went up, by {} at most",
+        "abort: {axis} went up, by {} mm at most; a resumption (--resume) is refused until it is back, and says how far",
         config.jog.lift
     ));
     Ok(())

@@ -55,6 +55,34 @@ fn the_hand_over_of_a_mechanism_moves_no_joint() {
 }
 
 #[test]
+fn without_a_program_there_is_no_way_back_and_none_forward() {
+    let mut bench = Bench::mill();
+    let refused = |bench: &mut Bench, state: MachineState| {
+        assert_eq!(bench.state(), state);
+        for command in [Command::Reverse, Command::Forward] {
+            let why = bench.command(command).unwrap_err();
+            assert!(
+                why.contains("no program runs"),
+                "{command:?}, {state:?}: {why}"
+            );
+        }
+    };
+    bench.run(10);
+    refused(&mut bench, MachineState::Off);
+    bench.enable(MachineState::Idle);
+    refused(&mut bench, MachineState::Idle);
+    bench.load(3, 300);
+    bench.run(60);
+    for command in [Command::Forward, Command::Reverse, Command::Forward] {
+        bench.command(command).unwrap();
+    }
+    bench.inject(InjectedFault::EmergencyStop(true));
+    bench.feed.clear();
+    assert!(bench.run_to(MachineState::Faulted, 300));
+    refused(&mut bench, MachineState::Faulted);
+}
+
+#[test]
 fn nothing_moves_before_the_drives_are_on() {
     let mut bench = Bench::mill();
     bench.run(10);

@@ -166,7 +166,25 @@ impl Interpolator<'_> {
         let motion = self.jog.step(due.scheduled_ns);
         let (output, away) = (&mut self.output, self.jog.away());
         let written = output.write_by_hand(self.epoch, &self.passed, &motion, &away, setpoint);
+        if self.is_open() {
+            self.place_held(setpoint);
+        }
         self.judge(written, due.tick);
+    }
+
+    /// Writes into a setpoint of axes moved by hand where in the program the motion is held: between two frames in
+    /// general.
+    #[cold]
+    #[inline(never)]
+    fn place_held(&self, setpoint: &mut Setpoint) {
+        if let Some(path) = self.track.path(self.rate.now().time) {
+            setpoint.path_s = path.path_s;
+        }
+        if self.requests.retraces() {
+            let fraction = setpoint.fraction;
+            self.place_retraced(setpoint);
+            setpoint.fraction = fraction;
+        }
     }
 
     /// Sees to what the drives say.

@@ -24,6 +24,8 @@ pub struct Remainder<S> {
     pub(super) source: S,
     pub(super) point: ResumePoint,
     pub(super) first_block: u32,
+    /// Items of the way to a line that come before the program's first block, and are of none.
+    pub(super) aside: VecDeque<Item>,
     /// Items read in the search, the first one cut off.
     pub(super) ahead: VecDeque<Item>,
     /// What ended the search.
@@ -44,6 +46,9 @@ impl<S: ItemSource> Remainder<S> {
     pub fn find(mut source: S, point: ResumePoint, tolerance_mm: f64) -> Result<Self, RunError> {
         if source.fingerprint() != point.program || point.program == 0 {
             return Err(ResumeError::OtherProgram.into());
+        }
+        if point.block == 0 && point.line != 0 {
+            return Err(ResumeError::OnTheWay { line: point.line }.into());
         }
         let mut before: Option<Item> = None;
         // Behind a probing move it is where that ended.
@@ -74,6 +79,7 @@ impl<S: ItemSource> Remainder<S> {
             source,
             point,
             first_block: point.block.max(1),
+            aside: VecDeque::new(),
             ahead: VecDeque::new(),
             last: None,
             outputs,
@@ -118,17 +124,18 @@ impl<S: ItemSource> Remainder<S> {
         Ok(rest)
     }
 
-    /// The rest of a program from these items on, with which it is to begin.
+    /// The rest of a program from these items on, with which it is to begin, behind those that are of no block.
     pub(crate) fn beginning_with(
         source: S,
         point: ResumePoint,
-        first_block: u32,
+        (first_block, aside): (u32, VecDeque<Item>),
         (ahead, last): (VecDeque<Item>, Option<Supply>),
     ) -> Self {
         Self {
             source,
             point,
             first_block,
+            aside,
             ahead,
             last,
             outputs: SaidOutputs::default(),
@@ -167,6 +174,11 @@ impl<S: ItemSource> Remainder<S> {
     /// Where the program was left.
     pub(crate) const fn point(&self) -> &ResumePoint {
         &self.point
+    }
+
+    /// What comes before the first block, and is of none.
+    pub(crate) fn take_aside(&mut self) -> VecDeque<Item> {
+        std::mem::take(&mut self.aside)
     }
 
     /// Number of the first block of the rest.

@@ -60,6 +60,40 @@ fn now_z(rig: &Rig, number: usize) -> f64 {
     rig.setpoints[number].position[2]
 }
 
+/// Where in the program the motion is held does not depend on where the axes are: between two frames in general.
+#[test]
+fn a_jog_in_a_hold_leaves_the_place_in_the_program() {
+    let place = |s: &Setpoint| (s.path_s.to_bits(), s.line, s.block, s.sequence);
+    for backwards in [false, true] {
+        let mut between = 0;
+        for seed in 1..6 {
+            let mut rig = rig(seed, 3, 400).0;
+            rig.run(80);
+            if backwards {
+                rig.command(Command::Reverse);
+                rig.run(60);
+            }
+            rig.command(Command::Hold);
+            settle(&mut rig, MachineState::Held);
+            rig.run(2);
+            let held = *rig.setpoints.last().unwrap();
+            between += u32::from(held.fraction > 0.0);
+            let begins = rig.setpoints.len();
+            let mut hand = Hand::new(1);
+            hand.hold(&mut rig, 30, [-30.0, 7.0, 50.0]);
+            hand.ask(&mut rig, JogMode::None, [0.0; 3]);
+            settle(&mut rig, MachineState::Held);
+            assert_ne!(rig.setpoints.last().unwrap().away, [0.0; 9]);
+            rig.command(Command::Return);
+            settle(&mut rig, MachineState::Held);
+            for setpoint in &rig.setpoints[begins..] {
+                assert_eq!(place(setpoint), place(&held), "seed {seed}, {backwards}");
+            }
+        }
+        assert!(between > 0, "held at frames only");
+    }
+}
+
 #[test]
 fn an_abort_ends_the_epoch_where_a_jog_has_led() {
     for moving in [false, true] {
