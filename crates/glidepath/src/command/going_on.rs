@@ -8,6 +8,11 @@ use crate::machine_options::resume;
 use glidepath_link::{EndOfEpoch, TOLD_TO_END};
 use glidepath_planner::{FramePublisher, ResumeError, RunError};
 use std::path::Path;
+use std::time::Duration;
+
+/// How long a resumption is tried that nobody has asked for yet: within a second a command has to end that is told to,
+/// and the service has other things to do.
+pub(super) const TRIAL: Duration = Duration::from_millis(800);
 
 /// The command that goes on with a program, and what may have moved the machine before it is typed.
 #[derive(Debug, Clone, Copy)]

@@ -2,7 +2,7 @@
 
 use super::attention::Waiting;
 use super::executor::JobExecutor;
-use super::going_on::{self, Obstacle, Resumption};
+use super::going_on::{self, Obstacle, Resumption, TRIAL};
 use super::program_note::ProgramNote;
 use super::run_supervisor::{RunSupervisor, recalling, tell};
 use super::session;
@@ -20,6 +20,7 @@ use crate::persistence::read::{read, set_up};
 use crate::position_offsets_note::PositionOffsetsNote;
 use crate::program_file::ProgramFile;
 use crate::report::{counted, driven, peak_rss_bytes, seconds};
+use glidepath_gcode::ReadingWatch;
 use glidepath_geometry::AxisVector;
 use glidepath_link::{Ipc, LinkConfig, Operator, Transport};
 use glidepath_planner::{
@@ -287,6 +288,13 @@ impl Job<'_> {
     fn try_to_resume(&self, fingerprint: u64, control: &mut Control<'_>) -> Result<(), Obstacle> {
         let mut config = self.config.clone();
         let supervisor = RunSupervisor::new(&mut config, self.directory.clone(), true)?;
+        let watch = ReadingWatch::default();
+        config.program.watch = Some(watch.clone());
+        let clock = watch.clone();
+        std::thread::spawn(move || {
+            std::thread::sleep(TRIAL);
+            clock.end();
+        });
         let point = self.publisher.resume_point()?;
         supervisor.resume(point.program, &mut config)?;
         let (options, settings) = (
@@ -296,7 +304,11 @@ impl Job<'_> {
         let source = FileSource::unchecked(self.file.path(), options, &settings);
         let source = source.map_err(RunError::from)?.known_as(fingerprint);
         let source = source.attended(recalling(&config, fingerprint));
-        let rest = Remainder::find(source, point, settings.tolerance_mm)?;
+        let rest = Remainder::find(source, point, settings.tolerance_mm);
+        if watch.is_to_end() {
+            return Err(Obstacle::Untried);
+        }
+        let rest = rest?;
         let now = self.publisher.auxiliary(control).map_err(RunError::from)?;
         rest.restoring(&now).map_err(RunError::from)?;
         Ok(())

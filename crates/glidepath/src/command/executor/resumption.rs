@@ -1,16 +1,17 @@
 //! The program that can be resumed: what it began with, and where it was left.
 
 use std::path::Path;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
+use glidepath_gcode::ReadingWatch;
 use glidepath_geometry::AxisVector;
 use glidepath_planner::{FileSource, FramePublisher, Remainder, ResumePoint, RunError, Statistics};
 
 use super::file_job::FileJob;
 use super::run_context::RunContext;
-use super::state::{Begun, JobExecutor, unwatched};
+use super::state::{Begun, JobExecutor};
 use super::stop::Stop;
-use crate::command::going_on::{self, Obstacle, Resumption};
+use crate::command::going_on::{self, Obstacle, Resumption, TRIAL};
 use crate::command::reading::for_program;
 use crate::command::run_supervisor::{RunSupervisor, recalling};
 use crate::config::MachineConfig;
@@ -127,11 +128,14 @@ impl JobExecutor<'_> {
         (file, fingerprint): (&Path, u64),
         context: &mut RunContext<'_, '_, '_>,
     ) -> Result<(), Obstacle> {
-        let (config, supervisor) = self.set_up(context.publisher, context.control)?;
-        let mut config = for_program(&ProgramFile::named(file), &unwatched(&config));
+        let (config, supervisor) = self.set_up(1.0, context.publisher, context.control)?;
+        let mut config = for_program(&ProgramFile::named(file), &config);
+        let watch = ReadingWatch::default();
+        config.program.watch = Some(watch.clone());
         let job = FileJob {
             path: file,
             looked_at: None,
+            tolerance_ratio: 1.0,
             from: None,
             confirmed: false,
             resumes: true,
@@ -149,12 +153,20 @@ impl JobExecutor<'_> {
         };
         // Whoever wanted the job may not want it any more, and is told all the same.
         let attend = &mut *context.attend;
+        let since = Instant::now();
         let mut attend = |waited: Duration| {
             let _ended = attend.attend(waited, "");
+            if since.elapsed() > TRIAL {
+                watch.end();
+            }
         };
         let publisher = &mut *context.publisher;
         let found = publisher.work("", &mut attend, context.control, find);
-        let rest = found.map_err(|_| Obstacle::Untried)??;
+        let found = found.map_err(|_| Obstacle::Untried)?;
+        if watch.is_to_end() {
+            return Err(Obstacle::Untried);
+        }
+        let rest = found?;
         let now = publisher.auxiliary(context.control);
         rest.restoring(&now.map_err(RunError::from)?)
             .map_err(RunError::from)?;
