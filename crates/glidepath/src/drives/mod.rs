@@ -17,11 +17,12 @@ mod tests;
 mod touch_probe;
 mod words;
 mod written;
+mod written_probe;
 
 pub use config::DrivesConfig;
 pub(crate) use judge::joint_velocities;
 pub use source::DrivesSource;
-pub use written::{Found, written};
+pub use written::{Found, FoundProbe, written};
 
 use crate::config::{ConfigError, MachineConfig, parse_as};
 use crate::text_file;

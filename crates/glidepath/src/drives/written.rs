@@ -1,8 +1,20 @@
 //! The writer of a first `drives.toml`, from the devices found on the wire.
 
 use super::tables::Tables;
+use super::written_probe::ProbeLines;
 use core::fmt::Write as _;
 use glidepath_ethercat::{Device, OutputWatchdog, Window};
+
+/// What a drive has to keep where it was at an edge.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct FoundProbe {
+    /// Which of its two units have their objects, 1 and 2.
+    pub units: [bool; 2],
+    /// Whether a source can be chosen (0x60D0).
+    pub has_sources: bool,
+    /// Whether it tells its digital inputs (0x60FD).
+    pub has_inputs: bool,
+}
 
 /// A device, and what it says of itself.
 #[derive(Debug, Clone)]
@@ -16,6 +28,8 @@ pub struct Found {
     pub modes: Option<(bool, bool)>,
     /// Its drives, 1 where it is none.
     pub axes: u16,
+    /// What each of its drives has of a touch probe, and of digital inputs; none where it is no drive.
+    pub probes: Vec<FoundProbe>,
     /// What is in its process data.
     pub windows: Vec<Window>,
     /// How it watches its outputs, if it tells.
@@ -79,6 +93,7 @@ pub fn written(interface: &str, found: &[Found]) -> String {
     );
     let drives = found.iter().filter(|item| item.is_drive());
     let drives = drives.flat_map(|item| (0..item.axes).map(move |axis| (axis, item)));
+    let probes = ProbeLines::of(found);
     for (joint, (axis, item)) in drives.enumerate() {
         let (device, id) = (&item.device, item.device.identity);
         let _ = write!(
@@ -116,6 +131,8 @@ pub fn written(interface: &str, found: &[Found]) -> String {
              # Without an absolute encoder:\n\
              # homing = {{ method = 17, fast = 20.0, slow = 2.0, acceleration = 500.0, sequence = 0 }}\n"
         );
+        let probe = item.probes.get(usize::from(axis)).copied();
+        probes.write(&mut text, joint, probe.unwrap_or_default());
     }
     let mut tables = Tables::default();
     for item in found.iter().filter(|item| !item.is_drive()) {
