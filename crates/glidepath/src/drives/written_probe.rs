@@ -39,6 +39,12 @@ impl ProbeLines {
         let Some(unit) = unit(probe) else {
             return;
         };
+        let _ = writeln!(
+            text,
+            "# For joints that [home.J{joint}] of the machine brings home with index = \"drive\" (the zero impulse of \
+             its encoder):\n\
+             # index = {unit}"
+        );
         if let Some(lacks) = self.lacks {
             let _ = writeln!(
                 text,

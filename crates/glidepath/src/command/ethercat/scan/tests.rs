@@ -75,6 +75,7 @@ fn taken(text: &str) -> String {
         let word = line.split([' ', '=']).next().unwrap_or_default();
         let keys = [
             "probe",
+            "index",
             "inputs",
             "encoder",
             "[[device]]",
@@ -128,6 +129,7 @@ fn touch_probes_and_the_encoder_of_a_spindle_are_found() {
     for drive in &drives.drives {
         let probe = drive.probe.unwrap();
         assert_eq!((probe.number, probe.unit, probe.source), (0, 1, None));
+        assert_eq!(drive.index, Some(1));
     }
     let of = |position| drives.terminals.iter().find(|t| t.position == position);
     assert_eq!(of(4).unwrap().inputs[0].number, Some(0));
