@@ -3,7 +3,7 @@
 //! All drives have a probe or none, and the probe is an input of the file, too: number 0, which the first digital
 //! input of a terminal is given.
 
-use super::written::{Found, FoundProbe};
+use super::found::{Found, FoundProbe};
 use core::fmt::Write as _;
 
 /// What is the same for all drives.
