@@ -55,7 +55,7 @@ impl ZeroImpulse {
             upper + turn * (((from - upper) / turn).ceil() - 1.0)
         };
         let (low, high) = (from.min(to), from.max(to));
-        (from != to && (low..=high).contains(&place)).then_some(place)
+        (high > low && (low..=high).contains(&place)).then_some(place)
     }
 }
 
