@@ -47,9 +47,9 @@ extern "C" {
 
 /* layout: begin, written by a test of the library */
 /* The version of the ABI: functions and structures. */
-#define GP_ABI 10u
+#define GP_ABI 11u
 /* What the structures of this header are, as one number. */
-#define GP_LAYOUT UINT64_C(0xc4ce896a1a90435c)
+#define GP_LAYOUT UINT64_C(0x199e03c7cac11c7e)
 /* Axes X Y Z A B C U V W, and joints J0 to J8. */
 #define GP_AXES 9
 
@@ -486,7 +486,7 @@ GP_FIELD(gp_event, axis, 20, 4);
 GP_FIELD(gp_event, depth_um, 24, 4);
 GP_FIELD(gp_event, phase, 28, 4);
 
-/* What the drives are to do at apply_ns. The record glidepath.Setpoint.v5. */
+/* What the drives are to do at apply_ns. The record glidepath.Setpoint.v6. */
 typedef struct gp_setpoint {
     /* Identifies one life of the interpolator: all counts start again with a new one. */
     uint64_t boot_id;
@@ -559,8 +559,13 @@ typedef struct gp_setpoint {
     /* How far the axes are from position by a superposition, mm or degrees: the joints are
        where both together ask for. */
     double superposed[9];
+    /* The joints whose drives are to keep where they are at the next index pulse of their
+       encoder, one bit each. What was kept before counts no more while the bit is 0. */
+    uint32_t index;
+    /* Zero. */
+    uint32_t reserved;
 } gp_setpoint;
-GP_ASSERT(sizeof(gp_setpoint) == 1232, "gp_setpoint has another size");
+GP_ASSERT(sizeof(gp_setpoint) == 1240, "gp_setpoint has another size");
 GP_FIELD(gp_setpoint, boot_id, 0, 8);
 GP_FIELD(gp_setpoint, reference, 8, 8);
 GP_FIELD(gp_setpoint, number, 16, 8);
@@ -592,6 +597,8 @@ GP_FIELD(gp_setpoint, joint_acceleration, 504, 72);
 GP_FIELD(gp_setpoint, away, 576, 72);
 GP_FIELD(gp_setpoint, events, 648, 512);
 GP_FIELD(gp_setpoint, superposed, 1160, 72);
+GP_FIELD(gp_setpoint, index, 1232, 4);
+GP_FIELD(gp_setpoint, reserved, 1236, 4);
 
 /* What the interpolator does and how well. Counts are of this life of it. The record
    glidepath.Status.v15. */
@@ -873,7 +880,7 @@ GP_FIELD(gp_status, freeze_reason, 1880, 4);
 GP_FIELD(gp_status, job_stream, 1884, 4);
 
 /* What a servo stack knows of the joints it drives, at one moment. The record
-   glidepath.Feedback.v3. */
+   glidepath.Feedback.v4. */
 typedef struct gp_feedback {
     /* Identifies one life of the stack: another stack, or the same started again, has
        another. */
@@ -934,8 +941,16 @@ typedef struct gp_feedback {
     double loss_value;
     /* The inputs that are latched. */
     gp_latch latch[4];
+    /* The joints whose drives are ready to keep where they are at the next index pulse, one
+       bit each: of those in index of gp_setpoint alone, and not before they have forgotten
+       what they kept. */
+    uint32_t index_armed;
+    /* Those of them that have kept it since. */
+    uint32_t index_kept;
+    /* Where these were at the index pulse, as the drives count, mm or degrees. */
+    double index_position[9];
 } gp_feedback;
-GP_ASSERT(sizeof(gp_feedback) == 816, "gp_feedback has another size");
+GP_ASSERT(sizeof(gp_feedback) == 896, "gp_feedback has another size");
 GP_FIELD(gp_feedback, boot_id, 0, 8);
 GP_FIELD(gp_feedback, number, 8, 8);
 GP_FIELD(gp_feedback, sample_ns, 16, 8);
@@ -962,6 +977,9 @@ GP_FIELD(gp_feedback, spindle_flags, 384, 4);
 GP_FIELD(gp_feedback, loss, 388, 4);
 GP_FIELD(gp_feedback, loss_value, 392, 8);
 GP_FIELD(gp_feedback, latch, 400, 416);
+GP_FIELD(gp_feedback, index_armed, 816, 4);
+GP_FIELD(gp_feedback, index_kept, 820, 4);
+GP_FIELD(gp_feedback, index_position, 824, 72);
 
 /* The answer to a command. The record glidepath.CommandReply.v3. */
 typedef struct gp_reply {

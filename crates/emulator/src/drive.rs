@@ -284,8 +284,25 @@ impl Drive {
         if let Some(ways) = &mut self.ways {
             ways.push(way);
         }
+        self.pass_zero(&way);
         if self.touch_probe.is_some() {
             self.probe_units.step(self.outputs.probe, to_ns);
+        }
+    }
+
+    /// The zero impulse of its encoder, if that was on the way.
+    #[allow(clippy::cast_possible_truncation, reason = "a drive wraps, too")]
+    fn pass_zero(&mut self, way: &Way) {
+        let Some((probe, zero)) = self
+            .touch_probe
+            .and_then(|probe| Some((probe, probe.zero?)))
+        else {
+            return;
+        };
+        let rises = zero.rises(way.from - self.offset, way.to - self.offset);
+        if let Some(place) = rises.map(|place| place + self.offset) {
+            let told = (place.round() as i64 as i32).wrapping_add(probe.off_counts);
+            self.probe_units.pass_zero(way.passes_ns(place), told);
         }
     }
 

@@ -70,4 +70,4 @@ pub use pins::OutputRecord;
 pub use segment::{Segment, SyncRecord};
 pub use settings::{DriveSettings, HomeSwitch, ImageAccess, Maps, OutputWatchdog, SyncType};
 pub use spindle::SpindleMotor;
-pub use touch_probe::TouchProbe;
+pub use touch_probe::{TouchProbe, ZeroImpulse};

@@ -8,6 +8,7 @@ const ON: u16 = 1;
 const CONTINUOUS: u16 = 2;
 const SOURCE: u16 = 0x0c;
 const BY_OBJECT: u16 = 8;
+const BY_ZERO: u16 = 4;
 const RISING: u16 = 0x10;
 /// Bits of a unit in 0x60B9: on; a place is stored, of a rising edge, and of a falling one behind it.
 const IS_ON: u16 = 1;
@@ -24,6 +25,38 @@ pub struct TouchProbe {
     pub has_sources: bool,
     /// What is wrong in what it captures, counts; 0 for nothing.
     pub off_counts: i32,
+    /// The zero impulse of its encoder, if that has one.
+    pub zero: Option<ZeroImpulse>,
+}
+
+/// The zero impulse of an encoder: once a turn, and so wide that where it rises depends on the direction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ZeroImpulse {
+    /// Counts of a turn, > 0.
+    pub turn_counts: i64,
+    /// Where its lower side is, counts.
+    pub at_counts: i64,
+    /// How wide it is, counts, less than a turn.
+    pub wide_counts: i64,
+}
+
+impl ZeroImpulse {
+    /// Where it first rises on a way of the motor, counts.
+    #[allow(clippy::cast_precision_loss, reason = "places are far below 2⁵³")]
+    pub(crate) fn rises(self, from: f64, to: f64) -> Option<f64> {
+        let turn = self.turn_counts as f64;
+        let (lower, upper) = (
+            self.at_counts as f64,
+            (self.at_counts + self.wide_counts) as f64,
+        );
+        let place = if to > from {
+            lower + turn * (((from - lower) / turn).floor() + 1.0)
+        } else {
+            upper + turn * (((from - upper) / turn).ceil() - 1.0)
+        };
+        let (low, high) = (from.min(to), from.max(to));
+        (high > low && (low..=high).contains(&place)).then_some(place)
+    }
 }
 
 impl Default for TouchProbe {
@@ -33,6 +66,7 @@ impl Default for TouchProbe {
             is_mappable: true,
             has_sources: false,
             off_counts: 0,
+            zero: None,
         }
     }
 }
@@ -69,15 +103,24 @@ impl ProbeUnits {
 
     /// An edge at its input: where the motor was then.
     pub(crate) fn capture(&mut self, rises: bool, at_ns: u64, place: i32, sources: [u32; UNITS]) {
+        self.keep(rises, at_ns, place, &|unit, source| match source {
+            0 => true,
+            BY_OBJECT => sources[unit] == OWN_INPUT,
+            _ => false,
+        });
+    }
+
+    /// The zero impulse of the encoder rises at a place.
+    pub(crate) fn pass_zero(&mut self, at_ns: u64, place: i32) {
+        self.keep(true, at_ns, place, &|_, source| source == BY_ZERO);
+    }
+
+    fn keep(&mut self, rises: bool, at_ns: u64, place: i32, wired: &dyn Fn(usize, u16) -> bool) {
         let edge = u16::from(!rises);
-        for (unit, source) in sources.into_iter().enumerate() {
+        for unit in 0..UNITS {
             let shift = 8 * unit;
             let (word, stored) = (self.function >> shift, STORED << edge << shift);
-            let is_wired = match word & SOURCE {
-                0 => true,
-                BY_OBJECT => source == OWN_INPUT,
-                _ => false,
-            };
+            let is_wired = wired(unit, word & SOURCE);
             let is_on = word & ON != 0 && word & (RISING << edge) != 0;
             let is_late = self.status & stored != 0 && word & CONTINUOUS == 0;
             if is_on && is_wired && !is_late && at_ns >= self.since_ns[unit] {
@@ -119,6 +162,33 @@ mod tests {
         assert_eq!(places[3], (7, first));
         assert_eq!(places[4].0, 0);
         assert_eq!(places[5], (0x300, [first[0], [0x1100, 0]]));
+    }
+
+    #[test]
+    fn a_zero_impulse_rises_once_a_turn_at_the_side_that_is_met() {
+        let zero = ZeroImpulse {
+            turn_counts: 100,
+            at_counts: 10,
+            wide_counts: 4,
+        };
+        for (from, to, place) in [
+            (0.0, 50.0, Some(10.0)),
+            (10.0, 50.0, None),
+            (50.0, 0.0, Some(14.0)),
+            (-50.0, -100.0, Some(-86.0)),
+            (13.0, 0.0, None),
+            (95.0, 250.0, Some(110.0)),
+            (12.0, 12.0, None),
+        ] {
+            assert_eq!(zero.rises(from, to), place, "{from} {to}");
+        }
+        let mut units = ProbeUnits::default();
+        for at_ns in 0..3 {
+            units.step(0x1511, at_ns);
+        }
+        units.pass_zero(5, 7);
+        // The first unit has its input, the second one the zero impulse.
+        assert_eq!((units.status, units.places[1][0]), (0x301, 7));
     }
 
     #[test]

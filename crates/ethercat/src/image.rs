@@ -1,7 +1,7 @@
 //! Process data of one drive: what it means.
 
 use crate::layout::{Layout, ProbeAccess};
-use crate::probe::ProbeInputs;
+use crate::probe::{ProbeInputs, ProbeUse};
 use crate::state;
 use glidepath_link::DriveState;
 
@@ -14,8 +14,8 @@ pub struct Outputs {
     pub target: i32,
     /// Mode of operation, 0x6060.
     pub mode: i8,
-    /// The unit of its touch probe is on, 0x60B8.
-    pub is_probe_on: bool,
+    /// What the unit of its touch probe does, 0x60B8.
+    pub probe: ProbeUse,
     /// What it keeps is to be asked, where it is not in the process data.
     pub asks_probe: bool,
 }
@@ -51,7 +51,7 @@ impl Default for Outputs {
             control: 0,
             target: 0,
             mode: CYCLIC_POSITION,
-            is_probe_on: false,
+            probe: ProbeUse::Off,
             asks_probe: false,
         }
     }
@@ -65,7 +65,7 @@ impl Outputs {
             control: 0,
             target: inputs.actual,
             mode: CYCLIC_POSITION,
-            is_probe_on: false,
+            probe: ProbeUse::Off,
             asks_probe: false,
         }
     }
@@ -85,7 +85,7 @@ impl Outputs {
         if let Some(access) = layout.probe
             && let Some(at) = access.function
         {
-            let function = access.probe.function(access.before, self.is_probe_on);
+            let function = access.probe.function(access.before, self.probe);
             write(at, &function.to_le_bytes());
         }
     }

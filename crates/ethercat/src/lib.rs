@@ -84,7 +84,7 @@ pub use event::Event;
 pub use fault_text::text as fault_text;
 pub use frame::{Address, Answer, Command, Frame, Slot};
 pub use image::{Inputs, Outputs};
-pub use probe::{ProbeInputs, TouchProbe};
+pub use probe::{ProbeInputs, ProbeUse, TouchProbe};
 pub use probe_trouble::ProbeTrouble;
 pub use run::{Listeners, RunError, RunSettings, run};
 pub use settings::{BusSettings, DEVICE_AXES, DriveSettings, HomingSettings, Settings};

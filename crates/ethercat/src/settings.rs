@@ -95,6 +95,9 @@ pub struct DriveSettings {
     pub quick_stop_a: f64,
     /// Its touch probe; of all drives or of none.
     pub probe: Option<TouchProbe>,
+    /// Which touch probe keeps the index pulse of its encoder while the joint looks for its home by that; the one that
+    /// `probe` has, where there is one.
+    pub index: Option<u8>,
     /// Its digital inputs (0x60FD) are to be read.
     pub has_inputs: bool,
     /// The joint's highest speed, mm/s or °/s. A target a fifth further away than that is not sent.
@@ -102,6 +105,11 @@ pub struct DriveSettings {
 }
 
 impl DriveSettings {
+    /// The touch probe that is used, for whatever.
+    pub(crate) fn touch_probe(&self) -> Option<TouchProbe> {
+        self.probe.or(self.index.map(TouchProbe::of_index))
+    }
+
     /// Where its axis has an object of CiA 402. Others are the whole device's.
     pub(crate) const fn own(&self, index: u16) -> u16 {
         Self::of_axis(index, self.axis)

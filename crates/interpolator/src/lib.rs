@@ -111,7 +111,7 @@ pub use process::run::run;
 pub use process::served::{Served, served};
 pub use process::stepped::{Stepped, stepped};
 pub use shared::config::feedback::{AdaptiveFeed, FeedbackSettings, JointFeedback, ProbeInput};
-pub use shared::config::homing::{HomingError, JointBounds, JointHoming};
+pub use shared::config::homing::{HomingError, IndexPulse, JointBounds, JointHoming};
 pub use shared::config::stops::StopSettings;
 pub use shared::config::superposition::{Superposition, SuperpositionControl};
 pub use shared::config::{Config, Gantry, JogSettings, RealTime, SoftLimits};

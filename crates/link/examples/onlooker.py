@@ -46,12 +46,14 @@ class Setpoint(ctypes.Structure):
             "joint_acceleration", "away")),
         ("events", Event * 16),
         ("superposed", Axes),
+        ("index", ctypes.c_uint32),
+        ("reserved", ctypes.c_uint32),
     ]
 
     @staticmethod
     def type_name():
         """What iceoryx2 compares, with size and alignment."""
-        return "glidepath.SetpointMirror.v5"
+        return "glidepath.SetpointMirror.v6"
 
 
 def main(instance, root=None):

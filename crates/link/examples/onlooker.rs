@@ -34,7 +34,7 @@ struct Event {
 /// its size and its alignment.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, ZeroCopySend)]
-#[type_name("glidepath.SetpointMirror.v5")]
+#[type_name("glidepath.SetpointMirror.v6")]
 struct Setpoint {
     boot_id: u64,
     reference: u64,
@@ -67,6 +67,8 @@ struct Setpoint {
     away: [f64; 9],
     events: [Event; 16],
     superposed: [f64; 9],
+    index: u32,
+    reserved: u32,
 }
 
 fn main() -> Result<(), Box<dyn core::error::Error>> {

@@ -106,14 +106,15 @@ layout!(setpoint_frame, SetpointFrame, "glidepath.SetpointFrame.v4", 808,
     path_v: 40, path_s: 48, planned_override: 56, program: 64, programmed_v: 72, position: 80,
     velocity: 152, acceleration: 224, events: 296,
 });
-layout!(setpoint, Setpoint, "glidepath.Setpoint.v5", 1232,
+layout!(setpoint, Setpoint, "glidepath.Setpoint.v6", 1240,
     Setpoint { state: MachineState::Running.code(), ..Zeroable::zeroed() }, {
     boot_id: 0, reference: 8, number: 16, tick: 24, scheduled_ns: 32, apply_ns: 40,
     lateness_ns: 48, missed_ticks: 56, epoch: 64, sequence: 72, fraction: 80, line: 88, flags: 92,
     marks: 96, state: 100, event_count: 104, block: 108, enable: 112, home: 116,
     path_s: 120, feed_v: 128, effective_override: 136, position: 144, velocity: 216,
     acceleration: 288, joint_position: 360, joint_velocity: 432, joint_acceleration: 504,
-    away: 576, events: 648, superposed: 1160,
+    away: 576, events: 648, superposed: 1160, index: 1232,
+    reserved: 1236,
 });
 layout!(status, Status, "glidepath.Status.v15", 1888,
     Status { state: MachineState::Idle.code(), ..Zeroable::zeroed() }, {
@@ -148,13 +149,13 @@ layout!(command_reply, CommandReply, "glidepath.CommandReply.v3", 152,
     CommandReply { state: 1, ..Zeroable::zeroed() }, {
     boot_id: 0, number: 8, refusal: 16, state: 20, message: 24,
 });
-layout!(feedback, Feedback, "glidepath.Feedback.v3", 816,
+layout!(feedback, Feedback, "glidepath.Feedback.v4", 896,
     Zeroable::zeroed(), {
     boot_id: 0, number: 8, sample_ns: 16, reference: 24, setpoint_number: 32, joints: 40,
     enabled: 44, homed: 48, homing: 52, fault: 56, limit_low: 60, limit_high: 64, home_switch: 68,
     position: 72, velocity: 144, drive_state: 216, fault_code: 252, digital_in: 288, analog_in: 296,
     spindle_angle: 360, spindle_v: 368, spindle_index_count: 376, spindle_flags: 384, loss: 388,
-    loss_value: 392, latch: 400,
+    loss_value: 392, latch: 400, index_armed: 816, index_kept: 820, index_position: 824,
 });
 layout!(jog_demand, JogDemand, "glidepath.JogDemand.v2", 136,
     Zeroable::zeroed(), {

@@ -102,6 +102,8 @@ pub(crate) struct Joint {
     is_closed: bool,
     /// Index pulses so far, and the count at the last one.
     pub(crate) index: (u64, f64),
+    /// How many there were when its drive was told to keep the next one, if it was.
+    index_from: Option<u64>,
 }
 
 impl Joint {
@@ -124,6 +126,7 @@ impl Joint {
             bounces_ns: 0,
             is_closed: is_on_cam(settings, settings.start),
             index: (0, 0.0),
+            index_from: None,
         }
     }
 
@@ -154,6 +157,19 @@ impl Joint {
 
     pub(crate) fn has_index(&self) -> bool {
         self.settings.index.is_some()
+    }
+
+    /// Whether its drive is to keep where the next index pulse is.
+    pub(crate) fn keep_index(&mut self, is_asked: bool) {
+        let count = self.index.0;
+        self.index_from = is_asked.then(|| self.index_from.unwrap_or(count));
+    }
+
+    /// Whether its drive is ready for the index pulse, and where that was.
+    pub(crate) fn kept_index(&self) -> (bool, Option<f64>) {
+        let from = self.index_from.filter(|_| self.has_index());
+        let kept = from.is_some_and(|from| self.index.0 > from);
+        (from.is_some(), kept.then_some(self.index.1))
     }
 
     /// What its contact does after a step, and whether an index pulse was passed in it.

@@ -207,6 +207,7 @@ impl Plant {
                 let bit = 1 << index;
                 let wanted: Option<JointState> =
                     demand.and_then(|demand| demand.get(index).copied());
+                joint.keep_index(setpoint.is_some_and(|s| s.index & bit != 0));
                 joint.step(step_t, enable & bit != 0, home & bit != 0, wanted);
             }
             self.spindle.step(step_t);
@@ -300,6 +301,10 @@ impl Plant {
         };
         for (index, joint) in self.joints.iter().enumerate() {
             feedback.velocity[index] = joint.velocity();
+            let (is_armed, kept) = joint.kept_index();
+            feedback.index_armed |= u32::from(is_armed) << index;
+            feedback.index_kept |= u32::from(kept.is_some()) << index;
+            feedback.index_position[index] = kept.unwrap_or(0.0);
             feedback.fault_code[index] = joint.fault_code;
             feedback.drive_state[index] = if joint.fault_code != 0 {
                 DriveState::Fault

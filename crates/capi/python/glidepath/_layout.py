@@ -6,8 +6,8 @@ Written by a test of the library: do not change it here.
 import ctypes
 import enum
 
-ABI = 10
-LAYOUT = 0xc4ce896a1a90435c
+ABI = 11
+LAYOUT = 0x199e03c7cac11c7e
 AXES = 9
 
 
@@ -466,6 +466,8 @@ class SetpointRecord(ctypes.Structure):
         ("away", ctypes.c_double * 9),
         ("events", EventRecord * 16),
         ("superposed", ctypes.c_double * 9),
+        ("index", ctypes.c_uint32),
+        ("reserved", ctypes.c_uint32),
     ]
 
 
@@ -593,6 +595,9 @@ class FeedbackRecord(ctypes.Structure):
         ("loss", ctypes.c_uint32),
         ("loss_value", ctypes.c_double),
         ("latch", LatchRecord * 4),
+        ("index_armed", ctypes.c_uint32),
+        ("index_kept", ctypes.c_uint32),
+        ("index_position", ctypes.c_double * 9),
     ]
 
 
@@ -783,7 +788,7 @@ PLACES = {
         "depth_um": 24,
         "phase": 28,
     }),
-    SetpointRecord: (1232, {
+    SetpointRecord: (1240, {
         "boot_id": 0,
         "reference": 8,
         "number": 16,
@@ -815,6 +820,8 @@ PLACES = {
         "away": 576,
         "events": 648,
         "superposed": 1160,
+        "index": 1232,
+        "reserved": 1236,
     }),
     StatusRecord: (1888, {
         "boot_id": 0,
@@ -905,7 +912,7 @@ PLACES = {
         "freeze_reason": 1880,
         "job_stream": 1884,
     }),
-    FeedbackRecord: (816, {
+    FeedbackRecord: (896, {
         "boot_id": 0,
         "number": 8,
         "sample_ns": 16,
@@ -932,6 +939,9 @@ PLACES = {
         "loss": 388,
         "loss_value": 392,
         "latch": 400,
+        "index_armed": 816,
+        "index_kept": 820,
+        "index_position": 824,
     }),
     ReplyRecord: (152, {
         "boot_id": 0,

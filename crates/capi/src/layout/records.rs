@@ -89,7 +89,7 @@ structure! {
 
 structure! {
     /// What the drives are to do at apply_ns.
-    SETPOINT: "gp_setpoint" = Setpoint, Setpoint::NAME, 1232 {
+    SETPOINT: "gp_setpoint" = Setpoint, Setpoint::NAME, 1240 {
         /// Identifies one life of the interpolator: all counts start again with a new one.
         boot_id: u64,
         /// Counts how often the position was taken from the drives, or given a new meaning, instead
@@ -160,6 +160,11 @@ structure! {
         /// How far the axes are from position by a superposition, mm or degrees: the joints are where both
         /// together ask for.
         superposed: Each<f64>,
+        /// The joints whose drives are to keep where they are at the next index pulse of their encoder, one bit
+        /// each. What was kept before counts no more while the bit is 0.
+        index: u32,
+        /// Zero.
+        reserved: u32,
     }
 }
 
@@ -355,7 +360,7 @@ structure! {
 
 structure! {
     /// What a servo stack knows of the joints it drives, at one moment.
-    FEEDBACK: "gp_feedback" = Feedback, Feedback::NAME, 816 {
+    FEEDBACK: "gp_feedback" = Feedback, Feedback::NAME, 896 {
         /// Identifies one life of the stack: another stack, or the same started again, has another.
         boot_id: u64,
         /// Counts the records of this life, without gaps. A gap seen by a reader is loss.
@@ -412,6 +417,13 @@ structure! {
         loss_value: f64,
         /// The inputs that are latched.
         latch: [Latch; LATCHES],
+        /// The joints whose drives are ready to keep where they are at the next index pulse, one bit each: of
+        /// those in index of gp_setpoint alone, and not before they have forgotten what they kept.
+        index_armed: u32,
+        /// Those of them that have kept it since.
+        index_kept: u32,
+        /// Where these were at the index pulse, as the drives count, mm or degrees.
+        index_position: Each<f64>,
     }
 }
 

@@ -63,7 +63,7 @@ impl Axis {
                 control: 0,
                 target: 0,
                 mode: crate::image::CYCLIC_POSITION,
-                is_probe_on: false,
+                probe: crate::probe::ProbeUse::Off,
                 asks_probe: false,
             },
             is_homed: settings.homing.is_none(),

@@ -22,7 +22,7 @@ impl Step<'_> {
             control,
             target: self.drive_inputs.inputs.actual,
             mode: CYCLIC_POSITION,
-            is_probe_on: false,
+            probe: crate::probe::ProbeUse::Off,
             asks_probe: false,
         };
     }

@@ -10,7 +10,7 @@ use crate::axis::{self, Axis, DriveCommand, DriveInputs};
 use crate::device_state::DeviceState;
 use crate::event::Event;
 use crate::image::{Inputs, Outputs};
-use crate::probe::Probing;
+use crate::probe::{IndexSearches, ProbeUse, Probing};
 use crate::settings::Settings;
 use crate::state;
 use crate::terminal::{DigitalInput, Terminals};
@@ -85,6 +85,8 @@ pub struct Bridge<S: Subscriber<Setpoint>> {
     drive_inputs: Vec<(usize, DigitalInput)>,
     /// The touch probes of the drives, if they are used.
     probing: Option<Probing>,
+    /// The same units, while joints look for the index pulse of their encoders.
+    indices: IndexSearches,
 }
 
 impl<S: Subscriber<Setpoint>> Bridge<S> {
@@ -124,6 +126,7 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
             loss: None,
             drive_inputs: settings.drive_inputs.clone(),
             probing: Probing::new(settings, WINDOW),
+            indices: IndexSearches::new(settings.drives.len()),
         }
     }
 
@@ -154,6 +157,7 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
         if let Some(probing) = &mut self.probing {
             probing.begin();
         }
+        self.indices.begin();
         if is_first {
             self.servo.rearm_at(&actual, &window);
         }
@@ -311,15 +315,22 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
         }
     }
 
-    /// Switches touch probes on and off.
+    /// Has touch probes keep what is asked for.
     fn lead_probes(&mut self, tell: &mut dyn FnMut(Event)) {
-        let Some(probing) = &mut self.probing else {
-            return;
-        };
+        self.indices.ask(self.servo.last().map_or(0, |s| s.index));
         for (nth, output) in self.outputs.iter_mut().enumerate() {
-            (output.is_probe_on, output.asks_probe) = (probing.is_on(nth), probing.asks(nth));
+            let of_probe = self.probing.as_ref().map(|probing| {
+                let wanted = if probing.is_on(nth) {
+                    ProbeUse::Contact
+                } else {
+                    ProbeUse::Off
+                };
+                (wanted, probing.asks(nth))
+            });
+            let of_index = self.indices.used(nth).map(|wanted| (wanted, true));
+            (output.probe, output.asks_probe) = of_index.or(of_probe).unwrap_or_default();
         }
-        if let Some(event) = probing.take_event() {
+        if let Some(event) = self.probing.as_mut().and_then(Probing::take_event) {
             tell(event);
         }
     }

@@ -64,15 +64,18 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
                 input.tell(digital >> (bit & 31) & 1 == 1, &mut feedback);
             }
         }
+        let seen = self.drives.iter().map(|drive| Seen {
+            settings: &drive.axis.settings,
+            inputs: drive.inputs.probe,
+            is_present: drive.is_present(),
+            places: &drive.places,
+            newest: slot,
+        });
+        self.indices.sample(&mut feedback, seen.clone());
         if let Some(probing) = &mut self.probing {
-            let seen = self.drives.iter().map(|drive| Seen {
-                settings: &drive.axis.settings,
-                inputs: drive.inputs.probe,
-                is_present: drive.is_present(),
-                places: &drive.places,
-                newest: slot,
-            });
-            probing.sample(&mut feedback, seen);
+            let left = seen.enumerate();
+            let left = left.map(|(nth, seen)| self.indices.left_of(nth, seen));
+            probing.sample(&mut feedback, left);
         }
         self.tell_loss(&mut feedback);
         self.number += 1;

@@ -10,7 +10,7 @@ use super::mailbox::Mailbox;
 use super::probe_mail::{MESSAGE, ProbeMail};
 use crate::coe::emergency;
 use crate::frame::{Address, Command, Frame, Slot};
-use crate::probe::ProbeInputs;
+use crate::probe::{ProbeInputs, ProbeUse};
 use crate::registers::MAILBOX_IN_STATUS;
 
 /// Bit of a mailbox' status.
@@ -59,9 +59,9 @@ impl Asides {
         self.emergency.take()
     }
 
-    /// Whether the touch probe of a drive is to be on, and is to be asked what it keeps.
-    pub(super) fn want(&mut self, axis: usize, is_on: bool, asks: bool) {
-        self.mail.want(axis, is_on, asks);
+    /// What the touch probe of a drive is to do, and whether it is to be asked what it keeps.
+    pub(super) fn want(&mut self, axis: usize, wanted: ProbeUse, asks: bool) {
+        self.mail.want(axis, wanted, asks);
     }
 
     /// What the touch probe of a drive has answered; `None` if it is not asked by its mailbox.

@@ -78,7 +78,7 @@ pub(super) fn set<W: Wire>(
             let mode = object(drive.own(0x6060), 0, 1);
             write(bus, device, mode, CYCLIC_POSITION)?;
         }
-        if let Some(probe) = drive.probe {
+        if let Some(probe) = drive.touch_probe() {
             let access = probes::prepare(bus, device, drive, probe)?;
             layout.probe = Some(access.find((&outputs, &inputs), &own));
         }
@@ -187,7 +187,7 @@ fn map<W: Wire>(
             )
         })
     };
-    let has_probes = drives.iter().any(|drive| drive.probe.is_some());
+    let has_probes = drives.iter().any(|drive| drive.touch_probe().is_some());
     match map_all(has_probes) {
         Err(BusError::Unfit { .. }) if has_probes => map_all(false),
         done => done,
@@ -196,7 +196,7 @@ fn map<W: Wire>(
 
 /// The outputs that a drive needs.
 fn outputs(drive: &DriveSettings, with_probe: bool) -> Vec<u32> {
-    let probe = drive.probe.filter(|_| with_probe);
+    let probe = drive.touch_probe().filter(|_| with_probe);
     let mut entries = OUTPUTS.to_vec();
     entries.extend(probe.map(|_| PROBE_OUTPUT));
     entries
@@ -206,7 +206,7 @@ fn outputs(drive: &DriveSettings, with_probe: bool) -> Vec<u32> {
 fn inputs(drive: &DriveSettings, with_probe: bool) -> Vec<u32> {
     let mut entries = INPUTS.to_vec();
     entries.extend(drive.has_inputs.then_some(DIGITAL));
-    if let Some(probe) = drive.probe.filter(|_| with_probe) {
+    if let Some(probe) = drive.touch_probe().filter(|_| with_probe) {
         let kept = probe.places().map(|index| u32::from(index) << 16 | 0x20);
         entries.push(PROBE_STATUS);
         entries.extend(kept);

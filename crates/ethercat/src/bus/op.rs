@@ -244,7 +244,7 @@ impl<'w, W: Wire> Op<'w, W> {
                 .extend(frame.push(Command::Fprd, index, address, 6));
         }
         for (nth, output) in outputs.iter().enumerate() {
-            self.asides.want(nth, output.is_probe_on, output.asks_probe);
+            self.asides.want(nth, output.probe, output.asks_probe);
         }
         self.asides.push(frame, index);
         self.sent_ns = self.wire.now_ns();

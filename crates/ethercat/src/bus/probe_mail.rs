@@ -7,7 +7,7 @@ use super::mailbox::Mailbox;
 use crate::coe::{self, Object, Reply, object};
 use crate::exchange::station;
 use crate::layout::{Drives, ProbeAccess};
-use crate::probe::ProbeInputs;
+use crate::probe::{ProbeInputs, ProbeUse};
 use crate::settings::DriveSettings;
 
 /// Bytes of a question.
@@ -29,9 +29,11 @@ struct Mailed {
     status: Object,
     places: [Object; 2],
     /// What is wanted of it, and what it was told.
-    is_on: bool,
+    wanted: ProbeUse,
     asks: bool,
-    was_told: Option<bool>,
+    was_told: Option<ProbeUse>,
+    /// What is being read began before that was wanted.
+    is_outdated: bool,
     /// What is being read, and what was read.
     reading: ProbeInputs,
     told: ProbeInputs,
@@ -49,7 +51,7 @@ struct Question {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum What {
-    Switch(bool),
+    Switch(ProbeUse),
     Status,
     Place(usize),
 }
@@ -84,9 +86,10 @@ impl ProbeMail {
                 function: own(0x60b8, 2),
                 status: own(0x60b9, 2),
                 places: access.probe.places().map(|index| own(index, 4)),
-                is_on: false,
+                wanted: ProbeUse::Off,
                 asks: false,
                 was_told: None,
+                is_outdated: false,
                 reading: ProbeInputs::default(),
                 told: ProbeInputs::default(),
             })
@@ -103,9 +106,13 @@ impl ProbeMail {
     }
 
     /// What is wanted of the touch probe of a drive.
-    pub(super) fn want(&mut self, axis: usize, is_on: bool, asks: bool) {
+    pub(super) fn want(&mut self, axis: usize, wanted: ProbeUse, asks: bool) {
         if let Some(probe) = self.probes.iter_mut().find(|probe| probe.axis == axis) {
-            (probe.is_on, probe.asks) = (is_on, asks);
+            if probe.wanted != wanted {
+                probe.is_outdated = true;
+                probe.told = ProbeInputs::unlike(wanted);
+            }
+            (probe.wanted, probe.asks) = (wanted, asks);
         }
         if self.question.is_none() {
             self.ask_next();
@@ -126,8 +133,8 @@ impl ProbeMail {
             let nth = (self.turn + step) % count;
             let probe = &self.probes[nth];
             let is_mapped = probe.access.function.is_some();
-            let what = if !is_mapped && probe.was_told != Some(probe.is_on) {
-                What::Switch(probe.is_on)
+            let what = if !is_mapped && probe.was_told != Some(probe.wanted) {
+                What::Switch(probe.wanted)
             } else if probe.asks && probe.access.places.is_none() {
                 What::Status
             } else {
@@ -140,6 +147,11 @@ impl ProbeMail {
     }
 
     fn ask(&mut self, nth: usize, what: What) {
+        if let Some(probe) = self.probes.get_mut(nth)
+            && what == What::Status
+        {
+            probe.is_outdated = false;
+        }
         let number = self
             .probes
             .get(nth)
@@ -160,9 +172,9 @@ impl ProbeMail {
         let question = self.question.filter(|question| question.since.is_none())?;
         let probe = self.probes.get(question.nth)?;
         let value = match question.what {
-            What::Switch(is_on) => {
+            What::Switch(wanted) => {
                 let access = probe.access;
-                Some(access.probe.function(access.before, is_on).into())
+                Some(access.probe.function(access.before, wanted).into())
             }
             What::Status | What::Place(_) => None,
         };
@@ -242,10 +254,12 @@ impl Mailed {
     )]
     fn take(&mut self, what: What, value: u32) -> Option<What> {
         let from = match what {
-            What::Switch(is_on) => {
-                self.was_told = Some(is_on);
+            What::Switch(told) => {
+                self.was_told = Some(told);
                 return None;
             }
+            // What it was before: it is asked again.
+            What::Status | What::Place(_) if self.is_outdated => return None,
             What::Status => {
                 let status = u16::try_from(value).unwrap_or(0);
                 self.reading.status = self.access.probe.status(status);

@@ -49,7 +49,8 @@ fn unfit(device: &Device, drive: &DriveSettings, error: BusError) -> BusError {
         name: device.name.clone(),
         what: format!(
             "the drive of J{} has no touch probe as drives.toml wants it ({index:#06x}:{sub} was refused: {}): leave \
-             `probe` out of the tables of all drives, and the contact is found from positions, as without",
+             `probe` out of the tables of all drives, and the contact is found from positions, as without; and `index` \
+             out of its own",
             drive.joint,
             abort_text::text(code)
         ),

@@ -13,21 +13,50 @@ pub struct TouchProbe {
     pub source: Option<u16>,
 }
 
-/// On; source by 0x60D0; rising and falling edges. Single shot, and the unit's own input, are 0.
+/// The use of a unit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ProbeUse {
+    /// It is off, and keeps nothing.
+    #[default]
+    Off,
+    /// It keeps both edges of the machine's probe.
+    Contact,
+    /// It keeps the rising edge of the encoder's zero impulse.
+    Index,
+}
+
+/// On; zero impulse of the encoder, or source by 0x60D0; rising and falling edges. Single shot, and the unit's own
+/// input, are 0.
 const ON: u16 = 1;
+const ZERO_IMPULSE: u16 = 4;
+const RISING_EDGE: u16 = 0x10;
 const BY_OBJECT: u16 = 8;
 const BOTH_EDGES: u16 = 0x30;
 
 impl TouchProbe {
+    /// A unit that keeps the zero impulse alone.
+    pub(crate) const fn of_index(unit: u8) -> Self {
+        Self {
+            unit,
+            number: 0,
+            is_inverted: false,
+            source: None,
+        }
+    }
+
     /// How far the bits of its unit are shifted.
     const fn shift(self) -> u32 {
         if self.unit == 2 { 8 } else { 0 }
     }
 
     /// What 0x60B8 is to be: the bits of the other unit as they were.
-    pub(crate) const fn function(self, before: u16, is_on: bool) -> u16 {
+    pub(crate) const fn function(self, before: u16, of: ProbeUse) -> u16 {
         let source = if self.source.is_some() { BY_OBJECT } else { 0 };
-        let own = if is_on { ON | BOTH_EDGES | source } else { 0 };
+        let own = match of {
+            ProbeUse::Off => 0,
+            ProbeUse::Contact => ON | BOTH_EDGES | source,
+            ProbeUse::Index => ON | ZERO_IMPULSE | RISING_EDGE,
+        };
         before & !(0xff << self.shift()) | own << self.shift()
     }
 
@@ -63,10 +92,12 @@ mod tests {
             source: Some(5),
             ..first
         };
-        assert_eq!(first.function(0x3838, true), 0x3831);
-        assert_eq!(first.function(0x3838, false), 0x3800);
-        assert_eq!(second.function(0x3838, true), 0x3938);
-        assert_eq!(second.function(0x3838, false), 0x0038);
+        assert_eq!(first.function(0x3838, ProbeUse::Contact), 0x3831);
+        assert_eq!(first.function(0x3838, ProbeUse::Off), 0x3800);
+        assert_eq!(first.function(0x3838, ProbeUse::Index), 0x3815);
+        assert_eq!(second.function(0x3838, ProbeUse::Contact), 0x3938);
+        assert_eq!(second.function(0x3838, ProbeUse::Off), 0x0038);
+        assert_eq!(second.function(0x3838, ProbeUse::Index), 0x1538);
         assert_eq!((first.status(0x0502), second.status(0x0502)), (2, 5));
     }
 }

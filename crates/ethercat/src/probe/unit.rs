@@ -1,5 +1,7 @@
 //! A unit of a touch probe: switched off and on again, it keeps the next edge.
 
+use super::settings::ProbeUse;
+
 /// The bits of a unit's status.
 const IS_ON: u8 = 1;
 pub(super) const RISING: u8 = 2;
@@ -18,6 +20,22 @@ impl ProbeInputs {
     /// Whether it keeps an edge, of those of a mask.
     pub(crate) const fn has(&self, edges: u8) -> bool {
         self.status & edges != 0
+    }
+
+    /// What a unit that has not answered yet is taken to do: not what it is to.
+    pub(crate) const fn unlike(wanted: ProbeUse) -> Self {
+        Self {
+            status: if matches!(wanted, ProbeUse::Off) {
+                IS_ON
+            } else {
+                0
+            },
+            places: [0; 2],
+        }
+    }
+
+    pub(super) const fn is_on(&self) -> bool {
+        self.status & IS_ON != 0
     }
 }
 

@@ -42,8 +42,8 @@ pub struct EthercatArgs {
     #[arg(long, value_name = "CSV", requires = "emulated")]
     pub emulated_record: Option<PathBuf>,
     /// What stands at the inputs of the emulated devices: a file with lines like `input 3 on`, `home 0 on`,
-    /// `limit_high 1 off` and `analog 0 2.5`, looked at while they run. Without --drives there is a device
-    /// that has inputs of every kind
+    /// `limit_low 1 off`, `limit_high 1 off`, `analog 0 2.5` and `input 0 at J2 -7.25` (on where J2 is there or
+    /// beyond), looked at while they run. Without --drives there is a device that has inputs of every kind
     #[arg(long, value_name = "FILE", requires = "emulated")]
     pub emulated_inputs: Option<PathBuf>,
     /// It is in its namespace already

@@ -235,6 +235,7 @@ pub(super) struct RawHome {
     pub(super) latch_velocity: Optional<f64>,
     pub(super) final_velocity: Optional<f64>,
     pub(super) index_input: Optional<i64>,
+    pub(super) index: Optional<String>,
     pub(super) offset: Optional<f64>,
     pub(super) position: Optional<f64>,
     pub(super) absolute: Optional<String>,

@@ -163,6 +163,7 @@ fn drives(
                 span: Some(span.clone()),
             });
         }
+        touch_probe::is_index_known(judge, &settings, machine, &span);
         for (what, is_same) in [
             (
                 "joint",
@@ -268,6 +269,9 @@ fn drive(judge: &mut Judge, raw: RawDrive, velocities: &[f64]) -> DriveSettings 
         )
     });
     let process_at = process_at(judge, &raw);
+    let probe = raw.probe.as_ref();
+    let probe = probe.and_then(|probe| touch_probe::touch_probe(judge, probe));
+    let index = touch_probe::index(judge, raw.index.as_ref(), probe);
     DriveSettings {
         joint,
         position,
@@ -288,9 +292,8 @@ fn drive(judge: &mut Judge, raw: RawDrive, velocities: &[f64]) -> DriveSettings 
         following_ms: following_ms.unwrap_or(10),
         enable_window: judge.number_or("drive.enable_window", &raw.enable_window, &WINDOW, 0.05),
         quick_stop_a: judge.number("drive.quick_stop", &raw.quick_stop, &RATE),
-        probe: raw
-            .probe
-            .and_then(|probe| touch_probe::touch_probe(judge, &probe)),
+        probe,
+        index,
         has_inputs: false,
         max_v: velocities.get(joint).copied().unwrap_or(1.0),
     }

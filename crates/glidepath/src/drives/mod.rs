@@ -6,6 +6,7 @@ mod bus;
 mod config;
 mod device;
 mod encoder;
+mod found;
 mod judge;
 mod raw;
 mod raw_device;
@@ -17,11 +18,13 @@ mod tests;
 mod touch_probe;
 mod words;
 mod written;
+mod written_probe;
 
 pub use config::DrivesConfig;
+pub use found::{Found, FoundProbe};
 pub(crate) use judge::joint_velocities;
 pub use source::DrivesSource;
-pub use written::{Found, written};
+pub use written::written;
 
 use crate::config::{ConfigError, MachineConfig, parse_as};
 use crate::text_file;

@@ -50,6 +50,7 @@ pub(super) struct RawDrive {
     pub(super) quick_stop: Spanned<f64>,
     pub(super) homing: Optional<RawHoming>,
     pub(super) probe: Option<RawTouchProbe>,
+    pub(super) index: Optional<i64>,
     #[serde(default)]
     pub(super) inputs: Vec<Spanned<RawInput>>,
 }

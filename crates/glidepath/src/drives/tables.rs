@@ -34,6 +34,8 @@ impl Numbers {
 pub(super) struct Tables {
     inputs: Numbers,
     outputs: Numbers,
+    /// A device was given the encoder of the spindle.
+    has_encoder: bool,
 }
 
 impl Tables {
@@ -54,10 +56,16 @@ impl Tables {
         if device.alias != 0 {
             let _ = writeln!(text, "# alias = {}", device.alias);
         }
+        let counter = Counter::of(windows);
+        let is_free = move |entry: &Entry| counter.is_none() || !is_of_counter(entry);
         let of = |is_output| {
             let windows = windows.iter().filter(move |w| w.is_output == is_output);
-            windows.flat_map(|window| window.entries.iter().copied())
+            let entries = windows.flat_map(|window| window.entries.iter().copied());
+            entries.filter(is_free)
         };
+        if let Some(counter) = counter {
+            self.encoder(text, counter);
+        }
         self.list(text, "inputs", of(false).filter(|entry| entry.bits == 1));
         self.list(text, "analog_inputs", of(false).filter(is_number));
         self.list(text, "outputs", of(true).filter(|entry| entry.bits == 1));
@@ -67,6 +75,26 @@ impl Tables {
         {
             let _ = writeln!(text, "# {}", told(watchdog));
         }
+    }
+
+    /// What a counter would be as the encoder of the spindle. How many counts a revolution has nobody tells.
+    fn encoder(&mut self, text: &mut String, counter: Counter) {
+        let index = match counter {
+            Counter::WithIndex => "",
+            Counter::Alone => ", index = false",
+        };
+        let line = format!("encoder = {{ counts_per_rev = 0{index} }}");
+        let _ = if core::mem::replace(&mut self.has_encoder, true) {
+            writeln!(
+                text,
+                "# # {line}     # or that one, not both: a machine has one"
+            )
+        } else {
+            writeln!(
+                text,
+                "# {line}     # if it is on the spindle: four times its lines"
+            )
+        };
     }
 
     fn list(&mut self, text: &mut String, key: &str, entries: impl Iterator<Item = Entry>) {
@@ -111,6 +139,46 @@ impl Tables {
             let _ = write!(text, "# {key} = [\n{lines}# ]\n");
         }
     }
+}
+
+/// The counter of an encoder, as EL5101 and EL5151 have it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Counter {
+    /// It keeps what it is at the index.
+    WithIndex,
+    /// It only counts.
+    Alone,
+}
+
+impl Counter {
+    fn of(windows: &[Window]) -> Option<Self> {
+        let bits = |is_output, index, sub| {
+            let windows = windows.iter().filter(|w| w.is_output == is_output);
+            let mut entries = windows.flat_map(|window| &window.entries);
+            let found = entries.find(|entry| (entry.index, entry.sub) == (index, sub));
+            found.map(|entry| entry.bits)
+        };
+        let counter = bits(false, 0x6000, 0x11).filter(|bits| matches!(bits, 16 | 32))?;
+        let is_kept = bits(false, 0x6000, 0x12) == Some(counter);
+        let is_armed = bits(true, 0x7000, 0x01) == Some(1);
+        let is_set = bits(true, 0x7000, 0x03) == Some(1);
+        if is_kept && is_armed && bits(false, 0x6000, 0x01) == Some(1) {
+            return Some(Self::WithIndex);
+        }
+        // An analog input has its value there, too, and nothing beside it that leads a counter.
+        (is_kept || is_armed || is_set).then_some(Self::Alone)
+    }
+}
+
+/// Whether an entry is one by which the counter is told and led.
+const fn is_of_counter(entry: &Entry) -> bool {
+    matches!(entry.index, 0x6000 | 0x7000)
+}
+
+/// Whether a window has a digital input.
+pub(super) fn has_input(window: &Window) -> bool {
+    let is_input = |entry: &Entry| entry.bits == 1 && entry.index != 0;
+    !window.is_output && window.entries.iter().any(is_input)
 }
 
 fn is_number(entry: &Entry) -> bool {

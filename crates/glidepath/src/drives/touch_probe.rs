@@ -1,9 +1,11 @@
 //! The judgement of touch probes: of each drive, and of all together.
 
 use super::raw::RawTouchProbe;
-use crate::config::{ConfigDiagnostic, Judge, MachineConfig};
+use crate::config::{ConfigDiagnostic, HomingBy, Judge, MachineConfig};
 use core::ops::Range as Span;
 use glidepath_ethercat::{DIGITAL_INPUTS, DriveSettings, TouchProbe};
+use glidepath_interpolator::IndexPulse;
+use toml::Spanned;
 
 /// Judges that of a drive.
 pub(super) fn touch_probe(judge: &mut Judge, raw: &RawTouchProbe) -> Option<TouchProbe> {
@@ -24,6 +26,54 @@ pub(super) fn touch_probe(judge: &mut Judge, raw: &RawTouchProbe) -> Option<Touc
         is_inverted: raw.invert,
         source,
     })
+}
+
+/// Judges which one keeps the index pulse of a drive's encoder.
+pub(super) fn index(
+    judge: &mut Judge,
+    raw: Option<&Spanned<i64>>,
+    probe: Option<TouchProbe>,
+) -> Option<u8> {
+    let raw = raw?;
+    let help = "a drive has two touch probes, 1 and 2 (0x60B8)";
+    let unit = judge.whole("drive.index", raw, (1, 2), help)?;
+    if let Some(probe) = probe.filter(|probe| probe.unit != unit) {
+        judge.diagnostics.push(ConfigDiagnostic {
+            key: "drive.index".to_owned(),
+            message: format!(
+                "the index pulse is kept by touch probe {unit}, and `probe` is touch probe {}",
+                probe.unit
+            ),
+            help: Some("one touch probe of a drive does both: give the same".to_owned()),
+            span: Some(raw.span()),
+        });
+    }
+    Some(unit)
+}
+
+/// Whether the drive of a joint that comes home by its index pulse is told how to keep that.
+pub(super) fn is_index_known(
+    judge: &mut Judge,
+    drive: &DriveSettings,
+    machine: &MachineConfig,
+    span: &Span<usize>,
+) {
+    let home = machine.home_of_joints.get(drive.joint).copied().flatten();
+    let is_asked = machine.feedback.homing == HomingBy::Controller
+        && home.is_some_and(|home| home.index == Some(IndexPulse::Drive));
+    if is_asked && drive.index.is_none() {
+        let joint = drive.joint;
+        judge.diagnostics.push(ConfigDiagnostic {
+            key: "drive.index".to_owned(),
+            message: format!(
+                "[home.J{joint}] of the machine has index = \"drive\", and the drive of J{joint} has no `index`"
+            ),
+            help: Some(
+                "add index = 1: the touch probe of the drive that keeps the zero impulse of its encoder".to_owned(),
+            ),
+            span: Some(span.clone()),
+        });
+    }
 }
 
 /// Judges all together: every drive has one or none has, and all of the same probe, whose input is among these

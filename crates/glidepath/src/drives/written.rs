@@ -1,51 +1,9 @@
 //! The writer of a first `drives.toml`, from the devices found on the wire.
 
+use super::found::Found;
 use super::tables::Tables;
+use super::written_probe::ProbeLines;
 use core::fmt::Write as _;
-use glidepath_ethercat::{Device, OutputWatchdog, Window};
-
-/// A device, and what it says of itself.
-#[derive(Debug, Clone)]
-pub struct Found {
-    /// Who it is.
-    pub device: Device,
-    /// Counts of a revolution of its motor, if it tells.
-    pub counts_per_revolution: Option<f64>,
-    /// Whether it can follow positions cycle by cycle, and find its home by itself; `None` if it is
-    /// no drive of CiA 402.
-    pub modes: Option<(bool, bool)>,
-    /// Its drives, 1 where it is none.
-    pub axes: u16,
-    /// What is in its process data.
-    pub windows: Vec<Window>,
-    /// How it watches its outputs, if it tells.
-    pub watchdog: Option<OutputWatchdog>,
-}
-
-impl Found {
-    /// Whether it is a drive that this master can lead, as far as it tells.
-    #[must_use]
-    pub fn is_drive(&self) -> bool {
-        let follows = self.modes.is_some_and(|(follows, _)| follows);
-        follows && self.device.may_be_drive() && self.device.clock.is_clock()
-    }
-
-    /// What it is, in words.
-    fn verdict(&self) -> &'static str {
-        match self.modes {
-            None if self.windows.iter().all(|window| window.entries.is_empty()) => {
-                "no drive, without process data"
-            }
-            None => "no drive",
-            Some((false, _)) => "a drive without cyclic position (mode 8): cannot be led",
-            Some(_) if !self.device.clock.is_clock() => {
-                "a drive without a distributed clock: cannot be led"
-            }
-            Some((true, false)) => "a drive; it does not find its home by itself",
-            Some((true, true)) => "a drive",
-        }
-    }
-}
 
 /// The file: what was found as comments, a table for each drive, and one as a comment for each other device. What nobody but the builder of
 /// the machine knows is left for them to fill in, in a way that is refused as it stands.
@@ -79,6 +37,7 @@ pub fn written(interface: &str, found: &[Found]) -> String {
     );
     let drives = found.iter().filter(|item| item.is_drive());
     let drives = drives.flat_map(|item| (0..item.axes).map(move |axis| (axis, item)));
+    let probes = ProbeLines::of(found);
     for (joint, (axis, item)) in drives.enumerate() {
         let (device, id) = (&item.device, item.device.identity);
         let _ = write!(
@@ -116,6 +75,8 @@ pub fn written(interface: &str, found: &[Found]) -> String {
              # Without an absolute encoder:\n\
              # homing = {{ method = 17, fast = 20.0, slow = 2.0, acceleration = 500.0, sequence = 0 }}\n"
         );
+        let probe = item.probes.get(usize::from(axis)).copied();
+        probes.write(&mut text, joint, probe.unwrap_or_default());
     }
     let mut tables = Tables::default();
     for item in found.iter().filter(|item| !item.is_drive()) {

@@ -357,6 +357,11 @@ fn a_way_home_is_judged_as_a_whole() {
             "neither for a switch nor for an index pulse",
         ),
         ("index_input = 3\n", "no velocity to find it at"),
+        ("index = 'drive'\n", "no velocity to find it at"),
+        (
+            "latch_velocity = 5\nsearch_travel = 9\nindex = 'drive'\nindex_input = 3\n",
+            "has its index pulse by an input, and by its drive",
+        ),
         ("position = 11\n", "is outside of the travel"),
     ] {
         let (message, ..) = only(&brought_home(lines));

@@ -18,6 +18,8 @@ pub(crate) struct JointMover {
     /// The joints are given back once they are at rest.
     ends: bool,
     number: u64,
+    /// The joints whose drives are to keep where their next index pulse is.
+    index: u32,
     period_t: f64,
 }
 
@@ -29,6 +31,7 @@ impl JointMover {
             is_active: false,
             ends: false,
             number: 0,
+            index: 0,
             period_t: config.period_t(),
         }
     }
@@ -54,6 +57,7 @@ impl JointMover {
         }
         self.number = order.number;
         self.ends |= order.ends;
+        self.index = if self.ends { 0 } else { order.index };
         let joints = self.trackers.iter_mut().zip(&self.bounds);
         let aims = order.place.iter().zip(&order.v);
         for (joint, ((tracker, bounds), (place, v))) in joints.zip(aims).enumerate() {
@@ -70,7 +74,7 @@ impl JointMover {
         if !self.is_active {
             return;
         }
-        self.ends = true;
+        (self.ends, self.index) = (true, 0);
         for (tracker, bounds) in self.trackers.iter_mut().zip(&self.bounds) {
             brake(tracker, bounds);
         }
@@ -78,7 +82,12 @@ impl JointMover {
 
     /// The drives have lost their power: there is nothing to move.
     pub(crate) const fn end(&mut self) {
-        self.is_active = false;
+        (self.is_active, self.index) = (false, 0);
+    }
+
+    /// The joints whose drives are to keep where their next index pulse is, one bit each.
+    pub(crate) const fn index(&self) -> u32 {
+        self.index
     }
 
     /// One period of the motion.

@@ -111,6 +111,7 @@ impl SetpointWriter {
         setpoint.boot_id = self.boot_id;
         setpoint.reference = self.reference;
         (setpoint.enable, setpoint.home) = (self.enable, self.home);
+        setpoint.index = 0;
         setpoint.number = self.number;
         self.number += 1;
         setpoint.epoch = epoch;

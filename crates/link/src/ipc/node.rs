@@ -346,7 +346,7 @@ mod tests {
     /// A setpoint of a version to come.
     #[repr(C)]
     #[derive(Debug, Clone, Copy, ZeroCopySend)]
-    #[type_name("glidepath.Setpoint.v6")]
+    #[type_name("glidepath.Setpoint.v7")]
     struct SetpointToCome([f64; size_of::<Setpoint>() / 8]);
 
     #[test]

@@ -10,7 +10,7 @@ use iceoryx2::prelude::ZeroCopySend;
 /// A copy of a [`Setpoint`], byte for byte. Its type name has the version of that record.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.SetpointMirror.v5")]
+#[type_name("glidepath.SetpointMirror.v6")]
 pub struct SetpointMirror(pub Setpoint);
 
 /// A copy of a [`Status`], byte for byte. Its type name has the version of that record.

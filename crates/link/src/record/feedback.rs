@@ -126,7 +126,7 @@ pub struct Latch {
 /// To be sent once a period or more often; 1 kHz is good.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.Feedback.v3")]
+#[type_name("glidepath.Feedback.v4")]
 pub struct Feedback {
     /// Identifies one life of the stack: another stack, or the same started again, has another.
     pub boot_id: u64,
@@ -185,6 +185,13 @@ pub struct Feedback {
     pub loss_value: f64,
     /// The inputs that are latched.
     pub latch: [Latch; LATCHES],
+    /// The joints whose drives are ready to keep where they are at the next index pulse, one bit each: of those in
+    /// [`super::Setpoint::index`] alone, and not before they have forgotten what they kept.
+    pub index_armed: u32,
+    /// Those of them that have kept it since.
+    pub index_kept: u32,
+    /// Where these were at the index pulse, as the drives count, mm or degrees.
+    pub index_position: [f64; AXES],
 }
 
 impl Feedback {
@@ -196,7 +203,7 @@ impl Feedback {
 }
 
 impl Record for Feedback {
-    const NAME: &'static str = "glidepath.Feedback.v3";
+    const NAME: &'static str = "glidepath.Feedback.v4";
 
     fn check(&self) -> Result<(), RecordError> {
         let fields = Fields(Self::NAME);
@@ -209,11 +216,14 @@ impl Record for Feedback {
             ("limit_low", self.limit_low),
             ("limit_high", self.limit_high),
             ("home_switch", self.home_switch),
+            ("index_armed", self.index_armed),
+            ("index_kept", self.index_kept),
         ] {
             fields.flags(field, mask, ALL_JOINTS)?;
         }
         fields.all_finite("position", &self.position)?;
         fields.all_finite("velocity", &self.velocity)?;
+        fields.all_finite("index_position", &self.index_position)?;
         for code in self.drive_state {
             fields.code::<DriveState>("drive_state", code)?;
         }

@@ -23,7 +23,7 @@ impl SetpointMarks {
 /// A setpoint: what the drives are to do at `apply_ns`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.Setpoint.v5")]
+#[type_name("glidepath.Setpoint.v6")]
 pub struct Setpoint {
     /// Identifies one life of the interpolator: all counts start again with a new one.
     pub boot_id: u64,
@@ -97,6 +97,11 @@ pub struct Setpoint {
     /// How far the axes are from the positions above, mm or degrees, by a superposition: those are what program and
     /// hand ask for, the joints do both.
     pub superposed: [f64; AXES],
+    /// The joints whose drives are to keep where they are at the next index pulse of their encoder, one bit each:
+    /// see [`super::Feedback::index_armed`]. What was kept before counts no more while the bit is 0.
+    pub index: u32,
+    /// Must be zero.
+    pub reserved: u32,
 }
 
 impl Setpoint {
@@ -164,7 +169,7 @@ impl Setpoint {
 }
 
 impl Record for Setpoint {
-    const NAME: &'static str = "glidepath.Setpoint.v5";
+    const NAME: &'static str = "glidepath.Setpoint.v6";
 
     fn check(&self) -> Result<(), RecordError> {
         let fields = Fields(Self::NAME);
@@ -190,6 +195,8 @@ impl Record for Setpoint {
         fields.flags("marks", self.marks, marks)?;
         fields.flags("enable", self.enable, ALL_JOINTS)?;
         fields.flags("home", self.home, ALL_JOINTS)?;
+        fields.flags("index", self.index, ALL_JOINTS)?;
+        fields.zero("reserved", self.reserved)?;
         self.state()?;
         event::check(Self::NAME, (&self.events, self.event_count), PERIOD_NS_MAX)
     }

@@ -119,8 +119,8 @@ impl Machine {
         }
         if let Some((at, text)) = self.inputs.text(section, "HOME_USE_INDEX") {
             if is_true(text) {
-                let note =
-                    "the index pulse is an input that the drive latches: name it as index_input";
+                let note = "the index pulse is one that the drive keeps (index = \"drive\"), or an input that the servo stack latches: name \
+                     it as index_input";
                 self.draft.remark(table, note);
                 self.inputs.decide(at, Fate::Changed, note);
             } else {

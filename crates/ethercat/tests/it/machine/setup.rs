@@ -43,6 +43,7 @@ pub(crate) fn drive(joint: usize) -> DriveSettings {
         enable_window: 0.05,
         quick_stop_a: 4000.0,
         probe: None,
+        index: None,
         has_inputs: false,
         max_v: 200.0,
     }

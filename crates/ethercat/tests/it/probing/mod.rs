@@ -5,6 +5,7 @@
 //!       └─ the probe is wired to each of them ─┘
 //! ```
 
+mod index;
 mod inputs;
 mod search;
 mod telling;

@@ -138,7 +138,7 @@ pub(crate) fn setup() -> Setup {
         search_v: -20.0,
         latch_v: 1.0,
         final_v: 50.0,
-        index_input: None,
+        index: None,
         offset: -10.5,
         home: 0.0,
         absolute: None,

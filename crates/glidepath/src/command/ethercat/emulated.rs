@@ -15,7 +15,7 @@ use crate::exit::Exit;
 use crate::file_error::FileError;
 use core::sync::atomic::{AtomicBool, Ordering};
 use glidepath_emulator::{
-    DriveSettings as Emulated, HomeSwitch, Segment, TouchProbe as EmulatedProbe,
+    DriveSettings as Emulated, HomeSwitch, Segment, TouchProbe as EmulatedProbe, ZeroImpulse,
 };
 use glidepath_ethercat::{
     BusSettings, Demand, DigitalInput, DriveSettings, HomingSettings, MAX_FRAME, Mapping,
@@ -27,6 +27,8 @@ use std::io::{BufWriter, Write as _};
 use std::path::Path;
 use std::sync::mpsc::{Receiver, channel};
 
+/// A turn of an emulated motor, mm or degrees.
+const TURN: f64 = 5.0;
 /// A 23 bit encoder on a spindle of 5 mm, counts a mm.
 const COUNTS: f64 = 8_388_608.0 / 5.0;
 /// Counts that a drive has on either side of zero, with something to spare.
@@ -227,6 +229,7 @@ fn desk_drives(
         enable_window: 0.05,
         quick_stop_a: 4000.0,
         probe: None,
+        index: None,
         has_inputs: false,
         max_v,
     })
@@ -287,6 +290,17 @@ fn machine(args: &EthercatArgs, config: &MachineConfig) -> Result<Machine, Failu
     })
 }
 
+/// An index pulse every turn, and one where its drive counts zero.
+#[allow(clippy::cast_possible_truncation, reason = "judged: 1e10 at most")]
+fn zero_impulse(drive: &DriveSettings) -> ZeroImpulse {
+    let turn_counts = ((TURN * drive.counts_per_unit).round() as i64).max(2);
+    ZeroImpulse {
+        turn_counts,
+        at_counts: 0,
+        wide_counts: turn_counts / 100,
+    }
+}
+
 /// All devices, the drives among them as they begin.
 fn as_they_are(
     drives: &[DriveSettings],
@@ -301,8 +315,11 @@ fn as_they_are(
         let begin = drive.counts(begins[drive.joint]).unwrap_or(0);
         let there = &mut emulated[drive.position];
         there.axes = there.axes.max(usize::from(drive.axis) + 1);
-        if drive.probe.is_some() {
-            there.touch_probe = Some(EmulatedProbe::default());
+        if drive.probe.is_some() || drive.index.is_some() {
+            there.touch_probe = Some(EmulatedProbe {
+                zero: drive.index.map(|_| zero_impulse(drive)),
+                ..EmulatedProbe::default()
+            });
         }
         there.identity[0] = if drive.vendor == 0 {
             there.identity[0]

@@ -289,6 +289,7 @@ mod tests {
             enable_window: 0.05,
             quick_stop_a: 1000.0,
             probe: None,
+            index: None,
             has_inputs: false,
             max_v: 100.0,
         };

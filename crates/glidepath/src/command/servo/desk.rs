@@ -147,7 +147,7 @@ fn with_switch(joint: JointSettings, homing: Option<&JointHoming>) -> JointSetti
             cam: (edge.min(end), edge.max(end)),
             bounce_ns: BOUNCE_NS,
         }),
-        index: homing.index_input.map(|_| (PITCH, joint.start)),
+        index: homing.index.map(|_| (PITCH, joint.start)),
         ..joint
     }
 }

@@ -75,10 +75,10 @@ fn check(args: &HalArgs, config: &MachineConfig) -> Result<(), Failure> {
         );
     }
     let mut homes = config.home_of_joints.iter().flatten();
-    if homes.any(|home| home.index_input.is_some()) {
+    if homes.any(|home| home.index.is_some()) {
         return refused(
             "HAL's rows have no column for index pulses",
-            "take index_input out of the tables [home.…]: the edge of the switch is the home then",
+            "take index and index_input out of the tables [home.…]: the edge of the switch is the home then",
         );
     }
     let late_t = late_ns as f64 * 1e-9;

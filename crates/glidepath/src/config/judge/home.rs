@@ -6,7 +6,7 @@ use crate::config::raw::{Optional, RawAxis, RawHome};
 use crate::config::settings::{AxisConfig, HomingBy};
 use core::ops::Range as Bytes;
 use glidepath_geometry::Axis;
-use glidepath_interpolator::{JointBounds, JointHoming};
+use glidepath_interpolator::{IndexPulse, JointBounds, JointHoming};
 use glidepath_kinematics::{JOINTS, Mechanism};
 use std::collections::BTreeMap;
 use toml::Spanned;
@@ -138,14 +138,7 @@ impl Judge {
         let home = number("position", &raw.position, &place, 0.0);
         let search_travel = number("search_travel", &raw.search_travel, &way, 0.0);
         let clearance = number("clearance", &raw.clearance, &way, 0.0);
-        let index_input = raw.index_input.as_ref().and_then(|value| {
-            self.whole(
-                &key("index_input"),
-                value,
-                (0, 63),
-                "the digital input of the index pulse",
-            )
-        });
+        let index = self.index(name, raw);
         let sequence = raw.sequence.as_ref().and_then(|value| {
             self.whole(
                 &key("sequence"),
@@ -158,7 +151,7 @@ impl Judge {
             search_v,
             latch_v,
             final_v,
-            index_input,
+            index,
             offset,
             home,
             absolute: self.choice(
@@ -173,6 +166,26 @@ impl Judge {
             search_travel,
             clearance,
         }
+    }
+
+    /// Who keeps where the index pulse of a joint is.
+    fn index(&mut self, name: &str, raw: &RawHome) -> Option<IndexPulse> {
+        let key = |last: &str| format!("home.{name}.{last}");
+        let input = raw.index_input.as_ref().and_then(|value| {
+            let help = "the digital input of the index pulse";
+            self.whole(&key("index_input"), value, (0, 63), help)
+        });
+        let kept = [("none", false), ("drive", true)];
+        let by_drive = self.choice(&key("index"), raw.index.clone(), &kept);
+        if let (Some(value), true) = (&raw.index_input, by_drive) {
+            let help =
+                "leave index_input out: the drive is asked, and no input is latched".to_owned();
+            let message = format!("{name} has its index pulse by an input, and by its drive");
+            self.refuse_home(name, &message, help, Some(value.span()));
+        }
+        by_drive
+            .then_some(IndexPulse::Drive)
+            .or(input.map(IndexPulse::Input))
     }
 
     fn check_home(

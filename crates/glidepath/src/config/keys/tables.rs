@@ -117,7 +117,7 @@ pub(super) const HOME: &[Key] = &[
         number(-1e5, 1e5, "mm/s or °/s"),
         LeftOut::Value("0"),
         "velocity at which the place is found: of the search's sign onto the edge of the switch, of \
-         the other one off it; with index_input, to the index pulse. Without a search and without a \
+         the other one off it; with index or index_input, to the index pulse. Without a search and without a \
          latch, the joint is where its offset says. LinuxCNC's HOME_LATCH_VEL",
     ),
     key(
@@ -134,8 +134,17 @@ pub(super) const HOME: &[Key] = &[
             unit: "",
         },
         LeftOut::Means("the edge of the switch is the place"),
-        "the digital input that is the index pulse of the encoder, which the drive has to latch. \
+        "the digital input that is the index pulse of the encoder, which the servo stack has to latch. \
          LinuxCNC's HOME_USE_INDEX",
+    ),
+    key(
+        "home.J0.index",
+        Takes::Choice {
+            of: &["none", "drive"],
+        },
+        LeftOut::Value("\"none\""),
+        "\"drive\": the joint's drive keeps where the index pulse of its encoder is, and is asked to before the joint \
+         sets out: on EtherCAT by its touch probe, `index` in drives.toml. LinuxCNC's HOME_USE_INDEX",
     ),
     key(
         "home.J0.offset",

@@ -38,6 +38,7 @@ fn found(position: usize) -> Found {
         counts_per_revolution: Some(8_388_608.0),
         modes: Some((true, true)),
         axes: 1,
+        probes: Vec::new(),
         windows: Vec::new(),
         watchdog: None,
     }

@@ -97,3 +97,47 @@ fn the_probe_is_an_input_of_the_file_and_that_of_the_machine() {
         );
     }
 }
+
+#[test]
+fn the_index_pulse_is_kept_by_the_touch_probe_that_the_probe_has() {
+    let plain = |index: &str| file([index, "", ""], 5);
+    let drives = parse("drives.toml", &plain("index = 2"), &machine(4)).unwrap();
+    let indices: Vec<_> = drives.drives.iter().map(|drive| drive.index).collect();
+    assert_eq!(indices, [Some(2), None, None]);
+    let both = "probe = { number = 4 }\nindex = 1";
+    let drives = parse("drives.toml", &file([both; 3], 4), &machine(4)).unwrap();
+    assert!(drives.drives.iter().all(|drive| drive.index == Some(1)));
+    let told = wrong(&plain("index = 3"), &machine(4));
+    assert!(
+        told[0].0 == 9 && told[0].1.contains("drive.index = 3 is out of range"),
+        "{told:?}"
+    );
+    let told = wrong(
+        &file([both, both, "probe = { number = 4 }\nindex = 2"], 4),
+        &machine(4),
+    );
+    let message =
+        "the index pulse is kept by touch probe 2, and `probe` is touch probe 1".to_owned();
+    assert_eq!(told, [(26, message)]);
+}
+
+#[test]
+fn a_joint_that_comes_home_by_its_index_pulse_has_a_drive_that_keeps_it() {
+    let homes: String = (0..3)
+        .map(|joint| {
+            format!(
+                "[home.J{joint}]\nlatch_velocity = 2.0\nsearch_travel = 11.0\nindex = \"drive\"\n"
+            )
+        })
+        .collect();
+    let text = config::EMBEDDED.replace("source = \"none\"", "source = \"drives\"");
+    let text = text.replace("homing = \"none\"", "homing = \"controller\"") + &homes;
+    let machine = config::parse("machine.toml", &text).unwrap();
+    let index = "index = 1";
+    let told = wrong(&file([index, "", index], 5), &machine);
+    let message =
+        "[home.J1] of the machine has index = \"drive\", and the drive of J1 has no `index`"
+            .to_owned();
+    assert_eq!(told, [(10, message)]);
+    assert!(parse("drives.toml", &file([index; 3], 5), &machine).is_ok());
+}

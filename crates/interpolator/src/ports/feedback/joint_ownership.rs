@@ -5,6 +5,7 @@
 //! that the drives are off anyway. What another says of it meanwhile is refused, as a whole: a stack
 //! that takes itself to drive somebody else's joint is set up wrongly.
 
+use crate::ports::homing::Kept;
 use glidepath_kinematics::JOINTS;
 use glidepath_link::{FaultCause, Feedback, Latch, Loss, Record as _, SpindleFlags};
 
@@ -314,11 +315,29 @@ impl JointOwnership {
         }
     }
 
+    /// What the drive of a joint keeps of its index pulse, by what its stack says.
+    pub(super) fn index_kept(&self, joint: usize) -> Kept {
+        let Some(said) = self.driven_by(joint) else {
+            return Kept::No;
+        };
+        let bit = 1 << joint;
+        match said.index_position.get(joint) {
+            Some(place) if said.index_kept & bit != 0 => Kept::At(*place),
+            _ if said.index_armed & bit != 0 => Kept::Armed,
+            _ => Kept::No,
+        }
+    }
+
+    /// What the stack that drives a joint has said last.
+    fn driven_by(&self, joint: usize) -> Option<&Feedback> {
+        let mine = |stack: &&Stack| !stack.is_refused() && stack.last.joints & (1 << joint) != 0;
+        Some(&self.stacks.iter().find(mine)?.last)
+    }
+
     /// How often an input was latched by the stack that drives a joint, and where the joint was
     /// then; `None` if it latches no such input.
     pub(super) fn latched(&self, joint: usize, input: u32) -> Option<(u64, f64)> {
-        let mine = |stack: &&Stack| !stack.is_refused() && stack.last.joints & (1 << joint) != 0;
-        let said = &self.stacks.iter().find(mine)?.last;
+        let said = self.driven_by(joint)?;
         let is_asked = |latch: &&Latch| latch.input == input && latch.rising == 1;
         let latch = said.latch.iter().find(is_asked)?;
         // One that was never latched has no kind yet.

@@ -4,7 +4,8 @@
 use super::drive_monitor::DriveMonitor;
 use super::following::Finding;
 use super::joint_ownership::Joints;
-use crate::ports::homing::{HomingInputs, Outcome, Seen};
+use crate::ports::homing::{HomingInputs, IndexSeen, Outcome, Seen};
+use crate::shared::config::homing::IndexPulse;
 use crate::shared::fault::Fault;
 use crate::shared::message::{Order, TickReport};
 use glidepath_kinematics::JOINTS;
@@ -118,7 +119,7 @@ impl DriveMonitor {
         let mut seen = [Seen::default(); JOINTS];
         for (joint, seen) in seen.iter_mut().enumerate() {
             let homing = self.settings.joints[joint].homing;
-            let input = homing.and_then(|homing| homing.index_input);
+            let index = homing.and_then(|homing| homing.index);
             *seen = Seen {
                 now_ns,
                 place: report.setpoint.joint_position[joint],
@@ -127,7 +128,17 @@ impl DriveMonitor {
                 is_closed: joints.home_switch & (1 << joint) != 0,
                 rising: joints.edges[joint].rising,
                 falling: joints.edges[joint].falling,
-                index: input.and_then(|input| self.ownership.latched(joint, input)),
+                index: match index {
+                    None => IndexSeen::default(),
+                    Some(IndexPulse::Input(input)) => IndexSeen {
+                        latched: self.ownership.latched(joint, input),
+                        ..IndexSeen::default()
+                    },
+                    Some(IndexPulse::Drive) => IndexSeen {
+                        kept: self.ownership.index_kept(joint),
+                        ..IndexSeen::default()
+                    },
+                },
             };
         }
         let (order, outcome) = self.sequencer.turn(&HomingInputs {

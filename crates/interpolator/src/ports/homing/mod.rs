@@ -15,8 +15,10 @@
 //! All of it is done in what the drives count. What a joint's position is called changes once, when
 //! its whole group is at rest at its home.
 
+mod index;
 mod search;
 mod sequencer;
 
+pub(crate) use index::{IndexSeen, Kept};
 pub(crate) use search::Seen;
 pub(crate) use sequencer::{HomingInputs, HomingSequencer, Outcome, Pair};

@@ -1,17 +1,24 @@
 //! The home search of one joint, phase by phase.
 //!
 //! ```text
-//!  on the switch already: back off ─► search ─► same signs: retreat ─► latch ─► index ─► latched
+//!  on the switch already: back off ─► search ─► same signs: retreat ─► latch ─► (arm) index ─► latched
 //!                                        └────── opposite signs ────────▲
 //! ```
 //!
 //! Every phase is a motion to a bound, ended by what it looks for: a stop, and a pause in which
 //! switches and joints come to rest. A phase that gets to its bound has not found it.
 
-use crate::shared::config::homing::{JointHoming, Kind};
+use super::index::{IndexSeen, Kept};
+use crate::shared::config::homing::{IndexPulse, JointHoming, Kind};
 
 /// After a stop, switches and joints are given so long to come to rest.
 const PAUSE_NS: u64 = 100_000_000;
+/// How long a drive may take to be ready for an index pulse: one that is asked by its mailbox takes some tenths of a
+/// second.
+const ARM_NS: u64 = 5_000_000_000;
+/// How far a joint swings at rest, mm or degrees; and by how much time a sample may be beside what the drive keeps, s.
+const SWINGS: f64 = 0.01;
+const BESIDE_T: f64 = 0.005;
 /// Ways that begin beside the edge are as long as a way past it and back, and a little.
 const BESIDE_R: f64 = 2.0;
 
@@ -30,8 +37,8 @@ pub(crate) struct Seen {
     /// Where the switch first closed and opened since the edges were last forgotten.
     pub(crate) rising: Option<f64>,
     pub(crate) falling: Option<f64>,
-    /// How many index pulses were latched, and where the last one was.
-    pub(crate) index: Option<(u64, f64)>,
+    /// What is known of its index pulse.
+    pub(crate) index: IndexSeen,
 }
 
 /// Why a joint did not find its home.
@@ -51,6 +58,14 @@ pub(crate) enum SearchFailure {
     SharedSwitch,
     #[error("its drive does not latch the index pulse that is configured")]
     NoLatch,
+    #[error(
+        "its drive was not ready to keep the index pulse within {0} s: does its servo stack have it do that?"
+    )]
+    NotArmed(u64),
+    #[error(
+        "its drive says that the index pulse was at {0:.4}, which is not on the way from {1:.4} to {2:.4}"
+    )]
+    Elsewhere(f64, f64, f64),
 }
 
 /// The next step of a search.
@@ -82,9 +97,15 @@ enum Phase {
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Stage {
     Begin,
+    /// Its drive is to be ready for the index pulse.
+    Arming {
+        since_ns: u64,
+    },
     Going,
     Stopping,
-    Pausing { since_ns: u64 },
+    Pausing {
+        since_ns: u64,
+    },
 }
 
 /// The search of a joint.
@@ -96,6 +117,8 @@ pub(crate) struct HomeSearch {
     stage: Stage,
     has_begun: bool,
     index_before: u64,
+    /// Where it set out.
+    from: f64,
     latched: f64,
 }
 
@@ -109,6 +132,7 @@ impl HomeSearch {
             stage: Stage::Begin,
             has_begun: false,
             index_before: 0,
+            from: 0.0,
             latched: 0.0,
         })
     }
@@ -139,6 +163,7 @@ impl HomeSearch {
         }
         match self.stage {
             Stage::Begin => self.begin(seen),
+            Stage::Arming { since_ns } => self.arm(since_ns, seen),
             Stage::Going => self.go_on(seen),
             Stage::Stopping if seen.rests => {
                 let since_ns = seen.now_ns;
@@ -177,14 +202,44 @@ impl HomeSearch {
         }
     }
 
+    /// Whether its drive is to keep where the next index pulse is.
+    pub(crate) fn asks_index(&self) -> bool {
+        let is_under_way = matches!(self.stage, Stage::Arming { .. } | Stage::Going);
+        self.phase == Phase::Index && is_under_way && self.is_kept_by_drive()
+    }
+
+    fn is_kept_by_drive(&self) -> bool {
+        self.settings.index == Some(IndexPulse::Drive)
+    }
+
     fn begin(&mut self, seen: &Seen) -> Step {
         if self.phase == Phase::Index {
-            let Some((count, _)) = seen.index else {
+            if self.is_kept_by_drive() {
+                let since_ns = seen.now_ns;
+                self.stage = Stage::Arming { since_ns };
+                return Step::Wait;
+            }
+            let Some((count, _)) = seen.index.latched else {
                 return Step::Failed(SearchFailure::NoLatch);
             };
             self.index_before = count;
         }
-        self.stage = Stage::Going;
+        self.set_out(seen)
+    }
+
+    /// Waits at rest until its drive is ready for the index pulse.
+    fn arm(&mut self, since_ns: u64, seen: &Seen) -> Step {
+        match seen.index.kept {
+            Kept::Armed => self.set_out(seen),
+            _ if seen.now_ns > since_ns + ARM_NS => {
+                Step::Failed(SearchFailure::NotArmed(ARM_NS / 1_000_000_000))
+            }
+            Kept::No | Kept::At(_) => Step::Wait,
+        }
+    }
+
+    fn set_out(&mut self, seen: &Seen) -> Step {
+        (self.stage, self.from) = (Stage::Going, seen.actual);
         let (v, way) = self.way();
         Step::Go {
             place: seen.place + way.copysign(v),
@@ -198,12 +253,18 @@ impl HomeSearch {
             Phase::BackOff | Phase::Retreat => (!seen.is_closed).then_some(seen.actual),
             Phase::Latch if self.settings.latches_rising() => seen.rising,
             Phase::Latch => seen.falling,
+            Phase::Index if self.is_kept_by_drive() => seen.index.kept.place(),
             Phase::Index => {
-                let latched = seen.index.filter(|(count, _)| *count != self.index_before);
+                let latched = seen.index.latched;
+                let latched = latched.filter(|(count, _)| *count != self.index_before);
                 latched.map(|(_, position)| position)
             }
         };
         if let Some(place) = found {
+            if self.asks_index() && !self.is_on_way(place, seen) {
+                let why = SearchFailure::Elsewhere(place, self.from, seen.actual);
+                return Step::Failed(why);
+            }
             self.latched = place;
             self.stage = Stage::Stopping;
             return Step::Stop;
@@ -218,6 +279,13 @@ impl HomeSearch {
             Phase::Latch => SearchFailure::NoEdge(way),
             Phase::Index => SearchFailure::NoIndex(way),
         })
+    }
+
+    /// Whether the joint can have been at a place since it set out.
+    fn is_on_way(&self, place: f64, seen: &Seen) -> bool {
+        let margin = SWINGS + self.settings.latch_v.abs() * BESIDE_T;
+        let (low, high) = (self.from.min(seen.actual), self.from.max(seen.actual));
+        (low - margin..=high + margin).contains(&place)
     }
 
     fn next_phase(&mut self, seen: &Seen) -> Step {

@@ -78,6 +78,8 @@ struct Job {
     /// Whether it has begun.
     has_begun: bool,
     began_at: [f64; JOINTS],
+    /// The joints whose drives were told to keep their index pulse.
+    index: u32,
     /// Nothing is done before.
     goes_on_ns: u64,
 }
@@ -178,6 +180,7 @@ impl HomingSequencer {
             has_asked: false,
             has_begun: false,
             began_at: [0.0; JOINTS],
+            index: 0,
             goes_on_ns: 0,
         });
         all
@@ -250,7 +253,13 @@ impl HomingSequencer {
             }
             Outcome::Failed { .. } | Outcome::Apart { .. } => self.job = None,
         }
-        if order.is_empty() {
+        // What was asked for before holds until the next order.
+        let asked = self.job.as_mut().map(|job| {
+            let group = job.group.as_ref();
+            order.index = group.map_or(0, Group::asks_index);
+            core::mem::replace(&mut job.index, order.index)
+        });
+        if order.is_empty() && asked.is_none_or(|asked| asked == order.index) {
             return (None, outcome);
         }
         self.number = order.number;
@@ -335,6 +344,14 @@ impl Group {
             }
         }
         self.end(now_ns)
+    }
+
+    /// The joints whose drives are to keep where their index pulse is, one bit each.
+    fn asks_index(&self) -> u32 {
+        let tasks = self.tasks.iter().enumerate();
+        let asks = tasks
+            .filter(|(_, task)| matches!(task, Some(Task::Search(search)) if search.asks_index()));
+        asks.fold(0, |mask, (joint, _)| mask | 1 << joint)
     }
 
     /// Whether all are there, and have been for long enough.

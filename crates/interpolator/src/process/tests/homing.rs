@@ -1,7 +1,7 @@
 //! Tests of joints that are brought home by the controller.
 
 use super::bench::{Bench, config, numbers};
-use crate::shared::config::homing::JointHoming;
+use crate::shared::config::homing::{IndexPulse, JointHoming};
 use glidepath_link::{Command, FaultCause, MachineState};
 use glidepath_plant::{INDEX_INPUT, InjectedFault, JointSettings, SwitchSettings};
 
@@ -10,7 +10,7 @@ pub(super) const SWITCH: JointHoming = JointHoming {
     search_v: -20.0,
     latch_v: 1.0,
     final_v: 50.0,
-    index_input: None,
+    index: None,
     offset: -10.5,
     home: 0.0,
     absolute: None,
@@ -128,7 +128,7 @@ fn the_index_pulse_after_the_switch() {
     let mut first = joint(5.0);
     first.index = Some((4.0, -7.3));
     let homing = JointHoming {
-        index_input: Some(INDEX_INPUT),
+        index: Some(IndexPulse::Input(INDEX_INPUT)),
         latch_v: 2.0,
         offset: 3.0,
         home: 8.0,
@@ -146,13 +146,49 @@ fn the_index_pulse_alone() {
     let homing = JointHoming {
         search_v: 0.0,
         latch_v: -3.0,
-        index_input: Some(INDEX_INPUT),
+        index: Some(IndexPulse::Input(INDEX_INPUT)),
         offset: 0.0,
         ..SWITCH
     };
     let mut bench = homed_by(homing, first);
     // From 5.0 downwards the first pulse is at 4.7.
     assert_home(&mut bench, 1000.0 + 4.7, EXACT);
+}
+
+#[test]
+fn the_index_pulse_that_a_drive_keeps_when_it_is_asked() {
+    for search_v in [0.0, -20.0] {
+        let mut first = joint(5.0);
+        first.index = Some((4.0, 0.7));
+        let homing = JointHoming {
+            search_v,
+            latch_v: 3.0,
+            index: Some(IndexPulse::Drive),
+            offset: 0.0,
+            ..SWITCH
+        };
+        let mut bench = homed_by(homing, first);
+        // From 5.0 upwards the first pulse is at 8.7; from the switch, whose edge is at −10, at −7.3.
+        let truth = if search_v == 0.0 { 8.7 } else { -7.3 };
+        assert_home(&mut bench, 1000.0 + truth, EXACT);
+        assert_eq!(bench.last().index, 0, "it is asked no more");
+    }
+}
+
+#[test]
+fn a_drive_that_is_not_ready_for_the_index_pulse_does_not_set_out() {
+    let homing = JointHoming {
+        search_v: 0.0,
+        latch_v: 3.0,
+        index: Some(IndexPulse::Drive),
+        ..SWITCH
+    };
+    let mut bench = homed_by(homing, joint(5.0));
+    let stood = fail(
+        &mut bench,
+        "was not ready to keep the index pulse within 5 s",
+    );
+    assert!((stood - 5.0).abs() < 1e-9, "{stood}");
 }
 
 #[test]

@@ -146,6 +146,7 @@ impl Interpolator<'_> {
             self.write_standing(setpoint);
             self.write_joints(tick, setpoint);
         }
+        setpoint.index = self.joint_mover.index();
         if !self.joint_mover.is_active() {
             self.output.keep_joints();
         }

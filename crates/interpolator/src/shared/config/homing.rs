@@ -12,8 +12,8 @@ pub struct JointHoming {
     pub latch_v: f64,
     /// Velocity of the way from there to `home`, > 0.
     pub final_v: f64,
-    /// The input whose latch is the index pulse; `None` if the edge of the switch is the place.
-    pub index_input: Option<u32>,
+    /// Who keeps where the index pulse was; `None` if the edge of the switch is the place.
+    pub index: Option<IndexPulse>,
     /// The position of the switch, the index pulse, or of zero of an absolute encoder.
     pub offset: f64,
     /// Where the joint goes in the end.
@@ -33,6 +33,15 @@ pub struct JointHoming {
     pub search_travel: f64,
     /// How far the joint may go past the edge of its switch, > 0.
     pub clearance: f64,
+}
+
+/// Who keeps where a joint was at the index pulse of its encoder.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum IndexPulse {
+    /// The servo stack, which latches a digital input by itself.
+    Input(u32),
+    /// The joint's drive, which is asked to before the joint sets out.
+    Drive,
 }
 
 /// The limits of a joint that is homed.
@@ -150,7 +159,7 @@ impl JointHoming {
     /// What is looked for.
     pub(crate) fn kind(&self) -> Result<Kind, HomingError> {
         let (searches, latches) = (self.search_v != 0.0, self.latch_v != 0.0);
-        match (searches, latches, self.index_input.is_some()) {
+        match (searches, latches, self.index.is_some()) {
             _ if self.absolute.is_some() => Ok(Kind::Absolute),
             (false, false, false) => Ok(Kind::Here),
             (false, true, true) => Ok(Kind::Index),
@@ -185,7 +194,7 @@ mod tests {
             search_v: -20.0,
             latch_v: 1.0,
             final_v: 50.0,
-            index_input: None,
+            index: None,
             offset: 0.0,
             home: 5.0,
             absolute: None,
@@ -204,7 +213,7 @@ mod tests {
             JointHoming {
                 search_v,
                 latch_v,
-                index_input: index.then_some(3),
+                index: index.then_some(IndexPulse::Input(3)),
                 ..switch()
             }
             .kind()

@@ -19,6 +19,8 @@ pub(crate) struct JointsOrder {
     pub(crate) place: [f64; JOINTS],
     /// Most speed on the way, > 0.
     pub(crate) v: [f64; JOINTS],
+    /// The joints whose drives are to keep where their next index pulse is, until the next order.
+    pub(crate) index: u32,
 }
 
 impl JointsOrder {
@@ -32,10 +34,11 @@ impl JointsOrder {
             stop: 0,
             place: [0.0; JOINTS],
             v: [0.0; JOINTS],
+            index: 0,
         }
     }
 
-    /// Whether it says anything.
+    /// Whether it moves or stops nobody.
     pub(crate) const fn is_empty(&self) -> bool {
         !self.begins && !self.ends && self.go == 0 && self.stop == 0
     }
