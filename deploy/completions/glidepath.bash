@@ -2967,7 +2967,7 @@ _glidepath() {
             return 0
             ;;
         glidepath__subcmd__run__subcmd__file)
-            opts="-c -h --from-line --pass --yes --resume --config --json --instance --help"
+            opts="-c -h --from-line --pass --yes --resume --tolerance-ratio --config --json --instance --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -2978,6 +2978,10 @@ _glidepath() {
                     return 0
                     ;;
                 --pass)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --tolerance-ratio)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;

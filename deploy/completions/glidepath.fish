@@ -133,6 +133,7 @@ complete -c glidepath -n "__fish_glidepath_using_subcommand planner" -l json -d 
 complete -c glidepath -n "__fish_glidepath_using_subcommand planner" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c glidepath -n "__fish_glidepath_using_subcommand run-file" -l from-line -d 'Start at this line, as if all lines before it had been executed' -r
 complete -c glidepath -n "__fish_glidepath_using_subcommand run-file" -l pass -d 'Start at this pass, if the line is executed several times' -r
+complete -c glidepath -n "__fish_glidepath_using_subcommand run-file" -l tolerance-ratio -d 'Plan with so many times the tolerance of the configuration and of G64 P, .1 to 10' -r
 complete -c glidepath -n "__fish_glidepath_using_subcommand run-file" -s c -l config -d 'Machine configuration (TOML); without it the built-in 3-axis mill' -r -F
 complete -c glidepath -n "__fish_glidepath_using_subcommand run-file" -l instance -d 'Name of the machine\'s shared memory; overrides `link.instance` of the configuration' -r
 complete -c glidepath -n "__fish_glidepath_using_subcommand run-file" -l yes -d 'Answer yes to the question'

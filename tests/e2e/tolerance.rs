@@ -38,10 +38,11 @@ fn recorded(instance: &Instance, name: &str, done: impl FnOnce()) -> Value {
     verdict.expect(0).json()
 }
 
-/// How far a recorded motion stays away from the corner at `X60 Y20`, mm: from the chords between its setpoints.
-fn away_from_corner(instance: &Instance, name: &str) -> f64 {
+/// How far a recorded motion stays away from a corner at X60, mm: from the chords between its setpoints. With Y12 it is in the
+/// tolerance that the program says, with Y20 in that of the configuration.
+fn away_from_corner(instance: &Instance, name: &str, y: f64) -> f64 {
     let (setpoints, _) = crate::recordings::read(Path::new(&instance.path(name)));
-    let from_corner = |at: &Setpoint| [at.position[0] - 60.0, at.position[1] - 20.0];
+    let from_corner = |at: &Setpoint| [at.position[0] - 60.0, at.position[1] - y];
     let distance = |pair: &[Setpoint]| {
         let (from, to) = (from_corner(&pair[0]), from_corner(&pair[1]));
         let along = [to[0] - from[0], to[1] - from[1]];
@@ -103,48 +104,65 @@ fn a_run_uses_the_tolerance_that_is_asked_for_alone_and_goes_on_with_it() {
         drop(run(&["--resume"]).expect(0));
     });
     assert_eq!(rest["finding_count"], 0, "{rest:#}");
-    let [four, own, rest] =
-        ["four.mcap", "own.mcap", "rest.mcap"].map(|name| away_from_corner(&instance, name));
-    assert!(own < 0.021 && four > 0.04, "{own} {four}");
-    assert!((rest - four).abs() < 0.002, "{rest} {four}");
+    // And so does what begins at a line.
+    let behind = recorded(&instance, "behind.mcap", || {
+        let more = ["--from-line", "12", "--yes", "--tolerance-ratio", "4"];
+        drop(run(&more).expect(0));
+    });
+    assert_eq!(behind["finding_count"], 0, "{behind:#}");
+    for y in [12.0, 20.0] {
+        let away = |name: &str| away_from_corner(&instance, name, y);
+        let (four, own) = (away("four.mcap"), away("own.mcap"));
+        assert!(own < 0.021 && four > 0.04, "Y{y}: {own} {four}");
+        for name in ["rest.mcap", "behind.mcap"] {
+            let away = away(name);
+            assert!((away - four).abs() < 0.002, "{name}, Y{y}: {away} {four}");
+        }
+    }
     drop((service.end(), services.end()));
 }
 
-/// Another service, of a machine that keeps what its programs began with.
+/// Another service, of a machine that keeps what its programs began with, or does not.
 #[test]
 fn a_service_that_takes_over_knows_the_tolerance_of_what_goes_on() {
-    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
-    let printed = Process::start(&instance, &["config", "--default"]).wait();
-    let folder = instance.path("kept");
-    let keeps = format!("directory = \"{folder}\"");
-    let keeps = printed
-        .expect(0)
-        .stdout
-        .replace("# directory = \"state\"", &keeps);
-    let config = instance.file("keeps.toml", &keeps);
-    let part = instance.file("part.ngc", &corners());
-    let services = Services::start(&instance);
-    let service = || Process::join(&instance, &["planner", "--listen", "--config", &config]);
-    let first = service();
-    let rest = recorded(&instance, "rest.mcap", || {
-        let command = ["run-file", &part, "--tolerance-ratio", "4"];
-        let running = Process::join(&instance, &command);
-        let _moving = services.wait(|status| status.line > 8);
-        first.signal(Signal::KILL);
-        let _killed = first.wait();
-        let _left = services.wait_for(MachineState::Faulted);
-        let _ended = running.wait();
-        drop(Process::join(&instance, &["reset"]).wait().expect(0));
-        let _idle = services.wait_for(MachineState::Idle);
-    });
-    assert_eq!(rest["finding_count"], 0, "{rest:#}");
-    let second = service();
-    let rest = recorded(&instance, "again.mcap", || {
-        let resumed = Process::join(&instance, &["run-file", &part, "--resume"]).wait();
-        drop(resumed.expect(0));
-    });
-    assert_eq!(rest["finding_count"], 0, "{rest:#}");
-    let used = away_from_corner(&instance, "again.mcap");
-    assert!(used > 0.04 && used < 0.081, "{used}");
-    drop((second.end(), services.end()));
+    for keeps in [true, false] {
+        let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+        let printed = Process::start(&instance, &["config", "--default"]).wait();
+        let mut config = printed.expect(0).stdout;
+        if keeps {
+            let folder = format!("directory = \"{}\"", instance.path("kept"));
+            config = config.replace("# directory = \"state\"", &folder);
+            assert!(config.contains(&folder));
+        }
+        let config = instance.file("own.toml", &config);
+        let part = instance.file("part.ngc", &corners());
+        let services = Services::start(&instance);
+        let service = || Process::join(&instance, &["planner", "--listen", "--config", &config]);
+        let first = service();
+        let begun = recorded(&instance, "begun.mcap", || {
+            let command = ["run-file", &part, "--tolerance-ratio", "4"];
+            let running = Process::join(&instance, &command);
+            let _moving = services.wait(|status| status.line > 8);
+            first.signal(Signal::KILL);
+            let _killed = first.wait();
+            let _left = services.wait_for(MachineState::Faulted);
+            let _ended = running.wait();
+            drop(Process::join(&instance, &["reset"]).wait().expect(0));
+            let _idle = services.wait_for(MachineState::Idle);
+        });
+        assert_eq!(begun["finding_count"], 0, "{begun:#}");
+        let second = service();
+        let rest = recorded(&instance, "rest.mcap", || {
+            // A line in between changes nothing of it.
+            drop(Process::join(&instance, &["mdi", "G90"]).wait().expect(0));
+            let resumed = Process::join(&instance, &["run-file", &part, "--resume"]).wait();
+            drop(resumed.expect(0));
+        });
+        assert_eq!(rest["finding_count"], 0, "{rest:#}");
+        for y in [12.0, 20.0] {
+            let used = away_from_corner(&instance, "rest.mcap", y);
+            assert!(used > 0.04 && used < 0.081, "{keeps}, Y{y}: {used}");
+        }
+        drop((second.end(), services.end()));
+    }
 }

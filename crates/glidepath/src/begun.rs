@@ -13,6 +13,7 @@ use crate::text_file;
 use glidepath_gcode::{
     Dialect, InForce, NoSubroutineFile, SubroutineFile, Subroutines, ToolTable, WorkOffsets,
 };
+use glidepath_link::TOLERANCE_RATIOS;
 use glidepath_persistence::Variable;
 use glidepath_program::Effort;
 use serde::{Deserialize, Serialize};
@@ -50,7 +51,7 @@ pub(crate) struct Begun {
     may_run_unchecked: bool,
     effort: Effort,
     tolerance_mm: f64,
-    /// How many times the tolerance that the program says was used. `tolerance_mm` has it already.
+    /// How many times `tolerance_mm`, and what the program says of it, was used.
     #[serde(default = "once", skip_serializing_if = "is_once")]
     tolerance_ratio: f64,
     /// The text of the configuration.
@@ -106,7 +107,7 @@ impl Board {
             dialect: config.program.dialect.unwrap_or_default(),
             may_run_unchecked: config.program.may_run_unchecked,
             effort: config.path.effort,
-            tolerance_mm: config.path.tolerance_mm,
+            tolerance_mm: config.path.tolerance_mm / config.program.tolerance_ratio,
             tolerance_ratio: config.program.tolerance_ratio,
             configuration: self.configuration.clone(),
             offsets: config.program.offsets.clone(),
@@ -165,7 +166,9 @@ impl Begun {
         path.effort = self.effort;
         path.tolerance_mm =
             config::tolerance(&self.tolerance_mm.to_string()).unwrap_or(path.tolerance_mm);
-        config.program.tolerance_ratio = self.tolerance_ratio;
+        if TOLERANCE_RATIOS.contains(&self.tolerance_ratio) {
+            config.use_tolerance_ratio(self.tolerance_ratio);
+        }
         Ok(config)
     }
 

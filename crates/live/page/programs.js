@@ -81,7 +81,7 @@ function paintChosen() {
   if (!name) { fill($('#title'), '<span class="lab-text">Choose a program.</span>'); fill($('#runkeys'), ''); fill($('#found'), ''); return; }
   // What changes while it is planned stands by itself, so that a finger on a key is not lost.
   fill($('#title'), `<b>${safe(name)}</b><span class="lab">${info && info.program ? `${grouped(info.program.lines)} lines` : ''}${info && info.seconds ? `, ${span(info.seconds)} of motion at 100 %` : info && !info.failed ? `, is planned: ${span(info.planned_so_far_s || 0)} so far` : ''}</span>`);
-  fill($('#runkeys'), `${key('queue-add', 'Queue', { why: notOperating() || (LOOK.ratio === 1 ? '' : 'with its own tolerance'), data: `data-name="${safe(name)}"` })}${key('from-line', 'From line…', { why: notOperating() })}${key('run', 'Run', { press: SHORT, why, sub: LOOK.ratio === 1 ? 'press ½ s' : `press ½ s, ${num(chosenTolerance(), 3)} mm`, data: `data-of="${safe(name)}"`, kind: why || (info && info.failed) ? '' : 'main' })}`);
+  fill($('#runkeys'), `${key('queue-add', 'Queue', { why: notOperating() || (LOOK.ratio === 1 ? '' : 'choose “as it is”: queued programs run with their own tolerance'), data: `data-name="${safe(name)}"` })}${key('from-line', 'From line…', { why: notOperating() })}${key('run', 'Run', { press: SHORT, why, sub: LOOK.ratio === 1 ? 'press ½ s' : `press ½ s, tolerance × ${num(LOOK.ratio, 1)}`, data: `data-of="${safe(name)}"`, kind: why || (info && info.failed) ? '' : 'main' })}`);
   const failed = info && info.failed;
   fill($('#found'), S.agree ? agreement() : failed ? `<div class="h"><b>${icon('warn', 'warn')} What was found</b></div>${findings(failed)}` : `<div class="h"><b>${info && info.report ? `${icon('ok', 'ok')} Nothing was found` : LOOK.lost ? safe(sentence(plain(LOOK.lost))) : 'It is read'}</b>${LOOK.lost ? key('choose', 'Look at it', { data: `data-name="${safe(name)}"` }) : ''}</div>${tolerances()}<pre class="lines">${safe((LOOK.lines || []).slice(0, 6).join('\n'))}</pre>`);
 }
@@ -136,7 +136,7 @@ async function runLooked(name, more, info) {
   if (said.accepted && more.queued) { setView('operate'); return ''; }
   if (name !== FOLDER.chosen) return '';
   if (said.to_confirm) { S.agree = { ...more, name, info, text: said.to_confirm }; paintChosen(); fetchAround(); return ''; }
-  if (said.accepted) { S.agree = null; if (S.view === 'programs') setView('operate'); }
+  if (said.accepted) { S.agree = null; LOOK.ratio = 1; if (S.view === 'programs') setView('operate'); }
   return '';
 }
 /* ---- from a line: what is different there, and what happens, before anything does */

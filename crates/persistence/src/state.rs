@@ -87,6 +87,9 @@ pub struct UnderWay {
     pub tolerance_ratio: f64,
 }
 
+/// How many times its tolerance a program may use, as jobs ask for it.
+const RATIOS: core::ops::RangeInclusive<f64> = 0.1..=10.0;
+
 /// A run with the tolerance as it is.
 const fn once() -> f64 {
     1.0
@@ -189,9 +192,9 @@ impl PersistentState {
             return Some("the position of the last rest is no number, or beyond 1e9".to_owned());
         }
         let ratio = under_way.map_or_else(once, |program| program.tolerance_ratio);
-        if !(ratio > 0.0 && ratio.is_finite()) {
+        if !RATIOS.contains(&ratio) {
             return Some(
-                "the tolerance of the program that has begun is no number of times its own"
+                "the program that has begun uses less than .1 or more than 10 times its tolerance"
                     .to_owned(),
             );
         }

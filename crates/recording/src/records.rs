@@ -37,6 +37,8 @@ message!(Setpoint, "glidepath.Setpoint", {
     31 event_count,
     32 events,
     33 superposed,
+    34 index,
+    35 reserved,
 });
 
 message!(EventRecord, "glidepath.Event", {

@@ -66,4 +66,4 @@ pub struct Cli {
 const EXIT_CODES: &str = "Exit codes: 0 done, 1 program rejected, 2 usage, 3 configuration, \
                           4 not real-time capable, 5 fault while running, \
                           6 program not checked to its end, 7 jog cut short by the end of travel, \
-                          8 stopped but not at rest yet, 130 interrupted.";
+                          8 a stop was accepted, but the machine still moves or has power, 130 interrupted.";

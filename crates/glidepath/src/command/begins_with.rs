@@ -98,17 +98,27 @@ pub(super) fn program_start(config: &MachineConfig, program: Option<u64>) -> Opt
 }
 
 /// How many times its tolerance a program uses that runs, or ran last: that of this fingerprint, or without one the
-/// program in this file.
-pub(super) fn ratio_begun_with(config: &MachineConfig, path: &Path, program: Option<u64>) -> f64 {
-    let link = session::link(&session::named_instance(config), config);
+/// program in this file. `None` if its planner has left no note.
+pub(super) fn ratio_begun_with(
+    link: &LinkConfig,
+    path: &Path,
+    program: Option<u64>,
+) -> Option<f64> {
     // A note that cannot be read says nothing.
-    let note = ActiveProgram::read(&link).ok().flatten();
-    let is_meant = |note: &ActiveProgram| match program {
+    let note = ActiveProgram::read(link).ok().flatten()?;
+    let is_meant = match program {
         Some(program) => note.fingerprint == program,
         None => path.canonicalize().is_ok_and(|path| path == note.file),
     };
-    note.filter(is_meant)
-        .map_or(1.0, |note| note.tolerance_ratio)
+    is_meant.then_some(note.tolerance_ratio)
+}
+
+/// Has a program planned with the tolerance that it began with, as its planner has noted. What is kept of it counts
+/// more.
+pub(super) fn begun_with_ratio(config: &mut MachineConfig, link: &LinkConfig, program: u64) {
+    if let Some(ratio) = ratio_begun_with(link, Path::new(""), Some(program)) {
+        config.use_tolerance_ratio(ratio);
+    }
 }
 
 /// What is in force, in the words of a program.

@@ -6,6 +6,7 @@ use super::changed::{Change, Changed};
 use super::fitting::{is_all_that_is_wrong, without_travel};
 use super::program_diagnostics::refusal_text;
 use super::reading::for_program;
+use super::session;
 use super::text_lines::TextLines;
 use crate::command::failure::Failure;
 use crate::config::MachineConfig;
@@ -140,7 +141,10 @@ impl Forecast {
             machine.program.stands = Some(start);
         }
         if let PlannedFor::Following(program) = planned_for {
-            machine.use_tolerance_ratio(ratio_begun_with(&machine, path, program));
+            let link = session::link(&session::named_instance(&machine), &machine);
+            if let Some(ratio) = ratio_begun_with(&link, path, program) {
+                machine.use_tolerance_ratio(ratio);
+            }
         }
         change.machine(&mut machine);
         let watch = ReadingWatch::default();

@@ -5,14 +5,49 @@
 
 use crate::command::failure::Failure;
 use crate::machine_options::resume;
-use glidepath_link::{EndOfEpoch, TOLD_TO_END};
+use glidepath_gcode::ReadingWatch;
+use glidepath_link::{ActiveProgram, EndOfEpoch, LinkConfig, TOLD_TO_END};
 use glidepath_planner::{FramePublisher, ResumeError, RunError};
 use std::path::Path;
 use std::time::Duration;
 
-/// How long a resumption is tried that nobody has asked for yet: within a second a command has to end that is told to,
+/// How long a resumption is tried that nobody has asked for yet: whoever has ended the job waits for its end for .6 s,
 /// and the service has other things to do.
-pub(super) const TRIAL: Duration = Duration::from_millis(800);
+const TRIAL: Duration = Duration::from_millis(200);
+
+/// A watch that ends the reading of a trial in time, whoever attends to what meanwhile.
+pub(super) fn trial_watch() -> ReadingWatch {
+    let watch = ReadingWatch::default();
+    let ends = watch.clone();
+    std::thread::spawn(move || {
+        std::thread::sleep(TRIAL);
+        ends.end();
+    });
+    watch
+}
+
+/// Looks whether a file has another length than the program had when its motion began: `--resume` would refuse it.
+///
+/// # Errors
+/// It has.
+pub(super) fn must_be_the_text(
+    file: &Path,
+    link: &LinkConfig,
+    fingerprint: u64,
+) -> Result<(), Obstacle> {
+    let note = ActiveProgram::read(link).ok().flatten();
+    let begun = note.filter(|note| note.fingerprint == fingerprint);
+    let now = file.metadata().map(|about| about.len()).ok();
+    if begun.is_some_and(|begun| now != Some(begun.bytes)) {
+        return Err(RunError::Resume(ResumeError::OtherProgram).into());
+    }
+    Ok(())
+}
+
+/// Whether the motion has not come to rest yet: a pass of a thread comes to its end first.
+pub(super) fn is_under_way(publisher: &FramePublisher<'_>) -> bool {
+    publisher.end_of_epoch() == Some(EndOfEpoch::Open)
+}
 
 /// The command that goes on with a program, and what may have moved the machine before it is typed.
 #[derive(Debug, Clone, Copy)]
@@ -21,7 +56,7 @@ pub(super) struct Resumption<'r> {
     pub(super) command: &'r str,
     /// The program.
     pub(super) file: &'r Path,
-    /// `glidepath abort` raises the tool axis.
+    /// An abort may raise the tool axis.
     pub(super) lifts: bool,
 }
 
@@ -76,8 +111,7 @@ pub(super) fn told(
 ) -> String {
     let line = publisher.line();
     let command = resume(how.command, &how.file.display().to_string());
-    if publisher.end_of_epoch() == Some(EndOfEpoch::Open) {
-        // A pass of a thread comes to its end first.
+    if is_under_way(publisher) {
         return format!(
             "it was left in line {line} and has not come to rest yet; then {command} goes on, or says why not"
         );
@@ -85,8 +119,8 @@ pub(super) fn told(
     let is_lifted = how.lifts && matches!(error, RunError::Aborted);
     match tried {
         Ok(()) if is_lifted => format!(
-            "it was left in line {line}, and {command} goes on from there, once the tool axis, which `glidepath abort` \
-             raises (lift of [jog]), is back"
+            "it was left in line {line}, and {command} goes on from there; if the abort raised the tool axis (lift of \
+             [jog]), bring it back first: --resume says how far"
         ),
         Ok(()) => format!("it was left in line {line}, and {command} goes on from there"),
         Err(Obstacle::Away(why)) => format!(

@@ -1,7 +1,7 @@
 //! `glidepath mdi` and `glidepath run-file`: what the planner's service is to execute.
 
 use super::attention::Waiting;
-use super::lost_planner;
+use super::lost_planner::LostProgram;
 use super::operator::reach;
 use super::session;
 use crate::cli::{InstanceArgs, MdiArgs, RunFileArgs};
@@ -123,7 +123,7 @@ fn execute(
         interrupt: &interrupt,
         interrupted: None,
         is_taken: false,
-        resume: resume(&request),
+        program: program(&request),
         told: Told::new(),
     };
     loop {
@@ -181,21 +181,22 @@ struct Desk<'d> {
     interrupted: Option<Instant>,
     /// The service has taken the job.
     is_taken: bool,
-    /// The name of its file and the command that goes on with it, if it is a program.
-    resume: Option<(String, String)>,
+    /// What is told of it without its planner, if it is a program.
+    program: Option<LostProgram>,
     told: Told,
 }
 
-/// The name of a job's file, and what goes on with it after its end, if it is a program.
-fn resume(request: &JobRequest) -> Option<(String, String)> {
+/// What goes on with a job whose planner is lost, if it is a program.
+fn program(request: &JobRequest) -> Option<LostProgram> {
     let file = request.text.as_str();
     let name = Path::new(file)
         .file_name()
         .filter(|_| request.kind() == Ok(JobKind::File))?;
-    Some((
-        name.to_string_lossy().into_owned(),
-        machine_options::resume("run-file", file),
-    ))
+    Some(LostProgram {
+        name: name.to_string_lossy().into_owned(),
+        resume: machine_options::resume("run-file", file),
+        is_resumed: request.resumes == 1,
+    })
 }
 
 impl Desk<'_> {
@@ -264,8 +265,7 @@ impl Desk<'_> {
 
     /// What is to be done for the program whose planner is no more, or does not answer.
     fn left(&self) -> Option<String> {
-        let (name, resume) = self.resume.as_ref()?;
-        Some(lost_planner::told(self.link, name, resume))
+        Some(self.program.as_ref()?.told(self.link))
     }
 
     fn abort(&self) {

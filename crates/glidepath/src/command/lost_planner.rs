@@ -18,11 +18,23 @@ enum Known {
     Nothing,
 }
 
-/// What is to be done for the program of this file name when a planner serves again, which the command `resume` goes on
-/// with.
-pub(super) fn told(link: &LinkConfig, name: &str, resume: &str) -> String {
-    let status = Operator::find(link).and_then(|operator| operator.status(PATIENCE));
-    text(known(&status, name), resume)
+/// A program whose planner is no more, or does not answer.
+#[derive(Debug, Clone)]
+pub(super) struct LostProgram {
+    /// The name of its file.
+    pub(super) name: String,
+    /// The command that goes on with it.
+    pub(super) resume: String,
+    /// The job was to go on with it: it was begun before.
+    pub(super) is_resumed: bool,
+}
+
+impl LostProgram {
+    /// What is to be done for it when a planner serves again.
+    pub(super) fn told(&self, link: &LinkConfig) -> String {
+        let status = Operator::find(link).and_then(|operator| operator.status(PATIENCE));
+        text(known(&status, &self.name), self)
+    }
 }
 
 fn known(status: &Result<Option<Status>, LinkError>, name: &str) -> Known {
@@ -37,11 +49,17 @@ fn known(status: &Result<Option<Status>, LinkError>, name: &str) -> Known {
 fn waits(status: &Status, name: &str) -> bool {
     let stage = status.job_stage();
     let is_to_come = matches!(stage, Ok(JobStage::Waiting | JobStage::Preparing));
-    is_to_come && status.job.as_str().starts_with(name)
+    // What is being done stands behind the name.
+    let rest = status.job.as_str().strip_prefix(name);
+    is_to_come && rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(": "))
 }
 
-fn text(known: Known, resume: &str) -> String {
+fn text(known: Known, program: &LostProgram) -> String {
+    let resume = &program.resume;
     match known {
+        Known::NotBegun if program.is_resumed => format!(
+            "nothing more of the program was executed; then {resume} goes on with it, or says why that cannot be"
+        ),
         Known::NotBegun => "nothing of the program was executed: start it again then".to_owned(),
         Known::MayHaveBegun => {
             format!("then {resume} goes on with the program, or says why that cannot be")
@@ -63,7 +81,9 @@ mod tests {
         (status.job, status.job_stage) =
             (Text::new("part.ngc: checking"), JobStage::Preparing.code());
         assert_eq!(known(&Ok(Some(status)), "part.ngc"), Known::NotBegun);
-        assert_eq!(known(&Ok(Some(status)), "other.ngc"), Known::MayHaveBegun);
+        for other in ["other.ngc", "part", "part.ng"] {
+            assert_eq!(known(&Ok(Some(status)), other), Known::MayHaveBegun);
+        }
         status.job_stage = JobStage::Begun.code();
         assert_eq!(known(&Ok(Some(status)), "part.ngc"), Known::MayHaveBegun);
         assert_eq!(known(&Ok(None), "part.ngc"), Known::MayHaveBegun);
@@ -71,12 +91,19 @@ mod tests {
             service: "commands",
         };
         assert_eq!(known(&Err(none), "part.ngc"), Known::Nothing);
-        for (known, resumes) in [
-            (Known::NotBegun, false),
-            (Known::MayHaveBegun, true),
-            (Known::Nothing, false),
+        for (known, is_resumed, resumes) in [
+            (Known::NotBegun, false, false),
+            (Known::NotBegun, true, true),
+            (Known::MayHaveBegun, false, true),
+            (Known::Nothing, false, false),
+            (Known::Nothing, true, false),
         ] {
-            let told = text(known, "`glidepath run-file part.ngc --resume`");
+            let program = LostProgram {
+                name: "part.ngc".to_owned(),
+                resume: "`glidepath run-file part.ngc --resume`".to_owned(),
+                is_resumed,
+            };
+            let told = text(known, &program);
             assert_eq!(told.contains("--resume"), resumes, "{told}");
         }
     }

@@ -1,8 +1,9 @@
 //! `glidepath planner`: programs, or segments of other processes, to frames.
 
 use super::attention::Waiting;
+use super::begins_with::begun_with_ratio;
 use super::executor::JobExecutor;
-use super::going_on::{self, Obstacle, Resumption, TRIAL};
+use super::going_on::{self, Obstacle, Resumption};
 use super::program_note::ProgramNote;
 use super::run_supervisor::{RunSupervisor, recalling, tell};
 use super::session;
@@ -20,7 +21,6 @@ use crate::persistence::read::{read, set_up};
 use crate::position_offsets_note::PositionOffsetsNote;
 use crate::program_file::ProgramFile;
 use crate::report::{counted, driven, peak_rss_bytes, seconds};
-use glidepath_gcode::ReadingWatch;
 use glidepath_geometry::AxisVector;
 use glidepath_link::{Ipc, LinkConfig, Operator, Transport};
 use glidepath_planner::{
@@ -28,7 +28,6 @@ use glidepath_planner::{
     Remainder, RunError, SoftLimits, Statistics, serve as serve_jobs,
 };
 use serde_json::{Value, json};
-use std::path::PathBuf;
 use std::time::Duration;
 
 /// Plans and publishes until the motion is executed that was asked for at `asked_ns`, ns of the host's steady clock, or,
@@ -98,7 +97,7 @@ pub(super) fn planner(
         config: &config,
         supervisor: &supervisor,
         board: &board,
-        directory: link.directory(),
+        link: &link,
         file,
         asked_ns,
         note: ProgramNote::of_file(&link, file.name()),
@@ -136,8 +135,8 @@ struct Job<'a> {
     config: &'a MachineConfig,
     supervisor: &'a RunSupervisor,
     board: &'a Board,
-    /// The directory of the instance.
-    directory: PathBuf,
+    /// The instance.
+    link: &'a LinkConfig,
     file: &'a ProgramFile,
     /// When it was asked for, ns of the host's steady clock.
     asked_ns: u64,
@@ -214,7 +213,7 @@ impl Job<'_> {
         let source = PipeSource::spawn(std::io::stdin(), options, self.supervisor.channels())
             .map_err(|refusal| Failure::refused(&self.name(), refusal, true))?;
         let pipeline = Pipeline::new(source, self.config.settings(), start).of_stream();
-        self.publish(pipeline, start, true, control)
+        self.publish(pipeline, (self.config, start), true, control)
     }
 
     /// One program, from where the machine stands.
@@ -224,7 +223,7 @@ impl Job<'_> {
         let source = self.open(start, &config, control)?;
         self.tell_begun(&config, source.fingerprint(), Part::Whole);
         let pipeline = Pipeline::new(source, self.config.settings(), start);
-        self.publish(pipeline, start, false, control)
+        self.publish(pipeline, (&config, start), false, control)
     }
 
     /// Tells recorders what the program begins with, which is read to its end.
@@ -236,7 +235,7 @@ impl Job<'_> {
     fn publish<S: ItemSource + Send>(
         &mut self,
         pipeline: Pipeline<S>,
-        start: AxisVector,
+        (config, start): (&MachineConfig, AxisVector),
         is_pipe: bool,
         control: &mut Control<'_>,
     ) -> Result<Statistics, Failure> {
@@ -244,9 +243,9 @@ impl Job<'_> {
             .with_joints(self.config.limited_mechanism())
             .with_clock(clock::elapsed);
         let fingerprint = pipeline.source().fingerprint();
-        self.supervisor.begin(fingerprint, &start)?;
-        self.note
-            .leave(fingerprint, self.config.program.tolerance_ratio);
+        let ratio = config.program.tolerance_ratio;
+        self.supervisor.begin((fingerprint, ratio), &start)?;
+        self.note.leave(fingerprint, ratio);
         let published = self.publisher.publish(&mut pipeline, control);
         let kept = self
             .supervisor
@@ -275,9 +274,13 @@ impl Job<'_> {
         let how = Resumption {
             command: "planner",
             file: self.file.path(),
-            lifts: self.config.jog.lift > 0.0,
+            lifts: self.config.lifts_after_abort(),
         };
-        let tried = self.try_to_resume(fingerprint, control);
+        let tried = if going_on::is_under_way(&self.publisher) {
+            Err(Obstacle::Untried)
+        } else {
+            self.try_to_resume(fingerprint, control)
+        };
         Failure::Left {
             left: going_on::told(&error, &self.publisher, how, tried),
             source: error,
@@ -287,15 +290,12 @@ impl Job<'_> {
     /// Does what a resumption does up to its motion.
     fn try_to_resume(&self, fingerprint: u64, control: &mut Control<'_>) -> Result<(), Obstacle> {
         let mut config = self.config.clone();
-        let supervisor = RunSupervisor::new(&mut config, self.directory.clone(), true)?;
-        let watch = ReadingWatch::default();
+        let supervisor = RunSupervisor::new(&mut config, self.link.directory(), true)?;
+        let watch = going_on::trial_watch();
         config.program.watch = Some(watch.clone());
-        let clock = watch.clone();
-        std::thread::spawn(move || {
-            std::thread::sleep(TRIAL);
-            clock.end();
-        });
         let point = self.publisher.resume_point()?;
+        going_on::must_be_the_text(self.file.path(), self.link, fingerprint)?;
+        begun_with_ratio(&mut config, self.link, point.program);
         supervisor.resume(point.program, &mut config)?;
         let (options, settings) = (
             config.program_options(point.program_start),
@@ -320,6 +320,7 @@ impl Job<'_> {
         let point = self.publisher.resume_point()?;
         // What it began with, not what it has made of that meanwhile.
         let mut config = self.watched();
+        begun_with_ratio(&mut config, self.link, point.program);
         self.supervisor.resume(point.program, &mut config)?;
         let source = self.open(point.program_start, &config, control)?;
         self.tell_begun(&config, source.fingerprint(), Part::Rest);
@@ -332,7 +333,7 @@ impl Job<'_> {
         self.supervisor.begin_here()?;
         let line = remainder.line();
         let pipeline = Pipeline::resuming(remainder, settings).beginning_with(restoring, line);
-        self.publish(pipeline, start, false, control)
+        self.publish(pipeline, (&config, start), false, control)
     }
 }
 

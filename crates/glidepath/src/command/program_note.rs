@@ -28,8 +28,8 @@ impl<'a> ProgramNote<'a> {
         Self { link, file }
     }
 
-    /// Leaves it, before the first frame of the program, which may use so many times its tolerance. Where that fails the program runs all the same:
-    /// whoever shows the machine does not know its text.
+    /// Leaves it, before the first frame of the program, which may use so many times its tolerance. Where that fails the
+    /// program runs all the same: whoever shows the machine does not know its text.
     pub(super) fn leave(&self, fingerprint: u64, tolerance_ratio: f64) {
         let Some(file) = self.file.filter(|_| fingerprint != 0) else {
             return;

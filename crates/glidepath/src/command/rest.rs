@@ -110,7 +110,8 @@ fn abort_and_lift(args: &AbortArgs, config: &MachineConfig) -> Result<Exit, Fail
              where nothing holds it",
         );
     } else {
-        lift(&link, config)?;
+        // Which has waited until the machine was at rest.
+        return lift(&link, config).map(|()| Exit::Done);
     }
     Ok(exit)
 }
@@ -200,7 +201,7 @@ fn wait(
 fn still(status: &Status) -> Result<Effect, RecordError> {
     Ok(if status.state()?.is_moving() {
         Effect::ToCome(
-            "the machine still moves: a pass of a thread or a tap comes to its end first; `glidepath status` tells \
+            "the machine still moves; in a thread or a tap the pass comes to its end first; `glidepath status` tells \
              when it rests",
         )
     } else {

@@ -170,15 +170,19 @@ impl RunSupervisor {
         self.recall(program)
     }
 
-    /// The program is about to move the machine.
+    /// The program is about to move the machine, with so many times its tolerance.
     ///
     /// # Errors
     /// That cannot be written: nothing may move.
-    pub(super) fn begin(&self, program: u64, start: &AxisVector) -> Result<(), Failure> {
+    pub(super) fn begin(
+        &self,
+        (program, tolerance_ratio): (u64, f64),
+        start: &AxisVector,
+    ) -> Result<(), Failure> {
         let state_store = self.state_store.take();
         if let Some(state_store) = state_store {
             self.state_store
-                .replace(Some(state_store.begin(program, start)?));
+                .replace(Some(state_store.begin(program, tolerance_ratio, start)?));
         }
         if self.inputs.keeps() {
             return Ok(());

@@ -394,6 +394,18 @@ impl MachineConfig {
         self.m_codes.iter().any(is_speed)
     }
 
+    /// Whether `glidepath abort` raises the tool axis: not where the spindle is an axis, whose taps are moves like others.
+    pub(crate) fn lifts_after_abort(&self) -> bool {
+        self.jog.lift > 0.0 && self.spindle.is_none_or(|spindle| spindle.axis.is_none())
+    }
+
+    /// Has programs planned with so many times their tolerance: that of the configuration and what G64 P says. What a
+    /// cycle or a thread asks for itself stays.
+    pub(crate) fn use_tolerance_ratio(&mut self, ratio: f64) {
+        self.path.tolerance_mm *= ratio / self.program.tolerance_ratio;
+        self.program.tolerance_ratio = ratio;
+    }
+
     /// Where a program begins that is read now: where the machine stands, or at home.
     #[must_use]
     pub fn start(&self) -> AxisVector {

@@ -27,15 +27,6 @@ pub struct AxisConfig {
 /// What no axis exceeds, as far as the file may give it: velocity, acceleration and jerk.
 pub(super) const MOST_OF_AXES: [f64; 3] = [1e5, 1e7, 1e10];
 
-impl super::MachineConfig {
-    /// Has programs planned with so many times their tolerance: that of the configuration and what G64 P says. What a
-    /// cycle or a thread asks for itself stays.
-    pub(crate) fn use_tolerance_ratio(&mut self, ratio: f64) {
-        self.path.tolerance_mm *= ratio / self.program.tolerance_ratio;
-        self.program.tolerance_ratio = ratio;
-    }
-}
-
 /// The tolerance and how it is used.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PathConfig {

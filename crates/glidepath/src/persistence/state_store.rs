@@ -33,8 +33,6 @@ pub(crate) struct StateStore {
     before: (Offsets, Arc<ToolTable>),
     log: ChangeLog,
     is_resumed: bool,
-    /// How many times its tolerance the program may use.
-    tolerance_ratio: f64,
     /// The program under way before it.
     replaced: Option<UnderWay>,
     folder: PathBuf,
@@ -88,7 +86,6 @@ impl StateStore {
             kept,
             log: ChangeLog::default(),
             is_resumed: false,
-            tolerance_ratio: config.program.tolerance_ratio,
             replaced: None,
             folder,
             store: Writing::Here(store),
@@ -126,11 +123,16 @@ impl StateStore {
         true
     }
 
-    /// A program begins to move the machine. When this returns, that is kept.
+    /// A program begins to move the machine, with so many times its tolerance. When this returns, that is kept.
     ///
     /// # Errors
     /// It cannot be written: nothing may move.
-    pub(crate) fn begin(mut self, program: u64, start: &AxisVector) -> Result<Self, StateError> {
+    pub(crate) fn begin(
+        mut self,
+        program: u64,
+        tolerance_ratio: f64,
+        start: &AxisVector,
+    ) -> Result<Self, StateError> {
         let begun = self.kept.under_way.take();
         self.replaced.clone_from(&begun);
         // A program that is resumed began when it did; one from a pipe cannot be resumed.
@@ -140,7 +142,7 @@ impl StateStore {
                 offsets: self.before.0.clone(),
                 tools: self.kept.tools.clone(),
                 variables: self.kept.variables.clone(),
-                tolerance_ratio: self.tolerance_ratio,
+                tolerance_ratio,
             };
             (program != 0).then_some(begun)
         });

@@ -1,9 +1,8 @@
 //! The program that can be resumed: what it began with, and where it was left.
 
 use std::path::Path;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use glidepath_gcode::ReadingWatch;
 use glidepath_geometry::AxisVector;
 use glidepath_planner::{FileSource, FramePublisher, Remainder, ResumePoint, RunError, Statistics};
 
@@ -11,7 +10,8 @@ use super::file_job::FileJob;
 use super::run_context::RunContext;
 use super::state::{Begun, JobExecutor};
 use super::stop::Stop;
-use crate::command::going_on::{self, Obstacle, Resumption, TRIAL};
+use crate::command::begins_with::begun_with_ratio;
+use crate::command::going_on::{self, Obstacle, Resumption};
 use crate::command::reading::for_program;
 use crate::command::run_supervisor::{RunSupervisor, recalling};
 use crate::config::MachineConfig;
@@ -81,6 +81,7 @@ impl JobExecutor<'_> {
         }
         let point = self.resume_point(context.publisher, start);
         let mut point = point.map_err(|error| Stop::Refused(error.to_string()))?;
+        begun_with_ratio(config, &self.link, point.program);
         let known = self.begun.as_ref();
         let known = known.filter(|begun| begun.program == point.program);
         if let Some(begun) = known {
@@ -110,12 +111,17 @@ impl JobExecutor<'_> {
         let Some(error) = context.left_by.take() else {
             return;
         };
-        let tried = self.try_to_resume((file, fingerprint), context);
+        let is_untried = going_on::is_under_way(context.publisher) || context.control.is_stopped();
+        let tried = if is_untried {
+            Err(Obstacle::Untried)
+        } else {
+            self.try_to_resume((file, fingerprint), context)
+        };
         if let Err(Stop::Failed(text)) = run {
             let how = Resumption {
                 command: "run-file",
                 file,
-                lifts: self.config.jog.lift > 0.0,
+                lifts: self.config.lifts_after_abort(),
             };
             let left = going_on::told(&error, context.publisher, how, tried);
             *text = format!("{text}; {left}");
@@ -130,8 +136,9 @@ impl JobExecutor<'_> {
     ) -> Result<(), Obstacle> {
         let (config, supervisor) = self.set_up(1.0, context.publisher, context.control)?;
         let mut config = for_program(&ProgramFile::named(file), &config);
-        let watch = ReadingWatch::default();
+        let watch = going_on::trial_watch();
         config.program.watch = Some(watch.clone());
+        going_on::must_be_the_text(file, &self.link, fingerprint)?;
         let job = FileJob {
             path: file,
             looked_at: None,
@@ -153,12 +160,8 @@ impl JobExecutor<'_> {
         };
         // Whoever wanted the job may not want it any more, and is told all the same.
         let attend = &mut *context.attend;
-        let since = Instant::now();
         let mut attend = |waited: Duration| {
             let _ended = attend.attend(waited, "");
-            if since.elapsed() > TRIAL {
-                watch.end();
-            }
         };
         let publisher = &mut *context.publisher;
         let found = publisher.work("", &mut attend, context.control, find);

@@ -52,7 +52,7 @@ impl RunContext<'_, '_, '_> {
         let fingerprint = pipeline.source().fingerprint();
         let begun = supervisor
             .attach(self.publisher, config)
-            .and_then(|()| supervisor.begin(fingerprint, &start));
+            .and_then(|()| supervisor.begin((fingerprint, config.program.tolerance_ratio), &start));
         if let Err(failure) = begun {
             return (Err(failure.into()), None);
         }

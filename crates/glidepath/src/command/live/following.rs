@@ -46,7 +46,7 @@ struct Followed {
     fingerprint: Option<u64>,
     /// The epoch that was looked at last, and what the program began with there.
     epoch: u64,
-    begun: Option<Begun>,
+    begun: Begun,
     path: PathBuf,
     forecast: Forecast,
     _reading: Reading,
@@ -85,7 +85,9 @@ impl Following {
     ) -> Result<Followed, Failure> {
         let board = self.shown.begin(Some(name));
         let planned = Planned::new(&self.config, board.clone());
-        let begun = fingerprint.map(|program| begun(&self.config, path, program));
+        let begun = fingerprint.map_or(Begun::AS_CONFIGURED, |program| {
+            begun((&self.config, &self.link), path, program)
+        });
         let planned_for = PlannedFor::Following(fingerprint);
         board.file(path, planned_for);
         let forecast = Forecast::start(path, &self.config, planned_for, planned)?;
@@ -110,7 +112,7 @@ impl Following {
         }
         if let Some(shown) = &mut self.program
             && shown.forecast.is_of(status)
-            && !shown.has_begun_anew(status, &self.config)
+            && !shown.has_begun_anew(status, (&self.config, &self.link))
         {
             return;
         }
@@ -197,12 +199,12 @@ impl Following {
 
 impl Followed {
     /// Whether it runs another time, with other offsets or tools than those that it was planned with.
-    fn has_begun_anew(&mut self, status: &Status, config: &MachineConfig) -> bool {
+    fn has_begun_anew(&mut self, status: &Status, machine: (&MachineConfig, &LinkConfig)) -> bool {
         if core::mem::replace(&mut self.epoch, status.epoch) == status.epoch {
             return false;
         }
-        let begun = begun(config, &self.path, status.program);
-        self.begun.replace(begun) != self.begun
+        let begun = begun(machine, &self.path, status.program);
+        core::mem::replace(&mut self.begun, begun) != self.begun
     }
 }
 
@@ -213,10 +215,18 @@ struct Begun {
     tolerance_ratio: f64,
 }
 
-fn begun(config: &MachineConfig, path: &Path, program: u64) -> Begun {
+impl Begun {
+    /// Nothing is known of it.
+    const AS_CONFIGURED: Self = Self {
+        kept: None,
+        tolerance_ratio: 1.0,
+    };
+}
+
+fn begun((config, link): (&MachineConfig, &LinkConfig), path: &Path, program: u64) -> Begun {
     Begun {
         kept: kept(config, program),
-        tolerance_ratio: ratio_begun_with(config, path, Some(program)),
+        tolerance_ratio: ratio_begun_with(link, path, Some(program)).unwrap_or(1.0),
     }
 }
 

@@ -20,6 +20,14 @@ fn items(source: &mut impl ItemSource) -> Vec<Item> {
     items
 }
 
+/// All items of a program from a line on, those before its first block too.
+fn way(found: LineStart<ProgramSource<&'static [u8]>>, approach: &Approach) -> Vec<Item> {
+    let mut rest = found.approached(approach);
+    let mut way = Vec::from(rest.take_aside());
+    way.extend(items(&mut rest));
+    way
+}
+
 fn approach(position: AxisVector) -> Approach {
     Approach {
         position,
@@ -64,7 +72,7 @@ fn the_way_goes_up_restores_and_comes_down() {
     assert!(found.expected().coolant().contains(Coolant::FLOOD));
     let mut position = AxisVector::repeat(0.0);
     position[0] = -20.0;
-    let way = items(&mut found.approached(&approach(position)));
+    let way = way(found, &approach(position));
     let kinds: Vec<String> = way[..8]
         .iter()
         .map(|item| match item.kind {
@@ -121,7 +129,7 @@ fn what_the_program_does_not_name_stays_as_it_is() {
     let source = ProgramSource::new(text.as_bytes(), Options::default());
     let start = StartLine { line: 4, pass: 1 };
     let found = LineStart::find(source, start, &approach).unwrap();
-    let rest = items(&mut found.approached(&approach));
+    let rest = way(found, &approach);
     let events = rest.iter().filter_map(|item| match item.kind {
         ItemKind::Event(event) => Some(event),
         _ => None,
@@ -142,7 +150,7 @@ fn the_feed_follows_its_input_where_the_program_has_it_so() {
         let source = ProgramSource::new(text.as_bytes(), options);
         let start = StartLine { line, pass: 1 };
         let found = LineStart::find(source, start, &approach).unwrap();
-        let rest = items(&mut found.approached(&approach));
+        let rest = way(found, &approach);
         let switch = rest
             .windows(2)
             .find_map(|pair| match (pair[0].kind, pair[1].kind) {
