@@ -54,7 +54,10 @@ fn a_program_that_was_left_is_said_to_be_resumed_where_it_is() {
     let told = bench.operate(&["abort"]).stderr;
     assert!(told.contains("refused until it is back"), "{told}");
     let told = running.wait().expect(5).stderr;
-    assert!(told.contains("once the tool axis, which"), "{told}");
+    assert!(
+        told.contains("raised the tool axis (lift of [jog]), bring it back first"),
+        "{told}"
+    );
     bench.refused(&["run-file", &cut, "--resume"], 1, "`glidepath jog Z-3.5");
     bench.operate(&["jog", "Z-3.5"]);
     bench.operate(&["run-file", &cut, "--resume"]);

@@ -38,7 +38,18 @@ function put(element, text) { if (element.textContent !== text) element.textCont
 function fill(element, html) {
   if (element.kept === html) return;
   element.kept = html;
+  const typed = typedIn(element);
   if (!fillAroundPressed(element, html)) element.innerHTML = html;
+  for (const field of typed) keepTyped(element, field);
+}
+/* What somebody has typed stays where a field is written anew, unless it has another value then. */
+const typedIn = element => [...element.querySelectorAll('input[id]')].filter(field => field.value !== field.defaultValue || field === document.activeElement)
+  .map(field => ({ id: field.id, value: field.value, before: field.defaultValue, has: field === document.activeElement }));
+function keepTyped(element, { id, value, before, has }) {
+  const field = element.querySelector(`#${CSS.escape(id)}`);
+  if (!field || field.defaultValue !== before) return;
+  if (field.value !== value) field.value = value;
+  if (has && field !== document.activeElement) field.focus({ preventScroll: true });
 }
 
 /* ---- icons, 24 × 24 */

@@ -65,6 +65,14 @@ fn from_a_line(browser: &mut Browser) {
     browser.evaluate("setView('programs')");
     press(browser, "#runkeys [data-do=from-line]", Duration::ZERO);
     browser.evaluate("document.querySelector('#fromline').value = '100'");
+    // What is typed stays while keys beside it become possible.
+    browser.evaluate(
+        "$('#found').kept = ''; $('#fromline').focus(); paintChosen(); $('#found').kept = ''; paintChosen()",
+    );
+    assert_eq!(
+        browser.evaluate("[$('#fromline').value, document.activeElement.id].join()"),
+        "100,fromline"
+    );
     press(browser, "[data-do=compare]", Duration::ZERO);
     browser.wait("document.querySelectorAll('.agree .around div').length === 5");
     let rows = "$$('.agree tr.differs th').map(th => th.textContent).join()";
