@@ -943,7 +943,8 @@ typedef struct gp_feedback {
     gp_latch latch[4];
     /* The joints whose drives are ready to keep where they are at the next index pulse, one
        bit each: of those in index of gp_setpoint alone, and not before they have forgotten
-       what they kept. */
+       what they kept. One that was ready and is not any more is not ready again before its
+       bit there was 0. */
     uint32_t index_armed;
     /* Those of them that have kept it since. */
     uint32_t index_kept;

@@ -13,6 +13,7 @@ const FULL: u8 = 8;
 const NO_OBJECT: u32 = 0x0602_0000;
 const NO_SUBINDEX: u32 = 0x0609_0011;
 pub(crate) const NOT_MAPPABLE: u32 = 0x0604_0041;
+pub(crate) const OUT_OF_RANGE: u32 = 0x0609_0030;
 pub(crate) const TOO_LONG: u32 = 0x0604_0042;
 pub(crate) const READ_ONLY: u32 = 0x0601_0002;
 pub(crate) const NO_ACCESS: u32 = 0x0601_0000;

@@ -142,6 +142,7 @@ impl Drive {
                 }
             }
             InjectedFault::Stuck(is_stuck) => self.is_stuck = is_stuck,
+            InjectedFault::ProbeOff(are_off) => self.probe_units.are_off = are_off,
             InjectedFault::Emergency(_) | InjectedFault::Drop(_) | InjectedFault::Reboot => {}
         }
     }

@@ -15,6 +15,8 @@ pub enum InjectedFault {
     NoVoltage(bool),
     /// Nothing moves the motor any more (true), or it moves again.
     Stuck(bool),
+    /// The units of its touch probe are off (true), or do what they are asked to again.
+    ProbeOff(bool),
     /// The device lost its supply for a moment: it begins anew, where its motor stands.
     Reboot,
 }

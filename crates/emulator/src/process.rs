@@ -1,7 +1,7 @@
 //! The process data of a drive in the memory of its device.
 
 use crate::dictionary::{
-    AxisObjects, DIGITAL_INPUTS, Dictionary, MODE, Mapped, OBJECT_STEP, PROBE_FUNCTION, own,
+    AxisObjects, DIGITAL_INPUTS, Dictionary, MODE, Mapped, OBJECT_STEP, Object, PROBE_FUNCTION, own,
 };
 use crate::drive::{Inputs, Outputs};
 use crate::memory::Memory;
@@ -73,6 +73,12 @@ pub(crate) fn is_mappable(probe: Option<TouchProbe>, entry: u32) -> bool {
     let (_, index) = own(u16::try_from(entry >> 16).unwrap_or(0));
     let is_of_probe = matches!(index, 0x60b8..=0x60bd);
     !is_of_probe || probe.is_some_and(|probe| probe.is_mappable)
+}
+
+/// Whether a touch probe does not take what an object is to be.
+pub(crate) fn is_refused(probe: Option<TouchProbe>, object: Object, value: u32) -> bool {
+    let is_function = (own(object.0).1, object.1) == PROBE_FUNCTION;
+    is_function && probe.is_some_and(|probe| probe.refuses(value))
 }
 
 /// What the touch probe and the inputs of an axis have come to, as objects.

@@ -27,6 +27,19 @@ pub struct TouchProbe {
     pub off_counts: i32,
     /// The zero impulse of its encoder, if that has one.
     pub zero: Option<ZeroImpulse>,
+    /// It does not take the zero impulse as a source.
+    pub refuses_zero: bool,
+}
+
+impl TouchProbe {
+    /// Whether it refuses what 0x60B8 is to be.
+    pub(crate) fn refuses(self, function: u32) -> bool {
+        let is_by_zero = |unit: usize| {
+            let word = function >> (8 * unit);
+            word & u32::from(ON) != 0 && word & u32::from(SOURCE) == u32::from(BY_ZERO)
+        };
+        self.refuses_zero && (0..UNITS).any(is_by_zero)
+    }
 }
 
 /// The zero impulse of an encoder: once a turn, and so wide that where it rises depends on the direction.
@@ -67,6 +80,7 @@ impl Default for TouchProbe {
             has_sources: false,
             off_counts: 0,
             zero: None,
+            refuses_zero: false,
         }
     }
 }
@@ -77,6 +91,8 @@ pub(crate) struct ProbeUnits {
     /// What the master asked for in the step before: a drive takes one to obey.
     asked: u16,
     function: u16,
+    /// They are off, whatever is asked for.
+    pub(crate) are_off: bool,
     /// Since when each is on, ns.
     since_ns: [u64; UNITS],
     pub(crate) status: u16,
@@ -87,6 +103,7 @@ pub(crate) struct ProbeUnits {
 impl ProbeUnits {
     /// A step that ends at a time: what was asked for in the step before counts from there on.
     pub(crate) fn step(&mut self, asked: u16, at_ns: u64) {
+        let asked = if self.are_off { 0 } else { asked };
         let function = core::mem::replace(&mut self.asked, asked);
         for (unit, since_ns) in self.since_ns.iter_mut().enumerate() {
             let shift = 8 * unit;

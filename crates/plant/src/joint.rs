@@ -47,6 +47,8 @@ pub struct JointSettings {
     pub switch: Option<SwitchSettings>,
     /// Index pulses of its encoder: how far they are from each other, and where one is.
     pub index: Option<(f64, f64)>,
+    /// How long its drive takes to be ready for the index pulse that it is told to keep, ns.
+    pub index_ready_ns: u64,
 }
 
 impl Default for JointSettings {
@@ -61,8 +63,19 @@ impl Default for JointSettings {
             home: None,
             switch: None,
             index: None,
+            index_ready_ns: 20_000_000,
         }
     }
+}
+
+/// What a drive does that was told to keep the next index pulse.
+#[derive(Debug, Clone, Copy, Default)]
+struct KeptPulse {
+    /// For how long it was told to, ns.
+    told_ns: u64,
+    is_ready: bool,
+    /// The count at the first pulse since it is ready.
+    at: Option<f64>,
 }
 
 fn is_on_cam(settings: &JointSettings, place: f64) -> bool {
@@ -102,8 +115,8 @@ pub(crate) struct Joint {
     is_closed: bool,
     /// Index pulses so far, and the count at the last one.
     pub(crate) index: (u64, f64),
-    /// How many there were when its drive was told to keep the next one, if it was.
-    index_from: Option<u64>,
+    /// Its drive is told to keep the next one.
+    kept: Option<KeptPulse>,
 }
 
 impl Joint {
@@ -126,7 +139,7 @@ impl Joint {
             bounces_ns: 0,
             is_closed: is_on_cam(settings, settings.start),
             index: (0, 0.0),
-            index_from: None,
+            kept: None,
         }
     }
 
@@ -159,17 +172,22 @@ impl Joint {
         self.settings.index.is_some()
     }
 
-    /// Whether its drive is to keep where the next index pulse is.
-    pub(crate) fn keep_index(&mut self, is_asked: bool) {
-        let count = self.index.0;
-        self.index_from = is_asked.then(|| self.index_from.unwrap_or(count));
+    /// Whether its drive is to keep where the next index pulse is, in a step.
+    pub(crate) fn keep_index(&mut self, is_told: bool, step_ns: u64) {
+        if !is_told || !self.has_index() {
+            self.kept = None;
+            return;
+        }
+        let ready_ns = self.settings.index_ready_ns;
+        let kept = self.kept.get_or_insert_default();
+        kept.told_ns += step_ns;
+        kept.is_ready = kept.told_ns > ready_ns;
     }
 
     /// Whether its drive is ready for the index pulse, and where that was.
     pub(crate) fn kept_index(&self) -> (bool, Option<f64>) {
-        let from = self.index_from.filter(|_| self.has_index());
-        let kept = from.is_some_and(|from| self.index.0 > from);
-        (from.is_some(), kept.then_some(self.index.1))
+        let ready = self.kept.filter(|kept| kept.is_ready);
+        (ready.is_some(), ready.and_then(|kept| kept.at))
     }
 
     /// What its contact does after a step, and whether an index pulse was passed in it.
@@ -189,7 +207,11 @@ impl Joint {
             let (from, to) = (turn(before), turn(self.place));
             if (from - to).abs() > 0.5 {
                 let pulse = at + pitch * from.max(to);
-                self.index = (self.index.0 + 1, pulse + self.offset);
+                let counted = pulse + self.offset;
+                self.index = (self.index.0 + 1, counted);
+                if let Some(kept) = self.kept.as_mut().filter(|kept| kept.is_ready) {
+                    kept.at.get_or_insert(counted);
+                }
             }
         }
     }
@@ -289,5 +311,54 @@ impl Joint {
         }
         self.offset = home.position - home.switch;
         (self.is_homed, self.is_homing) = (true, false);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_drive_keeps_the_first_index_pulse_since_it_is_ready() {
+        let mut joint = Joint::new(&JointSettings {
+            count: 100.0,
+            power_up_ns: 0,
+            index: Some((4.0, 0.7)),
+            index_ready_ns: 20_000_000,
+            ..JointSettings::default()
+        });
+        let mut told = Vec::new();
+        for step in 0..12 {
+            // 0.5 mm in 10 ms, and told to keep it from the fourth step on.
+            let demand = JointState {
+                position: 100.0 + 0.5 * f64::from(step),
+                ..JointState::default()
+            };
+            joint.keep_index(step >= 4, 10_000_000);
+            joint.step(0.01, true, false, Some(demand));
+            told.push(joint.kept_index());
+        }
+        // One at 0.7 before it is told, the next one at 4.7, and ready behind 20 ms.
+        assert!(told[..6].iter().all(|told| *told == (false, None)));
+        assert!(
+            told[6..10].iter().all(|told| *told == (true, None)),
+            "{told:?}"
+        );
+        assert!(
+            told[10..].iter().all(|told| *told == (true, Some(104.7))),
+            "{told:?}"
+        );
+        // That it keeps, whatever comes behind it, until it is not told to any more.
+        for step in 12..30 {
+            let demand = JointState {
+                position: 100.0 + 0.5 * f64::from(step),
+                ..JointState::default()
+            };
+            joint.keep_index(true, 10_000_000);
+            joint.step(0.01, true, false, Some(demand));
+        }
+        assert_eq!(joint.kept_index(), (true, Some(104.7)));
+        joint.keep_index(false, 10_000_000);
+        assert_eq!(joint.kept_index(), (false, None));
     }
 }

@@ -207,7 +207,7 @@ impl Plant {
                 let bit = 1 << index;
                 let wanted: Option<JointState> =
                     demand.and_then(|demand| demand.get(index).copied());
-                joint.keep_index(setpoint.is_some_and(|s| s.index & bit != 0));
+                joint.keep_index(setpoint.is_some_and(|s| s.index & bit != 0), step_ns);
                 joint.step(step_t, enable & bit != 0, home & bit != 0, wanted);
             }
             self.spindle.step(step_t);

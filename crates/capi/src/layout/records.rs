@@ -418,7 +418,8 @@ structure! {
         /// The inputs that are latched.
         latch: [Latch; LATCHES],
         /// The joints whose drives are ready to keep where they are at the next index pulse, one bit each: of
-        /// those in index of gp_setpoint alone, and not before they have forgotten what they kept.
+        /// those in index of gp_setpoint alone, and not before they have forgotten what they kept. One that was ready and
+        /// is not any more is not ready again before its bit there was 0.
         index_armed: u32,
         /// Those of them that have kept it since.
         index_kept: u32,

@@ -8,7 +8,7 @@ mod watchdog;
 
 use crate::cable::Passage;
 use crate::clock::{ClockKind, DeviceClock};
-use crate::coe::{Mailbox, NO_ACCESS, NOT_MAPPABLE, READ_ONLY, TOO_LONG};
+use crate::coe::{Mailbox, NO_ACCESS, NOT_MAPPABLE, OUT_OF_RANGE, READ_ONLY, TOO_LONG};
 use crate::dictionary::{
     Dictionary, INPUTS_ASSIGNED, Mapped, OUTPUTS_ASSIGNED, Object, SYNC_INPUTS, SYNC_OUTPUTS,
 };
@@ -263,6 +263,7 @@ impl Device {
                 {
                     Some(TOO_LONG)
                 }
+                _ if process::is_refused(touch_probe, object, value) => Some(OUT_OF_RANGE),
                 (0x1c32 | 0x1c33, 1) if !is_told => Some(READ_ONLY),
                 _ => None,
             };

@@ -126,7 +126,7 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
             loss: None,
             drive_inputs: settings.drive_inputs.clone(),
             probing: Probing::new(settings, WINDOW),
-            indices: IndexSearches::new(settings.drives.len()),
+            indices: IndexSearches::new(settings.drives.len(), settings.bus.period_ns),
         }
     }
 

@@ -28,7 +28,7 @@ struct Mailed {
     function: Object,
     status: Object,
     places: [Object; 2],
-    /// What is wanted of it, and what it was told.
+    /// What is wanted of it, and what it has taken; `None` while that is not known.
     wanted: ProbeUse,
     asks: bool,
     was_told: Option<ProbeUse>,
@@ -119,11 +119,13 @@ impl ProbeMail {
         }
     }
 
-    /// What it has answered; `None` if it is not asked here.
+    /// What it has answered, or is taken to do until it has heard what is wanted; `None` if that is in the process data.
     pub(super) fn told(&self, axis: usize) -> Option<ProbeInputs> {
-        let mut probes = self.probes.iter();
-        let probe = probes.find(|probe| probe.axis == axis && probe.access.places.is_none());
-        probe.map(|probe| probe.told)
+        let probe = self.probes.iter().find(|probe| probe.axis == axis)?;
+        if probe.is_to_be_switched() {
+            return Some(ProbeInputs::unlike(probe.wanted));
+        }
+        probe.access.places.is_none().then_some(probe.told)
     }
 
     /// The next probe of which something is wanted.
@@ -132,8 +134,7 @@ impl ProbeMail {
         for step in 1..=count {
             let nth = (self.turn + step) % count;
             let probe = &self.probes[nth];
-            let is_mapped = probe.access.function.is_some();
-            let what = if !is_mapped && probe.was_told != Some(probe.wanted) {
+            let what = if probe.is_to_be_switched() {
                 What::Switch(probe.wanted)
             } else if probe.asks && probe.access.places.is_none() {
                 What::Status
@@ -147,10 +148,13 @@ impl ProbeMail {
     }
 
     fn ask(&mut self, nth: usize, what: What) {
-        if let Some(probe) = self.probes.get_mut(nth)
-            && what == What::Status
-        {
-            probe.is_outdated = false;
+        if let Some(probe) = self.probes.get_mut(nth) {
+            match what {
+                What::Status => probe.is_outdated = false,
+                // From here on it may have taken that or not, until it answers.
+                What::Switch(_) => probe.was_told = None,
+                What::Place(_) => {}
+            }
         }
         let number = self
             .probes
@@ -224,7 +228,7 @@ impl ProbeMail {
         };
         let next = match coe::reply(message, probe.object(what)) {
             Reply::Value(value) => probe.take(what, value),
-            // What it refuses now it took before the cycles began: asked again in its turn.
+            // What it refuses now it took before the cycles began (see `probes`): asked again in its turn.
             Reply::Abort(_) => None,
             Reply::Other => return false,
         };
@@ -238,6 +242,11 @@ impl ProbeMail {
 }
 
 impl Mailed {
+    /// Whether it has to hear by its mailbox what is wanted.
+    fn is_to_be_switched(&self) -> bool {
+        self.access.function.is_none() && self.was_told != Some(self.wanted)
+    }
+
     const fn object(&self, what: What) -> Object {
         match what {
             What::Switch(_) => self.function,
@@ -275,5 +284,92 @@ impl Mailed {
             self.told = self.reading;
         }
         next.map(What::Place)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+
+    use super::*;
+    use crate::layout::ProbePlaces;
+    use crate::probe::TouchProbe;
+
+    /// A drive that is told by its mailbox what it is to do.
+    fn mail(places: Option<ProbePlaces>) -> ProbeMail {
+        let probe = TouchProbe::of_index(1);
+        ProbeMail {
+            probes: vec![Mailed {
+                axis: 0,
+                mailbox: 0,
+                access: ProbeAccess {
+                    probe,
+                    axis: 0,
+                    before: 0,
+                    function: None,
+                    places,
+                },
+                function: object(0x60b8, 0, 2),
+                status: object(0x60b9, 0, 2),
+                places: probe.places().map(|index| object(index, 0, 4)),
+                wanted: ProbeUse::Off,
+                asks: false,
+                was_told: None,
+                is_outdated: false,
+                reading: ProbeInputs::default(),
+                told: ProbeInputs::default(),
+            }],
+            question: None,
+            turn: 0,
+            numbers: vec![0],
+        }
+    }
+
+    /// The device takes the message that is to be sent.
+    fn post(mail: &mut ProbeMail) {
+        assert!(mail.question().is_some());
+        mail.posted(true);
+    }
+
+    /// It answers: written.
+    fn answer(mail: &mut ProbeMail) {
+        let written = [10, 0, 0, 0, 0, 3, 0, 0x30, 0x60, 0xb8, 0x60, 0, 0, 0, 0, 0];
+        assert!(mail.hear(0, &written));
+    }
+
+    #[test]
+    fn a_unit_that_has_not_heard_yet_is_not_believed_to_do_what_is_wanted() {
+        let mapped = ProbePlaces {
+            status: 6,
+            kept: [8, 12],
+        };
+        let mut mail = mail(Some(mapped));
+        let unlike = |wanted| Some(ProbeInputs::unlike(wanted));
+        mail.want(0, ProbeUse::Off, false);
+        assert_eq!(mail.told(0), unlike(ProbeUse::Off));
+        post(&mut mail);
+        answer(&mut mail);
+        // From here on what the process data says counts.
+        assert_eq!(mail.told(0), None);
+        mail.want(0, ProbeUse::Index, true);
+        assert_eq!(mail.told(0), unlike(ProbeUse::Index));
+        post(&mut mail);
+        // It is on its way, and not wanted any more: it may be on at any time.
+        mail.want(0, ProbeUse::Off, true);
+        assert_eq!(mail.told(0), unlike(ProbeUse::Off));
+        answer(&mut mail);
+        assert_eq!(mail.told(0), unlike(ProbeUse::Off));
+        post(&mut mail);
+        answer(&mut mail);
+        assert_eq!(mail.told(0), None);
+    }
+
+    #[test]
+    fn one_that_is_switched_in_the_process_data_is_only_asked() {
+        let mut mail = mail(None);
+        mail.probes[0].access.function = Some(6);
+        mail.want(0, ProbeUse::Index, true);
+        assert_eq!(mail.question.unwrap().what, What::Status);
+        assert_eq!(mail.told(0), Some(ProbeInputs::unlike(ProbeUse::Index)));
     }
 }

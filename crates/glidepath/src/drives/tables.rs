@@ -56,19 +56,13 @@ impl Tables {
         if device.alias != 0 {
             let _ = writeln!(text, "# alias = {}", device.alias);
         }
-        let counter = Counter::of(windows);
-        let is_free = move |entry: &Entry| counter.is_none() || !is_of_counter(entry);
-        let of = |is_output| {
-            let windows = windows.iter().filter(move |w| w.is_output == is_output);
-            let entries = windows.flat_map(|window| window.entries.iter().copied());
-            entries.filter(is_free)
-        };
-        if let Some(counter) = counter {
+        let of = |is_output| free(windows, is_output);
+        if let Some(counter) = Counter::of(windows) {
             self.encoder(text, counter);
         }
-        self.list(text, "inputs", of(false).filter(|entry| entry.bits == 1));
+        self.list(text, "inputs", of(false).filter(is_bit));
         self.list(text, "analog_inputs", of(false).filter(is_number));
-        self.list(text, "outputs", of(true).filter(|entry| entry.bits == 1));
+        self.list(text, "outputs", of(true).filter(is_bit));
         self.list(text, "analog_outputs", of(true).filter(is_number));
         if of(true).next().is_some()
             && let Some(watchdog) = watchdog
@@ -175,10 +169,21 @@ const fn is_of_counter(entry: &Entry) -> bool {
     matches!(entry.index, 0x6000 | 0x7000)
 }
 
-/// Whether a window has a digital input.
-pub(super) fn has_input(window: &Window) -> bool {
-    let is_input = |entry: &Entry| entry.bits == 1 && entry.index != 0;
-    !window.is_output && window.entries.iter().any(is_input)
+/// The entries of a device, of its outputs or of its inputs, that lead and tell no counter.
+fn free(windows: &[Window], is_output: bool) -> impl Iterator<Item = Entry> {
+    let has_counter = Counter::of(windows).is_some();
+    let windows = windows.iter().filter(move |w| w.is_output == is_output);
+    let entries = windows.flat_map(|window| window.entries.iter().copied());
+    entries.filter(move |entry| !(has_counter && is_of_counter(entry)))
+}
+
+/// Whether a device has a digital input.
+pub(super) fn has_input(windows: &[Window]) -> bool {
+    free(windows, false).any(|entry| is_bit(&entry) && entry.index != 0)
+}
+
+const fn is_bit(entry: &Entry) -> bool {
+    entry.bits == 1
 }
 
 fn is_number(entry: &Entry) -> bool {

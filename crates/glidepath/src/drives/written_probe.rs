@@ -23,8 +23,7 @@ impl ProbeLines {
         let probe = |item: &Found, axis: u16| item.probes.get(usize::from(axis)).copied();
         let probes = drives.flat_map(|item| (0..item.axes).map(move |axis| probe(item, axis)));
         let probes: Vec<FoundProbe> = probes.map(Option::unwrap_or_default).collect();
-        let is_input =
-            |item: &&Found| !item.is_drive() && item.windows.iter().any(super::tables::has_input);
+        let is_input = |item: &&Found| !item.is_drive() && super::tables::has_input(&item.windows);
         let has_terminal_input = found.iter().any(|item| is_input(&item));
         let tells = probes.iter().position(|probe| probe.has_inputs);
         Self {

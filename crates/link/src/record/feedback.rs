@@ -186,7 +186,8 @@ pub struct Feedback {
     /// The inputs that are latched.
     pub latch: [Latch; LATCHES],
     /// The joints whose drives are ready to keep where they are at the next index pulse, one bit each: of those in
-    /// [`super::Setpoint::index`] alone, and not before they have forgotten what they kept.
+    /// [`super::Setpoint::index`] alone, and not before they have forgotten what they kept. One that was ready and is not
+    /// any more is not ready again before its bit there was 0.
     pub index_armed: u32,
     /// Those of them that have kept it since.
     pub index_kept: u32,

@@ -124,7 +124,7 @@ impl Machine {
                 self.draft.remark(table, note);
                 self.inputs.decide(at, Fate::Changed, note);
             } else {
-                let note = "the edge of the switch, as it is without index_input";
+                let note = "the edge of the switch, as it is without index and index_input";
                 self.inputs.decide(at, Fate::Converted, note);
             }
         }

@@ -1,11 +1,15 @@
 //! Joints that come home by the index pulse of their encoder, which their drive keeps.
 
-use super::{INPUTS, TOUCH, setup};
+use super::search::Search;
+use super::{INPUTS, PART_Z, TOUCH, probe, setup};
 use crate::machine::{COUNTS, Case, Hands, Outcome, START_NS, Setup, run_on};
-use glidepath_emulator::{DriveSettings as Emulated, Maps, Probe, Segment, ZeroImpulse};
-use glidepath_ethercat::{At, DigitalInput, Mapping, TouchProbe};
+use crate::wire::{MemoryWire, Quiet};
+use glidepath_emulator::{
+    DriveSettings as Emulated, InjectedFault, Maps, Probe, Segment, ZeroImpulse,
+};
+use glidepath_ethercat::{At, DigitalInput, Init, Mapping, Settings, TouchProbe};
 use glidepath_interpolator::{IndexPulse, JointHoming};
-use glidepath_link::{Command, Feedback, MachineState, Setpoint, Status};
+use glidepath_link::{Command, Feedback, LatchKind, MachineState, Setpoint, Status};
 
 /// Counts of a turn of the motor, of 5 mm.
 const TURN: i64 = 8_388_608;
@@ -47,6 +51,12 @@ struct HomeCase {
     has_begun: bool,
     /// Feedback, setpoint and status at each home, or at a fault.
     ends: Vec<(Feedback, Setpoint, Status)>,
+    /// Its touch probe is off while it moves between these places, once.
+    off: Option<(f64, f64)>,
+    /// What it does once it is at home.
+    then: Option<Search>,
+    /// The last feedback.
+    last: Option<Feedback>,
 }
 
 impl HomeCase {
@@ -59,7 +69,15 @@ impl HomeCase {
 }
 
 impl Case for HomeCase {
-    fn tick(&mut self, hands: &mut Hands<'_>, _: &mut Segment) {
+    fn tick(&mut self, hands: &mut Hands<'_>, segment: &mut Segment) {
+        self.last = hands.feedback.or(self.last);
+        if let (Some((low, high)), Some(feedback)) = (self.off, self.last) {
+            let is_off = (low..=high).contains(&feedback.position[0]);
+            segment.inject(0, InjectedFault::ProbeOff(is_off), hands.now_ns);
+            if feedback.position[0] > high {
+                self.off = None;
+            }
+        }
         assert!(
             hands.tick < 20_000,
             "{:?} {:?}",
@@ -83,6 +101,10 @@ impl Case for HomeCase {
             self.has_begun = false;
         }
         let is_over = self.ends.len() == self.times;
+        if let (true, Some(search)) = (is_over, &mut self.then) {
+            search.tick(hands, segment);
+            return;
+        }
         hands.wants.command = match state {
             Some(MachineState::Off) => Some(Command::Enable),
             _ if is_over => {
@@ -138,6 +160,10 @@ fn zero(setup: &mut Setup, at_counts: Option<i64>) {
 }
 
 fn homed(setup: &Setup, times: usize) -> (HomeCase, Outcome) {
+    homed_in(setup, HomeCase::of(times))
+}
+
+fn homed_in(setup: &Setup, mut case: HomeCase) -> (HomeCase, Outcome) {
     let mut segment = Segment::new_at(&setup.emulated, START_NS - 3_000_000_000);
     segment.keep_records();
     segment.add_probe(Probe {
@@ -148,10 +174,10 @@ fn homed(setup: &Setup, times: usize) -> (HomeCase, Outcome) {
         filter_ns: 3_000_000,
         drive_inputs: Vec::new(),
     });
-    let mut case = HomeCase::of(times);
+    segment.add_probe(probe());
     let outcome = run_on(setup, &mut case, segment, START_NS);
     assert_eq!(outcome.allocations, 0, "the bus thread allocates");
-    assert_eq!(case.ends.len(), times);
+    assert_eq!(case.ends.len(), case.times);
     (case, outcome)
 }
 
@@ -222,7 +248,11 @@ fn an_impulse_just_before_the_edge_of_the_switch_is_not_taken() {
 
 #[test]
 fn home_repeats_and_the_probe_has_its_unit_back() {
-    let (case, _) = homed(&by_index(2_000_000, BEHIND, Some(TOUCH)), 3);
+    let case = HomeCase {
+        then: Some(Search::new(&["G21 G90 F1200\nG38.2 Z-5\n"])),
+        ..HomeCase::of(3)
+    };
+    let (case, _) = homed_in(&by_index(2_000_000, BEHIND, Some(TOUCH)), case);
     for end in &case.ends {
         let off = place(end, &BEHIND) - impulse(-1);
         assert!(off.abs() <= 1.5 / COUNTS, "{off}");
@@ -232,11 +262,20 @@ fn home_repeats_and_the_probe_has_its_unit_back() {
             (0, 0, 0)
         );
     }
+    // All drives have kept the contact, the one that came home by its touch probe among them.
+    let latch = case.last.unwrap().latch[0];
+    assert_eq!((latch.count, latch.kind), (1, LatchKind::Drive.code()));
+    let contact = case.then.unwrap().found[0].contact;
+    assert!((contact[2] - PART_Z).abs() <= 1.5 / COUNTS, "{contact:?}");
+    assert!(
+        (contact[0] - BEHIND.home).abs() <= 1.5 / COUNTS,
+        "{contact:?}"
+    );
 }
 
 #[test]
 fn a_drive_that_is_asked_by_its_mailbox_keeps_it_as_well() {
-    let changes: [fn(&mut Setup); 3] = [
+    let changes: [fn(&mut Setup); 4] = [
         |setup| setup.emulated[0].touch_probe.as_mut().unwrap().is_mappable = false,
         |setup| {
             setup.drives[0].mapping = Mapping::Kept;
@@ -245,19 +284,56 @@ fn a_drive_that_is_asked_by_its_mailbox_keeps_it_as_well() {
                 inputs: vec![0x6041_0010, 0x6064_0020],
             };
         },
+        // What it answers is in the process data, and what it is told is not.
+        |setup| {
+            setup.drives[0].mapping = Mapping::Kept;
+            setup.emulated[0].maps = Maps::Fixed {
+                outputs: vec![0x6040_0010, 0x607a_0020],
+                inputs: vec![
+                    0x6041_0010,
+                    0x6064_0020,
+                    0x60b9_0010,
+                    0x60ba_0020,
+                    0x60bb_0020,
+                ],
+            };
+        },
         |setup| setup.drives[0].index = Some(2),
     ];
     for (case, change) in changes.into_iter().enumerate() {
-        let mut setup = by_index(4_000_000, ALONE, None);
-        change(&mut setup);
-        let (seen, _) = homed(&setup, 2);
-        // The second time it sets out from its home, below the same impulse.
-        for end in &seen.ends {
-            let off = place(end, &ALONE) - impulse(0);
-            let turns = (off / 5.0).round();
-            assert!((off - 5.0 * turns).abs() <= 1.5 / COUNTS, "{case}: {off}");
+        // At the higher speed it is at the end of its way before its drive has told what it keeps.
+        for latch_v in [2.0, 20.0] {
+            let homing = JointHoming { latch_v, ..ALONE };
+            let mut setup = by_index(4_000_000, homing, None);
+            change(&mut setup);
+            let (seen, _) = homed(&setup, 2);
+            // The second time it sets out from its home, below the same impulse.
+            for end in &seen.ends {
+                let off = place(end, &homing) - impulse(0);
+                assert!(off.abs() <= 1.5 / COUNTS, "{case} {latch_v}: {off}");
+            }
         }
     }
+}
+
+#[test]
+fn a_drive_that_loses_its_readiness_under_way_does_not_come_home_a_turn_off() {
+    // The first impulse is in there, and the next one within the way.
+    let homing = JointHoming {
+        search_travel: 12.0,
+        ..ALONE
+    };
+    let setup = by_index(4_000_000, homing, None);
+    let case = HomeCase {
+        off: Some((0.6, 1.5)),
+        ..HomeCase::of(1)
+    };
+    let (case, _) = homed_in(&setup, case);
+    let told = why(&case.ends[0]);
+    assert!(
+        told.contains("not ready any more for the index pulse while the joint moved"),
+        "{told}"
+    );
 }
 
 #[test]
@@ -291,12 +367,8 @@ fn a_place_that_cannot_be_is_told_and_not_used() {
     assert!(told.contains("which is not on the way"), "{told}");
 }
 
-#[test]
-fn a_drive_without_a_touch_probe_is_refused_by_name() {
-    use crate::wire::{MemoryWire, Quiet};
-    use glidepath_ethercat::{Init, Settings};
-    let mut setup = by_index(4_000_000, ALONE, None);
-    setup.emulated[0] = Emulated::default();
+/// Why a bus does not come up.
+fn refusal(setup: Setup) -> String {
     let settings = Settings {
         bus: setup.bus,
         drives: setup.drives,
@@ -306,9 +378,31 @@ fn a_drive_without_a_touch_probe_is_refused_by_name() {
     };
     let mut wire = MemoryWire::new(Segment::new(&setup.emulated), Quiet, 0);
     let pre_op = Init::find(&mut wire).unwrap().into_pre_op().unwrap();
-    let told = pre_op.into_safe_op(&settings).unwrap_err().to_string();
+    pre_op.into_safe_op(&settings).unwrap_err().to_string()
+}
+
+#[test]
+fn a_drive_without_a_touch_probe_is_refused_by_name() {
+    let mut setup = by_index(4_000_000, ALONE, None);
+    setup.emulated[0] = Emulated::default();
+    let told = refusal(setup);
     assert!(
-        told.contains("device 0") && told.contains("`index` out of its own"),
+        told.contains("device 0") && told.contains("leave `index` out of its table"),
         "{told}"
     );
+}
+
+#[test]
+fn a_drive_that_does_not_take_the_zero_impulse_is_refused_by_name() {
+    let mut setup = by_index(4_000_000, ALONE, None);
+    setup.emulated[0].touch_probe.as_mut().unwrap().refuses_zero = true;
+    let told = refusal(setup);
+    for part in [
+        "device 0",
+        "the drive of J0 does not keep the zero impulse",
+        "0x60b8:0 was refused: abort code 0x06090030",
+        "leave `index` out of its table",
+    ] {
+        assert!(told.contains(part), "{told}");
+    }
 }

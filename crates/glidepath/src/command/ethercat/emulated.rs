@@ -2,6 +2,7 @@
 
 use super::bridge;
 use super::desk;
+use super::emulated_drives::{MAP_STEP, as_they_are, desk_drives};
 use super::emulated_inputs::{Level, Pins};
 use super::emulated_terminals;
 use super::input_file::InputFile;
@@ -9,17 +10,15 @@ use super::namespace::{self, DRIVES, MASTER};
 use crate::cli::EthercatArgs;
 use crate::command::failure::Failure;
 use crate::command::servo;
-use crate::config::{HomingBy, MachineConfig};
+use crate::config::MachineConfig;
 use crate::drives::{self, DrivesSource};
 use crate::exit::Exit;
 use crate::file_error::FileError;
 use core::sync::atomic::{AtomicBool, Ordering};
-use glidepath_emulator::{
-    DriveSettings as Emulated, HomeSwitch, Segment, TouchProbe as EmulatedProbe, ZeroImpulse,
-};
+use glidepath_emulator::{DriveSettings as Emulated, Segment};
 use glidepath_ethercat::{
-    BusSettings, Demand, DigitalInput, DriveSettings, HomingSettings, MAX_FRAME, Mapping,
-    PacketWire, Settings, TerminalSettings, TouchProbe, Wire as _,
+    BusSettings, Demand, DigitalInput, DriveSettings, MAX_FRAME, PacketWire, Settings,
+    TerminalSettings, TouchProbe, Wire as _,
 };
 use glidepath_realtime::{Mode, Request, enter};
 use std::fs::File;
@@ -27,14 +26,6 @@ use std::io::{BufWriter, Write as _};
 use std::path::Path;
 use std::sync::mpsc::{Receiver, channel};
 
-/// A turn of an emulated motor, mm or degrees.
-const TURN: f64 = 5.0;
-/// A 23 bit encoder on a spindle of 5 mm, counts a mm.
-const COUNTS: f64 = 8_388_608.0 / 5.0;
-/// Counts that a drive has on either side of zero, with something to spare.
-const REACH: f64 = 2.0e9;
-/// How far away the home switch of a joint is that has one, mm or degrees.
-const TO_HOME: f64 = 5.0;
 /// The drives do what they are asked to after the bus, and before nobody.
 const PRIORITY: i32 = 60;
 /// How late setpoints may be, ns.
@@ -45,9 +36,6 @@ const DESK_LATE_NS: u64 = 12_000_000;
 const PATIENCE_PERIODS: u64 = 8;
 /// Between two looks whether it is over.
 const POLL_NS: u64 = 50_000_000;
-
-/// How far the maps of an axis are from those of the one before, as drives and emulated ones have it.
-const MAP_STEP: u16 = 0x10;
 
 /// Runs both until interrupted.
 ///
@@ -188,53 +176,6 @@ struct Machine {
     pins: Pins,
 }
 
-/// Drives that no file describes.
-fn desk_drives(
-    args: &EthercatArgs,
-    config: &MachineConfig,
-    begins: &[f64],
-) -> impl Iterator<Item = DriveSettings> {
-    let reach = config.travel();
-    let reach = reach
-        .0
-        .iter()
-        .chain(reach.1.iter())
-        .filter(|place| place.is_finite());
-    let reach = reach.fold(1000.0_f64, |most, place| most.max(place.abs()));
-    let homes = config.feedback.homing == HomingBy::Drive;
-    let velocities = drives::joint_velocities(config).into_iter().enumerate();
-    velocities.map(move |(joint, max_v)| DriveSettings {
-        joint,
-        position: joint,
-        axis: 0,
-        map_step: MAP_STEP,
-        vendor: 0,
-        product: 0,
-        alias: 0,
-        process_at: None,
-        mapping: Mapping::Written,
-        counts_per_unit: COUNTS.min(REACH / reach),
-        is_inverted: false,
-        home_offset: if homes { begins[joint] - TO_HOME } else { 0.0 },
-        homing: homes.then_some(HomingSettings {
-            method: 17,
-            fast_v: 20.0,
-            slow_v: 2.0,
-            acceleration_a: 500.0,
-            sequence: 0,
-        }),
-        // A host that stands still is no fault of theirs.
-        following_error: if args.best_effort { 50.0 } else { 2.0 },
-        following_ms: 50,
-        enable_window: 0.05,
-        quick_stop_a: 4000.0,
-        probe: None,
-        index: None,
-        has_inputs: false,
-        max_v,
-    })
-}
-
 /// The drives of a machine, as the bridge and as they themselves know them.
 fn machine(args: &EthercatArgs, config: &MachineConfig) -> Result<Machine, Failure> {
     let given = args
@@ -248,7 +189,7 @@ fn machine(args: &EthercatArgs, config: &MachineConfig) -> Result<Machine, Failu
             let joints = drives::joint_velocities(config).len();
             let desk = || desk::desk(joints, joints);
             let terminals = args.emulated_inputs.iter().map(|_| desk()).collect();
-            let drives = desk_drives(args, config, &begins).collect();
+            let drives = desk_drives(args.best_effort, config, &begins).collect();
             (drives, Vec::new(), terminals, DrivesSource::default())
         },
         |given| {
@@ -288,59 +229,6 @@ fn machine(args: &EthercatArgs, config: &MachineConfig) -> Result<Machine, Failu
         source,
         pins,
     })
-}
-
-/// An index pulse every turn, and one where its drive counts zero.
-#[allow(clippy::cast_possible_truncation, reason = "judged: 1e10 at most")]
-fn zero_impulse(drive: &DriveSettings) -> ZeroImpulse {
-    let turn_counts = ((TURN * drive.counts_per_unit).round() as i64).max(2);
-    ZeroImpulse {
-        turn_counts,
-        at_counts: 0,
-        wide_counts: turn_counts / 100,
-    }
-}
-
-/// All devices, the drives among them as they begin.
-fn as_they_are(
-    drives: &[DriveSettings],
-    terminals: &[TerminalSettings],
-    begins: &[f64],
-) -> Vec<Emulated> {
-    let positions = drives.iter().map(|drive| drive.position);
-    let positions = positions.chain(terminals.iter().map(|terminal| terminal.position));
-    let last = positions.max().unwrap_or(0);
-    let mut emulated = vec![Emulated::default(); last + 1];
-    for drive in drives {
-        let begin = drive.counts(begins[drive.joint]).unwrap_or(0);
-        let there = &mut emulated[drive.position];
-        there.axes = there.axes.max(usize::from(drive.axis) + 1);
-        if drive.probe.is_some() || drive.index.is_some() {
-            there.touch_probe = Some(EmulatedProbe {
-                zero: drive.index.map(|_| zero_impulse(drive)),
-                ..EmulatedProbe::default()
-            });
-        }
-        there.identity[0] = if drive.vendor == 0 {
-            there.identity[0]
-        } else {
-            drive.vendor
-        };
-        there.identity[1] = if drive.product == 0 {
-            there.identity[1]
-        } else {
-            drive.product
-        };
-        if drive.homing.is_some() {
-            #[allow(clippy::cast_possible_truncation, reason = "some millimetres")]
-            let switch = (-TO_HOME * drive.counts_per_unit) as i64;
-            there.home = Some(HomeSwitch { at_counts: switch });
-        } else {
-            there.start_counts.resize(there.axes, 0);
-            there.start_counts[usize::from(drive.axis)] = begin;
-        }
-    }
-    emulated
 }
 
 /// What the drives recorded, for what time each target was meant, and what had become of the setpoints

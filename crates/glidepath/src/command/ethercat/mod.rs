@@ -3,6 +3,7 @@
 mod bridge;
 mod desk;
 mod emulated;
+mod emulated_drives;
 mod emulated_inputs;
 mod emulated_terminals;
 mod input_file;

@@ -147,7 +147,8 @@ fn with_switch(joint: JointSettings, homing: Option<&JointHoming>) -> JointSetti
             cam: (edge.min(end), edge.max(end)),
             bounce_ns: BOUNCE_NS,
         }),
-        index: homing.index.map(|_| (PITCH, joint.start)),
+        // None where it stands.
+        index: homing.index.map(|_| (PITCH, joint.start + 0.5 * PITCH)),
         ..joint
     }
 }

@@ -16,6 +16,9 @@ const PAUSE_NS: u64 = 100_000_000;
 /// How long a drive may take to be ready for an index pulse: one that is asked by its mailbox takes some tenths of a
 /// second.
 const ARM_NS: u64 = 5_000_000_000;
+/// How long a drive may take at the end of the way to tell what it has kept: one that is asked by its mailbox takes some
+/// tenths of a second for that, too.
+const TELL_NS: u64 = 2_000_000_000;
 /// How far a joint swings at rest, mm or degrees; and by how much time a sample may be beside what the drive keeps, s.
 const SWINGS: f64 = 0.01;
 const BESIDE_T: f64 = 0.005;
@@ -59,9 +62,16 @@ pub(crate) enum SearchFailure {
     #[error("its drive does not latch the index pulse that is configured")]
     NoLatch,
     #[error(
-        "its drive was not ready to keep the index pulse within {0} s: does its servo stack have it do that?"
+        "its drive was not ready to keep the index pulse within {0} s: does its servo stack have it do that, and does the \
+         joint not stand on the pulse?"
     )]
     NotArmed(u64),
+    #[error("its drive was not ready any more for the index pulse while the joint moved")]
+    Disarmed,
+    #[error(
+        "the joint stands on its index pulse where it sets out: jog it off, and look for its home again"
+    )]
+    OnPulse,
     #[error(
         "its drive says that the index pulse was at {0:.4}, which is not on the way from {1:.4} to {2:.4}"
     )]
@@ -100,8 +110,14 @@ enum Stage {
     /// Its drive is to be ready for the index pulse.
     Arming {
         since_ns: u64,
+        /// It was seen not to be: what it is ready for since, or keeps, it was asked by this search.
+        was_not: bool,
     },
     Going,
+    /// At the end of its way: its drive may have kept the index pulse, and not have told it yet.
+    Awaiting {
+        since_ns: u64,
+    },
     Stopping,
     Pausing {
         since_ns: u64,
@@ -137,8 +153,8 @@ impl HomeSearch {
         })
     }
 
-    /// One turn.
-    pub(crate) fn step(&mut self, seen: &Seen) -> Step {
+    /// One turn. `may_set_out` is false while another joint that moves the same axis is not ready.
+    pub(crate) fn step(&mut self, seen: &Seen, may_set_out: bool) -> Step {
         if !core::mem::replace(&mut self.has_begun, true) {
             match self.kind {
                 Kind::Here => {
@@ -163,8 +179,12 @@ impl HomeSearch {
         }
         match self.stage {
             Stage::Begin => self.begin(seen),
-            Stage::Arming { since_ns } => self.arm(since_ns, seen),
-            Stage::Going => self.go_on(seen),
+            Stage::Arming { since_ns, was_not } => {
+                let was_not = was_not || seen.index.kept == Kept::No;
+                self.stage = Stage::Arming { since_ns, was_not };
+                self.arm(since_ns, seen, may_set_out)
+            }
+            Stage::Going | Stage::Awaiting { .. } => self.go_on(seen),
             Stage::Stopping if seen.rests => {
                 let since_ns = seen.now_ns;
                 self.stage = Stage::Pausing { since_ns };
@@ -204,8 +224,21 @@ impl HomeSearch {
 
     /// Whether its drive is to keep where the next index pulse is.
     pub(crate) fn asks_index(&self) -> bool {
-        let is_under_way = matches!(self.stage, Stage::Arming { .. } | Stage::Going);
+        let is_under_way = matches!(
+            self.stage,
+            Stage::Arming { .. } | Stage::Going | Stage::Awaiting { .. }
+        );
         self.phase == Phase::Index && is_under_way && self.is_kept_by_drive()
+    }
+
+    /// Whether it stands until its drive is ready for the index pulse.
+    pub(crate) fn waits_for_drive(&self, seen: &Seen) -> bool {
+        matches!(self.stage, Stage::Arming { .. }) && !self.is_armed(seen)
+    }
+
+    /// Whether its drive is ready for an index pulse, and has been asked for that by this search.
+    fn is_armed(&self, seen: &Seen) -> bool {
+        matches!(self.stage, Stage::Arming { was_not: true, .. }) && seen.index.kept == Kept::Armed
     }
 
     fn is_kept_by_drive(&self) -> bool {
@@ -215,8 +248,10 @@ impl HomeSearch {
     fn begin(&mut self, seen: &Seen) -> Step {
         if self.phase == Phase::Index {
             if self.is_kept_by_drive() {
-                let since_ns = seen.now_ns;
-                self.stage = Stage::Arming { since_ns };
+                self.stage = Stage::Arming {
+                    since_ns: seen.now_ns,
+                    was_not: seen.index.kept == Kept::No,
+                };
                 return Step::Wait;
             }
             let Some((count, _)) = seen.index.latched else {
@@ -228,13 +263,22 @@ impl HomeSearch {
     }
 
     /// Waits at rest until its drive is ready for the index pulse.
-    fn arm(&mut self, since_ns: u64, seen: &Seen) -> Step {
+    fn arm(&mut self, since_ns: u64, seen: &Seen, may_set_out: bool) -> Step {
+        if self.is_armed(seen) {
+            return if may_set_out {
+                self.set_out(seen)
+            } else {
+                Step::Wait
+            };
+        }
+        let was_not = matches!(self.stage, Stage::Arming { was_not: true, .. });
         match seen.index.kept {
-            Kept::Armed => self.set_out(seen),
+            // Which side of the pulse that is nobody knows.
+            Kept::At(_) if was_not => Step::Failed(SearchFailure::OnPulse),
             _ if seen.now_ns > since_ns + ARM_NS => {
                 Step::Failed(SearchFailure::NotArmed(ARM_NS / 1_000_000_000))
             }
-            Kept::No | Kept::At(_) => Step::Wait,
+            Kept::No | Kept::Armed | Kept::At(_) => Step::Wait,
         }
     }
 
@@ -248,6 +292,10 @@ impl HomeSearch {
     }
 
     fn go_on(&mut self, seen: &Seen) -> Step {
+        // It may have passed the pulse, and what it is ready for later is that of another turn.
+        if self.asks_index() && seen.index.kept == Kept::No {
+            return Step::Failed(SearchFailure::Disarmed);
+        }
         let found = match self.phase {
             Phase::Search => seen.is_closed.then_some(seen.actual),
             Phase::BackOff | Phase::Retreat => (!seen.is_closed).then_some(seen.actual),
@@ -261,8 +309,9 @@ impl HomeSearch {
             }
         };
         if let Some(place) = found {
-            if self.asks_index() && !self.is_on_way(place, seen) {
-                let why = SearchFailure::Elsewhere(place, self.from, seen.actual);
+            if self.asks_index()
+                && let Some(why) = self.beside_way(place, seen)
+            {
                 return Step::Failed(why);
             }
             self.latched = place;
@@ -270,6 +319,9 @@ impl HomeSearch {
             return Step::Stop;
         }
         if !seen.rests {
+            return Step::Wait;
+        }
+        if self.asks_index() && self.waits_at_end(seen) {
             return Step::Wait;
         }
         let (_, way) = self.way();
@@ -281,11 +333,27 @@ impl HomeSearch {
         })
     }
 
-    /// Whether the joint can have been at a place since it set out.
-    fn is_on_way(&self, place: f64, seen: &Seen) -> bool {
-        let margin = SWINGS + self.settings.latch_v.abs() * BESIDE_T;
-        let (low, high) = (self.from.min(seen.actual), self.from.max(seen.actual));
-        (low - margin..=high + margin).contains(&place)
+    /// At the end of its way: whether its drive may still tell what it has kept.
+    const fn waits_at_end(&mut self, seen: &Seen) -> bool {
+        let Stage::Awaiting { since_ns } = self.stage else {
+            self.stage = Stage::Awaiting {
+                since_ns: seen.now_ns,
+            };
+            return true;
+        };
+        seen.now_ns <= since_ns + TELL_NS
+    }
+
+    /// Why the joint cannot have passed its index pulse at a place since it set out, if it cannot.
+    fn beside_way(&self, place: f64, seen: &Seen) -> Option<SearchFailure> {
+        let latch_v = self.settings.latch_v;
+        let ahead = |place: f64| (place - self.from) * latch_v.signum();
+        if ahead(place).abs() <= SWINGS {
+            return Some(SearchFailure::OnPulse);
+        }
+        let beyond = ahead(seen.actual) + SWINGS + latch_v.abs() * BESIDE_T;
+        let is_on_way = (0.0..=beyond).contains(&ahead(place));
+        (!is_on_way).then_some(SearchFailure::Elsewhere(place, self.from, seen.actual))
     }
 
     fn next_phase(&mut self, seen: &Seen) -> Step {
@@ -306,3 +374,6 @@ impl HomeSearch {
         self.begin(seen)
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -237,8 +237,9 @@ impl HomingSequencer {
         }
         let mut outcome = Outcome::Pending;
         if let Some(group) = &mut job.group {
+            let held = group.held(&self.pairs, &seen);
             outcome = group.turn(
-                (around.now_ns, &seen),
+                (around.now_ns, &seen, held),
                 &self.settings,
                 &mut order,
                 &mut self.forget,
@@ -300,9 +301,23 @@ impl Group {
         }
     }
 
+    /// The joints that do not set out yet for their index pulse, one bit each: two that move one axis set out together.
+    fn held(&self, pairs: &[Pair], all_seen: &[Seen; JOINTS]) -> u32 {
+        let waits = |joint: usize| {
+            let (task, seen) = (self.tasks.get(joint), all_seen.get(joint));
+            let (Some(Some(Task::Search(search))), Some(seen)) = (task, seen) else {
+                return false;
+            };
+            search.waits_for_drive(seen)
+        };
+        let pairs = pairs.iter().map(|pair| pair.joints);
+        let held = pairs.filter(|(one, other)| waits(*one) || waits(*other));
+        held.fold(0, |mask, (one, other)| mask | 1 << one | 1 << other)
+    }
+
     fn turn(
         &mut self,
-        (now_ns, all_seen): (u64, &[Seen; JOINTS]),
+        (now_ns, all_seen, held): (u64, &[Seen; JOINTS], u32),
         settings: &[Option<JointHoming>; JOINTS],
         order: &mut JointsOrder,
         forget: &mut u32,
@@ -320,7 +335,7 @@ impl Group {
                 continue;
             };
             match task {
-                Task::Search(search) => match search.step(seen) {
+                Task::Search(search) => match search.step(seen, held & (1 << joint) == 0) {
                     Step::Wait => {}
                     Step::Stop => order.stop |= 1 << joint,
                     Step::Go { place, v } => {

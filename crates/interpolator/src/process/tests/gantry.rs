@@ -3,7 +3,7 @@
 use super::bench::{ALLOWED, Bench, config};
 use super::following::{step, take_the_position_over};
 use super::homing::{SWITCH, arrive, assert_inside_limits, home_again, joint, lose_power, set_out};
-use crate::shared::config::homing::JointHoming;
+use crate::shared::config::homing::{IndexPulse, JointHoming};
 use crate::shared::config::{Config, Gantry};
 use glidepath_link::{Command, FaultCause, MachineState};
 use glidepath_plant::{InjectedFault, JointSettings};
@@ -134,4 +134,54 @@ fn two_joints_that_stay_apart_are_cleared_by_what_is_told_and_squared_again() {
         (bench.state(), bench.fault()),
         (MachineState::NotHomed, None)
     );
+}
+
+#[test]
+fn two_joints_of_an_axis_set_out_together_for_the_index_pulses_that_their_drives_keep() {
+    let mut settings = Config {
+        gantries: [
+            Some(Gantry {
+                master: 0,
+                difference: 1.5,
+            }),
+            None,
+            None,
+            None,
+        ],
+        ..config(false)
+    };
+    let homing = JointHoming {
+        sequence: -1,
+        search_v: 0.0,
+        latch_v: 3.0,
+        index: Some(IndexPulse::Drive),
+        ..SWITCH
+    };
+    let joints = &mut settings.feedback.as_mut().unwrap().joints;
+    joints[0].homing = Some(homing);
+    joints[3].homing = Some(homing);
+    let others = JointSettings::default();
+    // The first pulse of both is at 8.7, and the second drive is ready for it late.
+    let of_gantry = |index_ready_ns| JointSettings {
+        index: Some((4.0, 0.7)),
+        index_ready_ns,
+        ..joint(5.0)
+    };
+    for (first, second) in [(20_000_000, 400_000_000), (400_000_000, 20_000_000)] {
+        let joints = [of_gantry(first), others, others, of_gantry(second)];
+        let mut bench = Bench::new(settings, &joints);
+        set_out(&mut bench, 1);
+        arrive(&mut bench);
+        assert_eq!(bench.status().homed, 0b1111);
+        let moves = |joint: usize| {
+            let moves = |s: &glidepath_link::Setpoint| s.joint_velocity[joint] != 0.0;
+            bench.setpoints.iter().position(moves).unwrap()
+        };
+        assert_eq!(moves(0), moves(3));
+        let asked = bench.setpoints.iter().position(|s| s.index == 0b1001);
+        // 400 ms are 100 ticks.
+        assert!(moves(0) >= asked.unwrap() + 100);
+        bench.assert_no_joint_jumps();
+        assert_inside_limits(&bench);
+    }
 }

@@ -182,3 +182,18 @@ fn every_axis_of_a_device_has_its_own_touch_probe() {
     let drives = read(&taken(&written("eth9", &found)));
     assert!(drives.drives.len() == 3 && drives.drives.iter().all(|drive| drive.probe.is_some()));
 }
+
+#[test]
+fn the_bits_of_an_encoder_are_no_input_for_the_probe() {
+    let text = written(
+        "eth9",
+        &found(&[
+            drive(true, false),
+            drive(true, false),
+            drive(true, false),
+            Emulated::encoder(32),
+        ]),
+    );
+    let drives = read(&taken(&text));
+    assert_eq!(drives.drive_inputs.len(), 1, "{text}");
+}
