@@ -42,7 +42,7 @@ pub struct ProgramConfig {
     pub in_force: Option<InForce>,
     /// Where the machine stands on which it would begin now, in machine coordinates; `None`: at home.
     pub stands: Option<AxisVector>,
-    /// How many times its tolerance this run may use: see [`super::MachineConfig::use_tolerance_ratio`].
+    /// How many times its tolerance this run may use. The tolerance of the path has it already.
     pub tolerance_ratio: f64,
     /// Who watches the reading, and may end it.
     pub watch: Option<ReadingWatch>,
