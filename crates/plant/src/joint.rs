@@ -73,9 +73,15 @@ impl Default for JointSettings {
 struct KeptPulse {
     /// For how long it was told to, ns.
     told_ns: u64,
-    is_ready: bool,
     /// The count at the first pulse since it is ready.
     at: Option<f64>,
+}
+
+impl KeptPulse {
+    /// Whether the drive is ready for it by now.
+    const fn is_ready(&self, settings: &JointSettings) -> bool {
+        self.told_ns > settings.index_ready_ns
+    }
 }
 
 fn is_on_cam(settings: &JointSettings, place: f64) -> bool {
@@ -178,15 +184,12 @@ impl Joint {
             self.kept = None;
             return;
         }
-        let ready_ns = self.settings.index_ready_ns;
-        let kept = self.kept.get_or_insert_default();
-        kept.told_ns += step_ns;
-        kept.is_ready = kept.told_ns > ready_ns;
+        self.kept.get_or_insert_default().told_ns += step_ns;
     }
 
     /// Whether its drive is ready for the index pulse, and where that was.
     pub(crate) fn kept_index(&self) -> (bool, Option<f64>) {
-        let ready = self.kept.filter(|kept| kept.is_ready);
+        let ready = self.kept.filter(|kept| kept.is_ready(&self.settings));
         (ready.is_some(), ready.and_then(|kept| kept.at))
     }
 
@@ -209,7 +212,8 @@ impl Joint {
                 let pulse = at + pitch * from.max(to);
                 let counted = pulse + self.offset;
                 self.index = (self.index.0 + 1, counted);
-                if let Some(kept) = self.kept.as_mut().filter(|kept| kept.is_ready) {
+                let kept = self.kept.as_mut();
+                if let Some(kept) = kept.filter(|kept| kept.is_ready(&self.settings)) {
                     kept.at.get_or_insert(counted);
                 }
             }

@@ -22,6 +22,7 @@ pub(crate) use drive_io::{DriveCommand, DriveInputs};
 use crate::bus_fault::BusFault;
 use crate::event::Event;
 use crate::image::{Inputs, Outputs};
+use crate::probe::ProbeUse;
 use crate::settings::DriveSettings;
 use crate::state;
 use enabling::Enabling;
@@ -63,7 +64,7 @@ impl Axis {
                 control: 0,
                 target: 0,
                 mode: crate::image::CYCLIC_POSITION,
-                probe: crate::probe::ProbeUse::Off,
+                probe: ProbeUse::Off,
                 asks_probe: false,
             },
             is_homed: settings.homing.is_none(),

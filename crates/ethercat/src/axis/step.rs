@@ -3,6 +3,7 @@
 use super::drive_io::{DriveCommand, DriveInputs};
 use crate::bus_fault::BusFault;
 use crate::image::{CYCLIC_POSITION, Outputs};
+use crate::probe::ProbeUse;
 use crate::settings::DriveSettings;
 
 /// One cycle of a drive: its inputs and the command to it, and the outputs that it is to get.
@@ -22,7 +23,7 @@ impl Step<'_> {
             control,
             target: self.drive_inputs.inputs.actual,
             mode: CYCLIC_POSITION,
-            probe: crate::probe::ProbeUse::Off,
+            probe: ProbeUse::Off,
             asks_probe: false,
         };
     }

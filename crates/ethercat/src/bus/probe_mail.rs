@@ -78,21 +78,7 @@ impl ProbeMail {
             let device = &drives.devices.get(led.device)?.device;
             let at = station(device.position);
             let mailbox = mailboxes.iter().position(|mailbox| mailbox.station == at)?;
-            let own = |index, size| object(DriveSettings::of_axis(index, access.axis), 0, size);
-            Some(Mailed {
-                axis,
-                mailbox,
-                access,
-                function: own(0x60b8, 2),
-                status: own(0x60b9, 2),
-                places: access.probe.places().map(|index| own(index, 4)),
-                wanted: ProbeUse::Off,
-                asks: false,
-                was_told: None,
-                is_outdated: false,
-                reading: ProbeInputs::default(),
-                told: ProbeInputs::default(),
-            })
+            Some(Mailed::new(axis, mailbox, access))
         });
         Self {
             probes: probes.collect(),
@@ -242,6 +228,25 @@ impl ProbeMail {
 }
 
 impl Mailed {
+    /// One of which nothing is wanted yet.
+    fn new(axis: usize, mailbox: usize, access: ProbeAccess) -> Self {
+        let own = |index, size| object(DriveSettings::of_axis(index, access.axis), 0, size);
+        Self {
+            axis,
+            mailbox,
+            access,
+            function: own(0x60b8, 2),
+            status: own(0x60b9, 2),
+            places: access.probe.places().map(|index| own(index, 4)),
+            wanted: ProbeUse::Off,
+            asks: false,
+            was_told: None,
+            is_outdated: false,
+            reading: ProbeInputs::default(),
+            told: ProbeInputs::default(),
+        }
+    }
+
     /// Whether it has to hear by its mailbox what is wanted.
     fn is_to_be_switched(&self) -> bool {
         self.access.function.is_none() && self.was_told != Some(self.wanted)
@@ -297,28 +302,15 @@ mod tests {
 
     /// A drive that is told by its mailbox what it is to do.
     fn mail(places: Option<ProbePlaces>) -> ProbeMail {
-        let probe = TouchProbe::of_index(1);
+        let access = ProbeAccess {
+            probe: TouchProbe::of_index(1),
+            axis: 0,
+            before: 0,
+            function: None,
+            places,
+        };
         ProbeMail {
-            probes: vec![Mailed {
-                axis: 0,
-                mailbox: 0,
-                access: ProbeAccess {
-                    probe,
-                    axis: 0,
-                    before: 0,
-                    function: None,
-                    places,
-                },
-                function: object(0x60b8, 0, 2),
-                status: object(0x60b9, 0, 2),
-                places: probe.places().map(|index| object(index, 0, 4)),
-                wanted: ProbeUse::Off,
-                asks: false,
-                was_told: None,
-                is_outdated: false,
-                reading: ProbeInputs::default(),
-                told: ProbeInputs::default(),
-            }],
+            probes: vec![Mailed::new(0, 0, access)],
             question: None,
             turn: 0,
             numbers: vec![0],

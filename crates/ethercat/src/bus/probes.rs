@@ -10,7 +10,8 @@ use crate::probe::{ProbeUse, TouchProbe};
 use crate::settings::DriveSettings;
 use crate::wire::Wire;
 
-/// Looks whether a drive has the objects, chooses the source, and tries the zero impulse where that is wanted. Nothing is mapped yet, as far as is known here.
+/// Looks whether a drive has the objects, chooses the source, and tries the zero impulse where that is wanted. Nothing
+/// is mapped yet, as far as is known here.
 pub(super) fn prepare<W: Wire>(
     bus: &mut Exchange<'_, W>,
     device: &Device,
