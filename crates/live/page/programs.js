@@ -81,12 +81,13 @@ function paintChosen() {
   if (!name) { fill($('#title'), '<span class="lab-text">Choose a program.</span>'); fill($('#runkeys'), ''); fill($('#found'), ''); return; }
   // What changes while it is planned stands by itself, so that a finger on a key is not lost.
   fill($('#title'), `<b>${safe(name)}</b><span class="lab">${info && info.program ? `${grouped(info.program.lines)} lines` : ''}${info && info.seconds ? `, ${span(info.seconds)} of motion at 100 %` : info && !info.failed ? `, is planned: ${span(info.planned_so_far_s || 0)} so far` : ''}</span>`);
-  fill($('#runkeys'), `${key('queue-add', 'Queue', { why: notOperating() || (LOOK.ratio === 1 ? '' : 'choose “as it is”: queued programs run with their own tolerance'), data: `data-name="${safe(name)}"` })}${key('from-line', 'From line…', { why: notOperating() })}${key('run', 'Run', { press: SHORT, why, sub: LOOK.ratio === 1 ? 'press ½ s' : `press ½ s, tolerance × ${num(LOOK.ratio, 1)}`, data: `data-of="${safe(name)}"`, kind: why || (info && info.failed) ? '' : 'main' })}`);
+  fill($('#runkeys'), `${key('queue-add', 'Queue', { why: notOperating() || (LOOK.ratio === 1 ? '' : 'choose “as it is”: queued programs run with their own tolerance'), data: `data-name="${safe(name)}"` })}${key('from-line', 'From line…', { why: notOperating() })}${key('run', 'Run', { press: SHORT, why, sub: `press ½ s${ofRatio(LOOK.ratio)}`, data: `data-of="${safe(name)}"`, kind: why || (info && info.failed) ? '' : 'main' })}`);
   const failed = info && info.failed;
   fill($('#found'), S.agree ? agreement() : failed ? `<div class="h"><b>${icon('warn', 'warn')} What was found</b></div>${findings(failed)}` : `<div class="h"><b>${info && info.report ? `${icon('ok', 'ok')} Nothing was found` : LOOK.lost ? safe(sentence(plain(LOOK.lost))) : 'It is read'}</b>${LOOK.lost ? key('choose', 'Look at it', { data: `data-name="${safe(name)}"` }) : ''}</div>${tolerances()}<pre class="lines">${safe((LOOK.lines || []).slice(0, 6).join('\n'))}</pre>`);
 }
 /* How long it takes with another tolerance, before it runs: it runs with the one that is chosen. */
 const TOLERANCES = [[0.5, '× ½'], [1, 'as it is'], [2, '× 2'], [5, '× 5']];
+const ofRatio = ratio => ratio === 1 ? '' : `, tolerance × ${num(ratio, 1)}`;
 const chosenTolerance = () => LOOK.info.report.tolerance_mm * LOOK.ratio;
 function tolerances() {
   const info = LOOK.info, report = info && info.report;
@@ -147,7 +148,7 @@ function agreement() {
   const { rows, notes } = differences(a.text);
   const row = ([what, now, then]) => `<tr class="${now === then ? '' : 'differs'}"><th scope="row">${safe(what)}</th><td class="n">${safe(now)}</td><td>${now === then ? '' : '≠'}</td><td class="n">${safe(then)}</td></tr>`;
   const around = (a.around || []).map(([n, text]) => `<div class="${n === a.from_line ? 'cur' : ''}"><span class="k">${n}</span><span>${safe(text) || ' '}</span></div>`).join('');
-  return `<div class="agree"><div class="h"><b>Begin at line ${a.from_line}</b><span>${a.pass > 1 ? `pass ${a.pass}` : ''}</span></div><div class="what"><table><tr><th></th><th>machine now</th><th></th><th>program there</th></tr>${rows.map(row).join('') || '<tr><td colspan="4">Nothing is different.</td></tr>'}</table>${notes.map(text => `<p>${safe(sentence(plain(text)))}.</p>`).join('')}<div class="around">${around}</div></div><div class="row">${key('begin-there', `Begin at line ${a.from_line}`, { press: LONG, why, sub: 'press 1 s', kind: 'main' })}${key('from-line', 'Leave it')}</div></div>`;
+  return `<div class="agree"><div class="h"><b>Begin at line ${a.from_line}</b><span>${a.pass > 1 ? `pass ${a.pass}` : ''}</span></div><div class="what"><table><tr><th></th><th>machine now</th><th></th><th>program there</th></tr>${rows.map(row).join('') || '<tr><td colspan="4">Nothing is different.</td></tr>'}</table>${notes.map(text => `<p>${safe(sentence(plain(text)))}.</p>`).join('')}<div class="around">${around}</div></div><div class="row">${key('begin-there', `Begin at line ${a.from_line}`, { press: LONG, why, sub: `press 1 s${ofRatio(a.tolerance_ratio)}`, kind: 'main' })}${key('from-line', 'Leave it')}</div></div>`;
 }
 /* What the service says is different, a row each; positions by axis. The rest are notes. */
 function differences(text) {
@@ -219,5 +220,5 @@ const ENDS = { done: ['ok', 'ok'], aborted: ['abort', ''], fault: ['fault', 'bad
 function paintDay() {
   const jobs = S.status && S.status.day || [];
   fill($('#queue'), queueList());
-  fill($('#dayjobs'), `<div class="h"><b>Jobs</b><span>since this page is served</span></div>${jobs.slice(0, 30).map(job => { const [sign, kind] = ENDS[job.end] || ['running', '']; return `<div class="job"><span class="n lab">${clock(job.begun_ms)}</span>${icon(sign, kind)}<span>${safe(job.name)}</span><span class="lab">${job.end === 'done' ? `done in ${span((job.ended_ms - job.begun_ms) / 1000)}` : job.end ? `${job.end}${job.line ? ` at line ${job.line}` : ''}` : 'runs'}</span>${job.end ? key('certificate', 'Certificate', { data: `data-job="${job.number}"` }) : ''}</div>`; }).join('') || '<p class="lab-text">None yet.</p>'}`);
+  fill($('#dayjobs'), `<div class="h"><b>Jobs</b><span>since this page is served</span></div>${jobs.slice(0, 30).map(job => { const [sign, kind] = ENDS[job.end] || ['running', '']; return `<div class="job"><span class="n lab">${clock(job.begun_ms)}</span>${icon(sign, kind)}<span class="of"><span>${safe(job.name)}</span><span class="lab">${job.end === 'done' ? `done in ${span((job.ended_ms - job.begun_ms) / 1000)}` : job.end ? `${job.end}${job.line ? ` at line ${job.line}` : ''}` : 'runs'}</span></span>${job.end ? key('certificate', 'Certificate', { data: `data-job="${job.number}"` }) : ''}</div>`; }).join('') || '<p class="lab-text">None yet.</p>'}`);
 }
