@@ -399,13 +399,6 @@ impl MachineConfig {
         self.jog.lift > 0.0 && self.spindle.is_none_or(|spindle| spindle.axis.is_none())
     }
 
-    /// Has programs planned with so many times their tolerance: that of the configuration and what G64 P says. What a
-    /// cycle or a thread asks for itself stays.
-    pub(crate) fn use_tolerance_ratio(&mut self, ratio: f64) {
-        self.path.tolerance_mm *= ratio / self.program.tolerance_ratio;
-        self.program.tolerance_ratio = ratio;
-    }
-
     /// Where a program begins that is read now: where the machine stands, or at home.
     #[must_use]
     pub fn start(&self) -> AxisVector {

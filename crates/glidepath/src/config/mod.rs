@@ -20,6 +20,7 @@ mod program;
 mod raw;
 mod settings;
 mod spindle;
+mod tolerance_ratio;
 mod tree;
 
 pub use compensation::Compensation;
