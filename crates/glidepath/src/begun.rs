@@ -52,7 +52,7 @@ pub(crate) struct Begun {
     effort: Effort,
     tolerance_mm: f64,
     /// How many times `tolerance_mm`, and what the program says of it, was used.
-    #[serde(default = "once", skip_serializing_if = "is_once")]
+    #[serde(default = "once")]
     tolerance_ratio: f64,
     /// The text of the configuration.
     configuration: String,
@@ -196,14 +196,6 @@ impl Begun {
 /// A run with the tolerance as it is.
 const fn once() -> f64 {
     1.0
-}
-
-#[expect(
-    clippy::trivially_copy_pass_by_ref,
-    reason = "serde hands a reference on"
-)]
-const fn is_once(ratio: &f64) -> bool {
-    ratio.to_bits() == once().to_bits()
 }
 
 /// A fingerprint as sixteen digits: TOML's whole numbers are too small for all of them.

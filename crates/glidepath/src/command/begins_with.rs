@@ -13,7 +13,6 @@ use glidepath_gcode::InForce;
 use glidepath_geometry::AxisVector;
 use glidepath_link::{ActiveProgram, EndOfEpoch, LinkConfig, MachineState, Operator};
 use glidepath_persistence::PersistentState;
-use std::path::Path;
 
 /// What a machine was found to begin programs with.
 #[derive(Debug, Default)]
@@ -97,26 +96,21 @@ pub(super) fn program_start(config: &MachineConfig, program: Option<u64>) -> Opt
     is_meant.then(|| AxisVector::from(status.program_start))
 }
 
-/// How many times its tolerance a program uses that runs, or ran last: that of this fingerprint, or without one the
-/// program in this file. `None` if its planner has left no note.
+/// How many times its tolerance a program uses that runs, or ran last, if it is the one that is meant. `None` if its
+/// planner has left no note.
 pub(super) fn ratio_begun_with(
     link: &LinkConfig,
-    path: &Path,
-    program: Option<u64>,
+    is_meant: impl FnOnce(&ActiveProgram) -> bool,
 ) -> Option<f64> {
     // A note that cannot be read says nothing.
     let note = ActiveProgram::read(link).ok().flatten()?;
-    let is_meant = match program {
-        Some(program) => note.fingerprint == program,
-        None => path.canonicalize().is_ok_and(|path| path == note.file),
-    };
-    is_meant.then_some(note.tolerance_ratio)
+    is_meant(&note).then_some(note.tolerance_ratio)
 }
 
 /// Has a program planned with the tolerance that it began with, as its planner has noted. What is kept of it counts
 /// more.
 pub(super) fn begun_with_ratio(config: &mut MachineConfig, link: &LinkConfig, program: u64) {
-    if let Some(ratio) = ratio_begun_with(link, Path::new(""), Some(program)) {
+    if let Some(ratio) = ratio_begun_with(link, |note| note.fingerprint == program) {
         config.use_tolerance_ratio(ratio);
     }
 }

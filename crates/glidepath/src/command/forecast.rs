@@ -142,7 +142,11 @@ impl Forecast {
         }
         if let PlannedFor::Following(program) = planned_for {
             let link = session::link(&session::named_instance(&machine), &machine);
-            if let Some(ratio) = ratio_begun_with(&link, path, program) {
+            let ratio = ratio_begun_with(&link, |note| match program {
+                Some(program) => note.fingerprint == program,
+                None => path.canonicalize().is_ok_and(|path| path == note.file),
+            });
+            if let Some(ratio) = ratio {
                 machine.use_tolerance_ratio(ratio);
             }
         }

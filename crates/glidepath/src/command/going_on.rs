@@ -4,10 +4,14 @@
 //! comes to is told. So nobody is told of a resumption that is then refused.
 
 use crate::command::failure::Failure;
+use crate::command::run_supervisor::recalling;
+use crate::config::MachineConfig;
 use crate::machine_options::resume;
 use glidepath_gcode::ReadingWatch;
 use glidepath_link::{ActiveProgram, EndOfEpoch, LinkConfig, TOLD_TO_END};
-use glidepath_planner::{FramePublisher, ResumeError, RunError};
+use glidepath_planner::{
+    FileSource, FramePublisher, Remainder, ResumeError, ResumePoint, RunError,
+};
 use std::path::Path;
 use std::time::Duration;
 
@@ -42,6 +46,23 @@ pub(super) fn must_be_the_text(
         return Err(RunError::Resume(ResumeError::OtherProgram).into());
     }
     Ok(())
+}
+
+/// The rest of a program that was executed up to a point, as a resumption reads it.
+///
+/// # Errors
+/// The file cannot be read, or cannot be resumed there.
+pub(super) fn rest_of(
+    file: &Path,
+    fingerprint: u64,
+    config: &MachineConfig,
+    point: ResumePoint,
+) -> Result<Remainder<FileSource>, RunError> {
+    let settings = config.settings();
+    let options = config.program_options(point.program_start);
+    let source = FileSource::unchecked(file, options, &settings)?.known_as(fingerprint);
+    let source = source.attended(recalling(config, fingerprint));
+    Remainder::find(source, point, settings.tolerance_mm)
 }
 
 /// Whether the motion has not come to rest yet: a pass of a thread comes to its end first.

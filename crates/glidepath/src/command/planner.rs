@@ -5,7 +5,7 @@ use super::begins_with::begun_with_ratio;
 use super::executor::JobExecutor;
 use super::going_on::{self, Obstacle, Resumption};
 use super::program_note::ProgramNote;
-use super::run_supervisor::{RunSupervisor, recalling, tell};
+use super::run_supervisor::{RunSupervisor, tell};
 use super::session;
 use crate::begun::{Board, Part};
 use crate::cli::PlannerArgs;
@@ -297,14 +297,7 @@ impl Job<'_> {
         going_on::must_be_the_text(self.file.path(), self.link, fingerprint)?;
         begun_with_ratio(&mut config, self.link, point.program);
         supervisor.resume(point.program, &mut config)?;
-        let (options, settings) = (
-            config.program_options(point.program_start),
-            config.settings(),
-        );
-        let source = FileSource::unchecked(self.file.path(), options, &settings);
-        let source = source.map_err(RunError::from)?.known_as(fingerprint);
-        let source = source.attended(recalling(&config, fingerprint));
-        let rest = Remainder::find(source, point, settings.tolerance_mm);
+        let rest = going_on::rest_of(self.file.path(), fingerprint, &config, point);
         if watch.is_to_end() {
             return Err(Obstacle::Untried);
         }

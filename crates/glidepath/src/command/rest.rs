@@ -109,9 +109,9 @@ fn abort_and_lift(args: &AbortArgs, config: &MachineConfig) -> Result<Exit, Fail
             "abort: the tool may be in a thread or a tapped hole, so it is not lifted; turn it out, or jog it away \
              where nothing holds it",
         );
-    } else {
-        // Which has waited until the machine was at rest.
-        return lift(&link, config).map(|()| Exit::Done);
+    } else if lift(&link, config)? {
+        // It has waited until the machine was at rest.
+        return Ok(Exit::Done);
     }
     Ok(exit)
 }

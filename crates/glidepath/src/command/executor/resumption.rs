@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::Duration;
 
 use glidepath_geometry::AxisVector;
-use glidepath_planner::{FileSource, FramePublisher, Remainder, ResumePoint, RunError, Statistics};
+use glidepath_planner::{FramePublisher, ResumePoint, RunError, Statistics};
 
 use super::file_job::FileJob;
 use super::run_context::RunContext;
@@ -13,7 +13,7 @@ use super::stop::Stop;
 use crate::command::begins_with::begun_with_ratio;
 use crate::command::going_on::{self, Obstacle, Resumption};
 use crate::command::reading::for_program;
-use crate::command::run_supervisor::{RunSupervisor, recalling};
+use crate::command::run_supervisor::RunSupervisor;
 use crate::config::MachineConfig;
 use crate::program_file::ProgramFile;
 
@@ -151,13 +151,7 @@ impl JobExecutor<'_> {
         let begins = self.begins(&job, start, &mut config, (&supervisor, &*context));
         let begins = begins.map_err(|stop| Obstacle::Other(stop.text()))?;
         let point = begins.point.ok_or(Obstacle::Untried)?;
-        let settings = config.settings();
-        let find = || {
-            let options = config.program_options(begins.start);
-            let source = FileSource::unchecked(file, options, &settings)?.known_as(fingerprint);
-            let source = source.attended(recalling(&config, fingerprint));
-            Remainder::find(source, point, settings.tolerance_mm)
-        };
+        let find = || going_on::rest_of(file, fingerprint, &config, point);
         // Whoever wanted the job may not want it any more, and is told all the same.
         let attend = &mut *context.attend;
         let mut attend = |waited: Duration| {

@@ -18,18 +18,18 @@ const POLL: Duration = Duration::from_millis(10);
 const PATIENCE: Duration = Duration::from_secs(10);
 
 /// Waits until the machine rests without a program, and takes the tool axis up, not beyond its
-/// travel.
+/// travel; whether it went up.
 ///
 /// # Errors
 /// The machine does not come to rest ready for a jog, or it does not move.
-pub(in crate::command) fn lift(link: &LinkConfig, config: &MachineConfig) -> Result<(), Failure> {
+pub(in crate::command) fn lift(link: &LinkConfig, config: &MachineConfig) -> Result<bool, Failure> {
     let interrupt = Interrupt::install().map_err(Failure::Signals)?;
     let mut panel = Panel::open(link, config)?;
     let (started, asked_ns) = (Instant::now(), Monotonic.now_ns());
     while panel.state()? != MachineState::Idle {
         if interrupt.is_set() || started.elapsed() > PATIENCE {
             output::note("abort: the machine is not ready for a jog; the tool is not lifted");
-            return Ok(());
+            return Ok(false);
         }
         std::thread::sleep(POLL);
     }
@@ -51,5 +51,5 @@ pub(in crate::command) fn lift(link: &LinkConfig, config: &MachineConfig) -> Res
         "abort: {axis} went up, by {} mm at most; a resumption (--resume) is refused until it is back, and says how far",
         config.jog.lift
     ));
-    Ok(())
+    Ok(true)
 }

@@ -20,7 +20,7 @@ use crate::report::ProgramPlace;
 use glidepath_link::{ActiveProgram, EndOfEpoch, LinkConfig, Status};
 use glidepath_persistence::{Offsets, Tool};
 use serde_json::{Value, json};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -47,7 +47,6 @@ struct Followed {
     /// The epoch that was looked at last, and what the program began with there.
     epoch: u64,
     begun: Begun,
-    path: PathBuf,
     forecast: Forecast,
     _reading: Reading,
 }
@@ -86,7 +85,7 @@ impl Following {
         let board = self.shown.begin(Some(name));
         let planned = Planned::new(&self.config, board.clone());
         let begun = fingerprint.map_or(Begun::AS_CONFIGURED, |program| {
-            begun((&self.config, &self.link), path, program)
+            begun((&self.config, &self.link), program)
         });
         let planned_for = PlannedFor::Following(fingerprint);
         board.file(path, planned_for);
@@ -97,7 +96,6 @@ impl Following {
             fingerprint,
             epoch: 0,
             begun,
-            path: path.to_owned(),
             forecast,
             _reading: reading,
         })
@@ -203,7 +201,7 @@ impl Followed {
         if core::mem::replace(&mut self.epoch, status.epoch) == status.epoch {
             return false;
         }
-        let begun = begun(machine, &self.path, status.program);
+        let begun = begun(machine, status.program);
         core::mem::replace(&mut self.begun, begun) != self.begun
     }
 }
@@ -223,10 +221,11 @@ impl Begun {
     };
 }
 
-fn begun((config, link): (&MachineConfig, &LinkConfig), path: &Path, program: u64) -> Begun {
+fn begun((config, link): (&MachineConfig, &LinkConfig), program: u64) -> Begun {
+    let ratio = ratio_begun_with(link, |note| note.fingerprint == program);
     Begun {
         kept: kept(config, program),
-        tolerance_ratio: ratio_begun_with(link, path, Some(program)).unwrap_or(1.0),
+        tolerance_ratio: ratio.unwrap_or(1.0),
     }
 }
 
