@@ -151,19 +151,24 @@ impl Browser {
         self.press_for(selector, Duration::ZERO);
     }
 
-    /// Presses the middle of an element, and lets it go after a while.
+    /// Presses the middle of an element, and lets it go after a while, by the timers of the page: on a busy host
+    /// the page may be behind by more than that, and would have seen the finger come up too soon.
     pub fn press_for(&mut self, selector: &str, long: Duration) {
         let place = self.finger_down(selector);
-        std::thread::sleep(long);
+        let ms = long.as_millis();
+        self.evaluate(&format!("new Promise(done => setTimeout(done, {ms}))"));
         self.finger_up(&place);
     }
 
-    /// Puts a finger down in the middle of an element. Returns where that is: the element may be gone when
-    /// the finger comes up.
+    /// Puts a finger down in the middle of an element, once that stays where it is. Returns where that is: the
+    /// element may be gone when the finger comes up.
     pub fn finger_down(&mut self, selector: &str) -> Value {
         let place = format!(
-            "(() => {{ const r = document.querySelector('{selector}').getBoundingClientRect(); \
-             return [r.x + r.width / 2, r.y + r.height / 2]; }})()"
+            "(async () => {{ \
+             const at = () => {{ const r = document.querySelector('{selector}').getBoundingClientRect(); \
+             return [r.x + r.width / 2, r.y + r.height / 2]; }}; \
+             for (let before = at(), k = 0; ; k++) {{ await new Promise(done => setTimeout(done, 30)); \
+             const now = at(); if (k > 20 || '' + now === '' + before) return now; before = now; }} }})()"
         );
         let place = self.evaluate(&place);
         self.mouse("mousePressed", &place);

@@ -58,6 +58,7 @@ fn started_by_a_person(browser: &mut Browser, live: &Live, services: &Services<'
     // What did not end well stays, and says so.
     browser.wait("S.state === 'running' && S.status.program_is_shown");
     is(live, &[("b.ngc", "runs")]);
+    browser.wait("S.status.active_program && S.status.active_program.tolerance_ratio === 2");
     press(browser, "[data-c=abort]", WHOLE);
     is(live, &[("b.ngc", "ended")]);
     browser.wait(
@@ -87,6 +88,10 @@ fn programs_of_the_queue_are_started_one_by_one_by_a_person() {
     for name in ["c.ngc", "a.ngc", "b.ngc"] {
         browser.wait(&format!("document.querySelector('[data-name=\"{name}\"]')"));
         browser.press(&format!("#list [data-name=\"{name}\"]"));
+        if name == "b.ngc" {
+            browser.wait("LOOK.info && LOOK.info.report && document.querySelector('.tolerances')");
+            browser.press("[data-do=try-tolerance][data-ratio=\"2\"]");
+        }
         press(
             &mut browser,
             &format!("#runkeys [data-do=queue-add][data-name=\"{name}\"]"),
@@ -112,9 +117,13 @@ fn programs_of_the_queue_are_started_one_by_one_by_a_person() {
     browser.evaluate(&format!("order('queue-remove', {{ entry: {second} }})"));
     is(&live, &[("a.ngc", "waits"), ("b.ngc", "waits")]);
     browser.wait("queued().length === 2 && queued()[1].name === 'b.ngc'");
+    let ratios = browser.evaluate("queued().map(entry => entry.tolerance_ratio)");
+    assert_eq!(ratios, json!([1, 2]));
+    let told = browser.evaluate("document.querySelector('.queued:last-of-type').textContent");
+    assert!(told.as_str().unwrap().contains("tolerance × 2"), "{told}");
     // Only the first is started.
     let refused = browser.evaluate(
-        "order('run', { name: 'b.ngc', program: QUEUE.info.fingerprint, queued: queued()[1].id }).then(said => [said.status, said.reason])",
+        "order('run', { name: 'b.ngc', program: QUEUE.info.fingerprint, queued: queued()[1].id, tolerance_ratio: 2 }).then(said => [said.status, said.reason])",
     );
     assert_eq!(refused[0], 409, "{refused}");
     assert!(

@@ -13,6 +13,7 @@ pub fn active_object(active: Option<&ActiveProgram>) -> Value {
             "file": active.file.display().to_string(),
             "bytes": active.bytes,
             "fingerprint": format!("{:016x}", active.fingerprint),
+            "tolerance_ratio": active.tolerance_ratio,
         })
     })
 }
@@ -20,10 +21,15 @@ pub fn active_object(active: Option<&ActiveProgram>) -> Value {
 /// The program as a line below a status.
 #[must_use]
 pub fn active_text(active: &ActiveProgram) -> String {
-    format!(
+    let mut text = format!(
         "  program       {}, {}, fingerprint {:016x}\n",
         active.file.display(),
         counted(active.bytes, "byte"),
         active.fingerprint
-    )
+    );
+    if active.tolerance_ratio.to_bits() != 1.0_f64.to_bits() {
+        let ratio = active.tolerance_ratio;
+        text += &format!("  tolerance     {ratio} times that of the program\n");
+    }
+    text
 }

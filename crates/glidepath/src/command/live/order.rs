@@ -94,6 +94,8 @@ pub(super) enum Order {
     /// A program of the folder, at the end of the queue.
     QueueAdd {
         name: String,
+        /// How many times its tolerance it may use.
+        tolerance_ratio: Option<f64>,
     },
     /// One of the queue is the one behind so many.
     QueueMove {

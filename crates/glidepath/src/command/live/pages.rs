@@ -120,11 +120,12 @@ impl Pages {
                 resume,
                 queued,
             } => {
-                self.may_start(queued, &name)?;
+                let tolerance_ratio = ratio(tolerance_ratio).ok_or_else(malformed)?;
+                self.may_start(queued, &name, tolerance_ratio)?;
                 let wanted = Wanted::File {
                     path: self.program(&name)?,
                     program: fingerprint(&program).ok_or_else(malformed)?,
-                    tolerance_ratio: ratio(tolerance_ratio).ok_or_else(malformed)?,
+                    tolerance_ratio,
                     from_line: from_line.unwrap_or(0),
                     pass: pass.unwrap_or(0),
                     agreed,
@@ -145,16 +146,28 @@ impl Pages {
     }
 
     /// Whether a program of the queue may be started; one beside it may.
-    fn may_start(&self, queued: Option<u64>, name: &str) -> Result<(), (Status, String)> {
-        let may = queued.map_or(Ok(()), |entry| self.queue.may_start(entry, name));
-        may.map_err(|error| not_now(error.to_string()))
+    fn may_start(
+        &self,
+        queued: Option<u64>,
+        name: &str,
+        tolerance_ratio: f64,
+    ) -> Result<(), (Status, String)> {
+        let may_start = |entry| self.queue.may_start(entry, name, tolerance_ratio);
+        queued
+            .map_or(Ok(()), may_start)
+            .map_err(|error| not_now(error.to_string()))
     }
 
     fn queue(&self, order: Order) -> Done {
         let done = match order {
-            Order::QueueAdd { name } => {
+            Order::QueueAdd {
+                name,
+                tolerance_ratio,
+            } => {
                 let _there = self.program(&name)?;
-                self.queue.add(name).map(|entry| json!({ "entry": entry }))
+                let tolerance_ratio = ratio(tolerance_ratio).ok_or_else(malformed)?;
+                let entry = self.queue.add(name, tolerance_ratio);
+                entry.map(|entry| json!({ "entry": entry }))
             }
             Order::QueueMove { entry, to } => self.queue.put(entry, to).map(|()| json!({})),
             Order::QueueRemove { entry } => self.queue.remove(entry).map(|()| json!({})),

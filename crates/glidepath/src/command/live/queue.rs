@@ -21,6 +21,8 @@ pub(super) enum QueueError {
     Runs,
     #[error("another one is the first of the queue: move it up, or start that")]
     NotFirst,
+    #[error("it is in the queue with another tolerance")]
+    OtherTolerance,
 }
 
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -36,6 +38,8 @@ enum State {
 struct Entry {
     id: u64,
     name: String,
+    /// How many times its tolerance it may use.
+    tolerance_ratio: f64,
     state: State,
 }
 
@@ -76,15 +80,19 @@ impl Queue {
     }
 
     /// Puts a program at its end.
-    pub(super) fn add(&self, name: String) -> Result<u64, QueueError> {
+    pub(super) fn add(&self, name: String, tolerance_ratio: f64) -> Result<u64, QueueError> {
         let mut known = self.known();
         if known.entries.len() >= MOST {
             return Err(QueueError::Full);
         }
         known.count += 1;
         let id = known.count;
-        let state = State::Waits;
-        known.entries.push(Entry { id, name, state });
+        known.entries.push(Entry {
+            id,
+            name,
+            tolerance_ratio,
+            state: State::Waits,
+        });
         Ok(id)
     }
 
@@ -107,16 +115,21 @@ impl Queue {
     }
 
     /// Whether this program, the first of the queue, may be started from it.
-    pub(super) fn may_start(&self, id: u64, name: &str) -> Result<(), QueueError> {
+    pub(super) fn may_start(
+        &self,
+        id: u64,
+        name: &str,
+        tolerance_ratio: f64,
+    ) -> Result<(), QueueError> {
         let known = self.known();
         let at = known.waiting(id)?;
-        let is_it = known
-            .entries
-            .get(at)
-            .is_some_and(|entry| entry.name == name);
-        match (at, is_it) {
-            (0, true) => Ok(()),
-            (0, false) => Err(QueueError::NotThere),
+        let entry = known.entries.get(at).filter(|entry| entry.name == name);
+        match (at, entry) {
+            (0, Some(entry)) if entry.tolerance_ratio.to_bits() == tolerance_ratio.to_bits() => {
+                Ok(())
+            }
+            (0, Some(_)) => Err(QueueError::OtherTolerance),
+            (0, None) => Err(QueueError::NotThere),
             _ => Err(QueueError::NotFirst),
         }
     }
@@ -157,7 +170,13 @@ impl Queue {
                 State::Runs(_) => ("runs", ""),
                 State::Ended(text) => ("ended", text.as_str()),
             };
-            json!({ "id": entry.id, "name": entry.name, "state": state, "text": text })
+            json!({
+                "id": entry.id,
+                "name": entry.name,
+                "tolerance_ratio": entry.tolerance_ratio,
+                "state": state,
+                "text": text,
+            })
         };
         known.entries.iter().map(object).collect()
     }
@@ -176,17 +195,19 @@ mod tests {
     #[test]
     fn a_queue_is_put_in_order_and_only_its_first_is_started() {
         let queue = Queue::default();
-        let ids = ["a", "b", "c"].map(|name| queue.add(name.to_owned()).unwrap());
+        let ids = ["a", "b", "c"].map(|name| queue.add(name.to_owned(), 1.0).unwrap());
         queue.put(ids[2], 0).unwrap();
         assert_eq!(names(&queue), ["c", "a", "b"]);
         queue.put(ids[2], 99).unwrap();
         assert_eq!(names(&queue), ["a", "b", "c"]);
-        assert_eq!(queue.may_start(ids[1], "b"), Err(QueueError::NotFirst));
-        assert_eq!(queue.may_start(ids[0], "b"), Err(QueueError::NotThere));
-        assert_eq!(queue.may_start(ids[0], "a"), Ok(()));
+        assert_eq!(queue.may_start(ids[1], "b", 1.0), Err(QueueError::NotFirst));
+        assert_eq!(queue.may_start(ids[0], "b", 1.0), Err(QueueError::NotThere));
+        let other = Err(QueueError::OtherTolerance);
+        assert_eq!(queue.may_start(ids[0], "a", 2.0), other);
+        assert_eq!(queue.may_start(ids[0], "a", 1.0), Ok(()));
         // What runs stays where it is, and is not started again.
         queue.started(ids[0], 7);
-        assert_eq!(queue.may_start(ids[0], "a"), Err(QueueError::Runs));
+        assert_eq!(queue.may_start(ids[0], "a", 1.0), Err(QueueError::Runs));
         assert_eq!(queue.remove(ids[0]), Err(QueueError::Runs));
         assert_eq!(queue.put(ids[0], 2), Err(QueueError::Runs));
         queue.put(ids[2], 0).unwrap();
@@ -200,8 +221,8 @@ mod tests {
     fn a_queue_is_bounded() {
         let queue = Queue::default();
         for number in 0..MOST {
-            assert!(queue.add(number.to_string()).is_ok());
+            assert!(queue.add(number.to_string(), 1.0).is_ok());
         }
-        assert_eq!(queue.add("more".to_owned()), Err(QueueError::Full));
+        assert_eq!(queue.add("more".to_owned(), 1.0), Err(QueueError::Full));
     }
 }
