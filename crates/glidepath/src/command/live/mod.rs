@@ -6,17 +6,22 @@
 //!   page ── POST /api/command ──► Pages ── the operator's panel ──► interpolator
 //! ```
 //!
+//! Paired devices are served the same over TLS ([`devices`]), and operate nothing.
+//!
 //! A page does what its token allows: it looks, holds, or operates. What it orders goes the ways of the
 //! command line: commands to the panel, lines and programs to the planner's service, jogs as demands.
 
+mod addresses;
 mod asked;
 mod batch;
 mod certificates;
 mod day;
+mod devices;
 mod documents;
 mod folder;
 mod following;
 mod gesture;
+mod given;
 mod job_submitter;
 pub(super) mod jogger;
 mod lateness;
@@ -39,24 +44,24 @@ mod witness;
 
 use super::persistent_offsets::PersistentOffsets;
 use super::session;
-use crate::cli::LiveArgs;
+use crate::cli::{LiveAction, LiveArgs};
 use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::exit::Exit;
 use crate::file_error::FileError;
 use crate::interrupt::Interrupt;
-use crate::output;
 use crate::page::machine_object;
 use asked::Asked;
 use batch::Batch;
 use certificates::Certificates;
 use day::Day;
+use devices::PairedDevices;
 use folder::Folder;
 use following::Following;
 use glidepath_link::{
     Auxiliary, Ipc, LinkConfig, Record as _, Setpoint, Status, Subscriber, Transport as _,
 };
-use glidepath_live::{Feed, Message, Role, Seat, Server, ServerError};
+use glidepath_live::{Feed, Message, Role, Seat, Server, ServerError, Site};
 use job_submitter::JobSubmitter;
 use jogger::Jogger;
 use lateness::Histogram;
@@ -65,7 +70,7 @@ use pages::Pages;
 use preview::Preview;
 use queue::Queue;
 use receivers::receivers;
-use serde_json::{Map, Value, json};
+use serde_json::Value;
 use set_up::SetUp;
 use shown::Shown;
 use shuttle::Shuttle;
@@ -95,6 +100,13 @@ const SETPOINT_MESSAGE: u8 = 2;
 /// # Errors
 /// The port cannot be had, or the link cannot be used; the program cannot be read.
 pub(super) fn live(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Failure> {
+    match &args.action {
+        Some(LiveAction::Devices(args)) => devices::listing::devices(args, config),
+        None => serve(args, config),
+    }
+}
+
+fn serve(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Failure> {
     let interrupt = Interrupt::install().map_err(Failure::Signals)?;
     let instance = session::instance(&args.operator.instance, config);
     let link = session::link(&instance, config);
@@ -106,6 +118,11 @@ pub(super) fn live(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Fail
     let (server, feed) = (Server::bind(args.port, role)?, Feed::default());
     let urls: Vec<(Role, String)> = server.urls().collect();
     let port = server.port();
+    let bound = args
+        .devices
+        .map(|address| PairedDevices::bind(address, &instance, config));
+    let (device_server, devices) = bound.transpose()?.unzip();
+    let devices = devices.map(Arc::new);
     let folder = args
         .programs
         .as_deref()
@@ -133,12 +150,17 @@ pub(super) fn live(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Fail
         queue: Arc::clone(&queue),
         jobs: jobs.clone(),
         certificates: Arc::default(),
+        devices: devices.clone(),
         number: AtomicU64::new(0),
     };
     let (set_up, seat) = (Arc::clone(&pages.set_up), Arc::clone(&pages.seat));
     let certificates = Arc::clone(&pages.certificates);
-    let running = server.start(Arc::new(pages), &feed)?;
-    tell(args, &instance, &urls, port);
+    let pages = Arc::new(pages);
+    let running = server.start(Arc::clone(&pages) as Arc<dyn Site>, &feed)?;
+    let served = device_server.zip(devices.clone());
+    let served = served.map(|(server, devices)| server.start(pages, &feed, devices, role));
+    let served = served.transpose()?;
+    addresses::tell(args, &instance, (&urls, port), devices.as_deref());
     let offsets = PersistentOffsets::new(config, &link);
     let mut machine = Machine {
         config,
@@ -161,6 +183,7 @@ pub(super) fn live(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Fail
         queue,
         day: Day::default(),
         certificates,
+        devices,
         witness: Witness::new(config),
         batch: Batch::new(config),
         histogram: Histogram::default(),
@@ -170,44 +193,8 @@ pub(super) fn live(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Fail
         auxiliary: None,
     };
     machine.follow(&interrupt)?;
-    drop(running);
+    drop((served, running));
     Ok(interrupt.exit())
-}
-
-/// Where the page is.
-fn tell(args: &LiveArgs, instance: &str, urls: &[(Role, String)], port: u16) {
-    let own = urls.last().map_or("", |(_, url)| url);
-    if args.operator.basic.json {
-        let urls: Map<String, Value> = urls
-            .iter()
-            .map(|(role, url)| (role.name().to_owned(), url.as_str().into()))
-            .collect();
-        output::object(&json!({
-            "instance": instance,
-            "url": own,
-            "urls": urls,
-            "port": port,
-            "may": args.may.role().name(),
-        }));
-        return;
-    }
-    let may = match args.may.role() {
-        Role::Look => {
-            "The page only shows; --may hold lets it bring the machine to rest, --may operate do all."
-        }
-        Role::Hold => "The page may hold and abort.",
-        Role::Operate => "The page operates the machine: whoever has this address moves it.",
-    };
-    let less: String = urls
-        .iter()
-        .rev()
-        .skip(1)
-        .map(|(role, url)| format!("For a page that may only {}:\n  {url}\n", role.name()))
-        .collect();
-    output::result(&format!(
-        "live: open this in a browser of this host, and keep it to yourself:\n  {own}\n{may}\n{less}\
-         Ctrl-C ends the page; the machine goes on.\n"
-    ));
 }
 
 /// What is followed, and what is known of it.
@@ -232,6 +219,7 @@ struct Machine<'a> {
     queue: Arc<Queue>,
     day: Day,
     certificates: Arc<Certificates>,
+    devices: Option<Arc<PairedDevices>>,
     witness: Witness,
     batch: Batch,
     histogram: Histogram,

@@ -1,10 +1,12 @@
 //! The server's answers to what pages ask for and order.
 
 use super::certificates::Certificates;
+use super::devices::PairedDevices;
 use super::folder::{Folder, FolderError, Piece};
+use super::given::Given;
 use super::job_submitter::{Handed, JobSubmitter, Wanted};
 use super::jogger::{Hand, Jogger};
-use super::order::{Given, Order, by_axis};
+use super::order::{Order, by_axis};
 use super::preview::Preview;
 use super::query::{decoded, fingerprint, parameter};
 use super::queue::Queue;
@@ -43,11 +45,13 @@ pub(super) struct Pages {
     pub(super) queue: Arc<Queue>,
     pub(super) jobs: Option<Arc<JobSubmitter>>,
     pub(super) certificates: Arc<Certificates>,
+    /// The paired devices, where they are served.
+    pub(super) devices: Option<Arc<PairedDevices>>,
     pub(super) number: AtomicU64,
 }
 
 /// What came of an order: what a page is told besides that it was accepted, or why it was not.
-type Done = Result<Value, (Status, String)>;
+pub(super) type Done = Result<Value, (Status, String)>;
 
 /// The clock that pages say of which they have heard last, ms.
 #[expect(
@@ -72,7 +76,7 @@ fn ratio(said: Option<f64>) -> Option<f64> {
     TOLERANCE_RATIOS.contains(&ratio).then_some(ratio)
 }
 
-fn malformed() -> (Status, String) {
+pub(super) fn malformed() -> (Status, String) {
     let text = "no such command, or its value is out of range";
     (Status::BadRequest, text.to_owned())
 }
@@ -139,6 +143,9 @@ impl Pages {
             order @ (Order::QueueAdd { .. }
             | Order::QueueMove { .. }
             | Order::QueueRemove { .. }) => self.queue(order),
+            order @ (Order::PairDevice { .. }
+            | Order::EndPairing {}
+            | Order::RevokeDevice { .. }) => self.pair(caller, &order),
             order @ (Order::Shuttle { .. } | Order::ShuttleEnd { .. }) => self.shuttle(&order),
             order => self.command(&order, asked_ns),
         }

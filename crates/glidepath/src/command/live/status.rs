@@ -3,6 +3,7 @@
 use super::pages::clock_ms;
 use super::{Machine, OLD_NS};
 use crate::command::failure::Failure;
+use crate::output;
 use crate::report::{AwaitedEvent, View, active_object, status_object, view_object};
 use glidepath_link::{ActiveProgram, Auxiliary, Coolant, InterpolatorProcess, SpindleState};
 use glidepath_realtime::{Clock as _, Monotonic};
@@ -15,6 +16,10 @@ use super::day::now_ms;
 impl Machine<'_> {
     /// What the page is told; nothing while nobody knows what the machine does.
     pub(super) fn object(&mut self) -> Result<Option<Value>, Failure> {
+        for (kind, text) in self.devices.iter().flat_map(|devices| devices.told()) {
+            output::note(&format!("live: {text}"));
+            self.log.add(kind, text);
+        }
         let now_ns = Monotonic.now_ns();
         let fresh = self
             .status
