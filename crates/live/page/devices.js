@@ -50,7 +50,7 @@ function deviceTable() {
 function offerBox({ offer, url, fingerprint }) {
   const typed = offer.code ? `<p><span class="lab">or open</span><br><b>${safe(url)}</b><br><span class="lab">and type</span><br><b class="code">${offer.code}</b></p>` : '<p class="warn-text">Wrong codes were sent: only the picture pairs now.</p>';
   return `<div class="offer">${qrPicture(offer.qr)}<div><p>Point the camera of the device at the picture,</p>${typed}<p class="lab">It may ${offer.may === 'hold' ? 'look, hold and abort' : 'only look'}. ${span(offer.left_s).slice(0, -2)} left.</p>${key('end-pairing', 'Done')}</div></div>`
-    + `<p class="lab-text">The browser warns, because nobody has vouched for this machine. Have it show the certificate, and go on only if its SHA-256 is</p><p class="print">${fingerprintLines(fingerprint)}</p>`;
+    + `<p class="lab-text">The browser warns: nobody has vouched for this machine. Go on only if the certificate that it shows has this SHA-256:</p><p class="print">${fingerprintLines(fingerprint)}</p>`;
 }
 function deviceList({ devices }) {
   const rows = devices.map(({ name, may, paired_ms, seen_ms, here }) => `<tr><td><b>${safe(name)}</b></td><td class="l">${may === 'hold' ? 'holds, aborts' : 'looks'}</td><td class="n">${dayAndTime(paired_ms)}</td><td class="n">${here ? `${icon('ok', 'ok')} now` : dayAndTime(seen_ms)}</td><td>${key('revoke-device', 'Revoke', { press: LONG, why: notOperating(), sub: 'press 1 s', data: `data-name="${safe(name)}"` })}</td></tr>`).join('');
@@ -92,4 +92,9 @@ async function sendCode(code) {
   location.reload();
 }
 /* The server knows this device no more. */
-function judgeRefused() { if (isDevice() && S.refused) layPairing('', TOKEN ? 'This device is paired no more.' : ''); }
+function judgeRefused() {
+  if (!isDevice() || !S.refused) return;
+  // A Hold that is not taken is not to be pressed.
+  if (S.may !== 'look') { S.may = 'look'; paintTabs(); paintHands(); }
+  layPairing('', TOKEN ? 'This device is paired no more.' : '');
+}

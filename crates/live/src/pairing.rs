@@ -114,17 +114,17 @@ impl Pairing {
             offer.short.is(typed(code).as_bytes()),
         );
         let is_open = offer.tries < MOST_TRIES;
-        if !is_long && !(is_short && is_open) {
-            offer.tries = offer.tries.saturating_add(1);
-            return Err(if is_open {
-                PairingRefusal::Wrong
-            } else {
-                PairingRefusal::TriedTooOften
-            });
+        if is_long || (is_short && is_open) {
+            let role = offer.role;
+            self.0 = None;
+            return Ok(role);
         }
-        let role = offer.role;
-        self.0 = None;
-        Ok(role)
+        offer.tries = offer.tries.saturating_add(1);
+        Err(if is_open {
+            PairingRefusal::Wrong
+        } else {
+            PairingRefusal::TriedTooOften
+        })
     }
 
     fn look(&mut self, now: Instant) {

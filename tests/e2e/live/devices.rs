@@ -309,7 +309,17 @@ fn a_device_is_paired_over_a_restart_until_it_is_revoked() {
     assert!(revoked.elapsed() < Duration::from_secs(5));
     assert_eq!(device.get("/api/may").0, 403);
     assert_eq!(device.order(&json!({ "kind": "hold" })).0, 403);
-    // What others can read lets nobody in, and nothing starts with it.
+    drop(live);
+    drop(services.end());
+}
+
+/// And nothing starts with it.
+#[test]
+fn what_others_can_read_lets_nobody_in() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let services = Services::start(&instance);
+    let config = keeping(&instance);
+    let live = serve(&instance, &config);
     let again = Device::paired(&live, "hold", "Tablet");
     assert_eq!(again.get("/api/may").0, 200);
     let state = instance.path("state");
@@ -325,7 +335,10 @@ fn a_device_is_paired_over_a_restart_until_it_is_revoked() {
         mode(0o640);
         if *file == list {
             assert_eq!(again.get("/api/may").0, 403);
-            let said = command(&[]).expect(2).stderr;
+            let said = Process::join(&instance, &["live", "devices", "--config", &config])
+                .wait()
+                .expect(5)
+                .stderr;
             assert!(said.contains("other users can open it"), "{said}");
         }
         let arguments = [
@@ -449,6 +462,8 @@ fn a_browser_is_paired_by_the_address_in_the_picture() {
 
     let trust = json!({ "ignore": true });
     let _trusted = phone.call("Security.setIgnoreCertificateErrors", &trust);
+    let size = json!({ "width": 390, "height": 844, "deviceScaleFactor": 1, "mobile": false });
+    let _sized = phone.call("Emulation.setDeviceMetricsOverride", &size);
     phone.open(&format!("{url}#code={code}"));
     phone.wait("document.querySelector('#pairing-name')");
     assert_eq!(
@@ -479,7 +494,8 @@ fn a_browser_is_paired_by_the_address_in_the_picture() {
     // A finger at the panel ends it.
     panel.press_for("[data-do=revoke-device]", Duration::from_millis(1400));
     panel.wait("DEVICES.known.devices.length === 0");
-    phone.wait("document.querySelector('#pairing-code') && S.state === 'stale'");
+    phone
+        .wait("document.querySelector('#pairing-code') && S.state === 'stale' && S.may === 'look'");
     picture(&mut phone, "devices-revoked");
     drop(live);
     drop(planner);

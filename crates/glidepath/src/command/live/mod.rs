@@ -61,7 +61,7 @@ use following::Following;
 use glidepath_link::{
     Auxiliary, Ipc, LinkConfig, Record as _, Setpoint, Status, Subscriber, Transport as _,
 };
-use glidepath_live::{Feed, Message, Role, Seat, Server, ServerError, Site};
+use glidepath_live::{DeviceServer, Feed, Message, Role, Running, Seat, Server, ServerError, Site};
 use job_submitter::JobSubmitter;
 use jogger::Jogger;
 use lateness::Histogram;
@@ -118,15 +118,7 @@ fn serve(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Failure> {
     let (server, feed) = (Server::bind(args.port, role)?, Feed::default());
     let urls: Vec<(Role, String)> = server.urls().collect();
     let port = server.port();
-    let bound = args
-        .devices
-        .map(|address| PairedDevices::bind(address, &instance, config));
-    let (device_server, devices) = bound.transpose()?.unzip();
-    let devices = devices.map(Arc::new);
-    let folder = args
-        .programs
-        .as_deref()
-        .map(|path| Folder::at(path).map_err(FileError::open(path)));
+    let (device_server, devices) = bind_devices(args, &instance, config)?;
     let operates = role == Role::Operate;
     let jobs = operates.then(|| JobSubmitter::start(&link)).transpose();
     let jobs = jobs.map_err(ServerError::Thread)?.map(Arc::new);
@@ -142,7 +134,7 @@ fn serve(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Failure> {
         shown: Arc::clone(&shown),
         set_up: Arc::new(SetUp::new(config)),
         seat: Arc::default(),
-        folder: folder.transpose()?,
+        folder: folder(args)?,
         preview: Preview::new(config),
         what_if: WhatIf::new(config),
         jogger,
@@ -157,9 +149,7 @@ fn serve(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Failure> {
     let certificates = Arc::clone(&pages.certificates);
     let pages = Arc::new(pages);
     let running = server.start(Arc::clone(&pages) as Arc<dyn Site>, &feed)?;
-    let served = device_server.zip(devices.clone());
-    let served = served.map(|(server, devices)| server.start(pages, &feed, devices, role));
-    let served = served.transpose()?;
+    let served = start_devices(device_server, devices.clone(), pages, (&feed, role))?;
     addresses::tell(args, &instance, (&urls, port), devices.as_deref());
     let offsets = PersistentOffsets::new(config, &link);
     let mut machine = Machine {
@@ -195,6 +185,38 @@ fn serve(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Failure> {
     machine.follow(&interrupt)?;
     drop((served, running));
     Ok(interrupt.exit())
+}
+
+/// The folder of programs, if there is one.
+fn folder(args: &LiveArgs) -> Result<Option<Folder>, FileError> {
+    let path = args.programs.as_deref();
+    path.map(|path| Folder::at(path).map_err(FileError::open(path)))
+        .transpose()
+}
+
+/// The server of devices and those that are paired, where they are to be served.
+fn bind_devices(
+    args: &LiveArgs,
+    instance: &str,
+    config: &MachineConfig,
+) -> Result<(Option<DeviceServer>, Option<Arc<PairedDevices>>), Failure> {
+    let bind = |address| PairedDevices::bind(address, instance, config);
+    let (server, devices) = args.devices.map(bind).transpose()?.unzip();
+    Ok((server, devices.map(Arc::new)))
+}
+
+/// Answers devices from now on.
+fn start_devices(
+    server: Option<DeviceServer>,
+    devices: Option<Arc<PairedDevices>>,
+    pages: Arc<dyn Site>,
+    (feed, most): (&Feed, Role),
+) -> Result<Option<Running>, ServerError> {
+    let served = server.zip(devices);
+    let start = |(server, devices): (DeviceServer, Arc<PairedDevices>)| {
+        server.start(pages, feed, devices, most)
+    };
+    served.map(start).transpose()
 }
 
 /// What is followed, and what is known of it.
@@ -269,6 +291,7 @@ impl Machine<'_> {
                 self.transport.clean_up_dead_peers()?;
                 self.transport.stands()?;
                 self.receivers = receivers(&self.transport.setpoint_receivers()?);
+                self.hear_of_devices();
             }
             // A status first: a page needs it to show a batch.
             if is_due(1, STATUS_EVERY)

@@ -16,10 +16,6 @@ use super::day::now_ms;
 impl Machine<'_> {
     /// What the page is told; nothing while nobody knows what the machine does.
     pub(super) fn object(&mut self) -> Result<Option<Value>, Failure> {
-        for (kind, text) in self.devices.iter().flat_map(|devices| devices.told()) {
-            output::note(&format!("live: {text}"));
-            self.log.add(kind, text);
-        }
         let now_ns = Monotonic.now_ns();
         let fresh = self
             .status
@@ -100,6 +96,14 @@ impl Machine<'_> {
             object.insert("asked".to_owned(), self.asked.object(&status));
         }
         Ok(Some(object))
+    }
+
+    /// Takes what happened to devices into the log, and says so.
+    pub(super) fn hear_of_devices(&mut self) {
+        for (kind, text) in self.devices.iter().flat_map(|devices| devices.told()) {
+            output::note(&format!("live: {text}"));
+            self.log.add(kind, text);
+        }
     }
 
     /// Whether a page operates, and whether another one wants to. Which ones is nobody else's business.

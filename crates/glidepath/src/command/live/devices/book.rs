@@ -7,7 +7,7 @@ use super::folder::{SecretFolder, Stamp};
 use crate::file_error::FileError;
 use glidepath_live::{Role, Sha256};
 use serde::{Deserialize, Serialize};
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use std::io;
 use std::path::Path;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -64,7 +64,7 @@ struct Known {
     /// Why the file cannot be used.
     trouble: Option<String>,
     /// When each device was heard last.
-    heard: HashMap<Sha256, Instant>,
+    heard: BTreeMap<Sha256, Instant>,
 }
 
 /// The list of a folder, as it is.

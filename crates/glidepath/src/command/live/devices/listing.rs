@@ -70,7 +70,9 @@ fn show(devices: &[Device], as_json: bool) {
 fn moment(at_s: u64) -> String {
     let (mut day, second) = (at_s / 86_400, at_s % 86_400);
     let mut year = 1970;
-    let is_leap = |year: u64| year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
+    let is_leap = |year: u64| {
+        year.is_multiple_of(4) && (!year.is_multiple_of(100) || year.is_multiple_of(400))
+    };
     while day >= 365 + u64::from(is_leap(year)) {
         day -= 365 + u64::from(is_leap(year));
         year += 1;

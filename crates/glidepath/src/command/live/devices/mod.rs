@@ -28,14 +28,14 @@ use serde::Deserialize;
 use serde_json::json;
 use std::net::SocketAddr;
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use std::time::{Instant, SystemTime, UNIX_EPOCH};
+use std::time::Instant;
 
+use super::day::now_ms;
 use super::pages::{object, refusal};
 
 /// The clock of this host, s since 1970.
 fn now_s() -> u64 {
-    let now = SystemTime::now().duration_since(UNIX_EPOCH);
-    now.map_or(0, |now| now.as_secs())
+    now_ms() / 1000
 }
 
 /// What a device sends to be paired.
