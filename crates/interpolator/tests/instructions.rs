@@ -83,7 +83,7 @@ const CASES: [Case; 9] = [
     case("rate 1", Operator::Once(None), 3_905, 25_500),
     case("rate 0.5", HALF, 2_935, 25_200),
     case("held", Operator::Once(Some(Command::Hold)), 2_500, 2_500),
-    case("operator", Operator::Busy, 5_140, 90_900),
+    case("operator", Operator::Busy, 5_150, 90_900),
     Case {
         is_hard: true,
         ..case("hard", Operator::Once(None), 21_080, 113_700)

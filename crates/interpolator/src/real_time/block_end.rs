@@ -1,4 +1,5 @@
-//! The search for the end of the present block, in the frames at hand.
+//! The search for the end of the present block, or of the last block before a rapid, in the frames at
+//! hand.
 //!
 //! A block is known by the number its frames carry (by the line, if a planner does not number
 //! them). Its end is its last frame: the last point of the path that is a setpoint of its own, less
@@ -14,6 +15,41 @@
 use crate::real_time::program_time::ProgramTime;
 use crate::real_time::track::Track;
 use crate::shared::rest::is_at_rest;
+use glidepath_link::SetpointFrame;
+use glidepath_program::FrameFlags;
+
+/// The blocks at whose end the motion is to rest.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Ends {
+    /// Every block.
+    Every,
+    /// Those that a rapid follows, and that are none themselves.
+    BeforeRapids,
+}
+
+impl Ends {
+    /// Whether a block ends at a frame, by the one behind it.
+    fn has(self, frame: &SetpointFrame, next: &SetpointFrame) -> bool {
+        match self {
+            Self::Every => block(frame) != 0 && block(frame) != block(next),
+            Self::BeforeRapids => begins_rapid(frame, next),
+        }
+    }
+}
+
+/// The number of a frame's block; of its line, where blocks have none.
+const fn block(frame: &SetpointFrame) -> u32 {
+    if frame.block > 0 {
+        frame.block
+    } else {
+        frame.line
+    }
+}
+
+/// Whether a rapid begins behind a frame, before the next one.
+pub(crate) fn begins_rapid(frame: &SetpointFrame, next: &SetpointFrame) -> bool {
+    next.has(FrameFlags::RAPID) && !frame.has(FrameFlags::RAPID)
+}
 
 /// Frames looked at in one tick.
 const FRAMES_PER_TICK: u64 = 64;
@@ -40,7 +76,7 @@ pub(crate) enum BlockEnd {
 
 impl BlockEnd {
     /// Begins to look, or looks on; not for an end that the motion has passed.
-    pub(crate) fn look(&mut self, now: ProgramTime, track: &Track) {
+    pub(crate) fn look(&mut self, ends: Ends, now: ProgramTime, track: &Track) {
         // Past a frame, but for rounding, the motion is on its way to the next.
         let now = now.snapped();
         let ahead = now.sequence + u64::from(now.fraction > 0.0);
@@ -53,14 +89,7 @@ impl BlockEnd {
             let (Some(frame), Some(next)) = (track.frame(from), track.frame(from + 1)) else {
                 break;
             };
-            let block = |frame: &glidepath_link::SetpointFrame| {
-                if frame.block > 0 {
-                    frame.block
-                } else {
-                    frame.line
-                }
-            };
-            if block(frame) != 0 && block(frame) != block(next) {
+            if ends.has(frame, next) {
                 let rests = is_at_rest(frame);
                 *self = Self::Found { frame: from, rests };
                 return;
@@ -109,7 +138,6 @@ impl BlockEnd {
 mod tests {
     use super::*;
     use crate::testing::{frame_of, mill};
-    use glidepath_link::SetpointFrame;
 
     fn track(blocks: &[(u32, u32)]) -> Track {
         let mut track = Track::new(
@@ -130,7 +158,7 @@ mod tests {
     }
 
     fn look(end: &mut BlockEnd, sequence: u64, track: &Track) -> Option<u64> {
-        end.look(ProgramTime::at(sequence), track);
+        end.look(Ends::Every, ProgramTime::at(sequence), track);
         end.frame()
     }
 
@@ -161,6 +189,7 @@ mod tests {
         let mut end = BlockEnd::default();
         assert_eq!(look(&mut end, 0, &track), Some(0));
         end.look(
+            Ends::Every,
             ProgramTime {
                 sequence: 0,
                 fraction: 0.1,

@@ -1,7 +1,8 @@
 //! The stop at the end of a block: what the search for the end, the rate of program time and the
-//! track have to know of each other.
+//! track have to know of each other. It is that of a single block, or the one in front of a rapid while
+//! the rapid override is 0.
 
-use crate::real_time::block_end::BlockEnd;
+use crate::real_time::block_end::{BlockEnd, Ends, begins_rapid};
 use crate::real_time::differences::Differences;
 use crate::real_time::program_time::ProgramTime;
 use crate::real_time::rate::Rate;
@@ -11,7 +12,11 @@ use crate::real_time::track::Track;
 /// The end of the present block, and how the motion sets out to it.
 #[derive(Debug)]
 pub(crate) struct SingleBlockStop {
+    /// The ends that are looked for.
+    ends: Option<Ends>,
     end: BlockEnd,
+    /// The motion is to rest where it is, since what follows is a rapid.
+    is_before_rapid: bool,
     /// The rate at which motion sets out from a rest of the plan: less than the goal where the
     /// block would be too short to come to rest at its end, or where no stop is found from a higher
     /// one.
@@ -22,9 +27,28 @@ impl SingleBlockStop {
     /// Nobody wants to stop at the end of a block.
     pub(crate) const fn none() -> Self {
         Self {
+            ends: None,
             end: BlockEnd::Unwanted,
+            is_before_rapid: false,
             sets_out_at: 1.0,
         }
+    }
+
+    /// The rate at which the motion goes to where it is to rest: a lower one in front of a rapid that the
+    /// plan, at its limits, does not let it rest in front of otherwise. A lower rate leaves room: of the
+    /// jerk, the plan takes r³.
+    pub(crate) fn approaches_at(&self, rate: &Rate) -> Option<f64> {
+        const SLOWER: f64 = 0.4;
+        let is_barred = |frame| rate.was_barred_from(frame);
+        let is_slower =
+            self.ends == Some(Ends::BeforeRapids) && self.end.in_motion().is_some_and(is_barred);
+        is_slower.then_some(SLOWER)
+    }
+
+    /// Whether the motion is to rest where it is, since what follows is a rapid and the rapid override
+    /// is 0.
+    pub(crate) const fn is_before_rapid(&self) -> bool {
+        self.is_before_rapid
     }
 
     /// The rate at which motion sets out from a rest of the plan.
@@ -37,9 +61,9 @@ impl SingleBlockStop {
         self.end.in_motion()
     }
 
-    /// Whether a program time is the end of the block.
+    /// Whether a program time is the end of the block that a single block ends at.
     pub(crate) fn is_at(&self, time: ProgramTime) -> bool {
-        Some(time) == self.end.frame().map(ProgramTime::at)
+        self.ends == Some(Ends::Every) && Some(time) == self.end.frame().map(ProgramTime::at)
     }
 
     /// Leaves the end of this block to be passed, and looks for the next one.
@@ -48,8 +72,8 @@ impl SingleBlockStop {
         self.sets_out_at = 1.0;
     }
 
-    /// Keeps in mind where the present block ends, if the motion is to rest there, and holds the
-    /// motion where the plan rests by itself.
+    /// Keeps in mind where the present block ends, or the last one before a rapid, if the motion is to
+    /// rest there, and holds the motion where the plan rests by itself.
     pub(crate) fn look_ahead(
         &mut self,
         requests: &StopRequests,
@@ -57,17 +81,25 @@ impl SingleBlockStop {
         track: &mut Track,
         published: &Differences,
     ) {
+        let ends = requests.wanted_ends();
+        if ends.is_none() && self.ends.is_none() {
+            return;
+        }
+        let now = rate.now().time;
+        self.is_before_rapid = requests.bars_rapids() && stands_before_rapid(now, track);
         if requests.is_at_block_end() {
             return;
         }
-        if requests.wants_block_end() {
+        if ends != self.ends {
+            // What was found for the others is no end of these.
+            (self.ends, self.end, self.sets_out_at) = (ends, BlockEnd::Unwanted, 1.0);
+            rate.forget_arrival();
+        }
+        if let Some(ends) = ends {
             if rate.take_missed() {
                 self.try_slower_or_later(rate, track, published);
             }
-            self.end.look(rate.now().time, track);
-        } else {
-            self.end = BlockEnd::Unwanted;
-            rate.forget_arrival();
+            self.end.look(ends, now, track);
         }
         let held_at = self.end.at_rest().or(self.waits_for_arrival(rate, track));
         track.hold_at_block_end(held_at);
@@ -106,4 +138,11 @@ impl SingleBlockStop {
         }
         can_be
     }
+}
+
+/// Whether a program time is a frame behind which a rapid begins.
+fn stands_before_rapid(now: ProgramTime, track: &Track) -> bool {
+    let (here, next) = (track.frame(now.sequence), track.frame(now.sequence + 1));
+    let both = here.zip(next);
+    now.fraction <= 0.0 && both.is_some_and(|(here, next)| begins_rapid(here, next))
 }

@@ -18,6 +18,7 @@
 //! That the operator wants to rest at the end of a block is no reason to stop before the motion is
 //! there; how it gets there is for the rate of program time.
 
+use crate::real_time::block_end::Ends;
 use crate::real_time::queue_level::QueueLevel;
 use crate::shared::fault::Fault;
 use crate::shared::message::Order;
@@ -51,6 +52,8 @@ pub(crate) struct StopRequests {
     rapid_r: f64,
     /// It goes, or is to go, through frames that were passed before.
     retraces: bool,
+    /// No rapid is to begin.
+    bars_rapids: bool,
     /// A job has the machine, and none of its frames has come.
     is_prepared: bool,
 }
@@ -108,6 +111,7 @@ impl Default for StopRequests {
             feed_r: 1.0,
             rapid_r: 1.0,
             retraces: false,
+            bars_rapids: false,
             is_prepared: false,
         }
     }
@@ -229,9 +233,20 @@ impl StopRequests {
         self.stop_at_block_end = false;
     }
 
-    /// Whether the motion is to rest at the end of the present block.
-    pub(crate) const fn wants_block_end(&self) -> bool {
-        self.single_block || self.stop_at_block_end
+    /// The ends of blocks at which the motion is to rest. A single block ends before a rapid, too.
+    pub(crate) const fn wanted_ends(&self) -> Option<Ends> {
+        if self.single_block || self.stop_at_block_end {
+            Some(Ends::Every)
+        } else if self.bars_rapids {
+            Some(Ends::BeforeRapids)
+        } else {
+            None
+        }
+    }
+
+    /// Whether no rapid is to begin.
+    pub(crate) const fn bars_rapids(&self) -> bool {
+        self.bars_rapids
     }
 
     /// Whether it rests there.
@@ -331,6 +346,9 @@ impl StopRequests {
             self.rapid_r = self.rapid_override * ratio.abs();
         }
         self.is_told &= self.wants_back();
+        // While feeds are held as well, nothing moves that could come to a rapid.
+        let is_onward = !self.wants_back() && !self.heading.is_back();
+        self.bars_rapids = is_onward && self.rapid_r <= 0.0 && self.feed_r > 0.0;
         self.retraces = self.wants_back() || !matches!(self.heading, Heading::Onward);
     }
 

@@ -112,7 +112,8 @@ impl Interpolator<'_> {
     fn update_state(&mut self, tick: u64) {
         let (is_open, stands) = (self.is_open(), self.is_standing());
         // What is passed is the present frame, or the last one of an epoch that has ended.
-        let is_rapid = self.passed.has(FrameFlags::RAPID);
+        let is_rapid =
+            self.passed.has(FrameFlags::RAPID) || self.single_block_stop.is_before_rapid();
         let of_program = self
             .requests
             .state(is_open, stands, is_rapid, &self.queue_level);

@@ -109,6 +109,8 @@ pub(super) struct ArrivalAttempts {
     pub(super) search: Option<ArrivalSearch>,
     /// The end of the block turned out to be too near, and nobody was told so far.
     pub(super) has_missed: bool,
+    /// The end of a block before which nothing passed from the rate at that time.
+    pub(super) barred_from: Option<u64>,
 }
 
 impl CandidateSearch {
@@ -149,6 +151,7 @@ impl Rate {
             arrival: ArrivalAttempts {
                 search: None,
                 has_missed: false,
+                barred_from: None,
             },
         }
     }
@@ -266,7 +269,7 @@ impl Rate {
         self.rest_at(time, 0.0);
         self.reserve.search.give_up();
         (self.arrival.search, self.reserve.found_none) = (None, false);
-        self.arrival.has_missed = false;
+        (self.arrival.has_missed, self.arrival.barred_from) = (false, None);
     }
 
     /// Whether, from where the motion stands, no stop was found after it has set out at the present
@@ -278,6 +281,11 @@ impl Rate {
     /// Whether the end of the block turned out to be too near, since this was asked last.
     pub(crate) const fn take_missed(&mut self) -> bool {
         core::mem::replace(&mut self.arrival.has_missed, false)
+    }
+
+    /// Whether nothing was found that comes to rest at a frame, from the rate at that time.
+    pub(crate) fn was_barred_from(&self, frame: u64) -> bool {
+        self.arrival.barred_from == Some(frame)
     }
 
     /// Nobody wants to rest at the end of the block any more.

@@ -210,6 +210,7 @@ impl Rate {
                 false
             }
             ArrivalOutcome::Barred | ArrivalOutcome::OutOfReach => {
+                self.arrival.barred_from = Some(frame);
                 // From nearer something may pass, but not from where the motion stands.
                 self.arrival.has_missed = situation.is_held_at(self.now.time)
                     || matches!(outcome, ArrivalOutcome::OutOfReach);

@@ -138,6 +138,9 @@ impl Interpolator<'_> {
             }
             goal = goal.min(self.single_block_stop.sets_out_at());
         }
+        if let Some(slower) = self.single_block_stop.approaches_at(&self.rate) {
+            goal = goal.min(slower);
+        }
         if rests && now.rate != goal {
             self.track.bar(now.time.sequence);
             self.rate.rest_at(now.time, goal);

@@ -65,6 +65,7 @@ impl Interpolator<'_> {
         };
         self.rate.begin_at(time);
         self.single_block_stop = SingleBlockStop::none();
+        self.track.hold_at_block_end(None);
         self.queue_level.begin_epoch();
         self.requests.turn(heading);
     }

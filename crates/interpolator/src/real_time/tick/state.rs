@@ -142,8 +142,9 @@ impl<'a> Interpolator<'a> {
         frame.map_or(self.passed, FrameSummary::of)
     }
 
+    /// Whether the motion is a rapid, or rests in front of one that is not to begin.
     pub(super) fn is_rapid(&self) -> bool {
-        self.present().has(FrameFlags::RAPID)
+        self.present().has(FrameFlags::RAPID) || self.single_block_stop.is_before_rapid()
     }
 
     /// Latches a fault; the motion stops on the path.

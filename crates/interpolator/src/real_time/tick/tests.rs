@@ -20,6 +20,7 @@ mod jog_in_a_hold;
 mod jog_random;
 mod planned;
 mod queue_level;
+mod rapid_override;
 mod retracing;
 mod tap_by_axis;
 

@@ -144,7 +144,7 @@ fn command_planned(
             0 | 1 => rig.command(Command::Hold),
             2 => rig.command(Command::Resume),
             3 => rig.command(Command::FeedOverride(numbers.unit())),
-            4 => rig.command(Command::RapidOverride(numbers.unit())),
+            4 => rig.command(Command::RapidOverride((1.3 * numbers.unit() - 0.3).max(0.0))),
             5 => rig.command(Command::StopAtEndOfBlock),
             6 => rig.command(Command::SingleBlock(true)),
             7 => rig.command(Command::SingleBlock(false)),
