@@ -51,7 +51,8 @@ pub struct Identity {
 // The key is nobody's business.
 impl fmt::Debug for Identity {
     fn fmt(&self, to: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(to, "Identity({:?}, {})", self.names, self.fingerprint())
+        let mut to = to.debug_struct("Identity");
+        to.field("names", &self.names).finish_non_exhaustive()
     }
 }
 
@@ -158,6 +159,6 @@ mod tests {
         assert!(broken.tls().is_err());
         // Whoever prints it does not print the key.
         let printed = format!("{one:?}");
-        assert!(printed.len() < 120 && printed.contains(&one.fingerprint().to_string()));
+        assert!(printed.len() < 60 && printed.contains("localhost"));
     }
 }

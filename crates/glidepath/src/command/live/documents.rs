@@ -1,7 +1,8 @@
 //! What pages ask for: the machine and its programs, previews, set-up, certificates, devices.
 
+use super::answers::{not_now, object, refusal};
 use super::folder::Folder;
-use super::pages::{Pages, not_now, object, refusal};
+use super::pages::Pages;
 use super::preview::{Look, Looker};
 use super::query::{decoded, parameter};
 use super::shown::Shown;

@@ -12,6 +12,7 @@
 //! command line: commands to the panel, lines and programs to the planner's service, jogs as demands.
 
 mod addresses;
+mod answers;
 mod asked;
 mod batch;
 mod certificates;

@@ -30,8 +30,8 @@ use std::net::SocketAddr;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
+use super::answers::{object, refusal};
 use super::day::now_ms;
-use super::pages::{object, refusal};
 
 /// The clock of this host, s since 1970.
 fn now_s() -> u64 {

@@ -1,8 +1,9 @@
 //! What the panel shows of devices: those that are paired, and the code of one that is to be, as a picture and as text.
 
 use super::PairedDevices;
+use crate::command::live::answers::{Done, malformed, not_now};
 use crate::command::live::order::Order;
-use crate::command::live::pages::{Done, Pages, malformed, not_now};
+use crate::command::live::pages::Pages;
 use glidepath_live::{Caller, Role, Shown, Status};
 use qrcodegen::{QrCode, QrCodeEcc};
 use serde_json::{Value, json};
