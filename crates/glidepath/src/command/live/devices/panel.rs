@@ -65,7 +65,11 @@ fn qr(text: &str) -> Vec<String> {
 impl Pages {
     /// Has a code shown, or no more, or takes a device out.
     pub(in crate::command::live) fn pair(&self, caller: Caller, order: &Order) -> Done {
-        let none = || not_now("this page has no devices: `glidepath live --devices ADDRESS:PORT`");
+        let none = || {
+            not_now(
+                "this page has no devices: `glidepath live --devices 192.168.1.20:8443`, with an address of this host",
+            )
+        };
         let devices = self.devices.as_ref().ok_or_else(none)?;
         match order {
             Order::PairDevice { may } => {
