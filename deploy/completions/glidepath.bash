@@ -343,6 +343,12 @@ _glidepath() {
             glidepath__subcmd__help__subcmd__ethercat,scan)
                 cmd="glidepath__subcmd__help__subcmd__ethercat__subcmd__scan"
                 ;;
+            glidepath__subcmd__help__subcmd__live,devices)
+                cmd="glidepath__subcmd__help__subcmd__live__subcmd__devices"
+                ;;
+            glidepath__subcmd__help__subcmd__live__subcmd__devices,revoke)
+                cmd="glidepath__subcmd__help__subcmd__live__subcmd__devices__subcmd__revoke"
+                ;;
             glidepath__subcmd__help__subcmd__offsets,adopt)
                 cmd="glidepath__subcmd__help__subcmd__offsets__subcmd__adopt"
                 ;;
@@ -363,6 +369,33 @@ _glidepath() {
                 ;;
             glidepath__subcmd__help__subcmd__offsets,use)
                 cmd="glidepath__subcmd__help__subcmd__offsets__subcmd__use"
+                ;;
+            glidepath__subcmd__live,devices)
+                cmd="glidepath__subcmd__live__subcmd__devices"
+                ;;
+            glidepath__subcmd__live,help)
+                cmd="glidepath__subcmd__live__subcmd__help"
+                ;;
+            glidepath__subcmd__live__subcmd__devices,help)
+                cmd="glidepath__subcmd__live__subcmd__devices__subcmd__help"
+                ;;
+            glidepath__subcmd__live__subcmd__devices,revoke)
+                cmd="glidepath__subcmd__live__subcmd__devices__subcmd__revoke"
+                ;;
+            glidepath__subcmd__live__subcmd__devices__subcmd__help,help)
+                cmd="glidepath__subcmd__live__subcmd__devices__subcmd__help__subcmd__help"
+                ;;
+            glidepath__subcmd__live__subcmd__devices__subcmd__help,revoke)
+                cmd="glidepath__subcmd__live__subcmd__devices__subcmd__help__subcmd__revoke"
+                ;;
+            glidepath__subcmd__live__subcmd__help,devices)
+                cmd="glidepath__subcmd__live__subcmd__help__subcmd__devices"
+                ;;
+            glidepath__subcmd__live__subcmd__help,help)
+                cmd="glidepath__subcmd__live__subcmd__help__subcmd__help"
+                ;;
+            glidepath__subcmd__live__subcmd__help__subcmd__devices,revoke)
+                cmd="glidepath__subcmd__live__subcmd__help__subcmd__devices__subcmd__revoke"
                 ;;
             glidepath__subcmd__offsets,adopt)
                 cmd="glidepath__subcmd__offsets__subcmd__adopt"
@@ -1481,8 +1514,36 @@ _glidepath() {
             return 0
             ;;
         glidepath__subcmd__help__subcmd__live)
-            opts=""
+            opts="devices"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 3 ]] ; then
+                COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+                return 0
+            fi
+            case "${prev}" in
+                *)
+                    COMPREPLY=()
+                    ;;
+            esac
+            COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+            return 0
+            ;;
+        glidepath__subcmd__help__subcmd__live__subcmd__devices)
+            opts="revoke"
+            if [[ ${cur} == -* || ${COMP_CWORD} -eq 4 ]] ; then
+                COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+                return 0
+            fi
+            case "${prev}" in
+                *)
+                    COMPREPLY=()
+                    ;;
+            esac
+            COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+            return 0
+            ;;
+        glidepath__subcmd__help__subcmd__live__subcmd__devices__subcmd__revoke)
+            opts=""
+            if [[ ${cur} == -* || ${COMP_CWORD} -eq 5 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
             fi
@@ -2083,7 +2144,7 @@ _glidepath() {
             return 0
             ;;
         glidepath__subcmd__live)
-            opts="-c -h --port --may --programs --tool-table --subroutine-path --dialect --allow-unchecked --effort --tolerance --config --json --instance --help"
+            opts="-c -h --port --may --devices --programs --tool-table --subroutine-path --dialect --allow-unchecked --effort --tolerance --config --json --instance --help devices help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -2095,6 +2156,10 @@ _glidepath() {
                     ;;
                 --may)
                     COMPREPLY=($(compgen -W "look hold operate" -- "${cur}"))
+                    return 0
+                    ;;
+                --devices)
+                    COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
                 --programs)
@@ -2136,6 +2201,156 @@ _glidepath() {
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
+                *)
+                    COMPREPLY=()
+                    ;;
+            esac
+            COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+            return 0
+            ;;
+        glidepath__subcmd__live__subcmd__devices)
+            opts="-c -h --instance --config --json --help revoke help"
+            if [[ ${cur} == -* || ${COMP_CWORD} -eq 3 ]] ; then
+                COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+                return 0
+            fi
+            case "${prev}" in
+                --instance)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --config)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                -c)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                *)
+                    COMPREPLY=()
+                    ;;
+            esac
+            COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+            return 0
+            ;;
+        glidepath__subcmd__live__subcmd__devices__subcmd__help)
+            opts="revoke help"
+            if [[ ${cur} == -* || ${COMP_CWORD} -eq 4 ]] ; then
+                COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+                return 0
+            fi
+            case "${prev}" in
+                *)
+                    COMPREPLY=()
+                    ;;
+            esac
+            COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+            return 0
+            ;;
+        glidepath__subcmd__live__subcmd__devices__subcmd__help__subcmd__help)
+            opts=""
+            if [[ ${cur} == -* || ${COMP_CWORD} -eq 5 ]] ; then
+                COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+                return 0
+            fi
+            case "${prev}" in
+                *)
+                    COMPREPLY=()
+                    ;;
+            esac
+            COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+            return 0
+            ;;
+        glidepath__subcmd__live__subcmd__devices__subcmd__help__subcmd__revoke)
+            opts=""
+            if [[ ${cur} == -* || ${COMP_CWORD} -eq 5 ]] ; then
+                COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+                return 0
+            fi
+            case "${prev}" in
+                *)
+                    COMPREPLY=()
+                    ;;
+            esac
+            COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+            return 0
+            ;;
+        glidepath__subcmd__live__subcmd__devices__subcmd__revoke)
+            opts="-c -h --instance --config --json --help"
+            if [[ ${cur} == -* || ${COMP_CWORD} -eq 4 ]] ; then
+                COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+                return 0
+            fi
+            case "${prev}" in
+                --instance)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --config)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                -c)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                *)
+                    COMPREPLY=()
+                    ;;
+            esac
+            COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+            return 0
+            ;;
+        glidepath__subcmd__live__subcmd__help)
+            opts="devices help"
+            if [[ ${cur} == -* || ${COMP_CWORD} -eq 3 ]] ; then
+                COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+                return 0
+            fi
+            case "${prev}" in
+                *)
+                    COMPREPLY=()
+                    ;;
+            esac
+            COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+            return 0
+            ;;
+        glidepath__subcmd__live__subcmd__help__subcmd__devices)
+            opts="revoke"
+            if [[ ${cur} == -* || ${COMP_CWORD} -eq 4 ]] ; then
+                COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+                return 0
+            fi
+            case "${prev}" in
+                *)
+                    COMPREPLY=()
+                    ;;
+            esac
+            COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+            return 0
+            ;;
+        glidepath__subcmd__live__subcmd__help__subcmd__devices__subcmd__revoke)
+            opts=""
+            if [[ ${cur} == -* || ${COMP_CWORD} -eq 5 ]] ; then
+                COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+                return 0
+            fi
+            case "${prev}" in
+                *)
+                    COMPREPLY=()
+                    ;;
+            esac
+            COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+            return 0
+            ;;
+        glidepath__subcmd__live__subcmd__help__subcmd__help)
+            opts=""
+            if [[ ${cur} == -* || ${COMP_CWORD} -eq 4 ]] ; then
+                COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+                return 0
+            fi
+            case "${prev}" in
                 *)
                     COMPREPLY=()
                     ;;

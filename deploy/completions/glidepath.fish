@@ -194,21 +194,32 @@ complete -c glidepath -n "__fish_glidepath_using_subcommand status" -l instance 
 complete -c glidepath -n "__fish_glidepath_using_subcommand status" -l watch -d 'Repeat until Ctrl-C; with --json, print one object per line'
 complete -c glidepath -n "__fish_glidepath_using_subcommand status" -l json -d 'Print one JSON object instead of text'
 complete -c glidepath -n "__fish_glidepath_using_subcommand status" -s h -l help -d 'Print help'
-complete -c glidepath -n "__fish_glidepath_using_subcommand live" -l port -d 'The port on 127.0.0.1; 0 selects any free one' -r
-complete -c glidepath -n "__fish_glidepath_using_subcommand live" -l may -d 'What the page may do: only look; hold and abort; or operate the machine' -r -f -a "look\t'See the machine'
+complete -c glidepath -n "__fish_glidepath_using_subcommand live; and not __fish_seen_subcommand_from devices help" -l port -d 'The port on 127.0.0.1; 0 selects any free one' -r
+complete -c glidepath -n "__fish_glidepath_using_subcommand live; and not __fish_seen_subcommand_from devices help" -l may -d 'What the page may do: only look; hold and abort; or operate the machine' -r -f -a "look\t'See the machine'
 hold\t'See it and stop it: hold and abort'
 operate\t'Do all that an operator does'"
-complete -c glidepath -n "__fish_glidepath_using_subcommand live" -l programs -d 'Folder of the programs that the page lists, runs and stores' -r -f -a "(__fish_complete_directories)"
-complete -c glidepath -n "__fish_glidepath_using_subcommand live" -l tool-table -d 'Tool table (LinuxCNC\'s .tbl); overrides `program.tool_table` of the configuration' -r -F
-complete -c glidepath -n "__fish_glidepath_using_subcommand live" -l subroutine-path -d 'Folder to search for subroutines in files of their own, after the folder of the program and before `program.subroutine_path` of the configuration; may be given several times' -r -F
-complete -c glidepath -n "__fish_glidepath_using_subcommand live" -l dialect -d 'Language of the program: linuxcnc, marlin, fanuc or siemens. Without it, the configuration or the beginning of the program decides' -r
-complete -c glidepath -n "__fish_glidepath_using_subcommand live" -l effort -d 'Effort of planning: optimal or fast; overrides `path.effort` of the configuration' -r
-complete -c glidepath -n "__fish_glidepath_using_subcommand live" -l tolerance -d 'How far the motion may leave the programmed path, mm; overrides `path.tolerance` of the configuration. G64 P of the program overrides both' -r
-complete -c glidepath -n "__fish_glidepath_using_subcommand live" -s c -l config -d 'Machine configuration (TOML); without it the built-in 3-axis mill' -r -F
-complete -c glidepath -n "__fish_glidepath_using_subcommand live" -l instance -d 'Name of the machine\'s shared memory; overrides `link.instance` of the configuration' -r
-complete -c glidepath -n "__fish_glidepath_using_subcommand live" -l allow-unchecked -d 'Accept a program whose loops are too long to be checked to their end (20 million lines). The rest is checked only when the machine comes to it'
-complete -c glidepath -n "__fish_glidepath_using_subcommand live" -l json -d 'Print one JSON object instead of text'
-complete -c glidepath -n "__fish_glidepath_using_subcommand live" -s h -l help -d 'Print help (see more with \'--help\')'
+complete -c glidepath -n "__fish_glidepath_using_subcommand live; and not __fish_seen_subcommand_from devices help" -l devices -d 'An address of this host, with a port, where paired tablets and phones open the page over TLS, to look and to hold; without it there is none' -r
+complete -c glidepath -n "__fish_glidepath_using_subcommand live; and not __fish_seen_subcommand_from devices help" -l programs -d 'Folder of the programs that the page lists, runs and stores' -r -f -a "(__fish_complete_directories)"
+complete -c glidepath -n "__fish_glidepath_using_subcommand live; and not __fish_seen_subcommand_from devices help" -l tool-table -d 'Tool table (LinuxCNC\'s .tbl); overrides `program.tool_table` of the configuration' -r -F
+complete -c glidepath -n "__fish_glidepath_using_subcommand live; and not __fish_seen_subcommand_from devices help" -l subroutine-path -d 'Folder to search for subroutines in files of their own, after the folder of the program and before `program.subroutine_path` of the configuration; may be given several times' -r -F
+complete -c glidepath -n "__fish_glidepath_using_subcommand live; and not __fish_seen_subcommand_from devices help" -l dialect -d 'Language of the program: linuxcnc, marlin, fanuc or siemens. Without it, the configuration or the beginning of the program decides' -r
+complete -c glidepath -n "__fish_glidepath_using_subcommand live; and not __fish_seen_subcommand_from devices help" -l effort -d 'Effort of planning: optimal or fast; overrides `path.effort` of the configuration' -r
+complete -c glidepath -n "__fish_glidepath_using_subcommand live; and not __fish_seen_subcommand_from devices help" -l tolerance -d 'How far the motion may leave the programmed path, mm; overrides `path.tolerance` of the configuration. G64 P of the program overrides both' -r
+complete -c glidepath -n "__fish_glidepath_using_subcommand live; and not __fish_seen_subcommand_from devices help" -s c -l config -d 'Machine configuration (TOML); without it the built-in 3-axis mill' -r -F
+complete -c glidepath -n "__fish_glidepath_using_subcommand live; and not __fish_seen_subcommand_from devices help" -l instance -d 'Name of the machine\'s shared memory; overrides `link.instance` of the configuration' -r
+complete -c glidepath -n "__fish_glidepath_using_subcommand live; and not __fish_seen_subcommand_from devices help" -l allow-unchecked -d 'Accept a program whose loops are too long to be checked to their end (20 million lines). The rest is checked only when the machine comes to it'
+complete -c glidepath -n "__fish_glidepath_using_subcommand live; and not __fish_seen_subcommand_from devices help" -l json -d 'Print one JSON object instead of text'
+complete -c glidepath -n "__fish_glidepath_using_subcommand live; and not __fish_seen_subcommand_from devices help" -s h -l help -d 'Print help (see more with \'--help\')'
+complete -c glidepath -n "__fish_glidepath_using_subcommand live; and not __fish_seen_subcommand_from devices help" -a "devices" -d 'List the paired tablets and phones, or revoke one; the page need not run'
+complete -c glidepath -n "__fish_glidepath_using_subcommand live; and not __fish_seen_subcommand_from devices help" -a "help" -d 'Print this message or the help of the given subcommand(s)'
+complete -c glidepath -n "__fish_glidepath_using_subcommand live; and __fish_seen_subcommand_from devices" -l instance -d 'Name of the machine\'s shared memory; overrides `link.instance` of the configuration' -r
+complete -c glidepath -n "__fish_glidepath_using_subcommand live; and __fish_seen_subcommand_from devices" -s c -l config -d 'Machine configuration (TOML); without it the built-in 3-axis mill' -r -F
+complete -c glidepath -n "__fish_glidepath_using_subcommand live; and __fish_seen_subcommand_from devices" -l json -d 'Print one JSON object instead of text'
+complete -c glidepath -n "__fish_glidepath_using_subcommand live; and __fish_seen_subcommand_from devices" -s h -l help -d 'Print help'
+complete -c glidepath -n "__fish_glidepath_using_subcommand live; and __fish_seen_subcommand_from devices" -f -a "revoke" -d 'End the pairing of a device: what it has open ends within a second or two'
+complete -c glidepath -n "__fish_glidepath_using_subcommand live; and __fish_seen_subcommand_from devices" -f -a "help" -d 'Print this message or the help of the given subcommand(s)'
+complete -c glidepath -n "__fish_glidepath_using_subcommand live; and __fish_seen_subcommand_from help" -f -a "devices" -d 'List the paired tablets and phones, or revoke one; the page need not run'
+complete -c glidepath -n "__fish_glidepath_using_subcommand live; and __fish_seen_subcommand_from help" -f -a "help" -d 'Print this message or the help of the given subcommand(s)'
 complete -c glidepath -n "__fish_glidepath_using_subcommand grbl" -l port -d 'The TCP port on 127.0.0.1; 0 selects any free one. Without --port and --pty it is 2323' -r
 complete -c glidepath -n "__fish_glidepath_using_subcommand grbl" -l pty -d 'Create this link to a pseudo-terminal, for senders that open serial ports' -r -F
 complete -c glidepath -n "__fish_glidepath_using_subcommand grbl" -l user -d 'Another user, by number, whose programs may connect by TCP, in addition to this one\'s and root\'s' -r
@@ -510,6 +521,7 @@ complete -c glidepath -n "__fish_glidepath_using_subcommand help; and not __fish
 complete -c glidepath -n "__fish_glidepath_using_subcommand help; and not __fish_seen_subcommand_from run plan check interpolator planner run-file mdi servo ethercat feed status live grbl record replay audit telemetry mirror hold resume step stop-at-block-end reverse forward single-block override jog return acknowledge abort reset enable disable home unhome set-position preview bench fit offsets setup config doctor jitter help" -f -a "jitter" -d 'Measure how late the real-time loop wakes on this host'
 complete -c glidepath -n "__fish_glidepath_using_subcommand help; and not __fish_seen_subcommand_from run plan check interpolator planner run-file mdi servo ethercat feed status live grbl record replay audit telemetry mirror hold resume step stop-at-block-end reverse forward single-block override jog return acknowledge abort reset enable disable home unhome set-position preview bench fit offsets setup config doctor jitter help" -f -a "help" -d 'Print this message or the help of the given subcommand(s)'
 complete -c glidepath -n "__fish_glidepath_using_subcommand help; and __fish_seen_subcommand_from ethercat" -f -a "scan" -d 'List the devices on the bus, as a first drives.toml; nothing moves'
+complete -c glidepath -n "__fish_glidepath_using_subcommand help; and __fish_seen_subcommand_from live" -f -a "devices" -d 'List the paired tablets and phones, or revoke one; the page need not run'
 complete -c glidepath -n "__fish_glidepath_using_subcommand help; and __fish_seen_subcommand_from offsets" -f -a "show" -d 'Show everything that is kept'
 complete -c glidepath -n "__fish_glidepath_using_subcommand help; and __fish_seen_subcommand_from offsets" -f -a "set" -d 'Set a coordinate system, the position of G28 or G30, or the kept offset of G92'
 complete -c glidepath -n "__fish_glidepath_using_subcommand help; and __fish_seen_subcommand_from offsets" -f -a "use" -d 'Choose the coordinate system in which programs start'

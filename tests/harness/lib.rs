@@ -6,7 +6,7 @@
 //! * [`Process`]: processes of the real binary, which [`glidepath`] finds and builds;
 //! * [`Services`]: an interpolator and a servo as processes;
 //! * [`Operated`]: the same with drives that answer, and what an operator types;
-//! * [`Browser`]: Chromium, to look at pages;
+//! * [`Browser`]: Chromium, to look at pages, and [`encrypted`]: TLS, to ask for them;
 //! * [`pocket`]: a program that is hard to plan and to stop on;
 //! * [`ServoStack`]: drives as a thread of the test, which upsets them, and [`Tape`]: every
 //!   setpoint, and what is wrong with them;
@@ -33,6 +33,7 @@ mod services;
 mod setpoint_file;
 mod stack;
 mod tape;
+mod tls;
 mod wall_clock;
 mod watchdog;
 
@@ -48,4 +49,5 @@ pub use services::{Services, planned};
 pub use setpoint_file::SetpointFile;
 pub use stack::ServoStack;
 pub use tape::Tape;
+pub use tls::encrypted;
 pub use watchdog::Watchdog;

@@ -50,7 +50,7 @@ async function listen() {
     let late = lost();
     try {
       const answer = await fetch('/api/stream', { headers: { 'X-Glidepath-Token': TOKEN }, signal: way.signal });
-      S.refused = answer.status === 403;
+      S.refused = answer.status === 403; judgeRefused();
       if (!answer.ok) throw new Error('refused');
       const reader = answer.body.getReader();
       held = new Uint8Array(0);
@@ -72,7 +72,7 @@ async function listen() {
       }
     } catch { /* told by the age of what is shown */ }
     clearTimeout(late);
-    await new Promise(done => setTimeout(done, 500));
+    await new Promise(done => setTimeout(done, isDevice() && S.refused ? 3000 : 500));
   }
 }
 S.ahead = -Infinity; S.came = 0; S.boot = '';
@@ -371,11 +371,14 @@ function startFile() {
   setInfo(JSON.parse(text(f.plan)));
   put($('#leftlab'), 'Cycle time'); showAll(); setView('tune');
 }
-function startLive() {
+function takeToken() {
   TOKEN = hash.get('token') || '';
   try { if (TOKEN) sessionStorage.setItem('glidepath-token', TOKEN); else TOKEN = sessionStorage.getItem('glidepath-token') || ''; } catch { /* none */ }
   // The token leaves the address, so that it is in no picture of the screen.
   if (hash.get('token')) { hash.delete('token'); history.replaceState(null, '', hash.toString() ? `#${hash}` : location.pathname); }
+}
+function startLive() {
+  if (isDevice()) startDevice(); else takeToken();
   layBar(); layBell(); layOverrides(); layLine(); layPrograms(); layShuttle();
   S.phone = isPhone();
   setView(S.phone ? 'glance' : hash.get('view') || 'operate');

@@ -161,7 +161,7 @@ async function startHands() {
   }
   paintTabs(); paintHands();
   if (S.may !== 'operate') return;
-  here();
+  here(); fetchDevices();
   // One at a time: those that wait for a server that stands still would be in the way of a hold.
   let isSaid = true;
   setInterval(() => { if (isSaid) { isSaid = false; here(S.asks ? 'ask-seat' : 'here').finally(() => { isSaid = true; }); } }, 1000);

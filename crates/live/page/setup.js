@@ -35,7 +35,7 @@ function paintSetUp() {
     + step('show-zero', 'Part zero', hasZero, SETUP.keeps ? zero ? `${zero.name}${hasZero ? '' : ' is at 0'}` : 'none is kept yet' : 'not kept', '', on && homed && !hasZero)
     + step('show-tools', 'Tool', !!s.tool, s.tool ? `T${s.tool}` : 'none told', '', false));
   const why = whyNoLine();
-  $$('#table .key').forEach(b => setWhy(b, b.dataset.do === 'touch-go' ? whyNoTouch() : why));
+  $$('#table .key').forEach(b => setWhy(b, b.dataset.do === 'touch-go' ? whyNoTouch() : b.closest('.devices') ? notOperating() : why));
   paintTouch();
   paintSheet(); paintPad(); paintLines(); paintUndo();
 }
@@ -119,14 +119,14 @@ function paintUndo() {
 DEEDS.undo = async () => { const { undo } = S, said = undo && await inMm(`undo ${undo.what}`, [undo.line]); if (said && said.accepted && S.undo === undo) { S.undo = null; paintUndo(); } };
 
 /* ---- tables that are edited in place */
-function showTable(name) { S.table = name; S.editing = null; paintTables(); }
-for (const name of ['move', 'offsets', 'tools', 'touch', 'spindle']) DEEDS[`table-${name}`] = () => showTable(name);
+function showTable(name) { S.table = name; S.editing = null; paintTables(); if (name === 'devices') fetchDevices(); }
+for (const name of ['move', 'offsets', 'tools', 'touch', 'spindle', 'devices']) DEEDS[`table-${name}`] = () => showTable(name);
 function paintTables() {
-  const tabs = [['move', 'Move'], ['offsets', 'Offsets'], ['tools', 'Tools'], ['touch', 'Touch off'], ['spindle', 'Spindle']];
+  const tabs = [['move', 'Move'], ['offsets', 'Offsets'], ['tools', 'Tools'], ['touch', 'Touch off'], ['spindle', 'Spindle'], ...DEVICES.known ? [['devices', 'Devices']] : []];
   fill($('#tables-tabs'), tabs.map(([name, title]) => `<button role="tab" class="t-${name}" aria-selected="${S.table === name}" data-do="table-${name}">${title}</button>`).join(''));
   $('#setup').dataset.table = S.table;
   if (S.editing) return;
-  fill($('#table'), S.table === 'tools' ? toolTable() : S.table === 'touch' ? touchTable() : S.table === 'spindle' ? spindleKeys() : offsetTable());
+  fill($('#table'), S.table === 'tools' ? toolTable() : S.table === 'touch' ? touchTable() : S.table === 'spindle' ? spindleKeys() : S.table === 'devices' ? deviceTable() : offsetTable());
 }
 /* `of` is the axis that a cell is of, or what else has a scale and places. */
 const cell = (what, edit, value, of) => `<td><button class="cell n" data-do="edit" data-edit="${safe(edit)}" data-value="${value}" data-of="${of}" aria-label="${safe(what)}">${cellText(of, value)}</button></td>`;

@@ -34,6 +34,7 @@ function cause() {
   const s = S.status;
   if (S.file) return fileWords();
   if (S.state === 'none') return `Nothing runs as “${INFO.machine.instance}”: glidepath interpolator starts it.`;
+  if (S.state === 'stale' && S.refused && isDevice()) return 'This device is not paired, or not any more, and is told nothing. The machine may be moving.';
   if (S.state === 'stale' && S.refused) return 'The server of this page was begun anew, or does not know the page: open the address that it told. All below is old; the machine may be moving.';
   if (S.state === 'stale') return S.heard ? `Last heard ${Math.round((performance.now() - S.heard) / 1000)} s ago. All below is old; the machine may be moving.` : 'The page has not heard anything yet.';
   const name = programName(), program = name ? `${name}, ` : '';

@@ -13,10 +13,19 @@
 //!   that is compared in constant time; which of the tokens it is says what its page may;
 //! * commands are `POST` with `application/json`, and pieces of programs `application/octet-stream`,
 //!   which a foreign page cannot send without being asked for leave, and leave is never given.
+//!
+//! Paired devices come over TLS to another port, where the same holds with other names and other tokens: `Host` is a
+//! name of the certificate with that port, `Origin` the same by `https`, and the tokens are those of devices. None of
+//! the one side is taken on the other, and whatever a device was given, it may not operate. One thing more is
+//! taken there without a token: a code to be paired by.
 
+use crate::devices::{Devices, MOST};
 use crate::request::Request;
 use crate::role::{Caller, Role};
+use crate::sha256::Sha256;
 use crate::token::Token;
+use std::net::Ipv6Addr;
+use std::sync::Arc;
 
 /// The header field that has the token, in lower case.
 pub const TOKEN_FIELD: &str = "x-glidepath-token";
@@ -24,6 +33,8 @@ pub const TOKEN_FIELD: &str = "x-glidepath-token";
 pub const PAGE_FIELD: &str = "x-glidepath-page";
 /// Where pieces of programs go.
 pub const UPLOAD: &str = "/api/upload";
+/// Where a device sends the code that it is paired by.
+pub const PAIR: &str = "/api/pair";
 /// What is told or done is below this path.
 pub const API: &str = "/api/";
 
@@ -36,12 +47,20 @@ pub enum Refusal {
     /// There is no `Host`, a second one, or one that is not loopback with this port.
     #[error("this server has another name: open the address that `glidepath live` printed")]
     Host,
+    /// The same of a server of paired devices.
+    #[error(
+        "this server has another name: open the address that is shown where devices are paired"
+    )]
+    DeviceHost,
     /// The request comes from a page of another origin.
     #[error("the request comes from another page")]
     Origin,
     /// The token is missing or wrong.
     #[error("the token is missing or wrong: open the address that `glidepath live` printed")]
     Token,
+    /// The device is not paired, or not any more.
+    #[error("this device is not paired, or not any more")]
+    Device,
     /// The method does not go with the path.
     #[error("this path does not take that method")]
     Method,
@@ -55,31 +74,53 @@ impl Refusal {
     #[must_use]
     pub const fn code(self) -> u16 {
         match self {
-            Self::Target | Self::Host => 421,
-            Self::Origin | Self::Token => 403,
+            Self::Target | Self::Host | Self::DeviceHost => 421,
+            Self::Origin | Self::Token | Self::Device => 403,
             Self::Method => 405,
             Self::ContentType => 415,
         }
     }
 }
 
+/// Who is let in.
+#[derive(Debug, Clone)]
+enum Admitted {
+    /// Pages of this host, by the tokens of this server.
+    Pages(Vec<(Role, Token)>),
+    /// Paired devices, which may no more than this.
+    Devices(Arc<dyn Devices>, Role),
+}
+
 /// The judge of requests.
 #[derive(Debug, Clone)]
 pub struct Guard {
     hosts: Vec<String>,
-    tokens: Vec<(Role, Token)>,
+    admitted: Admitted,
 }
 
 impl Guard {
-    /// The judge of a server on this port, with a token for each role that there is.
+    /// The judge of a server on this port of loopback, with a token for each role that there is.
     #[must_use]
     pub fn new(port: u16, tokens: Vec<(Role, Token)>) -> Self {
-        let names = ["127.0.0.1", "localhost", "[::1]"];
-        let mut hosts: Vec<String> = names.iter().map(|name| format!("{name}:{port}")).collect();
-        if port == 80 {
-            hosts.extend(names.map(str::to_owned));
+        let names = ["127.0.0.1", "localhost", "[::1]"].map(str::to_owned);
+        Self {
+            hosts: hosts(names.to_vec(), port, 80),
+            admitted: Admitted::Pages(tokens),
         }
-        Self { hosts, tokens }
+    }
+
+    /// The judge of a server of paired devices, with the names of its certificate, on this port. They may no more
+    /// than `most`, and never operate.
+    #[must_use]
+    pub fn of_devices(names: &[String], port: u16, devices: Arc<dyn Devices>, most: Role) -> Self {
+        let in_url = |name: &String| match name.parse::<Ipv6Addr>() {
+            Ok(address) => format!("[{address}]"),
+            Err(_) => name.clone(),
+        };
+        Self {
+            hosts: hosts(names.iter().map(in_url).collect(), port, 443),
+            admitted: Admitted::Devices(devices, most.min(MOST)),
+        }
     }
 
     /// Judges a request. Returns who asks; nobody where no token is wanted.
@@ -92,19 +133,22 @@ impl Guard {
         if !path.starts_with('/') || path.starts_with("//") || !path.is_ascii() {
             return Err(Refusal::Target);
         }
-        let host = request.only("host").ok_or(Refusal::Host)?;
-        if !self.is_own(host) {
-            return Err(Refusal::Host);
+        if !request.only("host").is_some_and(|host| self.is_own(host)) {
+            return Err(match self.admitted {
+                Admitted::Pages(_) => Refusal::Host,
+                Admitted::Devices(..) => Refusal::DeviceHost,
+            });
         }
         self.judge_origin(request)?;
         let is_api = path.starts_with(API);
-        let caller = if is_api {
+        let is_pairing = path == PAIR && matches!(self.admitted, Admitted::Devices(..));
+        let caller = if is_api && !is_pairing {
             Some(self.caller(request)?)
         } else {
             None
         };
         match request.method.as_str() {
-            "GET" => Ok(caller),
+            "GET" if !is_pairing => Ok(caller),
             "POST" if is_api => {
                 let kind = request.only("content-type").ok_or(Refusal::ContentType)?;
                 let kind = kind.split(|byte| *byte == b';').next().unwrap_or_default();
@@ -124,20 +168,36 @@ impl Guard {
 
     /// Who asks, by its token.
     fn caller(&self, request: &Request) -> Result<Caller, Refusal> {
-        let shown = request.only(TOKEN_FIELD).ok_or(Refusal::Token)?;
-        // All are compared, whichever it is.
-        let roles = self.tokens.iter().filter(|(_, token)| token.is(shown));
-        let role = roles.map(|(role, _)| *role).max().ok_or(Refusal::Token)?;
+        let shown = request.only(TOKEN_FIELD);
+        let (role, device) = match &self.admitted {
+            Admitted::Pages(tokens) => {
+                let shown = shown.ok_or(Refusal::Token)?;
+                // All are compared, whichever it is.
+                let roles = tokens.iter().filter(|(_, token)| token.is(shown));
+                let role = roles.map(|(role, _)| *role).max();
+                (role.ok_or(Refusal::Token)?, None)
+            }
+            Admitted::Devices(devices, most) => {
+                let token = Sha256::of(shown.ok_or(Refusal::Device)?);
+                let role = devices.role(&token).ok_or(Refusal::Device)?;
+                (role.min(*most), Some(token))
+            }
+        };
         let page = request.only(PAGE_FIELD).filter(|page| page.len() == 16);
         let page = page.and_then(|page| str::from_utf8(page).ok());
         let page = page.and_then(|page| u64::from_str_radix(page, 16).ok());
         let page = page.unwrap_or(0);
-        Ok(Caller { role, page })
+        Ok(Caller { role, page, device })
     }
 
     fn judge_origin(&self, request: &Request) -> Result<(), Refusal> {
+        let scheme = match self.admitted {
+            Admitted::Pages(_) => "http://",
+            Admitted::Devices(..) => "https://",
+        };
         for origin in request.values("origin") {
-            let host = origin.strip_prefix(b"http://").ok_or(Refusal::Origin)?;
+            let host = origin.strip_prefix(scheme.as_bytes());
+            let host = host.ok_or(Refusal::Origin)?;
             if !self.is_own(host) {
                 return Err(Refusal::Origin);
             }
@@ -159,4 +219,14 @@ impl Guard {
         let mut own = self.hosts.iter();
         own.any(|own| own.as_bytes().eq_ignore_ascii_case(host))
     }
+}
+
+/// The names with a port, and without it where browsers leave it out.
+fn hosts(names: Vec<String>, port: u16, left_out: u16) -> Vec<String> {
+    let with_port = names.iter().map(|name| format!("{name}:{port}"));
+    let mut hosts: Vec<String> = with_port.collect();
+    if port == left_out {
+        hosts.extend(names);
+    }
+    hosts
 }

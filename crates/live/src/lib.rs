@@ -4,6 +4,8 @@
 //!   what may be asked is [`guard`]'s to judge, before anybody else sees the request. What there is
 //!   to show and to command is the [`Site`]'s, which its user writes.
 //! * There is a token for each [`Role`]; of the pages that may operate one has the [`Seat`].
+//! * [`DeviceServer`] gives the same page to paired [`Devices`] over TLS, which may look and hold. The server's
+//!   [`Identity`] is a certificate that it has signed itself; a device is paired by a code ([`Pairing`]).
 //! * [`Feed`] hands what happens to every page that is open. A page that is too slow loses the
 //!   oldest; nobody waits for it.
 //! * [`Motion`] collects a motion of any length in bounded memory, as the page wants it: columns
@@ -17,22 +19,33 @@
 pub mod file;
 pub mod guard;
 
+mod answer;
 mod asset;
+mod connection;
+mod devices;
 mod feed;
+mod identity;
 mod motion;
+mod pairing;
 mod places;
 mod request;
 mod response;
 mod role;
 mod seat;
 mod server;
+mod sha256;
 mod token;
 
+pub use answer::Site;
+pub use devices::Devices;
 pub use feed::{Feed, Message};
+pub use identity::{Identity, IdentityError};
 pub use motion::{AxisScale, LimitKind, Motion, MotionSample};
+pub use pairing::{MOST_TRIES, Pairing, PairingRefusal, SHOWN, Shown, VALID};
 pub use request::{Head, MOST_PIECE, Request};
 pub use response::{ContentType, Response, Status};
 pub use role::{Caller, Role};
 pub use seat::{SILENCE, Seat};
-pub use server::{Running, Server, ServerError, Site};
+pub use server::{DeviceServer, Running, Server, ServerError};
+pub use sha256::Sha256;
 pub use token::Token;

@@ -1,6 +1,7 @@
-//! The places of the server: who is being answered at a time. Any user of the host can open
-//! connections, and leave them open: so whoever has not shown the token gives way to whoever comes
-//! later, and takes no place from those who have.
+//! The places of a server: who is being answered at a time. Any user of the host, and of the network where devices
+//! are served, can open connections, and leave them open: so whoever has not shown a token gives way to whoever comes
+//! later, and takes no place from those who have. Each server has places of its own, so that nobody on the network
+//! takes one from the host's pages.
 
 use std::collections::VecDeque;
 use std::net::{Shutdown, TcpStream};
@@ -13,14 +14,17 @@ const STRANGERS: usize = 64;
 /// How long each of them may stay at least: long enough to have its request read on a busy host. While all are
 /// newer, nobody else is let in, and whoever opens connections without end waits as all do.
 const STAY: Duration = Duration::from_millis(50);
+/// The same on the network, where a handshake goes to and fro in front of the request.
+const STAY_ON_NETWORK: Duration = Duration::from_millis(300);
 /// Open pages that have shown it.
 const PAGES: usize = 24;
 /// Other requests that have shown it.
 const REQUESTS: usize = 32;
 
 /// The places of a server.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(crate) struct Places {
+    stay: Duration,
     /// The one that came first is in front.
     strangers: Mutex<VecDeque<Stranger>>,
     pages: AtomicUsize,
@@ -45,6 +49,25 @@ impl Drop for Permit<'_> {
 }
 
 impl Places {
+    /// Those of a server that this host alone reaches.
+    pub(crate) fn on_host() -> Self {
+        Self::new(STAY)
+    }
+
+    /// Those of a server of the network.
+    pub(crate) fn on_network() -> Self {
+        Self::new(STAY_ON_NETWORK)
+    }
+
+    fn new(stay: Duration) -> Self {
+        Self {
+            stay,
+            strangers: Mutex::default(),
+            pages: AtomicUsize::default(),
+            requests: AtomicUsize::default(),
+        }
+    }
+
     /// Lets in one who has shown nothing yet. Where there is no room, the one that came first has to go,
     /// as soon as it has had its time: until then this waits.
     pub(crate) fn enter(&self, stream: &Arc<TcpStream>) {
@@ -52,7 +75,7 @@ impl Places {
             let mut strangers = self.strangers();
             let first = strangers.front().filter(|_| strangers.len() >= STRANGERS);
             let left = first.map_or(Duration::ZERO, |first| {
-                STAY.saturating_sub(first.since.elapsed())
+                self.stay.saturating_sub(first.since.elapsed())
             });
             if left.is_zero() {
                 if strangers.len() >= STRANGERS {
@@ -115,7 +138,7 @@ mod tests {
     fn the_stranger_that_came_first_gives_way_and_nobody_else() {
         let listener = TcpListener::bind("127.0.0.1:0").unwrap();
         let address = listener.local_addr().unwrap();
-        let places = Places::default();
+        let places = Places::on_host();
         let come = || {
             let guest = TcpStream::connect(address).unwrap();
             let stream = Arc::new(listener.accept().unwrap().0);
@@ -138,7 +161,7 @@ mod tests {
 
     #[test]
     fn places_are_given_back() {
-        let places = Places::default();
+        let places = Places::on_host();
         let pages: Vec<_> = (0..PAGES).map(|_| places.page().unwrap()).collect();
         assert!(places.page().is_none() && places.page().is_none());
         assert!(places.request().is_some());

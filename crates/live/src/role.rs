@@ -1,5 +1,7 @@
 //! The roles of those who have shown a token: what each may.
 
+use crate::sha256::Sha256;
+
 /// A role of a page. Each may all that the one before may.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Role {
@@ -14,6 +16,12 @@ pub enum Role {
 impl Role {
     /// All of them, the least first.
     pub const ALL: [Self; 3] = [Self::Look, Self::Hold, Self::Operate];
+
+    /// The one of this name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|role| role.name() == name)
+    }
 
     /// Its name.
     #[must_use]
@@ -33,4 +41,6 @@ pub struct Caller {
     pub role: Role,
     /// The number that the page has given itself; 0 if it has none.
     pub page: u64,
+    /// The hash of the token of a paired device; `None` for pages of this host.
+    pub device: Option<Sha256>,
 }

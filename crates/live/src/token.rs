@@ -1,8 +1,8 @@
-//! The token that a page has to know to be told anything.
+//! The token that a page has to know to be told anything, and codes like it.
 
 use std::io;
 
-/// 128 random bits, in hexadecimal digits.
+/// A random text, of 128 bits in hexadecimal digits as a rule.
 #[derive(Debug, Clone)]
 pub struct Token(String);
 
@@ -13,13 +13,19 @@ impl Token {
     ///
     /// The system has none.
     pub fn new() -> io::Result<Self> {
-        let mut bits = [0_u8; 16];
+        Self::of(b"0123456789abcdef0123456789abcdef", 32)
+    }
+
+    /// A new one of so many of these digits.
+    pub(crate) fn of(digits: &[u8; 32], length: usize) -> io::Result<Self> {
+        let mut bits = vec![0_u8; length];
         let got = rustix::rand::getrandom(&mut bits, rustix::rand::GetRandomFlags::empty())?;
-        if got != bits.len() {
+        if got != length {
             return Err(io::Error::other("the system gave too few random numbers"));
         }
+        let digit = |byte: &u8| digits.get(usize::from(*byte % 32)).copied();
         Ok(Self(
-            bits.iter().map(|byte| format!("{byte:02x}")).collect(),
+            bits.iter().filter_map(digit).map(char::from).collect(),
         ))
     }
 

@@ -3,6 +3,7 @@
 
 mod certificate;
 mod colours;
+mod devices;
 mod following;
 mod gamepad;
 mod hands;
@@ -43,6 +44,8 @@ pub(crate) struct Live {
     /// The addresses of all roles.
     urls: Value,
     pub(crate) port: u16,
+    /// Where devices are served, and the fingerprint of the certificate.
+    devices: Value,
 }
 
 /// An order of a page that hears what the server says at once.
@@ -60,6 +63,7 @@ impl Live {
             child,
             url: told["url"].as_str().unwrap().to_owned(),
             urls: told["urls"].clone(),
+            devices: told["devices"].clone(),
             port: told["port"].as_u64().unwrap().try_into().unwrap(),
         }
     }

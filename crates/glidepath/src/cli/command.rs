@@ -74,7 +74,8 @@ pub enum CliCommand {
     Status(StatusArgs),
     /// Show the machine in a browser of this host, and operate it there with `--may operate`
     #[command(
-        after_help = "Examples: glidepath live · glidepath live --may operate --programs programs"
+        after_help = "Examples: glidepath live · glidepath live --may operate --programs programs · \
+                            glidepath live --may operate --devices 192.168.1.20:8443 --config mill.toml"
     )]
     Live(LiveArgs),
     /// Let senders of grbl (CNCjs, bCNC, gSender, UGS) drive the machine, by TCP or a pseudo-terminal
@@ -243,7 +244,7 @@ impl CliCommand {
             Self::Ethercat(args) => &args.basic,
             Self::Feed(args) => &args.basic,
             Self::Status(args) => &args.operator.basic,
-            Self::Live(args) => &args.operator.basic,
+            Self::Live(args) => args.basic(),
             Self::Grbl(args) => &args.operator.basic,
             Self::Record(args) => &args.operator.basic,
             Self::Replay(args) => &args.operator.basic,
@@ -298,7 +299,7 @@ impl CliCommand {
             Self::Telemetry(args) => &args.instance,
             Self::Mirror(args) => &args.instance,
             Self::Status(args) => &args.operator.instance,
-            Self::Live(args) => &args.operator.instance,
+            Self::Live(args) => args.instance(),
             Self::Grbl(args) => &args.operator.instance,
             Self::Record(args) => &args.operator.instance,
             Self::Replay(args) => &args.operator.instance,
@@ -357,7 +358,7 @@ impl CliCommand {
             Self::Plan(args) => Some((Some(&args.file), &args.program)),
             Self::Feed(args) => Some((Some(&args.file), &args.program)),
             Self::Planner(args) => Some((args.file.as_ref(), &args.program)),
-            Self::Live(args) => Some((args.file.as_ref(), &args.program)),
+            Self::Live(args) if args.action.is_none() => Some((args.file.as_ref(), &args.program)),
             // Each file of a check may be in a dialect of its own.
             Self::Check(args) => Some((None, &args.program)),
             Self::Audit(args) => Some((args.program.as_ref(), &args.reading)),

@@ -32,7 +32,7 @@ pub use grbl::GrblArgs;
 pub use groups::grouped;
 pub use host::{BenchArgs, DoctorArgs, JitterArgs};
 pub use jog::{JogArgs, JogStep};
-pub use live::{LiveArgs, May};
+pub use live::{DevicesAction, DevicesArgs, LiveAction, LiveArgs, May, RevokeArgs};
 pub use mirror::MirrorArgs;
 pub use motion::{
     CheckArgs, FeedArgs, HalArgs, InterpolatorArgs, PlanArgs, PlannerArgs, RunArgs, RunDrives,

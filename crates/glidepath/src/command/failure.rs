@@ -377,6 +377,17 @@ pub(super) enum Failure {
     /// Senders cannot be served.
     #[error(transparent)]
     Endpoint(#[from] EndpointError),
+    /// No device has this name.
+    #[error("no device is paired as `{name}`{}", match names.as_slice() {
+        [] => "; none is".to_owned(),
+        names => format!("; there are: {}", names.join(", ")),
+    })]
+    NoDevice {
+        /// The name that was given.
+        name: String,
+        /// Those that there are.
+        names: Vec<String>,
+    },
     /// The page cannot be served.
     #[error(transparent)]
     Server(#[from] ServerError),

@@ -43,6 +43,7 @@ impl Failure {
             | Self::NotEmulated(_)
             | Self::Mirror(MirrorError::Root { .. })
             | Self::Word(..)
+            | Self::NoDevice { .. }
             | Self::Inputs { .. }
             | Self::Var { .. }
             | Self::Foreign { .. }

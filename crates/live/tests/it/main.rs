@@ -8,8 +8,10 @@
     reason = "a test that fails may panic"
 )]
 
+mod devices;
 mod flood;
 mod page;
 mod patience;
 mod refusals;
 mod requests;
+mod tls;

@@ -1,7 +1,11 @@
 //! A page that is served, with a site behind it that counts what reaches it.
 
-use glidepath_live::{Caller, ContentType, Feed, Response, Role, Running, Server, Site};
-use std::io::{Read as _, Write as _};
+use crate::tls;
+use glidepath_live::{
+    Caller, ContentType, DeviceServer, Devices, Feed, Identity, Response, Role, Running, Server,
+    Sha256, Site,
+};
+use std::io::{Read, Write};
 use std::net::TcpStream;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
@@ -38,8 +42,37 @@ impl Site for Shared {
     }
 }
 
+/// Devices that are paired, by the hashes of their tokens.
+#[derive(Debug, Default)]
+pub(crate) struct Paired {
+    pub(crate) tokens: Mutex<Vec<(Sha256, Role)>>,
+    pub(crate) codes: AtomicUsize,
+}
+
+impl Devices for Paired {
+    fn role(&self, token: &Sha256) -> Option<Role> {
+        let tokens = self.tokens.lock().unwrap();
+        let mut paired = tokens.iter().filter(|(of, _)| of == token);
+        paired.next().map(|(_, role)| *role)
+    }
+
+    fn seen(&self, _token: &Sha256) {}
+
+    fn pair(&self, body: &[u8]) -> Response {
+        self.codes.fetch_add(1, Ordering::Relaxed);
+        Response::new(ContentType::Json, body)
+    }
+}
+
+/// What is read and written, plain or over TLS.
+pub(crate) trait Wire: Read + Write {}
+impl<T: Read + Write> Wire for T {}
+
 pub(crate) struct Page {
     pub(crate) port: u16,
+    /// What the certificate is compared by, where there is one.
+    pub(crate) fingerprint: Option<Sha256>,
+    pub(crate) paired: Arc<Paired>,
     /// That of who may operate, and those of all roles.
     pub(crate) token: String,
     pub(crate) tokens: Vec<String>,
@@ -63,6 +96,8 @@ impl Page {
             .unwrap();
         Self {
             port,
+            fingerprint: None,
+            paired: Arc::default(),
             token: tokens[2].clone(),
             tokens,
             reached,
@@ -71,16 +106,72 @@ impl Page {
         }
     }
 
+    /// The same over TLS for devices, which may look and hold; one of them says that it may operate.
+    pub(crate) fn serve_devices() -> Self {
+        let names = ["127.0.0.1", "localhost", "::1"].map(str::to_owned);
+        let identity = Identity::new("Glidepath", &names, 1_800_000_000).unwrap();
+        let address = "127.0.0.1:0".parse().unwrap();
+        let server = DeviceServer::bind(address, &identity).unwrap();
+        let paired = Arc::<Paired>::default();
+        let tokens: Vec<String> = Role::ALL.map(|role| format!("of {}", role.name())).into();
+        for (token, role) in tokens.iter().zip(Role::ALL) {
+            let hash = Sha256::of(token.as_bytes());
+            paired.tokens.lock().unwrap().push((hash, role));
+        }
+        let (feed, reached) = (Feed::default(), Arc::<Counted>::default());
+        let (site, devices) = (Shared(Arc::clone(&reached)), Arc::clone(&paired));
+        let port = server.port();
+        let running = server
+            .start(Arc::new(site), &feed, devices, Role::Operate)
+            .unwrap();
+        Self {
+            port,
+            fingerprint: Some(identity.fingerprint()),
+            paired,
+            token: tokens[2].clone(),
+            tokens,
+            reached,
+            feed,
+            _running: running,
+        }
+    }
+
+    /// Both, for what holds whichever it is.
+    pub(crate) fn both() -> [Self; 2] {
+        [Self::serve(), Self::serve_devices()]
+    }
+
+    /// A connection, after the handshake where there is one.
+    pub(crate) fn connect(&self) -> Box<dyn Wire> {
+        let stream = TcpStream::connect(("127.0.0.1", self.port)).unwrap();
+        let patience = Some(Duration::from_secs(20));
+        stream.set_read_timeout(patience).unwrap();
+        match self.fingerprint {
+            Some(fingerprint) => Box::new(tls::with(fingerprint, stream)),
+            None => Box::new(stream),
+        }
+    }
+
+    /// The scheme of its addresses, and the other one.
+    const fn schemes(&self) -> (&'static str, &'static str) {
+        if self.fingerprint.is_some() {
+            ("https", "http")
+        } else {
+            ("http", "https")
+        }
+    }
+
     /// Sends lines and a body; gives the status, the head and the body of the answer.
     pub(crate) fn ask(&self, lines: &[&str], body: &str) -> (u16, String, String) {
-        let mut stream = TcpStream::connect(("127.0.0.1", self.port)).unwrap();
-        stream
-            .set_read_timeout(Some(Duration::from_secs(20)))
-            .unwrap();
+        let mut stream = self.connect();
         let port = self.port.to_string();
         let head: String = lines
             .iter()
-            .map(|line| line.replace("PORT", &port).replace("TOKEN", &self.token) + "\r\n")
+            .map(|line| {
+                let line = line.replace("PORT", &port).replace("TOKEN", &self.token);
+                let (scheme, other) = self.schemes();
+                line.replace("SCHEME", scheme).replace("OTHER", other) + "\r\n"
+            })
             .collect();
         stream
             .write_all(format!("{head}\r\n{body}").as_bytes())

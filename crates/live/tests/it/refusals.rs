@@ -23,26 +23,26 @@ const REFUSED: [(&str, &[&str], u16); 24] = [
     ("the same host twice", &[HOST, HOST, TOKEN], 421),
     (
         "a foreign origin",
-        &[HOST, "Origin: http://evil.example", TOKEN],
+        &[HOST, "Origin: SCHEME://evil.example", TOKEN],
         403,
     ),
     ("no origin at all", &[HOST, "Origin: null", TOKEN], 403),
     (
         "another scheme",
-        &[HOST, "Origin: https://127.0.0.1:PORT", TOKEN],
+        &[HOST, "Origin: OTHER://127.0.0.1:PORT", TOKEN],
         403,
     ),
     (
         "another port's page",
-        &[HOST, "Origin: http://127.0.0.1:1", TOKEN],
+        &[HOST, "Origin: SCHEME://127.0.0.1:1", TOKEN],
         403,
     ),
     (
         "a second origin",
         &[
             HOST,
-            "Origin: http://127.0.0.1:PORT",
-            "Origin: http://evil.example",
+            "Origin: SCHEME://127.0.0.1:PORT",
+            "Origin: SCHEME://evil.example",
             TOKEN,
         ],
         403,
@@ -99,7 +99,10 @@ const REFUSED: [(&str, &[&str], u16); 24] = [
 
 #[test]
 fn whoever_is_not_the_page_is_refused_everywhere() {
-    let page = Page::serve();
+    Page::both().iter().for_each(refuses_all);
+}
+
+fn refuses_all(page: &Page) {
     for (wrong, fields, status) in REFUSED {
         for line in [
             "GET /api/plan HTTP/1.1",
@@ -126,7 +129,10 @@ fn whoever_is_not_the_page_is_refused_everywhere() {
 
 #[test]
 fn a_target_that_names_a_host_is_refused() {
-    let page = Page::serve();
+    Page::both().iter().for_each(refuses_hosts);
+}
+
+fn refuses_hosts(page: &Page) {
     for line in [
         "GET http://evil.example/api/plan HTTP/1.1",
         "GET http://127.0.0.1:PORT/api/plan HTTP/1.1",

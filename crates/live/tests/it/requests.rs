@@ -2,14 +2,14 @@
 
 use crate::page::{HOST, JSON, Page, TOKEN};
 use glidepath_live::{Message, Role, Server};
-use std::io::{Read as _, Write as _};
-use std::net::TcpStream;
 use std::sync::atomic::Ordering;
-use std::time::Duration;
 
 #[test]
 fn the_page_is_given_out_and_its_data_with_the_token() {
-    let page = Page::serve();
+    Page::both().iter().for_each(gives_out);
+}
+
+fn gives_out(page: &Page) {
     for host in ["127.0.0.1", "localhost", "LocalHost", "[::1]"] {
         let host = format!("Host: {host}:PORT");
         let (status, head, body) = page.ask(&["GET / HTTP/1.1", &host], "");
@@ -25,7 +25,7 @@ fn the_page_is_given_out_and_its_data_with_the_token() {
         }
         assert!(!head.to_lowercase().contains("access-control"), "{head}");
     }
-    let own = "Origin: http://localhost:PORT";
+    let own = "Origin: SCHEME://localhost:PORT";
     let (status, _, body) = page.ask(&["GET /api/plan?x=1 HTTP/1.1", HOST, own, TOKEN], "");
     assert_eq!((status, body.as_str()), (200, "/api/plan x=1"));
     let post = [
@@ -47,7 +47,10 @@ fn the_page_is_given_out_and_its_data_with_the_token() {
 
 #[test]
 fn a_link_leads_to_the_page_and_to_nothing_else() {
-    let page = Page::serve();
+    Page::both().iter().for_each(takes_links);
+}
+
+fn takes_links(page: &Page) {
     let link = [
         HOST,
         "Sec-Fetch-Site: cross-site",
@@ -60,12 +63,12 @@ fn a_link_leads_to_the_page_and_to_nothing_else() {
 
 #[test]
 fn pages_hear_what_happens_and_the_end_of_it() {
-    let page = Page::serve();
+    Page::both().into_iter().for_each(tells);
+}
+
+fn tells(page: Page) {
     page.feed.push(Message::new(1, b"before"));
-    let mut stream = TcpStream::connect(("127.0.0.1", page.port)).unwrap();
-    stream
-        .set_read_timeout(Some(Duration::from_secs(20)))
-        .unwrap();
+    let mut stream = page.connect();
     let (port, token) = (page.port, &page.token);
     let head = format!(
         "GET /api/stream HTTP/1.1\r\nHost: localhost:{port}\r\nX-Glidepath-Token: {token}\r\n\r\n"
@@ -115,7 +118,10 @@ fn a_token_says_what_its_page_may() {
 
 #[test]
 fn pieces_of_programs_are_long_for_who_has_a_token_and_for_nobody_else() {
-    let page = Page::serve();
+    Page::both().iter().for_each(takes_pieces);
+}
+
+fn takes_pieces(page: &Page) {
     let bytes = "Content-Type: application/octet-stream";
     let line = "POST /api/upload?name=a.ngc HTTP/1.1";
     let body = "x".repeat(1 << 20);

@@ -1,7 +1,8 @@
-//! What pages ask for: the machine and its programs, previews, set-up, certificates.
+//! What pages ask for: the machine and its programs, previews, set-up, certificates, devices.
 
+use super::answers::{not_now, object, refusal};
 use super::folder::Folder;
-use super::pages::{Pages, not_now, object, refusal};
+use super::pages::Pages;
 use super::preview::{Look, Looker};
 use super::query::{decoded, parameter};
 use super::shown::Shown;
@@ -29,6 +30,10 @@ impl Pages {
                 self.certificates
                     .of(job)
                     .map(|certificate| object(&certificate))
+            }
+            "devices" if caller.role == Role::Operate => {
+                let devices = self.devices.as_ref();
+                devices.map(|devices| object(&devices.object(caller)))
             }
             what => match what.strip_prefix("preview/") {
                 Some(what) => {

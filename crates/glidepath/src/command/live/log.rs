@@ -124,7 +124,8 @@ impl Log {
         }
     }
 
-    fn add(&mut self, kind: &'static str, text: String) {
+    /// Something that is told of elsewhere than in a status.
+    pub(super) fn add(&mut self, kind: &'static str, text: String) {
         self.entries.push_front(Entry {
             at_ms: now_ms(),
             kind,

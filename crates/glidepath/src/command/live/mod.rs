@@ -6,17 +6,23 @@
 //!   page ── POST /api/command ──► Pages ── the operator's panel ──► interpolator
 //! ```
 //!
+//! Paired devices are served the same over TLS ([`devices`]), and operate nothing.
+//!
 //! A page does what its token allows: it looks, holds, or operates. What it orders goes the ways of the
 //! command line: commands to the panel, lines and programs to the planner's service, jogs as demands.
 
+mod addresses;
+mod answers;
 mod asked;
 mod batch;
 mod certificates;
 mod day;
+mod devices;
 mod documents;
 mod folder;
 mod following;
 mod gesture;
+mod given;
 mod job_submitter;
 pub(super) mod jogger;
 mod lateness;
@@ -39,24 +45,24 @@ mod witness;
 
 use super::persistent_offsets::PersistentOffsets;
 use super::session;
-use crate::cli::LiveArgs;
+use crate::cli::{LiveAction, LiveArgs};
 use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::exit::Exit;
 use crate::file_error::FileError;
 use crate::interrupt::Interrupt;
-use crate::output;
 use crate::page::machine_object;
 use asked::Asked;
 use batch::Batch;
 use certificates::Certificates;
 use day::Day;
+use devices::PairedDevices;
 use folder::Folder;
 use following::Following;
 use glidepath_link::{
     Auxiliary, Ipc, LinkConfig, Record as _, Setpoint, Status, Subscriber, Transport as _,
 };
-use glidepath_live::{Feed, Message, Role, Seat, Server, ServerError};
+use glidepath_live::{DeviceServer, Feed, Message, Role, Running, Seat, Server, ServerError, Site};
 use job_submitter::JobSubmitter;
 use jogger::Jogger;
 use lateness::Histogram;
@@ -65,7 +71,7 @@ use pages::Pages;
 use preview::Preview;
 use queue::Queue;
 use receivers::receivers;
-use serde_json::{Map, Value, json};
+use serde_json::Value;
 use set_up::SetUp;
 use shown::Shown;
 use shuttle::Shuttle;
@@ -95,6 +101,13 @@ const SETPOINT_MESSAGE: u8 = 2;
 /// # Errors
 /// The port cannot be had, or the link cannot be used; the program cannot be read.
 pub(super) fn live(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Failure> {
+    match &args.action {
+        Some(LiveAction::Devices(args)) => devices::listing::devices(args, config),
+        None => serve(args, config),
+    }
+}
+
+fn serve(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Failure> {
     let interrupt = Interrupt::install().map_err(Failure::Signals)?;
     let instance = session::instance(&args.operator.instance, config);
     let link = session::link(&instance, config);
@@ -106,10 +119,7 @@ pub(super) fn live(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Fail
     let (server, feed) = (Server::bind(args.port, role)?, Feed::default());
     let urls: Vec<(Role, String)> = server.urls().collect();
     let port = server.port();
-    let folder = args
-        .programs
-        .as_deref()
-        .map(|path| Folder::at(path).map_err(FileError::open(path)));
+    let (device_server, devices) = bind_devices(args, &instance, config)?;
     let operates = role == Role::Operate;
     let jobs = operates.then(|| JobSubmitter::start(&link)).transpose();
     let jobs = jobs.map_err(ServerError::Thread)?.map(Arc::new);
@@ -125,7 +135,7 @@ pub(super) fn live(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Fail
         shown: Arc::clone(&shown),
         set_up: Arc::new(SetUp::new(config)),
         seat: Arc::default(),
-        folder: folder.transpose()?,
+        folder: folder(args)?,
         preview: Preview::new(config),
         what_if: WhatIf::new(config),
         jogger,
@@ -133,12 +143,15 @@ pub(super) fn live(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Fail
         queue: Arc::clone(&queue),
         jobs: jobs.clone(),
         certificates: Arc::default(),
+        devices: devices.clone(),
         number: AtomicU64::new(0),
     };
     let (set_up, seat) = (Arc::clone(&pages.set_up), Arc::clone(&pages.seat));
     let certificates = Arc::clone(&pages.certificates);
-    let running = server.start(Arc::new(pages), &feed)?;
-    tell(args, &instance, &urls, port);
+    let pages = Arc::new(pages);
+    let running = server.start(Arc::clone(&pages) as Arc<dyn Site>, &feed)?;
+    let served = start_devices(device_server, devices.clone(), pages, (&feed, role))?;
+    addresses::tell(args, &instance, (&urls, port), devices.as_deref());
     let offsets = PersistentOffsets::new(config, &link);
     let mut machine = Machine {
         config,
@@ -161,6 +174,7 @@ pub(super) fn live(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Fail
         queue,
         day: Day::default(),
         certificates,
+        devices,
         witness: Witness::new(config),
         batch: Batch::new(config),
         histogram: Histogram::default(),
@@ -170,44 +184,40 @@ pub(super) fn live(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Fail
         auxiliary: None,
     };
     machine.follow(&interrupt)?;
-    drop(running);
+    drop((served, running));
     Ok(interrupt.exit())
 }
 
-/// Where the page is.
-fn tell(args: &LiveArgs, instance: &str, urls: &[(Role, String)], port: u16) {
-    let own = urls.last().map_or("", |(_, url)| url);
-    if args.operator.basic.json {
-        let urls: Map<String, Value> = urls
-            .iter()
-            .map(|(role, url)| (role.name().to_owned(), url.as_str().into()))
-            .collect();
-        output::object(&json!({
-            "instance": instance,
-            "url": own,
-            "urls": urls,
-            "port": port,
-            "may": args.may.role().name(),
-        }));
-        return;
-    }
-    let may = match args.may.role() {
-        Role::Look => {
-            "The page only shows; --may hold lets it bring the machine to rest, --may operate do all."
-        }
-        Role::Hold => "The page may hold and abort.",
-        Role::Operate => "The page operates the machine: whoever has this address moves it.",
+/// The folder of programs, if there is one.
+fn folder(args: &LiveArgs) -> Result<Option<Folder>, FileError> {
+    let path = args.programs.as_deref();
+    path.map(|path| Folder::at(path).map_err(FileError::open(path)))
+        .transpose()
+}
+
+/// The server of devices and those that are paired, where they are to be served.
+fn bind_devices(
+    args: &LiveArgs,
+    instance: &str,
+    config: &MachineConfig,
+) -> Result<(Option<DeviceServer>, Option<Arc<PairedDevices>>), Failure> {
+    let bind = |address| PairedDevices::bind(address, instance, config);
+    let (server, devices) = args.devices.map(bind).transpose()?.unzip();
+    Ok((server, devices.map(Arc::new)))
+}
+
+/// Answers devices from now on.
+fn start_devices(
+    server: Option<DeviceServer>,
+    devices: Option<Arc<PairedDevices>>,
+    pages: Arc<dyn Site>,
+    (feed, most): (&Feed, Role),
+) -> Result<Option<Running>, ServerError> {
+    let served = server.zip(devices);
+    let start = |(server, devices): (DeviceServer, Arc<PairedDevices>)| {
+        server.start(pages, feed, devices, most)
     };
-    let less: String = urls
-        .iter()
-        .rev()
-        .skip(1)
-        .map(|(role, url)| format!("For a page that may only {}:\n  {url}\n", role.name()))
-        .collect();
-    output::result(&format!(
-        "live: open this in a browser of this host, and keep it to yourself:\n  {own}\n{may}\n{less}\
-         Ctrl-C ends the page; the machine goes on.\n"
-    ));
+    served.map(start).transpose()
 }
 
 /// What is followed, and what is known of it.
@@ -232,6 +242,7 @@ struct Machine<'a> {
     queue: Arc<Queue>,
     day: Day,
     certificates: Arc<Certificates>,
+    devices: Option<Arc<PairedDevices>>,
     witness: Witness,
     batch: Batch,
     histogram: Histogram,
@@ -281,6 +292,7 @@ impl Machine<'_> {
                 self.transport.clean_up_dead_peers()?;
                 self.transport.stands()?;
                 self.receivers = receivers(&self.transport.setpoint_receivers()?);
+                self.hear_of_devices();
             }
             // A status first: a page needs it to show a batch.
             if is_due(1, STATUS_EVERY)

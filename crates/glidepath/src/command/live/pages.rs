@@ -1,10 +1,13 @@
 //! The server's answers to what pages ask for and order.
 
+use super::answers::{Done, answer, malformed, not_now};
 use super::certificates::Certificates;
+use super::devices::PairedDevices;
 use super::folder::{Folder, FolderError, Piece};
+use super::given::Given;
 use super::job_submitter::{Handed, JobSubmitter, Wanted};
 use super::jogger::{Hand, Jogger};
-use super::order::{Given, Order, by_axis};
+use super::order::{Order, by_axis};
 use super::preview::Preview;
 use super::query::{decoded, fingerprint, parameter};
 use super::queue::Queue;
@@ -18,7 +21,7 @@ use crate::machine_options::complete;
 use glidepath_link::{
     Command, CommandRequest, LinkConfig, LinkError, Operator, TOLERANCE_RATIOS, refused,
 };
-use glidepath_live::{Caller, ContentType, Response, Role, Seat, Site, Status};
+use glidepath_live::{Caller, Response, Role, Seat, Site, Status};
 use glidepath_realtime::{Clock as _, Monotonic};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -43,11 +46,10 @@ pub(super) struct Pages {
     pub(super) queue: Arc<Queue>,
     pub(super) jobs: Option<Arc<JobSubmitter>>,
     pub(super) certificates: Arc<Certificates>,
+    /// The paired devices, where they are served.
+    pub(super) devices: Option<Arc<PairedDevices>>,
     pub(super) number: AtomicU64,
 }
-
-/// What came of an order: what a page is told besides that it was accepted, or why it was not.
-type Done = Result<Value, (Status, String)>;
 
 /// The clock that pages say of which they have heard last, ms.
 #[expect(
@@ -58,10 +60,6 @@ pub(super) fn clock_ms() -> f64 {
     (Monotonic.now_ns() / 1_000_000) as f64
 }
 
-pub(super) fn not_now(text: impl Into<String>) -> (Status, String) {
-    (Status::Conflict, complete(&text.into()))
-}
-
 fn nobody_jogs() -> (Status, String) {
     not_now("nobody jogs for this page any more: start it anew")
 }
@@ -70,11 +68,6 @@ fn nobody_jogs() -> (Status, String) {
 fn ratio(said: Option<f64>) -> Option<f64> {
     let ratio = said.unwrap_or(1.0);
     TOLERANCE_RATIOS.contains(&ratio).then_some(ratio)
-}
-
-fn malformed() -> (Status, String) {
-    let text = "no such command, or its value is out of range";
-    (Status::BadRequest, text.to_owned())
 }
 
 impl Pages {
@@ -140,6 +133,9 @@ impl Pages {
             order @ (Order::QueueAdd { .. }
             | Order::QueueMove { .. }
             | Order::QueueRemove { .. }) => self.queue(order),
+            order @ (Order::PairDevice { .. }
+            | Order::EndPairing {}
+            | Order::RevokeDevice { .. }) => self.pair(caller, &order),
             order @ (Order::Shuttle { .. } | Order::ShuttleEnd { .. }) => self.shuttle(&order),
             order => self.command(&order, asked_ns),
         }
@@ -382,22 +378,4 @@ impl Site for Pages {
     fn upload(&self, caller: Caller, query: &str, piece: &[u8]) -> Response {
         answer(self.take(caller, query, piece))
     }
-}
-
-fn answer(done: Done) -> Response {
-    match done {
-        Ok(mut told) => {
-            told["accepted"] = true.into();
-            object(&told)
-        }
-        Err(refused) => refusal(&refused),
-    }
-}
-
-pub(super) fn refusal((status, reason): &(Status, String)) -> Response {
-    object(&json!({ "accepted": false, "reason": reason })).with(*status)
-}
-
-pub(super) fn object(value: &Value) -> Response {
-    Response::new(ContentType::Json, value.to_string().into_bytes())
 }

@@ -3,6 +3,7 @@
 use super::pages::clock_ms;
 use super::{Machine, OLD_NS};
 use crate::command::failure::Failure;
+use crate::output;
 use crate::report::{AwaitedEvent, View, active_object, status_object, view_object};
 use glidepath_link::{ActiveProgram, Auxiliary, Coolant, InterpolatorProcess, SpindleState};
 use glidepath_realtime::{Clock as _, Monotonic};
@@ -95,6 +96,14 @@ impl Machine<'_> {
             object.insert("asked".to_owned(), self.asked.object(&status));
         }
         Ok(Some(object))
+    }
+
+    /// Takes what happened to devices into the log, and says so.
+    pub(super) fn hear_of_devices(&mut self) {
+        for (kind, text) in self.devices.iter().flat_map(|devices| devices.told()) {
+            output::note(&format!("live: {text}"));
+            self.log.add(kind, text);
+        }
     }
 
     /// Whether a page operates, and whether another one wants to. Which ones is nobody else's business.
