@@ -40,7 +40,7 @@ function qrPicture(rows) {
   const dark = rows.map((row, y) => [...row.matchAll(/1+/g)].map(run => `M${run.index + 4} ${y + 4}h${run[0].length}v1h-${run[0].length}z`).join('')).join(''), size = rows.length + 8;
   return `<svg class="qr" viewBox="0 0 ${size} ${size}" role="img" aria-label="the address with the code, to be read by the camera of the device" shape-rendering="crispEdges"><rect width="${size}" height="${size}" fill="#fff"/><path d="${dark}" fill="#000"/></svg>`;
 }
-const fingerprintLines = text => text.match(/.{1,24}/g).map(part => part.replace(/:$/, '')).join('<br>');
+const fingerprintLines = text => text.match(/.{1,48}/g).map(part => part.replace(/:$/, '')).join('<br>');
 function deviceTable() {
   const known = DEVICES.known;
   if (!known) return '';
