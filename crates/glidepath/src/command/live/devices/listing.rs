@@ -9,6 +9,7 @@ use crate::output;
 use crate::persistence::error::StateError;
 use core::fmt::Write as _;
 use serde_json::{Value, json};
+use time::OffsetDateTime;
 
 /// Lists the devices, or revokes one.
 ///
@@ -66,31 +67,15 @@ fn show(devices: &[Device], as_json: bool) {
     output::result(&text);
 }
 
-/// A time, s since 1970, as ISO 8601 has it.
+/// A time, s since 1970, as ISO 8601 has it; nothing for one that no calendar has.
 fn moment(at_s: u64) -> String {
-    let (mut day, second) = (at_s / 86_400, at_s % 86_400);
-    let mut year = 1970;
-    let is_leap = |year: u64| {
-        year.is_multiple_of(4) && (!year.is_multiple_of(100) || year.is_multiple_of(400))
+    let at = i64::try_from(at_s).ok();
+    let Some(at) = at.and_then(|at| OffsetDateTime::from_unix_timestamp(at).ok()) else {
+        return String::new();
     };
-    while day >= 365 + u64::from(is_leap(year)) {
-        day -= 365 + u64::from(is_leap(year));
-        year += 1;
-    }
-    let february = 28 + u64::from(is_leap(year));
-    let mut month = 1;
-    for days in [31, february, 31, 30, 31, 30, 31, 31, 30, 31, 30] {
-        if day < days {
-            break;
-        }
-        day -= days;
-        month += 1;
-    }
-    let (hour, minute, second) = (second / 3600, second / 60 % 60, second % 60);
-    format!(
-        "{year:04}-{month:02}-{:02}T{hour:02}:{minute:02}:{second:02}Z",
-        day + 1
-    )
+    let (year, month, day) = (at.year(), u8::from(at.month()), at.day());
+    let (hour, minute, second) = (at.hour(), at.minute(), at.second());
+    format!("{year:04}-{month:02}-{day:02}T{hour:02}:{minute:02}:{second:02}Z")
 }
 
 #[cfg(test)]
@@ -105,6 +90,7 @@ mod tests {
             (951_782_400, "2000-02-29T00:00:00Z"),
             (1_735_689_599, "2024-12-31T23:59:59Z"),
             (1_796_000_000, "2026-11-30T00:53:20Z"),
+            (u64::MAX, ""),
         ] {
             assert_eq!(moment(at_s), text);
         }
