@@ -8,6 +8,9 @@
 //! Without a package among the arguments all that tests start, and the library that programs in other languages link to,
 //! are built at once before: built by the tests themselves, most of it is compiled a second time.
 //!
+//! A process that a test leaves behind is ended, and is a failure: it has a hand on what others wait for, and on the
+//! outputs of the tests, which would have no end.
+//!
 //! With a list of allowed skips, one that is not in it is a failure. Skips are collected in the file that
 //! `GLIDEPATH_SKIPPED` names, with those that are there already; without it in one that is made for them.
 #![allow(
@@ -17,6 +20,7 @@
 )]
 
 mod allowed;
+mod left_behind;
 mod summary;
 
 use std::ffi::OsString;
@@ -146,9 +150,14 @@ fn test(
         .env_remove("GLIDEPATH_INSTANCE")
         .stdout(says.try_clone()?)
         .stderr(says);
+    left_behind::come_to_this_process()?;
     let mut child = command.spawn()?;
     // This process has the writing end no longer: then the reading one has an end.
     drop(command);
+    let ended = std::thread::spawn(move || {
+        let status = child.wait()?;
+        Ok::<_, io::Error>((status, left_behind::end_all()))
+    });
     let (mut said, mut line) = (BufReader::new(said), Vec::new());
     let mut out = io::stdout().lock();
     while said.read_until(b'\n', &mut line)? > 0 {
@@ -156,5 +165,12 @@ fn test(
         summary.take(&String::from_utf8_lossy(&line));
         line.clear();
     }
-    Ok(child.wait()?.success())
+    let ended = ended
+        .join()
+        .map_err(|_| io::Error::other("a thread panicked"))?;
+    let (status, left) = ended?;
+    for process in left {
+        summary.fail(format!("left behind by a test: {process}"));
+    }
+    Ok(status.success())
 }
