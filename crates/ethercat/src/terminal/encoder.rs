@@ -24,6 +24,9 @@ const SETTLED_NS: u64 = 20_000_000;
 const STILL_V: f64 = 0.05;
 /// Samples over which a speed is taken.
 const WINDOW: usize = 16;
+/// Frames that are kept. The moment that is asked for is up to a period before the last one was sent; where the one
+/// before was sent late, it is before that, too.
+const FRAMES: usize = 4;
 
 /// The places of its values in the image of all, bits.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -60,13 +63,11 @@ pub(super) struct Encoder {
     wired: WiredEncoder,
     /// How much later than they say setpoints are played, by which samples are stamped earlier, ns.
     delay_ns: u64,
-    /// When this frame was sent, and the one before, ns.
-    sent_ns: u64,
-    sent_before_ns: u64,
     raw: Option<u32>,
-    /// The counter without wraps, in this frame and the one before.
+    /// The counter without wraps.
     count: i64,
-    before: i64,
+    /// When the last frames were sent, ns, and the counter in them; the last one first.
+    frames: [(u64, i64); FRAMES],
     /// This frame was without it.
     is_missed: bool,
     is_armed: bool,
@@ -86,11 +87,9 @@ impl Encoder {
         Self {
             wired,
             delay_ns,
-            sent_ns: 0,
-            sent_before_ns: 0,
             raw: None,
             count: 0,
-            before: 0,
+            frames: [(0, 0); FRAMES],
             is_missed: true,
             is_armed: false,
             index: None,
@@ -133,10 +132,10 @@ impl Encoder {
         let raw = number(inputs, at, bits);
         let way = self.apart(raw, self.raw.unwrap_or(raw));
         let from = self.count;
-        self.before = self.count;
         self.count += way;
         self.raw = Some(raw);
-        self.sent_before_ns = core::mem::replace(&mut self.sent_ns, sent_ns);
+        self.frames.rotate_right(1);
+        self.frames[0] = (sent_ns, self.count);
         let pulses = (self.revolutions(self.count).floor() - self.revolutions(from).floor()).abs();
         if let Some(wired) = self.wired.index {
             self.take_index(wired, (inputs, raw), tell);
@@ -219,13 +218,17 @@ impl Encoder {
         self.raw.is_some() && knows && self.quiet_until_ns.is_none()
     }
 
-    /// The angle at a time around the last two frames, between which it turns evenly.
+    /// The angle at a time around the last frames, between which it turns evenly.
     #[allow(clippy::cast_precision_loss, reason = "some periods")]
     fn angle_at(&self, at_ns: u64) -> f64 {
-        let (now, before) = (self.revolutions(self.count), self.revolutions(self.before));
-        let younger_ns = self.sent_ns.saturating_sub(at_ns) as f64;
-        let span_ns = self.sent_ns.saturating_sub(self.sent_before_ns).max(1) as f64;
-        now - (now - before) * (younger_ns / span_ns).min(1.0)
+        let sent_before = |(sent_ns, _): &(u64, i64)| *sent_ns <= at_ns;
+        let older = self.frames[1..].iter().position(sent_before);
+        let nth = older.unwrap_or(FRAMES - 2);
+        let ((end_ns, end), (begin_ns, begin)) = (self.frames[nth], self.frames[nth + 1]);
+        let (end, begin) = (self.revolutions(end), self.revolutions(begin));
+        let younger_ns = end_ns.saturating_sub(at_ns) as f64;
+        let span_ns = end_ns.saturating_sub(begin_ns).max(1) as f64;
+        end - (end - begin) * (younger_ns / span_ns).min(1.0)
     }
 
     /// Arms the index.

@@ -2,6 +2,7 @@
 #![allow(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
+    clippy::cast_possible_wrap,
     clippy::cast_precision_loss,
     reason = "tests: a counter wraps"
 )]
@@ -57,6 +58,11 @@ fn bench(is_inverted: bool) -> Bench {
 impl Bench {
     /// A frame in which the spindle is at so many counts.
     fn frame(&mut self, counts: i64) -> Feedback {
+        self.frame_of(counts, self.now_ns - PERIOD_NS / 4)
+    }
+
+    /// The same; what is told is of another moment.
+    fn frame_of(&mut self, counts: i64, moment_ns: u64) -> Feedback {
         let (from, to) = (self.last.min(counts), self.last.max(counts));
         let pulse = (to - 300).div_euclid(1000) * 1000 + 300;
         if self.armed && !self.valid && pulse > from {
@@ -80,7 +86,7 @@ impl Bench {
         self.armed = image[0] == 8;
         self.valid &= self.armed;
         let mut feedback = Feedback {
-            sample_ns: self.now_ns - PERIOD_NS / 4 - DELAY_NS,
+            sample_ns: moment_ns - DELAY_NS,
             ..Feedback::zeroed()
         };
         self.now_ns += PERIOD_NS;
@@ -111,6 +117,29 @@ fn the_angle_is_whole_at_the_index_over_wraps_either_way() {
         // 400 revolutions, the first of them without an index.
         let pulses = said.spindle_index_count;
         assert!((398..=400).contains(&pulses), "{pulses}");
+    }
+}
+
+#[test]
+fn frames_that_are_sent_late_change_nothing_of_the_angle() {
+    // In turns in time, late by more than the age of what is told, and by almost a period.
+    let late_ns = [0, 0, 900_000, 0, 1_900_000, 1_800_000, 0];
+    let mut bench = bench(false);
+    let mut said = Vec::new();
+    for k in 0..1000_u64 {
+        let late_ns = late_ns[k as usize % late_ns.len()];
+        let meant_ns = bench.now_ns;
+        bench.now_ns += late_ns;
+        let counts = (k * PERIOD_NS + late_ns) / 100_000;
+        let told = bench.frame_of(counts as i64, meant_ns - PERIOD_NS / 4);
+        bench.now_ns = meant_ns + PERIOD_NS;
+        said.extend((told.spindle_flags != 0).then_some(told));
+    }
+    assert!(said.len() > 900);
+    for pair in said.windows(2) {
+        let t = (pair[1].sample_ns - pair[0].sample_ns) as f64 * 1e-9;
+        let speed_v = (pair[1].spindle_angle - pair[0].spindle_angle) / t;
+        assert!((speed_v - 10.0).abs() < 0.01, "{speed_v}");
     }
 }
 
