@@ -92,15 +92,20 @@ function heard(kind, payload) {
     if (shows !== S.shows) { S.shows = shows; usePlan(); }
     if (status.version !== version) fetchPlan();
     if (S.may === 'operate' && status.set_up !== undefined) { fetchSetUp(status.set_up); loadNext(); judgeShuttle(); }
+    const seen = [S.state, status.mode, status.end_of_epoch, S.rate].join();
+    if (seen !== FRAMES.seen) { FRAMES.seen = seen; dirty.path = dirty.ribbon = true; }
     // A browser lets the timers of a page that nobody sees come late, by up to a minute.
     if (document.hidden) callPerson();
   } else if (kind === 2 && RINGED && S.status) {
     const errors = Object.values(S.status.following_error || {}).map(v => Math.abs(v || 0));
     RINGED.take(payload, S.p, Math.max(0, ...errors) * 1000, (S.status.queue_depth || 0) * DT());
     S.arrived = performance.now();
-    dirty.path = dirty.strips = dirty.ribbon = dirty.health = dirty.tune = true;
+    dirty.strips = dirty.health = dirty.tune = true;
+    if (isMoving()) dirty.path = dirty.ribbon = true;
   }
 }
+/* Something moves, or its tail on the path still does. */
+const isMoving = () => !!RINGED && !RINGED.rests(TAIL_S + 0.5);
 
 /* ---- layout */
 function setInfo(info) {
@@ -293,8 +298,17 @@ function growOld() {
   if (S.heard && isOld() && S.state !== 'stale') { S.state = 'stale'; paintState(); redraw(); }
 }
 /* ---- the loop */
-let lastDigits = 0, lastHealth = 0, lastSpectrum = 0;
-const FRAMES = { count: 0, since: 0, rate: 0 };
+let lastDigits = 0, lastHealth = 0, lastSpectrum = 0, lastWhole = 0;
+const FRAMES = { count: 0, since: 0, rate: 0, hand: -Infinity, seen: '', due: 0, late: 0 };
+/* What moves is painted 30 times a second, and what is at rest 15 times, for a panel may have no graphics card, and the interpolator
+   on the processor beside. Under a hand it is painted as often as the screen takes it. Where frames come late, the page waits for
+   longer between them, so that it hears what is pressed. */
+function nextFrame() {
+  const rests = isMoving() ? 22 : 60, wait = S.file || performance.now() - FRAMES.hand < 1000 ? 0 : Math.min(250, rests + 3 * FRAMES.late);
+  const ask = () => { FRAMES.due = performance.now() + 20; requestAnimationFrame(frame); };
+  if (wait) setTimeout(ask, wait); else ask();
+}
+for (const kind of ['pointerdown', 'pointermove', 'wheel', 'keydown']) addEventListener(kind, () => { FRAMES.hand = performance.now(); }, { capture: true, passive: true });
 /* What could not be painted, by part, and the last such failures. The other parts go on, and the band tells of it: a page that
    stands still would show what was. */
 S.unpainted = {}; S.failures = [];
@@ -307,7 +321,8 @@ function failed(part, error) {
   console.error(error);
 }
 function frame(t) {
-  requestAnimationFrame(frame);
+  FRAMES.late += 0.2 * (Math.max(0, Math.min(300, performance.now() - FRAMES.due)) - FRAMES.late);
+  nextFrame();
   FRAMES.count++;
   if (t - FRAMES.since > 1000) { FRAMES.rate = FRAMES.count * 1000 / (t - FRAMES.since); FRAMES.count = 0; FRAMES.since = t; }
   if (!S.file) growOld();
@@ -319,6 +334,8 @@ function frame(t) {
     if (S.view === 'setup') paintPart('set-up', () => { setUpDigits(); paintSetUp(); });
     if (S.view === 'programs') paintPart('programs', () => { paintChosen(); paintDay(); });
   }
+  // Whatever else they are drawn from is new on them within a second.
+  if (t - lastWhole > 1000) { lastWhole = t; dirty.path = dirty.ribbon = true; }
   if (dirty.path && $(`#${S.view} [data-path]`)) { dirty.path = false; paintPart('path', () => SPACE.draw(S.p)); }
   if (dirty.strips && S.view === 'tune') { dirty.strips = false; paintPart('strips', strips); }
   if (dirty.ribbon) { dirty.ribbon = false; paintPart('ribbon', ribbon); }
@@ -359,7 +376,7 @@ function start() {
   recolour(hash.get('theme') || kept || (matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light'));
   if (S.file) startFile(); else startLive();
   addEventListener('resize', () => { fitView(); SPACE.stale = true; paintTune(); redraw(); });
-  const begin = () => { redraw(); requestAnimationFrame(frame); };
+  const begin = () => { redraw(); nextFrame(); };
   document.fonts.ready.then(begin, begin);
 }
 const bytesOf = text => { const all = atob(text), bytes = new Uint8Array(all.length); for (let i = 0; i < all.length; i++) bytes[i] = all.charCodeAt(i); return bytes; };

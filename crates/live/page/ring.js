@@ -5,7 +5,7 @@ const RING = 1 << 17;
 
 class Ring {
   constructor(axes, dt) {
-    this.dt = dt; this.count = 0; this.last = -1; this.gaps = 0; this.lost = 0; this.mostFeed = 0;
+    this.dt = dt; this.count = 0; this.last = -1; this.moved = -Infinity; this.gaps = 0; this.lost = 0; this.mostFeed = 0;
     const numbers = Type => new Type(RING);
     this.tick = numbers(Float64Array); this.p = numbers(Float64Array);
     this.axes = Array.from({ length: axes }, () => ({ position: numbers(Float64Array), ranges: [numbers(Float32Array), numbers(Float32Array), numbers(Float32Array)], differences: [0, 0, 0] }));
@@ -47,13 +47,16 @@ class Ring {
     if (!axis) return;
     axis.position[i] = position;
     const before = axis.differences, dt = this.dt;
+    if (position !== axis.before) this.moved = this.tick[i] * dt;
     // Behind a gap a difference needs as many samples as its order, and one more.
     axis.run = follows ? axis.run + 1 : 0;
     const first = axis.run > 0 ? position - axis.before : 0, second = axis.run > 1 ? first - before[0] : 0, third = axis.run > 2 ? second - before[1] : 0;
     axis.before = position; axis.differences = [first, second, third];
     axis.ranges[0][i] = first / dt; axis.ranges[1][i] = second / dt ** 2; axis.ranges[2][i] = third / dt ** 3;
   }
-  reset() { this.count = 0; this.last = -1; }
+  reset() { this.count = 0; this.last = -1; this.moved = -Infinity; }
+  /* Whether every axis has stood for so long, s. */
+  rests(t) { return this.now - this.moved > t; }
   /* The index, counted from the first sample there was, of the first one not before a time. */
   at(t) {
     const tick = t / this.dt - 1e-6;
