@@ -3220,7 +3220,7 @@ _glidepath() {
             return 0
             ;;
         glidepath__subcmd__servo)
-            opts="-c -h --config --json --instance --setpoints --stands --probe --hal --hal-period-us --hal-prefill --hal-wait-us --hal-channel --force --listens --relay --end-with --help"
+            opts="-c -h --config --json --instance --setpoints --best-effort --stands --probe --hal --hal-period-us --hal-prefill --hal-wait-us --hal-channel --force --listens --relay --end-with --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0

@@ -155,6 +155,7 @@ complete -c glidepath -n "__fish_glidepath_using_subcommand servo" -l hal-wait-u
 complete -c glidepath -n "__fish_glidepath_using_subcommand servo" -l hal-channel -d 'The number of `streamer` and `sampler`' -r
 complete -c glidepath -n "__fish_glidepath_using_subcommand servo" -l end-with -d 'End when the process with this number, which started this one, ends' -r
 complete -c glidepath -n "__fish_glidepath_using_subcommand servo" -l json -d 'Print one JSON object instead of text'
+complete -c glidepath -n "__fish_glidepath_using_subcommand servo" -l best-effort -d 'Let setpoints stay away for eight periods in place of three before the joints stop by themselves: for hosts without real time'
 complete -c glidepath -n "__fish_glidepath_using_subcommand servo" -l hal -d 'Play on LinuxCNC\'s HAL: send lines to `streamer`, take feedback from `sampler`'
 complete -c glidepath -n "__fish_glidepath_using_subcommand servo" -l force -d 'Overwrite files even of another kind than the one written, but never a file that the command reads'
 complete -c glidepath -n "__fish_glidepath_using_subcommand servo" -l listens -d 'Move nothing and send no feedback: another stack has the drives'

@@ -177,6 +177,10 @@ pub struct ServoArgs {
     /// Write the setpoints received as CSV
     #[arg(long, value_name = "CSV")]
     pub setpoints: Option<PathBuf>,
+    /// Let setpoints stay away for eight periods in place of three before the joints stop by themselves: for hosts
+    /// without real time
+    #[arg(long, conflicts_with = "hal")]
+    pub best_effort: bool,
     /// Where the joints of the simulated machine are at the start, mm or degrees, such as
     /// 12.5,-3,40. Without it, they are where programs begin
     #[arg(

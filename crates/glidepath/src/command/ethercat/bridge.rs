@@ -10,7 +10,7 @@ use crate::interrupt::{Interrupt, end_with};
 use crate::output;
 use crate::report::grouped;
 use glidepath_ethercat::{
-    Counts, Demand, Listeners, PacketWire, RunError, RunSettings, Settings, run,
+    Counts, Demand, Listeners, PacketWire, RunError, RunSettings, Settings, Wire, run,
 };
 use glidepath_link::{Ipc, Transport};
 use glidepath_realtime::{Histogram, Mode, Request};
@@ -71,10 +71,10 @@ pub(super) fn interrupt(args: &EthercatArgs) -> Result<Interrupt, Failure> {
 }
 
 /// Runs until interrupted.
-pub(super) fn bridge(
+pub(super) fn bridge<W: Wire + Send>(
     args: &EthercatArgs,
     config: &MachineConfig,
-    wire: &mut PacketWire,
+    wire: &mut W,
     settings: &Settings,
     interrupt: &Interrupt,
     demands: Option<&mut dyn FnMut(Demand)>,

@@ -7,6 +7,7 @@ use super::emulated_inputs::{Level, Pins};
 use super::emulated_terminals;
 use super::input_file::InputFile;
 use super::namespace::{self, DRIVES, MASTER};
+use super::timed_wire::TimedWire;
 use crate::cli::EthercatArgs;
 use crate::command::failure::Failure;
 use crate::command::servo;
@@ -14,7 +15,7 @@ use crate::config::MachineConfig;
 use crate::drives::{self, DrivesSource};
 use crate::exit::Exit;
 use crate::file_error::FileError;
-use core::sync::atomic::{AtomicBool, Ordering};
+use core::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use glidepath_emulator::{DriveSettings as Emulated, Segment};
 use glidepath_ethercat::{
     BusSettings, Demand, DigitalInput, DriveSettings, MAX_FRAME, PacketWire, Settings,
@@ -32,8 +33,6 @@ const PRIORITY: i32 = 60;
 const LATE_NS: u64 = 2_000_000;
 /// The same on a host that promises nothing.
 const DESK_LATE_NS: u64 = 12_000_000;
-/// Setpoints that may be missing on a host that promises nothing.
-const PATIENCE_PERIODS: u64 = 8;
 /// Between two looks whether it is over.
 const POLL_NS: u64 = 50_000_000;
 
@@ -66,12 +65,13 @@ pub(super) fn drive(args: &EthercatArgs, config: &MachineConfig) -> Result<Exit,
         servo: servo::settings(config),
     };
     if args.best_effort {
-        // A host of everybody's stands still for some milliseconds now and then.
-        settings.servo.patience_ns = PATIENCE_PERIODS * config.period_ns();
+        settings.servo.patience_ns = servo::best_effort_patience_ns(config);
         settings.bus.delay_ns = period_ns / 2 + DESK_LATE_NS;
         (settings.bus.lost_frames, settings.bus.watchdog_ns) = (50, 200_000_000);
     }
-    let (mut master, mut there) = (PacketWire::open(MASTER)?, PacketWire::open(DRIVES)?);
+    let sent_ns = AtomicU64::new(0);
+    let mut master = TimedWire::new(PacketWire::open(MASTER)?, &sent_ns);
+    let mut there = PacketWire::open(DRIVES)?;
     let mut segment = Segment::new_at(&emulated, master.now_ns());
     if let Some(encoder) = emulated_terminals::encoder(&settings.terminals) {
         segment.add_encoder(encoder);
@@ -92,7 +92,8 @@ pub(super) fn drive(args: &EthercatArgs, config: &MachineConfig) -> Result<Exit,
         None => None,
     };
     let counts = std::thread::scope(|scope| {
-        let (wire, devices, over) = (&mut there, &mut segment, &is_over);
+        let (wire, devices) = ((&mut there, &sent_ns), &mut segment);
+        let over = &is_over;
         let answers = scope.spawn(move || answer(wire, devices, &changes, over));
         if let Some(file) = &mut file {
             scope.spawn(|| file.watch(&changed, &is_over));
@@ -136,7 +137,7 @@ fn put(segment: &mut Segment, levels: &[Level]) {
 
 /// The drives answer frames until it is over.
 fn answer(
-    wire: &mut PacketWire,
+    (wire, sent_ns): (&mut PacketWire, &AtomicU64),
     segment: &mut Segment,
     changes: &Receiver<Vec<Level>>,
     is_over: &AtomicBool,
@@ -155,7 +156,7 @@ fn answer(
             while let Ok(levels) = changes.try_recv() {
                 put(segment, &levels);
             }
-            segment.pass(frame, wire.now_ns());
+            segment.pass(frame, sent_ns.load(Ordering::Acquire));
             // A frame that is lost is lost.
             let _ = wire.send(frame);
         }

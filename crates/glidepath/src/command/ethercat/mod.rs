@@ -10,6 +10,7 @@ mod input_file;
 mod input_line;
 mod namespace;
 mod scan;
+mod timed_wire;
 
 use crate::cli::{EthercatAction, EthercatArgs};
 use crate::command::failure::Failure;

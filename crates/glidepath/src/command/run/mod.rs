@@ -248,6 +248,7 @@ impl Supervisor<'_> {
             }
             "servo" => {
                 args.push("--relay".into());
+                args.extend(self.args.best_effort.then(|| "--best-effort".into()));
                 args.extend(is_emulated.then(|| "--listens".into()));
             }
             name => {

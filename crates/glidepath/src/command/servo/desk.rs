@@ -2,7 +2,7 @@
 
 use super::notices::Notices;
 use super::part::part;
-use super::settings::settings;
+use super::settings::{best_effort_patience_ns, settings};
 use super::silence::Silence;
 use crate::cli::ServoArgs;
 use crate::command::failure::Failure;
@@ -38,7 +38,10 @@ pub(super) fn play(
 ) -> Result<ServoCounts, Failure> {
     let transport = session::join(&args.instance, config)?;
     let _drives = part(&transport, args, config)?;
-    let settings = settings(config);
+    let mut settings = settings(config);
+    if args.best_effort {
+        settings.patience_ns = best_effort_patience_ns(config);
+    }
     let mut servo = Servo::new(transport.setpoint_source()?, settings);
     // What only passes setpoints on leaves the drives to somebody else.
     let mut feedback = (!args.listens)

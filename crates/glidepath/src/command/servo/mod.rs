@@ -9,7 +9,7 @@ mod settings;
 mod silence;
 
 pub(super) use desk::begins;
-pub(super) use settings::settings;
+pub(super) use settings::{best_effort_patience_ns, settings};
 
 use super::run::Farewell;
 use super::session;

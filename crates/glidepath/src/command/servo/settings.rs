@@ -5,6 +5,14 @@ use glidepath_link::servo::{JumpLimits, ServoSettings, StopLimits};
 
 /// Periods without a setpoint after which the servo stops its joints by itself.
 const PATIENCE_PERIODS: u64 = 3;
+/// The same on a host that promises no real time.
+const BEST_EFFORT_PERIODS: u64 = 8;
+
+/// How long setpoints may stay away on a host that promises no real time and stands still for some milliseconds now and
+/// then, ns.
+pub(in crate::command) fn best_effort_patience_ns(config: &MachineConfig) -> u64 {
+    BEST_EFFORT_PERIODS * config.period_ns()
+}
 
 /// The limits of an axis for plans and for what is superposed together.
 fn with_superposed(config: &MachineConfig, axis: &AxisConfig) -> (f64, f64, f64) {
