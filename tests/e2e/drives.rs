@@ -88,7 +88,7 @@ impl<'a> Bench<'a> {
         ];
         let operated = Operated::new(instance, &changes, "");
         let interpolator = operated.process(&["interpolator", "--best-effort"]);
-        let servo = operated.process(&["servo"]);
+        let servo = operated.process(&["servo", "--best-effort"]);
         let service = operated.service();
         let _drives = operated.wait_for_drives();
         Self {
@@ -138,7 +138,7 @@ impl<'a> Bench<'a> {
             Loss::Killed => {
                 self.servo.signal(Signal::KILL);
                 std::thread::sleep(self.chance.millis(0, 1500));
-                self.servo = self.operated.process(&["servo"]);
+                self.servo = self.operated.process(&["servo", "--best-effort"]);
             }
             Loss::Stopped => {
                 self.servo.signal(Signal::STOP);

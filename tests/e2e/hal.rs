@@ -13,7 +13,7 @@ use glidepath_link::servo::{JointState, quintic};
 use glidepath_link::{MachineState, Power, Setpoint, Status, Transport};
 use glidepath_realtime::{Clock as _, Monotonic};
 use glidepath_testing::{Pulse, is_crowded, skip};
-use glidepath_tests::{Instance, Process, Watchdog};
+use glidepath_tests::{Instance, Process, Watchdog, of_this_test};
 use rustix::process::Signal;
 
 const PATIENCE: Duration = Duration::from_secs(240);
@@ -67,7 +67,7 @@ fn replaced(text: &str, from: &str, to: &str) -> String {
 /// A program of HAL. As root HAL drops to another user, and wants to be told which.
 fn program(instance: &Instance, name: &str) -> Command {
     let mut command = Command::new(name);
-    command
+    of_this_test(&mut command)
         .env("HOME", instance.path("home"))
         .env("RTAPI_UID", "65534")
         .current_dir(instance.directory());

@@ -42,7 +42,7 @@ impl<'a> Bench<'a> {
     fn without_service(instance: &'a Instance) -> Self {
         let operated = Operated::new(instance, &[], "");
         let interpolator = operated.process(&["interpolator", "--best-effort"]);
-        let servo = operated.process(&["servo"]);
+        let servo = operated.process(&["servo", "--best-effort"]);
         let _drives = operated.wait_for_drives();
         operated.operate(&["enable"]);
         let _idle = operated.wait_for(MachineState::Idle);
@@ -283,7 +283,11 @@ fn a_second_servo_is_refused_and_told_who_answers_for_the_drives() {
     let [_, servo, planner] = &bench.processes[..] else {
         unreachable!("interpolator, servo and planner");
     };
-    let output = bench.operated.process(&["servo"]).wait().expect(5);
+    let output = bench
+        .operated
+        .process(&["servo", "--best-effort"])
+        .wait()
+        .expect(5);
     let holder = format!("(process {})", servo.id());
     assert!(
         output.stderr.contains("no place for another servo"),

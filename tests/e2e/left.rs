@@ -15,7 +15,7 @@ fn a_program_that_was_left_is_said_to_be_resumed_where_it_is() {
     let encoder = ("encoder = false", "encoder = true ");
     let bench = Operated::new(&instance, &[lift, encoder], "");
     let interpolator = bench.process(&["interpolator", "--best-effort"]);
-    let servo = bench.process(&["servo", "--stands", "0,0,0"]);
+    let servo = bench.process(&["servo", "--best-effort", "--stands", "0,0,0"]);
     let _seen = bench.wait_for_drives();
     let service = bench.service();
     bench.operate(&["enable"]);

@@ -23,7 +23,7 @@ fn a_machine_is_switched_on_homed_used_and_recovers_from_the_loss_of_its_drives(
     machine.refused(&["enable"], 5, "where they are");
 
     // The position is that of the drives, which count from anywhere.
-    let servo = machine.process(&["servo", "--stands", "12.5,-3,40"]);
+    let servo = machine.process(&["servo", "--best-effort", "--stands", "12.5,-3,40"]);
     let status = machine.wait_for_drives();
     assert_eq!(status.joint_actual[..3], [0.0; 3]);
     machine.operate(&["enable"]);
@@ -67,7 +67,7 @@ fn a_machine_is_switched_on_homed_used_and_recovers_from_the_loss_of_its_drives(
     let _off = machine.wait(|status| status.power() == Ok(Power::Off));
 
     // Another comes: nothing moves before the operator says so, and where it stands is its word.
-    let servo = machine.process(&["servo", "--stands", "1,2,3"]);
+    let servo = machine.process(&["servo", "--best-effort", "--stands", "1,2,3"]);
     machine.wait(|status| status.feedback_age_ns < 12_000_000);
     machine.refused(&["enable"], 5, "reset");
     machine.operate(&["reset"]);
@@ -97,7 +97,7 @@ fn a_pause_of_the_interpolator_is_told_as_what_it_is_and_blames_no_joint() {
     let machine = Operated::new(&instance, &[], "");
     let program = instance.file("program.ngc", "G21 G90 G1 X50 F600\nX0\nM2\n");
     let interpolator = machine.process(&["interpolator", "--best-effort"]);
-    let servo = machine.process(&["servo"]);
+    let servo = machine.process(&["servo", "--best-effort"]);
     let _off = machine.wait_for_drives();
     machine.operate(&["enable"]);
     let _idle = machine.wait_for(MachineState::Idle);
@@ -135,7 +135,7 @@ fn joints_that_are_not_homed_are_jogged_and_what_ends_a_motion_by_hand_is_told()
     let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
     let machine = Operated::new(&instance, &[LOOKS_FOR_HOME], "");
     let interpolator = machine.process(&["interpolator", "--best-effort"]);
-    let servo = machine.process(&["servo"]);
+    let servo = machine.process(&["servo", "--best-effort"]);
     let _off = machine.wait_for_drives();
     machine.refused(&["jog", "X1"], 5, "`glidepath enable");
     machine.operate(&["enable"]);
@@ -210,7 +210,7 @@ fn a_command_that_was_given_up_is_not_carried_out_later() {
     let machine = Operated::new(&instance, &[], "");
     let interpolator = machine.process(&["interpolator", "--best-effort"]);
     let _off = machine.wait_for(MachineState::Off);
-    let servo = machine.process(&["servo"]);
+    let servo = machine.process(&["servo", "--best-effort"]);
     let _answer = machine.wait_for_drives();
     for signal in [None, Some(Signal::INT), Some(Signal::KILL)] {
         interpolator.signal(Signal::STOP);

@@ -22,7 +22,14 @@ fn programs_go_on_from_where_the_probe_touched() {
     let bench = Operated::new(&instance, &[reads, probe], "");
     let interpolator = bench.process(&["interpolator", "--best-effort"]);
     let touches = format!("J2={PART_Z}");
-    let servo = bench.process(&["servo", "--stands", "1,2,10", "--probe", &touches]);
+    let servo = bench.process(&[
+        "servo",
+        "--best-effort",
+        "--stands",
+        "1,2,10",
+        "--probe",
+        &touches,
+    ]);
     let _seen = bench.wait_for_drives();
     let service = bench.service();
     bench.operate(&["enable"]);

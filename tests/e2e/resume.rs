@@ -160,7 +160,7 @@ fn behind_the_loss_of_its_interpolator_no_older_run_is_gone_on_with() {
     let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
     let bench = Operated::new(&instance, &[], "");
     let mut interpolator = bench.process(&["interpolator", "--best-effort"]);
-    let servo = bench.process(&["servo", "--stands", "0,0,0"]);
+    let servo = bench.process(&["servo", "--best-effort", "--stands", "0,0,0"]);
     let _seen = bench.wait_for_drives();
     let service = bench.service();
     bench.operate(&["enable"]);

@@ -30,7 +30,7 @@ fn lines_and_files_are_executed_by_one_service() {
     let lift = ("\nlift = 0.0 ", "\nlift = 3.5 ");
     let bench = Operated::new(&instance, &[lift, SHORT_WAY_UP], M_CODES);
     let interpolator = bench.process(&["interpolator", "--best-effort"]);
-    let servo = bench.process(&["servo", "--stands", "12.5,3,4"]);
+    let servo = bench.process(&["servo", "--best-effort", "--stands", "12.5,3,4"]);
     let _seen = bench.wait(|status| status.feedback_age_ns < 12_000_000);
     bench.refused(&["mdi", "G0 X1"], 5, "no planner serves");
     let service = bench.service();

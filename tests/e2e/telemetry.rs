@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use glidepath_link::MachineState;
 use glidepath_testing::skip;
-use glidepath_tests::{Instance, Process, Services, Watchdog};
+use glidepath_tests::{Instance, Process, Services, Watchdog, of_this_test};
 use rustix::process::Signal;
 use serde_json::Value;
 
@@ -39,7 +39,7 @@ pub(crate) fn free_port() -> u16 {
 pub(crate) fn broker(instance: &Instance, port: u16) -> Ended {
     let text = format!("listener {port} 127.0.0.1\nallow_anonymous true\npersistence false\n");
     let config = instance.file("mosquitto.conf", &text);
-    let child = Command::new("mosquitto")
+    let child = of_this_test(&mut Command::new("mosquitto"))
         .args(["-c", &config])
         .stdout(Stdio::null())
         .stderr(Stdio::null())
@@ -66,7 +66,7 @@ struct Witness {
 
 impl Witness {
     fn start(port: u16) -> Self {
-        let mut child = Command::new("mosquitto_sub")
+        let mut child = of_this_test(&mut Command::new("mosquitto_sub"))
             .args([
                 "-h",
                 "127.0.0.1",

@@ -91,7 +91,7 @@ fn an_abort_in_a_thread_does_not_lift_the_tool() {
     let encoder = ("encoder = false", "encoder = true ");
     let bench = Operated::new(&instance, &[lift, encoder], "");
     let interpolator = bench.process(&["interpolator", "--best-effort"]);
-    let servo = bench.process(&["servo", "--stands", "0,0,0"]);
+    let servo = bench.process(&["servo", "--best-effort", "--stands", "0,0,0"]);
     let _seen = bench.wait_for_drives();
     let service = bench.service();
     bench.operate(&["enable"]);

@@ -20,7 +20,7 @@ fn a_tool_change_waits_for_a_person_and_says_so_where_the_program_was_started() 
     let named = format!("tool_table = \"{table}\"");
     let bench = Operated::new(&instance, &[("# tool_table = \"tools.tbl\"", &named)], "");
     let interpolator = bench.process(&["interpolator", "--best-effort"]);
-    let servo = bench.process(&["servo", "--stands", "0,0,0"]);
+    let servo = bench.process(&["servo", "--best-effort", "--stands", "0,0,0"]);
     let _seen = bench.wait_for_drives();
     let service = bench.service();
     bench.operate(&["enable"]);
@@ -194,7 +194,7 @@ fn what_ended_a_way_back_to_the_path_is_told_as_it_was() {
     let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
     let bench = Operated::new(&instance, &[], "");
     let interpolator = bench.process(&["interpolator", "--best-effort"]);
-    let servo = bench.process(&["servo", "--stands", "0,0,0"]);
+    let servo = bench.process(&["servo", "--best-effort", "--stands", "0,0,0"]);
     let _seen = bench.wait_for_drives();
     let service = bench.service();
     bench.operate(&["enable"]);

@@ -26,7 +26,7 @@ impl<'a> Bench<'a> {
         let table = format!("tool_table = \"{tools}\"");
         let operated = Operated::new(instance, &[("# tool_table = \"tools.tbl\"", &table)], "");
         let interpolator = operated.process(&["interpolator", "--best-effort"]);
-        let servo = operated.process(&["servo"]);
+        let servo = operated.process(&["servo", "--best-effort"]);
         let _drives = operated.wait_for_drives();
         operated.operate(&["enable"]);
         let _idle = operated.wait_for(MachineState::Idle);

@@ -2,7 +2,7 @@
 //!
 //! * [`Instance`]: shared memory of its own for each test, as many at a time as there are cores, and
 //!   the proof that nothing of it is left behind;
-//! * [`Watchdog`]: ends a test that hangs;
+//! * [`Watchdog`]: ends a test that hangs, with its processes ([`of_this_test`]);
 //! * [`Process`]: processes of the real binary, which [`glidepath`] finds and builds;
 //! * [`Services`]: an interpolator and a servo as processes;
 //! * [`Operated`]: the same with drives that answer, and what an operator types;
@@ -50,4 +50,4 @@ pub use setpoint_file::SetpointFile;
 pub use stack::ServoStack;
 pub use tape::Tape;
 pub use tls::encrypted;
-pub use watchdog::Watchdog;
+pub use watchdog::{Watchdog, of_this_test};

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use rustix::process::{Pid, Signal, kill_process};
 
-use crate::{Instance, glidepath};
+use crate::{Instance, glidepath, of_this_test};
 
 /// How long a process may take for anything: far longer than it ever should.
 const PATIENCE: Duration = Duration::from_secs(120);
@@ -82,7 +82,7 @@ impl Process {
     }
 
     fn start_with(program: &Path, instance: &Instance, arguments: &[&str], input: Stdio) -> Self {
-        let mut child = Command::new(program)
+        let mut child = of_this_test(&mut Command::new(program))
             .args(arguments)
             .env("XDG_RUNTIME_DIR", instance.directory())
             .env("TMPDIR", instance.directory())
@@ -152,7 +152,7 @@ impl Process {
     #[must_use]
     pub fn join_read_once(instance: &Instance, arguments: &[&str]) -> ExitStatus {
         let name = &instance.config().instance;
-        let mut child = Command::new(glidepath())
+        let mut child = of_this_test(&mut Command::new(glidepath()))
             .args(arguments)
             .args(["--instance", name])
             .env("XDG_RUNTIME_DIR", instance.directory())

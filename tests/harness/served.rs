@@ -5,13 +5,13 @@ use std::process::{Child, Command, Stdio};
 
 use serde_json::Value;
 
-use crate::{Instance, glidepath};
+use crate::{Instance, glidepath, of_this_test};
 
 /// Starts `glidepath COMMAND --json --port 0` in an instance, and waits until it tells where it serves: the process, and
 /// what it tells.
 #[must_use]
 pub fn served(instance: &Instance, command: &str, arguments: &[&str]) -> (Child, Value) {
-    let mut child = Command::new(glidepath())
+    let mut child = of_this_test(&mut Command::new(glidepath()))
         .args([command, "--json", "--port", "0"])
         .args(["--instance", &instance.config().instance])
         .args(arguments)

@@ -34,7 +34,10 @@ impl<'a> Services<'a> {
     #[must_use]
     pub fn start(instance: &'a Instance) -> Self {
         let csv = instance.path("servo.csv");
-        let servo = Process::join(instance, &["servo", "--setpoints", &csv, "--json"]);
+        let servo = Process::join(
+            instance,
+            &["servo", "--best-effort", "--setpoints", &csv, "--json"],
+        );
         let interpolator = Process::join(instance, &["interpolator", "--best-effort"]);
         let services = Self {
             instance,

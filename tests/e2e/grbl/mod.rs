@@ -421,7 +421,14 @@ fn tools_stops_and_probes_are_answered_when_they_are_done() {
     let probe = ("# input = 0\n", "input = 0\n");
     let bench = Operated::new(&instance, &[reads, probe], "");
     let _interpolator = bench.process(&["interpolator", "--best-effort"]);
-    let _servo = bench.process(&["servo", "--stands", "1,2,10", "--probe", "J2=-7.25"]);
+    let _servo = bench.process(&[
+        "servo",
+        "--best-effort",
+        "--stands",
+        "1,2,10",
+        "--probe",
+        "J2=-7.25",
+    ]);
     let _seen = bench.wait_for_drives();
     let _service = bench.service();
     let endpoint = Endpoint::start(&instance, &["--config", bench.config()]);

@@ -140,7 +140,7 @@ fn a_person_is_told_in_full_what_is_asked() {
     let operated = Operated::new(&instance, &changes, tables);
     assert!(table.ends_with("tools.tbl"));
     let _interpolator = operated.process(&["interpolator", "--best-effort"]);
-    let _servo = operated.process(&["servo"]);
+    let _servo = operated.process(&["servo", "--best-effort"]);
     let _drives = operated.wait_for_drives();
     operated.operate(&["enable"]);
     let program = instance.file(

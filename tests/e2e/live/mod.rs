@@ -35,7 +35,7 @@ use serde_json::Value;
 
 use crate::programs::long_program;
 
-const PATIENCE: Duration = Duration::from_secs(240);
+const PATIENCE: Duration = Duration::from_secs(420);
 
 /// `glidepath live` at work.
 pub(crate) struct Live {

@@ -101,7 +101,14 @@ fn part_zero_and_the_length_of_a_tool_are_touched_off() {
     let bench = Operated::new(&instance, &changes, "");
     let interpolator = bench.process(&["interpolator", "--best-effort"]);
     let probe = format!("J2={PART_Z}");
-    let servo = bench.process(&["servo", "--stands", "1,2,10", "--probe", &probe]);
+    let servo = bench.process(&[
+        "servo",
+        "--best-effort",
+        "--stands",
+        "1,2,10",
+        "--probe",
+        &probe,
+    ]);
     let _seen = bench.wait_for_drives();
     let service = bench.service();
     bench.operate(&["enable"]);

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::time::Duration;
 
-use glidepath_tests::{Instance, Watchdog, glidepath};
+use glidepath_tests::{Instance, Watchdog, glidepath, of_this_test};
 
 use blocks::{How, root};
 use machine::Machine;
@@ -42,7 +42,7 @@ impl<'a> Shell<'a> {
     fn command(&self, folder: &Path, program: &str) -> Command {
         let path = std::env::var("PATH").unwrap();
         let mut command = Command::new(program);
-        command
+        of_this_test(&mut command)
             .current_dir(folder)
             .env("PATH", format!("{}:{path}", self.programs.display()))
             .env("XDG_RUNTIME_DIR", self.instance.directory())
