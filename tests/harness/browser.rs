@@ -15,6 +15,8 @@ use crate::{of_this_test, seats};
 
 /// How long something may take until it is true on the page.
 const PATIENCE: Duration = Duration::from_secs(180);
+/// How often a finger may miss what it is put on.
+const MISSES: u32 = 10;
 
 /// Chromium with one page. Dropping it ends it.
 #[derive(Debug)]
@@ -175,18 +177,27 @@ impl Browser {
     }
 
     /// Puts a finger down in the middle of an element, once that stays where it is. Returns where that is: the
-    /// element may be gone when the finger comes up.
+    /// element may be gone when the finger comes up. Where the page moved it away under the finger, that is put down anew, as
+    /// a person would do.
     pub fn finger_down(&mut self, selector: &str) -> Value {
         let place = format!(
             "(async () => {{ \
              const at = () => {{ const r = document.querySelector('{selector}').getBoundingClientRect(); \
              return [r.x + r.width / 2, r.y + r.height / 2]; }}; \
+             window.under = null; \
+             addEventListener('pointerdown', e => {{ under = !!e.target.closest('{selector}'); }}, {{ capture: true, once: true }}); \
              for (let before = at(), k = 0; ; k++) {{ await new Promise(done => setTimeout(done, 30)); \
              const now = at(); if (k > 20 || '' + now === '' + before) return now; before = now; }} }})()"
         );
-        let place = self.evaluate(&place);
-        self.mouse("mousePressed", &place);
-        place
+        for _ in 0..MISSES {
+            let at = self.evaluate(&place);
+            self.mouse("mousePressed", &at);
+            if self.evaluate("under") != false {
+                return at;
+            }
+            self.mouse("mouseReleased", &at);
+        }
+        panic!("{selector} is not under the finger");
     }
 
     /// Moves a finger that is down, by px to the right of where it came down.
