@@ -2144,7 +2144,7 @@ _glidepath() {
             return 0
             ;;
         glidepath__subcmd__live)
-            opts="-c -h --port --may --devices --programs --tool-table --subroutine-path --dialect --allow-unchecked --effort --tolerance --config --json --instance --help devices help"
+            opts="-c -h --port --may --devices --listed --programs --tool-table --subroutine-path --dialect --allow-unchecked --effort --tolerance --config --json --instance --help devices help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0

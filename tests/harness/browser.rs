@@ -176,12 +176,16 @@ impl Browser {
         self.finger_up(&place);
     }
 
-    /// Puts a finger down in the middle of an element, once that stays where it is. Returns where that is: the
+    /// Puts a finger down in the middle of an element, once that is in sight and stays where it is. Returns where that is: the
     /// element may be gone when the finger comes up. Where the page moved it away under the finger, that is put down anew, as
     /// a person would do.
     pub fn finger_down(&mut self, selector: &str) -> Value {
         let place = format!(
             "(async () => {{ \
+             const of = document.querySelector('{selector}'); \
+             for (let e = of; e && (e = e.parentElement);) if (/auto|scroll/.test(getComputedStyle(e).overflowY)) {{ \
+             const r = of.getBoundingClientRect(), c = e.getBoundingClientRect(); \
+             e.scrollTop += Math.max(0, r.bottom - c.bottom) - Math.max(0, c.top - r.top); }} \
              const at = () => {{ const r = document.querySelector('{selector}').getBoundingClientRect(); \
              return [r.x + r.width / 2, r.y + r.height / 2]; }}; \
              window.under = null; \

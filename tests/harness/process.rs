@@ -243,6 +243,17 @@ impl Process {
         }
     }
 
+    /// Waits for the JSON object that it writes to standard output first.
+    #[must_use]
+    pub fn wait_for_object(&self) -> serde_json::Value {
+        self.wait_until_it_says("\n}");
+        let said = self.stdout.text();
+        match serde_json::from_str(said.trim()) {
+            Ok(object) => object,
+            Err(error) => panic!("no object ({error}): {said}"),
+        }
+    }
+
     /// Waits until it has told that it is ready. On a busy host that takes longer than clients wait for a service.
     pub fn wait_until_it_is_ready(&self) {
         let begun = Instant::now();

@@ -36,8 +36,11 @@ function series(id, of, most, limit, text, words) {
   const [c, w, h] = fit($(id));
   if (!w) return;
   c.clearRect(0, 0, w, h);
-  const left = 60, right = 14, bottom = 20, top = 10, n = w - left - right, Y = v => h - bottom - Math.min(1, v / most) * (h - bottom - top), ring = RINGED, m = RING - 1;
-  c.font = '12px B612'; c.textBaseline = 'middle'; c.textAlign = 'right'; c.fillStyle = T.css.quiet;
+  c.font = '12px B612';
+  // Where the words have no place between the ends of the axis, they have a line of their own.
+  const left = 60, right = 14, n = w - left - right, row = c.measureText(words).width > n - 110 ? 16 : 0, bottom = 20 + row, top = 10;
+  const Y = v => h - bottom - Math.min(1, v / most) * (h - bottom - top), ring = RINGED, m = RING - 1;
+  c.textBaseline = 'middle'; c.textAlign = 'right'; c.fillStyle = T.css.quiet;
   // A limit that is far above all that was measured is told in words.
   const isNear = limit <= most;
   for (const v of [0, isNear ? limit : most]) c.fillText(text(v), left - 8, Y(v));
@@ -49,7 +52,7 @@ function series(id, of, most, limit, text, words) {
     for (let k = first; k < ring.count; k += 4) { const x = left + n - (now - ring.tick[k & m] * ring.dt) / 20 * n, y = Y(of(ring, k & m)); k === first ? c.moveTo(x, y) : c.lineTo(x, y); }
     c.stroke(); c.lineWidth = 1;
   }
-  c.fillStyle = T.css.quiet; c.textAlign = 'left'; c.fillText('20 s ago', left, h - 8); c.textAlign = 'right'; c.fillText('now', w - right, h - 8); c.textAlign = 'center'; c.fillText(words, left + n / 2, h - 8);
+  c.fillStyle = T.css.quiet; c.textAlign = 'left'; c.fillText('20 s ago', left, h - 8 - row); c.textAlign = 'right'; c.fillText('now', w - right, h - 8 - row); c.textAlign = 'center'; c.fillText(words, left + n / 2, h - 8);
 }
 
 /* The largest value of the last 20 s. */

@@ -25,7 +25,7 @@ const SHOWING: [(&str, &str); 11] = [
 ];
 
 /// What operates a machine, behind that.
-const HANDS: [(&str, &str); 12] = [
+const HANDS: [(&str, &str); 13] = [
     ("/orders.js", include_str!("../page/orders.js")),
     ("/bar.js", include_str!("../page/bar.js")),
     ("/bell.js", include_str!("../page/bell.js")),
@@ -34,6 +34,7 @@ const HANDS: [(&str, &str); 12] = [
     ("/setup.js", include_str!("../page/setup.js")),
     ("/touch.js", include_str!("../page/touch.js")),
     ("/devices.js", include_str!("../page/devices.js")),
+    ("/machines.js", include_str!("../page/machines.js")),
     ("/programs.js", include_str!("../page/programs.js")),
     ("/certificate.js", include_str!("../page/certificate.js")),
     ("/queue.js", include_str!("../page/queue.js")),

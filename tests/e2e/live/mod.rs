@@ -9,6 +9,7 @@ mod gamepad;
 mod hands;
 mod life;
 mod looked_at;
+mod machines;
 mod operated_page;
 mod queue;
 mod says;

@@ -16,7 +16,7 @@ const SCREENS: [(u32, u32); 6] = [
 ];
 
 /// Whether a finger in the lower right corner is on Hold, and all of Hold can be seen.
-const HOLD_IS_IN_ITS_CORNER: &str = "(() => { const hold = document.querySelector('[data-c=hold]'), r = hold.getBoundingClientRect(); \
+pub(super) const HOLD_IS_IN_ITS_CORNER: &str = "(() => { const hold = document.querySelector('[data-c=hold]'), r = hold.getBoundingClientRect(); \
      const edge = parseFloat(getComputedStyle(document.querySelector('#app')).borderRightWidth); \
      const at = (x, y) => { const found = document.elementFromPoint(x, y); return !!found && hold.contains(found); }; \
      return r.width > 60 && r.height > 44 && at(innerWidth - edge - 3, innerHeight - edge - 3) \
@@ -27,7 +27,26 @@ const SMALL: &str = "[...document.querySelectorAll('#app *')].filter(e => !e.chi
      e.textContent.trim() && e.getClientRects().length && parseFloat(getComputedStyle(e).fontSize) < 11.99) \
      .map(e => `${e.className} ${e.textContent} ${getComputedStyle(e).fontSize}`).join('; ')";
 
-fn resize(browser: &mut Browser, (width, height): (u32, u32)) {
+/// Texts of which a part is not shown: beyond an element that hides what is beyond it, or beyond the screen. What can be scrolled
+/// to is shown. Names and lines of programs may be shortened, and a telephone shows as many entries of the log as it can.
+pub(super) const CUT: &str = "(() => { \
+     const short = '.program b, #chosen .title b, .folder .h b, .around div, .blocks, #slowbox pre, #typed code, .g-log, [aria-hidden=true]'; \
+     const scrolls = (e, way) => /auto|scroll/.test(getComputedStyle(e)['overflow' + way]) && (way === 'X' ? e.scrollWidth > e.clientWidth : e.scrollHeight > e.clientHeight); \
+     const hides = (e, way) => getComputedStyle(e)['overflow' + way] !== 'visible' && !scrolls(e, way); \
+     const range = document.createRange(), walk = document.createTreeWalker($('#app'), NodeFilter.SHOW_TEXT), found = new Set(); \
+     for (let node; (node = walk.nextNode());) { const of = node.parentElement; \
+       if (!node.textContent.trim() || of.closest(short) || !of.checkVisibility({ visibilityProperty: true, opacityProperty: true })) continue; \
+       range.selectNodeContents(node); \
+       for (const r of range.getClientRects()) { if (r.width < 1) continue; const high = r.height / 4; \
+         for (let e = of; ; e = e.parentElement) { \
+           const c = e ? e.getBoundingClientRect() : { left: 0, top: 0, right: innerWidth, bottom: innerHeight }; \
+           const isCut = (!e || hides(e, 'X')) && (r.left < c.left - 1.5 || r.right > c.right + 1.5) \
+             || (!e || hides(e, 'Y')) && (r.top < c.top - high || r.bottom > c.bottom + high); \
+           if (isCut) found.add(`${node.textContent.trim()} (${e ? e.id || e.className : 'screen'})`); \
+           if (isCut || !e || scrolls(e, 'X') || scrolls(e, 'Y')) break; } } } \
+     return [...found].join('; '); })()";
+
+pub(super) fn resize(browser: &mut Browser, (width, height): (u32, u32)) {
     let size = json!({
         "width": width, "height": height, "deviceScaleFactor": 1, "mobile": false,
     });
@@ -66,12 +85,13 @@ fn hold_is_in_its_corner_on_every_screen() {
                     browser.evaluate(&format!("setView('{view}')"));
                 }
                 browser.wait(&format!("S.view === '{view}'"));
-                for state in ["idle", "awaiting", "faulted"] {
+                for state in ["idle", "awaiting", "faulted", "stale"] {
                     // As the band, the frame and the panel are then.
-                    let shows =
-                        format!("S.state = '{state}', paintState(), {HOLD_IS_IN_ITS_CORNER}");
-                    let is_there = browser.evaluate(&shows);
-                    assert_eq!(is_there, true, "{role} {screen:?} {view} {state}");
+                    let shows = format!(
+                        "S.state = '{state}', paintState(), [{HOLD_IS_IN_ITS_CORNER}, {CUT}]"
+                    );
+                    let shown = browser.evaluate(&shows);
+                    assert_eq!(shown, json!([true, ""]), "{role} {screen:?} {view} {state}");
                 }
                 if ["operate", "setup", "programs"].contains(&view) {
                     let small = browser.evaluate(SMALL);

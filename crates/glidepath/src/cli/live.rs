@@ -31,6 +31,10 @@ pub struct LiveArgs {
     /// hold; without it there is none
     #[arg(long, value_name = "ADDRESS:PORT", value_parser = device_address)]
     pub devices: Option<SocketAddr>,
+    /// List this machine on the pages of the other machines of this user on this host, with a way to this page: to what
+    /// each of them may itself
+    #[arg(long)]
+    pub listed: bool,
     /// Folder of the programs that the page lists, runs and stores
     #[arg(long, value_name = "FOLDER", value_hint = clap::ValueHint::DirPath)]
     pub programs: Option<PathBuf>,

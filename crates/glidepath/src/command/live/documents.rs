@@ -2,6 +2,7 @@
 
 use super::answers::{not_now, object, refusal};
 use super::folder::Folder;
+use super::machines::others;
 use super::pages::Pages;
 use super::preview::{Look, Looker};
 use super::query::{decoded, parameter};
@@ -31,6 +32,8 @@ impl Pages {
                     .of(job)
                     .map(|certificate| object(&certificate))
             }
+            // A device is on the network, where the pages of this host are not.
+            "machines" if caller.device.is_none() => Some(object(&others(&self.link, caller.role))),
             "devices" if caller.role == Role::Operate => {
                 let devices = self.devices.as_ref();
                 devices.map(|devices| object(&devices.object(caller)))

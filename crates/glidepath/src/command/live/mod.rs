@@ -27,6 +27,7 @@ mod job_submitter;
 pub(super) mod jogger;
 mod lateness;
 mod log;
+mod machines;
 mod order;
 mod pages;
 mod planned;
@@ -67,6 +68,7 @@ use job_submitter::JobSubmitter;
 use jogger::Jogger;
 use lateness::Histogram;
 use log::Log;
+use machines::Listing;
 use pages::Pages;
 use preview::Preview;
 use queue::Queue;
@@ -152,6 +154,8 @@ fn serve(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Failure> {
     let running = server.start(Arc::clone(&pages) as Arc<dyn Site>, &feed)?;
     let served = start_devices(device_server, devices.clone(), pages, (&feed, role))?;
     addresses::tell(args, &instance, (&urls, port), devices.as_deref());
+    let listing = args.listed.then(|| Listing::begin(&link, &urls));
+    let listing = listing.transpose().map_err(FileError::open(&link.root))?;
     let offsets = PersistentOffsets::new(config, &link);
     let mut machine = Machine {
         config,
@@ -175,6 +179,7 @@ fn serve(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Failure> {
         day: Day::default(),
         certificates,
         devices,
+        listing,
         witness: Witness::new(config),
         batch: Batch::new(config),
         histogram: Histogram::default(),
@@ -243,6 +248,8 @@ struct Machine<'a> {
     day: Day,
     certificates: Arc<Certificates>,
     devices: Option<Arc<PairedDevices>>,
+    /// The machine among those of this host, where it is listed.
+    listing: Option<Listing>,
     witness: Witness,
     batch: Batch,
     histogram: Histogram,
@@ -255,7 +262,7 @@ struct Machine<'a> {
 impl Machine<'_> {
     fn follow(&mut self, interrupt: &Interrupt) -> Result<(), Failure> {
         let long_ago = Instant::now().checked_sub(LOOK_EVERY);
-        let mut sent = [long_ago; 3];
+        let mut sent = [long_ago; 4];
         let mut is_due = |which: usize, every: Duration| {
             let due = sent
                 .get(which)
@@ -301,6 +308,9 @@ impl Machine<'_> {
                 let text = object.to_string();
                 self.feed
                     .push(Message::new(STATUS_MESSAGE, text.as_bytes()));
+                if is_due(3, LOOK_EVERY) {
+                    self.listing.iter_mut().for_each(|own| own.tell(&object));
+                }
             }
             if is_due(2, BATCH_EVERY)
                 && let Some(bytes) = self.batch.bytes()
