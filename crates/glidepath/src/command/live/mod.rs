@@ -154,8 +154,7 @@ fn serve(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Failure> {
     let running = server.start(Arc::clone(&pages) as Arc<dyn Site>, &feed)?;
     let served = start_devices(device_server, devices.clone(), pages, (&feed, role))?;
     addresses::tell(args, &instance, (&urls, port), devices.as_deref());
-    let listing = args.listed.then(|| Listing::begin(&link, &urls));
-    let listing = listing.transpose().map_err(FileError::open(&link.root))?;
+    let listing = listing(args, &link, &urls)?;
     let offsets = PersistentOffsets::new(config, &link);
     let mut machine = Machine {
         config,
@@ -191,6 +190,16 @@ fn serve(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Failure> {
     machine.follow(&interrupt)?;
     drop((served, running));
     Ok(interrupt.exit())
+}
+
+/// The machine among those of this host, where it is to be listed.
+fn listing(
+    args: &LiveArgs,
+    link: &LinkConfig,
+    urls: &[(Role, String)],
+) -> Result<Option<Listing>, FileError> {
+    let listing = args.listed.then(|| Listing::begin(link, urls));
+    listing.transpose().map_err(FileError::open(&link.root))
 }
 
 /// The folder of programs, if there is one.
