@@ -233,7 +233,10 @@ impl Drop for Browser {
             let shown = catch_unwind(AssertUnwindSafe(|| {
                 self.evaluate("document.body.innerText.replace(/\\s+/g, ' ')")
             }));
-            eprintln!("the page shows: {shown:?}");
+            let log = catch_unwind(AssertUnwindSafe(|| {
+                self.evaluate("JSON.stringify([S.refusal, S.failures, S.status && S.status.log])")
+            }));
+            eprintln!("the page shows: {shown:?}\nit has had: {log:?}");
         }
         // Nobody is left to tell.
         let _killed = self.child.kill();

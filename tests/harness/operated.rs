@@ -1,7 +1,9 @@
 //! A machine with drives that answer: every process by itself, and everything it does an
 //! operator's doing.
 
-use glidepath_link::{MachineState, Status};
+use std::time::{Duration, Instant};
+
+use glidepath_link::{MachineState, Status, Transport as _};
 
 use crate::{Instance, Output, Process};
 
@@ -75,6 +77,22 @@ impl<'a> Operated<'a> {
     /// Waits for a status that pleases.
     pub fn wait(&self, wanted: impl Fn(&Status) -> bool) -> Status {
         self.instance.wait_for_status(wanted)
+    }
+
+    /// Whether the machine comes to a state in some time.
+    #[must_use]
+    pub fn comes_to(&self, state: MachineState, in_time: Duration) -> bool {
+        let transport = self.instance.connect();
+        let mut source = transport.status_source().unwrap();
+        let begun = Instant::now();
+        while begun.elapsed() < in_time {
+            let told = source.take().unwrap();
+            if told.is_some_and(|status| status.state == state.code()) {
+                return true;
+            }
+            std::thread::sleep(Duration::from_millis(2));
+        }
+        false
     }
 
     /// Waits for a state of the machine.
