@@ -1,5 +1,9 @@
 //! The test of a whole life with the mouse alone: off, home, jog, zero, upload, run, tool change,
 //! hold, abort.
+#![allow(
+    clippy::print_stderr,
+    reason = "a test that fails tells what it pressed in vain"
+)]
 
 use std::time::Duration;
 
