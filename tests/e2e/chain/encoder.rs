@@ -3,10 +3,12 @@
 use std::time::Duration;
 
 use glidepath_link::{MachineState, SpindleFlags, Status};
-use glidepath_testing::{is_crowded, skip};
+use glidepath_testing::{Pulse, is_crowded, skip};
 use glidepath_tests::{Instance, Operated, Watchdog};
 
 const PATIENCE: Duration = Duration::from_secs(240);
+/// By how much a thread may be late on a host that hands frames on in time.
+const IN_TIME: Duration = Duration::from_millis(4);
 /// S, rev/min.
 const SPEED: f64 = 600.0;
 
@@ -59,11 +61,13 @@ fn a_thread_follows_an_encoder_at_a_terminal() {
         "thread.ngc",
         "G21 G90 G97 S600 M3\nG0 Z2\nG33 Z-10 K1.5\nM5\nM2\n",
     );
+    let pulse = Pulse::start();
     let output = bench.process(&["run-file", &program]).wait();
     // In a thread nothing can be slowed down: what comes late is a fault, and should be.
     let late = ["frames ran out", "old", "angle was not told"];
     let is_late = |text: &str| late.iter().any(|what| text.contains(what));
-    let is_skipped = output.status.code() != Some(0) && is_late(&output.stderr) && is_crowded();
+    let is_busy = pulse.worst() > IN_TIME || is_crowded();
+    let is_skipped = output.status.code() != Some(0) && is_late(&output.stderr) && is_busy;
     if is_skipped {
         skip("a thread", &output.stderr);
     } else {

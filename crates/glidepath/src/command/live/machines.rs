@@ -50,10 +50,7 @@ impl Listing {
     /// The folder cannot be made.
     pub(super) fn begin(link: &LinkConfig, urls: &[(Role, String)]) -> io::Result<Self> {
         let folder = link.root.join(FOLDER);
-        DirBuilder::new()
-            .recursive(true)
-            .mode(0o700)
-            .create(&folder)?;
+        make(&folder)?;
         let urls = urls
             .iter()
             .map(|(role, url)| (role.name().to_owned(), url.clone()));
@@ -83,8 +80,10 @@ impl Listing {
         let _written = self.write();
     }
 
-    /// Beside the file first, so that nobody reads a half of it.
+    /// Beside the file first, so that nobody reads a half of it. Another server may have taken the folder with it, before
+    /// there was a file of this one.
     fn write(&self) -> io::Result<()> {
+        self.file.parent().map_or(Ok(()), make)?;
         let fresh = self.file.with_extension("new");
         let mut options = OpenOptions::new();
         let mut file = options
@@ -105,6 +104,10 @@ impl Drop for Listing {
         // The last one takes the folder with it.
         let _removed = self.file.parent().map(fs::remove_dir);
     }
+}
+
+fn make(folder: &Path) -> io::Result<()> {
+    DirBuilder::new().recursive(true).mode(0o700).create(folder)
 }
 
 /// The other machines that are listed, by name, and the way to the page of each that may as much as the role, or the most
@@ -202,6 +205,18 @@ mod tests {
         drop(listed);
         assert_eq!(others(&own, Role::Operate), json!({ "machines": [] }));
         assert!(!folder.exists());
+    }
+
+    #[test]
+    fn a_server_that_ends_takes_no_place_from_one_that_begins() {
+        let root = tempfile::tempdir().unwrap();
+        let (own, other) = (link(root.path(), "mill"), link(root.path(), "lathe"));
+        let ends = listing(&own, &[Role::Look]);
+        let mut begins = listing(&other, &[Role::Look]);
+        drop(ends);
+        begins.tell(&status());
+        let told = others(&own, Role::Look);
+        assert_eq!(told["machines"].as_array().unwrap().len(), 1);
     }
 
     #[test]
