@@ -11,6 +11,10 @@
 //! A process that a test leaves behind is ended, and is a failure: it has a hand on what others wait for, and on the
 //! outputs of the tests, which would have no end.
 //!
+//! Tests of the target `e2e` run processes at the speed of the clock, several at a time, and a host that stands still for
+//! longer than a machine can wait ends them. A few of them that failed are run once more, one at a time; those that pass
+//! then are told by themselves. More than a few are the fault of the change at hand.
+//!
 //! With a list of allowed skips, one that is not in it is a failure. Skips are collected in the file that
 //! `GLIDEPATH_SKIPPED` names, with those that are there already; without it in one that is made for them.
 #![allow(
@@ -31,6 +35,11 @@ use std::process::{Command, ExitCode};
 use allowed::Allowed;
 use glidepath_testing::{SKIPPED, is_root};
 use summary::Summary;
+
+/// The test target of what runs at the speed of the clock.
+const BY_CLOCK: &str = "e2e";
+/// How many of its tests may have failed for the host to be held the cause.
+const FEW: usize = 4;
 
 fn main() -> ExitCode {
     match run(std::env::args().skip(1).collect()) {
@@ -61,13 +70,21 @@ fn run(mut arguments: Vec<String>) -> Result<bool, String> {
     }
     let is_success = test(&arguments, is_whole, &skips, &mut summary);
     let is_success = is_success.map_err(|error| error.to_string())?;
+    summary.end(is_success);
+    let failed = summary.failed_tests(BY_CLOCK);
+    if is_whole && (1..=FEW).contains(&failed.len()) {
+        let mut again = Summary::default();
+        let arguments = again_alone(&arguments, &failed);
+        let is_success = test(&arguments, is_whole, &skips, &mut again);
+        again.end(is_success.map_err(|error| error.to_string())?);
+        summary.take_again(BY_CLOCK, &again);
+    }
     let told = std::fs::read_to_string(&skips).unwrap_or_default();
     if is_own {
         // There is none where nothing was skipped.
         let _removed = std::fs::remove_file(&skips);
     }
     summary.take_skips(&told);
-    summary.end(is_success);
     if let Some(allowed) = allowed {
         let is_root = is_root();
         let strange = summary.skips().filter(|skip| !allowed.has(skip, is_root));
@@ -94,6 +111,15 @@ fn allowed(arguments: &mut Vec<String>) -> Result<Option<Allowed>, String> {
 
 fn is_package(word: &str) -> bool {
     word == "-p" || word.starts_with("--package")
+}
+
+/// The arguments that run these tests alone, behind those that all were run with.
+fn again_alone(arguments: &[String], tests: &[String]) -> Vec<String> {
+    let of_cargo = arguments.iter().take_while(|word| *word != "--");
+    let alone = ["--test", BY_CLOCK, "--", "--exact", "--test-threads=1"];
+    let words = of_cargo.map(String::as_str).chain(alone);
+    let tests = tests.iter().map(String::as_str);
+    words.chain(tests).map(str::to_owned).collect()
 }
 
 /// Two for each core: the longest tests are those that run at the speed of the clock, and mostly wait.

@@ -5,6 +5,9 @@ use std::fmt;
 
 use glidepath_testing::{Extent, MARK};
 
+/// What a program failed by that said nothing at its end.
+const DIED: &str = "it died";
+
 /// What was said so far.
 #[derive(Debug, Default)]
 pub(crate) struct Summary {
@@ -12,6 +15,8 @@ pub(crate) struct Summary {
     failed: u64,
     /// Programs and tests that failed, in order.
     failures: Vec<String>,
+    /// Tests that failed beside others, and passed when they were run once more by themselves.
+    passed_alone: Vec<String>,
     /// What was skipped and why, with how often.
     skips: BTreeMap<String, u64>,
     /// Tests that were skipped as a whole. The harness counts them as passed.
@@ -65,7 +70,7 @@ impl Summary {
     fn end_program(&mut self) {
         if std::mem::take(&mut self.reading.is_running) {
             self.failed += 1;
-            self.failures.push(self.named("it died"));
+            self.failures.push(self.named(DIED));
         }
     }
 
@@ -100,6 +105,33 @@ impl Summary {
         self.failures.push(what);
     }
 
+    /// The tests that failed of a test target, whose program is `e2e-0123` where the target is `e2e`. None if it died.
+    pub(crate) fn failed_tests(&self, target: &str) -> Vec<String> {
+        let failures = self.failures.iter();
+        let tests: Vec<_> = failures.filter_map(|said| test_of(target, said)).collect();
+        let died = tests.contains(&DIED);
+        let tests = tests.into_iter().filter(|_| !died);
+        tests.map(str::to_owned).collect()
+    }
+
+    /// Counts failed tests of a test target as passed, and tells them apart: those that did not fail again in `again`,
+    /// which ran them by themselves.
+    pub(crate) fn take_again(&mut self, target: &str, again: &Self) {
+        if again.passed + again.failed != self.failed_tests(target).len() as u64 {
+            return;
+        }
+        let fails_again = |failure: &String| {
+            test_of(target, failure).is_none() || again.failures.contains(failure)
+        };
+        let (failures, passed) = std::mem::take(&mut self.failures)
+            .into_iter()
+            .partition::<Vec<_>, _>(fails_again);
+        self.failures = failures;
+        self.failed -= passed.len() as u64;
+        self.passed += passed.len() as u64;
+        self.passed_alone = passed;
+    }
+
     /// Whether nothing failed.
     pub(crate) const fn is_good(&self) -> bool {
         self.failed == 0
@@ -122,6 +154,12 @@ impl fmt::Display for Summary {
                 count => writeln!(f, "    {skip} ({count} times)")?,
             }
         }
+        if !self.passed_alone.is_empty() {
+            writeln!(f, "failed beside others, passed alone:")?;
+        }
+        for test in &self.passed_alone {
+            writeln!(f, "    {test}")?;
+        }
         if !self.failures.is_empty() {
             writeln!(f, "failed:")?;
         }
@@ -132,6 +170,12 @@ impl fmt::Display for Summary {
         let (failed, skipped) = (self.failed, self.skipped);
         writeln!(f, "{passed} passed, {failed} failed, {skipped} skipped")
     }
+}
+
+/// The test that failed, if it is one of the test target.
+fn test_of<'a>(target: &str, failure: &'a str) -> Option<&'a str> {
+    let (program, test) = failure.split_once(": ")?;
+    (program.rsplit_once('-')?.0 == target).then_some(test)
 }
 
 /// The test program that cargo begins: `Running tests/it/main.rs (target/debug/deps/it-0123)`.
@@ -251,6 +295,55 @@ skipped:
 ";
         assert_eq!(summary.to_string(), expected);
         assert!(summary.is_good());
+    }
+
+    #[test]
+    fn what_failed_and_passes_alone_is_told_as_that() {
+        let mut summary = summary(SAID);
+        summary.end(false);
+        let tests = summary.failed_tests("it");
+        assert_eq!(tests, ["bad::one", "bad::two"]);
+        let again = "\
+     Running tests/it/main.rs (target/debug/deps/it-02cd)
+
+running 2 tests
+test bad::one ... ok
+test bad::two ... FAILED
+
+failures:
+    bad::two
+
+test result: FAILED. 1 passed; 1 failed; 0 ignored; 0 measured; 9 filtered out; finished in 9.00s
+";
+        summary.take_again("it", &self::summary(again));
+        let expected = "\
+skipped:
+    left: it takes a day
+failed beside others, passed alone:
+    it-02cd: bad::one
+failed:
+    it-02cd: bad::two
+    dies-03ef: it died
+5 passed, 2 failed, 1 skipped
+";
+        assert_eq!(summary.to_string(), expected);
+    }
+
+    #[test]
+    fn a_program_that_died_has_no_tests_to_run_again_and_one_that_dies_passes_none() {
+        let mut summary = summary(SAID);
+        assert!(summary.failed_tests("dies").is_empty());
+        let tests = summary.failed_tests("it");
+        let again = "\
+     Running tests/it/main.rs (target/debug/deps/it-02cd)
+
+running 2 tests
+test bad::one ... ok
+";
+        let mut again = self::summary(again);
+        again.end(false);
+        summary.take_again("it", &again);
+        assert_eq!(summary.failed_tests("it"), tests);
     }
 
     #[test]
