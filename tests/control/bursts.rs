@@ -22,7 +22,12 @@ fn what_comes_in_bursts_is_played_as_it_was_planned() {
             assert!(supervisor.is_over());
             let mut played: Vec<_> = supervisor.setpoints.iter().map(|s| s.position).collect();
             played.dedup();
-            let mut planned: Vec<_> = supervisor.frames.iter().map(|f| f.position).collect();
+            let mut planned: Vec<_> = supervisor
+                .planned
+                .frames
+                .iter()
+                .map(|f| f.position)
+                .collect();
             planned.dedup();
             let off = played.iter().zip(&planned).position(|(a, b)| a != b);
             let late = played.len() - planned.len();

@@ -272,7 +272,7 @@ fn a_plan_uses_what_joints_can_do_and_no_more() {
             assert!(supervisor.is_over(), "{}", machine.name);
             assert_limits(&supervisor.audit(&job.settings, 1.0));
             let places = [0.25, 0.375, 0.5, 0.625, 0.75];
-            let between = places.map(|u| between_frames(machine, &supervisor.frames, u));
+            let between = places.map(|u| between_frames(machine, &supervisor.planned.frames, u));
             (machine.used(&supervisor.setpoints), between)
         });
         eprintln!("{:22} {effort:?} {used:.4?}", machine.name);
@@ -335,10 +335,12 @@ fn a_hold_keeps_the_limits_of_joints_whenever_it_comes() {
     let step = 23 / times().min(23);
     for machine in machines() {
         let jobs = EFFORTS.map(|effort| machine.job(effort));
+        let plans = jobs.each_ref().map(Job::planned);
         let mut latest = 0;
         for (number, at) in (5..260).step_by(step.max(1)).enumerate() {
-            let job = &jobs[number % jobs.len()];
-            job.supervised(|supervisor| {
+            let which = number % jobs.len();
+            let job = &jobs[which];
+            job.supervised_as_planned(&plans[which], |supervisor| {
                 supervisor.play(at);
                 supervisor.command(Command::Hold);
                 let mut ticks = 0;

@@ -19,7 +19,7 @@ fn ticks_of(supervisor: &mut Supervisor<'_, '_, '_>, feed_r: f64) -> u64 {
         .iter()
         .position(|s| s.sequence > 0)
         .unwrap();
-    let last = supervisor.frames.last().unwrap().sequence;
+    let last = supervisor.planned.frames.last().unwrap().sequence;
     let end = supervisor.setpoints.iter().position(|s| s.sequence == last);
     (end.unwrap() - first + 1) as u64
 }

@@ -76,7 +76,7 @@ pub(crate) fn carry_out_and(
         finish(supervisor)?;
         let report = supervisor.audit(&job.settings, largest_override);
         assert_limits(&report);
-        let end = supervisor.frames.last().unwrap().position;
+        let end = supervisor.planned.frames.last().unwrap().position;
         prop_assert_eq!(supervisor.setpoints.last().unwrap().position, end);
         assert_bits(supervisor)?;
         judge(supervisor)
@@ -127,10 +127,9 @@ fn finish(supervisor: &mut Supervisor<'_, '_, '_>) -> Result<(), TestCaseError> 
 fn assert_bits(supervisor: &Supervisor<'_, '_, '_>) -> Result<(), TestCaseError> {
     for pair in supervisor.setpoints.windows(2) {
         let (before, now) = (&pair[0], &pair[1]);
-        let frame = supervisor
-            .frames
-            .iter()
-            .find(|frame| frame.sequence == now.sequence);
+        let frames = &supervisor.planned.frames;
+        let index = frames.binary_search_by_key(&now.sequence, |frame| frame.sequence);
+        let frame = index.ok().and_then(|index| frames.get(index));
         let Some(frame) = frame.filter(|_| now.epoch > 0 && now.fraction <= 0.0) else {
             continue;
         };

@@ -129,8 +129,8 @@ fn hold(
     }
     let next = usize::try_from(last.sequence).unwrap();
     let cruise = |frame: &SetpointFrame| frame.acceleration.iter().all(|a| a.abs() < 1e-6);
-    let stops_in = FROM_CRUISE + stopping_ticks(&supervisor.frames[next], settings);
-    let mut ahead = supervisor.frames[next..].iter().take(stops_in);
+    let stops_in = FROM_CRUISE + stopping_ticks(&supervisor.planned.frames[next], settings);
+    let mut ahead = supervisor.planned.frames[next..].iter().take(stops_in);
     let cruises_here = ahead.len() == stops_in && ahead.all(cruise);
     supervisor.command(Command::Hold);
     let (mut wait, mut ticks) = (None, 0);

@@ -140,6 +140,26 @@ impl Job {
         last
     }
 
+    /// The plan of the whole program, as it is without an override.
+    pub(crate) fn planned(&self) -> Planned {
+        let (mut pipeline, mut planned) = (self.pipeline(), Planned::default());
+        while planned.take(&mut pipeline) {}
+        planned
+    }
+
+    /// The same as [`Self::supervised`], of a program that was planned once for many runs. No run may change an
+    /// override.
+    pub(crate) fn supervised_as_planned<R>(
+        &self,
+        planned: &Planned,
+        work: impl FnOnce(&mut Supervisor<'_, '_, '_>) -> R,
+    ) -> R {
+        self.supervised(|supervisor| {
+            supervisor.planned = planned.clone();
+            work(supervisor)
+        })
+    }
+
     /// Runs the program under a supervisor, which `work` tells what to do.
     pub(crate) fn supervised<R>(&self, work: impl FnOnce(&mut Supervisor<'_, '_, '_>) -> R) -> R {
         let mut config = Config {
@@ -156,16 +176,38 @@ impl Job {
             work(&mut Supervisor {
                 stepped,
                 pipeline: self.pipeline(),
-                frames: Vec::new(),
+                planned: Planned::default(),
                 sent: 0,
-                items: Vec::new(),
                 setpoints: Vec::new(),
                 comes_every: 1,
                 wanted: Override::NONE,
                 news: None,
-                ended: false,
             })
         })
+    }
+}
+
+/// What the planner has given out of a program so far.
+#[derive(Clone, Default)]
+pub(crate) struct Planned {
+    pub(crate) frames: Vec<SetpointFrame>,
+    items: Vec<Item>,
+    ended: bool,
+}
+
+impl Planned {
+    /// Takes what the planner gives out next. Whether there is more.
+    fn take(&mut self, pipeline: &mut Pipeline<ProgramSource<&[u8]>>) -> bool {
+        match pipeline.advance().unwrap() {
+            Output::Frame(frame) => self.frames.push(SetpointFrame {
+                block: pipeline.block(),
+                ..SetpointFrame::from_frame(&frame, 1, PERIOD_NS)
+            }),
+            Output::Item(item) => self.items.push(item),
+            Output::Pending => {}
+            Output::End => self.ended = true,
+        }
+        !self.ended
     }
 }
 
@@ -173,16 +215,13 @@ impl Job {
 pub(crate) struct Supervisor<'s, 'i, 'p> {
     stepped: &'s mut Stepped<'i>,
     pipeline: Pipeline<ProgramSource<&'p [u8]>>,
-    /// Every frame given out.
-    pub(crate) frames: Vec<SetpointFrame>,
+    pub(crate) planned: Planned,
     sent: usize,
-    items: Vec<Item>,
     pub(crate) setpoints: Vec<Setpoint>,
     /// Ticks from one time that frames come to the next: more than one where the planner is late.
     pub(crate) comes_every: usize,
     wanted: Override,
     news: Option<usize>,
-    ended: bool,
 }
 
 impl Supervisor<'_, '_, '_> {
@@ -220,23 +259,15 @@ impl Supervisor<'_, '_, '_> {
     /// Publishes frames up to a sequence.
     fn publish(&mut self, limit: u64) {
         loop {
-            if let Some(frame) = self.frames.get(self.sent) {
+            if let Some(frame) = self.planned.frames.get(self.sent) {
                 if frame.sequence >= limit || !self.stepped.offer(frame) {
                     return;
                 }
                 self.sent += 1;
-            } else if self.ended {
+            } else if self.planned.ended {
                 return;
             } else {
-                match self.pipeline.advance().unwrap() {
-                    Output::Frame(frame) => self.frames.push(SetpointFrame {
-                        block: self.pipeline.block(),
-                        ..SetpointFrame::from_frame(&frame, 1, PERIOD_NS)
-                    }),
-                    Output::Item(item) => self.items.push(item),
-                    Output::Pending => {}
-                    Output::End => self.ended = true,
-                }
+                self.planned.take(&mut self.pipeline);
             }
         }
     }
@@ -265,7 +296,7 @@ impl Supervisor<'_, '_, '_> {
     /// The auditor's report of everything since the beginning.
     pub(crate) fn audit(&self, settings: &Settings, largest_override: f64) -> AuditReport {
         let mut audit = Audit::new(&AuditSettings::from(settings)).with_override(largest_override);
-        for item in &self.items {
+        for item in &self.planned.items {
             audit.program(item);
         }
         let mut passed = Passed::default();

@@ -86,7 +86,7 @@ fn assert_as_planned(supervisor: &mut Supervisor<'_, '_, '_>, name: &str) {
     supervisor.play(100_000);
     assert!(supervisor.is_over(), "{name}");
     let moves = supervisor.setpoints.iter().skip_while(|s| s.sequence == 0);
-    for (setpoint, frame) in moves.zip(supervisor.frames.iter().skip(1)) {
+    for (setpoint, frame) in moves.zip(supervisor.planned.frames.iter().skip(1)) {
         let time = (setpoint.sequence, setpoint.fraction);
         assert_eq!(time, (frame.sequence, 0.0), "{name} line {}", setpoint.line);
     }

@@ -119,9 +119,9 @@ fn answer_page(
     let (path, query) = request.path();
     let is_stream = (request.method.as_str(), path) == ("GET", STREAM);
     let place = if is_stream {
-        work.places.page()
+        work.places.page(caller.device)
     } else {
-        work.places.request()
+        work.places.request(caller.device)
     };
     let Some(_place) = place else {
         let words = "too many pages are open: close one";

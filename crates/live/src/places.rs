@@ -1,13 +1,15 @@
 //! The places of a server: who is being answered at a time. Any user of the host, and of the network where devices
 //! are served, can open connections, and leave them open: so whoever has not shown a token gives way to whoever comes
 //! later, and takes no place from those who have. Each server has places of its own, so that nobody on the network
-//! takes one from the host's pages.
+//! takes one from the host's pages; and a paired device has no more than its share of them, so that no device takes
+//! those of the others.
 
 use std::collections::VecDeque;
 use std::net::{Shutdown, TcpStream};
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
+
+use crate::sha256::Sha256;
 
 /// Connections that have not shown the token.
 const STRANGERS: usize = 64;
@@ -16,10 +18,22 @@ const STRANGERS: usize = 64;
 const STAY: Duration = Duration::from_millis(50);
 /// The same on the network, where a handshake goes to and fro in front of the request.
 const STAY_ON_NETWORK: Duration = Duration::from_millis(300);
-/// Open pages that have shown it.
-const PAGES: usize = 24;
+/// Open pages that have shown it, and those of one device: a browser opens six connections to a server at most, and
+/// needs some for commands.
+const PAGES: Room = Room { all: 24, device: 4 };
 /// Other requests that have shown it.
-const REQUESTS: usize = 32;
+const REQUESTS: Room = Room { all: 32, device: 8 };
+
+/// How many places there are.
+#[derive(Debug, Clone, Copy)]
+struct Room {
+    all: usize,
+    /// Of these, the most that one paired device may have.
+    device: usize,
+}
+
+/// Who has a place now: the device, `None` for pages of this host.
+type Taken = Mutex<Vec<Option<Sha256>>>;
 
 /// The places of a server.
 #[derive(Debug)]
@@ -27,8 +41,8 @@ pub(crate) struct Places {
     stay: Duration,
     /// The one that came first is in front.
     strangers: Mutex<VecDeque<Stranger>>,
-    pages: AtomicUsize,
-    requests: AtomicUsize,
+    pages: Taken,
+    requests: Taken,
 }
 
 /// One who has not shown the token, and since when.
@@ -40,11 +54,17 @@ struct Stranger {
 
 /// The place of one who has shown the token, until it is dropped.
 #[derive(Debug)]
-pub(crate) struct Permit<'a>(&'a AtomicUsize);
+pub(crate) struct Permit<'a> {
+    taken: &'a Taken,
+    device: Option<Sha256>,
+}
 
 impl Drop for Permit<'_> {
     fn drop(&mut self) {
-        self.0.fetch_sub(1, Ordering::Relaxed);
+        let mut taken = lock(self.taken);
+        if let Some(index) = taken.iter().position(|other| *other == self.device) {
+            taken.swap_remove(index);
+        }
     }
 }
 
@@ -63,8 +83,8 @@ impl Places {
         Self {
             stay,
             strangers: Mutex::default(),
-            pages: AtomicUsize::default(),
-            requests: AtomicUsize::default(),
+            pages: Taken::default(),
+            requests: Taken::default(),
         }
     }
 
@@ -98,28 +118,36 @@ impl Places {
             .retain(|other| !Arc::ptr_eq(&other.stream, stream));
     }
 
-    /// A place for a page that stays; `None` if all are taken.
-    pub(crate) fn page(&self) -> Option<Permit<'_>> {
-        take(&self.pages, PAGES)
+    /// A place for a page that stays, of a device or of this host; `None` if all are taken, or all that the device may
+    /// have.
+    pub(crate) fn page(&self, device: Option<Sha256>) -> Option<Permit<'_>> {
+        take(&self.pages, PAGES, device)
     }
 
-    /// A place for any other request; `None` if all are taken.
-    pub(crate) fn request(&self) -> Option<Permit<'_>> {
-        take(&self.requests, REQUESTS)
+    /// The same for any other request.
+    pub(crate) fn request(&self, device: Option<Sha256>) -> Option<Permit<'_>> {
+        take(&self.requests, REQUESTS, device)
     }
 
     fn strangers(&self) -> MutexGuard<'_, VecDeque<Stranger>> {
-        // The list is whole, whoever panicked.
-        self.strangers
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner)
+        lock(&self.strangers)
     }
 }
 
-fn take(taken: &AtomicUsize, most: usize) -> Option<Permit<'_>> {
-    // Given back where there was none.
-    let place = Permit(taken);
-    (taken.fetch_add(1, Ordering::Relaxed) < most).then_some(place)
+fn lock<T>(list: &Mutex<T>) -> MutexGuard<'_, T> {
+    // The list is whole, whoever panicked.
+    list.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+fn take(taken: &Taken, room: Room, device: Option<Sha256>) -> Option<Permit<'_>> {
+    let mut list = lock(taken);
+    let of_device = list.iter().filter(|other| **other == device).count();
+    let is_full = list.len() >= room.all || (device.is_some() && of_device >= room.device);
+    if is_full {
+        return None;
+    }
+    list.push(device);
+    Some(Permit { taken, device })
 }
 
 /// Its thread, which waits for it, is told that it has ended.
@@ -162,10 +190,28 @@ mod tests {
     #[test]
     fn places_are_given_back() {
         let places = Places::on_host();
-        let pages: Vec<_> = (0..PAGES).map(|_| places.page().unwrap()).collect();
-        assert!(places.page().is_none() && places.page().is_none());
-        assert!(places.request().is_some());
+        let pages: Vec<_> = (0..PAGES.all).map(|_| places.page(None).unwrap()).collect();
+        assert!(places.page(None).is_none() && places.page(None).is_none());
+        assert!(places.request(None).is_some());
         drop(pages);
-        assert!(places.page().is_some());
+        assert!(places.page(None).is_some());
+    }
+
+    #[test]
+    fn a_device_leaves_places_for_others() {
+        let places = Places::on_network();
+        let [one, other] = [b"one", b"two"].map(|token| Some(Sha256::of(token)));
+        let mut of_one: Vec<_> = (0..PAGES.device)
+            .map(|_| places.page(one).unwrap())
+            .collect();
+        assert!(places.page(one).is_none());
+        let _of_other = places.page(other).unwrap();
+        of_one.pop();
+        assert!(places.page(one).is_some());
+        let _requests: Vec<_> = (0..REQUESTS.device)
+            .map(|_| places.request(one).unwrap())
+            .collect();
+        assert!(places.request(one).is_none());
+        assert!(places.request(other).is_some());
     }
 }
