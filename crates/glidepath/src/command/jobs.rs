@@ -103,6 +103,10 @@ fn report(command: &str, text: &str, json: bool) {
     }
 }
 
+/// How long a planner that executes something else is asked again. A job that was ended is let go of a moment after the
+/// machine's state says that nothing runs, and what is typed then is not to be refused for it.
+pub(super) const LETTING_GO: Duration = Duration::from_millis(700);
+
 /// Hands a job in, and waits for its end. It is told what is being done; an interrupt ends the job.
 fn execute(
     args: &InstanceArgs,
@@ -126,10 +130,12 @@ fn execute(
         program: program(&request),
         told: Told::new(),
     };
+    let handed_in = Instant::now();
     loop {
         let reply = desk.ask(&request)?;
         let text = reply.text.as_str().to_owned();
         match reply.state().map_err(LinkError::from)? {
+            JobState::Busy if handed_in.elapsed() < LETTING_GO && !interrupt.is_set() => {}
             JobState::Running => {
                 desk.is_taken = true;
                 desk.told.tell(&text);

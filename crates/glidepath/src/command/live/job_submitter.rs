@@ -5,7 +5,7 @@
 //! time: a page that hands in another one meanwhile is told so.
 
 use super::day::now_ms;
-use crate::command::jobs::{client, no_service};
+use crate::command::jobs::{LETTING_GO, client, no_service};
 use glidepath_link::{
     Client, Ipc, JobKind, JobReply, JobRequest, JobState, JobWish, LinkConfig, LinkError,
     Record as _, Transport as _,
@@ -269,6 +269,7 @@ impl Clerk {
         let transport = Ipc::connect(&self.link)?;
         let mut queue = transport.job_client()?;
         let mut wish = JobWish::Ask;
+        let handed_in = Instant::now();
         loop {
             let Some(reply) = ask(&mut *queue, &request)? else {
                 return Ok(Handed::Not(
@@ -278,6 +279,10 @@ impl Clerk {
             let text = reply.text.as_str().to_owned();
             match reply.state()? {
                 JobState::Running => waiting.look(),
+                JobState::Busy if handed_in.elapsed() < LETTING_GO => {
+                    std::thread::sleep(POLL);
+                    continue;
+                }
                 JobState::Done => return Ok(Handed::Done(text)),
                 JobState::ToConfirm => return Ok(Handed::ToConfirm(text)),
                 JobState::Changed => return Ok(Handed::Changed(text)),
