@@ -30,6 +30,9 @@ pub struct Report {
     /// The text ends before the program does, which M2, M30 or a percent line would end: its last
     /// part may be missing. It runs all the same.
     pub lacks_end: bool,
+    /// A FANUC program moves before it says its units, and nothing else says them: it is read in millimetres, and is
+    /// 25.4 times too small if inches were meant.
+    pub lacks_units: bool,
     /// Counts and sums over the blocks without diagnostics.
     pub totals: Totals,
     /// Where the feed moves go, in the coordinates of each coordinate system that they are in; none of a curve, which
@@ -74,6 +77,8 @@ pub struct Diagnostics {
     pub given_up_at: Option<u32>,
     /// As [`Report::lacks_end`].
     pub lacks_end: bool,
+    /// As [`Report::lacks_units`].
+    pub lacks_units: bool,
     /// Lines read, as [`Totals::lines`].
     pub lines: u32,
     /// The time that feed moves, at their feedrate, and dwells take at least, s: those without diagnostics.
@@ -97,6 +102,7 @@ pub fn check<R: BufRead>(reader: R, options: Options) -> Report {
         more: found.more,
         given_up_at: found.given_up_at,
         lacks_end: found.lacks_end,
+        lacks_units: found.lacks_units,
         totals: *program.totals(),
         part: part.into_boxes(),
         survey,
@@ -132,6 +138,7 @@ fn read<R: BufRead>(
     let mut found = Diagnostics::default();
     let mut without_tools = WithoutTools::default();
     let mut bred = Bred::default();
+    let mut says_units = begins_with_units(&program.interpreter.options);
     loop {
         if program.kept_lines() >= most {
             found.given_up_at = Some(program.line_of_program());
@@ -141,6 +148,8 @@ fn read<R: BufRead>(
             Some(Ok(())) => {
                 bred.is_series_in_doubt &= program.block().codes.motion.is_none();
                 let program = &*program;
+                says_units |= program.block().codes.units.is_some();
+                found.lacks_units |= !says_units && program.items().iter().any(is_move);
                 program.items().iter().for_each(|item| see(program, item));
             }
             Some(Err(diagnostic)) => {
@@ -164,6 +173,18 @@ fn read<R: BufRead>(
     found.lacks_end = program.ran_out && !may_just_end;
     found.lines = program.totals().lines;
     found
+}
+
+/// Whether something else than the program says in which units it begins. Only FANUC's are asked: other controls begin
+/// in millimetres.
+const fn begins_with_units(options: &Options) -> bool {
+    !matches!(options.dialect, Dialect::Fanuc)
+        || options.fanuc.units_at_start.is_some()
+        || options.in_force.is_some()
+}
+
+const fn is_move(item: &Item) -> bool {
+    matches!(item.kind, ItemKind::Move { .. })
 }
 
 /// Diagnostics that are consequences of one before: a block whose words were not understood may have

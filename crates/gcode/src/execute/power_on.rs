@@ -33,8 +33,11 @@ impl<R> Program<R> {
     /// What is in force when a control of the dialect is switched on, where that is other than LinuxCNC's.
     pub(super) fn power_on(&mut self, feed: FeedAtStart) {
         self.interpreter.state.arc_feed = self.arc_feed_at_start();
+        let units = self.interpreter.options.fanuc.units_at_start;
+        let units = units.filter(|_| self.block.dialect == Dialect::Fanuc);
         let state = &mut self.interpreter.state;
         let modal = &mut state.modal;
+        modal.units = units.unwrap_or(modal.units);
         modal.motion = motion_at_start(self.block.dialect).or(modal.motion);
         if self.block.is_lathe {
             // X words are diameters, the plane is that of G18.

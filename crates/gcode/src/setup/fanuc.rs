@@ -1,5 +1,7 @@
 //! What the parameters of a FANUC control decide about its programs.
 
+use crate::syntax::modes::Units;
+
 /// What a FANUC or Haas control is made for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FanucControl {
@@ -108,6 +110,8 @@ pub enum OuterCorners {
 pub struct FanucParameters {
     /// `None`: a lathe of system A on a machine with X and Z and without Y, else a mill.
     pub control: Option<FanucControl>,
+    /// The units before the first G20 or G21; `None`: not said, and taken to be millimetres.
+    pub units_at_start: Option<Units>,
     /// Coordinates without a point.
     pub point: PointInput,
     /// The memory of tool offsets.

@@ -157,6 +157,8 @@ impl Block {
         cursor.advance();
         match cursor.next_visible() {
             None => Ok(()),
+            // A FANUC passes over the line of the sign in front of a program, and reads nothing behind the one at its end.
+            Some(_) if self.dialect == Dialect::Fanuc => Ok(()),
             Some(_) => {
                 let span = SourceSpan::new(cursor.at(), cursor.at() + 1);
                 Err(BlockDiagnostic::new(

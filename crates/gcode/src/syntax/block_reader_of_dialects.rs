@@ -271,7 +271,7 @@ fn bad_bracket(at: usize) -> Box<BlockDiagnostic> {
 }
 
 #[cold]
-fn without_point(letter: char, value: f64, span: SourceSpan) -> Box<BlockDiagnostic> {
+pub(crate) fn without_point(letter: char, value: f64, span: SourceSpan) -> Box<BlockDiagnostic> {
     let message = format!("{letter}{value} has no decimal point");
     BlockDiagnostic::new(DiagnosticCode::AmbiguousWord, span, message)
         .because("it is millimetres on one control, and least increments (0.001 mm) on another")

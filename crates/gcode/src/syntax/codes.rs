@@ -36,6 +36,20 @@ pub(crate) enum FrameCode {
     Turn(bool),
 }
 
+impl FrameCode {
+    /// The codes that end what needs no words.
+    pub(crate) const ENDS: [Self; 2] = [Self::Scale(false), Self::Turn(false)];
+
+    /// The place of a code in [`Self::ENDS`].
+    pub(crate) const fn ends(self) -> Option<usize> {
+        match self {
+            Self::Scale(false) => Some(0),
+            Self::Turn(false) => Some(1),
+            _ => None,
+        }
+    }
+}
+
 /// What FANUC makes of a tilted plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum TiltCode {
@@ -107,6 +121,8 @@ pub(crate) struct Codes {
     pub(crate) polar_mode: Option<Coded<bool>>,
     /// G50, G51, G50.1, G51.1, G68 and G69 of FANUC.
     pub(crate) frame: Option<Coded<FrameCode>>,
+    /// Whether G50, and G69, stand beside that: a block may end all that is in force.
+    pub(crate) frame_ends: [bool; 2],
     /// True for G43.4 of FANUC and TRAORI: the axes follow the tip of the tool; false for TRAFOOF.
     pub(crate) tip: Option<Coded<bool>>,
     /// CFC, CFIN and CFTCP of SINUMERIK.

@@ -32,7 +32,7 @@ pub(crate) fn options() -> Options {
     }
 }
 
-fn ends_with(text: &str, options: Options) -> Vec<[f64; 3]> {
+pub(crate) fn ends_with(text: &str, options: Options) -> Vec<[f64; 3]> {
     Program::new(text.as_bytes(), options)
         .map(|item| item.unwrap_or_else(|d| panic!("{text}\n{d}")))
         .filter_map(|item| match item.kind {
@@ -149,9 +149,9 @@ fn the_block_of_a_call_is_executed_before_it() {
     // One block: G53 is of its X.
     let text = format!("G10 L2 P1 X50\nG54 G0 X0\nG53 M98 P100 X6{sub}");
     assert_eq!(ends(&text)[1], [6.0, 0.0, 0.0]);
-    // Of H and Q other controls make something else.
+    // Of H other controls make something else, and Q begins inside the program.
     finds(&format!("M98 P100 H5{sub}"), &["1:10 unused-word"]);
-    finds(&format!("M98 P100 Q5{sub}"), &["1:10 unused-word"]);
+    finds(&format!("M98 P100 Q5{sub}"), &["1:1 not-supported"]);
     // An empty L is none.
     assert_eq!(last(&format!("M98 P100 L#100{sub}")), [0.0, 3.0, 0.0]);
 }

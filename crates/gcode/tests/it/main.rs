@@ -21,6 +21,7 @@ mod fanuc;
 mod fanuc_calls;
 mod fanuc_corners;
 mod fanuc_cycles;
+mod fanuc_heads;
 mod fanuc_lathe_passes;
 mod fanuc_lathe_variables;
 mod fanuc_lathe_words;

@@ -22,6 +22,10 @@ use serde_json::{Map, Value, json};
 const NO_END: &str =
     "the text ends without M2, M30 or a last %: make sure that nothing of it is missing";
 
+/// What is said of a FANUC program without units.
+const NO_UNITS: &str = "it moves before G20 or G21, and is read in millimetres: write one of them, or say with which the \
+                        control begins: `units` of [program] in the configuration";
+
 /// Reads every program to its end.
 ///
 /// # Errors
@@ -109,8 +113,10 @@ pub(super) fn accepted(
     });
     progress.finish();
     let mut found = found.map_err(FileError::open(file.name()))?;
-    if found.lacks_end && found.diagnostics.is_empty() {
-        output::note(&warning(&file.name().display().to_string()));
+    if found.diagnostics.is_empty() {
+        for warning in warnings(found.lacks_end, found.lacks_units) {
+            output::note(&format!("{}: warning: {warning}", file.name().display()));
+        }
     }
     if let Some(line) = found.given_up_at.filter(|_| found.diagnostics.is_empty()) {
         let has_joints = config.joint_watch().is_some();
@@ -183,17 +189,18 @@ fn print(name: &str, report: &Report) {
         totals.rapid_length_mm
     ));
     output::result(&survey(report));
-    if report.lacks_end {
-        output::note(&warning(name));
+    for warning in warnings(report.lacks_end, report.lacks_units) {
+        output::note(&format!("{name}: warning: {warning}"));
     }
     if let Some(line) = report.given_up_at {
         output::result(&(not_checked(name, line) + "; the figures above are of what was\n"));
     }
 }
 
-/// That a program may not be whole.
-fn warning(name: &str) -> String {
-    format!("{name}: warning: {NO_END}")
+/// What is said of a program that is no mistake for certain.
+fn warnings(lacks_end: bool, lacks_units: bool) -> impl Iterator<Item = &'static str> {
+    let end = lacks_end.then_some(NO_END);
+    end.into_iter().chain(lacks_units.then_some(NO_UNITS))
 }
 
 /// That a program was not checked to its end.
@@ -287,7 +294,7 @@ fn program(name: &str, report: &Report) -> Value {
             "position": corner.at.as_slice(),
         })),
         "soft_limit_violations": report.soft_limit_violations(),
-        "warnings": report.lacks_end.then_some(NO_END).into_iter().collect::<Vec<_>>(),
+        "warnings": warnings(report.lacks_end, report.lacks_units).collect::<Vec<_>>(),
         "findings": findings,
         "findings_not_shown": report.more,
     })

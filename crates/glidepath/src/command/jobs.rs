@@ -105,7 +105,7 @@ fn report(command: &str, text: &str, json: bool) {
 
 /// How long a planner that executes something else is asked again. A job that was ended is let go of a moment after the
 /// machine's state says that nothing runs, and what is typed then is not to be refused for it.
-pub(super) const LETTING_GO: Duration = Duration::from_millis(700);
+pub(super) const LETTING_GO: Duration = Duration::from_millis(1_200);
 
 /// Hands a job in, and waits for its end. It is told what is being done; an interrupt ends the job.
 fn execute(

@@ -70,6 +70,7 @@ pub(super) struct RawMCode {
 pub(super) struct RawProgram {
     pub(super) dialect: Optional<String>,
     pub(super) fanuc: Optional<String>,
+    pub(super) units: Optional<String>,
     pub(super) point: Optional<String>,
     pub(super) offset_memory: Optional<String>,
     pub(super) arctangent: Optional<String>,

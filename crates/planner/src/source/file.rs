@@ -220,6 +220,7 @@ pub fn check_file(
             more: 0,
             given_up_at: None,
             lacks_end: false,
+            lacks_units: false,
             totals: glidepath_gcode::Totals::default(),
             part: Vec::new(),
             survey: glidepath_gcode::Survey::default(),
@@ -248,6 +249,7 @@ pub fn find_in_file(
         more: report.more,
         given_up_at: report.given_up_at,
         lacks_end: report.lacks_end,
+        lacks_units: report.lacks_units,
         lines: report.totals.lines,
         least_time_s: report.totals.feed_time_s + report.totals.dwell_s,
     })

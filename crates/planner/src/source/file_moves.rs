@@ -121,6 +121,7 @@ impl FileMoves {
             diagnostics: found.diagnostics,
             more: 0,
             lacks_end: false,
+            lacks_units: false,
             given_up_at: found.gave_up.then_some(self.line),
             totals: self.totals,
             part: Vec::new(),

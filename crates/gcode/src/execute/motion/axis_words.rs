@@ -6,11 +6,12 @@ use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
+use crate::setup::fanuc::FanucControl;
 use crate::syntax::block::Block;
 use crate::syntax::codes::{Coded, FrameCode};
 use crate::syntax::dialect::Dialect;
 use crate::syntax::letters::Letters;
-use crate::syntax::modes::{Distance, Motion, NonModal, ToolLength};
+use crate::syntax::modes::{Distance, Motion, NonModal, ToolLength, Turning};
 use crate::syntax::word_check::missing;
 
 impl Interpreter {
@@ -77,7 +78,8 @@ impl Interpreter {
                         | Motion::TapOut
                         | Motion::ThreadCycle
                         | Motion::Turning(_)
-                ) && !is_setup;
+                ) && !is_setup
+                    && !self.is_in_header(motion);
                 if needs && !has_axes {
                     let meaning = "where to go";
                     return Err(missing(
@@ -93,6 +95,16 @@ impl Interpreter {
             (_, true) => Ok(None),
             (_, false) => self.modal_motion(block, has_axes),
         }
+    }
+
+    /// True for G90 of a lathe of system A, which stands in headers: without an axis it cuts nothing. G92 and G94, and the
+    /// G20 of system C, stay refused there: on other systems they limit the spindle, or say what F or inches are.
+    const fn is_in_header(&self, motion: Motion) -> bool {
+        let is_of_a = matches!(
+            self.options.fanuc.control,
+            None | Some(FanucControl::LatheA)
+        );
+        is_of_a && matches!(motion, Motion::Turning(Turning::Turn))
     }
 
     fn modal_motion(&self, block: &Block, has_axes: bool) -> Outcome<Option<Motion>> {

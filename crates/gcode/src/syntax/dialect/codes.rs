@@ -4,7 +4,7 @@ use crate::diagnostic::block_diagnostic::Outcome;
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::span::SourceSpan;
 use crate::setup::m_codes::MCodes;
-use crate::syntax::codes::{Codes, FrameCode, NO_SYSTEM, TiltCode, code_number, set};
+use crate::syntax::codes::{Coded, Codes, FrameCode, NO_SYSTEM, TiltCode, code_number, set};
 use crate::syntax::dialect::Dialect;
 use crate::syntax::dialect::marlin::{function_with_decimal, is_function};
 use crate::syntax::dialect::words::fanuc_systems::{OtherSystem, SystemCode};
@@ -58,6 +58,31 @@ impl Codes {
                 && self.replace_mode(&alone);
             if replaces { Ok(()) } else { Err(fault) }
         })
+    }
+
+    /// G50 and G69 go beside a frame code of another group, which has the words of the block.
+    fn add_frame(&mut self, code: FrameCode, span: SourceSpan) -> Outcome<()> {
+        let Some(first) = self.frame else {
+            return set(&mut self.frame, code, span);
+        };
+        let second = Coded { code, span };
+        let (place, frame) = match (first.code.ends(), code.ends()) {
+            (_, Some(place)) => (place, first),
+            (Some(place), None) => (place, second),
+            (None, None) => return set(&mut self.frame, code, span),
+        };
+        let end = FrameCode::ENDS.get(place);
+        let is_of_group = end.is_some_and(|end| {
+            core::mem::discriminant(end) == core::mem::discriminant(&frame.code)
+        });
+        match self.frame_ends.get_mut(place) {
+            Some(is_ended) if !is_of_group && !*is_ended => {
+                *is_ended = true;
+                self.frame = Some(frame);
+                Ok(())
+            }
+            _ => set(&mut self.frame, code, span),
+        }
     }
 
     /// Puts the one mode of `last` into the place of the one of its group: of two modal codes of a group
@@ -152,9 +177,9 @@ impl Codes {
                 set(&mut self.tool_length, ToolLength::FromTable, span)
             }
             440 => set(&mut self.tool_length, ToolLength::Subtract, span),
-            500 | 510 => set(&mut self.frame, FrameCode::Scale(tenths == 510), span),
-            501 | 511 => set(&mut self.frame, FrameCode::Mirror(tenths == 511), span),
-            680 | 690 => set(&mut self.frame, FrameCode::Turn(tenths == 680), span),
+            500 | 510 => self.add_frame(FrameCode::Scale(tenths == 510), span),
+            501 | 511 => self.add_frame(FrameCode::Mirror(tenths == 511), span),
+            680 | 690 => self.add_frame(FrameCode::Turn(tenths == 680), span),
             // Corners inside are slower, or the feed cannot be changed: the path is that of G64.
             620 | 630 => set(
                 &mut self.path_mode,

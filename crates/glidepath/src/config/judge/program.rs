@@ -6,7 +6,8 @@ use crate::config::program::ProgramConfig;
 use crate::config::raw::RawProgram;
 use glidepath_gcode::{
     Arctangent, BoreShift, Connections, Dialect, FanucControl, FanucParameters, FeedAtStart,
-    Firmware, OffsetMemory, OuterCorners, PointInput, SiemensParameters, ToolChangeBy, WorkOffsets,
+    Firmware, OffsetMemory, OuterCorners, PointInput, SiemensParameters, ToolChangeBy, Units,
+    WorkOffsets,
 };
 use glidepath_geometry::Axis;
 use std::path::PathBuf;
@@ -144,6 +145,15 @@ impl Judge {
                     ("unsaid", OuterCorners::Unsaid),
                     ("lines", OuterCorners::Lines),
                     ("arcs", OuterCorners::Arcs),
+                ],
+            ),
+            units_at_start: self.choice(
+                "program.units",
+                raw.units.take(),
+                &[
+                    ("unsaid", None),
+                    ("mm", Some(Units::Millimetre)),
+                    ("inch", Some(Units::Inch)),
                 ],
             ),
             feed_at_start: self.choice(

@@ -40,6 +40,15 @@ pub(super) const PROGRAM: &[Key] = &[
          refused",
     ),
     key(
+        "program.units",
+        Takes::Choice {
+            of: &["unsaid", "mm", "inch"],
+        },
+        LeftOut::Value("\"unsaid\""),
+        "the units of a FANUC program before its first G20 or G21, with which the control was switched off (Haas: \
+         setting 9); \"unsaid\": mm, with a warning",
+    ),
+    key(
         "program.point",
         Takes::Choice {
             of: &["unsaid", "calculator", "increment"],

@@ -40,6 +40,8 @@ const MOST_SETS: usize = 10;
 #[derive(Debug, Clone)]
 pub(super) struct CallWords {
     pub(super) program: Option<u32>,
+    /// The number of the block that a subprogram of the same text begins with: `M98 Q100`.
+    pub(super) block: Option<u32>,
     /// The name of the program, in capitals, in the place of its number: `M98 <PART>`.
     pub(super) name: Option<Vec<u8>>,
     pub(super) turns: u32,
@@ -109,6 +111,7 @@ impl<R: BufRead> Program<R> {
     pub(super) fn call_words(&self, text: &[u8], at: usize, is_macro: bool) -> Outcome<CallWords> {
         let mut words = CallWords {
             program: None,
+            block: None,
             name: None,
             turns: 1,
             says_turns: false,
@@ -147,6 +150,9 @@ impl<R: BufRead> Program<R> {
                 b'L' | b'K' if !is_macro && is_vacant(argument) => {}
                 b'L' if is_vacant(argument) => {}
                 b'P' => words.program = Some(self.fanuc_number(text, start + 1, false)?),
+                b'Q' if !is_macro => {
+                    words.block = Some(self.fanuc_number(text, start + 1, false)?);
+                }
                 b'L' | b'K' if !is_macro || letter == b'L' => {
                     words.turns = self.fanuc_number(text, start + 1, false)?;
                     words.says_turns = true;

@@ -45,6 +45,17 @@ impl<R: BufRead> Program<R> {
         }
         let is_macro = matches!(call.code, CallCode::Macro | CallCode::ModalMacro);
         let words = self.call_words(text, call.end, is_macro)?;
+        let is_local = call.code == CallCode::Local;
+        match (words.block, words.program.is_some() || words.name.is_some()) {
+            (Some(first), false) if !is_local => {
+                let first = self.fanuc_block_numbered(first, span)?;
+                return self
+                    .enter_subprogram(first, words.turns, None)
+                    .map(|()| true);
+            }
+            (Some(_), _) => return Err(begins_inside(span)),
+            (None, _) => {}
+        }
         let program = match (words.program, &words.name) {
             (Some(_), Some(_)) => {
                 let message = "a number and a name of the program in one call";
@@ -55,13 +66,13 @@ impl<R: BufRead> Program<R> {
                 );
             }
             (Some(program), None) => program,
-            (None, Some(name)) if call.code != CallCode::Local => {
+            (None, Some(name)) if !is_local => {
                 let first = self.fanuc_program_named(name, span)?;
                 return self.enter_called(first, words.turns, &words, call.code, span);
             }
             (None, _) => return Err(missing(span, "the call", "P", "the program's number")),
         };
-        if call.code == CallCode::Local {
+        if is_local {
             let first = self.fanuc_block_numbered(program, span)?;
             return self
                 .enter_subprogram(first, words.turns, None)
@@ -131,7 +142,7 @@ impl<R: BufRead> Program<R> {
         Ok(())
     }
 
-    /// The block of that number in the text that is executed: M97.
+    /// The block of that number in the text that is executed: M97 P, M98 Q.
     fn fanuc_block_numbered(&mut self, number: u32, span: SourceSpan) -> Outcome<TapePlace> {
         let text = self.tape.place().text;
         let wanted = |line: &[u8]| is_numbered(line, number);
@@ -139,8 +150,8 @@ impl<R: BufRead> Program<R> {
         line.map(|line| TapePlace { text, line }).ok_or_else(|| {
             let message = format!("there is no block N{number} in the program");
             BlockDiagnostic::new(DiagnosticCode::UnknownSubroutine, span, message)
-                .because("M97 calls blocks of the same program, from that number to M99")
-                .help("add the block number, or write M98 for another program")
+                .because("M97 P and M98 Q call blocks of the same program, from that number to M99")
+                .help("add the block number, or write M98 P for another program")
         })
     }
 
@@ -261,4 +272,12 @@ fn lines_of(file: &SubroutineFile) -> Result<Vec<TapeLine>, (Box<BlockDiagnostic
             lines.push((source.number(), source.text().into()));
         }
     }
+}
+
+#[cold]
+fn begins_inside(span: SourceSpan) -> Box<BlockDiagnostic> {
+    let message = "Q, a block, beside the program of a call";
+    BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
+        .because("subprograms begin at their first block here; Q by itself calls blocks of the same program")
+        .help("write M98 P, or M98 Q by itself")
 }

@@ -22,6 +22,15 @@ impl Interpreter {
         let Some(coded) = block.codes.frame else {
             return Ok(());
         };
+        for (code, ends) in FrameCode::ENDS.into_iter().zip(block.codes.frame_ends) {
+            if ends {
+                self.one_fanuc_frame(block, Coded { code, ..coded })?;
+            }
+        }
+        self.one_fanuc_frame(block, coded)
+    }
+
+    fn one_fanuc_frame(&mut self, block: &Block, coded: Coded<FrameCode>) -> Outcome<()> {
         let before = self.state.offsets.fanuc.frames;
         let frames = self.state.offsets.fanuc.frames;
         let ends = !matches!(

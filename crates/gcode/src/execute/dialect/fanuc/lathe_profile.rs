@@ -28,7 +28,9 @@ use crate::execute::motion::speed::Pace;
 use crate::execute::program::Program;
 use crate::execute::scope::ProgramScope;
 use crate::execute::state::fanuc_modal::Repeating;
+use crate::setup::fanuc::PointInput;
 use crate::syntax::block::Block;
+use crate::syntax::block_reader_of_dialects::without_point;
 use crate::syntax::codes::Codes;
 use crate::syntax::dialect::fanuc::{Statement, statement};
 use crate::syntax::letters::Letters;
@@ -40,6 +42,8 @@ use crate::syntax::word_check::{missing, unused, whole};
 const MOST_NUMBER: u32 = 99_999_999;
 /// Most passes of G73.
 const MOST_PASSES: u32 = 1000;
+/// The deepest pass that a word without a decimal point is taken for, where nothing says what that is.
+const MOST_WITHOUT_POINT_MM: f64 = 20.0;
 
 impl<R: BufRead> Program<R> {
     /// Makes the cycle that the block asks for.
@@ -260,6 +264,7 @@ impl Interpreter {
             return Err(unused(other, span));
         }
         let mm = self.state.modal.units.mm();
+        check_points(block, &[letter, b'R'], mm)?;
         let depth = block
             .get(letter)
             .filter(|depth| *depth > 0.0)
@@ -367,4 +372,20 @@ impl Interpreter {
                 .help("write G18 and G40 before it"),
         )
     }
+}
+/// Refuses what a pass cannot be, in words without a decimal point: `U400` is .4 mm on a control that counts least
+/// increments.
+fn check_points(block: &Block, letters: &[u8], mm: f64) -> Outcome<()> {
+    for letter in letters {
+        let value = block.get(*letter).unwrap_or(0.0);
+        let is_in_doubt = block.point == PointInput::Unsaid && block.has_no_point(*letter);
+        if is_in_doubt && value.abs() * mm > MOST_WITHOUT_POINT_MM {
+            return Err(without_point(
+                char::from(*letter),
+                value,
+                block.span(*letter),
+            ));
+        }
+    }
+    Ok(())
 }

@@ -73,14 +73,9 @@ impl Interpreter {
         if self.state.fanuc.open_plane.is_none() || goes_on {
             return Ok(());
         }
-        let ends = matches!(
-            block.codes.frame,
-            Some(Coded {
-                code: FrameCode::Turn(false),
-                ..
-            })
-        );
-        if ends {
+        let codes = &block.codes;
+        let frame = codes.frame.map(|coded| coded.code);
+        if frame == Some(FrameCode::Turn(false)) || codes.frame_ends[1] {
             self.state.fanuc.open_plane = None;
             return Ok(());
         }

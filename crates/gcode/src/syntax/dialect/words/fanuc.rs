@@ -52,7 +52,7 @@ pub(crate) const fn g(tenths: u32) -> Option<Meaning> {
         340 => Refused("a thread whose pitch changes", PLAIN_BLOCKS),
         450 | 460 | 480 => Refused(
             "a tool offset that makes moves longer or shorter",
-            "write G41 or G42 with D",
+            "write G43 H for a length, and G41 or G42 with D for a radius",
         ),
         683 | 684 | 2680 | 2690 => Refused("a tilted work plane", AXES_OF_THE_CAM),
         542 => Refused("a work offset that goes with the table", AXES_OF_THE_CAM),
