@@ -111,6 +111,38 @@ fn a_program_that_just_ends_is_told() {
 }
 
 #[test]
+fn a_fanuc_program_whose_units_nobody_says_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        path.to_str().unwrap().to_owned()
+    };
+    let inches = file("inch.toml", "[program]\nunits = \"inch\"\n");
+    let unsaid = file("unsaid.nc", "O1\nG90 G94\nG1 X2. F10.\nM30\n");
+    let said = file("said.nc", "O1\nG20 G90 G94\nG1 X2. F10.\nM30\n");
+    let told = |args: &[&str]| {
+        let output = glidepath(&[args, &["--dialect", "fanuc"]].concat());
+        assert_eq!(output.status.code(), Some(0), "{args:?}: {output:?}");
+        let words = String::from_utf8(output.stderr).unwrap();
+        let length = String::from_utf8(output.stdout).unwrap();
+        (words.contains("before G20 or G21"), length)
+    };
+    let (is_warned, length) = told(&["check", &unsaid]);
+    assert!(
+        is_warned && length.contains(" 2.000 mm at feed"),
+        "{length}"
+    );
+    assert!(told(&["plan", &unsaid]).0);
+    assert!(!told(&["check", &said]).0);
+    let (is_warned, length) = told(&["check", &unsaid, "--config", &inches]);
+    assert!(
+        !is_warned && length.contains("50.800 mm at feed"),
+        "{length}"
+    );
+}
+
+#[test]
 fn a_program_without_feedrate_is_refused_unless_somebody_chose_one() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("part.ngc");
