@@ -9,6 +9,7 @@ mod flow;
 mod frames;
 mod increments;
 mod kept_data;
+mod lathe_start;
 mod lathes;
 mod motion;
 mod older_pockets;
