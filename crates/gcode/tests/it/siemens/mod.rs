@@ -3,6 +3,7 @@
 mod arc_planes;
 mod boring;
 mod corners;
+mod cycle_depths;
 mod cycles;
 mod face_milling;
 mod flow;

@@ -126,7 +126,8 @@ impl Interpreter {
 
     /// The depths of a deep hole, down to the bottom.
     fn strokes(&self, arguments: Arguments<'_>, levels: Levels) -> Outcome<Vec<f64>> {
-        let first = match (arguments.get(6), arguments.get(5)) {
+        let relative = arguments.get(6).filter(|depth| *depth != 0.0);
+        let first = match (relative, arguments.get(5)) {
             (Some(depth), _) => levels.surface - depth.abs(),
             (None, Some(level)) => level,
             (None, None) => levels.bottom,

@@ -108,7 +108,8 @@ impl Newer {
     /// same as one.
     fn increment(self, arguments: &mut [Option<f64>]) -> Outcome<()> {
         let get = |index: usize| arguments.get(index).copied().flatten();
-        let (None, Some(depth)) = (get(DPR), get(DP)) else {
+        let written = get(DPR).filter(|depth| *depth != 0.0);
+        let (None, Some(depth)) = (written, get(DP)) else {
             return Ok(());
         };
         let surface = get(RFP).unwrap_or(0.0);

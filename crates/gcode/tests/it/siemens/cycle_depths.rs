@@ -1,0 +1,63 @@
+//! Tests of how deep cycles for holes go: DP, DPR and the planes.
+
+use super::{ends, finds};
+
+fn zs(cycle: &str) -> Vec<f64> {
+    let text = format!("S500 M3 F300\nG0 Z20\n{cycle}");
+    ends(&text).into_iter().skip(1).map(|[_, _, z]| z).collect()
+}
+
+#[test]
+fn a_depth_of_zero_is_one_that_is_left_out() {
+    // Down to 2 mm above the surface, to the bottom, and out to RTP.
+    let hole = [2.0, -22.0, 10.0];
+    for cycle in [
+        "CYCLE81(10,0,2,-22,0)",
+        "CYCLE82(10,0,2,-22,0,0)",
+        "CYCLE82(10,0,2,,22,0)",
+        "CYCLE87(10,0,2,-22,0,3)",
+        "CYCLE88(10,0,2,-22,0,0,3)",
+        // Where they differ, DPR decides.
+        "CYCLE81(10,0,2,-5,22)",
+    ] {
+        assert_eq!(zs(cycle), hole, "{cycle}");
+    }
+    let slowly = [2.0, -22.0, 2.0, 10.0];
+    for cycle in [
+        "CYCLE85(10,0,2,-22,0,0,300,300)",
+        "CYCLE89(10,0,2,-22,0,0)",
+        "CYCLE840(10,0,2,-22,0,0,4,3,1,0,1)",
+    ] {
+        let found = zs(cycle);
+        assert_eq!(found[..2], slowly[..2], "{cycle}");
+        assert_eq!(found.last(), Some(&10.0), "{cycle}");
+    }
+    // The first depth of CYCLE83 likewise: FDEP -6, FDPR 0; each stroke 6 mm.
+    assert_eq!(
+        zs("CYCLE83(10,0,2,-12,0,-6,0,0,0,0,1,0)"),
+        [2.0, -6.0, -5.0, -12.0, 10.0]
+    );
+    assert_eq!(
+        ends("G0 Z20 F300\nMCALL CYCLE82(10,0,2,-22,0,0)\nX5\nMCALL")
+            .iter()
+            .map(|[_, _, z]| *z)
+            .fold(f64::MAX, f64::min),
+        -22.0
+    );
+    finds("G0 Z20 F300\nCYCLE81(10,0,2,,0)", &["2:1 missing-word"]);
+}
+
+#[test]
+fn the_tool_may_retract_to_the_surface() {
+    assert_eq!(zs("CYCLE81(0,0,2,-22)"), [2.0, -22.0, 0.0]);
+    assert_eq!(zs("CYCLE82(5,5,2,-22,0,0)"), [7.0, -22.0, 5.0]);
+    // Alarm 61101.
+    for cycle in [
+        "CYCLE81(0,0,2,,22)",
+        "CYCLE81(0,0,2,-22,22)",
+        "CYCLE81(-1,0,2,-22)",
+        "CYCLE81(10,0,2,0.5)",
+    ] {
+        finds(&format!("G0 Z20 F300\n{cycle}"), &["2:1 canned-cycle"]);
+    }
+}
