@@ -1,6 +1,8 @@
-//! Tests of how deep cycles for holes go: DP, DPR and the planes.
+//! Tests of how deep cycles for holes go: DP, DPR, the planes, and the arguments of CYCLE81.
 
-use super::{ends, finds};
+use glidepath_program::ItemKind;
+
+use super::{ends, finds, items};
 
 fn zs(cycle: &str) -> Vec<f64> {
     let text = format!("S500 M3 F300\nG0 Z20\n{cycle}");
@@ -19,6 +21,8 @@ fn a_depth_of_zero_is_one_that_is_left_out() {
         "CYCLE88(10,0,2,-22,0,0,3)",
         // Where they differ, DPR decides.
         "CYCLE81(10,0,2,-5,22)",
+        "CYCLE81(10,0,2,-22,0,0,0,1,12)",
+        "CYCLE81(10,0,2,22,0,0,0,1,11)",
     ] {
         assert_eq!(zs(cycle), hole, "{cycle}");
     }
@@ -59,5 +63,44 @@ fn the_tool_may_retract_to_the_surface() {
         "CYCLE81(10,0,2,0.5)",
     ] {
         finds(&format!("G0 Z20 F300\n{cycle}"), &["2:1 canned-cycle"]);
+    }
+}
+
+#[test]
+fn cycle81_has_a_dwell_in_front_of_its_modes() {
+    let dwells = |cycle: &str| -> Vec<f64> {
+        items(&format!("G0 Z20 F300\n{cycle}"))
+            .into_iter()
+            .filter_map(|item| match item.kind {
+                ItemKind::Dwell(seconds) => Some(seconds),
+                _ => None,
+            })
+            .collect()
+    };
+    for (cycle, dwell) in [
+        ("CYCLE81(10,0,2,-22,,1.5)", Some(1.5)),
+        ("CYCLE81(10,0,2,-22,,1.5,0,1,12)", Some(1.5)),
+        ("CYCLE81(10,0,2,-22,0,0.5,0,1)", Some(0.5)),
+        // AMODE is left out: DMODE is the plane, and DP a coordinate.
+        ("CYCLE81(10,0,2,-22,,0,0,1)", None),
+        ("CYCLE81(10,0,2,-22,,0,0,10)", None),
+    ] {
+        assert_eq!(zs(cycle), [2.0, -22.0, 10.0], "{cycle}");
+        assert_eq!(
+            dwells(cycle),
+            dwell.into_iter().collect::<Vec<_>>(),
+            "{cycle}"
+        );
+    }
+    for cycle in [
+        // DMODE of G18, and digits that it does not have; a centring by diameter.
+        "CYCLE81(10,0,2,-22,,0,0,2)",
+        "CYCLE81(10,0,2,-22,,0,0,12)",
+        "CYCLE81(10,0,2,-22,,1,0,10)",
+        "CYCLE81(10,0,2,-22,,0,1,12)",
+        "CYCLE81(10,0,2,-22,,0,10,1,12)",
+        "CYCLE81(10,0,2,-22,,2,0,1,22)",
+    ] {
+        finds(&format!("G0 Z20 F300\n{cycle}"), &["2:1 not-supported"]);
     }
 }

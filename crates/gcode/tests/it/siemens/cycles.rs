@@ -293,7 +293,7 @@ fn cycles_that_cannot_be_made_are_refused() {
         ("CYCLE81(20,0,2,5)", "canned-cycle"),
         ("CYCLE81(20,0,-2,-5)", "canned-cycle"),
         ("CYCLE81(20,0,2,-5", "expression"),
-        ("CYCLE81(20,0,2,-5,,1)", "not-supported"),
+        ("CYCLE81(20,0,2,-5,,1,1)", "not-supported"),
         ("CYCLE81(20,0,2,-5) G0", "unused-word"),
         ("CYCLE82(20,0,2,-5,,-1)", "canned-cycle"),
         ("CYCLE83(20,0,2,-5,,1)", "canned-cycle"),

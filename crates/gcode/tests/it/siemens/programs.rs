@@ -159,12 +159,12 @@ fn newer_arguments_say_what_the_depth_is() {
         ends.into_iter().map(|[_, _, z]| z).fold(f64::MAX, f64::min)
     };
     for (text, right) in [
-        ("CYCLE81(10,-5,2,-15,,0,1,12)", -15.0),
+        ("CYCLE81(10,-5,2,-15,,0,0,1,12)", -15.0),
         // A coordinate counts, whatever DPR says.
-        ("CYCLE81(10,-5,2,-15,3,0,0,2)", -15.0),
-        ("CYCLE81(10,-5,2,,10,0,1,11)", -15.0),
+        ("CYCLE81(10,-5,2,-15,3,0,0,0,2)", -15.0),
+        ("CYCLE81(10,-5,2,,10,0,0,1,11)", -15.0),
         // DP above the surface can be an increment alone.
-        ("CYCLE81(10,-5,2,10,,0,1,11)", -15.0),
+        ("CYCLE81(10,-5,2,10,,0,0,1,11)", -15.0),
         // Both are the same.
         ("CYCLE82(10,0,2,-10,,0.5,0,1,11)", -10.0),
         ("CYCLE82(10,0,2,-10,,0.5,0,1,12)", -10.0),
@@ -179,14 +179,14 @@ fn newer_arguments_say_what_the_depth_is() {
     }
     for (text, code) in [
         // Either Z-12 or Z-15: which one is not known.
-        ("CYCLE81(10,-5,2,-12,,0,1,11)", "canned-cycle"),
-        ("CYCLE81(10,0,2,-10,,0,2,11)", "not-supported"),
-        ("CYCLE81(10,0,2,-10,,10,1,11)", "not-supported"),
+        ("CYCLE81(10,-5,2,-12,,0,0,1,11)", "canned-cycle"),
+        ("CYCLE81(10,0,2,-10,,0,0,2,11)", "not-supported"),
+        ("CYCLE81(10,0,2,-10,,0,10,1,11)", "not-supported"),
         ("CYCLE82(10,0,2,-10,,3,0,1,22)", "not-supported"),
-        ("CYCLE81(10,0,2,-10,,0,1,13)", "not-supported"),
-        ("CYCLE81(10,0,2,-10,,0,1,112)", "not-supported"),
-        ("CYCLE81(10,0,2,,10,0,1,12)", "missing-word"),
-        ("CYCLE81(10,0,2,-10,,0,1,12,1)", "not-supported"),
+        ("CYCLE81(10,0,2,-10,,0,0,1,13)", "not-supported"),
+        ("CYCLE81(10,0,2,-10,,0,0,1,112)", "not-supported"),
+        ("CYCLE81(10,0,2,,10,0,0,1,12)", "missing-word"),
+        ("CYCLE81(10,0,2,-10,,0,0,1,12,1)", "not-supported"),
     ] {
         finds(&format!("G0 Z20 F300\n{text}"), &[&format!("2:1 {code}")]);
     }

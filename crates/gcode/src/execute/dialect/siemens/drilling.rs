@@ -4,7 +4,7 @@
 //!
 //! | cycle | down | at the bottom | out |
 //! |---|---|---|---|
-//! | 81, 82 | feed | –, dwell DTB | rapid |
+//! | 81, 82 | feed | dwell DTB | rapid |
 //! | 83 | in strokes: the first to FDEP, each shorter than the one before by DAM, none shorter than DAM | dwell DTB | rapid |
 //! | 85 | feed FFR | dwell DTB | feed RFF to SDIS, rapid from there |
 //! | 86 | feed, with the spindle on (SDIR 3 or 4) | dwell DTB, the spindle stops at POSS, rapid by RPA, RPO, RPAP | rapid, and back in the plane |
