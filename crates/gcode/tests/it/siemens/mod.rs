@@ -12,6 +12,7 @@ mod increments;
 mod kept_data;
 mod lathe_start;
 mod lathes;
+mod m_functions;
 mod motion;
 mod older_pockets;
 mod program_frame;
