@@ -62,6 +62,10 @@ pub(crate) const fn m(number: u32) -> Option<Meaning> {
         // Stages of the gear: what S says is the speed of the spindle.
         40..=45 => ReadOver,
         70 => Refused("the spindle as an axis", "write M19"),
+        66 => Refused(
+            "a code of the machine's builder",
+            "remove it: the number is taken by the machine's own inputs",
+        ),
         48..=53 | 60..=69 | 71..=73 => Refused("a code of the machine's builder", DECLARE),
         _ => return None,
     })
