@@ -216,13 +216,16 @@ fn the_speed_of_the_spindle_has_a_range() {
 
 #[test]
 fn functions_of_the_plc_are_read_over_where_they_do_nothing() {
-    let text = "H5\nG0 X1 H12.5 Y2\nH-3";
+    let text = "H5\nG0 X1 H12.5 Y2\nH-3\nH=10\nH1=2.5\nR1=4\nG0 H2=R1*2 X1";
     finds(
         text,
         &[
             "1:1 not-supported",
             "2:7 not-supported",
             "3:1 not-supported",
+            "4:1 not-supported",
+            "5:1 not-supported",
+            "7:4 not-supported",
         ],
     );
     let options = Options {

@@ -223,6 +223,9 @@ impl Writer<'_> {
                 let limit = self.speed_range().unwrap_or_default();
                 self.value_of(start, length, limit, 0.0)
             }
+            ([b'H', number @ ..], true) if number.iter().all(u8::is_ascii_digit) => {
+                self.computed_plc_function(start, &name)
+            }
             (b"M" | b"M1", true) => self.computed_m_code(start, length),
             (b"SPOS", false) if self.input.peek(length) == Some(b'[') => self.spindle_angle(start),
             (b"SETMS", false) => self.master_spindle(start, length),
