@@ -271,8 +271,16 @@ fn both_coolants_are_switched_on_in_one_block() {
 
 #[test]
 fn compensation_begins_beside_the_second_move() {
-    // With 4 mm the tool is at X-2 beside a contour that goes up from X0 (NORM).
-    for from in ["X-10 Y-10", "X10 Y-10", "X-20 Y0"] {
+    // With 4 mm the tool is at X-2 beside a contour that goes up from X0 (NORM), from however near it comes.
+    for from in [
+        "X-10 Y-10",
+        "X10 Y-10",
+        "X-20 Y0",
+        "X0 Y-1",
+        "X-1 Y0",
+        "X-0.5 Y-0.5",
+        "X0.1",
+    ] {
         let text = format!("T4 M6 D1 F500\nG0 {from}\nG1 G41 X0 Y0\nY20");
         assert_eq!(ends(&text)[1], [-2.0, 0.0, 0.0], "{from}");
     }
