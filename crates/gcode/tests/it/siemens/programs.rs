@@ -287,6 +287,11 @@ fn compensation_begins_beside_the_second_move() {
 }
 
 #[test]
+fn a_slower_feed_at_corners_is_read_over() {
+    assert_eq!(ends("G62 G1 X1\nG621 X2\nG1 Y1 F50"), ends("G1 X1\nX2\nY1"));
+}
+
+#[test]
 fn programs_of_steps_are_refused_at_their_head() {
     finds("E_HEAD(0,100,0)", &["1:1 not-supported"]);
 }
