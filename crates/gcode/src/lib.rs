@@ -83,7 +83,7 @@ pub use setup::m_codes::{MCodes, WaitsAt};
 pub use setup::machine::{AxisTravel, Machine};
 pub use setup::options::{AdaptiveFeed, Connections, LoopLimits, Options};
 pub use setup::reading_watch::ReadingWatch;
-pub use setup::siemens::{SiemensParameters, ToolChangeBy};
+pub use setup::siemens::{LatheX, SiemensParameters, ToolChangeBy};
 pub use setup::spindle_axis::SpindleAxis;
 pub use setup::subroutine_file::{
     MAX_SUBROUTINE_BYTES, NoSubroutineFile, SubroutineFile, Subroutines,

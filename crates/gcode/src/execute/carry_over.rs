@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use glidepath_geometry::Plane;
 
-use crate::execute::power_on::motion_at_start;
+use crate::execute::power_on::{motion_at_start, siemens_x_at_start};
 use crate::execute::program::Program;
 use crate::execute::state::coolant::Coolant;
 use crate::execute::state::fanuc_modal::FanucModal;
@@ -14,6 +14,7 @@ use crate::execute::state::in_force::{InForce, InForceParts};
 use crate::execute::state::modal::Modal;
 use crate::execute::state::pole::Pole;
 use crate::execute::state::spindle::Spindle;
+use crate::syntax::dialect::Dialect;
 use crate::syntax::modes::{Distance, FeedMode, Motion};
 
 impl<R: BufRead> Program<R> {
@@ -30,7 +31,11 @@ impl<R: BufRead> Program<R> {
             modal.distance = Distance::Absolute;
             // A lathe of FANUC has one plane, and keeps G98 and G99.
             if !self.block.is_lathe {
-                modal.plane = Plane::Xy;
+                modal.plane = if interpreter.options.is_siemens_lathe() {
+                    Plane::Zx
+                } else {
+                    Plane::Xy
+                };
                 modal.feed_mode = FeedMode::PerMinute;
             }
             modal.motion = Some(motion_at_start(self.block.dialect).unwrap_or(Motion::Linear));
@@ -43,6 +48,7 @@ impl<R: BufRead> Program<R> {
             state.coolant = Coolant::default();
             state.overrides_off = false;
             state.arc_feed = self.arc_feed_at_start();
+            siemens_x_at_start(&interpreter.options, &mut state);
         }
         let mut parameters = self.parameters.clone();
         parameters.leave_all();
@@ -97,18 +103,20 @@ impl<R: BufRead> Program<R> {
         if parameters.is_like(&self.parameters) {
             self.parameters = parameters.clone();
         }
+        siemens_x_at_start(&self.interpreter.options, &mut self.interpreter.state);
         if self.block.is_lathe && *is_lathe {
             self.interpreter.state.fanuc.is_feed_unsaid = state.fanuc.is_feed_unsaid;
         } else if *dialect != self.block.dialect || self.block.is_lathe != *is_lathe {
-            self.begin_behind_another_language(*is_lathe);
+            self.begin_behind_another_language(*dialect, *is_lathe);
         }
     }
 
-    /// Whether X is a diameter, and on lathes of FANUC the plane and what F is, are of a language, and not of what
-    /// another one has left.
-    fn begin_behind_another_language(&mut self, was_lathe: bool) {
+    /// Whether X is a diameter, on lathes of FANUC and SINUMERIK the plane, and on those of FANUC what F is, are of a
+    /// language, and not of what another one has left.
+    fn begin_behind_another_language(&mut self, before: Dialect, was_lathe: bool) {
         self.interpreter.state.arc_feed = self.arc_feed_at_start();
         let options = &self.interpreter.options;
+        let is_turning = options.is_lathe();
         let (at_start, feed) = (
             Modal::new(options.default_feed_mm_min),
             options.fanuc.feed_at_start,
@@ -116,10 +124,14 @@ impl<R: BufRead> Program<R> {
         let modal = &mut self.interpreter.state.modal;
         modal.diameter = at_start.diameter;
         modal.motion = motion_at_start(self.block.dialect).or(modal.motion);
+        if before == Dialect::Siemens && is_turning {
+            modal.plane = at_start.plane;
+        }
         if was_lathe || self.block.is_lathe {
             (modal.motion, modal.plane) = (at_start.motion, at_start.plane);
             (modal.feed_mode, modal.feed) = (at_start.feed_mode, at_start.feed);
             self.power_on(feed);
         }
+        self.siemens_power_on();
     }
 }

@@ -2,10 +2,14 @@
 
 use glidepath_geometry::Plane;
 
+use crate::execute::interpreter::Interpreter;
 use crate::execute::program::Program;
+use crate::execute::state::program_state::State;
 use crate::setup::fanuc::FeedAtStart;
+use crate::setup::options::Options;
+use crate::setup::siemens::LatheX;
 use crate::syntax::dialect::Dialect;
-use crate::syntax::modes::{ArcFeed, FeedMode, Motion};
+use crate::syntax::modes::{ArcFeed, Distance, FeedMode, Motion};
 
 /// The motion code in force where a program begins, on controls that have one.
 pub(super) const fn motion_at_start(dialect: Dialect) -> Option<Motion> {
@@ -15,6 +19,19 @@ pub(super) const fn motion_at_start(dialect: Dialect) -> Option<Motion> {
         // Parameter 3402#0: G0.
         Dialect::Fanuc => Some(Motion::Rapid),
         Dialect::LinuxCnc | Dialect::Marlin => None,
+    }
+}
+
+/// What X words are where a program of a SINUMERIK's lathe begins.
+pub(super) fn siemens_x_at_start(options: &Options, state: &mut State) {
+    if options.is_siemens_lathe() {
+        let x = options.siemens.lathe_x;
+        state.modal.diameter = match x {
+            LatheX::Diameter => true,
+            LatheX::Radius => false,
+            LatheX::DiameterInG90 => state.modal.distance == Distance::Absolute,
+        };
+        state.diameter_by_distance = x == LatheX::DiameterInG90;
     }
 }
 
@@ -39,6 +56,9 @@ impl<R> Program<R> {
         let modal = &mut state.modal;
         modal.units = units.unwrap_or(modal.units);
         modal.motion = motion_at_start(self.block.dialect).or(modal.motion);
+        self.siemens_power_on();
+        let state = &mut self.interpreter.state;
+        let modal = &mut state.modal;
         if self.block.is_lathe {
             // X words are diameters, the plane is that of G18.
             (modal.diameter, modal.plane) = (true, Plane::Zx);
@@ -49,6 +69,15 @@ impl<R> Program<R> {
             };
             modal.feed_mode = feed_mode.unwrap_or(modal.feed_mode);
             state.fanuc.is_feed_unsaid = modal.feed.is_none() && feed_mode.is_none();
+        }
+    }
+
+    /// MD 20150 of a SINUMERIK's lathe: the plane is that of G18, and X what its parameters say.
+    pub(super) fn siemens_power_on(&mut self) {
+        let Interpreter { options, state, .. } = &mut self.interpreter;
+        if options.is_siemens_lathe() {
+            state.modal.plane = Plane::Zx;
+            siemens_x_at_start(options, state);
         }
     }
 }

@@ -1,5 +1,7 @@
 //! The M codes of the machine's own, beside those that every program may use.
 
+use crate::syntax::codes::code_number;
+
 /// The place at which the motion waits until an M code is answered, if it is waited for at all.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum WaitsAt {
@@ -53,9 +55,16 @@ impl MCodes {
     }
 
     /// Whether a code may be declared: it has no meaning of its own in the programs of some control.
-    /// M48 and the like are the builder's on a FANUC, and what they are in LinuxCNC's language.
+    /// M48 and the like are the builder's on a FANUC, and what they are in LinuxCNC's language; likewise M82 and M83,
+    /// which say what E is on a printer.
     #[must_use]
     pub const fn is_free(code: u32) -> bool {
-        !matches!(code, 0..=9 | 19 | 30 | 61 | 66 | 82 | 83 | 98 | 99)
+        !matches!(code, 0..=9 | 19 | 30 | 61 | 66 | 98 | 99)
+    }
+
+    /// Whether a message may say that a code can be declared: it is free, or it is M61, which LinuxCNC's language alone
+    /// has.
+    pub(crate) fn can_be_declared(code: f64) -> bool {
+        code_number(code).is_some_and(|code| Self::is_free(code) || code == 61)
     }
 }

@@ -162,6 +162,11 @@ impl Options {
         })
     }
 
+    /// True for a program of a SINUMERIK's lathe.
+    pub(crate) fn is_siemens_lathe(&self) -> bool {
+        self.dialect == Dialect::Siemens && self.is_lathe()
+    }
+
     /// True for a program of a FANUC lathe.
     pub(crate) fn is_fanuc_lathe(&self) -> bool {
         self.dialect == Dialect::Fanuc && self.fanuc_control() != FanucControl::Mill

@@ -9,6 +9,17 @@ pub enum ToolChangeBy {
     M6,
 }
 
+/// What X words are where a program of a lathe begins (MD 20150, group 29).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LatheX {
+    /// Diameters (DIAMON).
+    Diameter,
+    /// Radii (DIAMOF).
+    Radius,
+    /// Diameters with G90, radii with G91 (DIAM90).
+    DiameterInG90,
+}
+
 /// What the machine data of a SINUMERIK say.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SiemensParameters {
@@ -17,6 +28,8 @@ pub struct SiemensParameters {
     /// Edge D1 is in force behind a tool change that names no edge (MD 20270); else the tool has no
     /// length until D is written.
     pub edge_after_change: bool,
+    /// What X words are where a program begins, on a machine with X and Z and without Y.
+    pub lathe_x: LatheX,
     /// The first increment of an axis behind a new frame or work offset goes the shift of its zero, too
     /// (SD 42440); else its own way alone.
     pub frame_goes_with_increments: bool,
@@ -31,11 +44,12 @@ pub struct SiemensParameters {
 }
 
 impl Default for SiemensParameters {
-    /// By the machine, and D1; increments go the shifts before them; H is refused.
+    /// By the machine, and D1; X of a lathe is a diameter; increments go the shifts before them; H is refused.
     fn default() -> Self {
         Self {
             tool_change: None,
             edge_after_change: true,
+            lathe_x: LatheX::Diameter,
             frame_goes_with_increments: true,
             length_goes_with_increments: true,
             reads_over_h: false,

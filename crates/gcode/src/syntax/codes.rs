@@ -59,6 +59,9 @@ pub(crate) enum TiltCode {
     Align,
 }
 
+/// Most M words of a block of SINUMERIK's.
+pub(crate) const MOST_M: usize = 5;
+
 /// The codes of one block, by modal group.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Codes {
@@ -103,6 +106,10 @@ pub(crate) struct Codes {
     pub(crate) kept_place: Option<Coded<bool>>,
     /// An M code that the machine's builder declared.
     pub(crate) user: Option<Coded<u32>>,
+    /// Those of the same block that follow it (SINUMERIK), zero where there are none.
+    pub(crate) more_of_user: [u32; MOST_M - 1],
+    /// M words of the block, where their number has an end (SINUMERIK).
+    pub(crate) m_words: usize,
     /// An M code of printers that takes the words of its block.
     pub(crate) function: Option<Coded<u32>>,
     /// M29 of FANUC.

@@ -3,6 +3,7 @@
 use crate::diagnostic::block_diagnostic::BlockDiagnostic;
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::span::SourceSpan;
+use crate::syntax::dialect::words::declare;
 
 #[cold]
 pub(crate) fn unknown_g(value: f64, span: SourceSpan) -> Box<BlockDiagnostic> {
@@ -23,7 +24,7 @@ pub(crate) fn unknown_m(value: f64, span: SourceSpan) -> Box<BlockDiagnostic> {
         format!("there is no M{value}"),
     )
     .because("an unknown M code could have been meant to stop something")
-    .help("remove it, or put it into a comment")
+    .help(declare(value))
 }
 
 /// G codes that exist and are not supported, each with what it is.

@@ -52,6 +52,11 @@ fn d_stays_until_the_next_one() {
         beside("G41 D1 G1 X0 Y-10\nY20\nG40 X-20"),
         [-3.0, -10.0, 0.0]
     );
+    // The way to the contour may be shorter than the radius.
+    assert_eq!(
+        beside("G41 D2 G1 X0 Y-18\nY20\nG40 X-20"),
+        [-5.0, -18.0, 0.0]
+    );
     finds(
         "G41 D1 G1 X0 Y-10\nY-30 D2\nG40 X-20",
         &["2:6 cutter-radius"],

@@ -5,8 +5,8 @@
 use std::sync::Arc;
 
 use glidepath_gcode::{
-    AdaptiveFeed, Connections, Input, InputWait, MCodes, Options, Program, Remark, RemarkKind,
-    WaitFor, WaitsAt, check,
+    AdaptiveFeed, Connections, DiagnosticCode, Dialect, Input, InputWait, MCodes, Options, Program,
+    Remark, RemarkKind, WaitFor, WaitsAt, check,
 };
 use glidepath_program::{CodeWord, Event, Item, ItemKind};
 
@@ -246,4 +246,61 @@ fn an_input_decides_what_follows() {
     };
     let report = check("G38.2 Z-5 F100\n".as_bytes(), real);
     assert!(report.diagnostics[0].message.contains("no probe"));
+}
+
+/// A message says that a code can be declared where it can be, and where it helps.
+#[test]
+fn what_is_said_about_a_code_and_what_may_be_declared_agree() {
+    for dialect in [
+        Dialect::LinuxCnc,
+        Dialect::Marlin,
+        Dialect::Fanuc,
+        Dialect::Siemens,
+    ] {
+        for number in 0..=9999 {
+            let text = format!("M{number}\n");
+            let refused = |declared: bool| {
+                let mut m_codes = MCodes::default();
+                if declared {
+                    m_codes.declare(number, number);
+                }
+                let options = Options {
+                    dialect,
+                    m_codes: Arc::new(m_codes),
+                    ..Options::default()
+                };
+                let found = check(text.as_bytes(), options).diagnostics;
+                found.into_iter().find(|diagnostic| {
+                    matches!(
+                        diagnostic.code,
+                        DiagnosticCode::UnknownMCode | DiagnosticCode::NotSupported
+                    )
+                })
+            };
+            let Some(first) = refused(false) else {
+                continue;
+            };
+            // As the configuration has it, which takes M3 to M9, M19 and M61 besides.
+            let is_taken = MCodes::is_free(number) || matches!(number, 3..=9 | 19 | 61);
+            let helps = is_taken && refused(true).is_none();
+            let says = first.help.contains("[m_codes.");
+            assert!(helps || !says, "M{number} of {dialect}: {first}");
+            // What a code is on its own control is a better answer than that it may be another one.
+            if first.code == DiagnosticCode::UnknownMCode {
+                assert_eq!(says, helps, "M{number} of {dialect}: {first}");
+            }
+        }
+        for text in ["M1.5\n", "M10000\n", "M-5\n"] {
+            let options = Options {
+                dialect,
+                ..Options::default()
+            };
+            let found = check(text.as_bytes(), options).diagnostics;
+            assert!(!found.is_empty(), "{text}");
+            assert!(
+                found.iter().all(|d| !d.help.contains("[m_codes.")),
+                "{text}"
+            );
+        }
+    }
 }

@@ -47,6 +47,14 @@ impl Interpreter {
                 }
             }
             self.push(out, ItemKind::Event(Event::MCode(code)));
+            for code in block
+                .codes
+                .more_of_user
+                .into_iter()
+                .filter(|code| *code != 0)
+            {
+                self.push(out, ItemKind::Event(Event::MCode(code)));
+            }
         }
         let Some(Coded { code, span }) = block.codes.input_output else {
             return Ok(());

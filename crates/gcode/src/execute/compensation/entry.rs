@@ -28,7 +28,7 @@ impl Compensation {
                     .help("write G41 or G42 into the straight move before the arc"),
             );
         }
-        if distance(contour.start, contour.end) <= radius {
+        if !self.enters_beside_next && distance(contour.start, contour.end) <= radius {
             let message = format!(
                 "the first move with cutter radius compensation is not longer than the tool radius, {radius} mm"
             );

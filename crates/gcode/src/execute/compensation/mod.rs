@@ -30,7 +30,7 @@
 //! straight move leads from there to its programmed end. These rules are those of LinuxCNC, except
 //! that it joins corners below 0.05 rad without regard to the contour. On a FANUC (start-up of type A)
 //! and a SINUMERIK (NORM) the entry goes straight to the place beside the beginning of the second move,
-//! whichever way the contour turns there.
+//! whichever way the contour turns there, and may be as short as it likes.
 //!
 //! In G18 a turning tool is programmed by its tip; its orientation says where the tip is, seen from
 //! the centre of the tool radius, and every point given out is shifted by that.

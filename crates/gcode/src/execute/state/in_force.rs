@@ -29,7 +29,7 @@ pub struct InForce(pub(crate) Arc<InForceParts>);
 pub(crate) struct InForceParts {
     /// The language of what left it.
     pub(crate) dialect: Dialect,
-    /// It was one of FANUC's lathes.
+    /// It was one of FANUC's lathes; those of SINUMERIK are told by the machine.
     pub(crate) is_lathe: bool,
     pub(crate) state: State,
     pub(crate) parameters: Parameters,

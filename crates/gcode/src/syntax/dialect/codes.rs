@@ -1,10 +1,12 @@
 //! The codes of the other dialects: G and M numbers, sorted into the groups of [`Codes`].
 
-use crate::diagnostic::block_diagnostic::Outcome;
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::span::SourceSpan;
 use crate::setup::m_codes::MCodes;
-use crate::syntax::codes::{Coded, Codes, FrameCode, NO_SYSTEM, TiltCode, code_number, set};
+use crate::syntax::codes::{
+    Coded, Codes, FrameCode, MOST_M, NO_SYSTEM, TiltCode, code_number, set,
+};
 use crate::syntax::dialect::Dialect;
 use crate::syntax::dialect::marlin::{function_with_decimal, is_function};
 use crate::syntax::dialect::words::fanuc_systems::{OtherSystem, SystemCode};
@@ -277,9 +279,34 @@ impl Codes {
         span: SourceSpan,
         declared: &MCodes,
     ) -> Outcome<()> {
+        self.m_words += 1;
+        if self.m_words > MOST_M {
+            let message = format!("more than {MOST_M} M codes in a block");
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::ModalGroupConflict, span, message)
+                    .because("this control takes no more")
+                    .help("write two blocks"),
+            );
+        }
         match code_number(value).filter(|number| declared.is_own(*number)) {
-            Some(number) => set(&mut self.user, number, span),
+            Some(number) => self.add_user_m(number, span),
             None => self.add_m_beside(value, span, declared),
+        }
+    }
+
+    /// Adds a code of the machine's builder beside others of them; those that switch the kinematics stay alone.
+    fn add_user_m(&mut self, number: u32, span: SourceSpan) -> Outcome<()> {
+        let stays_alone = |number: u32| matches!(number, 428..=430);
+        let is_second = self.user.is_some_and(|first| {
+            first.code == number || stays_alone(first.code) || stays_alone(number)
+        });
+        let is_there = self.more_of_user.contains(&number);
+        match self.more_of_user.iter_mut().find(|code| **code == 0) {
+            Some(free) if self.user.is_some() && !is_second && !is_there => {
+                *free = number;
+                Ok(())
+            }
+            _ => set(&mut self.user, number, span),
         }
     }
 

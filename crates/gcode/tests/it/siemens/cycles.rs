@@ -118,7 +118,7 @@ fn a_modal_call_drills_at_every_move() {
     let bottoms = ends(text).into_iter().filter(|[.., z]| *z == -5.0);
     assert_eq!(bottoms.map(|[x, ..]| x).collect::<Vec<_>>(), [1.0, 2.0]);
     finds("MCALL HOLES1(1)", &["1:7 not-supported"]);
-    finds("MCALL CYCLE81(0,0,2,-5)\nX3", &["1:7 canned-cycle"]);
+    finds("MCALL CYCLE81(-1,0,2,-5)\nX3", &["1:7 canned-cycle"]);
     // The cycle is along the axis normal to the plane, and in the frame.
     let text = "G18\nTRANS Y100\nG0 Y20\nCYCLE81(20,0,2,-5)";
     let ys: Vec<f64> = ends(text).into_iter().map(|[_, y, _]| y).collect();
@@ -289,11 +289,11 @@ fn cycles_that_cannot_be_made_are_refused() {
     for (cycle, code) in [
         ("CYCLE81(20,0,2)", "missing-word"),
         ("CYCLE81(,0,2,-5)", "missing-word"),
-        ("CYCLE81(0,0,2,-5)", "canned-cycle"),
+        ("CYCLE81(-1,0,2,-5)", "canned-cycle"),
         ("CYCLE81(20,0,2,5)", "canned-cycle"),
         ("CYCLE81(20,0,-2,-5)", "canned-cycle"),
         ("CYCLE81(20,0,2,-5", "expression"),
-        ("CYCLE81(20,0,2,-5,,1)", "not-supported"),
+        ("CYCLE81(20,0,2,-5,,1,1)", "not-supported"),
         ("CYCLE81(20,0,2,-5) G0", "unused-word"),
         ("CYCLE82(20,0,2,-5,,-1)", "canned-cycle"),
         ("CYCLE83(20,0,2,-5,,1)", "canned-cycle"),

@@ -3,13 +3,16 @@
 mod arc_planes;
 mod boring;
 mod corners;
+mod cycle_depths;
 mod cycles;
 mod face_milling;
 mod flow;
 mod frames;
 mod increments;
 mod kept_data;
+mod lathe_start;
 mod lathes;
+mod m_functions;
 mod motion;
 mod older_pockets;
 mod program_frame;

@@ -159,12 +159,12 @@ fn newer_arguments_say_what_the_depth_is() {
         ends.into_iter().map(|[_, _, z]| z).fold(f64::MAX, f64::min)
     };
     for (text, right) in [
-        ("CYCLE81(10,-5,2,-15,,0,1,12)", -15.0),
+        ("CYCLE81(10,-5,2,-15,,0,0,1,12)", -15.0),
         // A coordinate counts, whatever DPR says.
-        ("CYCLE81(10,-5,2,-15,3,0,0,2)", -15.0),
-        ("CYCLE81(10,-5,2,,10,0,1,11)", -15.0),
+        ("CYCLE81(10,-5,2,-15,3,0,0,0,2)", -15.0),
+        ("CYCLE81(10,-5,2,,10,0,0,1,11)", -15.0),
         // DP above the surface can be an increment alone.
-        ("CYCLE81(10,-5,2,10,,0,1,11)", -15.0),
+        ("CYCLE81(10,-5,2,10,,0,0,1,11)", -15.0),
         // Both are the same.
         ("CYCLE82(10,0,2,-10,,0.5,0,1,11)", -10.0),
         ("CYCLE82(10,0,2,-10,,0.5,0,1,12)", -10.0),
@@ -179,14 +179,14 @@ fn newer_arguments_say_what_the_depth_is() {
     }
     for (text, code) in [
         // Either Z-12 or Z-15: which one is not known.
-        ("CYCLE81(10,-5,2,-12,,0,1,11)", "canned-cycle"),
-        ("CYCLE81(10,0,2,-10,,0,2,11)", "not-supported"),
-        ("CYCLE81(10,0,2,-10,,10,1,11)", "not-supported"),
+        ("CYCLE81(10,-5,2,-12,,0,0,1,11)", "canned-cycle"),
+        ("CYCLE81(10,0,2,-10,,0,0,2,11)", "not-supported"),
+        ("CYCLE81(10,0,2,-10,,0,10,1,11)", "not-supported"),
         ("CYCLE82(10,0,2,-10,,3,0,1,22)", "not-supported"),
-        ("CYCLE81(10,0,2,-10,,0,1,13)", "not-supported"),
-        ("CYCLE81(10,0,2,-10,,0,1,112)", "not-supported"),
-        ("CYCLE81(10,0,2,,10,0,1,12)", "missing-word"),
-        ("CYCLE81(10,0,2,-10,,0,1,12,1)", "not-supported"),
+        ("CYCLE81(10,0,2,-10,,0,0,1,13)", "not-supported"),
+        ("CYCLE81(10,0,2,-10,,0,0,1,112)", "not-supported"),
+        ("CYCLE81(10,0,2,,10,0,0,1,12)", "missing-word"),
+        ("CYCLE81(10,0,2,-10,,0,0,1,12,1)", "not-supported"),
     ] {
         finds(&format!("G0 Z20 F300\n{text}"), &[&format!("2:1 {code}")]);
     }
@@ -216,13 +216,16 @@ fn the_speed_of_the_spindle_has_a_range() {
 
 #[test]
 fn functions_of_the_plc_are_read_over_where_they_do_nothing() {
-    let text = "H5\nG0 X1 H12.5 Y2\nH-3";
+    let text = "H5\nG0 X1 H12.5 Y2\nH-3\nH=10\nH1=2.5\nR1=4\nG0 H2=R1*2 X1";
     finds(
         text,
         &[
             "1:1 not-supported",
             "2:7 not-supported",
             "3:1 not-supported",
+            "4:1 not-supported",
+            "5:1 not-supported",
+            "7:4 not-supported",
         ],
     );
     let options = Options {
@@ -268,11 +271,24 @@ fn both_coolants_are_switched_on_in_one_block() {
 
 #[test]
 fn compensation_begins_beside_the_second_move() {
-    // With 4 mm the tool is at X-2 beside a contour that goes up from X0 (NORM).
-    for from in ["X-10 Y-10", "X10 Y-10", "X-20 Y0"] {
+    // With 4 mm the tool is at X-2 beside a contour that goes up from X0 (NORM), from however near it comes.
+    for from in [
+        "X-10 Y-10",
+        "X10 Y-10",
+        "X-20 Y0",
+        "X0 Y-1",
+        "X-1 Y0",
+        "X-0.5 Y-0.5",
+        "X0.1",
+    ] {
         let text = format!("T4 M6 D1 F500\nG0 {from}\nG1 G41 X0 Y0\nY20");
         assert_eq!(ends(&text)[1], [-2.0, 0.0, 0.0], "{from}");
     }
+}
+
+#[test]
+fn a_slower_feed_at_corners_is_read_over() {
+    assert_eq!(ends("G62 G1 X1\nG621 X2\nG1 Y1 F50"), ends("G1 X1\nX2\nY1"));
 }
 
 #[test]

@@ -18,9 +18,13 @@ fn lathe() -> Options {
 
 /// Tool 1 with a round nose of 0.8 mm radius, whose tip is that of a tool for outside (orientation 2).
 fn round_nose() -> Options {
+    nose_of(0.8)
+}
+
+fn nose_of(radius_mm: f64) -> Options {
     let mut tools = ToolTable::new();
     let tool = Tool {
-        diameter_mm: 1.6,
+        diameter_mm: 2.0 * radius_mm,
         orientation: 2,
         ..Tool::default()
     };
@@ -206,6 +210,14 @@ fn a_round_nose_finishes_with_compensation() {
         round[1..],
         [
             "21 1r", "10 1r", "10 -0.8", "10 -20", "19.2 -20", "21 -20", "21 1r"
+        ]
+    );
+    // A nose that is larger than the way to the contour (1 mm) is led to it all the same.
+    let large = ways_with(&format!("T1 M6\nD1\n{text}"), nose_of(1.5));
+    assert_eq!(
+        large[1..],
+        [
+            "21 1r", "10 1r", "10 -1.5", "10 -20", "18.5 -20", "21 -20", "21 1r"
         ]
     );
     // On a cone of 45 degrees it is 0.8 less 0.8 / root 2 deeper.

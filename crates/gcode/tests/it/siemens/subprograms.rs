@@ -109,6 +109,12 @@ fn parameters_have_the_values_of_the_call() {
     found("L1(5)", &[var], &["1:9 not-supported"]);
     finds("PROC MAIN(REAL AA)\nG0 X1", &["1:5 flow-structure"]);
     assert_eq!(xs("PROC MAIN\nG0 X1\nM30"), [1.0]);
+    // ENDPROC is an end like M17, of a program and of a subprogram.
+    assert_eq!(xs("PROC MAIN SAVE\nG0 X1\nENDPROC"), [1.0]);
+    let proc = ("L2.SPF", "PROC L2(REAL AA)\nG0 X=AA\nENDPROC");
+    assert_eq!(xs_with("L2(3)\nG0 X4\nM30", &[proc]), [3.0, 4.0]);
+    let report = check(&b"PROC MAIN\nG0 X1\nENDPROC"[..], options());
+    assert!(report.is_accepted() && report.diagnostics.is_empty());
 }
 
 #[test]

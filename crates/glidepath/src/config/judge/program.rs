@@ -6,8 +6,8 @@ use crate::config::program::ProgramConfig;
 use crate::config::raw::RawProgram;
 use glidepath_gcode::{
     Arctangent, BoreShift, Connections, Dialect, FanucControl, FanucParameters, FeedAtStart,
-    Firmware, OffsetMemory, OuterCorners, PointInput, SiemensParameters, ToolChangeBy, Units,
-    WorkOffsets,
+    Firmware, LatheX, OffsetMemory, OuterCorners, PointInput, SiemensParameters, ToolChangeBy,
+    Units, WorkOffsets,
 };
 use glidepath_geometry::Axis;
 use std::path::PathBuf;
@@ -184,6 +184,15 @@ impl Judge {
                 "program.edge_after_change",
                 raw.edge_after_change.take(),
                 &[("D1", true), ("none", false)],
+            ),
+            lathe_x: self.choice(
+                "program.lathe_x",
+                raw.lathe_x.take(),
+                &[
+                    ("diameter", LatheX::Diameter),
+                    ("radius", LatheX::Radius),
+                    ("diameter-in-G90", LatheX::DiameterInG90),
+                ],
             ),
             frame_goes_with_increments: self.choice(
                 "program.increment_after_frame",

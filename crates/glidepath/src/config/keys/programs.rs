@@ -113,6 +113,15 @@ pub(super) const PROGRAM: &[Key] = &[
          \"none\": the tool has no length until D is written",
     ),
     key(
+        "program.lathe_x",
+        Takes::Choice {
+            of: &["diameter", "radius", "diameter-in-G90"],
+        },
+        LeftOut::Value("\"diameter\""),
+        "what X words are on a SINUMERIK lathe (X and Z, without Y) before DIAMON, DIAMOF or DIAM90 \
+         (MD 20150, group 29)",
+    ),
+    key(
         "program.increment_after_frame",
         Takes::Choice {
             of: &["shifted", "alone"],

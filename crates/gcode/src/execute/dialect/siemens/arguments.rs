@@ -85,20 +85,31 @@ impl Arguments<'_> {
         BlockDiagnostic::new(DiagnosticCode::CannedCycle, self.span, message).because(reason)
     }
 
-    /// The levels: RTP, RFP, SDIS, DP, and DPR if the cycle has one.
+    /// The levels: RTP, RFP, SDIS, DP, and DPR if the cycle has one. An argument that is left out is zero on the
+    /// control, so a DPR of zero says nothing; one that does decides where DP says another depth.
     pub(super) fn levels(&self, relative: Option<f64>) -> Outcome<Levels> {
         let retract = self.need(0, "RTP", "the plane to retract to")?;
         let surface = self.need(1, "RFP", "the surface")?;
         let clearance = self.not_negative(2, "SDIS", "the clearance above the surface")?;
+        let relative = relative.filter(|depth| *depth != 0.0);
         let bottom = match relative {
             Some(depth) => surface - depth.abs(),
             None => self.need(3, "DP", "the bottom, or the depth DPR")?,
         };
-        if retract <= surface || bottom >= surface {
-            let message =
-                format!("the planes are not in order: {retract} above {surface} above {bottom}");
+        // Alarm 61101.
+        let is_low = match relative {
+            Some(_) => retract <= surface,
+            None => retract < surface,
+        };
+        if is_low || bottom >= surface {
+            let message = format!(
+                "the planes are not in order: RTP {retract}, RFP {surface}, the bottom {bottom}"
+            );
             return Err(self
-                .refused(message, "RTP is above RFP, and the bottom below it")
+                .refused(
+                    message,
+                    "RTP is above RFP (or as high, where DP is the depth), and the bottom below it",
+                )
                 .help("check RTP, RFP, DP and DPR"));
         }
         Ok(Levels {

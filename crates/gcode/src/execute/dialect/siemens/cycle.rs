@@ -2,8 +2,7 @@
 //!
 //! | cycle | arguments, in this order |
 //! |---|---|
-//! | `CYCLE81` | RTP, RFP, SDIS, DP, DPR |
-//! | `CYCLE82` | …, DTB |
+//! | `CYCLE81`, `CYCLE82` | RTP, RFP, SDIS, DP, DPR, DTB |
 //! | `CYCLE83` | RTP, RFP, SDIS, DP, DPR, FDEP, FDPR, DAM, DTB, DTS, FRF, VARI |
 //! | `CYCLE84` | RTP, RFP, SDIS, DP, DPR, DTB, SDAC, MPIT, PIT, POSS, SST, SST1, AXN, PITA, TECHNO, VARI, DAM, VRT |
 //! | `CYCLE85` | RTP, RFP, SDIS, DP, DPR, DTB, FFR, RFF |
@@ -45,7 +44,7 @@ use crate::syntax::modes::FeedMode;
 
 /// Names of cycles, and how many arguments each takes.
 const CYCLES: [(&str, usize); 19] = [
-    ("CYCLE81", 5),
+    ("CYCLE81", 6),
     ("CYCLE82", 6),
     ("CYCLE83", 12),
     ("CYCLE84", 18),

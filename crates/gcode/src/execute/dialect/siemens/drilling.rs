@@ -4,7 +4,7 @@
 //!
 //! | cycle | down | at the bottom | out |
 //! |---|---|---|---|
-//! | 81, 82 | feed | –, dwell DTB | rapid |
+//! | 81, 82 | feed | dwell DTB | rapid |
 //! | 83 | in strokes: the first to FDEP, each shorter than the one before by DAM, none shorter than DAM | dwell DTB | rapid |
 //! | 85 | feed FFR | dwell DTB | feed RFF to SDIS, rapid from there |
 //! | 86 | feed, with the spindle on (SDIR 3 or 4) | dwell DTB, the spindle stops at POSS, rapid by RPA, RPO, RPAP | rapid, and back in the plane |
@@ -126,7 +126,8 @@ impl Interpreter {
 
     /// The depths of a deep hole, down to the bottom.
     fn strokes(&self, arguments: Arguments<'_>, levels: Levels) -> Outcome<Vec<f64>> {
-        let first = match (arguments.get(6), arguments.get(5)) {
+        let relative = arguments.get(6).filter(|depth| *depth != 0.0);
+        let first = match (relative, arguments.get(5)) {
             (Some(depth), _) => levels.surface - depth.abs(),
             (None, Some(level)) => level,
             (None, None) => levels.bottom,

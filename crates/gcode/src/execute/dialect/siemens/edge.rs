@@ -36,11 +36,12 @@ impl Interpreter {
             None => return Ok(()),
         };
         if edge > 1 {
-            let message = format!("D{edge} is not supported");
+            let tool = self.state.tool;
+            let message = format!("tool {tool} has no edge D{edge}");
             return Err(
                 BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
-                    .because("a tool of the table has one edge, which is D1")
-                    .help("give the edge a tool number of its own"),
+                    .because("a tool of the table has one edge, which is D1; D does not number the offsets of all tools")
+                    .help("write D1 where the offset of this tool is meant, or give the edge a tool number of its own"),
             );
         }
         let tool = if edge == 0 {

@@ -18,7 +18,7 @@ use crate::diagnostic::span::SourceSpan;
 
 /// The cycles that have them, and which of their arguments is the dwell at the bottom.
 const HOLES: [(&str, Option<usize>); 8] = [
-    ("CYCLE81", None),
+    ("CYCLE81", Some(DTB)),
     ("CYCLE82", Some(5)),
     ("CYCLE83", Some(8)),
     ("CYCLE85", Some(5)),
@@ -34,6 +34,8 @@ const OTHERS_OF_83: [i32; 2] = [0, 10_011];
 const RFP: usize = 1;
 const DP: usize = 3;
 const DPR: usize = 4;
+/// The dwell of most of them; CYCLE81 of older controls does not have it.
+const DTB: usize = 5;
 /// By how much the strokes of CYCLE83 become shorter.
 const DAM: usize = 7;
 
@@ -72,9 +74,13 @@ impl Newer {
                 "GMODE other than 0 takes the depth for that of the shank, or for a diameter",
             ));
         }
-        if get(modes + 1).is_some_and(|plane| plane != 0.0 && Some(plane) != number_of(self.plane))
-        {
-            return Err(self.more("DMODE names another plane than the one in force"));
+        let plane = get(modes + 1).filter(|plane| *plane != 0.0);
+        if plane.is_some() && plane != number_of(self.plane) && !self.is_without_dwell(arguments) {
+            return Err(self.more(if self.name == "CYCLE81" {
+                "behind DTB and GMODE, DMODE names another plane than the one in force"
+            } else {
+                "DMODE names another plane than the one in force"
+            }));
         }
         let amode = whole(get(modes + 2).unwrap_or(0.0));
         let known: &[i32] = if is_deep { &OTHERS_OF_83 } else { &[0] };
@@ -104,11 +110,21 @@ impl Newer {
         }
     }
 
+    /// CYCLE81 of a post that leaves DTB out, so that AMODE 10 stands where the control reads DMODE: with zeros before
+    /// it, it is the same hole either way.
+    fn is_without_dwell(self, arguments: &[Option<f64>]) -> bool {
+        let zeros = arguments.iter().skip(DTB).take(2).flatten();
+        self.name == "CYCLE81"
+            && zeros.copied().all(|value| value == 0.0)
+            && matches!(arguments.get(DTB + 2..), Some([Some(10.0)]))
+    }
+
     /// The depth is an increment: DPR, or DP where it cannot be a coordinate below the surface, or is the
     /// same as one.
     fn increment(self, arguments: &mut [Option<f64>]) -> Outcome<()> {
         let get = |index: usize| arguments.get(index).copied().flatten();
-        let (None, Some(depth)) = (get(DPR), get(DP)) else {
+        let written = get(DPR).filter(|depth| *depth != 0.0);
+        let (None, Some(depth)) = (written, get(DP)) else {
             return Ok(());
         };
         let surface = get(RFP).unwrap_or(0.0);

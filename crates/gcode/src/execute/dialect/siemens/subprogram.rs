@@ -1,9 +1,9 @@
-//! Subprograms: `L771 P3`, `NAME(5, 2)`, PROC, RET, M17.
+//! Subprograms: `L771 P3`, `NAME(5, 2)`, PROC, RET, ENDPROC, M17.
 //!
 //! A subprogram is looked for in the program, behind a line `%_N_NAME_SPF`, then in a file of its
 //! own: `NAME.SPF`, `name.spf`, `_N_NAME_SPF` ([`file_names`] has the order). What a path names
 //! ([`named_call`](super::named_call)) is of the kind that the path says. It has variables of its
-//! own, and those that PROC names have the values of the call. It ends at M17, RET, M2, M30 or with
+//! own, and those that PROC names have the values of the call. It ends at M17, RET, ENDPROC, M2, M30 or with
 //! its text. What it leaves in force stays so, but for the modes and the frame where PROC says SAVE.
 
 use std::io::BufRead;

@@ -79,16 +79,31 @@ impl Writer<'_> {
 
     /// `H5`, `H5.5`: a function of the machine's PLC.
     fn plc_function(&mut self, span: SourceSpan, name: &[u8]) -> Outcome<()> {
+        self.check_plc_function(span, name)?;
+        self.input.at = span.start + 1;
+        while matches!(self.input.peek(0), Some(b'0'..=b'9' | b'.' | b'-' | b'+')) {
+            self.input.at += 1;
+        }
+        Ok(())
+    }
+
+    /// `H=5`, `H1=R1`: the same.
+    pub(super) fn computed_plc_function(&mut self, start: usize, name: &[u8]) -> Outcome<()> {
+        self.check_plc_function(SourceSpan::new(start, start + name.len()), name)?;
+        self.input.at = start + name.len();
+        self.input.eat(b'=');
+        self.input.value()?;
+        Ok(())
+    }
+
+    /// Refuses a function of the PLC, unless it does nothing on this machine.
+    fn check_plc_function(&self, span: SourceSpan, name: &[u8]) -> Outcome<()> {
         if self.names.scope.system_value(b"H", &[]) != Some(1.0) {
             let shown = String::from_utf8_lossy(name);
             let message = format!("{shown} (a function of the machine's PLC) is not supported");
             return Err(BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
                 .because("it could have been meant to stop or to clamp something")
                 .help("write an M code with a table [m_codes.M…] in its place, or set h_words = \"read-over\" in [program] if it does nothing on this machine"));
-        }
-        self.input.at = span.start + 1;
-        while matches!(self.input.peek(0), Some(b'0'..=b'9' | b'.' | b'-' | b'+')) {
-            self.input.at += 1;
         }
         Ok(())
     }

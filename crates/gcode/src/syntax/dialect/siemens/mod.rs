@@ -15,7 +15,7 @@
 //! | `G60` | `G61.1` |
 //! | `G710`, `G700` | `G21`, `G20` |
 //! | `G4 F` | `G4 P` |
-//! | `M17`, `RET` | `M2`; in a subprogram nothing, and so do `M2` and `M30` |
+//! | `M17`, `RET`, `ENDPROC` | `M2`; in a subprogram nothing, and so do `M2` and `M30` |
 //! | `MSG( )`, `;`, `%_N_…`, `G601` … `G603`, `SOFT`, `FFWON` … | nothing |
 //!
 //! Structures, jumps, declarations, frames and cycles are [`statement`]s of their own.

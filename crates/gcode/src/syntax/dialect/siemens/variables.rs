@@ -199,6 +199,15 @@ pub(crate) fn element_at(sizes: &[usize], indices: &[f64], span: SourceSpan) -> 
                 .help(help),
         )
     };
+    if indices.is_empty() {
+        return Err(BlockDiagnostic::new(
+            DiagnosticCode::Parameter,
+            span,
+            "an array without an index is not supported",
+        )
+        .because("a value is one element; a subprogram takes no arrays here (VAR REAL[3])")
+        .help("write the index of an element, or give the values by R parameters"));
+    }
     if sizes.len() != indices.len() {
         let (given, wanted) = (indices.len(), sizes.len());
         let message = format!("{given} indices of an array that has {wanted}");

@@ -216,12 +216,15 @@ impl Writer<'_> {
             (b"CYCLE832", _) => self.tolerance_cycle(start, length),
             (b"TRAORI", false) => self.orientation(start, length),
             (b"FGROUP", false) => self.feed_group(start, length),
-            (b"RET", false) => self.return_to_caller(start, length),
+            (b"RET" | b"ENDPROC", false) => self.return_to_caller(start, length),
             (b"CTOL", true) => self.contour_tolerance(start, length),
             // The first spindle, which is the only one.
             (b"S" | b"S1", true) if self.speed_range().is_some() => {
                 let limit = self.speed_range().unwrap_or_default();
                 self.value_of(start, length, limit, 0.0)
+            }
+            ([b'H', number @ ..], true) if number.iter().all(u8::is_ascii_digit) => {
+                self.computed_plc_function(start, &name)
             }
             (b"M" | b"M1", true) => self.computed_m_code(start, length),
             (b"SPOS", false) if self.input.peek(length) == Some(b'[') => self.spindle_angle(start),
@@ -261,7 +264,7 @@ impl Writer<'_> {
         self.value_of(start, name.len(), letters, plus)
     }
 
-    /// `RET`.
+    /// `RET`, `ENDPROC`.
     fn return_to_caller(&mut self, start: usize, length: usize) -> Outcome<()> {
         let span = SourceSpan::new(start, start + length);
         let rest = self.input.text.get(start + length..).unwrap_or_default();

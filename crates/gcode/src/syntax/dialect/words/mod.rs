@@ -14,6 +14,7 @@ pub(crate) mod siemens_names;
 use crate::diagnostic::block_diagnostic::BlockDiagnostic;
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::span::SourceSpan;
+use crate::setup::m_codes::MCodes;
 use crate::syntax::dialect::Dialect;
 
 /// What is made of a code of a dialect.
@@ -58,7 +59,16 @@ pub(crate) fn no_m(dialect: Dialect, value: f64, span: SourceSpan) -> Box<BlockD
     let message = format!("there is no M{value} in the dialect {dialect}");
     BlockDiagnostic::new(DiagnosticCode::UnknownMCode, span, message)
         .because("an M code of the machine's builder could have been meant to stop something")
-        .help(format!(
+        .help(declare(value))
+}
+
+/// What can be done about an M code that is not known.
+pub(crate) fn declare(value: f64) -> String {
+    if MCodes::can_be_declared(value) {
+        format!(
             "declare what it waits for by a table [m_codes.M{value}] in the configuration, or remove it"
-        ))
+        )
+    } else {
+        "remove it, or put it into a comment".to_owned()
+    }
 }

@@ -28,7 +28,8 @@ pub(crate) const fn g(number: u32) -> Option<Meaning> {
         | 961
         | 971..=973 => Own,
         // Windows of exact stops, how corners of G41 and G42 are gone round, and this language: see the manual.
-        290 | 450 | 601..=603 => ReadOver,
+        // G62 and G621: the feed is less at inner corners, or at all of them, by an override.
+        62 | 290 | 450 | 601..=603 | 621 => ReadOver,
         5 | 7 => Refused("an inclined axis", PLAIN),
         34 | 35 => Refused("a thread whose pitch changes", PLAIN),
         63 => Refused("tapping with a compensating chuck", "write CYCLE84"),
@@ -43,7 +44,6 @@ pub(crate) const fn g(number: u32) -> Option<Meaning> {
         ),
         451 => Refused("a corner cut at the crossing of its sides", "write G450"),
         460..=462 => Refused("a way to and from the contour", "write it out"),
-        621 => Refused("a stop at every corner", "write G60"),
         810..=829 => Refused("a code of the machine's builder", "remove it"),
         931 | 942 | 952 | 962 | 963 => Refused(
             "a meaning of F and S in one code",
@@ -62,6 +62,10 @@ pub(crate) const fn m(number: u32) -> Option<Meaning> {
         // Stages of the gear: what S says is the speed of the spindle.
         40..=45 => ReadOver,
         70 => Refused("the spindle as an axis", "write M19"),
+        66 => Refused(
+            "a code of the machine's builder",
+            "remove it: the number is taken by the machine's own inputs",
+        ),
         48..=53 | 60..=69 | 71..=73 => Refused("a code of the machine's builder", DECLARE),
         _ => return None,
     })

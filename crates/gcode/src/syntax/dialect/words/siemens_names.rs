@@ -81,9 +81,9 @@ const READ_OVER: &[&str] = &[
 /// Names whose meaning is made.
 const MADE: &[&str] = &[
     "SUPA", "CIP", "CT", "DIAMON", "DIAMOF", "DIAM90", "CFC", "CFIN", "CFTCP", "TRAORI", "TRAFOOF",
-    "CYCLE800", "CYCLE832", "CTOL", "RET", "AP", "RP", "AR", "ANG", "ANG1", "ANG2", "CR", "TURN",
-    "RND", "RNDM", "CHR", "CHF", "FRC", "FRCM", "FB", "ADIS", "LIMS", "SPOS", "SETMS", "SF",
-    "FGROUP", "CALL", "PCALL", "EXTCALL", "ORIVECT", "ORIPLANE", "ORIAXES",
+    "CYCLE800", "CYCLE832", "CTOL", "RET", "ENDPROC", "AP", "RP", "AR", "ANG", "ANG1", "ANG2",
+    "CR", "TURN", "RND", "RNDM", "CHR", "CHF", "FRC", "FRCM", "FB", "ADIS", "LIMS", "SPOS",
+    "SETMS", "SF", "FGROUP", "CALL", "PCALL", "EXTCALL", "ORIVECT", "ORIPLANE", "ORIAXES",
 ];
 
 /// Names that are refused: what they are, and what to do instead.
