@@ -6,8 +6,8 @@ use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::block::{Block, CornerKind};
-use crate::syntax::codes::{FrameCode, TiltCode};
 use crate::syntax::dialect::Dialect;
+use crate::syntax::frame_codes::{FrameCode, TiltCode};
 use crate::syntax::letters::{AXIS_WORDS, Letters};
 use crate::syntax::modes::{
     CannedCycle, CutterRadius, LatheCycle, Motion, NonModal, SpindleMode, Spline, ToolLength,

@@ -9,6 +9,7 @@ use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::span::SourceSpan;
 use crate::setup::m_codes::MCodes;
+use crate::syntax::frame_codes::{FrameCode, TiltCode};
 use crate::syntax::modes::{
     ArcFeed, CannedCycle, CutterRadius, Distance, FeedMode, LatheCycle, Motion, NonModal, Pockets,
     Probe, Retract, Side, SpindleMode, Spline, Stop, ToolLength, Units,
@@ -24,40 +25,6 @@ pub(crate) struct Coded<T> {
 
 /// The index of no coordinate system: its zero is that of the machine.
 pub(crate) const NO_SYSTEM: usize = usize::MAX;
-
-/// What FANUC makes of the coordinates of a program; true where it begins.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum FrameCode {
-    /// G51, G50.
-    Scale(bool),
-    /// G51.1, G50.1.
-    Mirror(bool),
-    /// G68, G69.
-    Turn(bool),
-}
-
-impl FrameCode {
-    /// The codes that end what needs no words.
-    pub(crate) const ENDS: [Self; 2] = [Self::Scale(false), Self::Turn(false)];
-
-    /// The place of a code in [`Self::ENDS`].
-    pub(crate) const fn ends(self) -> Option<usize> {
-        match self {
-            Self::Scale(false) => Some(0),
-            Self::Turn(false) => Some(1),
-            _ => None,
-        }
-    }
-}
-
-/// What FANUC makes of a tilted plane.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum TiltCode {
-    /// G68.2.
-    Plane,
-    /// G53.1.
-    Align,
-}
 
 /// Most M words of a block of SINUMERIK's.
 pub(crate) const MOST_M: usize = 5;

@@ -22,6 +22,7 @@ pub(crate) mod dialect;
 pub(crate) mod duplicate_word;
 pub(crate) mod expression;
 mod foreign;
+pub(crate) mod frame_codes;
 pub(crate) mod letters;
 pub(crate) mod line_source;
 pub(crate) mod modes;

@@ -4,13 +4,12 @@ use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::span::SourceSpan;
 use crate::setup::m_codes::MCodes;
-use crate::syntax::codes::{
-    Coded, Codes, FrameCode, MOST_M, NO_SYSTEM, TiltCode, code_number, set,
-};
+use crate::syntax::codes::{Coded, Codes, MOST_M, NO_SYSTEM, code_number, set};
 use crate::syntax::dialect::Dialect;
 use crate::syntax::dialect::marlin::{function_with_decimal, is_function};
 use crate::syntax::dialect::words::fanuc_systems::{OtherSystem, SystemCode};
 use crate::syntax::dialect::words::{Meaning, fanuc, fanuc_lathe, marlin, no_g, no_m, refused};
+use crate::syntax::frame_codes::{FrameCode, TiltCode};
 use crate::syntax::modes::{
     ArcFeed, CannedCycle, FeedMode, LatheCycle, Motion, NonModal, Pockets, PoleFrom, Probe,
     SpindleMode, Stop, ToolLength, Turning, Units,

@@ -7,7 +7,8 @@ use crate::diagnostic::code::DiagnosticCode;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::state::fanuc_offsets::{FanucFrames, Scale, Turn};
 use crate::syntax::block::Block;
-use crate::syntax::codes::{Coded, FrameCode};
+use crate::syntax::codes::Coded;
+use crate::syntax::frame_codes::FrameCode;
 use crate::syntax::modes::Distance;
 use crate::syntax::word_check::missing;
 

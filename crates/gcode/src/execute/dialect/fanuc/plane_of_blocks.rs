@@ -17,7 +17,8 @@ use crate::execute::interpreter::Interpreter;
 use crate::execute::state::frame::Frame;
 use crate::execute::state::open_plane::OpenPlane;
 use crate::syntax::block::Block;
-use crate::syntax::codes::{Coded, FrameCode, TiltCode};
+use crate::syntax::codes::Coded;
+use crate::syntax::frame_codes::{FrameCode, TiltCode};
 use crate::syntax::letters::Letters;
 use crate::syntax::word_check::{missing, whole};
 

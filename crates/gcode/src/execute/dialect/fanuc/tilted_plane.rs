@@ -17,7 +17,8 @@ use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::tilted_plane::Branch;
 use crate::execute::state::frame::Frame;
 use crate::syntax::block::Block;
-use crate::syntax::codes::{Coded, TiltCode};
+use crate::syntax::codes::Coded;
+use crate::syntax::frame_codes::TiltCode;
 use crate::syntax::word_check::whole;
 
 impl Interpreter {
