@@ -1,6 +1,6 @@
 //! The M codes of the machine's own, beside those that every program may use.
 
-use crate::syntax::codes::code_number;
+use crate::syntax::number::code_number;
 
 /// The place at which the motion waits until an M code is answered, if it is waited for at all.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

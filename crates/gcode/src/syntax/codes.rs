@@ -14,6 +14,7 @@ use crate::syntax::modes::{
     ArcFeed, CannedCycle, CutterRadius, Distance, FeedMode, LatheCycle, Motion, NonModal, Pockets,
     Probe, Retract, Side, SpindleMode, Spline, Stop, ToolLength, Units,
 };
+use crate::syntax::number::code_number;
 use crate::syntax::refused::{refused_g, refused_m, unknown_g, unknown_m};
 
 /// A code and where it stands.
@@ -344,18 +345,6 @@ const fn system_index(tenths: u32) -> usize {
         592 => 7,
         _ => 8,
     }
-}
-
-/// The whole number a code's value stands for; a computed value may be off by rounding.
-pub(crate) fn code_number(value: f64) -> Option<u32> {
-    let nearest = value.round();
-    let whole = (value - nearest).abs() < 1e-4 && (0.0..10_000.0).contains(&nearest);
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "range checked"
-    )]
-    whole.then_some(nearest as u32)
 }
 
 pub(super) fn set<T>(slot: &mut Option<Coded<T>>, code: T, span: SourceSpan) -> Outcome<()> {

@@ -27,7 +27,7 @@ pub(crate) mod letters;
 pub(crate) mod line_source;
 pub(crate) mod modes;
 pub(crate) mod named_word;
-mod number;
+pub(crate) mod number;
 pub(crate) mod o_word;
 pub(crate) mod plain_line;
 pub(crate) mod refused;

@@ -224,6 +224,18 @@ const fn to_f64(mantissa: u64) -> f64 {
     mantissa as f64
 }
 
+/// The whole number a code's value stands for; a computed value may be off by rounding.
+pub(crate) fn code_number(value: f64) -> Option<u32> {
+    let nearest = value.round();
+    let whole = (value - nearest).abs() < 1e-4 && (0.0..10_000.0).contains(&nearest);
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "range checked"
+    )]
+    whole.then_some(nearest as u32)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

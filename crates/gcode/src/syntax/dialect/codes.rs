@@ -4,7 +4,7 @@ use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::span::SourceSpan;
 use crate::setup::m_codes::MCodes;
-use crate::syntax::codes::{Coded, Codes, MOST_M, NO_SYSTEM, code_number, set};
+use crate::syntax::codes::{Coded, Codes, MOST_M, NO_SYSTEM, set};
 use crate::syntax::dialect::Dialect;
 use crate::syntax::dialect::marlin::{function_with_decimal, is_function};
 use crate::syntax::dialect::words::fanuc_systems::{OtherSystem, SystemCode};
@@ -14,6 +14,7 @@ use crate::syntax::modes::{
     ArcFeed, CannedCycle, FeedMode, LatheCycle, Motion, NonModal, Pockets, PoleFrom, Probe,
     SpindleMode, Stop, ToolLength, Turning, Units,
 };
+use crate::syntax::number::code_number;
 use glidepath_program::PathMode;
 
 impl Codes {

@@ -5,7 +5,7 @@ use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::span::SourceSpan;
 use crate::setup::m_codes::MCodes;
 use crate::setup::machine::Machine;
-use crate::syntax::codes::{Codes, code_number};
+use crate::syntax::codes::Codes;
 use crate::syntax::dialect::bare_words::{bare_words, value};
 use crate::syntax::dialect::lathe_marks::{LatheMark, lathe_mark};
 use crate::syntax::dialect::marlin::is_function;
@@ -13,6 +13,7 @@ use crate::syntax::dialect::words::{
     Meaning, fanuc, fanuc_lathe, marlin as printer, siemens as sinumerik,
 };
 use crate::syntax::dialect::{Dialect, fanuc_marks, marlin, siemens};
+use crate::syntax::number::code_number;
 
 /// Every dialect.
 const ALL: [Dialect; 4] = [

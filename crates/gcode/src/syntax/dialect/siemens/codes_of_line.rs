@@ -4,7 +4,6 @@
 use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::span::SourceSpan;
-use crate::syntax::codes::code_number;
 use crate::syntax::dialect::Dialect;
 use crate::syntax::dialect::bare_words::{bare_words, has_letter, without_comments};
 use crate::syntax::dialect::siemens::computed_words::no_address;
@@ -12,6 +11,7 @@ use crate::syntax::dialect::siemens::writer::Writer;
 use crate::syntax::dialect::words::siemens::{self as words, ADDRESSES};
 use crate::syntax::dialect::words::{Meaning, no_g, no_m, refused};
 use crate::syntax::letters::AXIS_LETTERS;
+use crate::syntax::number::code_number;
 use crate::syntax::word_check::missing;
 
 /// The number that digits write.
