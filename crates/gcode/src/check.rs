@@ -10,6 +10,7 @@ use crate::diagnostic::{Diagnostic, MAX_DIAGNOSTICS};
 use crate::execute::cycle_words::name;
 use crate::execute::program::Program;
 use crate::setup::options::Options;
+use crate::setup::siemens::LatheX;
 use crate::summary::part_box::{PartBox, PartBoxes};
 use crate::summary::survey::Survey;
 use crate::summary::totals::Totals;
@@ -33,6 +34,9 @@ pub struct Report {
     /// A FANUC program moves before it says its units, and nothing else says them: it is read in millimetres, and is
     /// 25.4 times too small if inches were meant.
     pub lacks_units: bool,
+    /// A program of a SINUMERIK's lathe moves before it says what X is, and nothing else says it: it is read as a radius,
+    /// and the part is twice as thick if diameters were meant.
+    pub lacks_diameter: bool,
     /// Counts and sums over the blocks without diagnostics.
     pub totals: Totals,
     /// Where the feed moves go, in the coordinates of each coordinate system that they are in; none of a curve, which
@@ -79,6 +83,8 @@ pub struct Diagnostics {
     pub lacks_end: bool,
     /// As [`Report::lacks_units`].
     pub lacks_units: bool,
+    /// As [`Report::lacks_diameter`].
+    pub lacks_diameter: bool,
     /// Lines read, as [`Totals::lines`].
     pub lines: u32,
     /// The time that feed moves, at their feedrate, and dwells take at least, s: those without diagnostics.
@@ -103,6 +109,7 @@ pub fn check<R: BufRead>(reader: R, options: Options) -> Report {
         given_up_at: found.given_up_at,
         lacks_end: found.lacks_end,
         lacks_units: found.lacks_units,
+        lacks_diameter: found.lacks_diameter,
         totals: *program.totals(),
         part: part.into_boxes(),
         survey,
@@ -139,6 +146,8 @@ fn read<R: BufRead>(
     let mut without_tools = WithoutTools::default();
     let mut bred = Bred::default();
     let mut says_units = begins_with_units(&program.interpreter.options);
+    let mut says_diameter = begins_with_diameter(&program.interpreter.options);
+    let begins_at = *Program::position(program);
     loop {
         if program.kept_lines() >= most {
             found.given_up_at = Some(program.line_of_program());
@@ -148,8 +157,13 @@ fn read<R: BufRead>(
             Some(Ok(())) => {
                 bred.is_series_in_doubt &= program.block().codes.motion.is_none();
                 let program = &*program;
-                says_units |= program.block().codes.units.is_some();
-                found.lacks_units |= !says_units && program.items().iter().any(is_move);
+                let codes = &program.block().codes;
+                says_units |= codes.units.is_some();
+                says_diameter |= codes.diameter.is_some() || codes.diameter_by_distance.is_some();
+                if !(says_units && says_diameter) && *Program::position(program) != begins_at {
+                    found.lacks_units |= !says_units;
+                    found.lacks_diameter |= !says_diameter;
+                }
                 program.items().iter().for_each(|item| see(program, item));
             }
             Some(Err(diagnostic)) => {
@@ -183,8 +197,9 @@ const fn begins_with_units(options: &Options) -> bool {
         || options.in_force.is_some()
 }
 
-const fn is_move(item: &Item) -> bool {
-    matches!(item.kind, ItemKind::Move { .. })
+/// Whether something else than the program says whether X is a diameter where it begins.
+fn begins_with_diameter(options: &Options) -> bool {
+    !options.is_siemens_lathe() || options.siemens.lathe_x != LatheX::Unsaid
 }
 
 /// Diagnostics that are consequences of one before: a block whose words were not understood may have

@@ -28,7 +28,7 @@ pub(super) fn siemens_x_at_start(options: &Options, state: &mut State) {
         let x = options.siemens.lathe_x;
         state.modal.diameter = match x {
             LatheX::Diameter => true,
-            LatheX::Radius => false,
+            LatheX::Unsaid | LatheX::Radius => false,
             LatheX::DiameterInG90 => state.modal.distance == Distance::Absolute,
         };
         state.diameter_by_distance = x == LatheX::DiameterInG90;

@@ -12,6 +12,8 @@ pub enum ToolChangeBy {
 /// What X words are where a program of a lathe begins (MD 20150, group 29).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LatheX {
+    /// Not said: a radius, which is told where a program moves before it says what X is.
+    Unsaid,
     /// Diameters (DIAMON).
     Diameter,
     /// Radii (DIAMOF).
@@ -44,12 +46,12 @@ pub struct SiemensParameters {
 }
 
 impl Default for SiemensParameters {
-    /// By the machine, and D1; X of a lathe is a diameter; increments go the shifts before them; H is refused.
+    /// By the machine, and D1; X of a lathe is not said; increments go the shifts before them; H is refused.
     fn default() -> Self {
         Self {
             tool_change: None,
             edge_after_change: true,
-            lathe_x: LatheX::Diameter,
+            lathe_x: LatheX::Unsaid,
             frame_goes_with_increments: true,
             length_goes_with_increments: true,
             reads_over_h: false,

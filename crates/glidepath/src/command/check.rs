@@ -26,6 +26,10 @@ const NO_END: &str =
 const NO_UNITS: &str = "it moves before G20 or G21, and is read in millimetres: write one of them, or say with which the \
                         control begins: `units` of [program] in the configuration";
 
+/// What is said of a SINUMERIK program of a lathe without diameters or radii.
+const NO_DIAMETER: &str = "it moves before DIAMON or DIAMOF, and X is read as a radius: write one of them, or say what X is \
+                           where a program begins: `lathe_x` of [program] in the configuration";
+
 /// Reads every program to its end.
 ///
 /// # Errors
@@ -114,7 +118,7 @@ pub(super) fn accepted(
     progress.finish();
     let mut found = found.map_err(FileError::open(file.name()))?;
     if found.diagnostics.is_empty() {
-        for warning in warnings(found.lacks_end, found.lacks_units) {
+        for warning in warnings([found.lacks_end, found.lacks_units, found.lacks_diameter]) {
             output::note(&format!("{}: warning: {warning}", file.name().display()));
         }
     }
@@ -189,7 +193,7 @@ fn print(name: &str, report: &Report) {
         totals.rapid_length_mm
     ));
     output::result(&survey(report));
-    for warning in warnings(report.lacks_end, report.lacks_units) {
+    for warning in warnings([report.lacks_end, report.lacks_units, report.lacks_diameter]) {
         output::note(&format!("{name}: warning: {warning}"));
     }
     if let Some(line) = report.given_up_at {
@@ -197,10 +201,13 @@ fn print(name: &str, report: &Report) {
     }
 }
 
-/// What is said of a program that is no mistake for certain.
-fn warnings(lacks_end: bool, lacks_units: bool) -> impl Iterator<Item = &'static str> {
-    let end = lacks_end.then_some(NO_END);
-    end.into_iter().chain(lacks_units.then_some(NO_UNITS))
+/// What is said of a program that is no mistake for certain: that it lacks its end, its units, or what X is.
+fn warnings(lacks: [bool; 3]) -> impl Iterator<Item = &'static str> {
+    let words = [NO_END, NO_UNITS, NO_DIAMETER];
+    words
+        .into_iter()
+        .zip(lacks)
+        .filter_map(|(words, is_told)| is_told.then_some(words))
 }
 
 /// That a program was not checked to its end.
@@ -294,7 +301,7 @@ fn program(name: &str, report: &Report) -> Value {
             "position": corner.at.as_slice(),
         })),
         "soft_limit_violations": report.soft_limit_violations(),
-        "warnings": warnings(report.lacks_end, report.lacks_units).collect::<Vec<_>>(),
+        "warnings": warnings([report.lacks_end, report.lacks_units, report.lacks_diameter]).collect::<Vec<_>>(),
         "findings": findings,
         "findings_not_shown": report.more,
     })

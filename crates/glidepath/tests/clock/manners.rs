@@ -118,7 +118,11 @@ fn a_fanuc_program_whose_units_nobody_says_is_told() {
         std::fs::write(&path, text).unwrap();
         path.to_str().unwrap().to_owned()
     };
-    let inches = file("inch.toml", "[program]\nunits = \"inch\"\n");
+    let mill = concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/mill.toml");
+    let mill = std::fs::read_to_string(mill).unwrap();
+    let text = mill.replace("\nunits = \"unsaid\"", "\nunits = \"inch\"");
+    assert_ne!(text, mill);
+    let inches = file("inch.toml", &text);
     let unsaid = file("unsaid.nc", "O1\nG90 G94\nG1 X2. F10.\nM30\n");
     let said = file("said.nc", "O1\nG20 G90 G94\nG1 X2. F10.\nM30\n");
     let told = |args: &[&str]| {

@@ -221,6 +221,7 @@ pub fn check_file(
             given_up_at: None,
             lacks_end: false,
             lacks_units: false,
+            lacks_diameter: false,
             totals: glidepath_gcode::Totals::default(),
             part: Vec::new(),
             survey: glidepath_gcode::Survey::default(),
@@ -250,6 +251,7 @@ pub fn find_in_file(
         given_up_at: report.given_up_at,
         lacks_end: report.lacks_end,
         lacks_units: report.lacks_units,
+        lacks_diameter: report.lacks_diameter,
         lines: report.totals.lines,
         least_time_s: report.totals.feed_time_s + report.totals.dwell_s,
     })

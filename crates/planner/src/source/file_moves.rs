@@ -122,6 +122,7 @@ impl FileMoves {
             more: 0,
             lacks_end: false,
             lacks_units: false,
+            lacks_diameter: false,
             given_up_at: found.gave_up.then_some(self.line),
             totals: self.totals,
             part: Vec::new(),

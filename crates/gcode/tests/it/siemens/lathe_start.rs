@@ -1,6 +1,6 @@
 //! Tests of where programs of SINUMERIK's lathes begin: in G18, and with X as the configuration says.
 
-use glidepath_gcode::{Dialect, LatheX, Machine, Options, Program, SiemensParameters};
+use glidepath_gcode::{Dialect, LatheX, Machine, Options, Program, SiemensParameters, check};
 use glidepath_geometry::{Axis, Segment};
 use glidepath_program::ItemKind;
 
@@ -36,17 +36,13 @@ fn xs(text: &str, lathe_x: LatheX) -> Vec<f64> {
 }
 
 #[test]
-fn a_lathe_begins_in_g18_and_with_diameters() {
-    let (ends, _) = read(
-        "G0 X20 Z-10\nG3 X30 Z-15 CR=5",
-        Options {
-            machine: Machine::new(&[Axis::X, Axis::Z]),
-            ..options()
-        },
-    );
-    assert_eq!(ends, [[10.0, -10.0], [15.0, -15.0]]);
-    // A quarter of a circle about X 10, Z -15, whose radius is no diameter.
+fn a_lathe_begins_in_g18() {
     let text = "G0 X20 Z-10\nG3 X30 Z-15 CR=5";
+    let (ends, _) = read(text, lathe(LatheX::Diameter));
+    assert_eq!(ends, [[10.0, -10.0], [15.0, -15.0]]);
+    let (ends, _) = read("G0 X20 Z-10\nG3 X30 Z-20 CR=10", lathe(LatheX::Unsaid));
+    assert_eq!(ends, [[20.0, -10.0], [30.0, -20.0]]);
+    // A quarter of a circle about X 10, Z -15, whose radius is no diameter.
     let arc = Program::new(text.as_bytes(), lathe(LatheX::Diameter))
         .filter_map(Result::ok)
         .find_map(|item| match item.kind {
@@ -58,6 +54,21 @@ fn a_lathe_begins_in_g18_and_with_diameters() {
         })
         .expect("an arc");
     assert!((arc.sweep_rad.abs() - std::f64::consts::FRAC_PI_2).abs() < 1e-9);
+}
+
+#[test]
+fn an_x_that_nothing_says_is_told() {
+    let lacks = |text: &str, options: Options| check(text.as_bytes(), options).lacks_diameter;
+    let text = "G0 X20 Z2\nM30\n";
+    assert!(lacks(text, lathe(LatheX::Unsaid)));
+    for said in [LatheX::Diameter, LatheX::Radius, LatheX::DiameterInG90] {
+        assert!(!lacks(text, lathe(said)), "{said:?}");
+    }
+    for word in ["DIAMON", "DIAMOF", "DIAM90"] {
+        let text = format!("{word}\n{text}");
+        assert!(!lacks(&text, lathe(LatheX::Unsaid)), "{text}");
+    }
+    assert!(!lacks(text, options()), "a mill has no diameters");
 }
 
 #[test]

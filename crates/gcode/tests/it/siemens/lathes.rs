@@ -2,9 +2,7 @@
 
 use std::sync::Arc;
 
-use glidepath_gcode::{
-    LatheX, Machine, Options, Program, SiemensParameters, Threading, Tool, ToolTable, check,
-};
+use glidepath_gcode::{Machine, Options, Program, Threading, Tool, ToolTable, check};
 use glidepath_geometry::Axis;
 use glidepath_program::{Event, ItemKind, Limits, PHASE_STEPS, Rate};
 
@@ -19,10 +17,6 @@ fn lathe() -> Options {
     Options {
         tools: Some(Arc::new(tools)),
         machine: Machine::new(&[Axis::X, Axis::Z]),
-        siemens: SiemensParameters {
-            lathe_x: LatheX::Radius,
-            ..SiemensParameters::default()
-        },
         threading: Some(Threading::new(
             Limits::uniform(200.0, 2_000.0, 40_000.0),
             0.004,

@@ -189,6 +189,7 @@ impl Judge {
                 "program.lathe_x",
                 raw.lathe_x.take(),
                 &[
+                    ("unsaid", LatheX::Unsaid),
                     ("diameter", LatheX::Diameter),
                     ("radius", LatheX::Radius),
                     ("diameter-in-G90", LatheX::DiameterInG90),

@@ -115,11 +115,11 @@ pub(super) const PROGRAM: &[Key] = &[
     key(
         "program.lathe_x",
         Takes::Choice {
-            of: &["diameter", "radius", "diameter-in-G90"],
+            of: &["unsaid", "diameter", "radius", "diameter-in-G90"],
         },
-        LeftOut::Value("\"diameter\""),
+        LeftOut::Value("\"unsaid\""),
         "what X words are on a SINUMERIK lathe (X and Z, without Y) before DIAMON, DIAMOF or DIAM90 \
-         (MD 20150, group 29)",
+         (MD 20150, group 29); \"unsaid\": radii, with a warning",
     ),
     key(
         "program.increment_after_frame",
