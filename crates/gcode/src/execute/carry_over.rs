@@ -57,6 +57,7 @@ impl<R: BufRead> Program<R> {
             parameters,
             dialect: self.block.dialect,
             is_lathe: self.block.is_lathe,
+            is_typed: self.is_typed,
         }))
     }
 
@@ -69,6 +70,7 @@ impl<R: BufRead> Program<R> {
             parameters,
             dialect,
             is_lathe,
+            is_typed,
         } = in_force.0.as_ref();
         let interpreter = &mut self.interpreter;
         let start = interpreter.options.start;
@@ -81,7 +83,7 @@ impl<R: BufRead> Program<R> {
         interpreter.state.contour_plane = None;
         interpreter.state.rounds_mm = 0.0;
         interpreter.state.corner_feed = None;
-        interpreter.state.diameter_by_distance = false;
+        interpreter.state.diameter_by_distance &= *is_typed;
         interpreter.state.pole = Pole::default();
         interpreter.state.feeds_in_mm = false;
         let map = interpreter.tip_map();
@@ -103,7 +105,9 @@ impl<R: BufRead> Program<R> {
         if parameters.is_like(&self.parameters) {
             self.parameters = parameters.clone();
         }
-        siemens_x_at_start(&self.interpreter.options, &mut self.interpreter.state);
+        if !*is_typed {
+            siemens_x_at_start(&self.interpreter.options, &mut self.interpreter.state);
+        }
         if self.block.is_lathe && *is_lathe {
             self.interpreter.state.fanuc.is_feed_unsaid = state.fanuc.is_feed_unsaid;
         } else if *dialect != self.block.dialect || self.block.is_lathe != *is_lathe {

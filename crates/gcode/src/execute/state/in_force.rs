@@ -31,6 +31,8 @@ pub(crate) struct InForceParts {
     pub(crate) dialect: Dialect,
     /// It was one of FANUC's lathes; those of SINUMERIK are told by the machine.
     pub(crate) is_lathe: bool,
+    /// It was typed: what the next line, or program, begins with is what was typed, and not what a control begins with.
+    pub(crate) is_typed: bool,
     pub(crate) state: State,
     pub(crate) parameters: Parameters,
 }
@@ -42,6 +44,8 @@ struct Written {
     dialect: Dialect,
     #[serde(default)]
     is_lathe: bool,
+    #[serde(default)]
+    is_typed: bool,
     state: State,
     offsets: Offsets,
     tools: Option<Arc<ToolTable>>,
@@ -53,12 +57,14 @@ impl From<InForceParts> for Written {
         let InForceParts {
             dialect,
             is_lathe,
+            is_typed,
             state,
             parameters,
         } = parts;
         Self {
             dialect,
             is_lathe,
+            is_typed,
             offsets: Offsets::clone(&state.offsets),
             tools: state.tools.clone(),
             state,
@@ -72,6 +78,7 @@ impl From<Written> for InForceParts {
         let Written {
             dialect,
             is_lathe,
+            is_typed,
             state,
             offsets,
             tools,
@@ -80,6 +87,7 @@ impl From<Written> for InForceParts {
         Self {
             dialect,
             is_lathe,
+            is_typed,
             state: State {
                 offsets: Shared::new(offsets),
                 tools,

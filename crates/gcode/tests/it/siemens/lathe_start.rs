@@ -139,3 +139,22 @@ fn the_next_program_begins_as_the_first_one() {
     let text = "G0 X20 Z-10\nG3 X30 Z-20 CR=10";
     assert_eq!(read(text, next).0, [[20.0, -10.0], [30.0, -20.0]]);
 }
+
+#[test]
+fn what_was_typed_stays_in_force_for_the_next_line() {
+    let after = |typed: &str, text: &str| {
+        let text_of = format!("{typed}\n");
+        let mut program = Program::new(text_of.as_bytes(), lathe(LatheX::Unsaid)).typed();
+        assert!(program.by_ref().all(|item| item.is_ok()), "{typed}");
+        let next = Options {
+            in_force: Some(program.in_force()),
+            ..lathe(LatheX::Unsaid)
+        };
+        let (ends, _) = read(text, next);
+        ends.into_iter().map(|[x, _]| x).collect::<Vec<_>>()
+    };
+    assert_eq!(after("DIAMON", "G0 X20"), [10.0]);
+    assert_eq!(after("DIAM90", "G0 X20\nG91 X5"), [10.0, 15.0]);
+    assert_eq!(after("DIAMOF", "G0 X20"), [20.0]);
+    assert_eq!(after("DIAMON\nM30", "G0 X20"), [20.0]);
+}
