@@ -145,9 +145,7 @@ fn read<R: BufRead>(
     let mut found = Diagnostics::default();
     let mut without_tools = WithoutTools::default();
     let mut bred = Bred::default();
-    let mut says_units = begins_with_units(&program.interpreter.options);
-    let mut says_diameter = begins_with_diameter(&program.interpreter.options);
-    let begins_at = *Program::position(program);
+    let mut unsaid = Unsaid::at_start(program);
     loop {
         if program.kept_lines() >= most {
             found.given_up_at = Some(program.line_of_program());
@@ -157,12 +155,8 @@ fn read<R: BufRead>(
             Some(Ok(())) => {
                 bred.is_series_in_doubt &= program.block().codes.motion.is_none();
                 let program = &*program;
-                let codes = &program.block().codes;
-                says_units |= codes.units.is_some();
-                says_diameter |= codes.diameter.is_some() || codes.diameter_by_distance.is_some();
-                if !(says_units && says_diameter) && *Program::position(program) != begins_at {
-                    found.lacks_units |= !says_units;
-                    found.lacks_diameter |= !says_diameter;
+                if unsaid.is_any() {
+                    unsaid.look(program, &mut found);
                 }
                 program.items().iter().for_each(|item| see(program, item));
             }
@@ -189,17 +183,43 @@ fn read<R: BufRead>(
     found
 }
 
-/// Whether something else than the program says in which units it begins. Only FANUC's are asked: other controls begin
-/// in millimetres.
-const fn begins_with_units(options: &Options) -> bool {
-    !matches!(options.dialect, Dialect::Fanuc)
-        || options.fanuc.units_at_start.is_some()
-        || options.in_force.is_some()
+/// What a program has not said yet and nothing else says, and where it begins: a move from there needs it.
+struct Unsaid {
+    units: bool,
+    /// Whether X is a diameter.
+    diameter: bool,
+    begins_at: AxisVector,
 }
 
-/// Whether something else than the program says whether X is a diameter where it begins.
-fn begins_with_diameter(options: &Options) -> bool {
-    !options.is_siemens_lathe() || options.siemens.lathe_x != LatheX::Unsaid
+impl Unsaid {
+    /// Only FANUC's programs are asked for their units: other controls begin in millimetres.
+    fn at_start<R: BufRead>(program: &Program<R>) -> Self {
+        let options = &program.interpreter.options;
+        Self {
+            units: options.dialect == Dialect::Fanuc
+                && options.fanuc.units_at_start.is_none()
+                && options.in_force.is_none(),
+            diameter: options.is_siemens_lathe() && options.siemens.lathe_x == LatheX::Unsaid,
+            begins_at: *Program::position(program),
+        }
+    }
+
+    const fn is_any(&self) -> bool {
+        self.units || self.diameter
+    }
+
+    /// Looks at the block that was executed. What is lacking once the machine has moved is told once.
+    #[cold]
+    fn look<R: BufRead>(&mut self, program: &Program<R>, found: &mut Diagnostics) {
+        let codes = &program.block().codes;
+        self.units &= codes.units.is_none();
+        self.diameter &= codes.diameter.is_none() && codes.diameter_by_distance.is_none();
+        if *Program::position(program) != self.begins_at {
+            found.lacks_units |= self.units;
+            found.lacks_diameter |= self.diameter;
+            (self.units, self.diameter) = (false, false);
+        }
+    }
 }
 
 /// Diagnostics that are consequences of one before: a block whose words were not understood may have

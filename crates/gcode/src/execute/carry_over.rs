@@ -135,7 +135,8 @@ impl<R: BufRead> Program<R> {
             (modal.motion, modal.plane) = (at_start.motion, at_start.plane);
             (modal.feed_mode, modal.feed) = (at_start.feed_mode, at_start.feed);
             self.power_on(feed);
+        } else {
+            self.siemens_power_on();
         }
-        self.siemens_power_on();
     }
 }

@@ -56,9 +56,6 @@ impl<R> Program<R> {
         let modal = &mut state.modal;
         modal.units = units.unwrap_or(modal.units);
         modal.motion = motion_at_start(self.block.dialect).or(modal.motion);
-        self.siemens_power_on();
-        let state = &mut self.interpreter.state;
-        let modal = &mut state.modal;
         if self.block.is_lathe {
             // X words are diameters, the plane is that of G18.
             (modal.diameter, modal.plane) = (true, Plane::Zx);
@@ -70,6 +67,7 @@ impl<R> Program<R> {
             modal.feed_mode = feed_mode.unwrap_or(modal.feed_mode);
             state.fanuc.is_feed_unsaid = modal.feed.is_none() && feed_mode.is_none();
         }
+        self.siemens_power_on();
     }
 
     /// MD 20150 of a SINUMERIK's lathe: the plane is that of G18, and X what its parameters say.

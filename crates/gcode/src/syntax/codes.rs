@@ -28,7 +28,7 @@ pub(crate) struct Coded<T> {
 pub(crate) const NO_SYSTEM: usize = usize::MAX;
 
 /// Most M words of a block of SINUMERIK's.
-pub(crate) const MOST_M: usize = 5;
+pub(crate) const MOST_M: u8 = 5;
 
 /// The codes of one block, by modal group.
 #[derive(Debug, Clone, Copy, Default)]
@@ -75,9 +75,9 @@ pub(crate) struct Codes {
     /// An M code that the machine's builder declared.
     pub(crate) user: Option<Coded<u32>>,
     /// Those of the same block that follow it (SINUMERIK), zero where there are none.
-    pub(crate) more_of_user: [u32; MOST_M - 1],
+    pub(crate) more_of_user: [u16; MOST_M as usize - 1],
     /// M words of the block, where their number has an end (SINUMERIK).
-    pub(crate) m_words: usize,
+    pub(crate) m_words: u8,
     /// An M code of printers that takes the words of its block.
     pub(crate) function: Option<Coded<u32>>,
     /// M29 of FANUC.

@@ -47,13 +47,9 @@ impl Interpreter {
                 }
             }
             self.push(out, ItemKind::Event(Event::MCode(code)));
-            for code in block
-                .codes
-                .more_of_user
-                .into_iter()
-                .filter(|code| *code != 0)
-            {
-                self.push(out, ItemKind::Event(Event::MCode(code)));
+            let more = block.codes.more_of_user.into_iter();
+            for code in more.filter(|code| *code != 0) {
+                self.push(out, ItemKind::Event(Event::MCode(code.into())));
             }
         }
         let Some(Coded { code, span }) = block.codes.input_output else {

@@ -300,10 +300,12 @@ impl Codes {
         let is_second = self.user.is_some_and(|first| {
             first.code == number || stays_alone(first.code) || stays_alone(number)
         });
-        let is_there = self.more_of_user.contains(&number);
-        match self.more_of_user.iter_mut().find(|code| **code == 0) {
-            Some(free) if self.user.is_some() && !is_second && !is_there => {
-                *free = number;
+        let free = self.more_of_user.iter().position(|code| *code == 0);
+        match (u16::try_from(number), free) {
+            (Ok(code), Some(free))
+                if self.user.is_some() && !is_second && !self.more_of_user.contains(&code) =>
+            {
+                self.more_of_user[free] = code;
                 Ok(())
             }
             _ => set(&mut self.user, number, span),

@@ -46,15 +46,17 @@ impl<R: BufRead> Program<R> {
         let is_macro = matches!(call.code, CallCode::Macro | CallCode::ModalMacro);
         let words = self.call_words(text, call.end, is_macro)?;
         let is_local = call.code == CallCode::Local;
-        match (words.block, words.program.is_some() || words.name.is_some()) {
-            (Some(first), false) if !is_local => {
-                let first = self.fanuc_block_numbered(first, span)?;
-                return self
-                    .enter_subprogram(first, words.turns, None)
-                    .map(|()| true);
-            }
-            (Some(_), _) => return Err(begins_inside(span)),
-            (None, _) => {}
+        let names_program = words.program.is_some() || words.name.is_some();
+        let block = match words.block {
+            Some(_) if is_local || names_program => return Err(begins_inside(span)),
+            None if is_local && words.name.is_none() => words.program,
+            block => block,
+        };
+        if let Some(block) = block {
+            let first = self.fanuc_block_numbered(block, span)?;
+            return self
+                .enter_subprogram(first, words.turns, None)
+                .map(|()| true);
         }
         let program = match (words.program, &words.name) {
             (Some(_), Some(_)) => {
@@ -72,12 +74,6 @@ impl<R: BufRead> Program<R> {
             }
             (None, _) => return Err(missing(span, "the call", "P", "the program's number")),
         };
-        if is_local {
-            let first = self.fanuc_block_numbered(program, span)?;
-            return self
-                .enter_subprogram(first, words.turns, None)
-                .map(|()| true);
-        }
         let (first, turns) = self.fanuc_program_and_turns(program, &words, span)?;
         self.enter_called(first, turns, &words, call.code, span)
     }

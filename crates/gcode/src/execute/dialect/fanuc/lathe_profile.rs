@@ -373,6 +373,7 @@ impl Interpreter {
         )
     }
 }
+
 /// Refuses what a pass cannot be, in words without a decimal point: `U400` is .4 mm on a control that counts least
 /// increments.
 fn check_points(block: &Block, letters: &[u8], mm: f64) -> Outcome<()> {
