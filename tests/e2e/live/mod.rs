@@ -14,6 +14,7 @@ mod operated_page;
 mod queue;
 mod says;
 mod screens;
+mod shortcut;
 mod shuttle;
 mod steps;
 mod touch;

@@ -35,6 +35,10 @@ pub struct LiveArgs {
     /// each of them may itself
     #[arg(long)]
     pub listed: bool,
+    /// A file that is written to open the page in a browser, and that says so where the page has ended. Whoever can read it
+    /// may do what the page may: this user, and in a folder with the setgid bit its group
+    #[arg(long, value_name = "FILE", value_hint = clap::ValueHint::FilePath)]
+    pub shortcut: Option<PathBuf>,
     /// Folder of the programs that the page lists, runs and stores
     #[arg(long, value_name = "FOLDER", value_hint = clap::ValueHint::DirPath)]
     pub programs: Option<PathBuf>,

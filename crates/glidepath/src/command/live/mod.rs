@@ -36,6 +36,7 @@ mod query;
 mod queue;
 mod receivers;
 mod set_up;
+mod shortcut;
 mod shown;
 mod shuttle;
 mod status;
@@ -75,6 +76,7 @@ use queue::Queue;
 use receivers::receivers;
 use serde_json::Value;
 use set_up::SetUp;
+use shortcut::Shortcut;
 use shown::Shown;
 use shuttle::Shuttle;
 use std::sync::atomic::AtomicU64;
@@ -153,8 +155,8 @@ fn serve(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Failure> {
     let pages = Arc::new(pages);
     let running = server.start(Arc::clone(&pages) as Arc<dyn Site>, &feed)?;
     let served = start_devices(device_server, devices.clone(), pages, (&feed, role))?;
+    let (listing, shortcut) = ways_in(args, &link, &urls)?;
     addresses::tell(args, &instance, (&urls, port), devices.as_deref());
-    let listing = listing(args, &link, &urls)?;
     let offsets = PersistentOffsets::new(config, &link);
     let mut machine = Machine {
         config,
@@ -188,18 +190,23 @@ fn serve(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Failure> {
         auxiliary: None,
     };
     machine.follow(&interrupt)?;
-    drop((served, running));
+    drop((shortcut, served, running));
     Ok(interrupt.exit())
 }
 
-/// The machine among those of this host, where it is to be listed.
-fn listing(
+/// The machine among those of this host, where it is to be listed, and the file that opens the page with all that it may,
+/// where one is wanted.
+fn ways_in(
     args: &LiveArgs,
     link: &LinkConfig,
     urls: &[(Role, String)],
-) -> Result<Option<Listing>, FileError> {
+) -> Result<(Option<Listing>, Option<Shortcut>), FileError> {
     let listing = args.listed.then(|| Listing::begin(link, urls));
-    listing.transpose().map_err(FileError::open(&link.root))
+    let listing = listing.transpose().map_err(FileError::open(&link.root))?;
+    let wanted = args.shortcut.as_deref().zip(urls.last());
+    let shortcut = wanted
+        .map(|(file, (_, url))| Shortcut::begin(file, url).map_err(FileError::file("write", file)));
+    Ok((listing, shortcut.transpose()?))
 }
 
 /// The folder of programs, if there is one.
