@@ -13,6 +13,51 @@ const PATIENCE: Duration = Duration::from_secs(240);
 /// Without a table for M6 and without a word of state, as a machine is at first.
 const PART: &str = "G21 G90 G54\nG0 X1\nT2 M6\nG0 X2\nM0 (turn the part)\nG0 X3\nM2\n";
 
+/// What `check` warns of is told by whoever starts the program, before it moves, in the same words.
+#[test]
+fn what_a_program_does_not_say_is_told_where_it_was_started() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let bench = Operated::new(&instance, &[], "");
+    let interpolator = bench.process(&["interpolator", "--best-effort"]);
+    let servo = bench.process(&["servo", "--best-effort", "--stands", "0,0,0"]);
+    let _seen = bench.wait_for_drives();
+    let service = bench.service();
+    bench.operate(&["enable"]);
+    let _ready = bench.wait_for(MachineState::Idle);
+    // Words of FANUC's language alone make them programs of it.
+    let unsaid = instance.file(
+        "unsaid.nc",
+        "O1234\nG90 G54 G0 X1.\n#1=#0\nG65 P9\nM30\nO9\nM99\n",
+    );
+    let cut_off = instance.file("cut-off.ngc", "G21 G90\nG0 X2\n");
+    let whole = instance.file("whole.ngc", "G21 G90\nG0 X3\nM2\n");
+    let told = |part: &String| bench.process(&["run-file", part]).wait().expect(0).stderr;
+    let warned = |part: &String, words: &str| format!("{part}: warning: {words}");
+    let units = told(&unsaid);
+    assert!(
+        units.contains(&warned(&unsaid, "it moves before G20 or G21")),
+        "{units}"
+    );
+    assert!(!units.contains("the text ends"), "{units}");
+    let end = told(&cut_off);
+    assert!(
+        end.contains(&warned(&cut_off, "the text ends without M2")),
+        "{end}"
+    );
+    assert!(!end.contains("it moves before"), "{end}");
+    let nothing = told(&whole);
+    assert!(!nothing.contains("warning"), "{nothing}");
+    // `check` says the same.
+    let checked = bench.process(&["check", &cut_off]).wait().expect(0).stderr;
+    let line = end.lines().find(|line| line.contains("warning")).unwrap();
+    assert!(checked.contains(line), "{line}: {checked}");
+    for process in [&service, &servo, &interpolator] {
+        process.signal(Signal::TERM);
+    }
+    let log = service.wait().expect(0).stderr;
+    assert!(log.contains("cut-off.ngc: warning: the text ends"), "{log}");
+}
+
 #[test]
 fn a_tool_change_waits_for_a_person_and_says_so_where_the_program_was_started() {
     let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));

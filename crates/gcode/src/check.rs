@@ -9,8 +9,8 @@ use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::{Diagnostic, MAX_DIAGNOSTICS};
 use crate::execute::cycle_words::name;
 use crate::execute::program::Program;
+use crate::lacking::{Lacking, Unsaid};
 use crate::setup::options::Options;
-use crate::setup::siemens::LatheX;
 use crate::summary::part_box::{PartBox, PartBoxes};
 use crate::summary::survey::Survey;
 use crate::summary::totals::Totals;
@@ -28,15 +28,8 @@ pub struct Report {
     /// than [`crate::LoopLimits::checked_lines`]. What the program does from there on is not
     /// judged, and counts and sums are of what was. `None`: everything is.
     pub given_up_at: Option<u32>,
-    /// The text ends before the program does, which M2, M30 or a percent line would end: its last
-    /// part may be missing. It runs all the same.
-    pub lacks_end: bool,
-    /// A FANUC program moves before it says its units, and nothing else says them: it is read in millimetres, and is
-    /// 25.4 times too small if inches were meant.
-    pub lacks_units: bool,
-    /// A program of a SINUMERIK's lathe moves before it says what X is, and nothing else says it: it is read as a radius,
-    /// and the part is twice as thick if diameters were meant.
-    pub lacks_diameter: bool,
+    /// What the program should have said and does not.
+    pub lacks: Lacking,
     /// Counts and sums over the blocks without diagnostics.
     pub totals: Totals,
     /// Where the feed moves go, in the coordinates of each coordinate system that they are in; none of a curve, which
@@ -79,12 +72,8 @@ pub struct Diagnostics {
     pub more: u32,
     /// As [`Report::given_up_at`].
     pub given_up_at: Option<u32>,
-    /// As [`Report::lacks_end`].
-    pub lacks_end: bool,
-    /// As [`Report::lacks_units`].
-    pub lacks_units: bool,
-    /// As [`Report::lacks_diameter`].
-    pub lacks_diameter: bool,
+    /// As [`Report::lacks`].
+    pub lacks: Lacking,
     /// Lines read, as [`Totals::lines`].
     pub lines: u32,
     /// The time that feed moves, at their feedrate, and dwells take at least, s: those without diagnostics.
@@ -107,9 +96,7 @@ pub fn check<R: BufRead>(reader: R, options: Options) -> Report {
         diagnostics: found.diagnostics,
         more: found.more,
         given_up_at: found.given_up_at,
-        lacks_end: found.lacks_end,
-        lacks_units: found.lacks_units,
-        lacks_diameter: found.lacks_diameter,
+        lacks: found.lacks,
         totals: *program.totals(),
         part: part.into_boxes(),
         survey,
@@ -156,7 +143,7 @@ fn read<R: BufRead>(
                 bred.is_series_in_doubt &= program.block().codes.motion.is_none();
                 let program = &*program;
                 if unsaid.is_any() {
-                    unsaid.look(program, &mut found);
+                    unsaid.look(program, &mut found.lacks);
                 }
                 program.items().iter().for_each(|item| see(program, item));
             }
@@ -178,48 +165,9 @@ fn read<R: BufRead>(
     without_tools.tell(&mut found.diagnostics);
     // Programs of printers just end.
     let may_just_end = program.interpreter.options.dialect == Dialect::Marlin;
-    found.lacks_end = program.ran_out && !may_just_end;
+    found.lacks.end = program.ran_out && !may_just_end;
     found.lines = program.totals().lines;
     found
-}
-
-/// What a program has not said yet and nothing else says, and where it begins: a move from there needs it.
-struct Unsaid {
-    units: bool,
-    /// Whether X is a diameter.
-    diameter: bool,
-    begins_at: AxisVector,
-}
-
-impl Unsaid {
-    /// Only FANUC's programs are asked for their units: other controls begin in millimetres.
-    fn at_start<R: BufRead>(program: &Program<R>) -> Self {
-        let options = &program.interpreter.options;
-        Self {
-            units: options.dialect == Dialect::Fanuc
-                && options.fanuc.units_at_start.is_none()
-                && options.in_force.is_none(),
-            diameter: options.is_siemens_lathe() && options.siemens.lathe_x == LatheX::Unsaid,
-            begins_at: *Program::position(program),
-        }
-    }
-
-    const fn is_any(&self) -> bool {
-        self.units || self.diameter
-    }
-
-    /// Looks at the block that was executed. What is lacking once the machine has moved is told once.
-    #[cold]
-    fn look<R: BufRead>(&mut self, program: &Program<R>, found: &mut Diagnostics) {
-        let codes = &program.block().codes;
-        self.units &= codes.units.is_none();
-        self.diameter &= codes.diameter.is_none() && codes.diameter_by_distance.is_none();
-        if *Program::position(program) != self.begins_at {
-            found.lacks_units |= self.units;
-            found.lacks_diameter |= self.diameter;
-            (self.units, self.diameter) = (false, false);
-        }
-    }
 }
 
 /// Diagnostics that are consequences of one before: a block whose words were not understood may have

@@ -57,6 +57,7 @@
 mod check;
 mod diagnostic;
 mod execute;
+mod lacking;
 pub mod language;
 mod setup;
 mod summary;
@@ -73,6 +74,7 @@ pub use execute::state::in_force::InForce;
 pub use execute::state::modal::{Feed, Modal};
 pub use execute::state::probe_result::Probed;
 pub use execute::state::tip::Tip;
+pub use lacking::Lacking;
 pub use setup::fanuc::{
     Arctangent, BoreShift, FanucControl, FanucParameters, FeedAtStart, OffsetMemory, OuterCorners,
     PointInput,

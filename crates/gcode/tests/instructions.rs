@@ -42,7 +42,7 @@ const CASES: [Case; 6] = [
         name: "plain line, read",
         line: plain,
         read: run,
-        most: 1_320,
+        most: 1_200,
     },
     Case {
         name: "plain line, checked",
@@ -115,10 +115,12 @@ fn options() -> Options {
     }
 }
 
-/// Gives out the moves.
+/// Gives out the moves. They are looked at where they are put: to hand them on would copy each of them twice more,
+/// and a copy takes 52 to 64 instructions, as the addresses are.
 fn run(text: &str) {
-    for item in Program::new(text.as_bytes(), options()) {
-        black_box(item.unwrap());
+    let mut program = Program::new(text.as_bytes(), options());
+    while let Some(item) = black_box(&program.next()) {
+        assert!(item.is_ok());
     }
 }
 

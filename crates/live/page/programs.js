@@ -82,8 +82,8 @@ function paintChosen() {
   // What changes while it is planned stands by itself, so that a finger on a key is not lost.
   fill($('#title'), `<b>${safe(name)}</b><span class="lab">${info && info.program ? `${grouped(info.program.lines)} lines` : ''}${info && info.seconds ? `, ${span(info.seconds)} of motion at 100 %` : info && !info.failed ? `, is planned: ${span(info.planned_so_far_s || 0)} so far` : ''}</span>`);
   fill($('#runkeys'), `${key('queue-add', 'Queue', { why: notOperating(), sub: ofRatio(LOOK.ratio).slice(2), data: `data-name="${safe(name)}"` })}${key('from-line', 'From line…', { why: notOperating() })}${key('run', 'Run', { press: SHORT, why, sub: `press ½ s${ofRatio(LOOK.ratio)}`, data: `data-of="${safe(name)}"`, kind: why || (info && info.failed) ? '' : 'main' })}`);
-  const failed = info && info.failed;
-  fill($('#found'), S.agree ? agreement() : failed ? `<div class="h"><b>${icon('warn', 'warn')} What was found</b></div>${findings(failed)}` : `<div class="h"><b>${info && info.report ? `${icon('ok', 'ok')} Nothing was found` : LOOK.lost ? safe(sentence(plain(LOOK.lost))) : 'It is read'}</b>${LOOK.lost ? key('choose', 'Look at it', { data: `data-name="${safe(name)}"` }) : ''}</div>${tolerances()}<pre class="lines">${safe((LOOK.lines || []).slice(0, 6).join('\n'))}</pre>`);
+  const failed = info && info.failed, warned = info && info.warnings ? warnings(info.warnings) : '';
+  fill($('#found'), S.agree ? agreement() : failed ? `<div class="h"><b>${icon('warn', 'warn')} What was found</b></div>${findings(failed)}${warned}` : `<div class="h"><b>${warned ? `${icon('warn', 'warn')} To be made sure of` : info && info.report ? `${icon('ok', 'ok')} Nothing was found` : LOOK.lost ? safe(sentence(plain(LOOK.lost))) : 'It is read'}</b>${LOOK.lost ? key('choose', 'Look at it', { data: `data-name="${safe(name)}"` }) : ''}</div>${warned}${tolerances()}<pre class="lines">${safe((LOOK.lines || []).slice(0, 6).join('\n'))}</pre>`);
 }
 /* How long it takes with another tolerance, before it runs: it runs with the one that is chosen. */
 const TOLERANCES = [[0.5, '× ½'], [1, 'as it is'], [2, '× 2'], [5, '× 5']];
@@ -114,6 +114,8 @@ function findings(failed) {
     return `<div class="finding"><p class="lines">${safe(said)}</p>${text === null || text === undefined ? '' : `<pre class="lines"><span class="k">${of[1]}</span>${of[2] ? marked(+of[2]) : safe(text)}</pre>`}</div>`;
   }).join('') + (more > 0 ? `<p class="lab-text">And ${grouped(more)} more.</p>` : '');
 }
+/* What a program should say and does not: it runs all the same. */
+const warnings = all => all.map(said => `<div class="finding"><p class="lines">${safe(sentence(plain(said)))}</p></div>`).join('');
 async function fetchFindings(info) {
   const wanted = new Set(info.failed.split('\n').slice(0, MOST_FINDINGS).map(said => (/^line (\d+)/.exec(said) || [])[1]).filter(Boolean));
   for (const n of wanted) {

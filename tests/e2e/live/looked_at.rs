@@ -152,3 +152,42 @@ fn pages_that_look_at_different_programs_see_all_of_them() {
     drop(live);
     drop(services.end());
 }
+
+/// What `check` warns of is shown of a program that is chosen, in the same words.
+#[test]
+fn what_a_program_does_not_say_is_shown_before_it_runs() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let Some(mut browser) = Browser::start(1024, 768) else {
+        return;
+    };
+    let folder = instance.path("programs");
+    std::fs::create_dir(&folder).unwrap();
+    for (name, text) in [
+        ("cut-off.ngc", "G21 G90 F600\nG1 X1\n"),
+        ("whole.ngc", "G21 G90 F600\nG1 X1\nM2\n"),
+    ] {
+        std::fs::write(format!("{folder}/{name}"), text).unwrap();
+    }
+    let services = Services::start(&instance);
+    let live = Live::start(&instance, &["--may", "operate", "--programs", &folder]);
+    choose(&mut browser, &live, "cut-off.ngc");
+    browser.wait("LOOK.info && LOOK.info.report");
+    let found = "document.querySelector('#found').textContent";
+    browser.wait(&format!(
+        "{found}.includes('The text ends without M2, M30 or a last %')"
+    ));
+    assert_eq!(
+        browser.evaluate(&format!("{found}.includes('Nothing was found')")),
+        false
+    );
+    // It runs all the same.
+    browser.wait("whyNoRun() === ''");
+    browser.press("[data-name=\"whole.ngc\"]");
+    browser.wait(&format!("{found}.includes('Nothing was found')"));
+    assert_eq!(
+        browser.evaluate(&format!("{found}.includes('The text ends')")),
+        false
+    );
+    drop(live);
+    drop(services.end());
+}

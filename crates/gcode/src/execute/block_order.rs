@@ -171,6 +171,7 @@ impl Interpreter {
     ) -> Outcome<()> {
         if block.dialect != Dialect::LinuxCnc {
             self.check_open_tap(block, motion)?;
+            self.check_lengthening(block, motion)?;
             self.settle_thread(block, motion, out)?;
             check_named_words(block, motion, self.state.rounds_mm > 0.0)?;
             self.settle_line(block, motion, out)?;
@@ -285,7 +286,7 @@ impl Interpreter {
         }
         match motion {
             Motion::Rapid | Motion::Linear => {
-                let target = self.target(block)?;
+                let target = self.lengthened(block, self.target(block)?)?;
                 // Printers move at the feedrate in G0 too.
                 let printer = block.dialect == Dialect::Marlin && self.state.modal.feed.is_some();
                 let pace = if motion == Motion::Rapid && !printer {

@@ -136,7 +136,7 @@ fn taken_by_modes_of_dialects(block: &Block) -> Letters {
         (Some(_), _) => Letters::of(b"PQRE"),
         (_, Some(FrameCode::Scale(true))) => AXIS_WORDS.and(Letters::of(b"PIJK")),
         (_, Some(FrameCode::Turn(true))) => AXIS_WORDS.and(Letters::of(b"R")),
-        (_, Some(FrameCode::Mirror(_))) => AXIS_WORDS,
+        (_, Some(FrameCode::Mirror(_) | FrameCode::Switch(_))) => AXIS_WORDS,
         _ => Letters::of(b""),
     }
 }

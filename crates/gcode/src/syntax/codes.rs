@@ -94,7 +94,9 @@ pub(crate) struct Codes {
     pub(crate) read_over: Option<Coded<u32>>,
     /// G16 and G15 of FANUC: true where a radius and an angle are meant.
     pub(crate) polar_mode: Option<Coded<bool>>,
-    /// G50, G51, G50.1, G51.1, G68 and G69 of FANUC.
+    /// G45 to G48 of FANUC: how often the offset of D makes each way of the block longer.
+    pub(crate) lengthening: Option<Coded<i8>>,
+    /// G50, G51, G50.1, G51.1, G68 and G69 of FANUC, G100 and G101 of Haas.
     pub(crate) frame: Option<Coded<FrameCode>>,
     /// Whether G50, and G69, stand beside that: a block may end all that is in force.
     pub(crate) frame_ends: [bool; 2],
@@ -214,6 +216,7 @@ impl Codes {
             || self.exact_stop.is_some()
             || self.read_over.is_some()
             || self.polar_mode.is_some()
+            || self.lengthening.is_some()
             || self.frame.is_some()
             || self.tip.is_some()
             || self.tilt.is_some()

@@ -7,6 +7,8 @@ pub(crate) enum FrameCode {
     Scale(bool),
     /// G51.1, G50.1.
     Mirror(bool),
+    /// G101 of Haas, G100.
+    Switch(bool),
     /// G68, G69.
     Turn(bool),
 }

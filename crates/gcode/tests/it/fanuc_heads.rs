@@ -32,7 +32,7 @@ fn beginning_in(units: Option<Units>) -> Options {
 
 #[test]
 fn units_that_nothing_says_are_told() {
-    let lacks_units = |text: &str, options: Options| check(text.as_bytes(), options).lacks_units;
+    let lacks_units = |text: &str, options: Options| check(text.as_bytes(), options).lacks.units;
     let text = "G90 G0 X1.\nM30\n";
     assert!(lacks_units(text, beginning_in(None)));
     assert!(!lacks_units(text, beginning_in(Some(Units::Millimetre))));

@@ -331,3 +331,22 @@ fn g70_takes_the_profile_that_was_cut() {
         &["5:5 ambiguous-word"],
     );
 }
+
+/// A profile whose last block goes back to its beginning, as hands write it, and words that G70 does not have.
+#[test]
+fn what_a_profile_cannot_have_says_how_to_mend_it() {
+    let profile = "N10 G0 X10.\nG1 Z-20.\nX40.\nN20 G0 Z2.\nM30\n";
+    let text = format!("{HEAD}G0 X42. Z2.\nG71 P10 Q20 U0.5 W0.1 D2. F300\n{profile}");
+    let report = check(text.as_bytes(), options());
+    assert_eq!(listed(&report), ["3:9 canned-cycle"]);
+    let help = &report.diagnostics[0].help;
+    assert!(help.contains("in front of its last element"), "{help}");
+    let profile = "N10 G0 X10.\nG1 Z-20.\nN20 X40.\nM30\n";
+    for word in ["U0.5", "W0.1", "D0.2"] {
+        let text = format!("{HEAD}G0 X42. Z2.\nG70 P10 Q20 {word} F300\n{profile}");
+        let report = check(text.as_bytes(), options());
+        assert_eq!(listed(&report), ["3:13 unused-word"], "{word}");
+        let reason = &report.diagnostics[0].reason;
+        assert!(reason.contains("as it stands"), "{reason}");
+    }
+}

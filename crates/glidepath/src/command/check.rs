@@ -12,23 +12,11 @@ use crate::joints;
 use crate::output;
 use crate::program_file::ProgramFile;
 use crate::progress::ProgressDisplay;
-use crate::report::{counted, diagnostic_object};
+use crate::report::{WARNING, counted, diagnostic_object, warnings};
 use glidepath_gcode::{Diagnostic, Diagnostics, Report};
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_planner::{check_file, find_in_file};
 use serde_json::{Map, Value, json};
-
-/// What is said of a program that just ends.
-const NO_END: &str =
-    "the text ends without M2, M30 or a last %: make sure that nothing of it is missing";
-
-/// What is said of a FANUC program without units.
-const NO_UNITS: &str = "it moves before G20 or G21, and is read in millimetres: write one of them, or say with which the \
-                        control begins: `units` of [program] in the configuration";
-
-/// What is said of a SINUMERIK program of a lathe without diameters or radii.
-const NO_DIAMETER: &str = "it moves before DIAMON or DIAMOF, and X is read as a radius: write one of them, or say what X is \
-                           where a program begins: `lathe_x` of [program] in the configuration";
 
 /// Reads every program to its end.
 ///
@@ -118,8 +106,8 @@ pub(super) fn accepted(
     progress.finish();
     let mut found = found.map_err(FileError::open(file.name()))?;
     if found.diagnostics.is_empty() {
-        for warning in warnings([found.lacks_end, found.lacks_units, found.lacks_diameter]) {
-            output::note(&format!("{}: warning: {warning}", file.name().display()));
+        for warning in warnings(found.lacks) {
+            output::note(&format!("{}: {WARNING}{warning}", file.name().display()));
         }
     }
     if let Some(line) = found.given_up_at.filter(|_| found.diagnostics.is_empty()) {
@@ -193,21 +181,12 @@ fn print(name: &str, report: &Report) {
         totals.rapid_length_mm
     ));
     output::result(&survey(report));
-    for warning in warnings([report.lacks_end, report.lacks_units, report.lacks_diameter]) {
-        output::note(&format!("{name}: warning: {warning}"));
+    for warning in warnings(report.lacks) {
+        output::note(&format!("{name}: {WARNING}{warning}"));
     }
     if let Some(line) = report.given_up_at {
         output::result(&(not_checked(name, line) + "; the figures above are of what was\n"));
     }
-}
-
-/// What is said of a program that is no mistake for certain: that it lacks its end, its units, or what X is.
-fn warnings(lacks: [bool; 3]) -> impl Iterator<Item = &'static str> {
-    let words = [NO_END, NO_UNITS, NO_DIAMETER];
-    words
-        .into_iter()
-        .zip(lacks)
-        .filter_map(|(words, is_told)| is_told.then_some(words))
 }
 
 /// That a program was not checked to its end.
@@ -301,7 +280,7 @@ fn program(name: &str, report: &Report) -> Value {
             "position": corner.at.as_slice(),
         })),
         "soft_limit_violations": report.soft_limit_violations(),
-        "warnings": warnings([report.lacks_end, report.lacks_units, report.lacks_diameter]).collect::<Vec<_>>(),
+        "warnings": warnings(report.lacks).collect::<Vec<_>>(),
         "findings": findings,
         "findings_not_shown": report.more,
     })

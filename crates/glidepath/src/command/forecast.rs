@@ -14,7 +14,7 @@ use crate::file_error::FileError;
 use crate::persistence::read::set_up_as_begun;
 use crate::program_file::ProgramFile;
 use crate::report::ProgramPlace;
-use glidepath_gcode::ReadingWatch;
+use glidepath_gcode::{Lacking, ReadingWatch};
 use glidepath_geometry::AxisVector;
 use glidepath_link::Status;
 use glidepath_planner::{FileSource, Pipeline, Refusal, Step};
@@ -68,6 +68,11 @@ struct Plan {
 
 /// A spectator, who sees the plan as it is made.
 pub(super) trait Spectator: Send {
+    /// What the program should say and does not, before its first item.
+    fn lacks(&mut self, lacks: Lacking) {
+        let _ = lacks;
+    }
+
     /// The next item of the program.
     fn item(&mut self, item: &Item) {
         let _ = item;
@@ -262,25 +267,26 @@ fn work(
     spectator: &mut impl Spectator,
 ) -> Option<String> {
     // What was found is of that text, too.
-    let open = |config: &MachineConfig| {
+    let open = |config: &MachineConfig| -> Result<(FileSource, Lacking), Refusal> {
         let options = config.program_options(config.start());
         let looked = FileSource::look(path, options, &config.settings())?;
         let mut plan = plan.lock().unwrap_or_else(PoisonError::into_inner);
         plan.fingerprint = Some(looked.fingerprint).filter(|fingerprint| *fingerprint != 0);
         plan.has_failed = looked.source.is_err();
-        looked.source
+        Ok((looked.source?, looked.lacks))
     };
     let wide = without_travel(config);
-    let (source, config, beyond) = match open(config) {
-        Ok(source) => (source, config, None),
+    let ((source, lacks), config, beyond) = match open(config) {
+        Ok(opened) => (opened, config, None),
         // Where it goes is to be seen also while its offset is not set yet.
         Err(refusal) if is_of_the_travel(&refusal) => match open(&wide) {
-            Ok(source) => (source, &wide, Some(refusal_text(&refusal))),
+            Ok(opened) => (opened, &wide, Some(refusal_text(&refusal))),
             Err(refusal) => return Some(refusal_text(&refusal)),
         },
         // The planner said what is wrong with it.
         Err(refusal) => return Some(refusal_text(&refusal)),
     };
+    spectator.lacks(lacks);
     let changed = Changed { source, change };
     let steps = Pipeline::new(changed, config.settings(), config.start());
     let mut steps = steps.with_joints(config.limited_mechanism());

@@ -12,6 +12,7 @@ use crate::file_error::FileError;
 use crate::interrupt::Interrupt;
 use crate::machine_options::{self, complete};
 use crate::output;
+use crate::report::WARNING;
 use glidepath_link::{
     CALLED_OFF, Client, Command, CommandRequest, Ipc, JobKind, JobReply, JobRequest, JobStage,
     JobState, JobWish, LinkConfig, LinkError, Operator, Record as _, Transport as _,
@@ -128,7 +129,7 @@ fn execute(
         interrupted: None,
         is_taken: false,
         program: program(&request),
-        told: Told::new(),
+        told: Told::new(request.text.as_str()),
     };
     let handed_in = Instant::now();
     loop {
@@ -138,7 +139,7 @@ fn execute(
             JobState::Busy if handed_in.elapsed() < LETTING_GO && !interrupt.is_set() => {}
             JobState::Running => {
                 desk.is_taken = true;
-                desk.told.tell(&text);
+                desk.told.tell_of_job(&text);
                 let wish = desk.wish()?;
                 request = request.wishing(wish);
             }
@@ -337,18 +338,35 @@ pub(super) fn abort(link: &LinkConfig) {
 
 /// What was said of the job.
 struct Told {
+    /// Which job it is.
+    job: String,
+    has_warned: bool,
     last: String,
     since: Instant,
     interval: Duration,
 }
 
 impl Told {
-    fn new() -> Self {
+    fn new(job: &str) -> Self {
         Self {
+            job: job.to_owned(),
+            has_warned: false,
             last: String::new(),
             since: Instant::now(),
             interval: TELL_INTERVAL,
         }
+    }
+
+    /// Says what the planner tells of the job: what is being done, and, at once, the warnings in the lines behind that.
+    fn tell_of_job(&mut self, text: &str) {
+        let (doing, warnings) = text.split_once('\n').unwrap_or((text, ""));
+        if !self.has_warned {
+            for warning in warnings.lines().filter(|line| line.starts_with(WARNING)) {
+                output::note(&format!("{}: {warning}", self.job));
+                self.has_warned = true;
+            }
+        }
+        self.tell(doing);
     }
 
     /// Says what is being done, now and then, if it takes long enough to be read.

@@ -16,6 +16,7 @@ mod smoothness;
 mod status;
 mod superposition;
 mod view;
+mod warnings;
 mod work_offset;
 
 pub use active_program::{active_object, active_text};
@@ -36,4 +37,5 @@ pub use status::{
     timing_text,
 };
 pub use view::{ProgramPlace, View, view_object, view_text};
+pub use warnings::{WARNING, warnings};
 pub use work_offset::WorkOffset;

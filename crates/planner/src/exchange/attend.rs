@@ -21,6 +21,11 @@ pub trait Attend {
     /// done for the job.
     fn attend(&mut self, waited: Duration, doing: &str) -> Attended;
 
+    /// Told what whoever wants the job should know of its program, before its first frame, a line for each.
+    fn warn(&mut self, warnings: &str) {
+        let _nobody = warnings;
+    }
+
     /// Told how far what was given out is executed, right before that.
     fn follow(&mut self, followed: &Followed) {
         let _nobody = followed;

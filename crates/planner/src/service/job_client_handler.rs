@@ -32,6 +32,10 @@ impl Attend for JobClientHandler<'_> {
         }
     }
 
+    fn warn(&mut self, warnings: &str) {
+        self.jobs.warn(warnings);
+    }
+
     fn follow(&mut self, followed: &Followed) {
         self.jobs.follow(followed);
     }

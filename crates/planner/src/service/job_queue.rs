@@ -40,6 +40,8 @@ struct Current {
     client: (u64, u64),
     watch: ClientWatch,
     is_unwanted: bool,
+    /// What its client should know of its program, a line for each.
+    warnings: String,
     /// The lines that it is made of.
     lines: Option<LineInbox>,
 }
@@ -52,6 +54,7 @@ impl Current {
             client,
             watch: ClientWatch::new(),
             is_unwanted: false,
+            warnings: String::new(),
             lines,
         }
     }
@@ -68,6 +71,15 @@ impl Current {
     const fn hear(&mut self, wish: JobWish) {
         self.watch.hear();
         self.is_unwanted |= matches!(wish, JobWish::Cancel);
+    }
+
+    /// What its client is told while it is `doing` something. Before the first frame the client asks once more, so that
+    /// the warnings reach it before anything moves.
+    fn told(&self, doing: &str) -> String {
+        match self.warnings.as_str() {
+            "" => doing.to_owned(),
+            warnings => format!("{doing}\n{warnings}"),
+        }
     }
 
     /// Why it is to end, if it is.
@@ -215,7 +227,7 @@ impl JobQueue {
                 match current {
                     Some(current) if current.client == (request.client, request.number) => {
                         current.hear(wish);
-                        JobReply::new(request, JobState::Running, doing)
+                        JobReply::new(request, JobState::Running, &current.told(doing))
                     }
                     _ if wish == JobWish::Execute => JobReply::new(request, JobState::Busy, busy),
                     _ => unknown(request),
@@ -226,6 +238,13 @@ impl JobQueue {
             }
         }
         Ok(self.current.as_ref().and_then(Current::unwanted))
+    }
+
+    /// What the client of the job should know of its program.
+    pub(crate) fn warn(&mut self, warnings: &str) {
+        if let Some(current) = &mut self.current {
+            warnings.clone_into(&mut current.warnings);
+        }
     }
 
     /// How far the job is executed.

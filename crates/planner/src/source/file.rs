@@ -5,7 +5,7 @@ use std::io::{self, BufReader, Read as _};
 use std::path::Path;
 
 use glidepath_curve::{CurveFile, NurbsFile};
-use glidepath_gcode::{Diagnostics, InForce, Options, Report, check, diagnostics};
+use glidepath_gcode::{Diagnostics, InForce, Lacking, Options, Report, check, diagnostics};
 use glidepath_program::Settings;
 
 use crate::run::refusal::Refusal;
@@ -43,6 +43,8 @@ pub enum FileSource {
 pub struct LookedAt {
     /// Which program it is: see [`ItemSource::fingerprint`]. A curve that cannot be understood has none: 0.
     pub fingerprint: u64,
+    /// What it should say and does not; a curve lacks nothing.
+    pub lacks: Lacking,
     /// Its items, or all that is wrong with it.
     pub source: Result<FileSource, Refusal>,
 }
@@ -74,9 +76,10 @@ impl FileSource {
     /// The file cannot be read.
     pub fn look(path: &Path, options: Options, settings: &Settings) -> io::Result<LookedAt> {
         if !is_curve(path) {
-            let (fingerprint, source) = ProgramSource::look(path, options)?;
+            let (fingerprint, lacks, source) = ProgramSource::look(path, options)?;
             return Ok(LookedAt {
                 fingerprint,
+                lacks,
                 source: source.map(|source| Self::Program(Box::new(source))),
             });
         }
@@ -84,6 +87,7 @@ impl FileSource {
         let fingerprint = source.as_ref().map_or(0, Self::fingerprint);
         Ok(LookedAt {
             fingerprint,
+            lacks: Lacking::default(),
             source,
         })
     }
@@ -219,9 +223,7 @@ pub fn check_file(
             diagnostics,
             more: 0,
             given_up_at: None,
-            lacks_end: false,
-            lacks_units: false,
-            lacks_diameter: false,
+            lacks: Lacking::default(),
             totals: glidepath_gcode::Totals::default(),
             part: Vec::new(),
             survey: glidepath_gcode::Survey::default(),
@@ -249,9 +251,7 @@ pub fn find_in_file(
         diagnostics: report.diagnostics,
         more: report.more,
         given_up_at: report.given_up_at,
-        lacks_end: report.lacks_end,
-        lacks_units: report.lacks_units,
-        lacks_diameter: report.lacks_diameter,
+        lacks: report.lacks,
         lines: report.totals.lines,
         least_time_s: report.totals.feed_time_s + report.totals.dwell_s,
     })

@@ -1,6 +1,6 @@
 //! The moves of a curve file, whatever kind of curve makes them.
 
-use glidepath_gcode::{Diagnostic, DiagnosticCode, Options, Report, Survey, Totals};
+use glidepath_gcode::{Diagnostic, DiagnosticCode, Lacking, Options, Report, Survey, Totals};
 use glidepath_geometry::{Axis, AxisVector, Segment};
 use glidepath_program::{Item, ItemKind, PathMode, Rate};
 
@@ -120,9 +120,7 @@ impl FileMoves {
         Report {
             diagnostics: found.diagnostics,
             more: 0,
-            lacks_end: false,
-            lacks_units: false,
-            lacks_diameter: false,
+            lacks: Lacking::default(),
             given_up_at: found.gave_up.then_some(self.line),
             totals: self.totals,
             part: Vec::new(),

@@ -5,8 +5,8 @@ use std::io::{self, BufRead, BufReader, Seek};
 use std::path::Path;
 
 use glidepath_gcode::{
-    Diagnostic, InForce, InputWait, Options, PositionOffsets, Probed, Program, Subroutines,
-    diagnostics,
+    Diagnostic, InForce, InputWait, Lacking, Options, PositionOffsets, Probed, Program,
+    Subroutines, diagnostics,
 };
 use glidepath_program::{Event, Item, ItemKind};
 
@@ -252,14 +252,17 @@ impl ProgramSource<BufReader<UnchangedFile>> {
     /// All diagnostics, if there is any; that the program could not be checked to its end, unless
     /// it may be run all the same; or why the file cannot be read.
     pub fn open(path: &Path, options: Options) -> Result<Self, Refusal> {
-        Self::look(path, options)?.1
+        Self::look(path, options)?.2
     }
 
-    /// The fingerprint of a file, and the same as [`Self::open`].
+    /// The fingerprint of a file, what it lacks, and the same as [`Self::open`].
     ///
     /// # Errors
     /// The file cannot be read.
-    pub(crate) fn look(path: &Path, options: Options) -> io::Result<(u64, Result<Self, Refusal>)> {
+    pub(crate) fn look(
+        path: &Path,
+        options: Options,
+    ) -> io::Result<(u64, Lacking, Result<Self, Refusal>)> {
         let mut file = UnchangedFile::open(path)?;
         let mut reader = Fingerprinting::new(&mut file);
         let found = diagnostics(
@@ -285,14 +288,14 @@ impl ProgramSource<BufReader<UnchangedFile>> {
             given_up_at.map(|line| Refusal::Unchecked { line })
         };
         if let Some(refusal) = refusal {
-            return Ok((fingerprint, Err(refusal)));
+            return Ok((fingerprint, found.lacks, Err(refusal)));
         }
         file.rewind()?;
         let source = Self {
             fingerprint,
             ..Self::new(BufReader::with_capacity(BUFFER, file), options)
         };
-        Ok((fingerprint, Ok(source)))
+        Ok((fingerprint, found.lacks, Ok(source)))
     }
 }
 

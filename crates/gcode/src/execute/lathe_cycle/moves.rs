@@ -47,7 +47,7 @@ impl Interpreter {
         };
         let axes = axes_of(block, facing, &profile.elements, start)?;
         let pieces = pieces(&axes, &profile.elements)
-            .map_err(|index| turns_back(block, facing, profile.elements.get(index)))?;
+            .map_err(|index| turns_back(block, facing, profile.elements.get(index..)))?;
         if let (Some(first), Some(last)) = (pieces.first(), pieces.last())
             && last.end[1] < first.start[1] - ROUNDING_MM
         {
@@ -85,7 +85,7 @@ impl Interpreter {
                     found = Some((axes, pieces));
                     break;
                 }
-                Err(index) => turned = turned.or(profile.elements.get(index)),
+                Err(index) => turned = turned.or(profile.elements.get(index..)),
             }
         }
         let Some((axes, pieces)) = found else {
@@ -212,16 +212,21 @@ fn axes_of(block: &Block, facing: bool, profile: &[Element], start: Point) -> Ou
     PassAxes::new(facing, profile, start).ok_or_else(|| nothing_left(block, b'Q'))
 }
 
-fn turns_back(block: &Block, facing: bool, element: Option<&Element>) -> Box<BlockDiagnostic> {
-    let [z, x] = element.map_or([0.0; 2], |element| element.start);
+/// From the first of these elements on the profile turns back.
+fn turns_back(block: &Block, facing: bool, from: Option<&[Element]>) -> Box<BlockDiagnostic> {
+    let from = from.unwrap_or_default();
+    let [z, x] = from.first().map_or([0.0; 2], |element| element.start);
     let (axis, other) = if facing { ("X", "G71") } else { ("Z", "G72") };
     let message =
         format!("the profile turns back along {axis} behind X{x:.4} Z{z:.4} mm (X: radius)");
     BlockDiagnostic::new(DiagnosticCode::CannedCycle, block.span(b'Q'), message)
         .because("it must lead one way along it, with arcs of at most half a turn")
-        .help(format!(
-            "draw it otherwise, in several parts, or use {other}"
-        ))
+        .help(if from.len() == 1 {
+            "end the profile in front of its last element, and write that way back behind the cycle"
+                .to_owned()
+        } else {
+            format!("draw it otherwise, in several parts, or use {other}")
+        })
 }
 
 fn nothing_left(block: &Block, letter: u8) -> Box<BlockDiagnostic> {

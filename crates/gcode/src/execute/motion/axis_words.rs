@@ -252,7 +252,12 @@ fn has_other_axes(block: &Block) -> bool {
         || codes.kept_place.is_some()
         || matches!(
             codes.frame.map(|frame| frame.code),
-            Some(FrameCode::Scale(true) | FrameCode::Turn(true) | FrameCode::Mirror(_))
+            Some(
+                FrameCode::Scale(true)
+                    | FrameCode::Turn(true)
+                    | FrameCode::Mirror(_)
+                    | FrameCode::Switch(_)
+            )
         )
 }
 

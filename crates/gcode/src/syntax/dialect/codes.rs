@@ -178,9 +178,14 @@ impl Codes {
                 set(&mut self.tip, true, span)?;
                 set(&mut self.tool_length, ToolLength::FromTable, span)
             }
+            450 => set(&mut self.lengthening, 1, span),
+            460 => set(&mut self.lengthening, -1, span),
+            470 => set(&mut self.lengthening, 2, span),
+            480 => set(&mut self.lengthening, -2, span),
             440 => set(&mut self.tool_length, ToolLength::Subtract, span),
             500 | 510 => self.add_frame(FrameCode::Scale(tenths == 510), span),
             501 | 511 => self.add_frame(FrameCode::Mirror(tenths == 511), span),
+            1000 | 1010 => self.add_frame(FrameCode::Switch(tenths == 1010), span),
             680 | 690 => self.add_frame(FrameCode::Turn(tenths == 680), span),
             // Corners inside are slower, or the feed cannot be changed: the path is that of G64.
             620 | 630 => set(

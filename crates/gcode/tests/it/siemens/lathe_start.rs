@@ -58,7 +58,7 @@ fn a_lathe_begins_in_g18() {
 
 #[test]
 fn an_x_that_nothing_says_is_told() {
-    let lacks = |text: &str, options: Options| check(text.as_bytes(), options).lacks_diameter;
+    let lacks = |text: &str, options: Options| check(text.as_bytes(), options).lacks.diameter;
     let text = "G0 X20 Z2\nM30\n";
     assert!(lacks(text, lathe(LatheX::Unsaid)));
     for said in [LatheX::Diameter, LatheX::Radius, LatheX::DiameterInG90] {

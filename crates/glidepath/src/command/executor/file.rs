@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use glidepath_gcode::InForce;
+use glidepath_gcode::{InForce, Lacking};
 use glidepath_geometry::AxisVector;
 use glidepath_planner::{
     FileSource, ItemSource as _, LineStart, Pipeline, Refusal, Remainder, ResumePoint, StartLine,
@@ -19,8 +19,9 @@ use crate::command::reading::for_program;
 use crate::command::run_supervisor::{RunSupervisor, recalling};
 use crate::config::MachineConfig;
 use crate::joints;
+use crate::output;
 use crate::program_file::ProgramFile;
-use crate::report::{counted, driven};
+use crate::report::{WARNING, counted, driven, warnings};
 
 /// A file with the configuration for it, and what is kept beside it.
 type FileWork<'f> = (&'f FileJob<'f>, &'f MachineConfig, &'f RunSupervisor);
@@ -42,7 +43,8 @@ impl JobExecutor<'_> {
         let begins = self.begins(file, start, &mut config, (&supervisor, &*context))?;
         let config = config;
         let source = context.work("checking", || open(file.path, &config, begins.start))?;
-        let source = source.map_err(|e| refusal(&e))?;
+        let (source, lacks) = source.map_err(|e| refusal(&e))?;
+        warn(lacks, file, context);
         let source = source.attended(supervisor.channels());
         let fingerprint = source.fingerprint();
         must_be_the_program(file, fingerprint)?;
@@ -162,9 +164,25 @@ impl JobExecutor<'_> {
 }
 
 /// A program as a file, checked from its beginning to its end.
-fn open(path: &Path, config: &MachineConfig, start: AxisVector) -> Result<FileSource, Refusal> {
+fn open(
+    path: &Path,
+    config: &MachineConfig,
+    start: AxisVector,
+) -> Result<(FileSource, Lacking), Refusal> {
     joints::check_plan(path, config, start, &mut |_| {})?;
-    FileSource::open(path, config.program_options(start), &config.settings())
+    let looked = FileSource::look(path, config.program_options(start), &config.settings())?;
+    Ok((looked.source?, looked.lacks))
+}
+
+/// Tells whoever wants the job, and whoever looks at the service, what the program should say and does not.
+fn warn(lacks: Lacking, file: &FileJob<'_>, context: &mut RunContext<'_, '_, '_>) {
+    let lines: Vec<String> = warnings(lacks)
+        .map(|words| format!("{WARNING}{words}"))
+        .collect();
+    for line in &lines {
+        output::note(&format!("planner: {}: {line}", file.path.display()));
+    }
+    context.attend.warn(&lines.join("\n"));
 }
 
 /// Whoever wanted the job has looked at a program, and agreed to that one.

@@ -6,11 +6,11 @@ use crate::command::reading::for_program_silently;
 use crate::config::MachineConfig;
 use crate::page;
 use crate::program_file::ProgramFile;
-use crate::report::DiagnosisReport;
+use crate::report::{DiagnosisReport, warnings};
 use crate::sample::TickSample;
 use glidepath_audit::AuditSettings;
 use glidepath_audit::diagnosis::Diagnosis;
-use glidepath_gcode::ReadingWatch;
+use glidepath_gcode::{Lacking, ReadingWatch};
 use glidepath_geometry::AxisVector;
 use glidepath_kinematics::JointVector;
 use glidepath_live::Motion;
@@ -46,6 +46,10 @@ impl Planned {
 }
 
 impl Spectator for Planned {
+    fn lacks(&mut self, lacks: Lacking) {
+        self.board.warnings(warnings(lacks).collect());
+    }
+
     fn item(&mut self, item: &Item) {
         self.diagnosis.program(item);
     }

@@ -273,11 +273,35 @@ mod tests {
             self.look_as(Looker::Seat, name, look)
         }
 
+        fn object(&self, name: &str) -> Value {
+            let file = self.place.path().join(name);
+            let as_seat = (Looker::Seat, Look::First);
+            self.preview.object((&file, name), 1, as_seat).unwrap()
+        }
+
         fn look_as(&self, looker: Looker, name: &str, look: Look) -> Result<u64, GivenUp> {
             let file = self.place.path().join(name);
             let object = self.preview.object((&file, name), 1, (looker, look))?;
             Ok(object["generation"].as_u64().unwrap())
         }
+    }
+
+    /// What a program should say and does not is told of one that is looked at, too.
+    #[test]
+    fn warnings_are_told_of_a_program_that_is_looked_at() {
+        let desk = Desk::new(&["whole"]);
+        desk.write("cut-off", "G21 G90 F600\nG1 X5\n");
+        let warnings = |name: &str| loop {
+            let object = desk.object(name);
+            if object["report"].is_object() {
+                break object["warnings"].clone();
+            }
+            std::thread::sleep(std::time::Duration::from_millis(5));
+        };
+        let end =
+            "the text ends without M2, M30 or a last %: make sure that nothing of it is missing";
+        assert_eq!(warnings("cut-off"), serde_json::json!([end]));
+        assert_eq!(warnings("whole"), serde_json::json!([]));
     }
 
     #[test]

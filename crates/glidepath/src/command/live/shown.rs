@@ -30,6 +30,7 @@ struct Known {
     path: Option<Numbers>,
     report: Option<Value>,
     trouble: Option<String>,
+    warnings: Vec<&'static str>,
 }
 
 /// What is known of machine and program, for all threads.
@@ -102,6 +103,7 @@ impl Shown {
             "program_path": known.program_path.is_some(),
             "report": known.report,
             "failed": known.trouble,
+            "warnings": known.warnings,
             "generation": known.generation,
             "version": known.version,
         })
@@ -180,6 +182,11 @@ impl Board {
             known.path = Some(plan.path.into());
             known.report = Some(plan.report);
         });
+    }
+
+    /// What the program should say and does not.
+    pub(super) fn warnings(&self, warnings: Vec<&'static str>) {
+        self.put(|known| known.warnings = warnings);
     }
 
     /// There will be no plan.

@@ -1,4 +1,4 @@
-//! G51, G51.1 and G68: scale, mirror image and turn of the program's coordinates.
+//! G51, G51.1, G68, and G101 of Haas: scale, mirror image and turn of the program's coordinates.
 //!
 //! The machine stays where it is; the next block gives places in the new coordinates.
 
@@ -18,7 +18,7 @@ const MAX_SCALE: f64 = 1000.0;
 const STEP: f64 = 0.001;
 
 impl Interpreter {
-    /// G50, G51, G50.1, G51.1, G68, G69.
+    /// G50, G51, G50.1, G51.1, G68, G69, G100, G101.
     pub(super) fn fanuc_frame(&mut self, block: &Block) -> Outcome<()> {
         let Some(coded) = block.codes.frame else {
             return Ok(());
@@ -36,18 +36,25 @@ impl Interpreter {
         let frames = self.state.offsets.fanuc.frames;
         let ends = !matches!(
             coded.code,
-            FrameCode::Scale(true) | FrameCode::Mirror(true) | FrameCode::Turn(true)
+            FrameCode::Scale(true)
+                | FrameCode::Mirror(true)
+                | FrameCode::Switch(true)
+                | FrameCode::Turn(true)
         );
         let mut frames = frames;
         match coded.code {
             FrameCode::Scale(true) => frames.scale = Some(self.scale_words(block, coded)?),
             FrameCode::Scale(false) => frames.scale = None,
-            FrameCode::Mirror(begins) => {
+            FrameCode::Mirror(begins) | FrameCode::Switch(begins) => {
                 let changes = begins || frames.mirror.iter().any(Option::is_some);
                 if changes && (frames.scale.is_some() || frames.turn.is_some()) {
                     return Err(mirrors_inside(coded));
                 }
-                self.mirror_words(block, coded, begins, &mut frames.mirror)?;
+                if matches!(coded.code, FrameCode::Switch(_)) {
+                    self.switch_mirror(block, coded.span, begins, &mut frames.mirror)?;
+                } else {
+                    self.mirror_words(block, coded, begins, &mut frames.mirror)?;
+                }
             }
             FrameCode::Turn(true) => frames.turn = Some(self.turn_words(block, coded)?),
             FrameCode::Turn(false) => {

@@ -7,12 +7,12 @@ use std::io::BufRead;
 
 use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::span::SourceSpan;
 use crate::execute::dialect::tape::{Finishing, TapePlace};
 use crate::execute::motion::speed::Pace;
 use crate::execute::program::Program;
 use crate::syntax::block::Block;
 use crate::syntax::letters::Letters;
-use crate::syntax::word_check::unused;
 
 impl<R: BufRead> Program<R> {
     /// G70: goes to the profile; [`Program::end_finishing`] comes back.
@@ -22,7 +22,7 @@ impl<R: BufRead> Program<R> {
         [first, last]: [usize; 2],
     ) -> Outcome<()> {
         if let Some((letter, span)) = block.unused(Letters::of(b"PQFS")) {
-            return Err(unused(letter, span));
+            return Err(nothing_of_a_finish(letter, span));
         }
         if self.finishing.is_some() {
             let message = "a cycle in the profile of another one";
@@ -79,4 +79,12 @@ impl<R: BufRead> Program<R> {
         self.tape.go_to(finishing.back);
         Ok(())
     }
+}
+
+#[cold]
+fn nothing_of_a_finish(letter: char, span: SourceSpan) -> Box<BlockDiagnostic> {
+    let message = format!("{letter} in G70");
+    BlockDiagnostic::new(DiagnosticCode::UnusedWord, span, message)
+        .because("G70 goes along the profile as it stands: what a control would make of an allowance or a depth is not known here")
+        .help("remove the word: what is to be left belongs into G71, and what is to be cut into the profile")
 }

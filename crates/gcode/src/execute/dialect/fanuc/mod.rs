@@ -3,7 +3,8 @@
 //! ```text
 //! IF [cond] GOTO n · IF [cond] THEN #i = value · GOTO n · WHILE [cond] DO m … END m
 //! G65 P n arguments · G66 P n arguments · M98 P n L k · M97 P n · M99 · M99 P n
-//! #3000=n(TEXT) · #5221=… · G10 L2, L20, L10 to L13 · G43, G44, G43.4 · G51, G51.1, G68 · G16
+//! #3000=n(TEXT) · #5221=… · G10 L2, L20, L10 to L13 · G43, G44, G43.4 · G45 to G48 · G51, G51.1, G68, G101
+//! G16
 //! ```
 
 mod arguments;
@@ -17,7 +18,9 @@ mod increments;
 mod lathe_finish;
 mod lathe_offsets;
 mod lathe_profile;
+mod lengthening;
 mod loops;
+mod mirror_switch;
 mod modal_macro;
 mod modes;
 mod named_program;

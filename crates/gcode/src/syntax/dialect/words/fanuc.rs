@@ -13,11 +13,11 @@ pub(crate) const fn g(tenths: u32) -> Option<Meaning> {
         | 430 | 490 | 520 | 530 | 540 | 550 | 560 | 570 | 580 | 590 | 610 | 640 | 730 | 740
         | 800 | 810 | 820 | 830 | 840 | 850 | 860 | 890 | 900 | 910 | 920 | 930 | 940 | 950
         | 960 | 970 | 980 | 990 => Shared,
-        // G9, G10, G12, G13, G15, G16, G30, G31, G44, G43.4, G43.5, G50, G51, G50.1, G51.1, G54.1, G60, G62, G63,
-        // G53.1, G68, G68.2, G69, G70, G71, G76, G87, G92.1, G154, G234, G254, G255.
-        90 | 100 | 120 | 130 | 150 | 160 | 300 | 310 | 434 | 435 | 440 | 500 | 501 | 510 | 511
-        | 531 | 541 | 600 | 620 | 630 | 680 | 682 | 690 | 700 | 710 | 760 | 870 | 921 | 1540
-        | 2340 | 2540 | 2550 => Own,
+        // G9, G10, G12, G13, G15, G16, G30, G31, G44, G43.4, G43.5, G45 to G48, G50, G51, G50.1, G51.1, G54.1, G60,
+        // G62, G63, G53.1, G68, G68.2, G69, G70, G71, G76, G87, G92.1, G100, G101, G154, G234, G254, G255.
+        90 | 100 | 120 | 130 | 150 | 160 | 300 | 310 | 434 | 435 | 440 | 450 | 460 | 470 | 480
+        | 500 | 501 | 510 | 511 | 531 | 541 | 600 | 620 | 630 | 680 | 682 | 690 | 700 | 710
+        | 760 | 870 | 921 | 1000 | 1010 | 1540 | 2340 | 2540 | 2550 => Own,
         // Look-ahead and smoothness (G5 P, G5.1 Q, G8 P, G103 P, G187 P E), the end of G10 L50,
         // no stroke check (G23), no watch on the spindle's speed (G25), the end of what is refused
         // (G13.1, G54.2 P0 apart).
@@ -50,10 +50,6 @@ pub(crate) const fn g(tenths: u32) -> Option<Meaning> {
         ),
         432 => Refused("a second tool length", "write G43 H"),
         340 => Refused("a thread whose pitch changes", PLAIN_BLOCKS),
-        450 | 460 | 480 => Refused(
-            "a tool offset that makes moves longer or shorter",
-            "write G43 H for a length, and G41 or G42 with D for a radius",
-        ),
         683 | 684 | 2680 | 2690 => Refused("a tilted work plane", AXES_OF_THE_CAM),
         542 => Refused("a work offset that goes with the table", AXES_OF_THE_CAM),
         720 => Refused(
@@ -65,14 +61,6 @@ pub(crate) const fn g(tenths: u32) -> Option<Meaning> {
         880 => Refused(
             "boring with retraction by hand",
             "use G86 or G89, which retract by themselves",
-        ),
-        470 => Refused(
-            "engraving of a text, or a tool offset that makes moves longer",
-            PLAIN_BLOCKS,
-        ),
-        1000 | 1010 => Refused(
-            "a mirror image switched on and off",
-            "write G51.1 and G50.1",
         ),
         // Those of Haas, G154 P1 to P20; two of them are codes of a C axis, too.
         1100..=1290 if tenths.is_multiple_of(10) => Own,

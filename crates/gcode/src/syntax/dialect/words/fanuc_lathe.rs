@@ -23,6 +23,11 @@ pub(crate) const fn g(tenths: u32) -> Option<Meaning> {
         870 | 880 | 890 => Refused("a cycle on the side of the part", PLAIN_BLOCKS),
         120 | 130 | 150 | 160 | 434 | 435 | 440 | 531 | 682 | 2340 | 2540 | 2550 | 501 | 510
         | 511 | 541 | 1540 | 680 | 690 => Refused("a code of mills", PLAIN_BLOCKS),
+        450 | 460 | 470 | 480 => Refused(
+            "a tool offset that makes moves longer or shorter",
+            PLAIN_BLOCKS,
+        ),
+        1000 | 1010 => Refused("a mirror image switched on and off", PLAIN_BLOCKS),
         430 | 490 | 810 | 820 | 860 => Refused("a code of mills", "write T0101, or G83"),
         _ => return fanuc::g(tenths),
     })

@@ -1,0 +1,50 @@
+//! The words for what a program should say and does not, the same wherever they are told.
+
+use glidepath_gcode::Lacking;
+
+const NO_END: &str =
+    "the text ends without M2, M30 or a last %: make sure that nothing of it is missing";
+
+const NO_UNITS: &str = "it moves before G20 or G21, and is read in millimetres: write one of them, or say with which the \
+                        control begins: `units` of [program] in the configuration";
+
+const NO_DIAMETER: &str = "it moves before DIAMON or DIAMOF, and X is read as a radius: write one of them, or say what X is \
+                           where a program begins: `lathe_x` of [program] in the configuration";
+
+/// What stands in front of a warning in a text that says other things, too.
+pub const WARNING: &str = "warning: ";
+
+/// What is said of a program that is no mistake for certain.
+pub fn warnings(lacks: Lacking) -> impl Iterator<Item = &'static str> {
+    let all = [
+        (lacks.end, NO_END),
+        (lacks.units, NO_UNITS),
+        (lacks.diameter, NO_DIAMETER),
+    ];
+    all.into_iter()
+        .filter_map(|(is_told, words)| is_told.then_some(words))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_is_told_where_it_is_lacking() {
+        let all = Lacking {
+            end: true,
+            units: true,
+            diameter: true,
+        };
+        assert_eq!(
+            warnings(all).collect::<Vec<_>>(),
+            [NO_END, NO_UNITS, NO_DIAMETER]
+        );
+        let units = Lacking {
+            units: true,
+            ..Lacking::default()
+        };
+        assert_eq!(warnings(units).collect::<Vec<_>>(), [NO_UNITS]);
+        assert_eq!(warnings(Lacking::default()).count(), 0);
+    }
+}
