@@ -30,6 +30,9 @@ pub struct SiemensParameters {
     /// Edge D1 is in force behind a tool change that names no edge (MD 20270); else the tool has no
     /// length until D is written.
     pub edge_after_change: bool,
+    /// D numbers the offsets of all tools, the lines of the tool table, whatever tool is in the spindle ("flat" D
+    /// numbers, MD 18102); else the edges of the tool in the spindle.
+    pub flat_d_numbers: bool,
     /// What X words are where a program begins, on a machine with X and Z and without Y.
     pub lathe_x: LatheX,
     /// The first increment of an axis behind a new frame or work offset goes the shift of its zero, too
@@ -46,11 +49,12 @@ pub struct SiemensParameters {
 }
 
 impl Default for SiemensParameters {
-    /// By the machine, and D1; X of a lathe is not said; increments go the shifts before them; H is refused.
+    /// By the machine, and D1, which is an edge of the tool; X of a lathe is not said; increments go the shifts before them; H is refused.
     fn default() -> Self {
         Self {
             tool_change: None,
             edge_after_change: true,
+            flat_d_numbers: false,
             lathe_x: LatheX::Unsaid,
             frame_goes_with_increments: true,
             length_goes_with_increments: true,

@@ -79,6 +79,7 @@ pub(super) struct RawProgram {
     pub(super) lathe_feed: Optional<String>,
     pub(super) tool_change: Optional<String>,
     pub(super) edge_after_change: Optional<String>,
+    pub(super) d_numbers: Optional<String>,
     pub(super) lathe_x: Optional<String>,
     pub(super) increment_after_frame: Optional<String>,
     pub(super) increment_after_length: Optional<String>,

@@ -5,6 +5,7 @@ mod boring;
 mod corners;
 mod cycle_depths;
 mod cycles;
+mod edges;
 mod face_milling;
 mod flow;
 mod frames;

@@ -47,7 +47,7 @@ fn an_edge_is_length_and_radius() {
         last("TRANS X10\nT1 M6 D1\nG0 G153 X2 Z0 D0"),
         [2.0, 0.0, 0.0]
     );
-    finds("T1 M6\nD2", &["2:1 not-supported"]);
+    finds("T1 M6\nD2", &["2:1 unknown-tool"]);
 }
 
 #[test]

@@ -185,6 +185,11 @@ impl Judge {
                 raw.edge_after_change.take(),
                 &[("D1", true), ("none", false)],
             ),
+            flat_d_numbers: self.choice(
+                "program.d_numbers",
+                raw.d_numbers.take(),
+                &[("edges", false), ("flat", true)],
+            ),
             lathe_x: self.choice(
                 "program.lathe_x",
                 raw.lathe_x.take(),

@@ -113,6 +113,15 @@ pub(super) const PROGRAM: &[Key] = &[
          \"none\": the tool has no length until D is written",
     ),
     key(
+        "program.d_numbers",
+        Takes::Choice {
+            of: &["edges", "flat"],
+        },
+        LeftOut::Value("\"edges\""),
+        "what D numbers on a SINUMERIK (MD 18102): \"edges\": those of the tool in the spindle; \"flat\": \
+         the lines of the tool table, by their T, whatever the tool",
+    ),
+    key(
         "program.lathe_x",
         Takes::Choice {
             of: &["unsaid", "diameter", "radius", "diameter-in-G90"],
