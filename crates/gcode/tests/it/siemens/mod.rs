@@ -18,6 +18,7 @@ mod motion;
 mod older_pockets;
 mod program_frame;
 mod programs;
+mod references;
 mod spigots;
 mod stock_removal;
 mod subprograms;
