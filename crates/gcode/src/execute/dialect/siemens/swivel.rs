@@ -49,6 +49,7 @@ impl<R: BufRead> Program<R> {
         check_frame(&self.interpreter, is_off, span)?;
         self.settle_corner_before_plane(span)?;
         if is_off {
+            check_no_way_out(&numbers, span)?;
             let before = self.interpreter.place_names();
             self.interpreter.end_tilt();
             self.interpreter.rename_by_frame(&before, LINEAR);
@@ -137,6 +138,20 @@ impl Interpreter {
         self.straight(block, target, Pace::Rapid, out)?;
         self.map_moves(block, out)
     }
+}
+
+/// Refuses a way out where the plane ends.
+fn check_no_way_out(numbers: &[Option<f64>], span: SourceSpan) -> Outcome<()> {
+    let way = numbers.first().copied().flatten().unwrap_or(0.0);
+    if way == 0.0 {
+        return Ok(());
+    }
+    let message = format!("CYCLE800 that ends the plane with the retraction FR {way}");
+    Err(
+        BlockDiagnostic::new(DiagnosticCode::CannedCycle, span, message)
+            .because("whether the tool goes out of the way where nothing swivels is not known here")
+            .help("write the way out as a block before it (SUPA Z), and FR 0 or CYCLE800()"),
+    )
 }
 
 /// Refuses to put a plane in front of a frame of the program, or to take it from under one.
