@@ -44,8 +44,10 @@ pub struct SiemensParameters {
     /// H words, which are functions of the machine's PLC, are read over; else they are refused.
     pub reads_over_h: bool,
     /// Where the machine's Z goes up to before CYCLE800 turns the rotary axes, mm; `None`: that it shall
-    /// go there (FR 1) is refused.
+    /// go there (FR 1 and 2) is refused.
     pub swivel_z_mm: Option<f64>,
+    /// Where the machine's X and Y go behind that (FR 2), mm; `None`: FR 2 is refused.
+    pub swivel_xy_mm: [Option<f64>; 2],
 }
 
 impl Default for SiemensParameters {
@@ -60,6 +62,7 @@ impl Default for SiemensParameters {
             length_goes_with_increments: true,
             reads_over_h: false,
             swivel_z_mm: None,
+            swivel_xy_mm: [None; 2],
         }
     }
 }

@@ -85,6 +85,8 @@ pub(super) struct RawProgram {
     pub(super) increment_after_length: Optional<String>,
     pub(super) h_words: Optional<String>,
     pub(super) swivel_z: Optional<f64>,
+    pub(super) swivel_x: Optional<f64>,
+    pub(super) swivel_y: Optional<f64>,
     pub(super) tool_table: Optional<String>,
     pub(super) subroutine_path: Vec<String>,
     pub(super) inputs_outputs: Optional<String>,

@@ -260,15 +260,7 @@ impl Interpreter {
 
     /// The radius of the edge in force.
     pub(super) fn mill_radius(&self, arguments: Arguments<'_>) -> Outcome<f64> {
-        if self.state.edge == Some(0) {
-            return Err(arguments
-                .refused(
-                    "no edge of the tool is in force (D0)",
-                    "the way of the tool in the cycle depends on the radius of one, and the control refuses it, too \
-                     (alarm 61000)",
-                )
-                .help("write the D of the edge that cuts before the cycle"));
-        }
+        self.check_edge(arguments)?;
         let diameter = self.edge_in_force().map_or(0.0, |edge| edge.diameter_mm);
         if diameter > 0.0 {
             return Ok(0.5 * diameter / self.state.modal.units.mm());
@@ -284,6 +276,20 @@ impl Interpreter {
                 "the way of the tool in the cycle depends on it",
             )
             .help("change to a tool before the cycle, and give its diameter in the tool table"))
+    }
+
+    /// Refuses D0, with which the tool has no radius.
+    pub(super) fn check_edge(&self, arguments: Arguments<'_>) -> Outcome<()> {
+        if self.state.edge != Some(0) {
+            return Ok(());
+        }
+        Err(arguments
+            .refused(
+                "no edge of the tool is in force (D0)",
+                "the way of the tool in the cycle depends on the radius of one, and the control refuses it, too \
+                 (alarm 61000)",
+            )
+            .help("write the D of the edge that cuts before the cycle"))
     }
 
     /// True for clockwise.

@@ -143,6 +143,7 @@ impl Interpreter {
             value.map(|value| value * mm)
         };
         let lift = arguments.not_negative(11, "_VRT", "how far the tool lifts off")? * mm;
+        self.check_edge(arguments)?;
         let tool = self.edge_in_force();
         Ok(Removal {
             out: if matches!(variant, 3 | 7 | 11) {
