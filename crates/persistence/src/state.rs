@@ -17,18 +17,34 @@ pub struct System {
     pub rotation_deg: f64,
 }
 
-/// A tool as G10 has changed it.
+/// An edge of a tool as a program has changed it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Tool {
-    /// Its number.
+    /// The tool's number.
     pub number: u32,
+    /// The edge: 1 is the first one, which is the tool where a language knows no edges.
+    #[serde(default = "first", skip_serializing_if = "is_first")]
+    pub edge: u32,
     /// Length offsets, mm and degrees.
     pub offset: [f64; AXES],
     /// Diameter, mm.
     pub diameter_mm: f64,
     /// Orientation of a turning tool, 0 to 9.
     pub orientation: u8,
+}
+
+/// The edge of tools that have one.
+const fn first() -> u32 {
+    1
+}
+
+#[expect(
+    clippy::trivially_copy_pass_by_ref,
+    reason = "serde hands a reference on"
+)]
+const fn is_first(edge: &u32) -> bool {
+    *edge == first()
 }
 
 /// A numbered parameter of programs that outlasts a restart.
@@ -76,7 +92,7 @@ pub struct UnderWay {
     pub program: u64,
     /// What it began with: what the rest of it has to be read with.
     pub offsets: Offsets,
-    /// The tools it began with that G10 had changed before.
+    /// The edges of tools it began with that programs had changed before.
     #[serde(default)]
     pub tools: Vec<Tool>,
     /// The parameters it began with.
@@ -123,7 +139,7 @@ pub struct PersistentState {
     /// The program that has begun.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub under_way: Option<UnderWay>,
-    /// The tools that G10 changed.
+    /// The edges of tools that programs changed.
     #[serde(default)]
     pub tools: Vec<Tool>,
     /// The parameters of programs that outlast a restart, of those that something was assigned to.

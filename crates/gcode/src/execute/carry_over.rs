@@ -76,7 +76,9 @@ impl<R: BufRead> Program<R> {
         let start = interpreter.options.start;
         let own = mem::replace(&mut interpreter.state, state.clone());
         interpreter.state.fanuc = FanucModal::default();
-        interpreter.state.edge = None;
+        // Other languages leave a length that is of no edge.
+        let has_edges = [*dialect, self.block.dialect] == [Dialect::Siemens; 2];
+        interpreter.state.edge = interpreter.state.edge.filter(|_| has_edges);
         interpreter.state.tip = interpreter.options.first_tip();
         interpreter.state.turns_on_circles = false;
         interpreter.state.tilted = None;

@@ -37,7 +37,7 @@ impl State {
             overrides_off: false,
             selected_tool: 0,
             tool: 0,
-            tool_before: (0, AxisVector::zeros()),
+            tool_before: (0, AxisVector::zeros(), None),
             cycles: CycleSeries::default(),
             probe: ProbeResult::default(),
             input: 0.0,

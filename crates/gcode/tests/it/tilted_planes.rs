@@ -52,6 +52,39 @@ fn the_tool_goes_up_before_the_table_swivels() {
     assert_eq!(listed(&report), ["2:1 canned-cycle"]);
 }
 
+#[test]
+fn the_tool_goes_aside_once_it_is_up() {
+    let with = |swivel_xy_mm: [Option<f64>; 2]| Options {
+        siemens: SiemensParameters {
+            swivel_z_mm: Some(150.0),
+            swivel_xy_mm,
+            ..SiemensParameters::default()
+        },
+        ..options(Dialect::Siemens)
+    };
+    let text = "G0 X5 Y6 Z20\nCYCLE800(2,\"TC\",0,57,0,0,0,30,0,0,0,0,0,-1)";
+    let ends: Vec<AxisVector> = Program::new(text.as_bytes(), with([Some(-40.0), Some(70.0)]))
+        .map(|item| item.unwrap_or_else(|d| panic!("{text}\n{d}")))
+        .filter_map(|item| match item.kind {
+            ItemKind::Move { segment, .. } => Some(segment.end()),
+            _ => None,
+        })
+        .collect();
+    near(ends[1], at(5.0, 6.0, 150.0, 0.0, 0.0));
+    near(ends[2], at(-40.0, 70.0, 150.0, 0.0, 0.0));
+    let last = joints(ends.last().expect("a move"));
+    for (joint, place) in [(0, -40.0), (1, 70.0), (2, 150.0)] {
+        assert!((last[joint] - place).abs() < 1e-6, "{last:?}");
+    }
+    for lacking in [[None, Some(70.0)], [Some(-40.0), None]] {
+        let report = check(text.as_bytes(), with(lacking));
+        assert_eq!(listed(&report), ["2:1 canned-cycle"]);
+    }
+    let follows = text.replace("CYCLE", "TRAORI\nCYCLE").replace("(2,", "(4,");
+    let report = check(follows.as_bytes(), with([Some(-40.0), Some(70.0)]));
+    assert_eq!(listed(&report), ["3:1 canned-cycle"]);
+}
+
 /// A plane at (20, 10, 0) that is turned by 30 degrees about X.
 const PLANE: &str = "G68.2 X20 Y10 Z0 J30\nG53.1\nG0 X1 Y2 Z3";
 

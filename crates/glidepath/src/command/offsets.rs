@@ -254,10 +254,11 @@ fn text(folder: &Path, generation: u64, kept: &PersistentState) -> String {
     }
     for tool in &kept.tools {
         let offset = axis_words(&tool.offset);
-        text.push_str(&format!(
-            "  T{} changed by G10: {offset} D{}\n",
-            tool.number, tool.diameter_mm
-        ));
+        let which = match tool.edge {
+            1 => format!("T{} changed by G10", tool.number),
+            edge => format!("T{} E{edge} changed by a program", tool.number),
+        };
+        text.push_str(&format!("  {which}: {offset} D{}\n", tool.diameter_mm));
     }
     if kept.spindle_tool != 0 {
         text.push_str(&format!(
@@ -298,6 +299,7 @@ fn object(folder: &Path, generation: u64, kept: &PersistentState) -> Value {
         "offsets": named,
         "tools_changed": kept.tools.iter().map(|tool| json!({
             "number": tool.number,
+            "edge": tool.edge,
             "offset": tool.offset,
             "diameter_mm": tool.diameter_mm,
             "orientation": tool.orientation,

@@ -71,14 +71,17 @@ impl ToolNames {
     }
 }
 
-/// What stands behind the semicolon in the line of each tool.
+/// What stands behind the semicolon in the line of each tool, which is that of its first edge.
 fn comments(table: &str) -> BTreeMap<u32, String> {
     let rows = table.lines().filter_map(|line| line.split_once(';'));
     let comments = rows.filter_map(|(words, comment)| {
-        let mut words = words.split_whitespace();
-        let tool = words.find_map(|word| word.strip_prefix(['T', 't'])?.parse().ok());
+        let word = |letters: [char; 2]| {
+            let mut words = words.split_whitespace();
+            words.find_map(|word| word.strip_prefix(letters)?.parse::<u32>().ok())
+        };
         let comment = comment.trim();
-        (!comment.is_empty()).then_some((tool?, comment.to_owned()))
+        let names = !comment.is_empty() && word(['E', 'e']).is_none_or(|edge| edge == 1);
+        names.then_some((word(['T', 't'])?, comment.to_owned()))
     });
     comments.collect()
 }
@@ -89,7 +92,7 @@ mod tests {
 
     #[test]
     fn the_comment_of_a_tool_is_that_of_its_line() {
-        let table = "; tools\nT1 P1 Z10 D6 ; 6 mm end mill\nT12 P2 ;\nt2 Z3; drill\nT3 Z1\n";
+        let table = "; tools\nT1 P1 Z10 D6 ; 6 mm end mill\nT1 E2 Z5 ; its shoulder\nT12 P2 ;\nt2 Z3; drill\nT3 Z1\n";
         let all: Vec<(u32, String)> = comments(table).into_iter().collect();
         assert_eq!(
             all,

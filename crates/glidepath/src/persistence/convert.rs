@@ -64,7 +64,7 @@ fn take<T: Copy + PartialEq>(kept: &mut T, before: &T, after: &T) {
     }
 }
 
-/// The tool table with what G10 made of it before.
+/// The tool table with what programs made of it before.
 pub(crate) fn with_tools(table: &Arc<ToolTable>, kept: &[Tool]) -> Arc<ToolTable> {
     let mut table = Arc::clone(table);
     for tool in kept {
@@ -73,24 +73,26 @@ pub(crate) fn with_tools(table: &Arc<ToolTable>, kept: &[Tool]) -> Arc<ToolTable
             diameter_mm: tool.diameter_mm,
             orientation: tool.orientation,
         };
-        Arc::make_mut(&mut table).set(tool.number, changed);
+        Arc::make_mut(&mut table).set_edge(tool.number, tool.edge, changed);
     }
     table
 }
 
-/// Takes over the tools that a program changed.
+/// Takes over the edges of tools that a program changed.
 pub(crate) fn merge_tools(kept: &mut Vec<Tool>, before: &ToolTable, after: &ToolTable) {
-    for (number, tool) in after.tools() {
-        if before.get(number) == Some(tool) {
+    for (number, edge, tool) in after.edges() {
+        if before.edge(number, edge) == Some(tool) {
             continue;
         }
         let changed = Tool {
             number,
+            edge,
             offset: array(&tool.offset),
             diameter_mm: tool.diameter_mm,
             orientation: tool.orientation,
         };
-        match kept.iter_mut().find(|kept| kept.number == number) {
+        let is_same = |kept: &&mut Tool| (kept.number, kept.edge) == (number, edge);
+        match kept.iter_mut().find(is_same) {
             Some(kept) => *kept = changed,
             None => kept.push(changed),
         }
@@ -150,6 +152,31 @@ mod tests {
         assert_eq!(kept.systems[1].origin[0].to_bits(), 5.0_f64.to_bits());
         assert_eq!(kept.systems[3], after.systems[3]);
         assert_eq!((kept.active, kept.g92), (4, after.g92));
+    }
+
+    #[test]
+    fn each_edge_of_a_tool_is_kept() {
+        let text = b"T1 Z10\nT2 Z20 D8\nT2 E2 Z25 D9\nT2 E3 Z26\n";
+        let before = Arc::new(ToolTable::parse(text).unwrap());
+        let mut after = ToolTable::clone(&before);
+        let mut change = |number, edge, length| {
+            let mut tool = after.edge(number, edge).copied().unwrap_or_default();
+            tool.offset[2] = length;
+            after.set_edge(number, edge, tool);
+        };
+        change(2, 2, 27.0);
+        change(1, 2, 11.0);
+        let mut kept = Vec::new();
+        merge_tools(&mut kept, &before, &after);
+        let numbers: Vec<_> = kept.iter().map(|it| (it.number, it.edge)).collect();
+        assert_eq!(numbers, [(1, 2), (2, 2)]);
+        assert_eq!(*with_tools(&before, &kept), after);
+        // The same edge again is the same entry.
+        let mut again = after.clone();
+        again.set_edge(2, 2, glidepath_gcode::Tool::default());
+        merge_tools(&mut kept, &after, &again);
+        assert_eq!(kept.len(), 2);
+        assert_eq!(*with_tools(&before, &kept), again);
     }
 
     #[test]

@@ -70,7 +70,10 @@ pub(crate) fn set_up(config: &mut MachineConfig, kept: &PersistentState) -> Vec<
         let numbers: Vec<String> = kept
             .tools
             .iter()
-            .map(|tool| tool.number.to_string())
+            .map(|tool| match tool.edge {
+                1 => tool.number.to_string(),
+                edge => format!("{} D{edge}", tool.number),
+            })
             .collect();
         notes.push(format!(
             "offsets: the tool table is not the one that programs have changed by G10; their changes \

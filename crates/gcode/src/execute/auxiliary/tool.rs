@@ -47,7 +47,8 @@ impl Interpreter {
             self.state.tool = whole(block, b'Q', MAX_TOOL)?
                 .ok_or_else(|| missing(span, "M61", "Q", "the tool in the spindle"))?;
             // Nothing is changed: there is no change to take back.
-            self.state.tool_before = (self.state.tool, self.state.offsets.tool);
+            let offset = self.state.offsets.tool;
+            self.state.tool_before = (self.state.tool, offset, self.state.edge);
             self.push(out, ItemKind::Event(Event::MCode(code)));
         } else {
             self.state.spindle.turning = None;
@@ -58,7 +59,7 @@ impl Interpreter {
 
     /// M6 with a tool, where an offset is in force for the tool before.
     pub(crate) fn change_tool(&mut self, tool: u32, offset: AxisVector, out: &mut Vec<Item>) {
-        self.state.tool_before = (self.state.tool, offset);
+        self.state.tool_before = (self.state.tool, offset, self.state.edge);
         self.state.tool = tool;
         self.push(out, ItemKind::Event(Event::MCode(6)));
     }

@@ -227,6 +227,8 @@ impl Interpreter {
             codes.system.map(|c| (c.span, "another coordinate system")),
             codes.tool_length.map(|c| (c.span, "another tool length")),
             codes.tool_change.map(|c| (c.span, "a tool change")),
+            self.other_edge(block)
+                .map(|span| (span, "another edge of the tool")),
             codes
                 .diameter
                 .map(|c| (c.span, "changing the diameter mode")),

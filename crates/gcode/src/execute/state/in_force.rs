@@ -139,7 +139,9 @@ impl InForce {
     #[must_use]
     pub fn before_tool_change(&self) -> Self {
         let mut parts = self.0.as_ref().clone();
-        (parts.state.tool, parts.state.offsets.tool) = parts.state.tool_before;
+        let (tool, offset, edge) = parts.state.tool_before;
+        (parts.state.tool, parts.state.edge) = (tool, edge);
+        parts.state.offsets.tool = offset;
         Self(Arc::new(parts))
     }
 

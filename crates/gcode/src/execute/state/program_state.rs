@@ -49,9 +49,9 @@ pub(crate) struct State {
     pub(crate) selected_tool: u32,
     /// Tool number in the spindle; 0: none.
     pub(crate) tool: u32,
-    /// The tool before the last M6, with the offset (G43) that was in force there.
+    /// The tool before the last M6, with the offset (G43) and the edge that were in force there.
     #[serde(skip)]
-    pub(crate) tool_before: (u32, AxisVector),
+    pub(crate) tool_before: (u32, AxisVector, Option<u32>),
     pub(crate) cycles: CycleSeries,
     pub(crate) probe: ProbeResult,
     /// Value of the input M66 read last.
@@ -89,8 +89,8 @@ pub(crate) struct State {
     /// F counts millimetres whatever the unit of lengths is (G70 and G71 of SINUMERIK).
     #[serde(skip)]
     pub(crate) feeds_in_mm: bool,
-    /// The edge of the tool in force (D of SINUMERIK); `None`: none was chosen.
-    #[serde(skip)]
+    /// The edge of the tool in force (D of SINUMERIK); 0: none, `None`: nothing was said of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) edge: Option<u32>,
     /// Modes of FANUC alone.
     #[serde(skip)]

@@ -51,7 +51,7 @@ pub(crate) trait Scope {
 }
 
 /// The parameter that is meant.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Parameter {
     Numbered(u32),
     Named(String),

@@ -121,7 +121,6 @@ fn edges_are_set_and_read() {
     let text = "$TC_DP1[7,1]=120\n$TC_DP3[7,1]=50\n$TC_DP6[7,1]=4\nT7 M6\nG0 Z1\nZ=$TC_DP6[7,1] \nZ=$P_TOOLR+$P_TOOLL[1]";
     assert_eq!(zs(text, named_tools()), [51.0, 54.0, 104.0]);
     assert_eq!(xs("T3 M6\nR1=$P_TOOLNO+$P_TOOL/10\nG0 X=R1"), [3.1]);
-    finds("$TC_DP3[1,2]=5", &["1:1 not-supported"]);
     finds("$TC_DP25[1,1]=5", &["1:1 not-supported"]);
     finds("R1=$TC_DP1[1,1]", &["1:4 not-supported"]);
 }

@@ -47,7 +47,7 @@ fn an_edge_is_length_and_radius() {
         last("TRANS X10\nT1 M6 D1\nG0 G153 X2 Z0 D0"),
         [2.0, 0.0, 0.0]
     );
-    finds("T1 M6\nD2", &["2:1 not-supported"]);
+    finds("T1 M6\nD2", &["2:1 unknown-tool"]);
 }
 
 #[test]
@@ -55,6 +55,8 @@ fn headers_are_read_over() {
     let text = "WORKPIECE(,\"\",,\"BOX\",112,0,-51)\nG601 FNORM\nBRISK\nDYNFINISH\nTRAFOOF\nCYCLE800()\nG500\nM41\nG0 X1";
     assert_eq!(ends(text), [[1.0, 0.0, 0.0]]);
     finds("CYCLE800(1,\"TC1\")", &["1:1 canned-cycle"]);
+    assert_eq!(ends("CYCLE800(0,\"0\")\nG0 X1"), [[1.0, 0.0, 0.0]]);
+    finds("CYCLE800(2,\"0\")", &["1:1 canned-cycle"]);
     assert_eq!(ends("R1='H0A' R2='B101'\nG0 X=R1 Y=R2"), [[10.0, 5.0, 0.0]]);
     assert_eq!(
         ends("DIAMON\nG0 X20\nDIAMOF X3"),

@@ -29,7 +29,7 @@ fn with_files(files: &[(&str, &str)]) -> Options {
     }
 }
 
-fn xs_with(text: &str, files: &[(&str, &str)]) -> Vec<f64> {
+pub(super) fn xs_with(text: &str, files: &[(&str, &str)]) -> Vec<f64> {
     Program::new(text.as_bytes(), with_files(files))
         .filter_map(
             |item| match item.unwrap_or_else(|d| panic!("{text}\n{d}")).kind {
@@ -41,7 +41,7 @@ fn xs_with(text: &str, files: &[(&str, &str)]) -> Vec<f64> {
 }
 
 #[track_caller]
-fn found(text: &str, files: &[(&str, &str)], expected: &[&str]) {
+pub(super) fn found(text: &str, files: &[(&str, &str)], expected: &[&str]) {
     let report = check(text.as_bytes(), with_files(files));
     assert_eq!(listed(&report), expected, "{text}");
 }
@@ -105,8 +105,6 @@ fn parameters_have_the_values_of_the_call() {
     );
     found("BORE(1,2,0,5)", &[file], &["1:5 expression"]);
     found("L1(5)", &[("L1.SPF", "G0 X5")], &["1:1 expression"]);
-    let var = ("L1.SPF", "PROC L1(VAR REAL AA)\nM17");
-    found("L1(5)", &[var], &["1:9 not-supported"]);
     finds("PROC MAIN(REAL AA)\nG0 X1", &["1:5 flow-structure"]);
     assert_eq!(xs("PROC MAIN\nG0 X1\nM30"), [1.0]);
     // ENDPROC is an end like M17, of a program and of a subprogram.

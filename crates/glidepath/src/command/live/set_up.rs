@@ -9,6 +9,7 @@ use glidepath_gcode::Connections;
 use glidepath_geometry::AXES;
 use glidepath_persistence::PersistentState;
 use serde_json::{Map, Value, json};
+use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
@@ -130,18 +131,33 @@ impl SetUp {
 
     fn tools(&self, machine: &MachineConfig) -> Value {
         let (tools, names) = (table(machine), self.names.all());
-        let object = |(number, tool): (u32, &glidepath_gcode::Tool)| {
+        let by_axis = |tool: &glidepath_gcode::Tool| {
             let mut offset = [0.0; AXES];
             for (slot, value) in offset.iter_mut().zip(tool.offset.iter()) {
                 *slot = *value;
             }
-            json!({
+            self.by_axis(&offset)
+        };
+        let mut further: BTreeMap<u32, Vec<Value>> = BTreeMap::new();
+        for (number, edge, tool) in tools.edges().filter(|(_, edge, _)| *edge != 1) {
+            further.entry(number).or_default().push(json!({
+                "edge": edge,
+                "diameter_mm": tool.diameter_mm,
+                "offset": by_axis(tool),
+            }));
+        }
+        let mut object = |(number, tool): (u32, &glidepath_gcode::Tool)| {
+            let mut object = json!({
                 "number": number,
                 "name": names.get(&number),
                 "diameter_mm": tool.diameter_mm,
-                "offset": self.by_axis(&offset),
-            })
+                "offset": by_axis(tool),
+            });
+            if let Some(edges) = further.remove(&number) {
+                object["edges"] = edges.into();
+            }
+            object
         };
-        tools.tools().take(MOST_TOOLS).map(object).collect()
+        tools.tools().take(MOST_TOOLS).map(&mut object).collect()
     }
 }

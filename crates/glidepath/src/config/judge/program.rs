@@ -29,12 +29,12 @@ const FIRMWARES: [(&str, Option<Firmware>); 3] = [
     ("klipper", Some(Firmware::Klipper)),
 ];
 
-/// Where Z goes up to before the rotary axes turn.
-const SWIVEL_Z: Range = Range {
+/// Where an axis goes before the rotary axes turn.
+const SWIVEL: Range = Range {
     min: -1e6,
     max: 1e6,
     unit: "mm",
-    help: "a place of the machine's Z where the rotary axes may turn",
+    help: "a place of that axis of the machine where the rotary axes may turn",
 };
 
 impl Judge {
@@ -185,6 +185,11 @@ impl Judge {
                 raw.edge_after_change.take(),
                 &[("D1", true), ("none", false)],
             ),
+            flat_d_numbers: self.choice(
+                "program.d_numbers",
+                raw.d_numbers.take(),
+                &[("edges", false), ("flat", true)],
+            ),
             lathe_x: self.choice(
                 "program.lathe_x",
                 raw.lathe_x.take(),
@@ -213,7 +218,12 @@ impl Judge {
             swivel_z_mm: raw
                 .swivel_z
                 .take()
-                .map(|value| self.number("program.swivel_z", &value, &SWIVEL_Z)),
+                .map(|value| self.number("program.swivel_z", &value, &SWIVEL)),
+            swivel_xy_mm: [
+                ("program.swivel_x", raw.swivel_x.take()),
+                ("program.swivel_y", raw.swivel_y.take()),
+            ]
+            .map(|(key, value)| value.map(|value| self.number(key, &value, &SWIVEL))),
         }
     }
 }

@@ -113,6 +113,15 @@ pub(super) const PROGRAM: &[Key] = &[
          \"none\": the tool has no length until D is written",
     ),
     key(
+        "program.d_numbers",
+        Takes::Choice {
+            of: &["edges", "flat"],
+        },
+        LeftOut::Value("\"edges\""),
+        "what D numbers on a SINUMERIK (MD 18102): \"edges\": those of the tool in the spindle; \"flat\": \
+         the lines of the tool table, by their T, whatever the tool",
+    ),
+    key(
         "program.lathe_x",
         Takes::Choice {
             of: &["unsaid", "diameter", "radius", "diameter-in-G90"],
@@ -150,9 +159,21 @@ pub(super) const PROGRAM: &[Key] = &[
     key(
         "program.swivel_z",
         number(-1e6, 1e6, "mm"),
-        LeftOut::Means("CYCLE800 with FR 1 is refused"),
+        LeftOut::Means("CYCLE800 with FR 1 or 2 is refused"),
         "where the machine's Z goes up to before CYCLE800 of a SINUMERIK turns the rotary axes, where its \
-         program asks for it (FR 1)",
+         program asks for it (FR 1 and 2)",
+    ),
+    key(
+        "program.swivel_x",
+        number(-1e6, 1e6, "mm"),
+        LeftOut::Means("CYCLE800 with FR 2 is refused"),
+        "where the machine's X goes, together with Y, once Z is up, with FR 2",
+    ),
+    key(
+        "program.swivel_y",
+        number(-1e6, 1e6, "mm"),
+        LeftOut::Means("CYCLE800 with FR 2 is refused"),
+        "where the machine's Y goes, together with X, once Z is up, with FR 2",
     ),
     key(
         "program.tool_table",

@@ -32,6 +32,7 @@ pub(crate) fn kept_of(generation: u64) -> PersistentState {
     let tools = (1..=u32::try_from(generation % 40).unwrap_or_default())
         .map(|number| Tool {
             number,
+            edge: 1 + number % 3,
             offset: vector(4),
             diameter_mm: base,
             orientation: 3,

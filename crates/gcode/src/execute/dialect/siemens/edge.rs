@@ -1,8 +1,9 @@
 //! D: the edge of the tool, whose length and radius are in force at once.
 //!
-//! The tool table has one edge for each tool, which is D1. D0 takes the length back. A block that
-//! changes the tool and names no edge puts D1 in force, unless the machine data say otherwise. T
-//! itself changes the tool on lathes.
+//! A tool has the edges that the tool table has of it, D1 and further ones. With flat D numbers D is the
+//! offset of that number, which is a line of the table, whatever tool is in the spindle. D0 takes the
+//! length back. A block that changes the tool and names no edge puts D1 in force, unless the machine data
+//! say otherwise. T itself changes the tool on lathes.
 
 use glidepath_geometry::AxisVector;
 
@@ -12,16 +13,16 @@ use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::state::tip::Tip;
 use crate::setup::siemens::ToolChangeBy;
-use crate::setup::tool_table::Tool;
+use crate::setup::tool_table::{MAX_EDGE, Tool};
 use crate::syntax::block::Block;
 use crate::syntax::codes::Coded;
 use crate::syntax::dialect::Dialect;
-use crate::syntax::word_check::whole;
+use crate::syntax::word_check::{missing, whole};
 
 impl Interpreter {
     /// D of a block, behind its T and M6.
     pub(crate) fn choose_edge(&mut self, block: &Block) -> Outcome<()> {
-        let (edge, span) = match whole(block, b'D', 9)? {
+        let (edge, span) = match whole(block, b'D', MAX_EDGE)? {
             Some(edge) => (edge, block.span(b'D')),
             // Without a table no length is known.
             None if self.changes_tool(block) && self.state.tools.is_none() => {
@@ -29,31 +30,10 @@ impl Interpreter {
                 self.state.edge = None;
                 return Ok(());
             }
-            None if self.changes_tool(block) => {
-                let edge = u32::from(self.options.siemens.edge_after_change);
-                (edge, block.span(b'T'))
-            }
+            None if self.changes_tool(block) => (self.edge_after_change(), block.span(b'T')),
             None => return Ok(()),
         };
-        if edge > 1 {
-            let tool = self.state.tool;
-            let message = format!("tool {tool} has no edge D{edge}");
-            return Err(
-                BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
-                    .because("a tool of the table has one edge, which is D1; D does not number the offsets of all tools")
-                    .help("write D1 where the offset of this tool is meant, or give the edge a tool number of its own"),
-            );
-        }
-        let tool = if edge == 0 {
-            Tool::default()
-        } else {
-            self.tool_of(self.state.tool, span)?
-        };
-        self.state.offsets.tool = if edge == 0 {
-            AxisVector::zeros()
-        } else {
-            tool.offset
-        };
+        self.state.offsets.tool = self.edge_numbered(edge, span)?.offset;
         if self.options.five_axis.is_some() && self.state.tip.follows() {
             self.check_straight_tool(Coded { code: (), span })?;
             let longer_mm = core::mem::take(&mut self.state.offsets.tool[2]);
@@ -78,12 +58,91 @@ impl Interpreter {
             || block.get(b'T').is_some() && self.changes_tool_by_t(block)
     }
 
-    /// The tool whose radius G41 and G42 take: the one in the spindle, unless D0 is in force.
+    /// The edge behind a tool change that names none.
+    fn edge_after_change(&self) -> u32 {
+        u32::from(self.options.siemens.edge_after_change)
+    }
+
+    /// What D of that number puts in force.
+    fn edge_numbered(&self, edge: u32, span: SourceSpan) -> Outcome<Tool> {
+        if edge == 0 {
+            return Ok(Tool::default());
+        }
+        let (number, is_flat) = (self.state.tool, self.options.siemens.flat_d_numbers);
+        if is_flat && self.state.tools.is_some() {
+            return self.known_edge(edge).ok_or_else(|| no_offset(edge, span));
+        }
+        let first = self.tool_of(if is_flat { edge } else { number }, span)?;
+        if edge == 1 || number == 0 {
+            return Ok(first);
+        }
+        self.known_edge(edge)
+            .ok_or_else(|| no_edge(number, edge, span))
+    }
+
+    /// The same, if the tool table has it.
+    fn known_edge(&self, edge: u32) -> Option<Tool> {
+        let tools = self.state.tools.as_ref()?;
+        let found = if self.options.siemens.flat_d_numbers {
+            tools.get(edge)
+        } else {
+            tools.edge(self.state.tool, edge)
+        };
+        found.copied()
+    }
+
+    /// The edge in force; `None`: it is none, or the table does not have it. Where nothing was said of edges it is the
+    /// first one of the tool in the spindle, but with flat D numbers none.
+    pub(super) fn edge_in_force(&self) -> Option<Tool> {
+        let unsaid = u32::from(!self.options.siemens.flat_d_numbers);
+        let edge = self.state.edge.unwrap_or(unsaid);
+        self.known_edge(edge).filter(|_| edge != 0)
+    }
+
+    /// The edge whose radius G41 and G42 take.
     pub(crate) fn tool_of_edge(&self, block: &Block, span: SourceSpan) -> Outcome<Tool> {
-        let edge = whole(block, b'D', 9)?.or(self.state.edge);
-        match edge {
-            Some(0) => Ok(Tool::default()),
-            _ => self.tool_of(self.state.tool, span),
+        let chosen = match whole(block, b'D', MAX_EDGE)? {
+            Some(edge) => Some(edge),
+            None if self.changes_tool(block) => Some(self.edge_after_change()),
+            None => self.state.edge,
+        };
+        match chosen {
+            Some(edge) => self.edge_numbered(edge, span),
+            None if self.options.siemens.flat_d_numbers => {
+                Err(missing(span, "G41 or G42", "D", "whose radius"))
+            }
+            None => self.tool_of(self.state.tool, span),
         }
     }
+
+    /// Where a block names another edge than the one whose radius is in force.
+    pub(crate) fn other_edge(&self, block: &Block) -> Option<SourceSpan> {
+        let edge = block
+            .get(b'D')
+            .filter(|_| block.dialect == Dialect::Siemens)?;
+        let in_force = f64::from(self.state.edge.unwrap_or(1));
+        ((edge - in_force).abs() > 1e-4).then(|| block.span(b'D'))
+    }
+}
+
+#[cold]
+fn no_edge(tool: u32, edge: u32, span: SourceSpan) -> Box<BlockDiagnostic> {
+    let message = format!("tool {tool} has no edge D{edge}");
+    BlockDiagnostic::new(DiagnosticCode::UnknownTool, span, message)
+        .because("the tool table has no length and no diameter of it")
+        .help(format!(
+            "add a line `T{tool} E{edge}` to the tool table; where D numbers the offsets of all tools, set \
+             d_numbers = \"flat\" of [program]"
+        ))
+}
+
+#[cold]
+fn no_offset(edge: u32, span: SourceSpan) -> Box<BlockDiagnostic> {
+    let message = format!("there is no offset D{edge}");
+    BlockDiagnostic::new(DiagnosticCode::UnknownTool, span, message)
+        .because("with flat D numbers D takes the line of that T from the tool table, whatever the tool, and there is none")
+        .help(format!(
+            "add a line `T{edge}` to the tool table; where a tool change puts no offset in force, set \
+             edge_after_change = \"none\" of [program]"
+        ))
 }

@@ -62,8 +62,12 @@ impl<R: BufRead> Program<R> {
         };
         let scope = self.scope();
         let mut input = self.evaluator(&scope, text, callee.end);
-        let arguments = arguments_ahead(&mut input)?;
+        let mut arguments = arguments_ahead(&mut input)?;
         check_end(&mut input)?;
+        // A variable may be gone where a move calls it, so it has the value of now.
+        for argument in arguments.iter_mut().flatten() {
+            argument.variable = None;
+        }
         // What is wrong with it is said here, not at the next move.
         let span = SourceSpan::new(callee.start, callee.end);
         self.siemens_check_arguments(first, &arguments, span)?;

@@ -258,23 +258,38 @@ impl Interpreter {
         Ok([0, 1].map(|index| given[index].unwrap_or_else(|| coordinate(self, axes[index]))))
     }
 
-    /// The radius of the tool in the spindle.
+    /// The radius of the edge in force.
     pub(super) fn mill_radius(&self, arguments: Arguments<'_>) -> Outcome<f64> {
-        let tool = self
-            .state
-            .tools
-            .as_ref()
-            .and_then(|tools| tools.get(self.state.tool));
-        let diameter = tool.map_or(0.0, |tool| tool.diameter_mm);
+        self.check_edge(arguments)?;
+        let diameter = self.edge_in_force().map_or(0.0, |edge| edge.diameter_mm);
         if diameter > 0.0 {
             return Ok(0.5 * diameter / self.state.modal.units.mm());
         }
+        let tool = self.state.tool;
+        let which = match self.state.edge {
+            Some(edge) if edge > 1 => format!("D{edge} of tool {tool}"),
+            _ => format!("tool {tool}"),
+        };
         Err(arguments
             .refused(
-                format!("tool {} has no diameter", self.state.tool),
+                format!("{which} has no diameter"),
                 "the way of the tool in the cycle depends on it",
             )
             .help("change to a tool before the cycle, and give its diameter in the tool table"))
+    }
+
+    /// Refuses D0, with which the tool has no radius.
+    pub(super) fn check_edge(&self, arguments: Arguments<'_>) -> Outcome<()> {
+        if self.state.edge != Some(0) {
+            return Ok(());
+        }
+        Err(arguments
+            .refused(
+                "no edge of the tool is in force (D0)",
+                "the way of the tool in the cycle depends on the radius of one, and the control refuses it, too \
+                 (alarm 61000)",
+            )
+            .help("write the D of the edge that cuts before the cycle"))
     }
 
     /// True for clockwise.

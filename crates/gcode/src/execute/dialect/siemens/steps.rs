@@ -8,6 +8,7 @@ use crate::execute::dialect::tape::TapePlace;
 use crate::execute::state::frame::Frame;
 use crate::execute::state::modal::Modal;
 use crate::execute::state::shared::Shared;
+use crate::syntax::dialect::siemens::arguments::Argument;
 use crate::syntax::dialect::siemens::variables::Variables;
 
 /// A step of a cycle.
@@ -43,8 +44,8 @@ pub(crate) struct CycleCall {
 #[derive(Debug, Clone)]
 pub(crate) enum ModalCall {
     Cycle(CycleCall),
-    /// A subprogram, from its first line, with the values of its arguments.
-    Subprogram(TapePlace, Vec<Option<f64>>),
+    /// A subprogram, from its first line, with its arguments, which are values.
+    Subprogram(TapePlace, Vec<Option<Argument>>),
 }
 
 /// What a subprogram in progress has, and what its caller gets back.
@@ -52,8 +53,8 @@ pub(crate) enum ModalCall {
 pub(crate) struct CallState {
     /// The caller's variables.
     pub(super) variables: Shared<Variables>,
-    /// The values of the call.
-    pub(super) arguments: Vec<Option<f64>>,
+    /// The arguments of the call.
+    pub(super) arguments: Vec<Option<Argument>>,
     /// The modes and the frame of the caller, where PROC says SAVE.
     pub(super) saved: Option<Box<(Modal, Frame)>>,
     /// What MCALL had called it, and what is left of a pattern of positions.

@@ -143,11 +143,8 @@ impl Interpreter {
             value.map(|value| value * mm)
         };
         let lift = arguments.not_negative(11, "_VRT", "how far the tool lifts off")? * mm;
-        let tool = self
-            .state
-            .tools
-            .as_ref()
-            .and_then(|tools| tools.get(self.state.tool));
+        self.check_edge(arguments)?;
+        let tool = self.edge_in_force();
         Ok(Removal {
             out: if matches!(variant, 3 | 7 | 11) {
                 -1.0

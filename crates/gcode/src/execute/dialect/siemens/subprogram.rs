@@ -3,7 +3,7 @@
 //! A subprogram is looked for in the program, behind a line `%_N_NAME_SPF`, then in a file of its
 //! own: `NAME.SPF`, `name.spf`, `_N_NAME_SPF` ([`file_names`] has the order). What a path names
 //! ([`named_call`](super::named_call)) is of the kind that the path says. It has variables of its
-//! own, and those that PROC names have the values of the call. It ends at M17, RET, ENDPROC, M2, M30 or with
+//! own, and those that PROC names have the values of the call, or are its variables (VAR). It ends at M17, RET, ENDPROC, M2, M30 or with
 //! its text. What it leaves in force stays so, but for the modes and the frame where PROC says SAVE.
 
 use std::io::BufRead;
@@ -22,6 +22,7 @@ use crate::execute::program::Program;
 use crate::execute::state::modal::Modal;
 use crate::execute::state::shared::Shared;
 use crate::setup::subroutine_file::{NoSubroutineFile, NotTaken};
+use crate::syntax::dialect::siemens::arguments::Argument;
 use crate::syntax::dialect::siemens::callee::Callee;
 use crate::syntax::dialect::siemens::expression::Evaluator;
 use crate::syntax::dialect::siemens::statement::{Statement, is_header_of, statement};
@@ -61,13 +62,13 @@ fn file_names(callee: &Callee) -> Vec<String> {
 }
 
 /// The arguments of a call; none without parentheses, or with nothing in them.
-pub(super) fn arguments_ahead(input: &mut Evaluator<'_>) -> Outcome<Vec<Option<f64>>> {
+pub(super) fn arguments_ahead(input: &mut Evaluator<'_>) -> Outcome<Vec<Option<Argument>>> {
     if input.next_visible() != Some(b'(') {
         return Ok(Vec::new());
     }
-    let arguments = input.arguments()?;
+    let arguments = input.call_arguments()?;
     Ok(Some(arguments)
-        .filter(|all| all.as_slice() != [None])
+        .filter(|all| !matches!(all.as_slice(), [None]))
         .unwrap_or_default())
 }
 
@@ -127,7 +128,7 @@ impl<R: BufRead> Program<R> {
     pub(super) fn siemens_enter(
         &mut self,
         (first, turns): (TapePlace, u32),
-        arguments: Vec<Option<f64>>,
+        arguments: Vec<Option<Argument>>,
         modal: Option<ModalCall>,
         span: SourceSpan,
     ) -> Outcome<()> {
@@ -167,7 +168,7 @@ impl<R: BufRead> Program<R> {
     pub(super) fn siemens_check_arguments(
         &mut self,
         first: TapePlace,
-        arguments: &[Option<f64>],
+        arguments: &[Option<Argument>],
         span: SourceSpan,
     ) -> Outcome<()> {
         if arguments.is_empty() || self.siemens_takes_arguments(first)? {

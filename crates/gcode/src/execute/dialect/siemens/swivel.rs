@@ -4,7 +4,7 @@
 //! Y0, Z0, the axes turn by A, B and C one after the other, about those that MODE names, and in the new
 //! axes the zero goes on by X1, Y1, Z1. Then the rotary axes turn until the tool stands along the
 //! normal: DIR says by which of the two ways. With FR 1 the tool goes up along the machine's Z before
-//! that, with ones of ST that are 1 the plane counts in the one in force. Its tens to ten thousands are 0.
+//! that, with FR 2 along X and Y behind it, with ones of ST that are 1 the plane counts in the one in force. Its tens to ten thousands are 0.
 
 use std::io::BufRead;
 
@@ -49,6 +49,7 @@ impl<R: BufRead> Program<R> {
         check_frame(&self.interpreter, is_off, span)?;
         self.settle_corner_before_plane(span)?;
         if is_off {
+            check_no_way_out(&numbers, span)?;
             let before = self.interpreter.place_names();
             self.interpreter.end_tilt();
             self.interpreter.rename_by_frame(&before, LINEAR);
@@ -124,19 +125,45 @@ impl Interpreter {
         if way == 0.0 {
             return Ok(());
         }
-        let place = self.options.siemens.swivel_z_mm;
-        let Some(up) = place.filter(|_| (way - 1.0).abs() < 1e-9) else {
+        let siemens = &self.options.siemens;
+        let is = |known: f64| (way - known).abs() < 1e-9;
+        // Where the tip is followed, places are not those of the axes.
+        let has_axes = self.options.five_axis.is_none() || !self.state.tip.follows();
+        let beside = match siemens.swivel_xy_mm {
+            [Some(x), Some(y)] if is(2.0) && has_axes => Some([x, y]),
+            _ => None,
+        };
+        let up = siemens.swivel_z_mm;
+        let Some(up) = up.filter(|_| is(1.0) || is(2.0) && beside.is_some()) else {
             let message = format!("CYCLE800 with the retraction FR {way} is not supported");
             return Err(BlockDiagnostic::new(DiagnosticCode::CannedCycle, span, message)
-                .because("where the tool goes before it swivels is machine data; with FR 1 it is a place of Z")
-                .help("set `swivel_z` of [program] and write FR 1, or write the way out as a block before it (SUPA Z) and FR 0"));
+                .because("where the tool goes before it swivels is machine data; with FR 1 it is a place of Z, with FR 2 of X and Y, too")
+                .help("set `swivel_z` of [program] for FR 1, for FR 2 also `swivel_x` and `swivel_y` (without TRAORI), or write the way out as a block before it (SUPA Z) and FR 0"));
         };
         let mut target = self.state.position;
         // Never down.
         target[2] = up.max(target[2]);
         self.straight(block, target, Pace::Rapid, out)?;
+        if let Some([x, y]) = beside {
+            (target[0], target[1]) = (x, y);
+            self.straight(block, target, Pace::Rapid, out)?;
+        }
         self.map_moves(block, out)
     }
+}
+
+/// Refuses a way out where the plane ends.
+fn check_no_way_out(numbers: &[Option<f64>], span: SourceSpan) -> Outcome<()> {
+    let way = numbers.first().copied().flatten().unwrap_or(0.0);
+    if way == 0.0 {
+        return Ok(());
+    }
+    let message = format!("CYCLE800 that ends the plane with the retraction FR {way}");
+    Err(
+        BlockDiagnostic::new(DiagnosticCode::CannedCycle, span, message)
+            .because("whether the tool goes out of the way where nothing swivels is not known here")
+            .help("write the way out as a block before it (SUPA Z), and FR 0 or CYCLE800()"),
+    )
 }
 
 /// Refuses to put a plane in front of a frame of the program, or to take it from under one.

@@ -4,12 +4,14 @@
 //! $P_UIFR[1]=CTRANS(X,10,Y,5):CROT(Z,30)   $P_UIFR[1,X,TR]=10   $P_UIFR[1,Z,RT]=30
 //! $P_PFRAME=CTRANS(X,10)                   the frame of the program ([`program_frame`](super::program_frame))
 //! $TC_DP3[2,1]=50                          the first length of edge D1 of tool 2
+//! $TC_DP3[5]=50                            with flat D numbers that of the offset D5
 //! ```
 //!
 //! A coordinate system that is in force changes with its next G54 or G505. Lengths of a tool are along
 //! Z, Y and X on a mill, along X, Z and Y on a lathe; `$TC_DP6` is its radius.
 
 use std::io::BufRead;
+use std::sync::Arc;
 
 use glidepath_geometry::Axis;
 
@@ -21,7 +23,7 @@ use crate::execute::interpreter::Interpreter;
 use crate::execute::program::Program;
 use crate::execute::scope::ProgramScope;
 use crate::execute::state::fanuc_offsets::system_key;
-use crate::setup::tool_table::MAX_TOOL;
+use crate::setup::tool_table::{MAX_EDGE, MAX_TOOL, Tool};
 use crate::setup::work_offsets::CoordinateSystem;
 use crate::syntax::dialect::siemens::expression::Evaluator;
 use crate::syntax::dialect::siemens::system_index::{Index, letters};
@@ -135,12 +137,20 @@ impl<R: BufRead> Program<R> {
         span: SourceSpan,
     ) -> Outcome<()> {
         let part = edge_part(name, self.interpreter.options.is_lathe());
-        let tool = edge_of(index);
-        let (Some(part), Some(tool)) = (part, tool) else {
+        let edge = self.interpreter.edge_of(index);
+        let (Some(part), Some(edge)) = (part, edge) else {
             return Err(unknown_part(&letters(name), span));
         };
+        if part == EdgePart::Kind && value == 0.0 {
+            let message = format!("{} = 0 is not supported", letters(name));
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
+                    .because("it takes the edge out of the control's memory, and here a tool keeps its edges")
+                    .help("remove it, or write what the tool is (120: an end mill)"),
+            );
+        }
         let value_mm = value * self.interpreter.state.modal.units.mm();
-        self.interpreter.set_tool_value(tool, |tool| match part {
+        self.interpreter.change_edge(edge, |tool| match part {
             EdgePart::Kind => {}
             EdgePart::Length(axis) => tool.offset[axis] = value_mm,
             EdgePart::Radius => tool.diameter_mm = 2.0 * value_mm,
@@ -172,18 +182,15 @@ pub(super) fn edge_part(name: &[u8], is_lathe: bool) -> Option<EdgePart> {
     })
 }
 
-/// The tool that `[tool, edge]` names; edges beside D1 are not kept.
-pub(super) fn edge_of(index: &[Index]) -> Option<u32> {
-    let [Index::Value(tool), Index::Value(edge)] = index else {
-        return None;
-    };
-    let is_tool = tool.fract() == 0.0 && (1.0..=f64::from(MAX_TOOL)).contains(tool);
+/// A number from 1 to `max`.
+fn counted(value: f64, max: u32) -> Option<u32> {
+    let is_one = value.fract() == 0.0 && (1.0..=f64::from(max)).contains(&value);
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
         reason = "range checked"
     )]
-    (is_tool && (edge - 1.0).abs() < 1e-9).then_some(*tool as u32)
+    is_one.then_some(value as u32)
 }
 
 /// The number of a coordinate system, counted from 0: 1 is that of G54, 5 that of G505.
@@ -198,6 +205,27 @@ pub(super) fn system_number(number: f64) -> Option<usize> {
 }
 
 impl Interpreter {
+    /// The tool and the edge that `[tool, edge]` names; with flat D numbers it is `[D]`, and the first edge of the line
+    /// of that T.
+    pub(super) fn edge_of(&self, index: &[Index]) -> Option<(u32, u32)> {
+        match (index, self.options.siemens.flat_d_numbers) {
+            ([Index::Value(tool), Index::Value(edge)], false) => {
+                Some((counted(*tool, MAX_TOOL)?, counted(*edge, MAX_EDGE)?))
+            }
+            ([Index::Value(edge)], true) => Some((counted(*edge, MAX_EDGE)?, 1)),
+            _ => None,
+        }
+    }
+
+    /// Changes an edge in the tool table, which gets it if it has none of these numbers.
+    fn change_edge(&mut self, (tool, edge): (u32, u32), change: impl Fn(&mut Tool)) {
+        let tools = self.state.tools.get_or_insert_default();
+        let tools = Arc::make_mut(tools);
+        let mut changed = tools.edge(tool, edge).copied().unwrap_or_default();
+        change(&mut changed);
+        tools.set_edge(tool, edge, changed);
+    }
+
     /// A coordinate system as the program has set it, or as the machine keeps it.
     pub(super) fn kept_system(&self, number: usize) -> CoordinateSystem {
         let offsets = &self.state.offsets;
@@ -213,7 +241,8 @@ pub(super) fn unknown_part(name: &str, span: SourceSpan) -> Box<BlockDiagnostic>
     let message = format!("this part of {name} cannot be set");
     BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
         .because(
-            "of a coordinate system shifts and the turn about Z are kept, of a tool the lengths and the radius of edge D1",
+            "of a coordinate system shifts and the turn about Z are kept, of a tool the lengths and the radius of its edges: \
+             $TC_DP3[tool,edge], with flat D numbers $TC_DP3[D]",
         )
         .help("remove it, or set it at the machine")
 }

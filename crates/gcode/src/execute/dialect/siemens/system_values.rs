@@ -6,15 +6,15 @@
 //! | `$AA_IM[X]` | the same in the machine's |
 //! | `$P_UIFR[1,X,TR]`, `[1,Z,RT]`; `$P_IFRAME[X,TR]`, `$P_UIFRNUM` | a coordinate system; the one in force |
 //! | `$P_PFRAME[X,TR]`, `[Z,RT]`, `[X,SC]`, `[X,MI]` | the frame of the program |
-//! | `$TC_DP3[1,1]` to `$TC_DP6[1,1]` | lengths and radius of a tool |
-//! | `$P_TOOLNO`, `$P_TOOL`, `$P_TOOLR`, `$P_TOOLL[1]` | tool in the spindle, its edge, radius, lengths |
+//! | `$TC_DP3[1,2]` to `$TC_DP6[1,2]` | lengths and radius of an edge of a tool; with flat D numbers `$TC_DP3[5]` of an offset |
+//! | `$P_TOOLNO`, `$P_TOOL`, `$P_TOOLR`, `$P_TOOLL[1]` | tool in the spindle, the edge in force, its radius, its lengths |
 //! | `$P_F`, `$P_S` | feed, speed of the spindle |
 //! | `$P_GG[6]`, `[8]`, `[14]` | which code of a group is in force: plane, coordinate system, distances |
 //! | `$P_SEARCH`, `$P_SIM`, `$P_ISTEST`, `$P_DRYRUN` | 0: the program is executed |
 
 use glidepath_geometry::{Axis, Plane};
 
-use crate::execute::dialect::siemens::system_data::{EdgePart, edge_of, edge_part, system_number};
+use crate::execute::dialect::siemens::system_data::{EdgePart, edge_part, system_number};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::scope::{coordinate, in_units};
 use crate::setup::tool_table::Tool;
@@ -42,7 +42,9 @@ impl Interpreter {
             (b"RP", _) => self.state.pole.radius_mm.unwrap_or(0.0) / modal.units.mm(),
             (b"$P_TOOLNO", []) => f64::from(self.state.tool),
             (b"$P_TOOL", []) => f64::from(self.state.edge.unwrap_or(0)),
-            (b"$P_TOOLR", []) => self.edge_value(self.tool_in_force(), EdgePart::Radius)?,
+            (b"$P_TOOLR", []) => {
+                self.edge_value(self.edge_in_force().unwrap_or_default(), EdgePart::Radius)?
+            }
             (b"$P_TOOLL", [Index::Value(which)]) => {
                 let name: &[u8] = match which {
                     1.0 => b"$TC_DP3",
@@ -51,7 +53,7 @@ impl Interpreter {
                     _ => return None,
                 };
                 let part = edge_part(name, self.options.is_lathe())?;
-                self.edge_value(self.tool_in_force(), part)?
+                self.edge_value(self.edge_in_force().unwrap_or_default(), part)?
             }
             (b"$P_F", []) => {
                 let per_second = match modal.feed_mode {
@@ -89,7 +91,8 @@ impl Interpreter {
             (name, index) => {
                 let part = edge_part(name, self.options.is_lathe())?;
                 let tools = self.state.tools.as_ref()?;
-                self.edge_value(*tools.get(edge_of(index)?)?, part)?
+                let (tool, edge) = self.edge_of(index)?;
+                self.edge_value(*tools.edge(tool, edge)?, part)?
             }
         })
     }
@@ -99,17 +102,6 @@ impl Interpreter {
         let untraversed = &self.state.untraversed;
         let is_clear = untraversed.is_unclear.get(axis) == Some(&false);
         is_clear.then(|| coordinate(self, axis) + in_units(self, untraversed.way, axis))
-    }
-
-    /// The tool in the spindle with its edge; none where D0 is in force.
-    fn tool_in_force(&self) -> Tool {
-        let tools = self
-            .state
-            .tools
-            .as_ref()
-            .filter(|_| self.state.edge != Some(0));
-        let tool = tools.and_then(|tools| tools.get(self.state.tool));
-        tool.copied().unwrap_or_default()
     }
 
     fn edge_value(&self, tool: Tool, part: EdgePart) -> Option<f64> {

@@ -350,7 +350,7 @@ impl<'a> Evaluator<'a> {
     }
 
     /// What a variable holds where it is read: words in front of it may have assigned it.
-    fn read(&self, parameter: &Parameter) -> f64 {
+    pub(super) fn read(&self, parameter: &Parameter) -> f64 {
         let own = self.assigned.iter().rev().find(|(it, _)| it == parameter);
         if let Some((_, value)) = own {
             return *value;

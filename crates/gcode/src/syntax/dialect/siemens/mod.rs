@@ -20,7 +20,7 @@
 //!
 //! Structures, jumps, declarations, frames and cycles are [`statement`]s of their own.
 
-mod arguments;
+pub(crate) mod arguments;
 mod assignment;
 pub(crate) mod callee;
 mod codes_of_line;

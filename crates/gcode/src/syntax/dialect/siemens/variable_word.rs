@@ -45,6 +45,28 @@ impl<'a> Evaluator<'a> {
         Ok(Some((kind, declared.element(element))))
     }
 
+    /// A variable that is an argument by itself, an array without an index among them.
+    pub(super) fn whole_variable(&mut self) -> Outcome<Option<Declared>> {
+        let start = self.at;
+        let name = self.name_ahead();
+        let array = self.names.variables.get(&name);
+        let array = array.filter(|declared| !declared.sizes.is_empty());
+        self.at += name.len();
+        let is_whole = array.is_some() && matches!(self.next_visible(), Some(b',' | b')'));
+        let found = if is_whole {
+            array.cloned()
+        } else {
+            self.at = start;
+            let single = self.assignable()?;
+            single.map(|(kind, parameter)| Declared::single(kind, parameter))
+        };
+        if matches!(self.next_visible(), Some(b',' | b')')) {
+            return Ok(found);
+        }
+        self.at = start;
+        Ok(None)
+    }
+
     /// An array without an index, which SET or REP fill from its first element on; with one, from
     /// there on. What is to be filled, and from which element.
     pub(crate) fn array_to_fill(&mut self) -> Outcome<Option<(&'a Declared, usize)>> {

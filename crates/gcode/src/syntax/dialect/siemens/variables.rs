@@ -56,11 +56,28 @@ pub(crate) struct Declared {
     pub(crate) kind: Kind,
     /// How many elements along each dimension; none: it is no array.
     pub(crate) sizes: Vec<usize>,
-    /// The beginning of the names under which the values are kept.
-    place: String,
+    place: Place,
+}
+
+/// Where the values are kept.
+#[derive(Debug, Clone, PartialEq, Eq)]
+enum Place {
+    /// Under names that begin like that.
+    Named(String),
+    /// The one value in a place of its own: an R parameter, or an element of an array.
+    Single(Parameter),
 }
 
 impl Declared {
+    /// The one variable that is kept there.
+    pub(crate) const fn single(kind: Kind, parameter: Parameter) -> Self {
+        Self {
+            kind,
+            sizes: Vec::new(),
+            place: Place::Single(parameter),
+        }
+    }
+
     /// Elements of the array; 1 of a variable.
     pub(crate) fn count(&self) -> usize {
         self.sizes.iter().product()
@@ -68,12 +85,11 @@ impl Declared {
 
     /// Where an element is kept, counted with the last index fastest; a variable has one.
     pub(crate) fn element(&self, index: usize) -> Parameter {
-        let place = &self.place;
-        Parameter::Named(if self.sizes.is_empty() {
-            place.clone()
-        } else {
-            format!("{place}.{index}")
-        })
+        match &self.place {
+            Place::Single(parameter) => parameter.clone(),
+            Place::Named(name) if self.sizes.is_empty() => Parameter::Named(name.clone()),
+            Place::Named(name) => Parameter::Named(format!("{name}.{index}")),
+        }
     }
 }
 
@@ -110,10 +126,19 @@ impl Variables {
             0 => format!("def.{}", shown.to_ascii_lowercase()),
             level => format!("def.{level}.{}", shown.to_ascii_lowercase()),
         };
+        let place = Place::Named(place);
         let declared = Declared { kind, sizes, place };
         self.make_room(name, declared.count(), span)?;
         self.by_name.insert(name.to_vec(), declared.clone());
         Ok(declared)
+    }
+
+    /// Gives a variable of the caller a name here, too (VAR).
+    pub(crate) fn refer(&mut self, name: &[u8], of: Declared, span: SourceSpan) -> Outcome<()> {
+        check_name(name, span)?;
+        self.make_room(name, of.count(), span)?;
+        self.by_name.insert(name.to_vec(), of);
+        Ok(())
     }
 
     /// Declares a variable of texts of at most so many bytes, or an array of that size.
@@ -205,8 +230,8 @@ pub(crate) fn element_at(sizes: &[usize], indices: &[f64], span: SourceSpan) -> 
             span,
             "an array without an index is not supported",
         )
-        .because("a value is one element; a subprogram takes no arrays here (VAR REAL[3])")
-        .help("write the index of an element, or give the values by R parameters"));
+        .because("a value is one element; as a whole an array is an argument of a subprogram whose PROC says VAR")
+        .help("write the index of an element"));
     }
     if sizes.len() != indices.len() {
         let (given, wanted) = (indices.len(), sizes.len());
