@@ -1,11 +1,13 @@
 //! The conversion of Klipper's printer.cfg.
 
+mod gantries;
 mod homing;
 
 use crate::conversion::Conversion;
 use crate::draft::{Draft, float, quoted};
 use crate::ini::{Include, ReadError, Style, read};
 use crate::inputs::{At, Fate, Inputs};
+use gantries::LETTERS;
 
 const JERK: &str = "Klipper does not limit jerk. Ten times max_acceleration is gentle, a hundred a light \
                     machine";
@@ -26,9 +28,10 @@ pub fn from_klipper(text: &str, include: Include<'_>) -> Result<Conversion, Read
         draft: Draft::default(),
     };
     let kinematics = machine.mechanism();
-    for letter in ['x', 'y', 'z'] {
+    for letter in LETTERS {
         machine.axis(letter, kinematics);
     }
+    machine.gantries(kinematics);
     match kinematics {
         Some("corexy") => machine.joints(3),
         Some("linear-delta") => machine.joints(3),
