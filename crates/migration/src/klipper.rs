@@ -7,10 +7,12 @@ use crate::conversion::Conversion;
 use crate::draft::{Draft, float, quoted};
 use crate::ini::{Include, ReadError, Style, read};
 use crate::inputs::{At, Fate, Inputs};
-use gantries::LETTERS;
 
 const JERK: &str = "Klipper does not limit jerk. Ten times max_acceleration is gentle, a hundred a light \
                     machine";
+
+/// The axes of a printer.
+const LETTERS: [char; 3] = ['x', 'y', 'z'];
 
 /// What is being converted.
 struct Machine {

@@ -45,9 +45,6 @@ use std::path::Path;
 /// Largest configuration file, bytes: the longest machine is described in a hundredth of it.
 pub(crate) const MOST_BYTES: u64 = 1 << 20;
 
-/// The file in which every key of a machine is explained.
-const EXPLAINED: &str = "config/mill.toml";
-
 /// The machine that is used without `--config`.
 pub const EMBEDDED: &str = include_str!("../../machines/mill.toml");
 
@@ -95,7 +92,7 @@ pub(crate) fn load_kept(named: &Path, path: &Path) -> Result<MachineConfig, Conf
 /// # Errors
 /// Everything in the text that has to be mended.
 pub fn parse(path: &str, text: &str) -> Result<MachineConfig, ConfigError> {
-    parse_as(path, text, EXPLAINED, judge::judge).map_err(|error| {
+    parse_as(path, text, parse::EXPLAINED, judge::judge).map_err(|error| {
         let Some(told) = foreign::foreign(path, text) else {
             return error;
         };

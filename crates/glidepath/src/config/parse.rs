@@ -6,10 +6,13 @@
 
 use super::decimal_comma::{mended, point};
 use super::diagnostic::ConfigDiagnostic;
+use super::keys;
 use super::tree::{TABLES, Tree};
-use super::{EXPLAINED, keys};
 use core::ops::Range;
 use serde::de::DeserializeOwned;
+
+/// The file in which every key of a machine is explained.
+pub(super) const EXPLAINED: &str = "config/mill.toml";
 
 /// Most things of this stage that are told at once.
 const MOST: usize = 50;
@@ -205,7 +208,8 @@ fn number_help(
         .ok()
         .filter(|number| number.is_finite());
     if let Some(number) = number.filter(|_| wanted == "a number") {
-        return format!("write it without quotes: {name} = {number:?}");
+        let number = toml::Value::Float(number);
+        return format!("write it without quotes: {name} = {number}");
     }
     if let Some(number) = point(inner) {
         return format!("write it without quotes, and with a decimal point: {name} = {number}");

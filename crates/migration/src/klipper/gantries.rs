@@ -1,6 +1,6 @@
 //! Axes that several motors move: Klipper's `[stepper_z1]`, `[stepper_z2]` …
 
-use super::Machine;
+use super::{LETTERS, Machine};
 use crate::inputs::Fate;
 
 /// As many as Klipper looks for.
@@ -63,6 +63,3 @@ impl Machine {
             .collect()
     }
 }
-
-/// The axes of a printer.
-pub(super) const LETTERS: [char; 3] = ['x', 'y', 'z'];

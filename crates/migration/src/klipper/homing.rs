@@ -3,8 +3,7 @@
 //! Klipper goes to the endstop at `homing_speed`, retracts, and goes there again at
 //! `second_homing_speed`; the position is that of the endstop then, and the joint stays there.
 
-use super::Machine;
-use super::gantries::LETTERS;
+use super::{LETTERS, Machine};
 use crate::draft::float;
 use crate::inputs::{At, Fate};
 

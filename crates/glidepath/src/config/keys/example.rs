@@ -36,9 +36,9 @@ pub fn example(name: &str, beside: impl Fn(&str) -> Option<f64>) -> Option<Strin
         _ => {
             let mut examples = EXAMPLES.iter();
             let found = examples.find(|(of, _)| *of == key.name);
-            found
-                .map(|(_, value)| (*value).to_owned())
-                .or_else(|| gentle(key.name, beside).map(|value| format!("{value:?}")))
+            found.map(|(_, value)| (*value).to_owned()).or_else(|| {
+                gentle(key.name, beside).map(|value| toml::Value::Float(value).to_string())
+            })
         }
     }
 }
