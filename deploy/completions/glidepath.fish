@@ -433,7 +433,7 @@ complete -c glidepath -n "__fish_glidepath_using_subcommand offsets; and __fish_
 complete -c glidepath -n "__fish_glidepath_using_subcommand setup" -l suggested -d 'Take the suggested answer to every question'
 complete -c glidepath -n "__fish_glidepath_using_subcommand setup" -s h -l help -d 'Print help'
 complete -c glidepath -n "__fish_glidepath_using_subcommand config; and not __fish_seen_subcommand_from from-linuxcnc from-grbl from-klipper from-screw help" -l explain -d 'Explain a key, all keys of a table, or every key: meaning, unit, range, default' -r
-complete -c glidepath -n "__fish_glidepath_using_subcommand config; and not __fish_seen_subcommand_from from-linuxcnc from-grbl from-klipper from-screw help" -l check -d 'List all errors in a configuration' -r -F
+complete -c glidepath -n "__fish_glidepath_using_subcommand config; and not __fish_seen_subcommand_from from-linuxcnc from-grbl from-klipper from-screw help" -l check -d 'List all errors in a configuration, and in the files and folders that it names' -r -F
 complete -c glidepath -n "__fish_glidepath_using_subcommand config; and not __fish_seen_subcommand_from from-linuxcnc from-grbl from-klipper from-screw help" -l default -d 'Print the built-in machine as a configuration, with every key explained'
 complete -c glidepath -n "__fish_glidepath_using_subcommand config; and not __fish_seen_subcommand_from from-linuxcnc from-grbl from-klipper from-screw help" -l json -d 'Print one JSON object instead of text'
 complete -c glidepath -n "__fish_glidepath_using_subcommand config; and not __fish_seen_subcommand_from from-linuxcnc from-grbl from-klipper from-screw help" -s h -l help -d 'Print help'

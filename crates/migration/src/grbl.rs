@@ -1,5 +1,6 @@
 //! The conversion of what grbl and grblHAL print on `$$` (settings) and `$#` (offsets).
 
+mod gantries;
 mod homing;
 
 use crate::conversion::Conversion;
@@ -18,6 +19,8 @@ struct Machine {
     inputs: Inputs,
     draft: Draft,
     axes: Vec<(usize, char)>,
+    /// Those that two motors move.
+    gantries: Vec<usize>,
 }
 
 /// Converts settings of grbl or grblHAL.
@@ -29,6 +32,7 @@ pub fn from_grbl(text: &str) -> Result<Conversion, ReadError> {
         inputs: read(text)?,
         draft: Draft::default(),
         axes: Vec::new(),
+        gantries: Vec::new(),
     };
     machine.axes = AXES
         .into_iter()
@@ -46,6 +50,7 @@ pub fn from_grbl(text: &str) -> Result<Conversion, ReadError> {
     for (number, letter) in machine.axes.clone() {
         machine.axis(number, letter);
     }
+    machine.gantries();
     machine.homing();
     machine.path();
     machine.offsets();
@@ -157,7 +162,7 @@ impl Machine {
             return;
         };
         let span = match homing {
-            Some(homing) if homing >= 1.0 => self.span(number, homing, length),
+            Some(homing) if bit(homing, 0) => self.span(number, homing, length),
             _ => Err(
                 "homing ($22) is off, so machine coordinates begin wherever the machine was switched on",
             ),
@@ -200,22 +205,34 @@ impl Machine {
         }
     }
 
+    /// The letters of `[OPT:…]`, the options grbl was built with.
+    fn options(&self) -> Option<&str> {
+        let (_, text) = self.inputs.text("[", "OPT")?;
+        text.split(',').next()
+    }
+
+    /// Whether it is grblHAL, whose `$22` is a set of flags.
+    fn is_hal(&self, homing: f64) -> bool {
+        let firmware = self.inputs.text("[", "FIRMWARE");
+        let is_named =
+            firmware.is_some_and(|(_, name)| name.to_ascii_lowercase().contains("grblhal"));
+        homing > 1.0
+            || is_named
+            || self.find(700).is_some()
+            || self.inputs.find("[", "NEWOPT").is_some()
+    }
+
     /// Whether machine coordinates are zero where an axis has come home to; `None` if that is not
     /// known.
     fn is_zero_at_home(&self, homing: f64) -> Option<bool> {
-        // grblHAL has a flag, grbl an option it was built with.
-        let options = self
-            .inputs
-            .text("[", "OPT")
-            .map(|(_, text)| text.to_owned());
-        let is_hal =
-            homing > 1.0 || self.find(700).is_some() || self.inputs.find("[", "FIRMWARE").is_some();
-        let is_built = options.map(|text| text.split(',').next().unwrap_or_default().contains('Z'));
-        if is_hal {
-            Some(bit(homing, 3))
-        } else {
-            is_built
+        // grblHAL has a flag, and makes its letter of it; grbl has an option it was built with.
+        let is_built = self.options().map(|options| options.contains('Z'));
+        if !self.is_hal(homing) {
+            return is_built;
         }
+        let flag = bit(homing, 3);
+        let is_of_another_time = !flag && is_built == Some(true);
+        (!is_of_another_time).then_some(flag)
     }
 
     fn path(&mut self) {

@@ -74,6 +74,12 @@ impl Inputs {
         self.keys.iter().position(is)
     }
 
+    /// Whether a section has any key.
+    pub(crate) fn has_section(&self, section: &str) -> bool {
+        let mut keys = self.keys.iter();
+        keys.any(|input| input.section.eq_ignore_ascii_case(section))
+    }
+
     /// Its value.
     pub(crate) fn text(&self, section: &str, key: &str) -> Option<(At, &str)> {
         let at = self.find(section, key)?;

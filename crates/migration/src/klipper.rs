@@ -1,5 +1,6 @@
 //! The conversion of Klipper's printer.cfg.
 
+mod gantries;
 mod homing;
 
 use crate::conversion::Conversion;
@@ -9,6 +10,9 @@ use crate::inputs::{At, Fate, Inputs};
 
 const JERK: &str = "Klipper does not limit jerk. Ten times max_acceleration is gentle, a hundred a light \
                     machine";
+
+/// The axes of a printer.
+const LETTERS: [char; 3] = ['x', 'y', 'z'];
 
 /// What is being converted.
 struct Machine {
@@ -26,9 +30,10 @@ pub fn from_klipper(text: &str, include: Include<'_>) -> Result<Conversion, Read
         draft: Draft::default(),
     };
     let kinematics = machine.mechanism();
-    for letter in ['x', 'y', 'z'] {
+    for letter in LETTERS {
         machine.axis(letter, kinematics);
     }
+    machine.gantries(kinematics);
     match kinematics {
         Some("corexy") => machine.joints(3),
         Some("linear-delta") => machine.joints(3),

@@ -4,7 +4,8 @@
 //!   text ─ini, settings─▶ Inputs: every key once ─linuxcnc, grbl, klipper─▶ Draft ─▶ Conversion
 //! ```
 //!
-//! Entry points are [`from_linuxcnc`], [`from_grbl`] and [`from_klipper`]; [`from_screw`] converts a measured screw.
+//! Entry points are [`from_linuxcnc`], [`from_grbl`] and [`from_klipper`]; [`from_screw`] converts a measured screw,
+//! and [`recognised`] tells whose configuration a text is.
 //!
 //! Every key of the input gets exactly one verdict: converted, changed in its meaning, or without
 //! a counterpart. Nothing is guessed: what the input does not say is left out with its reason, and
@@ -24,6 +25,7 @@ mod ini;
 mod inputs;
 mod klipper;
 mod linuxcnc;
+mod recognised;
 mod screw;
 
 pub use conversion::{Asked, Conversion, KeyVerdict};
@@ -31,4 +33,5 @@ pub use grbl::from_grbl;
 pub use ini::{Include, ReadError};
 pub use klipper::from_klipper;
 pub use linuxcnc::from_linuxcnc;
+pub use recognised::{Control, Recognised, recognised};
 pub use screw::{ScrewValues, from_screw};

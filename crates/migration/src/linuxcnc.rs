@@ -4,6 +4,8 @@ mod axes;
 mod homing;
 mod joints;
 mod others;
+mod path;
+mod startup;
 mod units;
 
 use crate::conversion::Conversion;
@@ -12,13 +14,18 @@ use crate::ini::{Include, ReadError, Style, read};
 use crate::inputs::{Fate, Inputs};
 use units::Units;
 
+/// The axes in their order.
+const AXES: &str = "XYZABCUVW";
+
 /// What is being converted.
 struct Machine {
     inputs: Inputs,
     draft: Draft,
     units: Units,
-    /// The axes, in the order of their joints; a letter may be there twice.
+    /// The axes, each once.
     letters: Vec<char>,
+    /// The joints by their numbers, each with its axis; an axis may have several.
+    joints: Vec<(usize, char)>,
     kinematics: Option<&'static str>,
 }
 
@@ -34,6 +41,7 @@ pub fn from_linuxcnc(text: &str, include: Include<'_>) -> Result<Conversion, Rea
         draft: Draft::default(),
         units,
         letters: Vec::new(),
+        joints: Vec::new(),
         kinematics: None,
     };
     machine.coordinates();
@@ -56,34 +64,63 @@ impl Machine {
             self.draft.ask_axis("X", why);
             return;
         };
-        let letters: Vec<char> = text
-            .chars()
-            .map(|c| c.to_ascii_uppercase())
-            .filter(|c| "XYZABCUVW".contains(*c))
-            .collect();
-        let joints_of = |letter: &char| letters.iter().filter(|of| *of == letter).count();
-        let mut gantries = letters.clone();
+        let written = letters_of(text);
+        self.joints = self.joints_of(&written);
+        let count = |letter: &char| self.joints.iter().filter(|(_, of)| of == letter).count();
+        for letter in &written {
+            if !self.letters.contains(letter) {
+                self.letters.push(*letter);
+            }
+        }
+        let mut gantries = self.letters.clone();
         gantries.sort_unstable();
-        gantries.dedup();
-        gantries.retain(|letter| joints_of(letter) > 1);
+        gantries.retain(|letter| count(letter) > 1);
         for letter in &gantries {
             let why =
                 "the axis has two joints: by how much may they differ before the motion stops";
             let table = format!("axis.{letter}");
             self.draft.choose(&table, "gantry_difference", why);
         }
-        let (fate, note) = if gantries.iter().any(|letter| joints_of(letter) > 2) {
+        let (fate, note) = if gantries.iter().any(|letter| count(letter) > 2) {
             let note = "a letter stands there more than twice: an axis has two joints here at most";
             (Fate::NoCounterpart, note)
         } else if gantries.is_empty() {
             (Fate::Converted, "one table [axis.…] for each")
         } else {
-            let note = "a letter stands there twice: the second joint of that axis comes after those of \
-                        all axes here";
+            let note = "an axis has two joints: the second one comes after those of all axes here";
             (Fate::Changed, note)
         };
         self.inputs.decide(at, fate, note);
-        self.letters = letters;
+    }
+
+    /// The axis of each joint. `trivkins` has a list of its own, which counts where it is given; without it the
+    /// joints are those of X Y Z A B C U V W in this order, with those that the machine does not name as axes.
+    fn joints_of(&self, written: &[char]) -> Vec<(usize, char)> {
+        let words = self.inputs.text("KINS", "KINEMATICS");
+        let own = words.and_then(|(_, text)| {
+            let mut words = text.split_whitespace();
+            words.find_map(|word| {
+                let (name, list) = word.split_once('=')?;
+                let is_list = name.eq_ignore_ascii_case("coordinates");
+                is_list.then(|| letters_of(list))
+            })
+        });
+        let count = self.inputs.number("KINS", "JOINTS");
+        let is_twice = |(place, letter): (usize, &char)| written[..place].contains(letter);
+        let has_more = !written.iter().enumerate().any(is_twice)
+            && count.is_some_and(|(_, count)| {
+                let most = f64::from(u32::try_from(written.len()).unwrap_or(u32::MAX));
+                count.is_ok_and(|count| count > most)
+            });
+        let all = match own {
+            Some(own) => own,
+            None if has_more => AXES.chars().collect(),
+            None => written.to_vec(),
+        };
+        let joints = all.into_iter().enumerate();
+        joints
+            .filter(|(_, letter)| written.contains(letter))
+            .collect()
     }
 
     /// `machine.kinematics`, and what its table needs.
@@ -129,41 +166,9 @@ impl Machine {
             self.draft.ask(&format!("machine.{name}"), key, pins);
         }
     }
+}
 
-    /// `[path]` and the period.
-    fn path(&mut self) {
-        let found = self.inputs.number("RS274NGC", "G64_DEFAULT_TOLERANCE");
-        match (found, self.units.linear_mm) {
-            (Some((at, Ok(value))), Some(mm)) if value > 0.0 => {
-                let value = crate::draft::float(value * mm);
-                self.draft
-                    .known("path", "tolerance", value, &self.inputs.name(at));
-                let note = "path.tolerance: how far the motion may leave the path, all included";
-                self.inputs.decide(at, Fate::Converted, note);
-            }
-            (Some((at, _)), _) => {
-                let why = "G64 without P may leave the path by any amount there; here the deviation has \
-                           a bound, mm: 0.02 is usual";
-                self.draft.choose("path", "tolerance", why);
-                self.inputs.decide(at, Fate::Changed, why);
-            }
-            (None, _) => self
-                .draft
-                .remark("path", "tolerance = 0.02 is the default, mm"),
-        }
-        if let Some(at) = self.inputs.find("TRAJ", "MAX_LINEAR_JERK") {
-            let note = "a limit along the path there; here max_jerk of each axis, which is better, or \
-                        path.max_jerk, which selects effort \"fast\"";
-            self.inputs.decide(at, Fate::Changed, note);
-        }
-        if let Some(at) = self.inputs.find("EMCMOT", "SERVO_PERIOD") {
-            let note = "the rate of its control loop; here setpoints come every \
-                        interpolator.period_us, which is to be chosen with the drives: 4000 by default";
-            self.draft.remark(
-                "interpolator",
-                &format!("period_us = 4000 is the default; {note}"),
-            );
-            self.inputs.decide(at, Fate::Changed, note);
-        }
-    }
+fn letters_of(text: &str) -> Vec<char> {
+    let letters = text.chars().map(|c| c.to_ascii_uppercase());
+    letters.filter(|c| AXES.contains(*c)).collect()
 }

@@ -36,7 +36,7 @@ pub struct ConfigAction {
         reason = "clap's form of an option with a value that may be left out"
     )]
     pub explain: Option<Option<String>>,
-    /// List all errors in a configuration
+    /// List all errors in a configuration, and in the files and folders that it names
     #[arg(long, value_name = "FILE")]
     pub check: Option<PathBuf>,
 }

@@ -2,7 +2,8 @@
 
 use crate::cli::{ConfigAction, ConfigArgs, ConfigSource, ScrewArgs, ScrewUnit, Values};
 use crate::command::failure::Failure;
-use crate::config::{self, keys};
+use crate::command::named_files;
+use crate::config::{self, ConfigDiagnostic, ConfigError, keys};
 use crate::exit::Exit;
 use crate::file_error::FileError;
 use crate::output;
@@ -88,9 +89,26 @@ fn explained(name: Option<&str>, as_json: bool) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
-/// Lists everything that has to be mended in a configuration.
+/// Lists everything that has to be mended in a configuration, and in the files that it names.
 fn checked(file: &Path, as_json: bool) -> Result<Exit, Failure> {
     let machine = config::load(Some(file))?;
+    let found = named_files::findings(&machine);
+    if !found.is_empty() {
+        // What came through a pipe is gone: then nothing can be pointed at.
+        let text = text_file::read(file, config::MOST_BYTES).unwrap_or_default();
+        let found = found.into_iter().map(|finding| ConfigDiagnostic {
+            span: config::place(&text, finding.key),
+            key: finding.key.to_owned(),
+            message: finding.message,
+            help: Some(finding.help),
+        });
+        let diagnostics = found.collect();
+        return Err(Failure::Configuration(ConfigError::Refused {
+            path: file.display().to_string(),
+            text,
+            diagnostics,
+        }));
+    }
     let axes: Vec<String> = machine
         .axis_names()
         .iter()

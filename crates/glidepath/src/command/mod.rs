@@ -34,6 +34,7 @@ mod left_in_force;
 mod live;
 mod lost_planner;
 mod mirror;
+mod named_files;
 mod offsets;
 mod operator;
 mod other_users;

@@ -9,7 +9,9 @@
 //! line, the column and the remedy.
 
 mod compensation;
+mod decimal_comma;
 mod diagnostic;
+mod foreign;
 mod instance;
 mod judge;
 pub mod keys;
@@ -90,7 +92,21 @@ pub(crate) fn load_kept(named: &Path, path: &Path) -> Result<MachineConfig, Conf
 /// # Errors
 /// Everything in the text that has to be mended.
 pub fn parse(path: &str, text: &str) -> Result<MachineConfig, ConfigError> {
-    parse_as(path, text, "config/mill.toml", judge::judge)
+    parse_as(path, text, parse::EXPLAINED, judge::judge).map_err(|error| {
+        let Some(told) = foreign::foreign(path, text) else {
+            return error;
+        };
+        ConfigError::Refused {
+            path: path.to_owned(),
+            text: text.to_owned(),
+            diagnostics: vec![told],
+        }
+    })
+}
+
+/// Where in a text the value of a key stands, if it does.
+pub(crate) fn place(text: &str, key: &str) -> Option<core::ops::Range<usize>> {
+    tree::Tree::parse(text).ok()?.place(key)
 }
 
 /// Judges the text of another file in the way of a configuration: its shape by `T`, its values by

@@ -4,10 +4,15 @@
 //! Reading ends at the first thing that does not fit. That is put aside and the text is read again,
 //! until all of it fits: so everything that is wrong is told at once.
 
+use super::decimal_comma::{mended, point};
 use super::diagnostic::ConfigDiagnostic;
+use super::keys;
 use super::tree::{TABLES, Tree};
 use core::ops::Range;
 use serde::de::DeserializeOwned;
+
+/// The file in which every key of a machine is explained.
+pub(super) const EXPLAINED: &str = "config/mill.toml";
 
 /// Most things of this stage that are told at once.
 const MOST: usize = 50;
@@ -22,6 +27,12 @@ pub(super) fn parse<T: DeserializeOwned>(
     let mut tree = match Tree::parse(text) {
         Ok(tree) => tree,
         Err(error) => {
+            // What else is wrong is told beside the commas.
+            if let Some(mut mended) = mended(text, error.span().as_ref()) {
+                let (raw, found) = parse(&mended.text, explained);
+                mended.found.extend(found);
+                return (raw, mended.found);
+            }
             let help =
                 "the file is TOML: tables such as [axis.X], and lines such as max_jerk = 40000.0";
             found.push(ConfigDiagnostic {
@@ -49,7 +60,7 @@ pub(super) fn parse<T: DeserializeOwned>(
             helps.into_iter().any(|help| help.starts_with(&meant))
         });
         if !is_misspelt {
-            found.push(told(&tree, &message, &at, explained));
+            found.push(told((&tree, text), &message, &at, explained));
         }
         if found.len() >= MOST || !put_aside(&mut tree, &message, &at) {
             return (None, found);
@@ -118,7 +129,12 @@ fn expected(message: &str) -> Option<(&'static str, &'static str)> {
 
 /// serde's message as what is wrong, and how to mend it. serde gives names between backquotes:
 /// first the one that was found, then those it knows.
-fn told(tree: &Tree<'_>, message: &str, at: &Range<usize>, explained: &str) -> ConfigDiagnostic {
+fn told(
+    (tree, text): (&Tree<'_>, &str),
+    message: &str,
+    at: &Range<usize>,
+    explained: &str,
+) -> ConfigDiagnostic {
     let (key, kind) = tree.described(at);
     let names: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
     let unknown = message.starts_with("unknown field");
@@ -146,7 +162,17 @@ fn told(tree: &Tree<'_>, message: &str, at: &Range<usize>, explained: &str) -> C
             Some((wanted, _)) if !key.is_empty() => {
                 let name = key.rsplit('.').next().unwrap_or_default();
                 let help = match wanted {
-                    "a number" => format!("write it without quotes, such as {name} = 100.0"),
+                    "a number" | "a whole number" => {
+                        let written = text.get(at.clone()).unwrap_or_default();
+                        let key = (explained == EXPLAINED).then_some(key.as_str());
+                        let beside = |other: &str| {
+                            let (table, _) = key?.rsplit_once('.')?;
+                            let place = tree.place(&format!("{table}.{other}"))?;
+                            let number = text.get(place)?.parse().ok();
+                            number.filter(|number: &f64| number.is_finite())
+                        };
+                        number_help(name, key, wanted, written, beside)
+                    }
                     "a table" => format!("give it a table of its own: [{key}]"),
                     wanted => format!("write {wanted}"),
                 };
@@ -164,6 +190,37 @@ fn told(tree: &Tree<'_>, message: &str, at: &Range<usize>, explained: &str) -> C
         message,
         help,
         span: Some(at.clone()),
+    }
+}
+
+/// How to write a number in the place of something else: the one that was meant, or one that is allowed and gentle.
+/// `key` is its name where it is one of a machine, `beside` gives the numbers beside it.
+fn number_help(
+    name: &str,
+    key: Option<&str>,
+    wanted: &str,
+    written: &str,
+    beside: impl Fn(&str) -> Option<f64>,
+) -> String {
+    let inner = written.trim_matches(['"', '\'']).trim();
+    let number = inner
+        .parse::<f64>()
+        .ok()
+        .filter(|number| number.is_finite());
+    if let Some(number) = number.filter(|_| wanted == "a number") {
+        let number = toml::Value::Float(number);
+        return format!("write it without quotes: {name} = {number}");
+    }
+    if let Some(number) = point(inner) {
+        return format!("write it without quotes, and with a decimal point: {name} = {number}");
+    }
+    let range = key.and_then(keys::known).map(|key| key.takes.words());
+    let range = range.map_or(String::new(), |words| format!(" ({words})"));
+    match key.and_then(|key| keys::example(key, beside)) {
+        Some(example) => {
+            format!("write {wanted} without quotes{range}, such as {name} = {example}")
+        }
+        None => format!("write {wanted} without quotes{range}"),
     }
 }
 

@@ -35,6 +35,15 @@ impl<'t> Tree<'t> {
         })
     }
 
+    /// Where the value of a dotted name stands.
+    pub(super) fn place(&self, name: &str) -> Option<Range<usize>> {
+        let (path, last) = name.rsplit_once('.')?;
+        let table = path.split('.').try_fold(self.root.as_ref(), |table, part| {
+            table.get(part)?.as_ref().as_table()
+        });
+        Some(table?.get(last)?.span())
+    }
+
     /// True for a place of something that was put in place of what is wrong.
     pub(super) fn is_replaced(text: &str, span: &Range<usize>) -> bool {
         span.start > text.len()

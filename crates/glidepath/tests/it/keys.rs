@@ -7,6 +7,7 @@
 )]
 
 mod effects;
+mod hints;
 mod told;
 
 use glidepath::config::keys::{self, Key, LeftOut, Takes};

@@ -17,6 +17,7 @@ mod keys;
 mod long_plans;
 mod manual_words;
 mod migration;
+mod mistaken_files;
 mod nurbs;
 mod outputs;
 mod pipes;

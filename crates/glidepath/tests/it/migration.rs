@@ -87,6 +87,102 @@ fn what_comes_of_it_is_refused_only_where_it_asks_and_loads_once_answered() {
     }
 }
 
+/// The name of a key that a line asks for: by a comment, or by the text in place of its value.
+fn asked_for(line: &str) -> Option<&str> {
+    let commented = line
+        .strip_prefix("# ")
+        .and_then(|line| line.strip_suffix(" ="));
+    let commented = commented.filter(|key| !key.contains(' '));
+    commented.or_else(|| line.strip_suffix(" = \"to be chosen\""))
+}
+
+/// A conversion with what `value` gives for each key that it asks for, by its table and name.
+fn filled(conversion: &Conversion, value: impl Fn(&str, &str) -> String) -> String {
+    let mut text = String::new();
+    let mut table = "";
+    for line in conversion.configuration.lines() {
+        table = line
+            .strip_prefix('[')
+            .map_or(table, |name| name.trim_end_matches(']'));
+        match asked_for(line) {
+            Some(key) => text.push_str(&format!("{key} = {}\n", value(table, key))),
+            None => text.push_str(&format!("{line}\n")),
+        }
+    }
+    text
+}
+
+#[test]
+fn a_conversion_loads_with_what_is_hinted() {
+    for (control, file, _) in SAMPLES {
+        let name = format!("{control}/{file}");
+        let conversion = convert(control, &read(control, file));
+        let asking = filled(&conversion, |_, _| "\"to be chosen\"".to_owned());
+        let error = config::parse(&name, &asking).expect_err("nothing is chosen");
+        let hint = |table: &str, key: &str| {
+            let full = format!("{table}.{key}");
+            let found = error.diagnostics().iter().find(|found| found.key == full);
+            let help = found.and_then(|found| found.help.as_ref()).unwrap();
+            match help.split_once(&format!("such as {key} = ")) {
+                Some((_, value)) => value.to_owned(),
+                // No length of a mechanism is harmless.
+                None if table == "machine.linear-delta" => {
+                    if key == "rod" { "800.0" } else { "200.0" }.to_owned()
+                }
+                // Nor is a weak joint below axes that are not.
+                None if table.starts_with("joint.") => match key {
+                    "max_velocity" => "10000.0",
+                    "max_acceleration" => "1e6",
+                    _ => "1e7",
+                }
+                .to_owned(),
+                None => panic!("{name}: no hint for {full}: {help}"),
+            }
+        };
+        let text = filled(&conversion, hint);
+        if let Err(error) = config::parse(&name, &text) {
+            panic!("{name}: {error:?}\n{text}");
+        }
+    }
+}
+
+/// What remarks say may be written is taken, each in its table.
+#[test]
+fn what_remarks_propose_is_taken() {
+    let mut count = 0;
+    for (control, file, _) in SAMPLES {
+        let conversion = convert(control, &read(control, file));
+        let whole = conversion
+            .configuration
+            .split("\n# Converted:")
+            .next()
+            .unwrap();
+        let mut table = "";
+        for line in whole.lines() {
+            table = line
+                .strip_prefix('[')
+                .map_or(table, |name| name.trim_end_matches(']'));
+            let words: Vec<&str> = line.split_whitespace().collect();
+            let is_remark = line.starts_with('#') && asked_for(line).is_none();
+            let proposed = words
+                .windows(3)
+                .filter(|three| is_remark && three[1] == "=");
+            for three in proposed {
+                let (key, value) = (three[0], three[2].trim_end_matches([';', ',']));
+                let text = format!("[{table}]\n{key} = {value}\n");
+                let Err(error) = config::parse("remark", &text) else {
+                    panic!("a machine without an axis");
+                };
+                let full = format!("{table}.{key}");
+                let found = error.diagnostics().iter().find(|found| found.key == full);
+                assert!(found.is_none(), "{control}/{file}: {text}{found:?}");
+                count += 1;
+            }
+        }
+    }
+    assert!(count > 10, "{count}");
+}
+
 #[test]
 fn values_are_those_of_the_other_control_in_our_units() {
     let machine =

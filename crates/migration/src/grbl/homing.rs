@@ -15,7 +15,7 @@ const CYCLES: core::ops::RangeInclusive<usize> = 44..=49;
 impl Machine {
     /// `[home.J0]` and the others, where homing is on.
     pub(super) fn homing(&mut self) {
-        let Some((at, homing)) = self.number(22).filter(|(_, homing)| *homing >= 1.0) else {
+        let Some((at, homing)) = self.number(22).filter(|(_, homing)| bit(*homing, 0)) else {
             return;
         };
         let note = "source = \"drives\" and homing = \"controller\" in [feedback] bring the joints home as \
@@ -23,8 +23,18 @@ impl Machine {
                     switch; grbl has none";
         self.draft.remark("feedback", note);
         self.inputs.decide(at, Fate::Changed, note);
-        for (joint, (number, _)) in self.axes.clone().into_iter().enumerate() {
+        let axes = self.axes.iter().map(|(number, _)| *number);
+        let joints = axes.chain(self.gantries.iter().copied());
+        for (joint, number) in joints.collect::<Vec<_>>().into_iter().enumerate() {
             self.home_of(joint, number, homing);
+        }
+        if let Some(at) = self
+            .inputs
+            .find("[", "OPT")
+            .filter(|_| !self.is_hal(homing))
+        {
+            let note = "where machine coordinates are zero: Z is where an axis has come home to";
+            self.inputs.decide(at, Fate::Converted, note);
         }
         let notes = [
             (
@@ -106,10 +116,21 @@ impl Machine {
         });
         match cycle {
             Some((cycle, place)) => {
-                let from = format!("${cycle}");
+                let is_gantry = self.gantries.contains(&number);
+                let (sign, why) = if is_gantry {
+                    ("-", "; both joints of the axis go together")
+                } else {
+                    ("", "")
+                };
+                let from = format!("${cycle}{why}");
                 self.draft
-                    .known(&table, "sequence", place.to_string(), &from);
+                    .known(&table, "sequence", format!("{sign}{place}"), &from);
             }
+            None if self.gantries.contains(&number) => self.draft.remark(
+                &table,
+                "sequence: in which order grbl's axes come home is built in; both joints of the axis need the \
+                 same negative number",
+            ),
             None => self.draft.remark(
                 &table,
                 "sequence: in which order grbl's axes come home is built in, Z before the others as a rule",

@@ -3,7 +3,7 @@
 //! Klipper goes to the endstop at `homing_speed`, retracts, and goes there again at
 //! `second_homing_speed`; the position is that of the endstop then, and the joint stays there.
 
-use super::Machine;
+use super::{LETTERS, Machine};
 use crate::draft::float;
 use crate::inputs::{At, Fate};
 
@@ -13,11 +13,30 @@ const SPEED: f64 = 5.0;
 const SEARCH_SCALAR: f64 = 1.5;
 
 impl Machine {
-    /// `[home.J0]` to `[home.J2]` of a cartesian machine.
+    /// `[home.J0]` to `[home.J2]` of a cartesian machine, then those of second joints.
     pub(super) fn homing(&mut self) {
         let mut has_home = false;
-        for (joint, letter) in ['x', 'y', 'z'].into_iter().enumerate() {
-            has_home |= self.home_of(joint, &format!("stepper_{letter}"));
+        let mut second = Vec::new();
+        for (joint, letter) in LETTERS.into_iter().enumerate() {
+            let own = self.second_joint(letter);
+            let sequence = match own {
+                None => (joint + 1).to_string(),
+                Some(_) => format!("-{}", joint + 1),
+            };
+            has_home |= self.home_of(joint, &format!("stepper_{letter}"), &sequence);
+            second.extend(own.map(|own| (joint, letter, own, sequence)));
+        }
+        for (joint, (first, letter, own, sequence)) in (LETTERS.len()..).zip(second) {
+            // It goes to the position of the first one.
+            if self.inputs.find(&own, "endstop_pin").is_some() {
+                self.home_of(joint, &format!("stepper_{letter}"), &sequence);
+            } else {
+                let note = format!(
+                    "[{own}] has no endstop_pin: to be squared, the joint needs an edge of its own, and the \
+                     keys of [home.J{first}]"
+                );
+                self.draft.remark(&format!("home.J{joint}"), &note);
+            }
         }
         if has_home {
             let text = "source = \"drives\" and homing = \"controller\" bring the joints home as [home.J0] \
@@ -28,7 +47,7 @@ impl Machine {
     }
 
     /// A joint's keys; whether it has an endstop of its own.
-    fn home_of(&mut self, joint: usize, section: &str) -> bool {
+    fn home_of(&mut self, joint: usize, section: &str, sequence: &str) -> bool {
         let table = format!("home.J{joint}");
         let Some((at, endstop)) = self.number(section, "position_endstop") else {
             // A probe is its endstop, or it has none.
@@ -85,8 +104,12 @@ impl Machine {
             let most = float(SEARCH_SCALAR * way);
             self.draft.known(&table, "search_travel", most, from);
         }
-        let place = (joint + 1).to_string();
-        self.draft.known(&table, "sequence", place, "G28's order");
+        let from = match sequence.starts_with('-') {
+            false => "G28's order",
+            true => "G28's order; both joints of the axis go together",
+        };
+        self.draft
+            .known(&table, "sequence", sequence.to_owned(), from);
         if let Some((at, _)) = retract {
             let note = "the joint goes off its switch as far as that takes; 0 makes latch_velocity that of \
                         the search";

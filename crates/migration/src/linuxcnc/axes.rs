@@ -10,40 +10,42 @@ const ENDLESS: f64 = 1e9;
 /// The largest play that is taken, mm.
 const MOST_PLAY: f64 = 10.0;
 
-/// How two values of the same kind become one.
-type Stricter = fn(f64, f64) -> f64;
+/// Whether the first of two values is the stricter one.
+type IsStricter = fn(&f64, &f64) -> bool;
 
 /// What LinuxCNC calls a limit, ours, and which of two is the stricter one.
-const LIMITS: [(&str, &str, Stricter); 4] = [
-    ("MIN_LIMIT", "min_position", f64::max),
-    ("MAX_LIMIT", "max_position", f64::min),
-    ("MAX_VELOCITY", "max_velocity", f64::min),
-    ("MAX_ACCELERATION", "max_acceleration", f64::min),
+const LIMITS: [(&str, &str, IsStricter); 4] = [
+    ("MIN_LIMIT", "min_position", f64::gt),
+    ("MAX_LIMIT", "max_position", f64::lt),
+    ("MAX_VELOCITY", "max_velocity", f64::lt),
+    ("MAX_ACCELERATION", "max_acceleration", f64::lt),
 ];
 
 impl Machine {
     pub(crate) fn axes(&mut self) {
-        let mut done = Vec::new();
-        for (joint, letter) in self.letters.clone().into_iter().enumerate() {
-            if !done.contains(&letter) {
-                done.push(letter);
-                self.axis(letter, joint);
-                self.backlash(letter, joint);
-            }
+        for letter in self.letters.clone() {
+            self.axis(letter);
+            self.backlash(letter);
         }
     }
 
-    /// The play of a joint, where joints are axes and each axis has one.
-    fn backlash(&mut self, letter: char, joint: usize) {
-        let own = self
-            .letters
-            .iter()
-            .filter(|other| **other == letter)
-            .count()
-            == 1;
-        if self.kinematics != Some("trivial") || !own {
-            return;
+    /// The joints of an axis, where joints are axes.
+    fn joints_of_axis(&self, letter: char) -> Vec<usize> {
+        if self.kinematics != Some("trivial") {
+            return Vec::new();
         }
+        let own = self.joints.iter().filter(|(_, of)| *of == letter);
+        own.map(|(joint, _)| *joint).collect()
+    }
+
+    /// The play of a joint, where joints are axes and each axis has one.
+    fn backlash(&mut self, letter: char) {
+        let &[joint] = self.joints_of_axis(letter).as_slice() else {
+            return;
+        };
+        let numbers = self.joint_numbers();
+        let ours = numbers.into_iter().find(|(theirs, _)| *theirs == joint);
+        let ours = ours.map_or(joint, |(_, ours)| ours);
         let section = format!("JOINT_{joint}");
         let Some((at, value)) = self.inputs.number(&section, "BACKLASH") else {
             return;
@@ -59,7 +61,7 @@ impl Machine {
                 self.inputs.decide(at, Fate::Converted, note);
             }
             (Ok(value), Some(factor)) if value > 0.0 && value * factor <= MOST_PLAY => {
-                let table = format!("compensation.J{joint}");
+                let table = format!("compensation.J{ours}");
                 let from = self.inputs.name(at);
                 self.draft
                     .known(&table, "backlash", float(value * factor), &from);
@@ -75,29 +77,37 @@ impl Machine {
         }
     }
 
-    fn axis(&mut self, letter: char, joint: usize) {
+    fn axis(&mut self, letter: char) {
         let table = format!("axis.{letter}");
-        let axis = format!("AXIS_{letter}");
-        // The limits of a joint are those of its axis where every axis has a drive of its own.
-        let joint = (self.kinematics == Some("trivial")).then(|| format!("JOINT_{joint}"));
-        for (theirs, ours, stricter) in LIMITS {
-            let mut found = self.limit(&axis, theirs, letter);
-            if let Some(joint) = &joint
-                && let Some((at, value)) = self.limit(joint, theirs, letter)
-            {
-                found = Some(match found {
-                    Some((first, other)) => {
-                        let note = format!("{table}.{ours}: the stricter one of axis and joint");
-                        self.inputs.decide(at, Fate::Changed, note.clone());
-                        self.inputs.decide(first, Fate::Changed, note);
-                        (first, stricter(other, value))
-                    }
-                    None => (at, value),
-                });
+        // The limits of a joint are those of its axis where every joint is one; all joints of a gantry move with it.
+        let joints = self.joints_of_axis(letter);
+        let mut sections = vec![format!("AXIS_{letter}")];
+        sections.extend(joints.iter().map(|joint| format!("JOINT_{joint}")));
+        for (theirs, ours, is_stricter) in LIMITS {
+            let limits = sections.iter();
+            let limits: Vec<_> = limits
+                .filter_map(|section| self.limit(section, theirs, letter))
+                .collect();
+            let found = limits.iter().copied().reduce(|kept, other| {
+                if is_stricter(&other.1, &kept.1) {
+                    other
+                } else {
+                    kept
+                }
+            });
+            if limits.len() > 1 {
+                let of = match joints.len() {
+                    1 => "the stricter one of axis and joint",
+                    _ => "the strictest one of the axis and its joints",
+                };
+                for (at, _) in limits {
+                    self.inputs
+                        .decide(at, Fate::Changed, format!("{table}.{ours}: {of}"));
+                }
             }
             self.put(&table, ours, found, letter);
         }
-        self.jerk(&table, &axis, joint.as_deref(), letter);
+        self.jerk(&table, &sections, letter);
     }
 
     /// A limit in our units; `None` if the file has none that can be used.
@@ -153,9 +163,9 @@ impl Machine {
     }
 
     /// Jerk, which only later versions of LinuxCNC know.
-    fn jerk(&mut self, table: &str, axis: &str, joint: Option<&str>, letter: char) {
+    fn jerk(&mut self, table: &str, sections: &[String], letter: char) {
         let mut jerk: Option<(At, f64)> = None;
-        for section in [Some(axis), joint].into_iter().flatten() {
+        for section in sections {
             let Some((at, value)) = self.inputs.number(section, "MAX_JERK") else {
                 continue;
             };

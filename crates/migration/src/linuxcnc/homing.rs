@@ -1,12 +1,9 @@
 //! The homing of joints from `[JOINT_n]`, their following errors, and the settings of moving by
 //! hand.
 
-use super::Machine;
+use super::{AXES, Machine};
 use crate::draft::float;
 use crate::inputs::Fate;
-
-/// The order of the axes here.
-const ORDER: &str = "XYZABCUVW";
 
 /// Numbers of a joint: LinuxCNC's key, ours, and whether zero says nothing.
 const NUMBERS: [(&str, &str, bool); 5] = [
@@ -44,15 +41,15 @@ impl Machine {
     }
 
     /// LinuxCNC's joints with ours: those of the axes in our order, then second ones.
-    fn joint_numbers(&self) -> Vec<(usize, usize)> {
-        let place = |letter: char| ORDER.find(letter).unwrap_or(ORDER.len());
-        let joints = self.letters.iter().enumerate();
+    pub(super) fn joint_numbers(&self) -> Vec<(usize, usize)> {
+        let place = |letter: char| AXES.find(letter).unwrap_or(AXES.len());
         let is_second = |joint: usize, letter: char| {
-            let before = self.letters.get(..joint).unwrap_or(&[]);
-            before.contains(&letter)
+            let mut before = self.joints.iter().filter(|(other, _)| *other < joint);
+            before.any(|(_, other)| *other == letter)
         };
+        let joints = self.joints.iter();
         let mut sorted: Vec<_> = joints
-            .map(|(joint, letter)| (is_second(joint, *letter), place(*letter), joint))
+            .map(|(joint, letter)| (is_second(*joint, *letter), place(*letter), *joint))
             .collect();
         sorted.sort_unstable();
         let ours = sorted.into_iter().enumerate();
@@ -63,7 +60,8 @@ impl Machine {
     fn home_of(&mut self, joint: usize, ours: usize) -> bool {
         let section = format!("JOINT_{joint}");
         let table = format!("home.J{ours}");
-        let letter = self.letters.get(joint).copied().unwrap_or('X');
+        let of = self.joints.iter().find(|(number, _)| *number == joint);
+        let letter = of.map_or('X', |(_, letter)| *letter);
         let factor = self.units.of_letter(letter);
         let mut searches = false;
         for (theirs, key, zero_is_none) in NUMBERS {
@@ -136,9 +134,9 @@ impl Machine {
             ("FERROR", "following_error"),
             ("MIN_FERROR", "min_following_error"),
         ] {
-            let joints = self.letters.clone();
+            let joints = self.joints.clone();
             let mut found = Vec::new();
-            for (joint, letter) in joints.iter().enumerate() {
+            for (joint, letter) in &joints {
                 let number = self.inputs.number(&format!("JOINT_{joint}"), theirs);
                 let factor = self.units.of_letter(*letter);
                 if let (Some((at, Ok(value))), Some(factor)) = (number, factor) {

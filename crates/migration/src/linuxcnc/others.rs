@@ -81,17 +81,7 @@ const JOINT_KEYS: [(&str, &str); 20] = [
 ];
 
 /// Why some keys have no counterpart.
-const REASONS: [(&str, &str, &str); 9] = [
-    (
-        "RS274NGC",
-        "STARTUP_CODE",
-        "programs begin in G17 G21 G54 G64 G90 G94: write other codes into them",
-    ),
-    (
-        "RS274NGC",
-        "RS274NGC_STARTUP_CODE",
-        "programs begin in G17 G21 G54 G64 G90 G94: write other codes into them",
-    ),
+const REASONS: [(&str, &str, &str); 7] = [
     ("RS274NGC", "REMAP", "there are no remaps"),
     (
         "RS274NGC",

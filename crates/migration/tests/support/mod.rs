@@ -10,14 +10,17 @@ use glidepath_migration::{Conversion, from_grbl, from_klipper, from_linuxcnc};
 use std::path::{Path, PathBuf};
 
 /// The samples: the control, the file, and the files it includes.
-pub(crate) const SAMPLES: [(&str, &str, &[&str]); 9] = [
+pub(crate) const SAMPLES: [(&str, &str, &[&str]); 12] = [
     ("linuxcnc", "mill-mm.ini", &[]),
     ("linuxcnc", "gantry-inch.ini", &["gantry-axes.inc"]),
+    ("linuxcnc", "gantry-mm.ini", &[]),
     ("linuxcnc", "delta.ini", &[]),
     ("grbl", "router.txt", &[]),
     ("grbl", "router-force-origin.txt", &[]),
     ("grbl", "grblhal.txt", &[]),
+    ("grbl", "gantry.txt", &[]),
     ("klipper", "cartesian.cfg", &["macros.cfg"]),
+    ("klipper", "gantry.cfg", &[]),
     ("klipper", "corexy.cfg", &[]),
     ("klipper", "delta.cfg", &[]),
 ];

@@ -6,6 +6,7 @@
 
 mod adaptive_feed;
 mod compensation;
+mod example;
 mod key;
 mod mechanisms;
 mod probing;
@@ -15,6 +16,7 @@ mod stops;
 mod superposition;
 mod tables;
 
+pub use example::example;
 pub use key::{Key, LeftOut, Takes};
 
 /// Every key, in the order of the tables of a file.
@@ -63,6 +65,12 @@ pub fn asked(name: &str) -> Vec<&'static Key> {
     all()
         .filter(|key| key.name.rsplit('.').next() == Some(name))
         .collect()
+}
+
+/// The key of that name, of any axis or joint.
+pub(super) fn known(name: &str) -> Option<&'static Key> {
+    let general = general(name);
+    all().find(|key| key.name == general)
 }
 
 /// The known name that is most like one that is not known.
