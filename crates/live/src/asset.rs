@@ -25,12 +25,13 @@ const SHOWING: [(&str, &str); 11] = [
 ];
 
 /// What operates a machine, behind that.
-const HANDS: [(&str, &str); 13] = [
+const HANDS: [(&str, &str); 14] = [
     ("/orders.js", include_str!("../page/orders.js")),
     ("/bar.js", include_str!("../page/bar.js")),
     ("/bell.js", include_str!("../page/bell.js")),
     ("/jog.js", include_str!("../page/jog.js")),
     ("/gamepad.js", include_str!("../page/gamepad.js")),
+    ("/judged.js", include_str!("../page/judged.js")),
     ("/setup.js", include_str!("../page/setup.js")),
     ("/touch.js", include_str!("../page/touch.js")),
     ("/devices.js", include_str!("../page/devices.js")),

@@ -7,6 +7,7 @@ mod devices;
 mod following;
 mod gamepad;
 mod hands;
+mod judged;
 mod life;
 mod looked_at;
 mod machines;

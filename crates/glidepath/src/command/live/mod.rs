@@ -25,6 +25,7 @@ mod gesture;
 mod given;
 mod job_submitter;
 pub(super) mod jogger;
+mod judge;
 mod lateness;
 mod log;
 mod machines;
@@ -66,6 +67,7 @@ use glidepath_link::{
 use glidepath_live::{DeviceServer, Feed, Message, Role, Running, Seat, Server, ServerError, Site};
 use job_submitter::JobSubmitter;
 use jogger::Jogger;
+use judge::Judge;
 use lateness::Histogram;
 use log::Log;
 use machines::Listing;
@@ -77,6 +79,7 @@ use serde_json::Value;
 use set_up::SetUp;
 use shown::Shown;
 use shuttle::Shuttle;
+use std::io;
 use std::sync::atomic::AtomicU64;
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
@@ -123,12 +126,9 @@ fn serve(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Failure> {
     let port = server.port();
     let (device_server, devices) = bind_devices(args, &instance, config)?;
     let operates = role == Role::Operate;
-    let jobs = operates.then(|| JobSubmitter::start(&link)).transpose();
-    let jobs = jobs.map_err(ServerError::Thread)?.map(Arc::new);
-    let jogger = operates.then(|| Jogger::start(config, &link)).transpose();
-    let jogger = jogger.map_err(ServerError::Thread)?;
-    let moves = operates.then(|| Shuttle::start(&link)).transpose();
-    let moves = moves.map_err(ServerError::Thread)?.map(Arc::new);
+    let jobs = started(operates, || JobSubmitter::start(&link))?.map(Arc::new);
+    let jogger = started(operates, || Jogger::start(config, &link))?;
+    let moves = started(operates, || Shuttle::start(&link))?.map(Arc::new);
     let queue = Arc::<Queue>::default();
     let steps = jogger.as_ref().map(Jogger::steps);
     let pages = Pages {
@@ -136,6 +136,7 @@ fn serve(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Failure> {
         link: link.clone(),
         shown: Arc::clone(&shown),
         set_up: Arc::new(SetUp::new(config)),
+        judge: Arc::new(Judge::new(config, &link)),
         seat: Arc::default(),
         folder: folder(args)?,
         preview: Preview::new(config),
@@ -149,7 +150,7 @@ fn serve(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Failure> {
         number: AtomicU64::new(0),
     };
     let (set_up, seat) = (Arc::clone(&pages.set_up), Arc::clone(&pages.seat));
-    let certificates = Arc::clone(&pages.certificates);
+    let (certificates, judge) = (Arc::clone(&pages.certificates), Arc::clone(&pages.judge));
     let pages = Arc::new(pages);
     let running = server.start(Arc::clone(&pages) as Arc<dyn Site>, &feed)?;
     let served = start_devices(device_server, devices.clone(), pages, (&feed, role))?;
@@ -170,6 +171,7 @@ fn serve(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Failure> {
         offsets,
         feed,
         set_up,
+        judge,
         seat,
         jobs,
         steps,
@@ -190,6 +192,15 @@ fn serve(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Failure> {
     machine.follow(&interrupt)?;
     drop((served, running));
     Ok(interrupt.exit())
+}
+
+/// What has a thread of its own, where pages may operate.
+fn started<T>(
+    operates: bool,
+    start: impl FnOnce() -> io::Result<T>,
+) -> Result<Option<T>, ServerError> {
+    let started = operates.then(start).transpose();
+    started.map_err(ServerError::Thread)
 }
 
 /// The machine among those of this host, where it is to be listed.
@@ -249,6 +260,7 @@ struct Machine<'a> {
     offsets: PersistentOffsets,
     feed: Feed,
     set_up: Arc<SetUp>,
+    judge: Arc<Judge>,
     seat: Arc<Mutex<Seat>>,
     jobs: Option<Arc<JobSubmitter>>,
     steps: Option<Arc<Steps>>,
@@ -297,6 +309,7 @@ impl Machine<'_> {
                     self.batch = Batch::new(self.config);
                 }
                 self.log.take(&status);
+                self.judge.hear(&status, self.auxiliary.as_ref());
                 self.status = Some(status);
             }
             while let Some(told) = self.auxiliaries.take()? {
