@@ -39,6 +39,7 @@ function usePlan() {
   const from = S.view === 'programs' ? LOOK : S.shows ? COME : {};
   PLAN = from.plan || null; MOTION = from.motion || null; PROGRAM = from.program || null;
   RIBBON.key = ''; SPACE.stale = true; S.hover = null;
+  $('#app').dataset.sections = courseNow().sections.length ? 1 : 0;
   paintLegend(); paintTune(); redraw();
 }
 /* Messages: four bytes of length, one of kind, payload. */
@@ -273,6 +274,7 @@ function digits() {
   const known = s.left_s !== null && s.left_s !== undefined && s.end_of_epoch === 'open', ends = known && S.state === 'running' ? clock(Date.now() + s.left_s * 1000) : null;
   put($('#left'), S.state === 'stale' || !known ? '–:––.–' : span(s.left_s)); put($('#g-left'), $('#left').textContent);
   put($('#ends'), S.state === 'stale' ? 'not known' : ends ? `ends ${ends}` : known ? 'after resume' : ''); put($('#g-end'), ends || '––:––:––');
+  paintNeeds();
   put($('#g-line'), String(s.line)); put($('#g-ov'), `${Math.round(s.feed_override * 100)} %`); put($('#g-feed'), feedText(speed * 60));
   paintWhy();
   blocks(s.line);

@@ -10,13 +10,14 @@ pub(crate) const STYLE: &str = include_str!("../page/style.css");
 const HANDS_STYLE: &str = include_str!("../page/hands.css");
 
 /// What shows a motion, in the order in which the page names it.
-const SHOWING: [(&str, &str); 11] = [
+const SHOWING: [(&str, &str); 12] = [
     ("/base.js", include_str!("../page/base.js")),
     ("/units.js", include_str!("../page/units.js")),
     ("/plan.js", include_str!("../page/plan.js")),
     ("/ring.js", include_str!("../page/ring.js")),
     ("/path3d.js", include_str!("../page/path3d.js")),
     ("/strips.js", include_str!("../page/strips.js")),
+    ("/course.js", include_str!("../page/course.js")),
     ("/ribbon.js", include_str!("../page/ribbon.js")),
     ("/spectrum.js", include_str!("../page/spectrum.js")),
     ("/words.js", include_str!("../page/words.js")),

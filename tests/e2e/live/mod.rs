@@ -3,6 +3,7 @@
 
 mod certificate;
 mod colours;
+mod course;
 mod devices;
 mod following;
 mod gamepad;
