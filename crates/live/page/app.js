@@ -95,12 +95,14 @@ function heard(kind, payload) {
     if (S.may === 'operate' && status.set_up !== undefined) { fetchSetUp(status.set_up); loadNext(); judgeShuttle(); }
     const seen = [S.state, status.mode, status.end_of_epoch, S.rate].join();
     if (seen !== FRAMES.seen) { FRAMES.seen = seen; dirty.path = dirty.ribbon = true; }
+    keepLast();
     // A browser lets the timers of a page that nobody sees come late, by up to a minute.
     if (document.hidden) callPerson();
   } else if (kind === 2 && RINGED && S.status) {
     const errors = Object.values(S.status.following_error || {}).map(v => Math.abs(v || 0));
     RINGED.take(payload, S.p, Math.max(0, ...errors) * 1000, (S.status.queue_depth || 0) * DT());
     S.arrived = performance.now();
+    keepLast();
     dirty.strips = dirty.health = dirty.tune = true;
     if (isMoving()) dirty.path = dirty.ribbon = true;
   }
@@ -333,6 +335,7 @@ function frame(t) {
     paintPart('state', paintState);
     if (S.unpainted.state) { put($('#word'), 'Not shown'); put($('#why'), unpainted()); }
     paintPart('digits', digits);
+    if (!S.file) paintPart('last', paintLast);
     if (S.view === 'setup') paintPart('set-up', () => { setUpDigits(); paintSetUp(); });
     if (S.view === 'programs') paintPart('programs', () => { paintChosen(); paintDay(); });
   }

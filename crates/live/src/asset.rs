@@ -26,7 +26,7 @@ const SHOWING: [(&str, &str); 12] = [
 ];
 
 /// What operates a machine, behind that.
-const HANDS: [(&str, &str); 14] = [
+const HANDS: [(&str, &str); 15] = [
     ("/orders.js", include_str!("../page/orders.js")),
     ("/bar.js", include_str!("../page/bar.js")),
     ("/bell.js", include_str!("../page/bell.js")),
@@ -40,6 +40,7 @@ const HANDS: [(&str, &str); 14] = [
     ("/programs.js", include_str!("../page/programs.js")),
     ("/certificate.js", include_str!("../page/certificate.js")),
     ("/queue.js", include_str!("../page/queue.js")),
+    ("/last.js", include_str!("../page/last.js")),
     ("/shuttle.js", include_str!("../page/shuttle.js")),
 ];
 

@@ -9,6 +9,7 @@ mod following;
 mod gamepad;
 mod hands;
 mod judged;
+mod last;
 mod life;
 mod looked_at;
 mod machines;
