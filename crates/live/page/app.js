@@ -39,6 +39,7 @@ function usePlan() {
   const from = S.view === 'programs' ? LOOK : S.shows ? COME : {};
   PLAN = from.plan || null; MOTION = from.motion || null; PROGRAM = from.program || null;
   RIBBON.key = ''; SPACE.stale = true; S.hover = null;
+  $('#app').dataset.sections = courseNow().sections.length ? 1 : 0;
   paintLegend(); paintTune(); redraw();
 }
 /* Messages: four bytes of length, one of kind, payload. */
@@ -94,12 +95,14 @@ function heard(kind, payload) {
     if (S.may === 'operate' && status.set_up !== undefined) { fetchSetUp(status.set_up); loadNext(); judgeShuttle(); }
     const seen = [S.state, status.mode, status.end_of_epoch, S.rate].join();
     if (seen !== FRAMES.seen) { FRAMES.seen = seen; dirty.path = dirty.ribbon = true; }
+    keepLast();
     // A browser lets the timers of a page that nobody sees come late, by up to a minute.
     if (document.hidden) callPerson();
   } else if (kind === 2 && RINGED && S.status) {
     const errors = Object.values(S.status.following_error || {}).map(v => Math.abs(v || 0));
     RINGED.take(payload, S.p, Math.max(0, ...errors) * 1000, (S.status.queue_depth || 0) * DT());
     S.arrived = performance.now();
+    keepLast();
     dirty.strips = dirty.health = dirty.tune = true;
     if (isMoving()) dirty.path = dirty.ribbon = true;
   }
@@ -273,6 +276,7 @@ function digits() {
   const known = s.left_s !== null && s.left_s !== undefined && s.end_of_epoch === 'open', ends = known && S.state === 'running' ? clock(Date.now() + s.left_s * 1000) : null;
   put($('#left'), S.state === 'stale' || !known ? '–:––.–' : span(s.left_s)); put($('#g-left'), $('#left').textContent);
   put($('#ends'), S.state === 'stale' ? 'not known' : ends ? `ends ${ends}` : known ? 'after resume' : ''); put($('#g-end'), ends || '––:––:––');
+  paintNeeds();
   put($('#g-line'), String(s.line)); put($('#g-ov'), `${Math.round(s.feed_override * 100)} %`); put($('#g-feed'), feedText(speed * 60));
   paintWhy();
   blocks(s.line);
@@ -331,6 +335,7 @@ function frame(t) {
     paintPart('state', paintState);
     if (S.unpainted.state) { put($('#word'), 'Not shown'); put($('#why'), unpainted()); }
     paintPart('digits', digits);
+    if (!S.file) paintPart('last', paintLast);
     if (S.view === 'setup') paintPart('set-up', () => { setUpDigits(); paintSetUp(); });
     if (S.view === 'programs') paintPart('programs', () => { paintChosen(); paintDay(); });
   }

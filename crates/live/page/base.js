@@ -88,7 +88,7 @@ function theme(name) {
   try { localStorage.setItem('glidepath-theme', name); } catch { /* a file may have no storage */ }
   const style = getComputedStyle(document.documentElement), colour = key => style.getPropertyValue(key).trim();
   T = { css: {}, limit: {}, dark: name === 'dark' };
-  for (const key of ['bg', 'panel', 'ink', 'quiet', 'line', 'faint', 'run', 'hold', 'wait', 'fault', 'b-feed', 'b-vel', 'b-acc', 'b-jerk', 'b-tol', 'b-none', 'rapid']) T.css[key] = colour('--' + key);
+  for (const key of ['bg', 'panel', 'ink', 'quiet', 'line', 'faint', 'run', 'hold', 'wait', 'fault', 'on-wait', 'b-feed', 'b-vel', 'b-acc', 'b-jerk', 'b-tol', 'b-none', 'rapid']) T.css[key] = colour('--' + key);
   for (const kind in LIMIT_COLOURS) T.limit[kind] = colour(LIMIT_COLOURS[kind]);
 }
 const SHADES = { light: [[26, 18, 110], [93, 1, 166], [156, 23, 158], [204, 71, 120], [224, 104, 64], [222, 140, 10]], dark: [[112, 104, 226], [156, 92, 214], [206, 96, 178], [240, 116, 124], [250, 164, 84], [252, 218, 110]] };

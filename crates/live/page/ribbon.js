@@ -27,10 +27,10 @@ function ribbon() {
   const [c, w, h] = fit($('#ribbon canvas'));
   if (!w) return;
   c.clearRect(0, 0, w, h);
-  const em = S.view === 'operate' ? Math.max(13, h / 88 * 15) : 13;
+  const hasNames = h >= LOW && courseNow().sections.length > 0, em = S.view === 'operate' ? Math.max(13, h / (hasNames ? 106 : 88) * 15) : 13, strip = stripHigh(em, h);
   c.textBaseline = 'middle'; c.font = `${em}px B612`;
   if (!PLAN) { c.fillStyle = T.css.quiet; c.textAlign = 'left'; wrapped(c, emptyRibbon(), 18, h / 2, w - 36, em * 1.35); return; }
-  const left = 18, width = w - 36, top = 14, bottom = h - em - 13, tall = bottom - top, X = p => left + p / Math.max(1, PLAN.samples - 1) * width;
+  const left = 18, width = w - 36, top = 14 + strip, bottom = h - em - 13, tall = bottom - top, X = p => left + p / Math.max(1, PLAN.samples - 1) * width;
   RIBBON.left = left; RIBBON.width = width;
   const isDone = S.status && S.status.end_of_epoch === 'completed', p = S.file ? -1 : isDone ? PLAN.samples - 1 : S.p, list = ribbonColumns(Math.floor(width));
   list.forEach(([most, kind], x) => {
@@ -43,6 +43,7 @@ function ribbon() {
     if (!isGap) c.fillRect(left + x, bottom - high, 1, Math.min(2, high));
   });
   c.globalAlpha = 1; c.fillStyle = T.css.line; c.fillRect(left, bottom, width, 1);
+  drawSections(c, X, { em, end: left + width, p, strip, bottom }); drawMoments(c, X, { em, top, bottom });
   let says = '';
   if (!S.file) {
     if (S.may === 'operate') says = drawShuttle(c, X, { top, bottom, p });
@@ -62,9 +63,11 @@ function ribbon() {
   c.textAlign = 'left'; c.fillStyle = T.css.ink; c.font = `bold ${em}px B612`; c.fillText(name, left, y);
   const wide = c.measureText(name).width;
   c.font = `${em}px B612`; c.fillStyle = T.css.quiet;
+  const whole = `${span(PLAN.seconds)} at 100 %`, section = S.file ? undefined : sectionAt(p), room = width - wide - c.measureText(whole).width - em;
+  const part = S.file ? wayText(way) : `${Math.floor(p / Math.max(1, PLAN.samples - 1) * 100)} % of the time, ${wayText(PLAN.way[PLAN.bin(p)], way)}${section ? `, ${sectionWords(section)}` : ''}`;
   if (says) c.fillText(`   ${says}`, left + wide, y);
-  else if (S.view !== 'glance') c.fillText(S.file ? `   ${wayText(way)}` : `   ${Math.floor(p / Math.max(1, PLAN.samples - 1) * 100)} % of the time, ${wayText(PLAN.way[PLAN.bin(p)], way)}`, left + wide, y);
-  c.textAlign = 'right'; c.fillText(`${span(PLAN.seconds)} at 100 %`, w - left, y);
+  else if (S.view !== 'glance') c.fillText(cutText(c, `   ${part}`, room), left + wide, y);
+  c.textAlign = 'right'; c.fillText(whole, w - left, y);
 }
 /* Writes a text about a height, in as many lines as it takes. */
 function wrapped(c, text, x, y, width, line) {
@@ -90,6 +93,7 @@ function emptyRibbon() {
 }
 function ribbonHands(onhover) {
   const element = $('#ribbon'), place = e => { const f = (e.offsetX - RIBBON.left) / RIBBON.width; return PLAN && f >= 0 && f <= 1 ? f * (PLAN.samples - 1) : null; };
+  element.addEventListener('pointermove', e => { element.title = titleOf(place(e)); });
   element.addEventListener('pointermove', e => { if (S.view !== 'operate') onhover(place(e)); });
   element.addEventListener('pointerleave', () => onhover(null));
   element.addEventListener('pointerdown', e => { const p = place(e); if (p === null || S.view !== 'tune') return; const t = timeOf(p); if (t !== null) lookAt(t); showWhy(p); });

@@ -184,12 +184,13 @@ function paintLines() {
   fill($('#typed'), lines.slice(0, 6).reverse().map(job => `<div class="${job.state}"><span class="n lab">${clock(job.at_ms)}</span><code>${safe(job.name)}</code><span>${job.state === 'running' ? 'runs' : job.state === 'done' ? 'done' : safe(buttonWords(job.text))}</span></div>`).join(''));
   const why = whyNoLine(), button = $('#runline');
   setKey(button, 'Run line', { press: SHORT, why, sub: 'press ½ s', kind: why ? '' : 'main' });
+  judgeAnew();
 }
 DEEDS['run-line'] = async () => {
   const input = $('#mdi'), line = input.value.trim();
   if (!line) { input.focus(); return; }
   const said = await order('mdi', { line });
-  if (said.accepted && input.value.trim() === line) { input.value = ''; TYPED.at = -1; }
+  if (said.accepted && input.value.trim() === line) { input.value = ''; TYPED.at = -1; judgeSoon(); }
 };
 function layLine() {
   const input = $('#mdi'), button = $('#runline');
@@ -200,5 +201,7 @@ function layLine() {
     const lines = (S.status && S.status.page_jobs || []).filter(job => job.kind === 'line');
     TYPED.at = Math.max(-1, Math.min(lines.length - 1, TYPED.at + (e.key === 'ArrowUp' ? 1 : -1)));
     input.value = TYPED.at < 0 ? '' : lines[TYPED.at].name;
+    judgeSoon();
   });
+  layJudged();
 }

@@ -10,13 +10,14 @@ pub(crate) const STYLE: &str = include_str!("../page/style.css");
 const HANDS_STYLE: &str = include_str!("../page/hands.css");
 
 /// What shows a motion, in the order in which the page names it.
-const SHOWING: [(&str, &str); 11] = [
+const SHOWING: [(&str, &str); 12] = [
     ("/base.js", include_str!("../page/base.js")),
     ("/units.js", include_str!("../page/units.js")),
     ("/plan.js", include_str!("../page/plan.js")),
     ("/ring.js", include_str!("../page/ring.js")),
     ("/path3d.js", include_str!("../page/path3d.js")),
     ("/strips.js", include_str!("../page/strips.js")),
+    ("/course.js", include_str!("../page/course.js")),
     ("/ribbon.js", include_str!("../page/ribbon.js")),
     ("/spectrum.js", include_str!("../page/spectrum.js")),
     ("/words.js", include_str!("../page/words.js")),
@@ -25,12 +26,13 @@ const SHOWING: [(&str, &str); 11] = [
 ];
 
 /// What operates a machine, behind that.
-const HANDS: [(&str, &str); 13] = [
+const HANDS: [(&str, &str); 15] = [
     ("/orders.js", include_str!("../page/orders.js")),
     ("/bar.js", include_str!("../page/bar.js")),
     ("/bell.js", include_str!("../page/bell.js")),
     ("/jog.js", include_str!("../page/jog.js")),
     ("/gamepad.js", include_str!("../page/gamepad.js")),
+    ("/judged.js", include_str!("../page/judged.js")),
     ("/setup.js", include_str!("../page/setup.js")),
     ("/touch.js", include_str!("../page/touch.js")),
     ("/devices.js", include_str!("../page/devices.js")),
@@ -38,6 +40,7 @@ const HANDS: [(&str, &str); 13] = [
     ("/programs.js", include_str!("../page/programs.js")),
     ("/certificate.js", include_str!("../page/certificate.js")),
     ("/queue.js", include_str!("../page/queue.js")),
+    ("/last.js", include_str!("../page/last.js")),
     ("/shuttle.js", include_str!("../page/shuttle.js")),
 ];
 

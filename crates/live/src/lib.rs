@@ -6,6 +6,8 @@
 //! * There is a token for each [`Role`]; of the pages that may operate one has the [`Seat`].
 //! * [`DeviceServer`] gives the same page to paired [`Devices`] over TLS, which may look and hold. The server's
 //!   [`Identity`] is a certificate that it has signed itself; a device is paired by a code ([`Pairing`]).
+//! * A line that somebody types is a [`TypedLine`]: of bounded length, with nothing in it that no key types. A page has one
+//!   question answered at a time, and few pages have one ([`Turns`]).
 //! * [`Feed`] hands what happens to every page that is open. A page that is too slow loses the
 //!   oldest; nobody waits for it.
 //! * [`Motion`] collects a motion of any length in bounded memory, as the page wants it: columns
@@ -18,6 +20,7 @@
 
 pub mod file;
 pub mod guard;
+pub mod query;
 
 mod answer;
 mod asset;
@@ -35,6 +38,8 @@ mod seat;
 mod server;
 mod sha256;
 mod token;
+mod turns;
+mod typed_line;
 
 pub use answer::Site;
 pub use devices::Devices;
@@ -49,3 +54,5 @@ pub use seat::{SILENCE, Seat};
 pub use server::{DeviceServer, Running, Server, ServerError};
 pub use sha256::Sha256;
 pub use token::Token;
+pub use turns::{Turn, Turns};
+pub use typed_line::{MOST_TYPED, TypedLine, TypedLineError};

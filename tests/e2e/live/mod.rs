@@ -3,10 +3,13 @@
 
 mod certificate;
 mod colours;
+mod course;
 mod devices;
 mod following;
 mod gamepad;
 mod hands;
+mod judged;
+mod last;
 mod life;
 mod looked_at;
 mod machines;

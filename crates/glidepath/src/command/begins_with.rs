@@ -11,7 +11,7 @@ use crate::persistence::error::StateError;
 use crate::persistence::read::{read, set_up};
 use glidepath_gcode::InForce;
 use glidepath_geometry::AxisVector;
-use glidepath_link::{ActiveProgram, EndOfEpoch, LinkConfig, MachineState, Operator};
+use glidepath_link::{ActiveProgram, Auxiliary, EndOfEpoch, LinkConfig, MachineState, Operator};
 use glidepath_persistence::PersistentState;
 
 /// What a machine was found to begin programs with.
@@ -30,7 +30,25 @@ pub(super) struct BeginsWith {
 pub(super) fn begin_on_machine(config: &mut MachineConfig) -> Result<BeginsWith, StateError> {
     let instance = session::named_instance(config);
     let link = session::link(&instance, config);
-    let served = served(&link, config);
+    begin_as_told(
+        config,
+        (&instance, &link),
+        || auxiliary(&link),
+        || stands(&link),
+    )
+}
+
+/// The same where it is known already what the machine tells, and where it stands.
+///
+/// # Errors
+/// The errors of [`begin_on_machine`].
+pub(super) fn begin_as_told(
+    config: &mut MachineConfig,
+    (instance, link): (&str, &LinkConfig),
+    told_now: impl FnOnce() -> Option<Auxiliary>,
+    stands_now: impl FnOnce() -> Option<AxisVector>,
+) -> Result<BeginsWith, StateError> {
+    let served = served(link, config);
     (config.program.in_force, config.program.stands) = (None, None);
     let mut begins = BeginsWith::default();
     let in_force = match served {
@@ -42,7 +60,7 @@ pub(super) fn begin_on_machine(config: &mut MachineConfig) -> Result<BeginsWith,
             ));
             None
         }
-        Served::State(in_force) => Some(match auxiliary(&link) {
+        Served::State(in_force) => Some(match told_now() {
             Some(told) => as_machine_tells(&in_force, &told),
             None => *in_force,
         }),
@@ -53,7 +71,7 @@ pub(super) fn begin_on_machine(config: &mut MachineConfig) -> Result<BeginsWith,
         begins.notes.extend(set_up(config, kept));
     }
     if let Some(in_force) = in_force {
-        config.program.stands = stands(&link);
+        config.program.stands = stands_now();
         let mut text = told(&in_force);
         if config.program.stands.is_some() {
             text += "; it begins where the machine stands";

@@ -73,6 +73,11 @@ pub(super) trait Spectator: Send {
         let _ = lacks;
     }
 
+    /// The text of the program, before anything else; without a line where it is too long.
+    fn text(&mut self, lines: &TextLines) {
+        let _ = lines;
+    }
+
     /// The next item of the program.
     fn item(&mut self, item: &Item) {
         let _ = item;
@@ -166,7 +171,9 @@ impl Forecast {
         let begins = machine.start();
         let planner = {
             let (path, plan, over) = (path.to_owned(), Arc::clone(&plan), Arc::clone(&over));
+            let lines = lines.clone();
             std::thread::spawn(move || {
+                spectator.text(&lines);
                 let machine = (&machine, change);
                 let trouble = work(&path, machine, (&plan, &over), &mut spectator);
                 spectator.end(trouble.as_deref());

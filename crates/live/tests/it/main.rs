@@ -15,3 +15,4 @@ mod patience;
 mod refusals;
 mod requests;
 mod tls;
+mod typed;

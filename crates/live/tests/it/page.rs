@@ -3,7 +3,7 @@
 use crate::tls;
 use glidepath_live::{
     Caller, ContentType, DeviceServer, Devices, Feed, Identity, Response, Role, Running, Server,
-    Sha256, Site,
+    Sha256, Site, Status, Turns, TypedLine,
 };
 use std::io::{Read, Write};
 use std::net::TcpStream;
@@ -17,13 +17,31 @@ pub(crate) struct Counted {
     pub(crate) commands: AtomicUsize,
     pub(crate) documents: AtomicUsize,
     pub(crate) callers: Mutex<Vec<Caller>>,
+    turns: Turns,
+}
+
+impl Counted {
+    /// A line as it was typed, or why it is none.
+    fn judge(&self, caller: Caller, query: &str) -> Response {
+        let text = |text: &str| Response::new(ContentType::Text, text.as_bytes());
+        let Some(_turn) = self.turns.take(caller.page) else {
+            return text("").with(Status::Unavailable);
+        };
+        match TypedLine::of(query) {
+            Ok(line) => text(line.text()),
+            Err(error) => text(&error.to_string()).with(Status::Conflict),
+        }
+    }
 }
 
 struct Shared(Arc<Counted>);
 
 impl Site for Shared {
-    fn document(&self, _caller: Caller, path: &str, query: &str) -> Option<Response> {
+    fn document(&self, caller: Caller, path: &str, query: &str) -> Option<Response> {
         self.0.documents.fetch_add(1, Ordering::Relaxed);
+        if path == "/api/judge" {
+            return Some(self.0.judge(caller, query));
+        }
         let text = format!("{path} {query}").into_bytes();
         (path == "/api/plan").then(|| Response::new(ContentType::Json, text))
     }

@@ -159,7 +159,7 @@ fn a_page_as_a_file_has_everything_in_it() {
     }
     let scripts = text.matches("<script>").count();
     assert_eq!(text.matches("</script>").count(), scripts);
-    assert_eq!(scripts, 13);
+    assert_eq!(scripts, 14);
     assert!(
         !text.contains("/api/command"),
         "nothing of a file operates a machine"

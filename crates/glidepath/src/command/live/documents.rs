@@ -5,9 +5,9 @@ use super::folder::Folder;
 use super::machines::others;
 use super::pages::Pages;
 use super::preview::{Look, Looker};
-use super::query::{decoded, parameter};
 use super::shown::Shown;
 use crate::command::changed::Change;
+use glidepath_live::query::{decoded, parameter};
 use glidepath_live::{Caller, ContentType, Response, Role, Status};
 
 /// Lines that are given out at once.
@@ -20,6 +20,7 @@ impl Pages {
             "plan" => Some(object(&self.shown.object())),
             "set-up" => Some(object(&self.set_up.object())),
             "programs" => Some(self.programs()),
+            "judge" => Some(self.judge_typed(caller, query)),
             "preview" => self.preview(caller, query),
             "what-if" => self.what_if(caller, &self.shown, query),
             "preview/what-if" => {
@@ -45,6 +46,14 @@ impl Pages {
                 }
                 None => part(&self.shown, what, query),
             },
+        }
+    }
+
+    /// What is wrong with a line that somebody types who may have it executed. The seat stays with who has it.
+    fn judge_typed(&self, caller: Caller, query: &str) -> Response {
+        match self.looker(caller) {
+            Looker::Seat => self.judge.answer(caller, query),
+            Looker::Other => refusal(&not_now("lines are judged for the page that operates")),
         }
     }
 

@@ -16,6 +16,7 @@ mod answers;
 mod asked;
 mod batch;
 mod certificates;
+mod course;
 mod day;
 mod devices;
 mod documents;
@@ -25,6 +26,7 @@ mod gesture;
 mod given;
 mod job_submitter;
 pub(super) mod jogger;
+mod judge;
 mod lateness;
 mod log;
 mod machines;
@@ -35,6 +37,7 @@ mod preview;
 mod query;
 mod queue;
 mod receivers;
+mod section_names;
 mod set_up;
 mod shortcut;
 mod shown;
@@ -67,6 +70,7 @@ use glidepath_link::{
 use glidepath_live::{DeviceServer, Feed, Message, Role, Running, Seat, Server, ServerError, Site};
 use job_submitter::JobSubmitter;
 use jogger::Jogger;
+use judge::Judge;
 use lateness::Histogram;
 use log::Log;
 use machines::Listing;
@@ -79,6 +83,7 @@ use set_up::SetUp;
 use shortcut::Shortcut;
 use shown::Shown;
 use shuttle::Shuttle;
+use std::io;
 use std::sync::atomic::AtomicU64;
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
@@ -125,12 +130,9 @@ fn serve(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Failure> {
     let port = server.port();
     let (device_server, devices) = bind_devices(args, &instance, config)?;
     let operates = role == Role::Operate;
-    let jobs = operates.then(|| JobSubmitter::start(&link)).transpose();
-    let jobs = jobs.map_err(ServerError::Thread)?.map(Arc::new);
-    let jogger = operates.then(|| Jogger::start(config, &link)).transpose();
-    let jogger = jogger.map_err(ServerError::Thread)?;
-    let moves = operates.then(|| Shuttle::start(&link)).transpose();
-    let moves = moves.map_err(ServerError::Thread)?.map(Arc::new);
+    let jobs = started(operates, || JobSubmitter::start(&link))?.map(Arc::new);
+    let jogger = started(operates, || Jogger::start(config, &link))?;
+    let moves = started(operates, || Shuttle::start(&link))?.map(Arc::new);
     let queue = Arc::<Queue>::default();
     let steps = jogger.as_ref().map(Jogger::steps);
     let pages = Pages {
@@ -138,6 +140,7 @@ fn serve(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Failure> {
         link: link.clone(),
         shown: Arc::clone(&shown),
         set_up: Arc::new(SetUp::new(config)),
+        judge: Arc::new(Judge::new(config, &link)),
         seat: Arc::default(),
         folder: folder(args)?,
         preview: Preview::new(config),
@@ -151,7 +154,7 @@ fn serve(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Failure> {
         number: AtomicU64::new(0),
     };
     let (set_up, seat) = (Arc::clone(&pages.set_up), Arc::clone(&pages.seat));
-    let certificates = Arc::clone(&pages.certificates);
+    let (certificates, judge) = (Arc::clone(&pages.certificates), Arc::clone(&pages.judge));
     let pages = Arc::new(pages);
     let running = server.start(Arc::clone(&pages) as Arc<dyn Site>, &feed)?;
     let served = start_devices(device_server, devices.clone(), pages, (&feed, role))?;
@@ -172,6 +175,7 @@ fn serve(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Failure> {
         offsets,
         feed,
         set_up,
+        judge,
         seat,
         jobs,
         steps,
@@ -192,6 +196,15 @@ fn serve(args: &LiveArgs, config: &MachineConfig) -> Result<Exit, Failure> {
     machine.follow(&interrupt)?;
     drop((shortcut, served, running));
     Ok(interrupt.exit())
+}
+
+/// What has a thread of its own, where pages may operate.
+fn started<T>(
+    operates: bool,
+    start: impl FnOnce() -> io::Result<T>,
+) -> Result<Option<T>, ServerError> {
+    let started = operates.then(start).transpose();
+    started.map_err(ServerError::Thread)
 }
 
 /// The machine among those of this host, where it is to be listed, and the file that opens the page with all that it may,
@@ -256,6 +269,7 @@ struct Machine<'a> {
     offsets: PersistentOffsets,
     feed: Feed,
     set_up: Arc<SetUp>,
+    judge: Arc<Judge>,
     seat: Arc<Mutex<Seat>>,
     jobs: Option<Arc<JobSubmitter>>,
     steps: Option<Arc<Steps>>,
@@ -304,6 +318,7 @@ impl Machine<'_> {
                     self.batch = Batch::new(self.config);
                 }
                 self.log.take(&status);
+                self.judge.hear(&status, self.auxiliary.as_ref());
                 self.status = Some(status);
             }
             while let Some(told) = self.auxiliaries.take()? {

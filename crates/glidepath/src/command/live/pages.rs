@@ -7,9 +7,10 @@ use super::folder::{Folder, FolderError, Piece};
 use super::given::Given;
 use super::job_submitter::{Handed, JobSubmitter, Wanted};
 use super::jogger::{Hand, Jogger};
+use super::judge::Judge;
 use super::order::{Order, by_axis};
 use super::preview::Preview;
-use super::query::{decoded, fingerprint, parameter};
+use super::query::fingerprint;
 use super::queue::Queue;
 use super::set_up::SetUp;
 use super::shown::Shown;
@@ -21,6 +22,7 @@ use crate::machine_options::complete;
 use glidepath_link::{
     Command, CommandRequest, LinkConfig, LinkError, Operator, TOLERANCE_RATIOS, refused,
 };
+use glidepath_live::query::{decoded, parameter};
 use glidepath_live::{Caller, Response, Role, Seat, Site, Status};
 use glidepath_realtime::{Clock as _, Monotonic};
 use serde_json::{Value, json};
@@ -35,6 +37,7 @@ pub(super) struct Pages {
     pub(super) link: LinkConfig,
     pub(super) shown: Arc<Shown>,
     pub(super) set_up: Arc<SetUp>,
+    pub(super) judge: Arc<Judge>,
     pub(super) seat: Arc<Mutex<Seat>>,
     pub(super) folder: Option<Folder>,
     pub(super) preview: Preview,

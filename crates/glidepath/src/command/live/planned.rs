@@ -1,8 +1,10 @@
 //! The plan for the page, made beside the machine.
 
+use super::course::Course;
 use super::shown::{Board, WholePlan};
 use crate::command::forecast::Spectator;
 use crate::command::reading::for_program_silently;
+use crate::command::text_lines::TextLines;
 use crate::config::MachineConfig;
 use crate::page;
 use crate::program_file::ProgramFile;
@@ -27,6 +29,7 @@ pub(super) struct Planned {
     board: Board,
     diagnosis: Diagnosis,
     motion: Motion,
+    course: Course,
     path_mm: f64,
     /// Largest deviation and tolerance, mm.
     most: [f64; 2],
@@ -37,6 +40,7 @@ impl Planned {
         Self {
             diagnosis: Diagnosis::new(&AuditSettings::from(&config.settings())),
             motion: page::motion(config),
+            course: Course::new(config),
             config: config.clone(),
             board,
             path_mm: 0.0,
@@ -50,6 +54,10 @@ impl Spectator for Planned {
         self.board.warnings(warnings(lacks).collect());
     }
 
+    fn text(&mut self, lines: &TextLines) {
+        self.course.text(lines);
+    }
+
     fn item(&mut self, item: &Item) {
         self.diagnosis.program(item);
     }
@@ -61,6 +69,7 @@ impl Spectator for Planned {
             &mut self.motion,
             &sample.diagnosed(binding, &self.diagnosis),
         );
+        self.course.frame(frame);
         let deviation = self.diagnosis.deviation();
         let now = [deviation.distance_mm, deviation.tolerance_mm];
         for (most, now) in self.most.iter_mut().zip(now) {
@@ -77,10 +86,12 @@ impl Spectator for Planned {
         let settings = AuditSettings::from(&self.config.settings());
         let diagnosis = core::mem::replace(&mut self.diagnosis, Diagnosis::new(&settings));
         let diagnosis = DiagnosisReport::new(&diagnosis.finish(), &self.config);
+        let mut report = page::report_object(&diagnosis, self.path_mm, self.most);
+        report["course"] = self.course.object();
         self.board.plan(WholePlan {
             columns: self.motion.columns(),
             path: self.motion.path(),
-            report: page::report_object(&diagnosis, self.path_mm, self.most),
+            report,
         });
     }
 }
