@@ -1,7 +1,6 @@
 //! The judge of a line that is being typed: what `mdi` would say of it now. Nothing moves, nothing is kept, and what the
 //! service has in force stays as it is.
 
-use super::OLD_NS;
 use super::answers::{Done, not_now, object, refusal};
 use crate::command::begins_with::begin_as_told;
 use crate::command::session;
@@ -18,6 +17,8 @@ use std::time::Duration;
 
 /// How long a line is read: one may call a subroutine that does not end.
 const PATIENCE: Duration = Duration::from_millis(300);
+/// A status that is older does not say any more where the machine stands, ns.
+const OLD_NS: u64 = 1_000_000_000;
 
 /// Judges lines, each as if it was the next one.
 pub(super) struct Judge {
