@@ -1,5 +1,6 @@
 //! A program planned in one way, judged and measured.
 
+use crate::figure::Figure;
 use std::time::Duration;
 
 use glidepath_audit::diagnosis::Diagnosis;
@@ -43,6 +44,7 @@ impl Way {
 pub(crate) struct Plan {
     pub(crate) report: AuditReport,
     pub(crate) smoothness: SmoothnessReport,
+    pub(crate) figure: Figure,
     /// Processor time of planning alone.
     pub(crate) spent: Duration,
     /// Processor time of the call of the planner that took longest: of one item or one period.
@@ -132,9 +134,11 @@ pub(crate) fn plan(items: &[Item], settings: Settings) -> Result<Plan, PlanError
     }
     bench.timed(Planner::finish);
     bench.drain()?;
+    let (report, told) = (bench.audit.finish(), bench.diagnosis.finish());
     Ok(Plan {
-        report: bench.audit.finish(),
-        smoothness: bench.diagnosis.finish().smoothness,
+        figure: Figure::new(items, &report, told.shape),
+        report,
+        smoothness: told.smoothness,
         spent: bench.spent,
         longest: bench.longest,
     })
