@@ -5,7 +5,7 @@
 //! ```
 //!
 //! The arguments are folders in it, `--corners either`, `--walls` (travel ends where what is planned of a
-//! program does) and `--threads N`. The beginning of each program is planned for the milling
+//! program does), `--most S` (less of each) and `--threads N`. The beginning of each program is planned for the milling
 //! machine, at most [`MOST_SEGMENTS`] and [`MOST_FEED_T`], and judged by the auditor. Planning is
 //! timed by the processor time of the thread, without parsing and audit. Tools are 50 mm long and
 //! 6 mm thick, an extruder is axis U. `corpus.md` keeps what came out. Below the
@@ -126,12 +126,15 @@ struct Task {
     corners: Corners,
     has_walls: bool,
     threads: usize,
+    /// Motion planned of a program, s.
+    most_feed_t: f64,
 }
 
 impl Task {
     fn read() -> Result<Self, Box<dyn Error>> {
         let mut task = Self {
             threads: std::thread::available_parallelism().map_or(1, usize::from),
+            most_feed_t: MOST_FEED_T,
             ..Self::default()
         };
         let mut words = std::env::args().skip(1);
@@ -140,6 +143,9 @@ impl Task {
                 "--walls" => task.has_walls = true,
                 "--threads" => {
                     task.threads = words.next().ok_or("--threads wants a number")?.parse()?
+                }
+                "--most" => {
+                    task.most_feed_t = words.next().ok_or("--most wants seconds")?.parse()?;
                 }
                 "--corners" => {
                     task.corners = match words.next().as_deref() {
@@ -197,13 +203,13 @@ struct Beginning {
     is_whole: bool,
 }
 
-fn read(path: &Path) -> Result<Beginning, Box<dyn Error>> {
+fn read(path: &Path, most_feed_t: f64) -> Result<Beginning, Box<dyn Error>> {
     let (mut items, mut segments, mut feed_t) = (Vec::new(), 0, 0.0);
     for item in Program::new(BufReader::new(File::open(path)?), options(path)?) {
         let item =
             item.map_err(|diagnostic| format!("{}: {}", diagnostic.line, diagnostic.message))?;
         if let ItemKind::Move { segment, rate, .. } = &item.kind {
-            if segments == MOST_SEGMENTS || feed_t >= MOST_FEED_T {
+            if segments == MOST_SEGMENTS || feed_t >= most_feed_t {
                 return Ok(Beginning {
                     items,
                     segments,
@@ -250,7 +256,7 @@ fn plan(beginning: &Beginning, settings: Settings) -> Result<Plan, PlanError> {
     }
     let (report, told) = (audit.finish(), diagnosis.finish());
     Ok(Plan {
-        figure: Figure::new(&beginning.items, &report, told.shape),
+        figure: Figure::new(&beginning.items, settings.period_t, &report, told.shape),
         report,
         smooth: told.smoothness.whole,
         segments: beginning.segments,
@@ -269,7 +275,7 @@ struct Ways {
 
 impl Ways {
     fn of(path: &Path, task: &Task) -> Result<Self, Box<dyn Error>> {
-        let beginning = read(path)?;
+        let beginning = read(path, task.most_feed_t)?;
         let planned = |effort, smoothing| {
             let mut settings = settings(effort, smoothing, task.corners);
             if task.has_walls {

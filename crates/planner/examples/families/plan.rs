@@ -6,7 +6,7 @@ use std::time::Duration;
 use glidepath_audit::diagnosis::Diagnosis;
 use glidepath_audit::smoothness::{Figures, SmoothnessReport};
 use glidepath_audit::{Audit, AuditReport, AuditSettings};
-use glidepath_gcode::{Options, Program};
+use glidepath_gcode::{Connections, Options, Program};
 use glidepath_geometry::AxisVector;
 use glidepath_motion::{PlanError, Planner};
 use glidepath_program::{Effort, Item, ItemKind, PathMode, Settings};
@@ -53,7 +53,11 @@ pub(crate) struct Plan {
 
 /// The items of a program.
 pub(crate) fn items(text: &[u8]) -> Result<Vec<Item>, String> {
-    let items = Program::new(text, Options::default());
+    let options = Options {
+        connections: Connections::Simulated,
+        ..Options::default()
+    };
+    let items = Program::new(text, options);
     items
         .map(|item| {
             item.map_err(|diagnostic| format!("line {}: {}", diagnostic.line, diagnostic.message))
@@ -136,7 +140,7 @@ pub(crate) fn plan(items: &[Item], settings: Settings) -> Result<Plan, PlanError
     bench.drain()?;
     let (report, told) = (bench.audit.finish(), bench.diagnosis.finish());
     Ok(Plan {
-        figure: Figure::new(items, &report, told.shape),
+        figure: Figure::new(items, settings.period_t, &report, told.shape),
         report,
         smoothness: told.smoothness,
         spent: bench.spent,

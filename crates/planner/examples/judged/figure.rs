@@ -3,10 +3,13 @@
 //! used for.
 
 use glidepath_audit::AuditReport;
-use glidepath_audit::shape::{BEYOND_MM, Border, Met, ShapeReport};
+use glidepath_audit::shape::{Border, Met, ShapeReport};
 use glidepath_geometry::Axis;
-use glidepath_program::{Item, ItemKind};
+use glidepath_program::{Item, ItemKind, tolerance_norm};
 use serde_json::{Value, json};
+
+/// What an event may be off beyond that, mm.
+const BESIDE_MM: f64 = 1e-3;
 
 /// What is said of one motion.
 #[derive(Debug, Clone)]
@@ -27,8 +30,9 @@ struct Events {
     /// How far off their places they happened at most, mm, and the line.
     off_mm: f64,
     off_line: u32,
-    /// How far off the motion may be at all.
-    tolerance_mm: f64,
+    /// How far off the motion may be at all, and what lies between it and the chord of a period, which the auditor
+    /// takes for the way.
+    allowed_mm: f64,
 }
 
 /// Events of a program that do not stop it, from its first move on.
@@ -44,7 +48,14 @@ fn programmed(items: &[Item]) -> u64 {
 
 impl Figure {
     /// Of a motion that items were planned as.
-    pub(crate) fn new(items: &[Item], report: &AuditReport, shape: ShapeReport) -> Self {
+    pub(crate) fn new(
+        items: &[Item],
+        period_t: f64,
+        report: &AuditReport,
+        shape: ShapeReport,
+    ) -> Self {
+        let most_a = tolerance_norm(&report.max_acceleration);
+        let chord_mm = most_a * period_t * period_t / 8.0;
         Self {
             shape,
             beyond_travel_mm: report.max_beyond_travel_mm,
@@ -55,7 +66,7 @@ impl Figure {
                 happened: report.events,
                 off_mm: report.max_event_off_mm,
                 off_line: report.max_event_off_line,
-                tolerance_mm: report.tolerance_mm,
+                allowed_mm: report.tolerance_mm + chord_mm + BESIDE_MM,
             },
         }
     }
@@ -159,7 +170,7 @@ impl Events {
             ));
         }
         // All that the motion may be off the path is in it, too.
-        if self.off_mm > self.tolerance_mm + BEYOND_MM {
+        if self.off_mm > self.allowed_mm {
             broken.push(format!(
                 "an event {:.4} mm off its place, line {}",
                 self.off_mm, self.off_line
