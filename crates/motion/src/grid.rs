@@ -136,11 +136,10 @@ impl FrameGrid {
         }
     }
 
-    /// The motion comes to another part of the program, which begins at a path position, and whose
-    /// events happen there.
-    pub(crate) fn enter(&mut self, passing: Passing, events: &[Event], from_s: f64) {
+    /// The motion comes to another part of the program, whose events happen at a path position.
+    pub(crate) fn enter(&mut self, passing: Passing, events: &[Event], at_s: f64) {
         self.events
-            .extend(events.iter().map(|event| (from_s, *event)));
+            .extend(events.iter().map(|event| (at_s, *event)));
         self.passing = passing;
     }
 
@@ -176,7 +175,10 @@ impl FrameGrid {
     }
 
     /// Where the machine rests is 0 from now on.
-    pub(crate) const fn count_from_here(&mut self) {
+    pub(crate) fn count_from_here(&mut self) {
+        for (at_s, _) in &mut self.events {
+            *at_s = 0.0;
+        }
         self.path_s = 0.0;
         self.before = PathPoint { s: 0.0, v: 0.0 };
     }
@@ -239,7 +241,7 @@ impl FrameGrid {
             s: self.path_s,
             v: 0.0,
         };
-        let mut events = self.events_up_to(to);
+        let mut events = self.events_up_to(to, true);
         if let Some(event) = resting.event.filter(|_| last) {
             let _has_room = events.push(event, self.period_ns());
         }
@@ -279,12 +281,13 @@ impl FrameGrid {
             s: moving.path_s,
             v: moving.path_v,
         };
-        let events = self.events_up_to(to);
+        let events = self.events_up_to(to, false);
         self.frame(moving, flags, events)
     }
 
-    /// The events of the period that ends at a point, as many as it carries.
-    fn events_up_to(&mut self, to: PathPoint) -> FrameEvents {
+    /// The events of the period that ends at a point, as many as it carries; at rest those of a place further on,
+    /// too, which rounding may have left.
+    fn events_up_to(&mut self, to: PathPoint, is_at_rest: bool) -> FrameEvents {
         let before = core::mem::replace(&mut self.before, to);
         let mut events = FrameEvents::NONE;
         if self.events.is_empty() {
@@ -292,7 +295,12 @@ impl FrameGrid {
         }
         let period_ns = self.period_ns();
         let mut offset_ns = 0;
-        let count = self.events.len().min(EVENTS_MOST);
+        let due = self
+            .events
+            .iter()
+            .take(EVENTS_MOST)
+            .take_while(|(at_s, _)| is_at_rest || *at_s <= to.s);
+        let count = due.count();
         for (at_s, event) in self.events.drain(..count) {
             let part = before.part_to(to, at_s, self.period_t);
             #[allow(

@@ -4,16 +4,29 @@
 //! GLIDEPATH_CORPUS=folder cargo run --release -p glidepath-planner --example corpus -- dense print arc
 //! ```
 //!
-//! The arguments are folders in it. The beginning of each program is planned for the milling
+//! The arguments are folders in it, `--corners either`, `--walls` (travel ends where what is planned of a
+//! program does), `--most S` (less of each) and `--threads N`. The beginning of each program is planned for the milling
 //! machine, at most [`MOST_SEGMENTS`] and [`MOST_FEED_T`], and judged by the auditor. Planning is
 //! timed by the processor time of the thread, without parsing and audit. Tools are 50 mm long and
-//! 6 mm thick, an extruder is axis U. `corpus.md` keeps what came out.
+//! 6 mm thick, an extruder is axis U. `corpus.md` keeps what came out. Below the
+//! table stand the programs that break a limit, a tolerance or a rule of the figure (an axis beyond its
+//! travel, a straight move beside its line, a tremor, an event lost or off its place) with effort "optimal"
+//! or "fast"; the exit code is 1 if there are any.
 #![allow(clippy::print_stdout, reason = "a table")]
 
+#[path = "judged/figure.rs"]
+mod figure;
+#[path = "judged/walls.rs"]
+mod walls;
+#[path = "families/workers.rs"]
+mod workers;
+
+use figure::{Figure, Together};
 use std::error::Error;
 use std::fs::File;
-use std::io::{BufReader, Read, Write as _};
+use std::io::{BufReader, Read};
 use std::path::{Path, PathBuf};
+use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -23,13 +36,16 @@ use glidepath_audit::{Audit, AuditReport, AuditSettings};
 use glidepath_gcode::{Dialect, Machine, Options, Program, ToolTable};
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_motion::{PlanError, Planner};
-use glidepath_program::{Effort, Item, ItemKind, Limits, Settings, Smoothing};
+use glidepath_program::{Corners, Effort, Item, ItemKind, Limits, Settings, Smoothing};
 
 /// Segments planned of a program.
 const MOST_SEGMENTS: usize = 3000;
 
 /// Motion planned of a program, s at its feedrates. A last segment may go on for longer.
 const MOST_FEED_T: f64 = 240.0;
+
+/// The head of the table.
+const HEAD: &str = "| program | segments | audit | optimal s | fast s | stops s | of feed | work % | jerk rms, peak | above 30 Hz | reversals | deviation mean, rms µm | outer side | depth, overshoot, outside, beside µm | event off µm |";
 
 const JERK_J: f64 = 40_000.0;
 const PERIOD_T: f64 = 0.004;
@@ -38,6 +54,7 @@ const PERIOD_T: f64 = 0.004;
 struct Plan {
     report: AuditReport,
     smooth: Figures,
+    figure: Figure,
     segments: usize,
     /// The time at the programmed feed everywhere, rapids at the speed of the axes, s.
     feed_t: f64,
@@ -72,8 +89,27 @@ impl Plan {
         format!("{:.0}", Self::most(&self.smooth.ringing_a))
     }
 
+    /// Reversals, and those of the program.
     fn reversals(&self) -> String {
-        self.smooth.reversals.iter().sum::<u64>().to_string()
+        self.figure
+            .reversals()
+            .map(|count| count.to_string())
+            .join(" of ")
+    }
+
+    /// Whether limits, tolerance and the rules of the figure are kept; what is not.
+    fn broken(&self) -> Vec<String> {
+        let mut broken = self.figure.broken();
+        if !self.report.is_complete {
+            broken.push("incomplete".to_owned());
+        }
+        if let Some(first) = self.report.violations.first() {
+            broken.push(format!(
+                "{} violations, {first}",
+                self.report.violation_count
+            ));
+        }
+        broken
     }
 
     /// Mean and rms deviation, µm.
@@ -83,12 +119,54 @@ impl Plan {
     }
 }
 
-fn settings(effort: Effort, smoothing: Smoothing) -> Settings {
+/// How programs are planned.
+#[derive(Debug, Default)]
+struct Task {
+    folders: Vec<String>,
+    corners: Corners,
+    has_walls: bool,
+    threads: usize,
+    /// Motion planned of a program, s.
+    most_feed_t: f64,
+}
+
+impl Task {
+    fn read() -> Result<Self, Box<dyn Error>> {
+        let mut task = Self {
+            threads: std::thread::available_parallelism().map_or(1, usize::from),
+            most_feed_t: MOST_FEED_T,
+            ..Self::default()
+        };
+        let mut words = std::env::args().skip(1);
+        while let Some(word) = words.next() {
+            match word.as_str() {
+                "--walls" => task.has_walls = true,
+                "--threads" => {
+                    task.threads = words.next().ok_or("--threads wants a number")?.parse()?
+                }
+                "--most" => {
+                    task.most_feed_t = words.next().ok_or("--most wants seconds")?.parse()?;
+                }
+                "--corners" => {
+                    task.corners = match words.next().as_deref() {
+                        Some("inner") => Corners::Inner,
+                        Some("either") => Corners::Either,
+                        _ => return Err("--corners wants inner or either".into()),
+                    }
+                }
+                _ => task.folders.push(word),
+            }
+        }
+        Ok(task)
+    }
+}
+
+fn settings(effort: Effort, smoothing: Smoothing, corners: Corners) -> Settings {
     Settings {
         limits: Limits::uniform(200.0, 2000.0, JERK_J),
         tolerance_mm: 0.02,
         smoothing,
-        corners: glidepath_program::Corners::default(),
+        corners,
         period_t: PERIOD_T,
         effort,
     }
@@ -125,13 +203,13 @@ struct Beginning {
     is_whole: bool,
 }
 
-fn read(path: &Path) -> Result<Beginning, Box<dyn Error>> {
+fn read(path: &Path, most_feed_t: f64) -> Result<Beginning, Box<dyn Error>> {
     let (mut items, mut segments, mut feed_t) = (Vec::new(), 0, 0.0);
     for item in Program::new(BufReader::new(File::open(path)?), options(path)?) {
         let item =
             item.map_err(|diagnostic| format!("{}: {}", diagnostic.line, diagnostic.message))?;
         if let ItemKind::Move { segment, rate, .. } = &item.kind {
-            if segments == MOST_SEGMENTS || feed_t >= MOST_FEED_T {
+            if segments == MOST_SEGMENTS || feed_t >= most_feed_t {
                 return Ok(Beginning {
                     items,
                     segments,
@@ -154,12 +232,7 @@ fn read(path: &Path) -> Result<Beginning, Box<dyn Error>> {
 }
 
 fn plan(beginning: &Beginning, settings: Settings) -> Result<Plan, PlanError> {
-    let judged = AuditSettings {
-        limits: settings.limits,
-        period_t: settings.period_t,
-        tolerance_mm: settings.tolerance_mm,
-        corners: glidepath_program::Corners::default(),
-    };
+    let judged = AuditSettings::from(&settings);
     let (mut audit, mut diagnosis) = (Audit::new(&judged), Diagnosis::new(&judged));
     let mut planner = Planner::new(settings, AxisVector::zeros());
     let mut spent = Duration::ZERO;
@@ -181,9 +254,11 @@ fn plan(beginning: &Beginning, settings: Settings) -> Result<Plan, PlanError> {
         }
         spent += processor_time().saturating_sub(start);
     }
+    let (report, told) = (audit.finish(), diagnosis.finish());
     Ok(Plan {
-        report: audit.finish(),
-        smooth: diagnosis.finish().smoothness.whole,
+        figure: Figure::new(&beginning.items, settings.period_t, &report, told.shape),
+        report,
+        smooth: told.smoothness.whole,
         segments: beginning.segments,
         feed_t: beginning.feed_t,
         spent,
@@ -199,13 +274,37 @@ struct Ways {
 }
 
 impl Ways {
-    fn of(path: &Path) -> Result<Self, Box<dyn Error>> {
-        let beginning = read(path)?;
+    fn of(path: &Path, task: &Task) -> Result<Self, Box<dyn Error>> {
+        let beginning = read(path, task.most_feed_t)?;
+        let planned = |effort, smoothing| {
+            let mut settings = settings(effort, smoothing, task.corners);
+            if task.has_walls {
+                settings.limits.travel = walls::walls(&beginning.items);
+            }
+            plan(&beginning, settings)
+        };
         Ok(Self {
-            optimal: plan(&beginning, settings(Effort::Optimal, Smoothing::Auto))?,
-            fast: plan(&beginning, settings(Effort::Fast, Smoothing::Auto))?,
-            stops: plan(&beginning, settings(Effort::Fast, Smoothing::ExactStop))?,
+            optimal: planned(Effort::Optimal, Smoothing::Auto)?,
+            fast: planned(Effort::Fast, Smoothing::Auto)?,
+            stops: planned(Effort::Fast, Smoothing::ExactStop)?,
         })
+    }
+
+    /// What is broken by plans that are handed out: those at rest at every corner are for comparison alone.
+    fn broken(&self) -> Vec<String> {
+        let mut all = Vec::new();
+        for (name, plan) in [("optimal", &self.optimal), ("fast", &self.fast)] {
+            all.extend(
+                plan.broken()
+                    .into_iter()
+                    .map(|what| format!("{name}: {what}")),
+            );
+            if let Some(outer) = plan.figure.first_outer() {
+                let count = plan.figure.outer_count();
+                all.push(format!("{name}: (outer side {count} times, {outer})"));
+            }
+        }
+        all
     }
 
     /// By how much optimal is slower than fast, s, if it is.
@@ -222,12 +321,18 @@ impl Ways {
         } = self;
         let is_clean = [optimal, fast, stops]
             .iter()
-            .all(|plan| plan.report.is_clean() && plan.report.is_complete);
+            .all(|plan| plan.broken().is_empty());
         let part = if optimal.is_whole { "" } else { ", beginning" };
-        let verdict = if is_clean { "clean" } else { "VIOLATIONS" };
+        let verdict = if is_clean { "clean" } else { "BROKEN" };
+        let distances = optimal
+            .figure
+            .distances_um()
+            .map(|um| format!("{um:.2}"))
+            .join(", ");
+        let outer = optimal.figure.outer_count();
         let both = |of: fn(&Plan) -> String| format!("{} / {}", of(optimal), of(fast));
         format!(
-            "| {name} | {}{part} | {verdict} | {:.2} | {:.2} | {:.2} | {:.2} | {:.1} / {:.1} | {} | {} | {} | {} |",
+            "| {name} | {}{part} | {verdict} | {:.2} | {:.2} | {:.2} | {:.2} | {:.1} / {:.1} | {} | {} | {} | {} | {outer} | {distances} | {:.2} |",
             optimal.segments,
             optimal.time_t(),
             fast.time_t(),
@@ -239,47 +344,106 @@ impl Ways {
             both(Plan::ringing_a),
             both(Plan::reversals),
             both(Plan::deviation),
+            optimal.figure.events().1,
         )
     }
 }
 
-fn main() -> Result<(), Box<dyn Error>> {
+/// What came of all programs.
+#[derive(Default)]
+struct Sums {
+    count: u32,
+    refused: u32,
+    slower: Vec<(String, f64)>,
+    broken: Vec<(String, Vec<String>)>,
+    figures: [Together; 2],
+}
+
+impl Sums {
+    fn add(&mut self, name: &str, ways: &Result<Ways, String>) {
+        match ways {
+            Ok(ways) => {
+                println!("{}", ways.row(name));
+                self.count += 1;
+                self.slower
+                    .extend(ways.lost_t().map(|lost_t| (name.to_owned(), lost_t)));
+                self.broken.push((name.to_owned(), ways.broken()));
+                for (sum, plan) in self.figures.iter_mut().zip([&ways.optimal, &ways.fast]) {
+                    sum.add(&plan.figure);
+                }
+            }
+            Err(error) => {
+                println!("| {name} | refused: {error} ||||||||||||||");
+                self.refused += 1;
+            }
+        }
+    }
+
+    fn print(&self) {
+        println!(
+            "\nSlower with optimal than with fast: {} of {}",
+            self.slower.len(),
+            self.count
+        );
+        for (name, lost_t) in &self.slower {
+            println!("* {name}: {lost_t:.3} s");
+        }
+        println!("\nBroken, and in brackets on the outer side of the program:");
+        for (name, broken) in &self.broken {
+            for what in broken {
+                println!("* {name}: {what}");
+            }
+        }
+        println!("\nPlanned {}, refused {}", self.count, self.refused);
+        for (figures, name) in self.figures.iter().zip(["optimal", "fast"]) {
+            println!("{}", figures.line(name));
+        }
+    }
+
+    /// True if nothing that is handed out is broken.
+    fn is_kept(&self) -> bool {
+        let all = self.broken.iter().flat_map(|(_, broken)| broken);
+        all.filter(|what| !what.contains("(outer side")).count() == 0
+    }
+}
+
+/// The programs of the folders, by name.
+fn programs(corpus: &Path, task: &Task) -> Result<Vec<(String, PathBuf)>, Box<dyn Error>> {
+    let mut programs = Vec::new();
+    for folder in &task.folders {
+        let entries = std::fs::read_dir(corpus.join(folder))?;
+        let mut paths: Vec<_> = entries
+            .map(|entry| entry.map(|entry| entry.path()))
+            .collect::<Result<_, _>>()?;
+        paths.sort();
+        programs.extend(paths.into_iter().map(|path| {
+            let file = path.file_name().unwrap_or_default().to_string_lossy();
+            (format!("{folder}/{file}"), path)
+        }));
+    }
+    Ok(programs)
+}
+
+fn main() -> Result<ExitCode, Box<dyn Error>> {
     let Some(corpus) = std::env::var_os("GLIDEPATH_CORPUS").map(PathBuf::from) else {
         return Err(
             "GLIDEPATH_CORPUS is not set: it names the folder of folders of programs".into(),
         );
     };
-    println!(
-        "| program | segments | audit | optimal s | fast s | stops s | of feed | work % | jerk rms, peak | above 30 Hz | reversals | deviation mean, rms µm |"
-    );
-    println!("|---|---|---|---|---|---|---|---|---|---|---|---|");
-    let (mut count, mut slower) = (0, Vec::new());
-    for folder in std::env::args().skip(1) {
-        let entries = std::fs::read_dir(corpus.join(&folder))?;
-        let mut paths: Vec<_> = entries
-            .map(|entry| entry.map(|entry| entry.path()))
-            .collect::<Result<_, _>>()?;
-        paths.sort();
-        for path in paths {
-            let file = path.file_name().unwrap_or_default().to_string_lossy();
-            let name = format!("{folder}/{file}");
-            match Ways::of(&path) {
-                Ok(ways) => {
-                    println!("{}", ways.row(&name));
-                    count += 1;
-                    slower.extend(ways.lost_t().map(|lost_t| (name, lost_t)));
-                }
-                Err(error) => println!("| {name} | refused: {error} |||||||||||"),
-            }
-            std::io::stdout().flush()?;
-        }
-    }
-    println!(
-        "\nSlower with optimal than with fast: {} of {count}",
-        slower.len()
-    );
-    for (name, lost_t) in slower {
-        println!("* {name}: {lost_t:.3} s");
-    }
-    Ok(())
+    let task = Task::read()?;
+    let programs = programs(&corpus, &task)?;
+    println!("{HEAD}\n|{}", "---|".repeat(HEAD.matches('|').count() - 1));
+    let work = |index: usize| {
+        // A program that makes the planner panic is to be told like any other.
+        let planned = std::panic::catch_unwind(|| {
+            Ways::of(&programs[index].1, &task).map_err(|error| error.to_string())
+        });
+        planned.unwrap_or_else(|_| Err("the planner panicked".to_owned()))
+    };
+    let mut sums = Sums::default();
+    workers::in_order(task.threads, programs.len(), work, |index, ways| {
+        sums.add(&programs[index].0, &ways);
+    });
+    sums.print();
+    Ok(ExitCode::from(u8::from(!sums.is_kept())))
 }

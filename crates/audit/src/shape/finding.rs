@@ -60,6 +60,8 @@ impl fmt::Display for ShapeFinding {
 #[derive(Debug, Default)]
 pub(super) struct Findings {
     pub(super) count: u64,
+    /// Those of straight moves.
+    pub(super) beside_count: u64,
     pub(super) kept: [Option<ShapeFinding>; KEPT],
     /// The vertex at hand, by the number of the move behind it, and the worst there.
     vertex: Worst,
@@ -114,6 +116,7 @@ impl Findings {
                 *free = Some(worst);
             }
             self.count += 1;
+            self.beside_count += u64::from(worst.border == Border::Straight);
         }
     }
 }

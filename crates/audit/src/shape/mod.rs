@@ -83,6 +83,8 @@ pub struct ShapeReport {
     pub programmed_reversals: [u64; AXES],
     /// Vertices of the program at which the motion is on the outer side, and straight moves that it is beside.
     pub finding_count: u64,
+    /// How many of them are straight moves that the motion is beside.
+    pub beside_count: u64,
     /// The first of them.
     pub findings: [Option<ShapeFinding>; KEPT],
 }
@@ -263,6 +265,7 @@ impl Shape {
             reversals: self.motion.counts,
             programmed_reversals: self.program.counts,
             finding_count: self.findings.count,
+            beside_count: self.findings.beside_count,
             findings: self.findings.kept,
         }
     }

@@ -291,7 +291,7 @@ impl Sampler {
                     planned_override: piece.planned_override(),
                 },
                 &piece.events,
-                self.path_s,
+                self.path_s + piece.events_s,
             );
         }
     }
@@ -374,6 +374,7 @@ mod tests {
             synchronised: false,
             per_revolution: false,
             events: Vec::new(),
+            events_s: 0.0,
         };
         let mut settled = VecDeque::from([Settled::Motion {
             pieces: vec![piece],

@@ -4,6 +4,7 @@ mod along_nurbs;
 mod butterfly;
 mod dense;
 mod diagnosis;
+mod figure;
 mod helices;
 mod interleaving;
 mod joints;

@@ -2,6 +2,7 @@
 
 use crate::family::{FAMILIES, Family};
 use crate::machine::{MACHINES, Machine};
+use glidepath_program::Corners;
 use std::path::PathBuf;
 
 /// How the harness is called.
@@ -9,7 +10,7 @@ pub(crate) const USAGE: &str = "\
 families bench [DIR] [--machine NAME]... [--tolerance MM]... [--period S]... [--json]
 families generate COUNT [--seed N] [--family NAME]... [--machine NAME]... [--tolerance MM]...
                   [--period S]... [--write DIR] [--json]
-Both: [--threads N]. NAME of a machine: mill, seed, stiff.";
+Both: [--corners inner|either]... [--walls] [--threads N]. NAME of a machine: mill, seed, stiff.";
 
 /// What is to be done.
 #[derive(Debug)]
@@ -30,6 +31,9 @@ pub(crate) struct Arguments {
     /// In place of those of the machine and the program, mm.
     pub(crate) tolerances_mm: Vec<f64>,
     pub(crate) periods_t: Vec<f64>,
+    pub(crate) corners: Vec<Corners>,
+    /// Whether travel ends where the program does.
+    pub(crate) has_walls: bool,
     pub(crate) write: Option<PathBuf>,
     pub(crate) is_json: bool,
     pub(crate) threads: usize,
@@ -41,9 +45,19 @@ pub(crate) struct Setup {
     pub(crate) machine: Machine,
     pub(crate) given_mm: Option<f64>,
     pub(crate) period_t: f64,
+    pub(crate) corners: Corners,
+    pub(crate) has_walls: bool,
 }
 
 impl Setup {
+    /// The side of corners by its name.
+    pub(crate) const fn corners_name(&self) -> &'static str {
+        match self.corners {
+            Corners::Inner => "inner",
+            Corners::Either => "either",
+        }
+    }
+
     /// The tolerance where the program gives none, mm.
     pub(crate) fn tolerance_mm(&self) -> f64 {
         self.given_mm.unwrap_or(self.machine.tolerance_mm)
@@ -71,6 +85,8 @@ impl Arguments {
             machines: Vec::new(),
             tolerances_mm: Vec::new(),
             periods_t: Vec::new(),
+            corners: Vec::new(),
+            has_walls: false,
             write: None,
             is_json: false,
             threads: cores,
@@ -87,6 +103,9 @@ impl Arguments {
         if read.periods_t.is_empty() {
             read.periods_t = vec![0.004];
         }
+        if read.corners.is_empty() {
+            read.corners = vec![Corners::default()];
+        }
         Ok(read)
     }
 
@@ -97,6 +116,12 @@ impl Arguments {
     ) -> Result<(), String> {
         match word {
             "--json" => self.is_json = true,
+            "--walls" => self.has_walls = true,
+            "--corners" => {
+                let of = [Corners::Inner, Corners::Either];
+                self.corners
+                    .push(of[named(words.next(), word, &["inner", "either"])?]);
+            }
             "--seed" => self.seed = number(words.next(), word)?,
             "--threads" => self.threads = number::<usize>(words.next(), word)?.max(1),
             "--tolerance" => self.tolerances_mm.push(positive(words.next(), word)?),
@@ -129,11 +154,15 @@ impl Arguments {
         for &machine in &self.machines {
             for &given_mm in &tolerances {
                 for &period_t in &self.periods_t {
-                    setups.push(Setup {
-                        machine,
-                        given_mm,
-                        period_t,
-                    });
+                    for &corners in &self.corners {
+                        setups.push(Setup {
+                            machine,
+                            given_mm,
+                            period_t,
+                            corners,
+                            has_walls: self.has_walls,
+                        });
+                    }
                 }
             }
         }

@@ -1,6 +1,7 @@
 //! The programs of a folder against their reference optima.
 
 use crate::arguments::{Arguments, Setup};
+use crate::figures::{self, Figures3};
 use crate::plan::{Together, Way};
 use crate::statistics::{Figures, shown};
 use crate::trial::Trial;
@@ -9,9 +10,9 @@ use serde_json::Value;
 use std::error::Error;
 use std::path::{Path, PathBuf};
 
+/// The columns before those of the figure.
 const HEAD: &str = "\
-| program | machine | tolerance mm | period ms | optimal s | fast s | stop s | /tube | /exact | /least stop | fast/tube | /least stop | /fast | /stop | violations | tremors | jerk optimal | fast | jerk at feed optimal | fast | ringing at feed optimal | fast | reversals at feed optimal | fast | deviation µm | cpu % optimal | fast | longest call ms |
-|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|";
+| program | machine | tolerance mm | period ms | optimal s | fast s | stop s | /tube | /exact | /least stop | fast/tube | /least stop | /fast | /stop | violations | tremors | jerk optimal | fast | jerk at feed optimal | fast | ringing at feed optimal | fast | reversals at feed optimal | fast | deviation µm | cpu % optimal | fast | longest call ms |";
 
 /// A program with what is known of it.
 struct Bench {
@@ -74,6 +75,9 @@ struct Sums {
     /// Tremors: optimal, fast, stops.
     tremors: [u64; 3],
     failed: u32,
+    figures: Figures3,
+    /// Planned time by side of corners and effort, s.
+    times_t: [[f64; 2]; 2],
 }
 
 fn row(bench: &Bench, setup: &Setup, trial: &Trial) -> String {
@@ -146,6 +150,13 @@ impl Sums {
             let is_slower = |least_t: f64| trial.time_t(way) > least_t + grid_t;
             *slower += u32::from(known.stop_t.is_some_and(is_slower));
         }
+        self.figures.add(trial);
+        for (sum_t, way) in self.times_t[setup.corners as usize]
+            .iter_mut()
+            .zip([Way::Optimal, Way::Fast])
+        {
+            *sum_t += trial.time_t(way);
+        }
         self.fast.add(trial.ratio(Way::Optimal, Way::Fast));
         self.stop.add(trial.ratio(Way::Optimal, Way::Stop));
         for (slower, rival) in self.slower.iter_mut().zip([Way::Fast, Way::Stop]) {
@@ -186,6 +197,10 @@ impl Sums {
         );
         let [optimal, fast, stop] = self.tremors;
         println!("tremors: optimal {optimal}, fast {fast}, stop {stop}");
+        for (corners, [optimal_t, fast_t]) in ["inner", "either"].iter().zip(self.times_t) {
+            println!("all of corners {corners}: optimal {optimal_t:.3} s, fast {fast_t:.3} s");
+        }
+        self.figures.print("");
         println!(
             "violations: {}; not planned: {}",
             self.violations, self.failed
@@ -202,7 +217,8 @@ pub(crate) fn run(folder: &Path, arguments: &Arguments) -> Result<bool, Box<dyn 
         .flat_map(|setup| programs.iter().map(move |bench| (bench, setup)))
         .collect();
     if !arguments.is_json {
-        println!("{HEAD}");
+        let head = format!("{HEAD} {} |", figures::HEAD);
+        println!("{head}\n|{}", "---|".repeat(head.matches('|').count() - 1));
     }
     let mut sums = Sums::default();
     let work = |task: usize| Trial::run(&tasks[task].0.text, tasks[task].1);
@@ -216,6 +232,7 @@ pub(crate) fn run(folder: &Path, arguments: &Arguments) -> Result<bool, Box<dyn 
                     value["program"] = bench.name.as_str().into();
                     value["machine"] = setup.machine.name.into();
                     value["tolerance_mm"] = setup.tolerance_mm().into();
+                    value["corners"] = setup.corners_name().into();
                     value["period_s"] = setup.period_t.into();
                     let known = references(bench, setup);
                     value["tube_s"] = known.tube_t.into();
@@ -223,7 +240,8 @@ pub(crate) fn run(folder: &Path, arguments: &Arguments) -> Result<bool, Box<dyn 
                     value["least_stop_s"] = known.stop_t.into();
                     println!("{value}");
                 } else {
-                    println!("{}", row(bench, setup, &trial));
+                    let figure = figures::columns(setup.corners_name(), &trial);
+                    println!("{} {figure} |", row(bench, setup, &trial));
                 }
             }
             Err(reason) => {
@@ -235,5 +253,5 @@ pub(crate) fn run(folder: &Path, arguments: &Arguments) -> Result<bool, Box<dyn 
     if !arguments.is_json {
         sums.print();
     }
-    Ok(sums.violations == 0 && sums.failed == 0)
+    Ok(sums.violations == 0 && sums.failed == 0 && sums.figures.is_kept())
 }

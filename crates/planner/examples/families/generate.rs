@@ -3,10 +3,12 @@
 
 use crate::arguments::{Arguments, Setup};
 use crate::family::{Drawn, Family};
+use crate::figures::Figures3;
 use crate::plan::Way;
 use crate::statistics::{Figures, shown};
 use crate::trial::Trial;
 use crate::workers::in_order;
+use glidepath_program::Corners;
 use std::error::Error;
 
 /// A program of a family, by its number.
@@ -32,6 +34,9 @@ struct Sums {
     ringing: [Figures; 2],
     load: [Figures; 2],
     longest_ms: Figures,
+    figures: Figures3,
+    /// Programs with a plan that breaks a rule, a limit or a tolerance.
+    not_kept: u32,
 }
 
 impl Sums {
@@ -45,6 +50,8 @@ impl Sums {
         for (slower, rival) in self.slower.iter_mut().zip([Way::Fast, Way::Stop]) {
             *slower += u32::from(trial.is_slower(Way::Optimal, rival));
         }
+        self.figures.add(trial);
+        self.not_kept += u32::from(!trial.is_kept());
         self.fast_slower += u32::from(trial.is_slower(Way::Fast, Way::Stop));
         self.fast.add(trial.ratio(Way::Optimal, Way::Fast));
         self.stop.add(trial.ratio(Way::Optimal, Way::Stop));
@@ -79,9 +86,10 @@ impl Sums {
         let violations = self.violations.map(|count| count.to_string()).join("/");
         let tremors = self.tremors.map(|count| count.to_string()).join("/");
         format!(
-            "| {name} | {machine} | {} | {} | {violations} | {tremors} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |",
+            "| {name} | {machine} | {} | {} | {} | {violations} | {tremors} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |",
             self.programs,
             self.failed,
+            self.not_kept,
             self.slower[0],
             self.slower[1],
             self.fast_slower,
@@ -99,8 +107,8 @@ impl Sums {
 }
 
 const HEAD: &str = "\
-| family | machine | programs | not planned | with violations optimal/fast/stop | with tremors | slower than fast | than stop | fast slower than stop | optimal/fast median | worst | optimal/stop median | worst | optimal/circle median | worst | fast/circle median | worst | jerk at feed optimal | fast | ringing at feed optimal | fast | cpu % optimal | fast | worst optimal | longest call ms |
-|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|";
+| family | machine | programs | not planned | not kept | with violations optimal/fast/stop | with tremors | slower than fast | than stop | fast slower than stop | optimal/fast median | worst | optimal/stop median | worst | optimal/circle median | worst | fast/circle median | worst | jerk at feed optimal | fast | ringing at feed optimal | fast | cpu % optimal | fast | worst optimal | longest call ms |
+|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|";
 
 /// The time that a program of nothing but a circle takes, by the closed form, s.
 fn circle_t(drawn: &Drawn, setup: &Setup) -> Option<f64> {
@@ -131,6 +139,12 @@ fn again(family: &str, task: &Task, setup: &Setup) -> String {
         "generate 1 --family {family} --seed {} --machine {} --period {}",
         task.seed, setup.machine.name, setup.period_t
     );
+    if setup.corners != Corners::default() {
+        words.push_str(&format!(" --corners {}", setup.corners_name()));
+    }
+    if setup.has_walls {
+        words.push_str(" --walls");
+    }
     if let Some(given_mm) = setup.given_mm {
         words.push_str(&format!(" --tolerance {given_mm}"));
     }
@@ -180,6 +194,7 @@ pub(crate) fn run(count: u32, arguments: &Arguments) -> Result<bool, Box<dyn Err
                         value["tolerance_mm"] = setup.tolerance_mm().into();
                         value["period_s"] = setup.period_t.into();
                         value["circle_s"] = circle_t(&drawn, setup).into();
+                        value["corners"] = setup.corners_name().into();
                         value["problems"] = trial.problems().into();
                         println!("{value}");
                     } else {
@@ -203,6 +218,19 @@ pub(crate) fn run(count: u32, arguments: &Arguments) -> Result<bool, Box<dyn Err
             }
         }
     }
-    let is_clean = |sums: &Sums| sums.failed == 0 && sums.violations == [0; 3];
+    if !arguments.is_json {
+        println!();
+        for (setup, sums) in setups.iter().zip(&sums) {
+            let mut all = Figures3::default();
+            sums.iter().for_each(|sums| all.join(&sums.figures));
+            all.print(&format!(
+                "{}, {}, ",
+                setup.machine.name,
+                setup.corners_name()
+            ));
+        }
+    }
+    let is_clean =
+        |sums: &Sums| sums.failed == 0 && sums.violations == [0; 3] && sums.figures.is_kept();
     Ok(sums.iter().flatten().all(is_clean))
 }

@@ -1,5 +1,6 @@
 //! The machines that programs are planned for.
 
+use crate::arguments::Setup;
 use glidepath_program::{Effort, Limits, Settings, Smoothing};
 
 /// A machine, all of its axes alike.
@@ -40,13 +41,13 @@ pub(crate) const MACHINES: [Machine; 3] = [
 
 impl Machine {
     /// What a program is planned with.
-    pub(crate) fn settings(&self, effort: Effort, period_t: f64, tolerance_mm: f64) -> Settings {
+    pub(crate) fn settings(&self, effort: Effort, setup: &Setup) -> Settings {
         Settings {
             limits: Limits::uniform(self.velocity_v, self.acceleration_a, self.jerk_j),
-            tolerance_mm,
+            tolerance_mm: setup.tolerance_mm(),
             smoothing: Smoothing::Auto,
-            corners: glidepath_program::Corners::default(),
-            period_t,
+            corners: setup.corners,
+            period_t: setup.period_t,
             effort,
         }
     }

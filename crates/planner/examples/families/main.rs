@@ -19,12 +19,19 @@
 //! planner alone, without reading and judging: as a share of the time of the motion, and the
 //! longest single call, which puts in one item or makes one period. Jerk and ringing (acceleration
 //! above 30 Hz) are rms values of all axes together, in mm/s³ and mm/s² (degrees for rotary axes).
-//! The exit code is 1 if there was a violation, or a program was not planned.
+//! The auditor's judgement of the figure stands beside that: violations and, of effort "optimal" and
+//! "fast", *broken rules* (an axis beyond its travel, a straight move beside its line, a tremor, an event
+//! lost or off its place), then what the tolerance was used for. `--walls` puts ends of travel
+//! where the program itself ends on every axis.
+//! The exit code is 1 if there was a violation or a broken rule, or a program was not planned.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "tables")]
 
 mod arguments;
 mod bench;
 mod family;
+#[path = "../judged/figure.rs"]
+mod figure;
+mod figures;
 mod generate;
 mod machine;
 mod plan;
@@ -32,6 +39,8 @@ mod random;
 mod statistics;
 mod text;
 mod trial;
+#[path = "../judged/walls.rs"]
+mod walls;
 mod workers;
 
 use arguments::{Arguments, Task};

@@ -1,11 +1,12 @@
 //! A program planned in one way, judged and measured.
 
+use crate::figure::Figure;
 use std::time::Duration;
 
 use glidepath_audit::diagnosis::Diagnosis;
 use glidepath_audit::smoothness::{Figures, SmoothnessReport};
 use glidepath_audit::{Audit, AuditReport, AuditSettings};
-use glidepath_gcode::{Options, Program};
+use glidepath_gcode::{Connections, Options, Program};
 use glidepath_geometry::AxisVector;
 use glidepath_motion::{PlanError, Planner};
 use glidepath_program::{Effort, Item, ItemKind, PathMode, Settings};
@@ -43,6 +44,7 @@ impl Way {
 pub(crate) struct Plan {
     pub(crate) report: AuditReport,
     pub(crate) smoothness: SmoothnessReport,
+    pub(crate) figure: Figure,
     /// Processor time of planning alone.
     pub(crate) spent: Duration,
     /// Processor time of the call of the planner that took longest: of one item or one period.
@@ -51,7 +53,11 @@ pub(crate) struct Plan {
 
 /// The items of a program.
 pub(crate) fn items(text: &[u8]) -> Result<Vec<Item>, String> {
-    let items = Program::new(text, Options::default());
+    let options = Options {
+        connections: Connections::Simulated,
+        ..Options::default()
+    };
+    let items = Program::new(text, options);
     items
         .map(|item| {
             item.map_err(|diagnostic| format!("line {}: {}", diagnostic.line, diagnostic.message))
@@ -132,9 +138,11 @@ pub(crate) fn plan(items: &[Item], settings: Settings) -> Result<Plan, PlanError
     }
     bench.timed(Planner::finish);
     bench.drain()?;
+    let (report, told) = (bench.audit.finish(), bench.diagnosis.finish());
     Ok(Plan {
-        report: bench.audit.finish(),
-        smoothness: bench.diagnosis.finish().smoothness,
+        figure: Figure::new(items, settings.period_t, &report, told.shape),
+        report,
+        smoothness: told.smoothness,
         spent: bench.spent,
         longest: bench.longest,
     })

@@ -2,6 +2,7 @@
 
 use crate::arguments::Setup;
 use crate::plan::{self, Plan, Together, Way};
+use crate::walls;
 use serde_json::{Value, json};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -20,10 +21,10 @@ impl Trial {
     pub(crate) fn run(text: &[u8], setup: &Setup) -> Result<Self, String> {
         let items = plan::items(text)?;
         let plan = |way: Way| {
-            let settings =
-                setup
-                    .machine
-                    .settings(way.effort(), setup.period_t, setup.tolerance_mm());
+            let mut settings = setup.machine.settings(way.effort(), setup);
+            if setup.has_walls {
+                settings.limits.travel = walls::walls(&items);
+            }
             let items = plan::with_mode(&items, way, setup.given_mm);
             // A program that makes the planner panic is to be told like any other.
             let planned = catch_unwind(AssertUnwindSafe(|| plan::plan(&items, settings)));
@@ -67,7 +68,14 @@ impl Trial {
         Together::of(&self.plan(way).smoothness.whole)
     }
 
-    /// What is to be told of the program: violations, and rivals that are faster.
+    /// True if no plan that is handed out breaks a limit, a tolerance or a rule of the figure.
+    pub(crate) fn is_kept(&self) -> bool {
+        let efforts = [Way::Optimal, Way::Fast].map(|way| self.plan(way));
+        let is_kept = |plan: &&Plan| plan.figure.broken().is_empty();
+        efforts.iter().all(is_kept) && Way::ALL.iter().all(|&way| self.plan(way).violations() == 0)
+    }
+
+    /// What is to be told of the program: violations, broken rules, places on the outer side, and rivals that are faster.
     pub(crate) fn problems(&self) -> Vec<String> {
         let mut problems = Vec::new();
         for way in Way::ALL {
@@ -77,6 +85,13 @@ impl Trial {
                 let first = first.map_or_else(|| "incomplete".to_owned(), ToString::to_string);
                 let count = plan.violations();
                 problems.push(format!("{}: {count} violations, {first}", way.name()));
+            }
+            for broken in plan.figure.broken() {
+                problems.push(format!("{}: {broken}", way.name()));
+            }
+            if let Some(outer) = plan.figure.first_outer() {
+                let count = plan.figure.outer_count();
+                problems.push(format!("{}: outer side {count} times, {outer}", way.name()));
             }
         }
         for rival in [Way::Fast, Way::Stop] {
@@ -112,6 +127,7 @@ impl Trial {
                 "violations": plan.violations(),
                 "tremors": plan.tremors(),
                 "first_tremors": plan.report.tremors.iter().take(3).map(ToString::to_string).collect::<Vec<_>>(),
+                "figure": plan.figure.json(),
                 "max_deviation_mm": plan.report.max_deviation_mm,
                 "smoothness": smoothness(self.whole(way)),
                 "smoothness_at_feed": smoothness(self.at_feed(way)),

@@ -358,6 +358,16 @@ pub(crate) fn sample_at(samples: &Samples, grid: &Grid, halves: usize) -> usize 
     (halves * grid.periods / (2 * grid.knots)).min(samples.count())
 }
 
+/// The progress at a number of half intervals, between two samples by the time between them.
+pub(crate) fn progress_at(samples: &Samples, grid: &Grid, halves: usize) -> f64 {
+    let (at, period) = (halves * grid.periods, 2 * grid.knots);
+    let sample = sample_at(samples, grid, halves);
+    let next = (sample + 1).min(samples.count());
+    #[expect(clippy::cast_precision_loss, reason = "a few")]
+    let share = (at % period) as f64 / period as f64;
+    samples.progress[sample] + share * (samples.progress[next] - samples.progress[sample])
+}
+
 /// Per axis, one over the feed of the slowest of some pieces, where the feed counts the axis.
 pub(crate) fn slowest_feed<const D: usize>(
     path: &ScaledPath<D>,

@@ -14,7 +14,9 @@
 //!             ───────────────────────────            ──┴●▶────────────────
 //! ```
 
-use super::cutting_planes::{WORTH_OF_FEED, piece_at, pieces_at, sample_at, slowest_feed};
+use super::cutting_planes::{
+    WORTH_OF_FEED, piece_at, pieces_at, progress_at, sample_at, slowest_feed,
+};
 use super::sense_rows;
 use super::solver::{FAR, Problem};
 use super::speed::velocity_over_feed;
@@ -74,7 +76,9 @@ pub(crate) fn add<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, 
 }
 
 /// The price of velocity across the path for first difference `k`, the last site, where the feed is
-/// slow. Samples are given to a piece a little before its start: the path there is the one before.
+/// slow. Samples are given to a piece a little before its start: the path there is the one before. Of a chord it is the
+/// curve that it stands for: along the chords themselves a slow circle became a polygon, with a jerk of twenty
+/// times its own.
 fn steer<const D: usize>(
     problem: &mut Problem<D>,
     layout: &Layout<'_, D>,
@@ -97,10 +101,10 @@ fn steer<const D: usize>(
     let progress = samples.progress[sample_at(samples, grid, 2 * k - 1)];
     let here = path.segments[..=middle]
         .iter()
-        .rfind(|piece| piece.s <= progress);
+        .rposition(|piece| piece.s <= progress);
     if let (Some(site), Some(here)) = (problem.sites.last_mut(), here) {
         // An attraction on Δx, whose center is 0: ½·attraction·|velocity across|², of the way at the feed.
         site.attraction = style.steering * slowness / (top * grid.knot_t).powi(2);
-        site.tangent = here.tangent;
+        site.tangent = path.unit_heading(here, progress_at(samples, grid, 2 * k - 1));
     }
 }

@@ -1,8 +1,11 @@
 //! The end of a window that sees the end of its path: the shortest motion that rests exactly there.
 
+use super::budget::Budget;
+use super::damping;
 use super::optimiser::{JudgeQuestion, Optimiser, Solution};
 use super::rounds::ENOUGH_VIOLATION;
 use super::scaled_path::ScaledPath;
+use super::shortcuts;
 use super::spline::Grid;
 use super::tube::Style;
 use super::window_start::WindowStart;
@@ -18,6 +21,8 @@ const LEAST_INTERVALS: usize = 5;
 /// for what rounding leaves. No measurement of it is kept.
 const ARRIVED_R: f64 = 0.02;
 const ROUNDING_R: f64 = 1e-9;
+/// What is gained inside curves at the feed and not given back, in periods: to be on a grid asks for some of it.
+const LEFT_R: f64 = 0.02;
 /// Pull towards the path where nothing else is aimed at: with time fixed, it is all of the objective but
 /// for the price of velocity across slow pieces.
 const CENTRED_PULL: f64 = 1e-2;
@@ -209,6 +214,7 @@ impl<const D: usize> Optimiser<D> {
         }
         let points = shortest?.points;
         let points = self.smooth_finish(path, window_start, points, judge);
+        let points = self.give_back(path, window_start, points, intervals, judge);
         Some(Solution {
             points,
             is_end: true,
@@ -243,6 +249,65 @@ impl<const D: usize> Optimiser<D> {
         }
     }
 
+    /// The same in as much more time as it has gained inside curves that are driven at the feed, if that passes: the
+    /// shortest motion of all cuts them, to rest a period sooner.
+    fn give_back(
+        &mut self,
+        path: &ScaledPath<D>,
+        window_start: &WindowStart<'_, D>,
+        points: Vec<[f64; D]>,
+        most_intervals: usize,
+        judge: &mut impl FnMut(&[[f64; D]], JudgeQuestion) -> bool,
+    ) -> Vec<[f64; D]> {
+        let style = Style {
+            is_centred: true,
+            ..window_start.smooth_style(1.0)
+        };
+        let grid = &window_start.grid;
+        let intervals = points.len() - 3;
+        self.samples.cut(grid.periods_in(intervals));
+        self.samples
+            .project(path, &points, window_start.piece, grid, false);
+        self.samples.assign(path, window_start.piece);
+        let margin = damping::margin(path, &style);
+        let by_grid = (grid, window_start.period_t, margin);
+        let gained_t = shortcuts::gained_t(path, &points, &self.samples, by_grid);
+        let gained_t = gained_t.last().copied().unwrap_or(0.0);
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a time within the window"
+        )]
+        let owed = (gained_t / window_start.period_t - LEFT_R).ceil().max(0.0) as usize;
+        let more = owed.div_ceil(grid.periods) * grid.knots;
+        // The search for the shortest may have had all that was wanted for the end.
+        let budget = Budget::new(D, path.joints().is_some());
+        self.interior.want(budget.smoothing(0).wanted);
+        if more == 0 || intervals + more > most_intervals || self.interior.is_spent() {
+            return points;
+        }
+        let count = intervals + more;
+        let between = |a: &[f64; D], b: &[f64; D], share| {
+            core::array::from_fn(|k| a[k] + share * (b[k] - a[k]))
+        };
+        let mut next = in_steps(&points, count + 2, between);
+        let progress = in_steps(
+            &self.samples.progress,
+            grid.periods_in(count),
+            |a, b, share| a + share * (b - a),
+        );
+        self.samples.progress = progress;
+        self.samples.cut(grid.periods_in(count));
+        self.samples.assign(path, window_start.piece);
+        next[..3].copy_from_slice(&points[..3]);
+        next[count..].fill(points[intervals]);
+        if self.finish_in(path, window_start, &style, &mut next, judge) {
+            next
+        } else {
+            points
+        }
+    }
+
     /// Makes a motion pass that rests at the end of the path after so many control points.
     fn finish_in(
         &mut self,
@@ -270,15 +335,20 @@ impl<const D: usize> Optimiser<D> {
 
 /// The same way in fewer steps.
 fn hurried<T>(values: &[T], fewer: usize, between: impl Fn(&T, &T, f64) -> T) -> Vec<T> {
+    let less = (values.len() - 1).saturating_sub(fewer).max(1);
+    in_steps(values, less, between)
+}
+
+/// The same way in so many steps.
+fn in_steps<T>(values: &[T], steps: usize, between: impl Fn(&T, &T, f64) -> T) -> Vec<T> {
     let count = values.len() - 1;
-    let less = count.saturating_sub(fewer).max(1);
-    (0..=less)
+    (0..=steps)
         .map(|k| {
             let at = k * count;
-            let (before, rest) = (at / less, at % less);
+            let (before, rest) = (at / steps, at % steps);
             let after = (before + 1).min(count);
             #[expect(clippy::cast_precision_loss, reason = "hundreds")]
-            let share = rest as f64 / less as f64;
+            let share = rest as f64 / steps as f64;
             between(&values[before], &values[after], share)
         })
         .collect()

@@ -95,6 +95,7 @@ impl Assembly {
                 };
                 let mut piece = self.piece(shape, (0.0, length_s), rule, line);
                 piece.events = core::mem::take(&mut next.events);
+                piece.events_s = 0.5 * length_s;
                 out.push(Element::Piece(piece));
                 next.trimmed_s = trim_s;
             }
@@ -237,6 +238,7 @@ impl Assembly {
             line,
             lines: Vec::new(),
             events: Vec::new(),
+            events_s: 0.0,
         };
         self.within_joints(piece)
     }

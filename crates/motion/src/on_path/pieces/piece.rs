@@ -28,8 +28,11 @@ pub(crate) struct Piece {
     pub synchronised: bool,
     /// Its feed is one per revolution.
     pub per_revolution: bool,
-    /// Events that happen when the piece is entered, without stopping.
+    /// Events that happen on it, without stopping.
     pub events: Vec<Event>,
+    /// How far after its start they happen, mm: in the middle of what replaces a corner, where the motion comes
+    /// nearest to that, and else as soon as the piece is entered.
+    pub events_s: f64,
 }
 
 /// The curve a piece is cut from.
@@ -101,7 +104,7 @@ impl Piece {
         }
     }
 
-    /// What is left of the piece `s` after its start. Its events have happened.
+    /// What is left of the piece `s` after its start. Its events have happened, or wait for their place.
     pub(crate) fn after(self, s: f64) -> Self {
         Self {
             from_s: self.from_s + s,

@@ -23,6 +23,11 @@ const MOST_HELD: usize = 32;
 /// than a vertex makes of it that is off by such a share of that distance.
 const LONG_R: f64 = 4000.0;
 const TURNED_R: f64 = 0.25;
+/// A block from this length on is laid a ruler to in its middle half, mm; no dropped vertex turns it by more than so
+/// much, mm, of the micrometre that the motion may be beside it. A little less than a quarter of it is before that.
+const RULED_MM: f64 = 5.0;
+const RULED_TURNED_MM: f64 = 4e-4;
+const QUARTER_R: f64 = 0.24;
 
 /// A vertex, and the line of the block that ends in it.
 #[derive(Debug, Clone, Copy)]
@@ -41,6 +46,24 @@ pub(super) struct MergedChord<const D: usize> {
     pub(super) error_mm: f64,
     /// The blocks on it: where on it each starts, 0…1, and its source line.
     pub(super) blocks: Vec<(f64, ProgramLine)>,
+}
+
+impl<const D: usize> MergedChord<D> {
+    /// How much of it, from its nearer end on, is before the middle half of a block that one can lay a ruler to;
+    /// none if it has no such block.
+    pub(super) fn before_ruled_t(&self) -> Option<f64> {
+        let starts = self.blocks.iter().map(|&(from_u, _)| from_u);
+        let ends = self.blocks.iter().skip(1).map(|&(from_u, _)| from_u);
+        let blocks_t = starts
+            .zip(ends.chain([1.0]))
+            .map(|ends| [ends.0, ends.1].map(|u| u * self.length_t));
+        let mut ruled_t = blocks_t.filter(|[from_t, to_t]| to_t - from_t >= RULED_MM);
+        let [first_t, end_t] = ruled_t.next()?;
+        let [from_t, last_t] = ruled_t.last().unwrap_or([first_t, end_t]);
+        let at_start_t = first_t + QUARTER_R * (end_t - first_t);
+        let at_end_t = self.length_t - last_t + QUARTER_R * (last_t - from_t);
+        Some(at_start_t.min(at_end_t))
+    }
 }
 
 /// Merges chords as they come.
@@ -71,7 +94,7 @@ impl<const D: usize> Thinning<D> {
     pub(super) fn push(&mut self, next: Vertex<D>, apart: bool) -> Option<MergedChord<D>> {
         let last = self.held.last().map_or(&self.anchor, |last| &last.point);
         let step = minus(&next.point, last);
-        let long_mm = LONG_R * self.allowed_mm;
+        let long_mm = (LONG_R * self.allowed_mm).min(RULED_MM);
         let is_long = dot(&step, &step) >= long_mm * long_mm;
         let done = if apart || !self.reaches(&next.point, self.is_long || is_long) {
             self.flush()
@@ -121,7 +144,7 @@ impl<const D: usize> Thinning<D> {
         let chord = minus(point, &self.anchor);
         let per_square = 1.0 / dot(&chord, &chord);
         let allowed_mm = if is_long {
-            TURNED_R * self.allowed_mm
+            (TURNED_R * self.allowed_mm).min(RULED_TURNED_MM)
         } else {
             self.allowed_mm
         };

@@ -3,6 +3,7 @@
 mod arcs;
 mod curves;
 mod dense;
+mod events;
 mod macros;
 mod pockets;
 mod polylines;
@@ -41,7 +42,7 @@ impl Family {
 }
 
 /// All families.
-pub(crate) const FAMILIES: [Family; 14] = [
+pub(crate) const FAMILIES: [Family; 15] = [
     Family {
         name: "polylines",
         draw: |random| polylines::polyline(random).into(),
@@ -97,5 +98,9 @@ pub(crate) const FAMILIES: [Family; 14] = [
     Family {
         name: "macros",
         draw: |random| macros::nested(random).into(),
+    },
+    Family {
+        name: "events",
+        draw: |random| events::engraved(random).into(),
     },
 ];

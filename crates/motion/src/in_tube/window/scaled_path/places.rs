@@ -53,6 +53,17 @@ impl<const D: usize> ScaledPath<D> {
         self.heading_at(i, self.share_of(i, progress))
     }
 
+    /// The same as a unit vector. A straight piece has its own to the bit.
+    pub(crate) fn unit_heading(&self, i: usize, progress: f64) -> [f64; D] {
+        let segment = &self.segments[i];
+        if dot(&segment.sagitta_vector, &segment.sagitta_vector) <= 0.0 {
+            return segment.tangent;
+        }
+        let heading = self.heading(i, progress);
+        let length = dot(&heading, &heading).sqrt();
+        heading.map(|part| part / length)
+    }
+
     fn heading_at(&self, i: usize, u: f64) -> [f64; D] {
         let segment = &self.segments[i];
         let slope = 4.0 * (1.0 - 2.0 * u);

@@ -115,6 +115,11 @@ impl<const D: usize> Interior<D> {
         self.is_cut = false;
     }
 
+    /// So much more work is wanted, of the most that there is.
+    pub(in crate::in_tube::window) const fn want(&mut self, wanted: usize) {
+        self.wanted_work = self.work.saturating_add(wanted);
+    }
+
     /// True if no other problem is to be begun.
     pub(in crate::in_tube::window) const fn is_spent(&self) -> bool {
         self.is_cut || self.work > self.wanted_work
