@@ -142,7 +142,7 @@ impl Task {
             match word.as_str() {
                 "--walls" => task.has_walls = true,
                 "--threads" => {
-                    task.threads = words.next().ok_or("--threads wants a number")?.parse()?
+                    task.threads = words.next().ok_or("--threads wants a number")?.parse()?;
                 }
                 "--most" => {
                     task.most_feed_t = words.next().ok_or("--most wants seconds")?.parse()?;

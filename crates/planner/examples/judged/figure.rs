@@ -2,6 +2,8 @@
 //! whether straight is straight and smooth, whether events are where they belong, and what the tolerance was
 //! used for.
 
+#![allow(dead_code, reason = "each harness uses a part of it")]
+
 use glidepath_audit::AuditReport;
 use glidepath_audit::shape::{Border, Met, ShapeReport};
 use glidepath_geometry::Axis;
