@@ -2144,7 +2144,7 @@ _glidepath() {
             return 0
             ;;
         glidepath__subcmd__live)
-            opts="-c -h --port --may --devices --listed --programs --tool-table --subroutine-path --dialect --allow-unchecked --effort --tolerance --config --json --instance --help devices help"
+            opts="-c -h --port --may --devices --listed --shortcut --programs --tool-table --subroutine-path --dialect --allow-unchecked --effort --tolerance --config --json --instance --help devices help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -2160,6 +2160,21 @@ _glidepath() {
                     ;;
                 --devices)
                     COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --shortcut)
+                    local oldifs
+                    if [ -n "${IFS+x}" ]; then
+                        oldifs="$IFS"
+                    fi
+                    IFS=$'\n'
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    if [ -n "${oldifs+x}" ]; then
+                        IFS="$oldifs"
+                    fi
+                    if [[ "${BASH_VERSINFO[0]}" -ge 4 ]]; then
+                        compopt -o filenames
+                    fi
                     return 0
                     ;;
                 --programs)

@@ -200,6 +200,7 @@ complete -c glidepath -n "__fish_glidepath_using_subcommand live; and not __fish
 hold\t'See it and stop it: hold and abort'
 operate\t'Do all that an operator does'"
 complete -c glidepath -n "__fish_glidepath_using_subcommand live; and not __fish_seen_subcommand_from devices help" -l devices -d 'An address of this host, with a port, where paired tablets and phones open the page over TLS, to look and to hold; without it there is none' -r
+complete -c glidepath -n "__fish_glidepath_using_subcommand live; and not __fish_seen_subcommand_from devices help" -l shortcut -d 'A file that is written to open the page in a browser, and that says so where the page has ended. Whoever can read it may do what the page may: this user, and in a folder with the setgid bit its group' -r -F
 complete -c glidepath -n "__fish_glidepath_using_subcommand live; and not __fish_seen_subcommand_from devices help" -l programs -d 'Folder of the programs that the page lists, runs and stores' -r -f -a "(__fish_complete_directories)"
 complete -c glidepath -n "__fish_glidepath_using_subcommand live; and not __fish_seen_subcommand_from devices help" -l tool-table -d 'Tool table (LinuxCNC\'s .tbl); overrides `program.tool_table` of the configuration' -r -F
 complete -c glidepath -n "__fish_glidepath_using_subcommand live; and not __fish_seen_subcommand_from devices help" -l subroutine-path -d 'Folder to search for subroutines in files of their own, after the folder of the program and before `program.subroutine_path` of the configuration; may be given several times' -r -F

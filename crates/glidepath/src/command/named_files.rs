@@ -5,6 +5,7 @@ use crate::persistence::read::{MOST_TABLE_BYTES, read};
 use crate::text_file;
 use glidepath_gcode::ToolTable;
 use std::fs;
+use std::io;
 use std::path::Path;
 
 /// Most findings of one file that are told.
@@ -101,6 +102,11 @@ fn state(folder: &Path, machine: &MachineConfig, found: &mut Vec<Finding>) {
         });
     };
     if folder.exists() {
+        // What the services keep is theirs: another user who looks at the configuration cannot read it, and need not.
+        let opened = fs::read_dir(folder);
+        if opened.is_err_and(|error| error.kind() == io::ErrorKind::PermissionDenied) {
+            return;
+        }
         if let Err(why) = is_folder(folder) {
             let help = "name a folder; where there is none yet, it is made".to_owned();
             tell(why, help);
