@@ -2,6 +2,7 @@
 //! them.
 
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Sender, channel};
 use std::sync::{Arc, Mutex};
 use std::thread::JoinHandle;
 use std::time::Duration;
@@ -25,16 +26,19 @@ pub struct Tape {
 }
 
 impl Tape {
-    /// Begins to record.
+    /// Begins to record: what comes from now on is heard, whatever becomes of the instance.
     #[must_use]
     pub fn start(instance: &Instance) -> Self {
         let setpoints = Arc::<Mutex<Vec<Setpoint>>>::default();
         let ending = Arc::new(AtomicBool::new(false));
+        let (hears, heard) = channel();
         let recorder = {
             let link = instance.config().clone();
             let (setpoints, ending) = (Arc::clone(&setpoints), Arc::clone(&ending));
-            std::thread::spawn(move || record(&link, &setpoints, &ending))
+            std::thread::spawn(move || record(&link, &hears, (&setpoints, &ending)))
         };
+        // Where it cannot hear, the end of the recording says why.
+        let _begun = heard.recv();
         Self {
             setpoints,
             ending,
@@ -138,9 +142,14 @@ fn audit(stretch: &[Setpoint]) -> Vec<String> {
     found.map(|found| format!("{found}")).collect()
 }
 
-fn record(link: &LinkConfig, setpoints: &Mutex<Vec<Setpoint>>, ending: &AtomicBool) {
+fn record(
+    link: &LinkConfig,
+    hears: &Sender<()>,
+    (setpoints, ending): (&Mutex<Vec<Setpoint>>, &AtomicBool),
+) {
     let transport = Ipc::connect(link).unwrap();
     let mut source = transport.setpoint_source().unwrap();
+    hears.send(()).unwrap();
     loop {
         // Asked first, so that nothing published before the end is missed.
         let is_ending = ending.load(Ordering::Relaxed);

@@ -293,20 +293,23 @@ fn motion_in_unit(
     positions
 }
 
-/// No length is built into the planner along a path: where the unit changes by a power of two, so that nothing is
-/// rounded otherwise, motion is the same to the bit. In the tube one is, from which on a move is straight in its middle
-/// half; `glidepath-motion` tests that there is no other.
+/// A share of the programs' size in which no move is as long as those that are straight in their middle half (5 mm): that
+/// length, and what such a line may bend, are the only ones that are built into the planner.
+const SMALL: f64 = 1.0 / 64.0;
+
+/// Motion is the same to the bit where the unit of length changes by a power of two, so that nothing is rounded
+/// otherwise. `glidepath-motion` tests the same in the tube.
 #[test]
 fn motion_does_not_depend_on_the_unit_of_length() {
     for (name, profile, ..) in BENCH {
         let smoothing = Smoothing::Sextic;
-        let motion = motion_in_unit(name, profile, smoothing, 1.0);
-        let larger: Vec<_> = motion.iter().map(|position| position * 1024.0).collect();
-        let other = motion_in_unit(name, profile, smoothing, 1024.0);
-        let is_same = other == larger;
+        let motion = motion_in_unit(name, profile, smoothing, SMALL);
+        let smaller: Vec<_> = motion.iter().map(|position| position / 64.0).collect();
+        let other = motion_in_unit(name, profile, smoothing, SMALL / 64.0);
+        let is_same = other == smaller;
         assert!(is_same, "{name}");
-        let micrometres = motion_in_unit(name, profile, smoothing, 1000.0);
-        assert_eq!(motion.len(), micrometres.len(), "{name}");
+        let tenths = motion_in_unit(name, profile, smoothing, 0.1 * SMALL);
+        assert_eq!(motion.len(), tenths.len(), "{name}");
     }
 }
 

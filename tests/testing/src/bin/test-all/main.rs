@@ -38,6 +38,8 @@ use summary::Summary;
 
 /// The test target of what runs at the speed of the clock.
 const BY_CLOCK: &str = "e2e";
+/// All that is built at once, and tested.
+const TARGETS: [&str; 4] = ["--lib", "--bins", "--examples", "--tests"];
 /// How many of its tests may have failed for the host to be held the cause.
 const FEW: usize = 4;
 
@@ -116,8 +118,9 @@ fn is_package(word: &str) -> bool {
 /// The arguments that run these tests alone, behind those that all were run with.
 fn again_alone(arguments: &[String], tests: &[String]) -> Vec<String> {
     let of_cargo = arguments.iter().take_while(|word| *word != "--");
-    let alone = ["--test", BY_CLOCK, "--", "--exact", "--test-threads=1"];
-    let words = of_cargo.map(String::as_str).chain(alone);
+    // The same targets as were built at once: with fewer, crates they need have other features, and are compiled anew.
+    let alone = TARGETS.iter().chain(&["--", "--exact", "--test-threads=1"]);
+    let words = of_cargo.map(String::as_str).chain(alone.copied());
     let tests = tests.iter().map(String::as_str);
     words.chain(tests).map(str::to_owned).collect()
 }
@@ -134,14 +137,7 @@ fn cargo() -> Command {
 /// Builds everything, in the profile that is tested.
 fn build(arguments: &[String]) -> io::Result<bool> {
     let mut command = cargo();
-    command.args([
-        "build",
-        "--workspace",
-        "--lib",
-        "--bins",
-        "--examples",
-        "--tests",
-    ]);
+    command.args(["build", "--workspace"]).args(TARGETS);
     let release = ["--release", "-r"];
     if arguments
         .iter()
