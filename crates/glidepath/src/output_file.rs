@@ -23,6 +23,8 @@ pub enum OutputKind {
     Plot,
     /// A plot as a page.
     Page,
+    /// A file that opens the page of a machine.
+    Shortcut,
     /// A recording.
     Recording,
     /// A program of fitted curves.
@@ -37,6 +39,7 @@ impl OutputKind {
             Self::Setpoints => "a CSV file of setpoints",
             Self::Plot => "a plot of this program",
             Self::Page => "a page of this program",
+            Self::Shortcut => "a file that opens the page",
             Self::Recording => "a recording",
             Self::Program => "a program with fitted curves",
             Self::Curve => "a curve file of this program",
@@ -49,12 +52,16 @@ impl OutputKind {
             Self::Setpoints => head.starts_with("tick,time_s,line,state,feed_mm_s,path_mm"),
             Self::Plot => head.starts_with("<svg ") && head.contains("'DejaVu Sans','Segoe UI'"),
             Self::Page => head.contains(glidepath_live::file::GENERATOR),
+            Self::Shortcut => head.contains(SHORTCUT),
             Self::Recording => head.get(..12).unwrap_or(head).contains("MCAP0\r\n"),
             Self::Program => head.starts_with("(machine coordinates: run it with work offsets"),
             Self::Curve => head.starts_with("name = ") && head.contains("control_points = [  # mm"),
         }
     }
 }
+
+/// What stands in a file that opens the page.
+pub(crate) const SHORTCUT: &str = "<meta name=\"generator\" content=\"glidepath live --shortcut\">";
 
 /// The files that may not be overwritten.
 #[derive(Debug, Clone, Default)]
@@ -244,7 +251,11 @@ fn take_stdout(kind: OutputKind) -> Result<&'static Path, FileError> {
 }
 
 /// Whether a file begins as one of a kind, or is empty.
-fn begins_as(path: &Path, kind: OutputKind) -> io::Result<bool> {
+/// Whether what is there was written by this program as a file of that kind, or is empty.
+///
+/// # Errors
+/// It cannot be read.
+pub(crate) fn begins_as(path: &Path, kind: OutputKind) -> io::Result<bool> {
     let mut head = Vec::new();
     File::open(path)?.take(4096).read_to_end(&mut head)?;
     Ok(head.is_empty() || kind.is_begun_by(&String::from_utf8_lossy(&head)))

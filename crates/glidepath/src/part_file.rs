@@ -48,6 +48,18 @@ impl PartFile {
         Ok(Self::Named(named?))
     }
 
+    /// Gives the file a mode, whatever the mask of the process takes from it.
+    ///
+    /// # Errors
+    /// The file system knows no modes.
+    pub(crate) fn set_mode(&self, mode: u32) -> io::Result<()> {
+        let file = match self {
+            Self::Nameless { file, .. } => file,
+            Self::Named(file) => file.as_file(),
+        };
+        file.set_permissions(Permissions::from_mode(mode))
+    }
+
     /// Puts the file in its place, instead of what is there.
     ///
     /// # Errors

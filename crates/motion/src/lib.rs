@@ -97,6 +97,7 @@ mod planner;
 pub mod preview;
 mod programmed_rate;
 mod rest;
+mod ruled;
 pub mod scurve;
 mod stretches;
 

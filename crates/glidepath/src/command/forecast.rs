@@ -1,6 +1,8 @@
 //! The forecast of a program: how far it is, and how long it takes yet. It is planned beside the
 //! machine, since planned time is run time.
 
+mod spectator;
+
 use super::begins_with::{begin_on_machine, program_start, ratio_begun_with};
 use super::changed::{Change, Changed};
 use super::fitting::{is_all_that_is_wrong, without_travel};
@@ -18,7 +20,8 @@ use glidepath_gcode::{Lacking, ReadingWatch};
 use glidepath_geometry::AxisVector;
 use glidepath_link::Status;
 use glidepath_planner::{FileSource, Pipeline, Refusal, Step};
-use glidepath_program::{Frame, Item};
+use glidepath_program::Frame;
+pub(super) use spectator::Spectator;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -65,37 +68,6 @@ struct Plan {
     /// It cannot be planned, or not be remembered.
     has_failed: bool,
 }
-
-/// A spectator, who sees the plan as it is made.
-pub(super) trait Spectator: Send {
-    /// What the program should say and does not, before its first item.
-    fn lacks(&mut self, lacks: Lacking) {
-        let _ = lacks;
-    }
-
-    /// The text of the program, before anything else; without a line where it is too long.
-    fn text(&mut self, lines: &TextLines) {
-        let _ = lines;
-    }
-
-    /// The next item of the program.
-    fn item(&mut self, item: &Item) {
-        let _ = item;
-    }
-
-    /// The next frame of the plan.
-    fn frame(&mut self, frame: &Frame) {
-        let _ = frame;
-    }
-
-    /// The plan is whole, or ends here for the reason given.
-    fn end(&mut self, trouble: Option<&str>) {
-        let _ = trouble;
-    }
-}
-
-/// Nobody.
-impl Spectator for () {}
 
 /// A program that is planned in the background.
 pub(super) struct Forecast {

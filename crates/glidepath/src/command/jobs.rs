@@ -4,6 +4,7 @@ use super::attention::Waiting;
 use super::lost_planner::LostProgram;
 use super::operator::reach;
 use super::session;
+use super::told::Told;
 use crate::cli::{InstanceArgs, MdiArgs, RunFileArgs};
 use crate::command::failure::Failure;
 use crate::config::MachineConfig;
@@ -12,7 +13,6 @@ use crate::file_error::FileError;
 use crate::interrupt::Interrupt;
 use crate::machine_options::{self, complete};
 use crate::output;
-use crate::report::WARNING;
 use glidepath_link::{
     CALLED_OFF, Client, Command, CommandRequest, Ipc, JobKind, JobReply, JobRequest, JobStage,
     JobState, JobWish, LinkConfig, LinkError, Operator, Record as _, Transport as _,
@@ -28,8 +28,6 @@ const PATIENCE: Duration = Duration::from_secs(2);
 const END_PATIENCE: Duration = Duration::from_millis(600);
 /// How long the interpolator may take to answer then.
 const ABORT_PATIENCE: Duration = Duration::from_millis(100);
-/// When it is said for the first time what is being done; each time after that, twice as much later.
-const TELL_INTERVAL: Duration = Duration::from_secs(1);
 /// After how long without an answer it is said that the planner does not answer.
 const SILENCE: Duration = Duration::from_secs(3);
 /// A planner that answers tells of a fault itself, within so long.
@@ -333,56 +331,6 @@ pub(super) fn abort(link: &LinkConfig) {
         CommandRequest::new(u64::from(std::process::id()), 1, Command::Abort).saying(CALLED_OFF);
     if let Ok(operator) = reach(link) {
         let _answer = operator.call(&request, ABORT_PATIENCE);
-    }
-}
-
-/// What was said of the job.
-struct Told {
-    /// Which job it is.
-    job: String,
-    has_warned: bool,
-    last: String,
-    since: Instant,
-    interval: Duration,
-}
-
-impl Told {
-    fn new(job: &str) -> Self {
-        Self {
-            job: job.to_owned(),
-            has_warned: false,
-            last: String::new(),
-            since: Instant::now(),
-            interval: TELL_INTERVAL,
-        }
-    }
-
-    /// Says what the planner tells of the job: what is being done, and, at once, the warnings in the lines behind that.
-    fn tell_of_job(&mut self, text: &str) {
-        let (doing, warnings) = text.split_once('\n').unwrap_or((text, ""));
-        if !self.has_warned {
-            for warning in warnings.lines().filter(|line| line.starts_with(WARNING)) {
-                output::note(&format!("{}: {warning}", self.job));
-                self.has_warned = true;
-            }
-        }
-        self.tell(doing);
-    }
-
-    /// Says what is being done, now and then, if it takes long enough to be read.
-    fn tell(&mut self, doing: &str) {
-        let is_news = !doing.is_empty() && self.last != doing;
-        if is_news && self.since.elapsed() >= self.interval {
-            output::note(doing);
-            doing.clone_into(&mut self.last);
-            (self.since, self.interval) = (Instant::now(), self.interval * 2);
-        }
-    }
-
-    fn wait_for(&mut self, whom: &str, started: Instant) {
-        if started.elapsed() >= TELL_INTERVAL {
-            self.tell(&format!("waiting for {whom}"));
-        }
     }
 }
 

@@ -56,6 +56,7 @@ mod setup;
 mod subroutines;
 mod telemetry;
 mod text_lines;
+mod told;
 mod tool_names;
 mod watch;
 

@@ -18,16 +18,11 @@ use super::work_queue::{WorkItem, WorkQueue};
 use crate::intake::SHORTEST_MOVE_MM;
 use crate::programmed_rate::{ProgrammedRate, axes_speed};
 use crate::rest::Rest;
+use crate::ruled::{self, BESIDE_MM, RULED_MM};
 use glidepath_geometry::{LINEAR_XYZ, Segment, feed_length};
 use glidepath_program::{Item, ProgramLine, Settings, tolerance_norm};
 use std::collections::VecDeque;
 
-/// From which length on a straight feed move has a middle half that one can lay a ruler to, mm.
-const RULED_MM: f64 = 5.0;
-/// How far the motion may be beside it there, mm: a tolerance is for corners and curves.
-const BESIDE_MM: f64 = 1e-3;
-/// Share of that which a straight move may turn by when it is drawn together with others.
-const DRAWN_TOGETHER_R: f64 = 0.4;
 /// Share of the tolerance that a merged piece may be away from the chords it replaces.
 const MERGING_R: f64 = 0.1;
 /// Distance up to which a vertex counts as being on a line.
@@ -183,7 +178,7 @@ fn straightness(
     let displacement = chord.end - chord.start;
     let others = displacement.iter().skip(LINEAR_XYZ.end);
     let is_in_space = others.fold(0.0, |sum: f64, part| sum + part.abs()) <= 0.0;
-    let is_cut = !chord.rate.is_rapid() && drawn_mm <= DRAWN_TOGETHER_R * BESIDE_MM;
+    let is_cut = !chord.rate.is_rapid() && drawn_mm <= ruled::TURNED_MM;
     let length_mm = displacement.norm();
     if !is_cut || !is_in_space || length_mm < RULED_MM {
         return None;
@@ -239,7 +234,7 @@ impl OpenChord {
         let allowed_mm = if chord.rate.is_rapid() {
             STRAIGHT_MM
         } else if longest_mm >= RULED_MM {
-            (TURNED_R * chord.tolerance_mm).min(DRAWN_TOGETHER_R * BESIDE_MM)
+            (TURNED_R * chord.tolerance_mm).min(ruled::TURNED_MM)
         } else if longest_mm >= LONG_R * chord.tolerance_mm {
             TURNED_R * chord.tolerance_mm
         } else {

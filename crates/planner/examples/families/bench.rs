@@ -1,7 +1,7 @@
 //! The programs of a folder against their reference optima.
 
 use crate::arguments::{Arguments, Setup};
-use crate::figures::{self, Figures3};
+use crate::figures::{self, FiguresByWay};
 use crate::plan::{Together, Way};
 use crate::statistics::{Figures, shown};
 use crate::trial::Trial;
@@ -75,7 +75,7 @@ struct Sums {
     /// Tremors: optimal, fast, stops.
     tremors: [u64; 3],
     failed: u32,
-    figures: Figures3,
+    figures: FiguresByWay,
     /// Planned time by side of corners and effort, s.
     times_t: [[f64; 2]; 2],
 }

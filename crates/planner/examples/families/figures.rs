@@ -6,9 +6,9 @@ use crate::trial::Trial;
 
 /// The figures of all ways.
 #[derive(Debug, Default)]
-pub(crate) struct Figures3([Together; 3]);
+pub(crate) struct FiguresByWay([Together; 3]);
 
-impl Figures3 {
+impl FiguresByWay {
     pub(crate) fn add(&mut self, trial: &Trial) {
         for (together, way) in self.0.iter_mut().zip(Way::ALL) {
             together.add(&trial.plan(way).figure);

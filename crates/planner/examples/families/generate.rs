@@ -3,7 +3,7 @@
 
 use crate::arguments::{Arguments, Setup};
 use crate::family::{Drawn, Family};
-use crate::figures::Figures3;
+use crate::figures::FiguresByWay;
 use crate::plan::Way;
 use crate::statistics::{Figures, shown};
 use crate::trial::Trial;
@@ -34,7 +34,7 @@ struct Sums {
     ringing: [Figures; 2],
     load: [Figures; 2],
     longest_ms: Figures,
-    figures: Figures3,
+    figures: FiguresByWay,
     /// Programs with a plan that breaks a rule, a limit or a tolerance.
     not_kept: u32,
 }
@@ -221,7 +221,7 @@ pub(crate) fn run(count: u32, arguments: &Arguments) -> Result<bool, Box<dyn Err
     if !arguments.is_json {
         println!();
         for (setup, sums) in setups.iter().zip(&sums) {
-            let mut all = Figures3::default();
+            let mut all = FiguresByWay::default();
             sums.iter().for_each(|sums| all.join(&sums.figures));
             all.print(&format!(
                 "{}, {}, ",

@@ -217,8 +217,7 @@ fn ways_in(
     let listing = args.listed.then(|| Listing::begin(link, urls));
     let listing = listing.transpose().map_err(FileError::open(&link.root))?;
     let wanted = args.shortcut.as_deref().zip(urls.last());
-    let shortcut = wanted
-        .map(|(file, (_, url))| Shortcut::begin(file, url).map_err(FileError::file("write", file)));
+    let shortcut = wanted.map(|(file, (_, url))| Shortcut::begin(file, url));
     Ok((listing, shortcut.transpose()?))
 }
 

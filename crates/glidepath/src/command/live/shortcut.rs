@@ -4,17 +4,16 @@
 //! Whoever can read the file may do what the page may. Nobody but this user can, but in a folder with the setgid bit
 //! (mode 2750, say): there its group can, too.
 
-use std::fs::{self, OpenOptions};
+use crate::file_error::FileError;
+use crate::output_file::{OutputKind, SHORTCUT, begins_as};
+use crate::part_file::PartFile;
+use std::fs;
 use std::io::{self, Write as _};
-use std::os::unix::fs::{MetadataExt as _, OpenOptionsExt as _, PermissionsExt as _};
+use std::os::unix::fs::MetadataExt as _;
 use std::path::{Path, PathBuf};
 
 /// The bit of a folder that gives its files its group.
 const SETGID: u32 = 0o2000;
-/// What the file says while nobody serves the page.
-const ENDED: &str = "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<title>Glidepath</title>\n\
-    <p>The page of this machine is not served now. The machine may be off, or its services were stopped.</p>\n\
-    <p>Open this again when they run: <code>systemctl status glidepath-panel</code> says what became of the page.</p>\n";
 
 /// The file, which leads to the page for as long as this lives.
 pub(super) struct Shortcut {
@@ -25,15 +24,18 @@ impl Shortcut {
     /// Writes the file, which opens this address.
     ///
     /// # Errors
-    /// The file cannot be written.
-    pub(super) fn begin(file: &Path, url: &str) -> io::Result<Self> {
+    /// The file cannot be written, or another file is there.
+    pub(super) fn begin(file: &Path, url: &str) -> Result<Self, FileError> {
+        if file.exists() && !begins_as(file, OutputKind::Shortcut).map_err(FileError::open(file))? {
+            let reason = "there is a file that does not open a page; give another name";
+            return Err(FileError::guarded(file, reason.to_owned()));
+        }
         let text = format!(
-            "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<title>Glidepath</title>\n\
-             <meta name=\"referrer\" content=\"no-referrer\">\n\
+            "<meta name=\"referrer\" content=\"no-referrer\">\n\
              <meta http-equiv=\"refresh\" content=\"0; url={url}\">\n\
              <p><a href=\"{url}\">Open the page of the machine</a></p>\n"
         );
-        write(file, &text)?;
+        write(file, &text).map_err(FileError::file("write", file))?;
         Ok(Self {
             file: file.to_owned(),
         })
@@ -43,36 +45,32 @@ impl Shortcut {
 impl Drop for Shortcut {
     fn drop(&mut self) {
         // An address that nobody answers is as clear, if less kind.
-        let _written = write(&self.file, ENDED);
+        let ended = "<p>The page of this machine is not served now: the machine may be off, or its services were \
+                     stopped. Open this again when they run.</p>\n";
+        let _written = write(&self.file, ended);
     }
 }
 
-/// Beside the file first, made anew: nobody reads a half of it, and nothing is written through a link that somebody else
-/// has put there.
+/// Beside its place first: nobody reads a half of it, and nothing is written through a link that somebody else has put
+/// there.
 fn write(file: &Path, text: &str) -> io::Result<()> {
     let folder = file.parent().filter(|folder| *folder != Path::new(""));
-    let is_shared = fs::metadata(folder.unwrap_or(Path::new(".")))?.mode() & SETGID != 0;
+    let folder = folder.unwrap_or(Path::new("."));
+    let is_shared = fs::metadata(folder)?.mode() & SETGID != 0;
     let mode = if is_shared { 0o640 } else { 0o600 };
-    let fresh = file.with_extension("new");
-    match fs::remove_file(&fresh) {
-        Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
-        _ => {}
-    }
-    let mut options = OpenOptions::new();
-    let mut made = options
-        .create_new(true)
-        .write(true)
-        .mode(mode)
-        .open(&fresh)?;
-    // The mask of the process may have taken the group's right.
-    made.set_permissions(fs::Permissions::from_mode(mode))?;
-    made.write_all(text.as_bytes())?;
-    fs::rename(&fresh, file)
+    let mut made = PartFile::create(folder, file, mode)?;
+    made.set_mode(mode)?;
+    write!(
+        made,
+        "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n{SHORTCUT}\n<title>Glidepath</title>\n{text}"
+    )?;
+    made.persist(file)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::os::unix::fs::PermissionsExt as _;
 
     fn mode(file: &Path) -> u32 {
         fs::metadata(file).unwrap().mode() & 0o7777
@@ -103,10 +101,25 @@ mod tests {
         let shared = fs::Permissions::from_mode(0o2750);
         fs::set_permissions(folder.path(), shared).unwrap();
         let file = folder.path().join("Glidepath.html");
-        let planted = folder.path().join("elsewhere");
-        std::os::unix::fs::symlink(&planted, file.with_extension("new")).unwrap();
+        let elsewhere = folder.path().join("elsewhere");
+        fs::write(&elsewhere, "").unwrap();
+        std::os::unix::fs::symlink(&elsewhere, &file).unwrap();
         let _shortcut = Shortcut::begin(&file, "http://127.0.0.1:8420/").unwrap();
         assert_eq!(mode(&file), 0o640);
-        assert!(!planted.exists());
+        assert_eq!(fs::read(&elsewhere).unwrap(), b"");
+    }
+
+    #[test]
+    fn a_file_that_is_none_is_not_overwritten() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("part.ngc");
+        fs::write(&file, "G0 X1\nM2\n").unwrap();
+        assert!(Shortcut::begin(&file, "http://127.0.0.1:8420/").is_err());
+        assert_eq!(fs::read(&file).unwrap(), b"G0 X1\nM2\n");
+        // One of before is, also after a server that was killed.
+        let file = folder.path().join("page.html");
+        core::mem::forget(Shortcut::begin(&file, "http://127.0.0.1:1/").unwrap());
+        let _again = Shortcut::begin(&file, "http://127.0.0.1:2/").unwrap();
+        assert!(fs::read_to_string(&file).unwrap().contains("127.0.0.1:2/"));
     }
 }

@@ -20,6 +20,7 @@ use super::shares::ToleranceShares;
 use super::thinning::MergedChord;
 use super::vector::{add_scaled, between, dot, minus};
 use super::window::{End, Window};
+use crate::ruled;
 use glidepath_program::Override;
 
 /// Turns, in rad, above which a vertex is a corner: in any case, if the path is straight on one
@@ -46,8 +47,6 @@ const ROOM_R: f64 = 1.5;
 /// A chord is bent if an arc over it that turns as much as the path does at its end leaves it by more than
 /// the tolerance: the sagitta is an eighth of length times turn.
 const BENT_R: f64 = 8.0;
-/// How far a curve over a chord that one can lay a ruler to may leave it, mm, without that a line is kept in its middle.
-const UNSEEN_MM: f64 = 4e-4;
 /// Most of a long chord that the curves at either end may take: .4 of it stay a line.
 const END_R: f64 = 0.3;
 /// Lengths in tolerances: of a chord whose middle is a line if it bends, and if it does not; of the
@@ -179,7 +178,7 @@ impl<const D: usize> SampleLayout<D> {
         // A curve that turns as the path does would leave a line that one can lay a ruler to.
         let before_ruled_t = chord
             .before_ruled_t()
-            .filter(|_| length_t * bend_rad > BENT_R * UNSEEN_MM);
+            .filter(|_| length_t * bend_rad > BENT_R * ruled::TURNED_MM);
         let is_long = before_ruled_t.is_some()
             || length_t > LONG_R * tolerance_mm
             || (is_bent && length_t > LONG_BENT_R / BESIDE_LINE_R * most_beside_t);

@@ -12,6 +12,7 @@
 //! rounded digits out before any angle is formed.
 
 use super::vector::{add_scaled, dot, minus, norm, tolerance_square};
+use crate::ruled::{self, RULED_MM};
 use core::mem;
 use core::ops::Range;
 use glidepath_program::ProgramLine;
@@ -23,10 +24,7 @@ const MOST_HELD: usize = 32;
 /// than a vertex makes of it that is off by such a share of that distance.
 const LONG_R: f64 = 4000.0;
 const TURNED_R: f64 = 0.25;
-/// A block from this length on is laid a ruler to in its middle half, mm; no dropped vertex turns it by more than so
-/// much, mm, of the micrometre that the motion may be beside it. A little less than a quarter of it is before that.
-const RULED_MM: f64 = 5.0;
-const RULED_TURNED_MM: f64 = 4e-4;
+/// A little less than a quarter of a block is before the middle half that is kept straight.
 const QUARTER_R: f64 = 0.24;
 
 /// A vertex, and the line of the block that ends in it.
@@ -144,7 +142,7 @@ impl<const D: usize> Thinning<D> {
         let chord = minus(point, &self.anchor);
         let per_square = 1.0 / dot(&chord, &chord);
         let allowed_mm = if is_long {
-            (TURNED_R * self.allowed_mm).min(RULED_TURNED_MM)
+            (TURNED_R * self.allowed_mm).min(ruled::TURNED_MM)
         } else {
             self.allowed_mm
         };
