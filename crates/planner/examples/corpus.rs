@@ -16,12 +16,14 @@
 
 #[path = "judged/figure.rs"]
 mod figure;
+#[path = "corpus/sums.rs"]
+mod sums;
 #[path = "judged/walls.rs"]
 mod walls;
 #[path = "families/workers.rs"]
 mod workers;
 
-use figure::{Figure, Together};
+use figure::Figure;
 use std::error::Error;
 use std::fs::File;
 use std::io::{BufReader, Read};
@@ -29,6 +31,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::Duration;
+use sums::Sums;
 
 use glidepath_audit::diagnosis::Diagnosis;
 use glidepath_audit::smoothness::Figures;
@@ -346,64 +349,6 @@ impl Ways {
             both(Plan::deviation),
             optimal.figure.events().1,
         )
-    }
-}
-
-/// What came of all programs.
-#[derive(Default)]
-struct Sums {
-    count: u32,
-    refused: u32,
-    slower: Vec<(String, f64)>,
-    broken: Vec<(String, Vec<String>)>,
-    figures: [Together; 2],
-}
-
-impl Sums {
-    fn add(&mut self, name: &str, ways: &Result<Ways, String>) {
-        match ways {
-            Ok(ways) => {
-                println!("{}", ways.row(name));
-                self.count += 1;
-                self.slower
-                    .extend(ways.lost_t().map(|lost_t| (name.to_owned(), lost_t)));
-                self.broken.push((name.to_owned(), ways.broken()));
-                for (sum, plan) in self.figures.iter_mut().zip([&ways.optimal, &ways.fast]) {
-                    sum.add(&plan.figure);
-                }
-            }
-            Err(error) => {
-                println!("| {name} | refused: {error} ||||||||||||||");
-                self.refused += 1;
-            }
-        }
-    }
-
-    fn print(&self) {
-        println!(
-            "\nSlower with optimal than with fast: {} of {}",
-            self.slower.len(),
-            self.count
-        );
-        for (name, lost_t) in &self.slower {
-            println!("* {name}: {lost_t:.3} s");
-        }
-        println!("\nBroken, and in brackets on the outer side of the program:");
-        for (name, broken) in &self.broken {
-            for what in broken {
-                println!("* {name}: {what}");
-            }
-        }
-        println!("\nPlanned {}, refused {}", self.count, self.refused);
-        for (figures, name) in self.figures.iter().zip(["optimal", "fast"]) {
-            println!("{}", figures.line(name));
-        }
-    }
-
-    /// True if nothing that is handed out is broken.
-    fn is_kept(&self) -> bool {
-        let all = self.broken.iter().flat_map(|(_, broken)| broken);
-        all.filter(|what| !what.contains("(outer side")).count() == 0
     }
 }
 
