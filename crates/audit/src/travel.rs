@@ -2,9 +2,9 @@
 //!
 //! At a frame an axis may be beyond an end by rounding alone: whoever plays the motion refuses more.
 //! Between two of them that report velocity and acceleration, the motion is the polynomial of degree
-//! five through both; that is what is played where time runs slower. With a jerk up to J it may swing
-//! over an end by a small share of J·T³, however exactly it comes to rest there: nothing on the grid
-//! of periods can avoid that, and it is nanometres.
+//! five through both; that is what is played where time runs slower. It is off a motion whose jerk is J
+//! at most by a small share of J·T³: a motion that is inside may be seen so much beyond, and one that is
+//! seen further beyond is not inside.
 
 use crate::sample::Seen;
 use crate::settings::AuditSettings;
@@ -12,9 +12,9 @@ use crate::violation::{ViolationKind, ViolationList};
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_program::Travel;
 
-/// What a polynomial between two samples may swing over an end, as a share of J·T³. The most that a
-/// rest with all of the jerk within a period makes is 1/768.
-const SWING_R: f64 = 1.0 / 384.0;
+/// What a polynomial between two samples may swing over an end, as a share of J·T³: the integral of
+/// Peano's kernel, half-way between them, where it is largest.
+const SWING_R: f64 = 1.0 / 161.0;
 /// Places between two samples that are looked at, near an end.
 const PLACES: u32 = 24;
 
@@ -154,7 +154,24 @@ fn between(from: &[f64; 3], to: &[f64; 3], t: f64, u: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::between;
+    use super::{SWING_R, between};
+
+    /// The kernel: what the polynomial is off (t − s)²/2 behind s, whose third derivative is an impulse.
+    #[test]
+    fn a_motion_is_off_its_samples_by_the_integral_of_the_kernel() {
+        let integral = |t: f64| {
+            let places = (0..4000).map(|k| (f64::from(k) + 0.5) / 4000.0);
+            let off = places.map(|s: f64| {
+                let end = [0.5 * (1.0 - s).powi(2), 1.0 - s, 1.0];
+                let motion = 0.5 * (t - s).max(0.0).powi(2);
+                (motion - between(&[0.0; 3], &end, 1.0, t)).abs()
+            });
+            off.sum::<f64>() / 4000.0
+        };
+        let most = (1..40).map(|k| integral(f64::from(k) / 40.0));
+        let most = most.fold(0.0, f64::max);
+        assert!(most <= SWING_R && most >= 0.99 * SWING_R, "{most}");
+    }
 
     #[test]
     fn a_polynomial_of_degree_five_is_found_again() {

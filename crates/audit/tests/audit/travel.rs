@@ -119,7 +119,7 @@ fn it_is_judged_away_from_the_path_too() {
 
 #[test]
 fn between_frames_a_motion_may_swing_over_an_end() {
-    let swing = JERK * PERIOD.powi(3) / 768.0;
+    let swing = JERK * PERIOD.powi(3) / 162.0;
     let judged = |x: f64, is_between_frames: bool| {
         let mut audit = Audit::new(&settings());
         audit.sample(&Sample {
@@ -130,5 +130,5 @@ fn between_frames_a_motion_may_swing_over_an_end() {
     };
     assert!(!judged(100.0 + swing, true));
     assert!(judged(100.0 + swing, false));
-    assert!(judged(100.0 + 3.0 * swing, true));
+    assert!(judged(100.0 + 1.1 * swing, true));
 }

@@ -8,6 +8,10 @@ use super::between_periods::BetweenPeriods;
 use glidepath_geometry::AXES;
 use glidepath_program::{Limits, Travel};
 
+/// What the motion may swing beyond an end between two periods, as a share of what jerk does in one: less than
+/// the [`Travel::SWING_R`] that a motion inside may be seen beyond. One that comes to rest there within a
+/// period, with all of the jerk, makes J·T³/768, and no motion on the grid of periods avoids it.
+const SWING_R: f64 = 1.0 / 400.0;
 /// Halvings of a period at most.
 const HALVINGS: u32 = 6;
 
@@ -24,7 +28,7 @@ pub(super) fn is_inside(limits: &Limits, period: &BetweenPeriods<'_>) -> bool {
         if at < low - Travel::ROUNDING || at > high + Travel::ROUNDING {
             return false;
         }
-        let swing = Travel::SWING_R * limits.jerk[i] * t * t * t + Travel::ROUNDING;
+        let swing = SWING_R * limits.jerk[i] * t * t * t + Travel::ROUNDING;
         holds(&period.bezier(i), (low - swing, high + swing), HALVINGS)
     })
 }
