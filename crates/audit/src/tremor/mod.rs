@@ -10,10 +10,13 @@
 //!    such a move every sample is further off than the one before, after it nearer. A rest of the
 //!    machine at the coordinate ends what came before it.
 //! 2. **A cruise has no jerk but that of the path** (`cruise`). On a line or an arc, where the speed
-//!    has been the programmed feed, to a twentieth, for the settling time and the time to reach it,
-//!    and will be, third differences are off what the piece asks for by at most a tenth of that and
-//!    a hundredth of the limit of the axis. What an arc asks for is v³/R² against its direction,
-//!    with the radius and the speed at which it is run: it may be cut within its tolerance.
+//!    has come to the programmed feed, and the settling time after that and before it is there last,
+//!    with no more than a twentieth off in between, third differences are off what the piece asks for
+//!    by at most a tenth of that and a hundredth of the limit of the axis, or it is a single step:
+//!    √2 times the root of the mean square over the settling time is at most that. What an arc asks
+//!    for is v³/R² against its direction, with the radius and the speed at which it is run: it may be
+//!    cut within its tolerance. Where it asks for nearly all that an axis can do, speed is not the
+//!    feed all the way round, and nothing is judged.
 //!
 //! What breaks them is told as [`AuditReport::tremors`](crate::AuditReport::tremors), and is no violation as
 //! long as [`TREMORS_ARE_VIOLATIONS`] is false.

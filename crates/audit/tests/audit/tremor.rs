@@ -336,3 +336,43 @@ fn behind_a_rest_nothing_is_left_to_round() {
         );
     }
 }
+
+#[test]
+fn a_single_step_of_jerk_is_no_tremor() {
+    // A sample that is a little ahead makes a jerk of 800, where 400 are allowed.
+    let ahead_mm = 800.0 * PERIOD.powi(3) / 3.0;
+    for (every, is_found) in [(1000, false), (5, true)] {
+        let (report, found) = line(|tick, _| {
+            let is_ahead = (230..330).contains(&tick) && tick % every == 250 % every;
+            [if is_ahead { ahead_mm } else { 0.0 }, 0.0, 0.0]
+        });
+        assert!(report.is_clean());
+        assert_eq!(report.tremor_count > 0, is_found, "{every}: {found:?}");
+    }
+}
+
+#[test]
+fn a_circle_that_asks_for_all_that_an_axis_can_do_is_not_judged() {
+    // 50 mm/s on a radius of 1.5 mm: 1 667 of 2 000 mm/s², and 55 556 of 40 000 mm/s³.
+    let radius_mm = 1.5;
+    let start = point(radius_mm, 0.0);
+    let arc = Arc {
+        start,
+        end: start,
+        plane: Plane::Xy,
+        center: [0.0; 2],
+        sweep_rad: 6.0 * TAU,
+    };
+    let program = [at_feed(1, Segment::Arc(arc))];
+    let swinging = |limits: Limits| {
+        let (report, _) = audit(limits, &program, arc.length(), |tick, s| {
+            let angle_rad = s / radius_mm;
+            let away_mm = between(10.0, arc.length() - 10.0, s, 5.0 * MICROMETRE);
+            let radius_mm = radius_mm - away_mm * (1.0 + wave(tick, 0.04));
+            point(radius_mm * angle_rad.cos(), radius_mm * angle_rad.sin())
+        });
+        report.tremor_count
+    };
+    assert_eq!(swinging(mill()), 0);
+    assert!(swinging(Limits::uniform(200.0, 4000.0, 1e5)) > 0);
+}
