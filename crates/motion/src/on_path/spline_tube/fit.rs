@@ -20,6 +20,7 @@
 
 use super::banded::Banded;
 use super::knots::{Basis, DEGREE, third_derivative};
+use super::still::StillCoordinates;
 use super::vector::{add_scaled, dot, minus};
 
 /// A point that the curve has to come near.
@@ -57,6 +58,7 @@ pub(super) struct Spline<const D: usize> {
     system: Banded<D>,
     /// Feet at the start of the fit, between which they may move.
     nominal_t: Vec<f64>,
+    still: StillCoordinates<D>,
 }
 
 impl<const D: usize> Spline<D> {
@@ -67,6 +69,7 @@ impl<const D: usize> Spline<D> {
             stiffness: Vec::new(),
             system: Banded::new(),
             nominal_t: Vec::new(),
+            still: StillCoordinates::new(),
         }
     }
 
@@ -79,6 +82,7 @@ impl<const D: usize> Spline<D> {
     pub(super) fn prepare(&mut self, samples: &[Sample<D>]) {
         self.nominal_t.clear();
         self.nominal_t.extend(samples.iter().map(|s| s.foot_t));
+        self.still.find(&self.knots, samples);
         self.stiffness.clear();
         self.stiffness.resize(self.control.len(), [0.0; 4]);
         for span in 0..self.spans() {
@@ -94,7 +98,8 @@ impl<const D: usize> Spline<D> {
     }
 
     /// Solves once, with so many control points fixed at each end, and moves the feet. The others are
-    /// put inside the travel, and the curve with them: it is in their hull.
+    /// put inside the travel, and the curve with them: it is in their hull; and where the program leaves an
+    /// axis alone.
     pub(super) fn solve(
         &mut self,
         samples: &mut [Sample<D>],
@@ -111,6 +116,7 @@ impl<const D: usize> Spline<D> {
             *point = add_scaled(point, 1.0, step);
         }
         let free = fixed.0.min(count)..count.saturating_sub(fixed.1).max(fixed.0.min(count));
+        self.still.hold(&mut self.control, &free);
         for point in &mut self.control[free] {
             for i in 0..D {
                 point[i] = point[i].max(lowest[i]).min(highest[i]);

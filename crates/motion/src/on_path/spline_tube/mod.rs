@@ -31,6 +31,7 @@ mod output;
 mod resort;
 mod sample_layout;
 mod shares;
+mod still;
 #[cfg(test)]
 mod tests;
 mod thinning;

@@ -50,6 +50,9 @@ impl<const D: usize> MergedChord<D> {
     /// How much of it, from its nearer end on, is before the middle half of a block that one can lay a ruler to;
     /// none if it has no such block.
     pub(super) fn before_ruled_t(&self) -> Option<f64> {
+        if self.length_t < RULED_MM {
+            return None;
+        }
         let starts = self.blocks.iter().map(|&(from_u, _)| from_u);
         let ends = self.blocks.iter().skip(1).map(|&(from_u, _)| from_u);
         let blocks_t = starts
