@@ -8,7 +8,9 @@
 //! told. Engines say what they pass and where they rest; the frames are made here, so that they
 //! tell the same story whoever planned them.
 
+use super::due_event::{Beside, DueEvent, PathPoint};
 use super::rest::{Rest, RestKind};
+use super::step::Step;
 use glidepath_geometry::AxisVector;
 use glidepath_program::{EVENTS_MOST, Event, Frame, FrameEvents, FrameFlags, ProgramLine};
 use std::collections::VecDeque;
@@ -19,10 +21,12 @@ pub(crate) struct FrameGrid {
     period_t: f64,
     sequence: u64,
     passing: Passing,
-    /// Events that the motion comes to in this period, and their path positions, mm.
-    events: VecDeque<(f64, Event)>,
+    /// Events that the motion comes to in this period.
+    events: VecDeque<DueEvent>,
     /// Path position and speed of the last frame.
     before: PathPoint,
+    /// Where the machine was then, and its velocity.
+    last: [AxisVector; 2],
     /// Frames still to come at rest.
     rest: Option<Resting>,
     /// The motion has come to rest, and no frame has told it yet.
@@ -69,40 +73,6 @@ pub(crate) struct Moving {
     pub acceleration: AxisVector,
 }
 
-/// Where the motion is along the path, and how fast.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct PathPoint {
-    s: f64,
-    v: f64,
-}
-
-impl PathPoint {
-    /// The part of a period, 0 to 1, after which the motion from here to another point, by the cubic
-    /// through both, is at a path position.
-    fn part_to(self, to: Self, at_s: f64, period_t: f64) -> f64 {
-        if at_s <= self.s {
-            return 0.0;
-        }
-        if at_s >= to.s {
-            return 1.0;
-        }
-        let (step, v0, v1) = (to.s - self.s, self.v * period_t, to.v * period_t);
-        let (c2, c3) = (3.0 * step - 2.0 * v0 - v1, v0 + v1 - 2.0 * step);
-        let passed = |u: f64| ((c3 * u + c2) * u + v0) * u >= at_s - self.s;
-        let (mut low, mut high) = (0.0, 1.0);
-        // To a billionth of the period.
-        for _ in 0..30 {
-            let middle = 0.5 * (low + high);
-            if passed(middle) {
-                high = middle;
-            } else {
-                low = middle;
-            }
-        }
-        high
-    }
-}
-
 #[derive(Debug, Clone, Copy)]
 struct Resting {
     frames: u64,
@@ -115,7 +85,7 @@ struct Resting {
 
 impl FrameGrid {
     /// The grid of a machine at rest at `start`; the first frame says so.
-    pub(crate) const fn new(period_t: f64, start: AxisVector) -> Self {
+    pub(crate) fn new(period_t: f64, start: AxisVector) -> Self {
         let first = Resting {
             frames: 1,
             of_motion: 0,
@@ -129,6 +99,7 @@ impl FrameGrid {
             passing: Passing::NONE,
             events: VecDeque::new(),
             before: PathPoint { s: 0.0, v: 0.0 },
+            last: [start, AxisVector::zeros()],
             rest: Some(first),
             arrives: false,
             position: start,
@@ -138,9 +109,22 @@ impl FrameGrid {
 
     /// The motion comes to another part of the program, whose events happen at a path position.
     pub(crate) fn enter(&mut self, passing: Passing, events: &[Event], at_s: f64) {
-        self.events
-            .extend(events.iter().map(|event| (at_s, *event)));
+        self.extend(events, at_s, None);
         self.passing = passing;
+    }
+
+    /// Events that happen where the motion is nearest to a place, about a path position.
+    pub(crate) fn announce(&mut self, events: &[Event], at_s: f64, beside: Beside) {
+        self.extend(events, at_s, Some(beside));
+    }
+
+    fn extend(&mut self, events: &[Event], at_s: f64, beside: Option<Beside>) {
+        let due = events.iter().map(|event| DueEvent {
+            event: *event,
+            at_s,
+            beside,
+        });
+        self.events.extend(due);
     }
 
     /// The motion goes on within that part, at a place with another line or override.
@@ -158,6 +142,7 @@ impl FrameGrid {
         self.passing.line = frame.program_line();
         self.passing.planned_override = frame.planned_override;
         self.arrives = false;
+        self.last = [frame.position, frame.velocity];
         self.before = PathPoint {
             s: frame.path_s,
             v: frame.path_v,
@@ -176,8 +161,8 @@ impl FrameGrid {
 
     /// Where the machine rests is 0 from now on.
     pub(crate) fn count_from_here(&mut self) {
-        for (at_s, _) in &mut self.events {
-            *at_s = 0.0;
+        for due in &mut self.events {
+            due.at_s = 0.0;
         }
         self.path_s = 0.0;
         self.before = PathPoint { s: 0.0, v: 0.0 };
@@ -241,7 +226,8 @@ impl FrameGrid {
             s: self.path_s,
             v: 0.0,
         };
-        let mut events = self.events_up_to(to, true);
+        self.last = [self.position, AxisVector::zeros()];
+        let mut events = self.events_up_to(to, None);
         if let Some(event) = resting.event.filter(|_| last) {
             let _has_room = events.push(event, self.period_ns());
         }
@@ -281,28 +267,35 @@ impl FrameGrid {
             s: moving.path_s,
             v: moving.path_v,
         };
-        let events = self.events_up_to(to, false);
+        let events = if self.events.is_empty() {
+            self.before = to;
+            FrameEvents::NONE
+        } else {
+            let step = Step {
+                from: self.last,
+                to: [moving.position, moving.velocity],
+                period_t: self.period_t,
+            };
+            self.events_up_to(to, Some(&step))
+        };
+        self.last = [moving.position, moving.velocity];
         self.frame(moving, flags, events)
     }
 
-    /// The events of the period that ends at a point, as many as it carries; at rest those of a place further on,
-    /// too, which rounding may have left.
-    fn events_up_to(&mut self, to: PathPoint, is_at_rest: bool) -> FrameEvents {
+    /// The events of the period that ends at a point, as many as it carries; at rest, where there is no step,
+    /// those of a place further on, too, which rounding may have left.
+    fn events_up_to(&mut self, to: PathPoint, step: Option<&Step>) -> FrameEvents {
         let before = core::mem::replace(&mut self.before, to);
         let mut events = FrameEvents::NONE;
-        if self.events.is_empty() {
-            return events;
-        }
         let period_ns = self.period_ns();
         let mut offset_ns = 0;
-        let due = self
-            .events
-            .iter()
-            .take(EVENTS_MOST)
-            .take_while(|(at_s, _)| is_at_rest || *at_s <= to.s);
-        let count = due.count();
-        for (at_s, event) in self.events.drain(..count) {
-            let part = before.part_to(to, at_s, self.period_t);
+        for _ in 0..EVENTS_MOST {
+            let Some(due) = self.events.front() else {
+                break;
+            };
+            let Some(part) = due.part(before, to, step, self.period_t) else {
+                break;
+            };
             #[allow(
                 clippy::cast_possible_truncation,
                 clippy::cast_sign_loss,
@@ -310,7 +303,8 @@ impl FrameGrid {
             )]
             let at_ns = (part * f64::from(period_ns)).round() as u32;
             offset_ns = offset_ns.max(at_ns);
-            let _has_room = events.push(event, offset_ns);
+            let _has_room = events.push(due.event, offset_ns);
+            self.events.pop_front();
         }
         events
     }

@@ -82,6 +82,7 @@
 //! | `_u` | a curve's own parameter, 0…1 |
 //! | `_k` | curvature, 1/mm |
 
+mod due_event;
 mod engine_kind;
 mod error;
 mod event_pace;
@@ -99,6 +100,7 @@ mod programmed_rate;
 mod rest;
 mod ruled;
 pub mod scurve;
+mod step;
 mod stretches;
 
 pub use error::PlanError;

@@ -229,12 +229,12 @@ impl InTubeEngine {
             return None;
         };
         let (grid, start_s) = (&mut self.grid, self.path_s);
-        stretch
-            .ledger
-            .come_to(period.tag, |passing, events, from_s| {
-                grid.enter(passing, events, start_s + from_s);
-            });
+        let here = (period.tag, period.path_s);
+        stretch.ledger.come_to(here, |events, from_s, beside| {
+            grid.announce(events, start_s + from_s, beside)
+        });
         if period.rest_at_end {
+            grid.pass(stretch.ledger.passing(period.path_s));
             return None;
         }
         grid.pass(stretch.ledger.passing_at(period.path_s, period.path_v));
@@ -257,9 +257,11 @@ impl InTubeEngine {
         let (end, end_s, then) = match &mut self.drive {
             Drive::Window(stretch) if stretch.planner.is_over() && stretch.then.is_some() => {
                 let (grid, start_s) = (&mut self.grid, self.path_s);
-                stretch.ledger.come_to(u64::MAX, |passing, events, from_s| {
-                    grid.enter(passing, events, start_s + from_s);
+                let ledger = &mut stretch.ledger;
+                ledger.come_to((u64::MAX, f64::INFINITY), |events, from_s, beside| {
+                    grid.announce(events, start_s + from_s, beside);
                 });
+                grid.pass(ledger.passing(f64::INFINITY));
                 let end_s = self.path_s + stretch.length_s;
                 (stretch.end, end_s, stretch.then)
             }

@@ -15,16 +15,19 @@ use super::ledger::LedgerEntry;
 use super::merging::Dropped;
 use super::path::{Reference, Straightness};
 use super::work_queue::{WorkItem, WorkQueue};
+use crate::due_event::Beside;
 use crate::intake::SHORTEST_MOVE_MM;
 use crate::programmed_rate::{ProgrammedRate, axes_speed};
 use crate::rest::Rest;
 use crate::ruled::{self, BESIDE_MM, RULED_MM};
-use glidepath_geometry::{LINEAR_XYZ, Segment, feed_length};
+use glidepath_geometry::{Segment, feed_length};
 use glidepath_program::{Item, ProgramLine, Settings, tolerance_norm};
 use std::collections::VecDeque;
 
 /// Share of the tolerance that a merged piece may be away from the chords it replaces.
 const MERGING_R: f64 = 0.1;
+/// How far before and behind an event's place, in tolerances, the motion may be nearest to that.
+const REACH_R: f64 = 2.0;
 /// Distance up to which a vertex counts as being on a line.
 const STRAIGHT_MM: f64 = 1e-9;
 /// From so many tolerances of length on a line is seen to be straight: it is turned by no more than a
@@ -163,6 +166,10 @@ impl Flattener {
             rate,
             length_s,
             events: chord.events,
+            beside: Beside {
+                place: chord.start,
+                reach_s: REACH_R * chord.tolerance_mm,
+            },
         };
         self.ready.push_back(Product::Piece(entry, reference));
     }
@@ -176,11 +183,9 @@ fn straightness(
     ruled_mm: Option<[f64; 2]>,
 ) -> Option<Straightness> {
     let displacement = chord.end - chord.start;
-    let others = displacement.iter().skip(LINEAR_XYZ.end);
-    let is_in_space = others.fold(0.0, |sum: f64, part| sum + part.abs()) <= 0.0;
     let is_cut = !chord.rate.is_rapid() && drawn_mm <= ruled::TURNED_MM;
     let length_mm = displacement.norm();
-    if !is_cut || !is_in_space || length_mm < RULED_MM {
+    if !is_cut || length_mm < RULED_MM {
         return None;
     }
     let whole = Straightness::of_move(BESIDE_MM - drawn_mm);

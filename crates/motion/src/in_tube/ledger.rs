@@ -1,5 +1,6 @@
 //! What the pieces of a stretch have to do with the program: their lines, rates and events, by tag.
 
+use crate::due_event::Beside;
 use crate::grid::Passing;
 use crate::programmed_rate::ProgrammedRate;
 use glidepath_program::{Event, Override, ProgramLine};
@@ -16,6 +17,8 @@ pub(crate) struct LedgerEntry {
     pub(crate) length_s: f64,
     /// Events that happen when it is entered, without stopping.
     pub(crate) events: Vec<Event>,
+    /// Where it begins.
+    pub(crate) beside: Beside,
 }
 
 /// The entries of a stretch that are not passed yet.
@@ -25,8 +28,8 @@ pub(crate) struct Ledger {
     /// Tag of the first of them, and where it begins.
     first: u64,
     first_s: f64,
-    /// Entries entered, counted from the start of the stretch.
-    entered: u64,
+    /// Entries whose events are told, counted from the start of the stretch.
+    announced: u64,
     wanted: Override,
     /// The override told last. A lower one than wanted is never told.
     told: Override,
@@ -38,7 +41,7 @@ impl Ledger {
             entries: VecDeque::new(),
             first: 0,
             first_s: 0.0,
-            entered: 0,
+            announced: 0,
             wanted,
             told: wanted,
         }
@@ -66,23 +69,45 @@ impl Ledger {
         })
     }
 
-    /// The motion comes to the entry with a tag: forgets those before it, and tells each that is
-    /// entered, in order, with its events and where it begins.
-    pub(crate) fn come_to(&mut self, tag: u64, mut enter: impl FnMut(Passing, &[Event], f64)) {
-        loop {
-            if self.entered <= self.first
-                && let Some(entry) = self.entries.front()
-            {
-                self.entered = self.first + 1;
-                enter(self.passing(self.first_s), &entry.events, self.first_s);
-            }
-            if self.first >= tag || self.entries.len() <= 1 {
-                return;
-            }
+    /// The motion comes to the entry with a tag, and to a path position: forgets the entries before it. Tells the
+    /// events of each that is entered or within reach, in order.
+    pub(crate) fn come_to(
+        &mut self,
+        (tag, path_s): (u64, f64),
+        mut tell: impl FnMut(&[Event], f64, Beside),
+    ) {
+        while self.first < tag && self.entries.len() > 1 {
+            self.announce(0, self.first_s, &mut tell);
             if let Some(entry) = self.entries.pop_front() {
                 self.first += 1;
                 self.first_s += entry.length_s;
             }
+        }
+        let mut start_s = self.first_s;
+        for index in 0..self.entries.len() {
+            let entry = &self.entries[index];
+            if index > 0 && start_s - entry.beside.reach_s > path_s {
+                break;
+            }
+            let length_s = entry.length_s;
+            self.announce(index, start_s, &mut tell);
+            start_s += length_s;
+        }
+    }
+
+    /// Tells the events of an entry, which begins at a path position, once.
+    fn announce(
+        &mut self,
+        index: usize,
+        start_s: f64,
+        tell: &mut impl FnMut(&[Event], f64, Beside),
+    ) {
+        if self.announced > self.first + index as u64 {
+            return;
+        }
+        self.announced = self.first + index as u64 + 1;
+        if let Some(entry) = self.entries.get(index) {
+            tell(&entry.events, start_s, entry.beside);
         }
     }
 
@@ -105,7 +130,8 @@ impl Ledger {
         self.passing(path_s)
     }
 
-    fn passing(&self, path_s: f64) -> Passing {
+    /// The place in the program at a path position of the first entry.
+    pub(crate) fn passing(&self, path_s: f64) -> Passing {
         let Some(entry) = self.entries.front() else {
             return Passing::NONE;
         };

@@ -5,7 +5,7 @@
 use crate::planned::{moves, numbered, plan};
 use crate::support::{FREE, at, efforts};
 use glidepath_audit::shape::{BEYOND_MM, ShapeAudit};
-use glidepath_audit::{Audit, AuditSettings};
+use glidepath_audit::{Audit, AuditSettings, ViolationKind};
 use glidepath_program::{Event, ItemKind};
 
 /// Lines of six millimetres that turn by a little more than a degree each: a curve through all of them was inside the
@@ -66,5 +66,88 @@ fn an_event_at_a_corner_happens_where_that_is_rounded() {
             let off_mm = report.max_event_off_mm;
             assert!(off_mm <= most_mm, "{:?}: {off_mm} mm", settings.effort);
         }
+    }
+}
+
+/// At a corner of ten degrees the motion turns back before it is at the vertex, and is nearest to it before or after
+/// what its path position says: there events were half as far off again as the tolerance.
+#[test]
+fn an_event_at_a_sharp_corner_happens_where_the_motion_is_nearest() {
+    let corners = [
+        [
+            at(-10.1641, 48.6575),
+            at(-20.6390, 63.7633),
+            at(-14.7740, 52.4753),
+        ],
+        [at(2.2208, 0.4989), at(3.1563, 0.3175), at(2.8273, 0.1910)],
+        [at(0.0, 0.0), at(15.0, 5.0), at(1.0, 1.5)],
+    ];
+    for (settings, points) in efforts()
+        .into_iter()
+        .flat_map(|settings| corners.map(|points| (settings, points)))
+    {
+        let points = points.map(|point| point - points[0]);
+        let [first, second]: [ItemKind; 2] =
+            moves(&points, 45.0, FREE).try_into().expect("two moves");
+        let event = ItemKind::Event(Event::SpindleSpeed(700.0));
+        let items = numbered(vec![first, event, second]);
+        let frames = plan(&items, settings, usize::MAX);
+        let mut audit = Audit::new(&AuditSettings::from(&settings));
+        items.iter().for_each(|item| audit.program(item));
+        frames.iter().for_each(|frame| audit.frame(frame));
+        let report = audit.finish();
+        assert_eq!(report.events, 1);
+        let nearest = frames.windows(2).map(|pair| {
+            let (from, to) = (pair[0].position, pair[1].position);
+            (0..=20)
+                .map(|k| (from + (to - from) * (f64::from(k) / 20.0) - points[1]).norm())
+                .fold(f64::INFINITY, f64::min)
+        });
+        let nearest_mm = nearest.fold(f64::INFINITY, f64::min);
+        // Between two frames the motion is no straight line in time.
+        let off_mm = report.max_event_off_mm;
+        assert!(
+            off_mm <= nearest_mm + 0.003,
+            "{:?}: {off_mm} mm, {nearest_mm} at best",
+            settings.effort
+        );
+    }
+}
+
+/// Rows of short lines with a step between: the spline that is laid through them swung about the coordinate of a row.
+#[test]
+fn an_axis_that_a_row_leaves_alone_is_still() {
+    let (mut points, mut y) = (vec![at(0.0, 0.0)], 0.0);
+    for row in 0..4 {
+        for k in 1..=100 {
+            let x = 0.05 * f64::from(if row % 2 == 0 { k } else { 100 - k });
+            let mut point = at(x, y);
+            point[2] = 0.3 * (2.0 * x).sin();
+            points.push(point);
+        }
+        y += 0.02;
+        let mut stepped = points[points.len() - 1];
+        stepped[1] = y;
+        points.push(stepped);
+    }
+    for settings in efforts() {
+        let items = numbered(moves(&points, 30.0, FREE));
+        let frames = plan(&items, settings, usize::MAX);
+        let mut audit = Audit::new(&AuditSettings::from(&settings));
+        items.iter().for_each(|item| audit.program(item));
+        frames.iter().for_each(|frame| audit.frame(frame));
+        let report = audit.finish();
+        assert!(report.is_clean(), "{report:#?}");
+        let moved = report
+            .tremors
+            .iter()
+            .filter(|tremor| matches!(tremor.kind, ViolationKind::NotStill { .. }));
+        assert_eq!(
+            moved.count(),
+            0,
+            "{:?}: {:?}",
+            settings.effort,
+            report.tremors
+        );
     }
 }
