@@ -2,6 +2,7 @@
 
 use crate::channels::Channels;
 use crate::clock::ClockKind;
+use crate::position_loop::{OffsetAccess, PositionLoop};
 use crate::spindle::SpindleMotor;
 use crate::touch_probe::TouchProbe;
 
@@ -78,6 +79,10 @@ pub struct DriveSettings {
     pub start_counts: Vec<i32>,
     /// Time constant of its lag, s; 0 for none.
     pub lag_t: f64,
+    /// Its loops and its motor, in the place of a lag.
+    pub position_loop: Option<PositionLoop>,
+    /// What it has of the objects of velocity and torque beside a target.
+    pub offsets: OffsetAccess,
     /// How long it takes from "switched on" to "operation enabled", s: a brake opens.
     pub brake_t: f64,
     /// Deviation of its quartz, ppm.
@@ -221,6 +226,8 @@ impl Default for DriveSettings {
             axes: 1,
             start_counts: Vec::new(),
             lag_t: 0.002,
+            position_loop: None,
+            offsets: OffsetAccess::None,
             brake_t: 0.02,
             drift_ppm: 0.0,
             home: None,

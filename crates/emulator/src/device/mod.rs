@@ -21,6 +21,7 @@ use crate::memory::{
     WATCHDOG_OUTPUTS, WATCHDOG_STATUS,
 };
 use crate::pins::Pins;
+use crate::position_loop::OffsetAccess;
 use crate::process;
 use crate::settings::{DriveSettings, ImageAccess, Maps, OutputWatchdog, SyncType};
 use crate::states::{self, ERROR, INIT, OP, PRE_OP, SAFE_OP};
@@ -34,6 +35,8 @@ pub struct SyncRecord {
     pub index: u8,
     /// The target that took effect.
     pub target: i32,
+    /// What was told beside it: 0x60B1 and 0x60B2.
+    pub offsets: (i32, i16),
     /// Where the motor was then.
     pub actual: i32,
     /// The statusword from then on.
@@ -96,6 +99,9 @@ impl Device {
         };
         if let Maps::Fixed { outputs, inputs } = &settings.maps {
             objects.fix_maps(outputs, inputs);
+        }
+        if settings.offsets != OffsetAccess::None {
+            objects.add_offsets(axes);
         }
         if let Some(probe) = settings.touch_probe {
             objects.add_touch_probes(axes, probe.has_sources);
@@ -251,11 +257,12 @@ impl Device {
             let is_told = self.settings.sync_type == SyncType::Written;
             let (maps, is_drive) = (&self.settings.maps, self.settings.channels.is_none());
             let touch_probe = self.settings.touch_probe;
+            let mappable = (touch_probe, self.settings.offsets);
             let refusal = |objects: &Dictionary, object: Object, value: u32| match object {
                 (0x1600..=0x1bff | 0x1c12 | 0x1c13, _) if is_fixed => Some(NO_ACCESS),
                 (0x1c12 | 0x1c13, _) if matches!(maps, Maps::Fixed { .. }) => Some(READ_ONLY),
                 (0x1600..=0x1bff, _) if !is_drive => Some(READ_ONLY),
-                (0x1600..=0x1bff, 1..) if !process::is_mappable(touch_probe, value) => {
+                (0x1600..=0x1bff, 1..) if !process::is_mappable(mappable, value) => {
                     Some(NOT_MAPPABLE)
                 }
                 (0x1600..=0x1bff, 1..)

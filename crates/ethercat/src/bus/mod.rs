@@ -12,6 +12,7 @@ mod group;
 mod init;
 mod mailbox;
 mod mapping;
+mod offsets;
 mod op;
 mod others;
 mod parameters;

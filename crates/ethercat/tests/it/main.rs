@@ -15,6 +15,7 @@ mod bring_up;
 mod captures;
 mod encoder;
 mod ending;
+mod feed_forward;
 mod judge;
 mod life;
 mod losses;
