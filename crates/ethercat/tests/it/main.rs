@@ -27,6 +27,7 @@ mod spindle;
 mod terminals;
 mod terminals_up;
 mod threads;
+mod whole_machine;
 mod wire;
 
 /// The thread of the bus does not allocate.
