@@ -20,7 +20,7 @@
 //! garbage in the times of closed ports, terminals that note times and have no clock. Terminals have
 //! digital inputs and outputs without a mailbox, or analog ones and encoders with; any part of the line can be unplugged.
 //!
-//! What it does not have: redundancy, segmented SDO and complete access, hot connect.
+//! What it does not have: redundancy, complete access to objects, hot connect.
 //!
 //! ```
 //! use glidepath_emulator::{DriveSettings, Segment};
@@ -50,6 +50,7 @@ mod eeprom;
 mod encoder;
 mod frame;
 mod injected_fault;
+mod long_objects;
 mod memory;
 mod pins;
 mod position_loop;
@@ -68,6 +69,7 @@ pub use clock::ClockKind;
 pub use contact::Probe;
 pub use encoder::Encoder;
 pub use injected_fault::InjectedFault;
+pub use long_objects::SegmentFault;
 pub use pins::OutputRecord;
 pub use position_loop::{OffsetAccess, PositionLoop};
 pub use segment::{Segment, SyncRecord};

@@ -2,6 +2,7 @@
 
 use crate::channels::Channels;
 use crate::clock::ClockKind;
+use crate::long_objects::SegmentFault;
 use crate::position_loop::{OffsetAccess, PositionLoop};
 use crate::spindle::SpindleMotor;
 use crate::touch_probe::TouchProbe;
@@ -94,6 +95,10 @@ pub struct DriveSettings {
     pub following_counts: u32,
     /// Its maps.
     pub maps: Maps,
+    /// Its objects of more than four bytes, by index and subindex.
+    pub long_objects: Vec<((u16, u8), Vec<u8>)>,
+    /// What it does wrong where those go in segments.
+    pub segment_fault: SegmentFault,
     /// Whether its EEPROM says where its process data is.
     pub tells_managers: bool,
     /// How it takes process data.
@@ -233,6 +238,8 @@ impl Default for DriveSettings {
             home: None,
             following_counts: u32::MAX,
             maps: Maps::Free,
+            long_objects: Vec::new(),
+            segment_fault: SegmentFault::None,
             tells_managers: true,
             image: ImageAccess::Both,
             watchdog: OutputWatchdog::Told,

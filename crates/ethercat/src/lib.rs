@@ -26,7 +26,7 @@
 //! the drives of `glidepath-emulator`, which three other masters have accepted.
 //!
 //! What it does not do: rings of cable, drives without clocks, terminals that work with SYNC0, hot connect,
-//! segmented parameters, redundancy, safety over EtherCAT.
+//! redundancy, safety over EtherCAT.
 //!
 //! Invariants:
 //!
@@ -58,13 +58,16 @@ mod feed_forward;
 mod frame;
 mod image;
 mod layout;
+mod mail;
 mod probe;
 mod probe_trouble;
 mod registers;
 mod run;
+mod segments;
 mod settings;
 mod state;
 mod terminal;
+mod transfer_trouble;
 mod wire;
 
 pub use abort_text::text as abort_text;
@@ -94,4 +97,5 @@ pub use terminal::{
     ANALOG_INPUTS, AnalogInput, AnalogOutput, At, DIGITAL_INPUTS, DigitalInput, DigitalOutput,
     EncoderSettings, Parameter, Quantity, Signal, SpindleMode, SpindleSettings, TerminalSettings,
 };
+pub use transfer_trouble::TransferTrouble;
 pub use wire::{MAX_FRAME, PacketWire, Wire, WireError};

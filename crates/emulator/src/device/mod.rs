@@ -15,6 +15,7 @@ use crate::dictionary::{
 use crate::drive::Drive;
 use crate::eeprom::{self, MAILBOX, MAILBOX_OUT};
 use crate::injected_fault::InjectedFault;
+use crate::long_objects::LongObjects;
 use crate::memory::{
     AL_CODE, AL_CONTROL, AL_STATUS, CLOCK, EEPROM_CONTROL, Memory, PORT_TIMES, SPEED_START,
     STATION_ADDRESS, SYNC_ACTIVATION, SYNC_MANAGER, SYSTEM_TIME, WATCHDOG_DIVIDER,
@@ -106,10 +107,11 @@ impl Device {
         if let Some(probe) = settings.touch_probe {
             objects.add_touch_probes(axes, probe.has_sources);
         }
+        let long = LongObjects::new(&settings.long_objects, settings.segment_fault);
         Self {
             eeprom: eeprom::image(settings),
             objects,
-            mailbox: Mailbox::new(settings.drops_repeats),
+            mailbox: Mailbox::new(settings.drops_repeats, long),
             clock: DeviceClock::new(host_ns, 0.0, settings.drift_ppm),
             drives: (0..settings.axes)
                 .map(|axis| Drive::new(settings, axis))
@@ -133,6 +135,11 @@ impl Device {
     /// When it reads a frame, ns since the first device did.
     pub(crate) const fn read_ns(&self) -> u64 {
         self.passage.read_ns
+    }
+
+    /// The bytes of one of its long objects.
+    pub(crate) fn long_object(&self, object: Object) -> Option<&[u8]> {
+        self.mailbox.long.get(object)
     }
 
     pub(crate) fn station_address(&self) -> u16 {

@@ -215,7 +215,7 @@ impl ProbeMail {
         let next = match coe::reply(message, probe.object(what)) {
             Reply::Value(value) => probe.take(what, value),
             // What it refuses now it took before the cycles began (see `probes`): asked again in its turn.
-            Reply::Abort(_) => None,
+            Reply::Abort(_) | Reply::Longer(_) => None,
             Reply::Other => return false,
         };
         self.question = None;

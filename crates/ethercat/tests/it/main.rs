@@ -23,6 +23,7 @@ mod machine;
 mod maps;
 mod matrix;
 mod probing;
+mod segments;
 mod spindle;
 mod terminals;
 mod terminals_up;
