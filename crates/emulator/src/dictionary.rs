@@ -23,6 +23,9 @@ pub(crate) const TORQUE_LIMITS: [Object; 2] = [(0x60e0, 0), (0x60e1, 0)];
 pub(crate) const PROBE_FUNCTION: Object = (0x60b8, 0);
 pub(crate) const PROBE_SOURCE: u16 = 0x60d0;
 pub(crate) const DIGITAL_INPUTS: Object = (0x60fd, 0);
+pub(crate) const HISTORY: u16 = 0x10f3;
+/// Which of its messages is the newest.
+pub(crate) const NEWEST: Object = (HISTORY, 2);
 pub(crate) const SYNC_OUTPUTS: Object = (0x1c32, 1);
 pub(crate) const SYNC_INPUTS: Object = (0x1c33, 1);
 
@@ -243,6 +246,20 @@ impl Dictionary {
         for first in (0..axes).map(|axis| OBJECT_STEP * axis) {
             self.0.insert((0x60b1 + first, 0), (4, 0));
             self.0.insert((0x60b2 + first, 0), (2, 0));
+        }
+    }
+
+    /// The diagnosis history: how many messages there are at most, and which is the newest.
+    pub(crate) fn add_history(&mut self, messages: u32) {
+        for (sub, size, value) in [
+            (0, 1, 5 + messages),
+            (1, 1, messages),
+            (2, 1, 0),
+            (3, 1, 0),
+            (4, 1, 0),
+            (5, 2, 0),
+        ] {
+            self.0.insert((HISTORY, sub), (size, value));
         }
     }
 

@@ -98,6 +98,11 @@ impl LongObjects {
         self.objects.get(&object).map(Vec::as_slice)
     }
 
+    /// Puts others in their place.
+    pub(crate) fn put(&mut self, object: Object, bytes: Vec<u8>) {
+        self.objects.insert(object, bytes);
+    }
+
     /// A request of the master, from its command on, as long as the message says.
     pub(crate) fn take(&mut self, request: &[u8]) -> Taken {
         let Some(&[command, low, high, sub]) = request.first_chunk() else {

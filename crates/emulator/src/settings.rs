@@ -99,6 +99,8 @@ pub struct DriveSettings {
     pub long_objects: Vec<((u16, u8), Vec<u8>)>,
     /// What it does wrong where those go in segments.
     pub segment_fault: SegmentFault,
+    /// Whether it keeps a diagnosis history (0x10F3) of what is injected into it.
+    pub has_history: bool,
     /// Whether its EEPROM says where its process data is.
     pub tells_managers: bool,
     /// How it takes process data.
@@ -240,6 +242,7 @@ impl Default for DriveSettings {
             maps: Maps::Free,
             long_objects: Vec::new(),
             segment_fault: SegmentFault::None,
+            has_history: false,
             tells_managers: true,
             image: ImageAccess::Both,
             watchdog: OutputWatchdog::Told,

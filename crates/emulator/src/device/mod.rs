@@ -1,5 +1,6 @@
 //! An emulated device: what its registers do when they are read and written, and when time passes.
 
+mod history;
 mod motion;
 mod probing;
 mod simple;
@@ -104,6 +105,9 @@ impl Device {
         if settings.offsets != OffsetAccess::None {
             objects.add_offsets(axes);
         }
+        if settings.has_history {
+            objects.add_history(history::MESSAGES);
+        }
         if let Some(probe) = settings.touch_probe {
             objects.add_touch_probes(axes, probe.has_sources);
         }
@@ -175,7 +179,12 @@ impl Device {
                 (self.drives, self.records, self.pins) = (drives, records, pins);
                 self.settle_pins(now_ns);
             }
-            upset => self.drives.iter_mut().for_each(|drive| drive.inject(upset)),
+            upset => {
+                if let InjectedFault::Fault(code) = upset {
+                    self.note_fault(code, now_ns);
+                }
+                self.drives.iter_mut().for_each(|drive| drive.inject(upset));
+            }
         }
     }
 

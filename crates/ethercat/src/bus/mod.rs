@@ -9,6 +9,7 @@ mod aside;
 mod bus_time;
 mod clocks;
 mod group;
+mod history_mail;
 mod init;
 mod mailbox;
 mod mapping;
