@@ -1,7 +1,8 @@
-//! The mailbox: SDO requests of up to four bytes, and emergencies.
+//! The mailbox: SDO requests, and emergencies.
 
 use crate::dictionary::{Dictionary, Object};
 use crate::eeprom::MAILBOX;
+use crate::long_objects::{LongObjects, Taken};
 use crate::memory::{Memory, SYNC_MANAGER};
 use std::collections::VecDeque;
 
@@ -27,6 +28,8 @@ pub(crate) struct Mailbox {
     drops_repeats: bool,
     /// That number; 0 is none.
     number: u8,
+    /// Objects of more than four bytes.
+    pub(crate) long: LongObjects,
 }
 
 fn message(kind: u8, service: u16, data: &[u8]) -> Vec<u8> {
@@ -39,9 +42,10 @@ fn message(kind: u8, service: u16, data: &[u8]) -> Vec<u8> {
 }
 
 impl Mailbox {
-    pub(crate) fn new(drops_repeats: bool) -> Self {
+    pub(crate) fn new(drops_repeats: bool, long: LongObjects) -> Self {
         Self {
             drops_repeats,
+            long,
             ..Self::default()
         }
     }
@@ -83,6 +87,7 @@ impl Mailbox {
     /// Forgets everything.
     pub(crate) fn clear(&mut self) {
         self.waiting.clear();
+        self.long.clear();
         self.number = 0;
     }
 
@@ -120,6 +125,16 @@ impl Mailbox {
         self.number = number;
         if self.drops_repeats && number != 0 && number == before {
             return;
+        }
+        let end = 6 + usize::from(u16::from_le_bytes([sent[0], sent[1]]));
+        match self.long.take(sent.get(8..end).unwrap_or_default()) {
+            Taken::Answer((service, body)) => {
+                self.waiting.push_back(message(kind, service, &body));
+                self.offer(memory);
+                return;
+            }
+            Taken::Silence => return,
+            Taken::No => {}
         }
         let index = u16::from_le_bytes([low, high]);
         let object = (index, sub);

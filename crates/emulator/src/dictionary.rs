@@ -18,9 +18,14 @@ pub(crate) const HOMING_SPEED: Object = (0x6099, 1);
 pub(crate) const MODE: Object = (0x6060, 0);
 /// The limit of torque, thousandths of the rated one.
 pub(crate) const MOST_TORQUE: Object = (0x6072, 0);
+/// The limits of torque forwards and backwards, the same.
+pub(crate) const TORQUE_LIMITS: [Object; 2] = [(0x60e0, 0), (0x60e1, 0)];
 pub(crate) const PROBE_FUNCTION: Object = (0x60b8, 0);
 pub(crate) const PROBE_SOURCE: u16 = 0x60d0;
 pub(crate) const DIGITAL_INPUTS: Object = (0x60fd, 0);
+pub(crate) const HISTORY: u16 = 0x10f3;
+/// Which of its messages is the newest.
+pub(crate) const NEWEST: Object = (HISTORY, 2);
 pub(crate) const SYNC_OUTPUTS: Object = (0x1c32, 1);
 pub(crate) const SYNC_INPUTS: Object = (0x1c33, 1);
 
@@ -155,6 +160,8 @@ impl Dictionary {
         }
         set(0x6060, 0, 1, 0);
         set(0x6072, 0, 2, 1000);
+        set(0x60e0, 0, 2, 1000);
+        set(0x60e1, 0, 2, 1000);
         set(0x605a, 0, 2, 2);
         set(0x605e, 0, 2, 2);
         set(0x6065, 0, 4, following_counts);
@@ -231,6 +238,28 @@ impl Dictionary {
                 add(PROBE_SOURCE, 1, 2, 5);
                 add(PROBE_SOURCE, 2, 2, 5);
             }
+        }
+    }
+
+    /// The objects of what is told beside a target.
+    pub(crate) fn add_offsets(&mut self, axes: u16) {
+        for first in (0..axes).map(|axis| OBJECT_STEP * axis) {
+            self.0.insert((0x60b1 + first, 0), (4, 0));
+            self.0.insert((0x60b2 + first, 0), (2, 0));
+        }
+    }
+
+    /// The diagnosis history: how many messages there are at most, and which is the newest.
+    pub(crate) fn add_history(&mut self, messages: u32) {
+        for (sub, size, value) in [
+            (0, 1, 5 + messages),
+            (1, 1, messages),
+            (2, 1, 0),
+            (3, 1, 0),
+            (4, 1, 0),
+            (5, 2, 0),
+        ] {
+            self.0.insert((HISTORY, sub), (size, value));
         }
     }
 

@@ -1,13 +1,16 @@
 //! An emulated drive with its motor: what happens at every SYNC0.
 //!
 //! The motor follows its target with a lag of first order, so that at a speed v it is v·τ behind:
-//! `x += (target − x) (1 − e^(−T/τ))`. A motor without current stands: it has a brake.
+//! `x += (target − x) (1 − e^(−T/τ))`; or it has loops and inertia. A motor without current stands: it has a
+//! brake.
 
 use crate::dictionary::{
     AxisObjects, FOLLOWING_TIMEOUT, FOLLOWING_WINDOW, HOME_OFFSET, HOMING_METHOD, HOMING_SPEED,
-    MOST_TORQUE, QUICK_STOP,
+    MOST_TORQUE, QUICK_STOP, TORQUE_LIMITS,
 };
+use crate::drive_io::{Inputs, Outputs};
 use crate::injected_fault::InjectedFault;
+use crate::position_loop::{Motor, PositionLoop, Told};
 use crate::power::Power;
 use crate::settings::{DriveSettings, HomeSwitch};
 use crate::spindle::SpindleMotor;
@@ -24,37 +27,6 @@ const FOLLOWING_ERROR: u16 = 0x8611;
 /// The same for a bus that is lost while there is power.
 const BUS_LOST: u16 = 0x7500;
 
-/// The outputs of the master to the drive.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Outputs {
-    pub(crate) control: u16,
-    pub(crate) target: i32,
-    pub(crate) mode: i8,
-    /// 0x60FF, counts/s.
-    pub(crate) velocity: i32,
-    /// 0x6042, rev/min.
-    pub(crate) speed_rpm: i16,
-    /// 0x60B8.
-    pub(crate) probe: u16,
-}
-
-/// The inputs of the master from the drive.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Inputs {
-    pub(crate) status: u16,
-    pub(crate) actual: i32,
-    pub(crate) mode: i8,
-    pub(crate) fault: u16,
-    /// 0x606C, counts/s.
-    pub(crate) velocity: i32,
-    /// 0x6044, rev/min.
-    pub(crate) speed_rpm: i16,
-    /// 0x60FD.
-    pub(crate) digital: u32,
-    /// 0x60B9, and 0x60BA to 0x60BD.
-    pub(crate) probe: (u16, [[i32; 2]; 2]),
-}
-
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Homing {
     No,
@@ -70,6 +42,9 @@ pub(crate) struct Drive {
     brake_t: f64,
     home: Option<HomeSwitch>,
     spindle: Option<SpindleMotor>,
+    loops: Option<PositionLoop>,
+    /// Where its loops are, while they follow.
+    motor: Option<Motor>,
     power: Power,
     /// Where the motor is, counts from zero of its encoder.
     place: f64,
@@ -102,6 +77,8 @@ impl Drive {
             brake_t: settings.brake_t,
             home: settings.home,
             spindle: settings.spindle,
+            loops: settings.position_loop,
+            motor: None,
             power: Power::SwitchOnDisabled,
             place: settings.start_counts.get(axis).copied().unwrap_or(0).into(),
             offset: 0.0,
@@ -240,8 +217,11 @@ impl Drive {
             Power::Enabled if outputs.mode == HOMING => {
                 self.go_home(step_t, starts_homing, objects);
             }
-            Power::Enabled if outputs.mode == CYCLIC_POSITION => self.follow(step_t),
+            Power::Enabled if outputs.mode == CYCLIC_POSITION => self.follow(step_t, objects),
             _ => {}
+        }
+        if self.power != Power::Enabled || outputs.mode != CYCLIC_POSITION {
+            self.motor = None;
         }
         if outputs.mode != HOMING {
             self.homing = Homing::No;
@@ -280,7 +260,11 @@ impl Drive {
             to_ns,
             from,
             to: self.told_place(),
-            lag_t: if is_led { self.lag_t } else { 0.0 },
+            lag_t: if is_led && self.loops.is_none() {
+                self.lag_t
+            } else {
+                0.0
+            },
         };
         if let Some(ways) = &mut self.ways {
             ways.push(way);
@@ -352,8 +336,24 @@ impl Drive {
         }
     }
 
-    fn follow(&mut self, step_t: f64) {
+    fn follow(&mut self, step_t: f64, objects: AxisObjects<'_>) {
         let target = f64::from(self.outputs.target) - self.offset;
+        if let Some(loops) = self.loops {
+            let motor = self
+                .motor
+                .get_or_insert_with(|| Motor::standing(loops, self.place));
+            let told = Told {
+                target,
+                velocity: self.outputs.velocity_offset.into(),
+                torque: self.outputs.torque_offset.into(),
+            };
+            let most = TORQUE_LIMITS.map(|limit| {
+                let most = objects.value(limit).min(objects.value(MOST_TORQUE));
+                f64::from(most)
+            });
+            self.place = motor.step(self.place, step_t, told, most.into());
+            return;
+        }
         let share = if self.lag_t > 0.0 {
             1.0 - (-step_t / self.lag_t).exp()
         } else {

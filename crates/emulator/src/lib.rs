@@ -4,7 +4,7 @@
 //! ```text
 //!   frame ─► device 0 ─► device 1 ─► … ─► frame, with answers and working counters
 //!              │ registers, EEPROM, mailbox, clock          (this crate does no I/O)
-//!              ├ drive: CiA 402 at every SYNC0, motor with lag, or a spindle with inertia, touch probe
+//!              ├ drive: CiA 402 at every SYNC0, motor with lag, or with loops and inertia; a spindle; touch probe
 //!              └ terminal: pins that follow frames, and fall with the watchdog
 //! ```
 //!
@@ -20,7 +20,7 @@
 //! garbage in the times of closed ports, terminals that note times and have no clock. Terminals have
 //! digital inputs and outputs without a mailbox, or analog ones and encoders with; any part of the line can be unplugged.
 //!
-//! What it does not have: redundancy, segmented SDO and complete access, hot connect.
+//! What it does not have: redundancy, complete access to objects, hot connect.
 //!
 //! ```
 //! use glidepath_emulator::{DriveSettings, Segment};
@@ -45,12 +45,15 @@ mod contact;
 mod device;
 mod dictionary;
 mod drive;
+mod drive_io;
 mod eeprom;
 mod encoder;
 mod frame;
 mod injected_fault;
+mod long_objects;
 mod memory;
 mod pins;
+mod position_loop;
 mod power;
 mod process;
 mod segment;
@@ -66,7 +69,9 @@ pub use clock::ClockKind;
 pub use contact::Probe;
 pub use encoder::Encoder;
 pub use injected_fault::InjectedFault;
+pub use long_objects::SegmentFault;
 pub use pins::OutputRecord;
+pub use position_loop::{OffsetAccess, PositionLoop};
 pub use segment::{Segment, SyncRecord};
 pub use settings::{DriveSettings, HomeSwitch, ImageAccess, Maps, OutputWatchdog, SyncType};
 pub use spindle::SpindleMotor;

@@ -3,8 +3,9 @@
 use crate::dictionary::{
     AxisObjects, DIGITAL_INPUTS, Dictionary, MODE, Mapped, OBJECT_STEP, Object, PROBE_FUNCTION, own,
 };
-use crate::drive::{Inputs, Outputs};
+use crate::drive_io::{Inputs, Outputs};
 use crate::memory::Memory;
+use crate::position_loop::OffsetAccess;
 use crate::touch_probe::TouchProbe;
 
 /// What the master has written for an axis; what is no demand goes to the objects.
@@ -35,8 +36,10 @@ pub(crate) fn outputs(
             (of, 0x6060) if of == axis => outputs.mode = value as u8 as i8,
             (of, 0x60ff) if of == axis => outputs.velocity = value as u32 as i32,
             (of, 0x6042) if of == axis => outputs.speed_rpm = value as u16 as i16,
+            (of, 0x60b1) if of == axis => outputs.velocity_offset = value as u32 as i32,
+            (of, 0x60b2) if of == axis => outputs.torque_offset = value as u16 as i16,
             (of, 0x60b8) if of == axis => outputs.probe = value as u16,
-            (_, 0x6040 | 0x607a | 0x6060 | 0x60ff | 0x6042 | 0x60b8) => {}
+            (_, 0x6040 | 0x607a | 0x6060 | 0x60ff | 0x6042 | 0x60b1 | 0x60b2 | 0x60b8) => {}
             _ => objects.set((object.index, object.sub), value as u32),
         }
     }
@@ -68,10 +71,17 @@ pub(crate) fn put_inputs(memory: &mut Memory, mapped: &[Mapped], inputs: Inputs,
     }
 }
 
-/// Whether an entry of a map is no object of a touch probe, or one that can be mapped.
-pub(crate) fn is_mappable(probe: Option<TouchProbe>, entry: u32) -> bool {
+/// Whether an entry of a map is no object of a touch probe and no offset, or one that can be mapped.
+pub(crate) fn is_mappable(
+    (probe, offsets): (Option<TouchProbe>, OffsetAccess),
+    entry: u32,
+) -> bool {
     let (_, index) = own(u16::try_from(entry >> 16).unwrap_or(0));
     let is_of_probe = matches!(index, 0x60b8..=0x60bd);
+    let is_offset = matches!(index, 0x60b1 | 0x60b2);
+    if is_offset {
+        return offsets == OffsetAccess::Mapped;
+    }
     !is_of_probe || probe.is_some_and(|probe| probe.is_mappable)
 }
 

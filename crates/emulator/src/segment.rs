@@ -181,6 +181,12 @@ impl Segment {
         records.map(core::mem::take).unwrap_or_default()
     }
 
+    /// The bytes of an object of more than four of a device.
+    #[must_use]
+    pub fn long_object(&self, device: usize, object: (u16, u8)) -> Option<&[u8]> {
+        self.devices.get(device)?.long_object(object)
+    }
+
     /// Lets time pass without a frame.
     pub fn advance(&mut self, now_ns: u64) {
         for device in &mut self.devices {

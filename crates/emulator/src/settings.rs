@@ -2,6 +2,8 @@
 
 use crate::channels::Channels;
 use crate::clock::ClockKind;
+use crate::long_objects::SegmentFault;
+use crate::position_loop::{OffsetAccess, PositionLoop};
 use crate::spindle::SpindleMotor;
 use crate::touch_probe::TouchProbe;
 
@@ -78,6 +80,10 @@ pub struct DriveSettings {
     pub start_counts: Vec<i32>,
     /// Time constant of its lag, s; 0 for none.
     pub lag_t: f64,
+    /// Its loops and its motor, in the place of a lag.
+    pub position_loop: Option<PositionLoop>,
+    /// What it has of the objects of velocity and torque beside a target.
+    pub offsets: OffsetAccess,
     /// How long it takes from "switched on" to "operation enabled", s: a brake opens.
     pub brake_t: f64,
     /// Deviation of its quartz, ppm.
@@ -89,6 +95,12 @@ pub struct DriveSettings {
     pub following_counts: u32,
     /// Its maps.
     pub maps: Maps,
+    /// Its objects of more than four bytes, by index and subindex.
+    pub long_objects: Vec<((u16, u8), Vec<u8>)>,
+    /// What it does wrong where those go in segments.
+    pub segment_fault: SegmentFault,
+    /// Whether it keeps a diagnosis history (0x10F3) of what is injected into it.
+    pub has_history: bool,
     /// Whether its EEPROM says where its process data is.
     pub tells_managers: bool,
     /// How it takes process data.
@@ -221,11 +233,16 @@ impl Default for DriveSettings {
             axes: 1,
             start_counts: Vec::new(),
             lag_t: 0.002,
+            position_loop: None,
+            offsets: OffsetAccess::None,
             brake_t: 0.02,
             drift_ppm: 0.0,
             home: None,
             following_counts: u32::MAX,
             maps: Maps::Free,
+            long_objects: Vec::new(),
+            segment_fault: SegmentFault::None,
+            has_history: false,
             tells_managers: true,
             image: ImageAccess::Both,
             watchdog: OutputWatchdog::Told,

@@ -1,22 +1,12 @@
-//! Parameters of a device by its mailbox: SDO of up to four bytes (ETG.1000.6, CoE).
+//! Parameters of a device by its mailbox: SDO of up to four bytes (ETG.1000.6, CoE). Longer ones go in
+//! segments.
 
 use crate::device::Device;
 use crate::error::BusError;
-use crate::exchange::{Exchange, station};
-use crate::frame::{Address, Command};
-use crate::registers::{MAILBOX_IN_STATUS, MAILBOX_OUT_STATUS};
+use crate::exchange::Exchange;
+use crate::mail;
+use crate::transfer_trouble::TransferTrouble;
 use crate::wire::Wire;
-
-/// How long a device may take to answer.
-const PATIENCE_NS: u64 = 1_000_000_000;
-/// Between two looks for the answer.
-const POLL_NS: u64 = 500_000;
-/// How often a parameter is asked for, because a message can be lost on its way back.
-const TRIES: u32 = 3;
-/// Messages of other kinds that are passed over in waiting for an answer.
-const MOST_OTHERS: usize = 16;
-/// Bit of a mailbox' status.
-const FULL: u8 = 8;
 
 /// An object, and how many bytes it has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,6 +31,8 @@ pub(crate) enum Reply {
     Value(u32),
     /// The code of the refusal.
     Abort(u32),
+    /// The parameter has so many bytes, more than four.
+    Longer(u32),
     /// Something else.
     Other,
 }
@@ -85,7 +77,7 @@ pub(crate) fn reply(message: &[u8], object: Object) -> Reply {
     let value = u32::from_le_bytes([a, b, c, d]);
     match (kind & 15, service >> 4, command >> 5) {
         (3, 2 | 3, 4) if is_asked => Reply::Abort(value),
-        // Expedited, with the size in the command; or longer, and then its first bytes are its length.
+        // Expedited, with the size in the command.
         (3, 3, 2) if is_asked && command & 2 != 0 => {
             let unused = if command & 1 != 0 {
                 command >> 2 & 3
@@ -94,6 +86,15 @@ pub(crate) fn reply(message: &[u8], object: Object) -> Reply {
             };
             Reply::Value(value & (u32::MAX >> (8 * u32::from(unused))))
         }
+        // As a whole, behind its length.
+        (3, 3, 2) if is_asked && value > 4 => Reply::Longer(value),
+        (3, 3, 2) if is_asked => message
+            .get(16..)
+            .and_then(|data| data.get(..value as usize))
+            .map_or(Reply::Other, |data| {
+                let bytes = data.iter().rev();
+                Reply::Value(bytes.fold(0, |number, byte| number << 8 | u32::from(*byte)))
+            }),
         (3, 3, 3) if is_asked => Reply::Value(0),
         _ => Reply::Other,
     }
@@ -124,75 +125,40 @@ fn transfer<W: Wire>(
     object: Object,
     value: Option<u32>,
 ) -> Result<u32, BusError> {
-    let nth = device.position;
-    let silent = || BusError::NoAnswer {
-        device: nth,
-        action: "to a parameter",
-        tries: TRIES,
+    let asked = message(object, value, 0);
+    let mut answer = |message: &[u8]| match reply(message, object) {
+        // An emergency, or the answer to a question that was given up.
+        Reply::Other => None,
+        reply => Some(reply),
     };
-    let (out, back) = device.mailbox.ok_or_else(silent)?;
-    for _ in 0..TRIES {
-        // What is left of a question before.
-        while take(bus, nth, back.start, back.length)?.is_some() {}
-        let mut sent = vec![0; out.length.into()];
-        sent[..16].copy_from_slice(&message(object, value, bus.next_number(nth)));
-        wait_until_free(bus, nth)?;
-        bus.write(nth, out.start, &sent, "to a message")?;
-        let until_ns = bus.wire.now_ns() + PATIENCE_NS;
-        let mut others = 0;
-        while bus.wire.now_ns() < until_ns && others < MOST_OTHERS {
-            let Some(message) = take(bus, nth, back.start, back.length)? else {
-                let next_ns = bus.wire.now_ns() + POLL_NS;
-                bus.wire.sleep_until(next_ns);
-                continue;
-            };
-            match reply(&message, object) {
-                Reply::Value(value) => return Ok(value),
-                Reply::Abort(code) => {
-                    return Err(BusError::Object {
-                        device: nth,
-                        name: device.name.clone(),
-                        index: object.index,
-                        sub: object.sub,
-                        code,
-                    });
-                }
-                // An emergency, or the answer to a question that was given up.
-                Reply::Other => others += 1,
+    for _ in 0..mail::TRIES {
+        match mail::ask(bus, device, &asked, &mut answer)? {
+            Some(Reply::Value(value)) => return Ok(value),
+            Some(Reply::Abort(code)) => {
+                return Err(BusError::Object {
+                    device: device.position,
+                    name: device.name.clone(),
+                    index: object.index,
+                    sub: object.sub,
+                    code,
+                });
             }
+            Some(Reply::Longer(told)) => {
+                return Err(BusError::Transfer {
+                    device: device.position,
+                    name: device.name.clone(),
+                    index: object.index,
+                    sub: object.sub,
+                    trouble: TransferTrouble::TooLong {
+                        told: told as usize,
+                        most: object.size.into(),
+                    },
+                });
+            }
+            Some(Reply::Other) | None => {}
         }
     }
-    Err(silent())
-}
-
-/// Waits until the device has taken the message before.
-fn wait_until_free<W: Wire>(bus: &mut Exchange<'_, W>, nth: usize) -> Result<(), BusError> {
-    let until_ns = bus.wire.now_ns() + PATIENCE_NS;
-    loop {
-        let [status] = bus.read(nth, MAILBOX_OUT_STATUS, "about its mailbox")?;
-        if status & FULL == 0 || bus.wire.now_ns() > until_ns {
-            return Ok(());
-        }
-        let next_ns = bus.wire.now_ns() + POLL_NS;
-        bus.wire.sleep_until(next_ns);
-    }
-}
-
-/// Takes the message that waits, if one does.
-fn take<W: Wire>(
-    bus: &mut Exchange<'_, W>,
-    nth: usize,
-    start: u16,
-    length: u16,
-) -> Result<Option<Vec<u8>>, BusError> {
-    let [status] = bus.read(nth, MAILBOX_IN_STATUS, "about its mailbox")?;
-    if status & FULL == 0 {
-        return Ok(None);
-    }
-    let mut message = vec![0; length.into()];
-    let address = Address::station(station(nth), start);
-    let asked = bus.ask(Command::Fprd, address, &mut message, 1)?;
-    Ok(asked.filter(|(counter, _)| *counter == 1).map(|_| message))
+    Err(mail::silent(device))
 }
 
 /// The error code of an emergency, if a message is one.
@@ -214,6 +180,20 @@ mod tests {
         assert!(matches!(reply(&message, wanted), Reply::Value(1)));
         message[9] = 0x66;
         assert!(matches!(reply(&message, wanted), Reply::Other));
+        // A device may tell as a whole what would fit into the answer.
+        let whole = |told: u8| {
+            let head = [
+                16, 0, 0, 0, 0, 3, 0, 0x30, 0x41, 0x65, 0x60, 0, told, 0, 0, 0,
+            ];
+            [&head[..], &[1, 2, 3, 4, 5, 6]].concat()
+        };
+        assert!(matches!(reply(&whole(2), wanted), Reply::Value(0x0201)));
+        assert!(matches!(
+            reply(&whole(4), wanted),
+            Reply::Value(0x0403_0201)
+        ));
+        assert!(matches!(reply(&whole(6), wanted), Reply::Longer(6)));
+        assert!(matches!(reply(&whole(4)[..18], wanted), Reply::Other));
         let abort = [10, 0, 0, 0, 0, 3, 0, 0x20, 0x80, 0x65, 0x60, 0, 0, 0, 2, 6];
         assert!(matches!(reply(&abort, wanted), Reply::Abort(0x0602_0000)));
         let sent = [10, 0, 0, 0, 0, 3, 0, 0x10, 0x80, 0x73, 0x20, 0, 0, 0, 0, 0];

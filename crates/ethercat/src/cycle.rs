@@ -16,6 +16,7 @@ use crate::bus::{Init, Op, Reception};
 use crate::bus_clock::{Beat, BusClock};
 use crate::counts::Counts;
 use crate::demand::Demand;
+use crate::diagnosis::Diagnosis;
 use crate::error::BusError;
 use crate::event::Event;
 use crate::image::Inputs;
@@ -103,6 +104,7 @@ pub fn drive_bus<W: Wire, S: Subscriber<Setpoint>>(
                     inputs: vec![Inputs::default(); settings.drives.len()],
                     lost: 0,
                     targets_ns: 0,
+                    has_spindle_failed: false,
                 };
                 let end = run.cycles(stop, boot_id());
                 let stale = run.op.stale();
@@ -144,6 +146,8 @@ struct Run<'a, 'w, W, S: Subscriber<Setpoint>> {
     lost: u32,
     /// The SYNC0 whose targets have reached the drives last, ns.
     targets_ns: u64,
+    /// The drive of the spindle reports a fault.
+    has_spindle_failed: bool,
 }
 
 impl<W: Wire, S: Subscriber<Setpoint>> Run<'_, '_, W, S> {
@@ -203,7 +207,11 @@ impl<W: Wire, S: Subscriber<Setpoint>> Run<'_, '_, W, S> {
         while let Some(Ok(record)) = ends.auxiliary.as_mut().map(Consumer::pop) {
             self.bridge.hear_record(&record, now_ns);
         }
-        let mut tell = |event| ends.tell(event);
+        let failed = &mut self.has_spindle_failed;
+        let mut tell = |event| {
+            *failed |= matches!(event, Event::SpindleFault(_));
+            ends.tell(event);
+        };
         let meant_ns = beat.sync_ns.saturating_sub(self.settings.bus.delay_ns);
         self.bridge.cycle(now_ns, meant_ns, since_ns, &mut tell);
         self.bridge
@@ -235,6 +243,16 @@ impl<W: Wire, S: Subscriber<Setpoint>> Run<'_, '_, W, S> {
         if let Some((nth, code)) = self.op.take_emergency() {
             self.ends.tell(emergency(self.settings, nth, code));
         }
+        if core::mem::take(&mut self.has_spindle_failed) {
+            // That of a drive or a terminal shows in its state; this one's is among its inputs.
+            let mut terminals = self.settings.terminals.iter();
+            let spindle = terminals.position(|terminal| terminal.spindle.is_some());
+            self.op
+                .want_history(self.settings.drives.len() + spindle.unwrap_or(0));
+        }
+        if let Some((nth, diagnosis)) = self.op.take_diagnosis() {
+            self.ends.tell(history(self.settings, nth, diagnosis));
+        }
         self.op.wire().now_ns()
     }
 
@@ -246,8 +264,11 @@ impl<W: Wire, S: Subscriber<Setpoint>> Run<'_, '_, W, S> {
             Ok(Reception::Lost)
         };
         let reception = received.unwrap_or(Reception::Lost);
-        let ends = &mut *self.ends;
-        let mut tell = |event| ends.tell(event);
+        let (ends, failed) = (&mut *self.ends, &mut self.has_spindle_failed);
+        let mut tell = |event| {
+            *failed |= matches!(event, Event::SpindleFault(_));
+            ends.tell(event);
+        };
         match reception {
             Reception::Good(times) => {
                 clock.hear(times);
@@ -287,8 +308,20 @@ fn emergency(settings: &Settings, nth: usize, code: u16) -> Event {
     if let Some(drive) = settings.drives.get(nth) {
         return Event::Emergency(drive.joint, code);
     }
-    let terminal = settings
-        .terminals
-        .get(nth.saturating_sub(settings.drives.len()));
-    Event::TerminalEmergency(terminal.map_or(nth, |terminal| terminal.position), code)
+    Event::TerminalEmergency(position(settings, nth), code)
+}
+
+/// A message of its diagnosis history.
+fn history(settings: &Settings, nth: usize, diagnosis: Diagnosis) -> Event {
+    if let Some(drive) = settings.drives.get(nth) {
+        return Event::History(drive.joint, diagnosis);
+    }
+    Event::TerminalHistory(position(settings, nth), diagnosis)
+}
+
+/// Where the nth device is, if that is no drive.
+fn position(settings: &Settings, nth: usize) -> usize {
+    let other = nth.saturating_sub(settings.drives.len());
+    let terminal = settings.terminals.get(other);
+    terminal.map_or(nth, |terminal| terminal.position)
 }

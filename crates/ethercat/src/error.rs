@@ -1,6 +1,7 @@
 //! The errors of a bus, as an operator is told.
 
 use crate::terminal::At;
+use crate::transfer_trouble::TransferTrouble;
 use crate::{abort_text, al_status};
 use std::io;
 
@@ -119,6 +120,20 @@ pub enum BusError {
         /// SDO abort code.
         code: u32,
     },
+    /// A parameter did not come, or was not taken, as a whole.
+    #[error("device {device} ({name}): object {index:#06x}:{sub} did not go as a whole: {trouble}")]
+    Transfer {
+        /// Counted from the master, from 0.
+        device: usize,
+        /// Its name.
+        name: String,
+        /// Index.
+        index: u16,
+        /// Subindex.
+        sub: u8,
+        /// What is wrong.
+        trouble: TransferTrouble,
+    },
     /// The clocks do not agree.
     #[error(
         "the clocks of the drives are still {worst_ns} ns apart after {waited_s} s: is every drive \
@@ -158,7 +173,9 @@ impl BusError {
     pub const fn refused_part(&self) -> Option<RefusedPart> {
         let (position, at) = match self {
             Self::Missing { position, .. } | Self::Other { position, .. } => (*position, None),
-            Self::Unfit { device, .. } | Self::Object { device, .. } => (*device, None),
+            Self::Unfit { device, .. }
+            | Self::Object { device, .. }
+            | Self::Transfer { device, .. } => (*device, None),
             Self::Unwired {
                 device,
                 at,

@@ -1,6 +1,7 @@
 //! The events on the bus, for the log.
 
 use crate::bus_fault::BusFault;
+use crate::diagnosis::Diagnosis;
 use crate::probe_trouble::ProbeTrouble;
 use crate::{al_status, fault_text, state};
 use core::fmt;
@@ -25,6 +26,10 @@ pub enum Event {
     Gone(usize),
     /// A drive has sent an emergency.
     Emergency(usize, u16),
+    /// The diagnosis history of a drive that has failed has a new message.
+    History(usize, Diagnosis),
+    /// The same of the device at this place of the line.
+    TerminalHistory(usize, Diagnosis),
     /// The device at this place of the line, which is no drive, does not answer.
     TerminalGone(usize),
     /// It is not in OP, with its AL status code.
@@ -83,6 +88,13 @@ impl fmt::Display for Event {
             Self::Emergency(joint, code) => {
                 write!(f, "J{joint}: emergency message {}", fault_text::text(*code))
             }
+            Self::History(joint, diagnosis) => {
+                write!(f, "J{joint}: the drive's diagnosis history has {diagnosis}")
+            }
+            Self::TerminalHistory(position, diagnosis) => write!(
+                f,
+                "the device at position {position}: its diagnosis history has {diagnosis}"
+            ),
             Self::TerminalGone(position) => write!(
                 f,
                 "the device at position {position} does not answer: its supply, or the cable before it"

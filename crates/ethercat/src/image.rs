@@ -1,5 +1,6 @@
 //! Process data of one drive: what it means.
 
+use crate::feed_forward::Offsets;
 use crate::layout::{Layout, ProbeAccess};
 use crate::probe::{ProbeInputs, ProbeUse};
 use crate::state;
@@ -14,6 +15,8 @@ pub struct Outputs {
     pub target: i32,
     /// Mode of operation, 0x6060.
     pub mode: i8,
+    /// What the target takes, 0x60B1 and 0x60B2; zero where nothing moves.
+    pub offsets: Offsets,
     /// What the unit of its touch probe does, 0x60B8.
     pub probe: ProbeUse,
     /// What it keeps is to be asked, where it is not in the process data.
@@ -51,6 +54,7 @@ impl Default for Outputs {
             control: 0,
             target: 0,
             mode: CYCLIC_POSITION,
+            offsets: Offsets::NONE,
             probe: ProbeUse::Off,
             asks_probe: false,
         }
@@ -65,6 +69,7 @@ impl Outputs {
             control: 0,
             target: inputs.actual,
             mode: CYCLIC_POSITION,
+            offsets: Offsets::NONE,
             probe: ProbeUse::Off,
             asks_probe: false,
         }
@@ -81,6 +86,12 @@ impl Outputs {
         write(layout.target, &self.target.to_le_bytes());
         if let Some(at) = layout.mode {
             write(at, &self.mode.to_le_bytes());
+        }
+        if let Some(at) = layout.velocity_offset {
+            write(at, &self.offsets.velocity.to_le_bytes());
+        }
+        if let Some(at) = layout.torque_offset {
+            write(at, &self.offsets.torque.to_le_bytes());
         }
         if let Some(access) = layout.probe
             && let Some(at) = access.function

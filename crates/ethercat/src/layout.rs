@@ -3,6 +3,7 @@
 use crate::device::Device;
 use crate::entry::{Entry, bits};
 use crate::probe::TouchProbe;
+use crate::settings::DriveSettings;
 
 const CONTROL: Wanted = Wanted(0x6040, 16, "0x6040 (controlword)");
 const TARGET: Wanted = Wanted(0x607a, 32, "0x607A (target position)");
@@ -12,6 +13,8 @@ const ACTUAL: Wanted = Wanted(0x6064, 32, "0x6064 (actual position)");
 const SHOWN_MODE: Wanted = Wanted(0x6061, 8, "0x6061 (mode in force)");
 const FAULT: Wanted = Wanted(0x603f, 16, "0x603F (error code)");
 
+const VELOCITY_OFFSET: Wanted = Wanted(0x60b1, 32, "0x60B1 (velocity offset)");
+const TORQUE_OFFSET: Wanted = Wanted(0x60b2, 16, "0x60B2 (torque offset)");
 const DIGITAL: Wanted = Wanted(0x60fd, 32, "0x60FD (digital inputs)");
 const PROBE_FUNCTION: Wanted = Wanted(0x60b8, 16, "0x60B8 (touch probe)");
 const PROBE_STATUS: Wanted = Wanted(0x60b9, 16, "0x60B9 (touch probe status)");
@@ -51,6 +54,9 @@ pub(crate) struct Layout {
     pub(crate) target: usize,
     /// Where the mode is; `None` if it is not mapped, and was set as a parameter.
     pub(crate) mode: Option<usize>,
+    /// Where what is told beside the target is; `None` if it is not to be told.
+    pub(crate) velocity_offset: Option<usize>,
+    pub(crate) torque_offset: Option<usize>,
     pub(crate) status: usize,
     pub(crate) actual: usize,
     pub(crate) shown_mode: Option<usize>,
@@ -107,26 +113,53 @@ impl ProbeAccess {
     }
 }
 
+/// What has to be mapped of a drive beside what every one needs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) struct Needs {
+    /// The mode has to be switched and seen.
+    pub(crate) switches_mode: bool,
+    /// Its digital inputs are read.
+    pub(crate) has_inputs: bool,
+    /// The velocity and the torque of the motion are told.
+    pub(crate) offsets: [bool; 2],
+}
+
+impl Needs {
+    pub(crate) fn of(drive: &DriveSettings) -> Self {
+        Self {
+            switches_mode: drive.homing.is_some(),
+            has_inputs: drive.has_inputs,
+            offsets: drive.feed_forward.map_or([false; 2], |told| {
+                [told.velocity_units.is_some(), told.torque.is_some()]
+            }),
+        }
+    }
+}
+
 impl Layout {
     /// The layout of what is mapped, or the object that is missing or not where a byte begins. `own`
-    /// is where the axis has an object. `switches_mode` if the mode has to be switched and seen, `has_inputs`
-    /// if its digital inputs have to.
+    /// is where the axis has an object.
     pub(crate) fn of(
         outputs: &[Entry],
         inputs: &[Entry],
         own: &dyn Fn(u16) -> u16,
-        (switches_mode, has_inputs): (bool, bool),
+        needs: Needs,
     ) -> Result<Self, &'static str> {
         let mapped = |entries| Mapped { entries, own };
         let (outputs, inputs) = (mapped(outputs), mapped(inputs));
-        if switches_mode {
+        if needs.switches_mode {
             outputs.place_or_name(MODE)?;
             inputs.place_or_name(SHOWN_MODE)?;
         }
-        if has_inputs {
+        if needs.has_inputs {
             inputs.place_or_name(DIGITAL)?;
         }
+        let [velocity_offset, torque_offset] = needs.offsets;
+        let offset =
+            |is_needed: bool, wanted| is_needed.then(|| outputs.place_or_name(wanted)).transpose();
         Ok(Self {
+            velocity_offset: offset(velocity_offset, VELOCITY_OFFSET)?,
+            torque_offset: offset(torque_offset, TORQUE_OFFSET)?,
             control: outputs.place_or_name(CONTROL)?,
             target: outputs.place_or_name(TARGET)?,
             mode: outputs.place(MODE),
@@ -220,7 +253,7 @@ mod tests {
         let outputs = entries(&[0x6040_0010, 0x607a_0020, 0x6840_0010, 0x687a_0020]);
         let inputs = entries(&[0x6841_0010, 0x6864_0020, 0x6041_0010, 0x6064_0020]);
         let second = |index| index + 0x800;
-        let layout = Layout::of(&outputs, &inputs, &second, (false, false)).unwrap();
+        let layout = Layout::of(&outputs, &inputs, &second, Needs::default()).unwrap();
         let seen = (layout.control, layout.target, layout.status, layout.actual);
         assert_eq!(seen, (6, 8, 0, 2));
         assert!(outputs.iter().all(|entry| entry.is_led()));
@@ -232,28 +265,55 @@ mod tests {
         // As an Omron G5 has it.
         let outputs = entries(&[0x6040_0010, 0x607a_0020, 0x60b8_0010, 0x60fe_0120]);
         let inputs = entries(&[0x603f_0010, 0x6041_0010, 0x6064_0020, 0x60fd_0020]);
-        let layout = Layout::of(&outputs, &inputs, &own, (false, false)).unwrap();
+        let layout = Layout::of(&outputs, &inputs, &own, Needs::default()).unwrap();
         assert_eq!((layout.control, layout.target, layout.mode), (0, 2, None));
         let seen = (layout.fault, layout.status, layout.actual);
         assert_eq!(seen, (Some(0), 2, 4));
-        let refused = Layout::of(&outputs, &inputs, &own, (true, false));
+        let switches_mode = Needs {
+            switches_mode: true,
+            ..Needs::default()
+        };
+        let has_inputs = Needs {
+            has_inputs: true,
+            ..Needs::default()
+        };
+        let refused = Layout::of(&outputs, &inputs, &own, switches_mode);
         assert_eq!(refused, Err("0x6060 (mode)"));
         assert_eq!(layout.digital, Some(8));
-        let refused = Layout::of(&outputs, &inputs[..3], &own, (false, true));
+        let refused = Layout::of(&outputs, &inputs[..3], &own, has_inputs);
         assert_eq!(refused, Err("0x60FD (digital inputs)"));
+    }
+
+    #[test]
+    fn offsets_are_found_where_they_are_to_be_told_alone() {
+        let outputs = entries(&[0x6040_0010, 0x607a_0020, 0x60b1_0020, 0x60b2_0010]);
+        let inputs = entries(&[0x6041_0010, 0x6064_0020]);
+        let of = |outputs: &[Entry], offsets| {
+            let needs = Needs {
+                offsets,
+                ..Needs::default()
+            };
+            let layout = Layout::of(outputs, &inputs, &own, needs)?;
+            Ok::<_, &'static str>((layout.velocity_offset, layout.torque_offset))
+        };
+        assert_eq!(of(&outputs, [false, false]), Ok((None, None)));
+        assert_eq!(of(&outputs, [true, false]), Ok((Some(6), None)));
+        assert_eq!(of(&outputs, [true, true]), Ok((Some(6), Some(10))));
+        let refused = of(&outputs[..3], [true, true]);
+        assert_eq!(refused, Err("0x60B2 (torque offset)"));
     }
 
     #[test]
     fn what_is_inside_a_byte_or_of_another_size_does_not_count() {
         let outputs = entries(&[0x0000_0004, 0x6040_0010, 0x0000_0004, 0x607a_0020]);
         let inputs = entries(&[0x6041_0010, 0x6064_0010]);
-        let refused = Layout::of(&outputs, &inputs, &own, (false, false));
+        let refused = Layout::of(&outputs, &inputs, &own, Needs::default());
         assert_eq!(refused, Err("0x6040 (controlword)"));
         let refused = Layout::of(
             &entries(&[0x6040_0010, 0x607a_0020]),
             &inputs,
             &own,
-            (false, false),
+            Needs::default(),
         );
         assert_eq!(refused, Err("0x6064 (actual position)"));
     }

@@ -26,7 +26,7 @@
 //! the drives of `glidepath-emulator`, which three other masters have accepted.
 //!
 //! What it does not do: rings of cable, drives without clocks, terminals that work with SYNC0, hot connect,
-//! segmented parameters, redundancy, safety over EtherCAT.
+//! redundancy, safety over EtherCAT.
 //!
 //! Invariants:
 //!
@@ -48,22 +48,27 @@ mod cycle;
 mod demand;
 mod device;
 mod device_state;
+mod diagnosis;
 mod eeprom;
 mod entry;
 mod error;
 mod event;
 mod exchange;
 mod fault_text;
+mod feed_forward;
 mod frame;
 mod image;
 mod layout;
+mod mail;
 mod probe;
 mod probe_trouble;
 mod registers;
 mod run;
+mod segments;
 mod settings;
 mod state;
 mod terminal;
+mod transfer_trouble;
 mod wire;
 
 pub use abort_text::text as abort_text;
@@ -78,10 +83,12 @@ pub use cycle::{Ends, drive_bus};
 pub use demand::Demand;
 pub use device::{ClockKind, Device, Identity, SyncManager, Window};
 pub use device_state::DeviceState;
+pub use diagnosis::Diagnosis;
 pub use entry::{Entry, Mapping};
 pub use error::{BusError, RefusedPart};
 pub use event::Event;
 pub use fault_text::text as fault_text;
+pub use feed_forward::{FeedForward, Offsets, TorqueModel};
 pub use frame::{Address, Answer, Command, Frame, Slot};
 pub use image::{Inputs, Outputs};
 pub use probe::{ProbeInputs, ProbeUse, TouchProbe};
@@ -92,4 +99,5 @@ pub use terminal::{
     ANALOG_INPUTS, AnalogInput, AnalogOutput, At, DIGITAL_INPUTS, DigitalInput, DigitalOutput,
     EncoderSettings, Parameter, Quantity, Signal, SpindleMode, SpindleSettings, TerminalSettings,
 };
+pub use transfer_trouble::TransferTrouble;
 pub use wire::{MAX_FRAME, PacketWire, Wire, WireError};

@@ -1,6 +1,7 @@
 //! The settings of the bus and of its drives.
 
 use crate::entry::Mapping;
+use crate::feed_forward::{FeedForward, Offsets};
 use crate::probe::TouchProbe;
 use crate::terminal::{DigitalInput, TerminalSettings};
 use glidepath_geometry::AXES;
@@ -93,6 +94,8 @@ pub struct DriveSettings {
     pub enable_window: f64,
     /// Deceleration of the drive's own stop, mm/s² or °/s².
     pub quick_stop_a: f64,
+    /// What of the motion is told beside its targets; `None` for nothing.
+    pub feed_forward: Option<FeedForward>,
     /// Its touch probe; of all drives or of none.
     pub probe: Option<TouchProbe>,
     /// Which touch probe keeps the index pulse of its encoder while the joint looks for its home by that; the one that
@@ -141,6 +144,14 @@ impl DriveSettings {
         (f64::from(i32::MIN)..=f64::from(i32::MAX))
             .contains(&counts)
             .then_some(counts as i32)
+    }
+
+    /// What is told beside the target of a motion with this velocity and acceleration.
+    pub(crate) fn offsets(&self, velocity: f64, acceleration: f64) -> Offsets {
+        let (sign, told) = (self.sign(), self.feed_forward);
+        told.map_or_else(Offsets::default, |told| {
+            told.offsets(sign * velocity, sign * acceleration)
+        })
     }
 
     /// A positive rate or distance in counts, at most what the object can hold.

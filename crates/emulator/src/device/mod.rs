@@ -1,5 +1,6 @@
 //! An emulated device: what its registers do when they are read and written, and when time passes.
 
+mod history;
 mod motion;
 mod probing;
 mod simple;
@@ -15,12 +16,14 @@ use crate::dictionary::{
 use crate::drive::Drive;
 use crate::eeprom::{self, MAILBOX, MAILBOX_OUT};
 use crate::injected_fault::InjectedFault;
+use crate::long_objects::LongObjects;
 use crate::memory::{
     AL_CODE, AL_CONTROL, AL_STATUS, CLOCK, EEPROM_CONTROL, Memory, PORT_TIMES, SPEED_START,
     STATION_ADDRESS, SYNC_ACTIVATION, SYNC_MANAGER, SYSTEM_TIME, WATCHDOG_DIVIDER,
     WATCHDOG_OUTPUTS, WATCHDOG_STATUS,
 };
 use crate::pins::Pins;
+use crate::position_loop::OffsetAccess;
 use crate::process;
 use crate::settings::{DriveSettings, ImageAccess, Maps, OutputWatchdog, SyncType};
 use crate::states::{self, ERROR, INIT, OP, PRE_OP, SAFE_OP};
@@ -34,6 +37,8 @@ pub struct SyncRecord {
     pub index: u8,
     /// The target that took effect.
     pub target: i32,
+    /// What was told beside it: 0x60B1 and 0x60B2.
+    pub offsets: (i32, i16),
     /// Where the motor was then.
     pub actual: i32,
     /// The statusword from then on.
@@ -97,13 +102,20 @@ impl Device {
         if let Maps::Fixed { outputs, inputs } = &settings.maps {
             objects.fix_maps(outputs, inputs);
         }
+        if settings.offsets != OffsetAccess::None {
+            objects.add_offsets(axes);
+        }
+        if settings.has_history {
+            objects.add_history(history::MESSAGES);
+        }
         if let Some(probe) = settings.touch_probe {
             objects.add_touch_probes(axes, probe.has_sources);
         }
+        let long = LongObjects::new(&settings.long_objects, settings.segment_fault);
         Self {
             eeprom: eeprom::image(settings),
             objects,
-            mailbox: Mailbox::new(settings.drops_repeats),
+            mailbox: Mailbox::new(settings.drops_repeats, long),
             clock: DeviceClock::new(host_ns, 0.0, settings.drift_ppm),
             drives: (0..settings.axes)
                 .map(|axis| Drive::new(settings, axis))
@@ -127,6 +139,11 @@ impl Device {
     /// When it reads a frame, ns since the first device did.
     pub(crate) const fn read_ns(&self) -> u64 {
         self.passage.read_ns
+    }
+
+    /// The bytes of one of its long objects.
+    pub(crate) fn long_object(&self, object: Object) -> Option<&[u8]> {
+        self.mailbox.long.get(object)
     }
 
     pub(crate) fn station_address(&self) -> u16 {
@@ -162,7 +179,12 @@ impl Device {
                 (self.drives, self.records, self.pins) = (drives, records, pins);
                 self.settle_pins(now_ns);
             }
-            upset => self.drives.iter_mut().for_each(|drive| drive.inject(upset)),
+            upset => {
+                if let InjectedFault::Fault(code) = upset {
+                    self.note_fault(code, now_ns);
+                }
+                self.drives.iter_mut().for_each(|drive| drive.inject(upset));
+            }
         }
     }
 
@@ -251,11 +273,12 @@ impl Device {
             let is_told = self.settings.sync_type == SyncType::Written;
             let (maps, is_drive) = (&self.settings.maps, self.settings.channels.is_none());
             let touch_probe = self.settings.touch_probe;
+            let mappable = (touch_probe, self.settings.offsets);
             let refusal = |objects: &Dictionary, object: Object, value: u32| match object {
                 (0x1600..=0x1bff | 0x1c12 | 0x1c13, _) if is_fixed => Some(NO_ACCESS),
                 (0x1c12 | 0x1c13, _) if matches!(maps, Maps::Fixed { .. }) => Some(READ_ONLY),
                 (0x1600..=0x1bff, _) if !is_drive => Some(READ_ONLY),
-                (0x1600..=0x1bff, 1..) if !process::is_mappable(touch_probe, value) => {
+                (0x1600..=0x1bff, 1..) if !process::is_mappable(mappable, value) => {
                     Some(NOT_MAPPABLE)
                 }
                 (0x1600..=0x1bff, 1..)

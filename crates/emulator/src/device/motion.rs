@@ -2,7 +2,8 @@
 
 use super::{Device, SyncRecord};
 use crate::dictionary::AxisObjects;
-use crate::drive::{Drive, Outputs};
+use crate::drive::Drive;
+use crate::drive_io::Outputs;
 use crate::memory::SYNC0_CYCLE;
 use crate::process;
 use crate::states::OP;
@@ -50,6 +51,7 @@ impl Device {
                 at_ns,
                 index,
                 target: outputs.target,
+                offsets: (outputs.velocity_offset, outputs.torque_offset),
                 actual: inputs.actual,
                 status: inputs.status,
                 follows: inputs.status & 0x1000 != 0,

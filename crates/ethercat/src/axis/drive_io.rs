@@ -3,6 +3,7 @@
 use crate::image::Inputs;
 use crate::state;
 use glidepath_link::DriveState;
+use glidepath_link::servo::JointState;
 
 /// The inputs of a drive in one cycle.
 #[derive(Debug, Clone, Copy)]
@@ -44,8 +45,8 @@ pub(crate) struct DriveCommand {
     pub(crate) may_home: bool,
     /// All drives are ready for power.
     pub(crate) are_all_ready: bool,
-    /// Where it is to be, mm or degrees; `None` to stay.
-    pub(crate) demand: Option<f64>,
+    /// Where it is to be, mm or degrees, and how it moves there; `None` to stay.
+    pub(crate) demand: Option<JointState>,
     /// That a fault is reset: true for one cycle.
     pub(crate) reset: bool,
 }

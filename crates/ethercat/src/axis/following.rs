@@ -2,6 +2,7 @@
 
 use super::step::{ENABLE_OPERATION, Next, Step};
 use crate::bus_fault::BusFault;
+use crate::feed_forward::Offsets;
 use crate::image::CYCLIC_POSITION;
 use crate::state::FOLLOWS;
 use glidepath_link::DriveState;
@@ -33,6 +34,8 @@ impl Following {
         step.outputs.control = ENABLE_OPERATION;
         step.outputs.mode = CYCLIC_POSITION;
         step.outputs.target = self.target;
+        // What stands takes nothing.
+        step.outputs.offsets = Offsets::NONE;
         let state = drive_inputs.state();
         if !drive_inputs.is_present {
             return Next::Stop(None);
@@ -61,15 +64,16 @@ impl Following {
             return Next::Stay;
         };
         if !self.is_led {
-            let apart = demand - settings.place(self.target);
+            let apart = demand.position - settings.place(self.target);
             if apart.abs() > settings.enable_window {
                 return Next::Stop(Some(BusFault::Apart(joint, apart)));
             }
             self.is_led = true;
         }
-        match self.judge(step, demand) {
+        match self.judge(step, demand.position) {
             Ok(target) => {
                 (self.target, step.outputs.target) = (target, target);
+                step.outputs.offsets = settings.offsets(demand.velocity, demand.acceleration);
                 Next::Stay
             }
             Err(trouble) => Next::Stop(Some(trouble)),

@@ -6,6 +6,7 @@
 
 use super::step::{ENABLE_OPERATION, Next, START_HOMING, Step};
 use crate::bus_fault::BusFault;
+use crate::feed_forward::Offsets;
 use crate::image::{CYCLIC_POSITION, HOMING};
 use crate::state::{FOLLOWS, HOMING_ERROR, REACHED};
 use glidepath_link::DriveState;
@@ -59,6 +60,7 @@ impl Homing {
         let waited_ns = drive_inputs.now_ns.saturating_sub(self.since_ns);
         let actual = drive_inputs.inputs.actual;
         step.outputs.target = actual;
+        step.outputs.offsets = Offsets::NONE;
         let give_up = Next::Stop(Some(BusFault::NoHome(joint)));
         match self.part {
             Part::Entering => {

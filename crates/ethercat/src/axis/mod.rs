@@ -21,6 +21,7 @@ pub(crate) use drive_io::{DriveCommand, DriveInputs};
 
 use crate::bus_fault::BusFault;
 use crate::event::Event;
+use crate::feed_forward::Offsets;
 use crate::image::{Inputs, Outputs};
 use crate::probe::ProbeUse;
 use crate::settings::DriveSettings;
@@ -64,6 +65,7 @@ impl Axis {
                 control: 0,
                 target: 0,
                 mode: crate::image::CYCLIC_POSITION,
+                offsets: Offsets::NONE,
                 probe: ProbeUse::Off,
                 asks_probe: false,
             },

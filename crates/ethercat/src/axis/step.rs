@@ -2,6 +2,7 @@
 
 use super::drive_io::{DriveCommand, DriveInputs};
 use crate::bus_fault::BusFault;
+use crate::feed_forward::Offsets;
 use crate::image::{CYCLIC_POSITION, Outputs};
 use crate::probe::ProbeUse;
 use crate::settings::DriveSettings;
@@ -23,6 +24,7 @@ impl Step<'_> {
             control,
             target: self.drive_inputs.inputs.actual,
             mode: CYCLIC_POSITION,
+            offsets: Offsets::NONE,
             probe: ProbeUse::Off,
             asks_probe: false,
         };

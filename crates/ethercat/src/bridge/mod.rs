@@ -297,8 +297,7 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
                 home: home & bit != 0,
                 may_home: homing.is_none_or(|homing| Some(homing.sequence) <= looks),
                 are_all_ready,
-                demand: demand
-                    .map(|joints| joints[drive.axis.settings.joint.min(AXES - 1)].position),
+                demand: demand.map(|joints| joints[drive.axis.settings.joint.min(AXES - 1)]),
                 reset: resets,
             };
             *output = drive

@@ -1,13 +1,13 @@
 //! What is in the process data of a drive: mapped by the master, or taken as the drive has it.
 
-use super::probes;
+use super::{offsets, probes};
 use crate::abort_text;
 use crate::coe::{Object, object, read, write};
 use crate::device::Device;
 use crate::entry::{Entry, Mapping, bytes};
 use crate::error::BusError;
 use crate::exchange::Exchange;
-use crate::layout::Layout;
+use crate::layout::{Layout, Needs};
 use crate::settings::DriveSettings;
 use crate::wire::Wire;
 
@@ -51,6 +51,9 @@ pub(super) fn set<W: Wire>(
     device: &Device,
     drives: &[&DriveSettings],
 ) -> Result<Mapped, BusError> {
+    for drive in drives {
+        offsets::check(bus, device, drive)?;
+    }
     let is_kept = drives.iter().any(|drive| drive.mapping == Mapping::Kept);
     let (outputs, inputs) = if is_kept {
         (
@@ -63,8 +66,7 @@ pub(super) fn set<W: Wire>(
     let mut layouts = Vec::new();
     for drive in drives {
         let own = |index| drive.own(index);
-        let needs = (drive.homing.is_some(), drive.has_inputs);
-        let layout = Layout::of(&outputs, &inputs, &own, needs);
+        let layout = Layout::of(&outputs, &inputs, &own, Needs::of(drive));
         let mut layout = layout.map_err(|lacks| BusError::Unfit {
             device: device.position,
             name: device.name.clone(),
@@ -162,51 +164,58 @@ type Maps = Vec<(u16, Vec<u32>)>;
 /// How entries are spread over maps.
 type Split = fn(&[u32]) -> Vec<Vec<u32>>;
 
+/// What of a drive is mapped beside what every one needs.
+#[derive(Debug, Clone, Copy)]
+struct With {
+    probes: bool,
+    offsets: bool,
+}
+
 /// Maps what is needed of each drive. Returns both ways. Touch probes that a drive does not let be mapped
-/// are asked by its mailbox.
+/// are asked by its mailbox; offsets of targets have to be mapped.
 fn map<W: Wire>(
     bus: &mut Exchange<'_, W>,
     device: &Device,
     drives: &[&DriveSettings],
 ) -> Result<(Vec<Entry>, Vec<Entry>), BusError> {
-    let mut map_all = |with_probes| {
+    let mut map_all = |probes, offsets| {
+        let with = With { probes, offsets };
         map_as(bus, device, &|split| {
             (
-                of_all(
-                    drives,
-                    OUTPUT_MAP,
-                    &|drive| outputs(drive, with_probes),
-                    split,
-                ),
-                of_all(
-                    drives,
-                    INPUT_MAP,
-                    &|drive| inputs(drive, with_probes),
-                    split,
-                ),
+                of_all(drives, OUTPUT_MAP, &|drive| outputs(drive, with), split),
+                of_all(drives, INPUT_MAP, &|drive| inputs(drive, with), split),
             )
         })
     };
     let has_probes = drives.iter().any(|drive| drive.touch_probe().is_some());
-    match map_all(has_probes) {
-        Err(BusError::Unfit { .. }) if has_probes => map_all(false),
+    let has_offsets = drives.iter().any(|drive| offsets::has_any(drive));
+    let mapped = match map_all(has_probes, has_offsets) {
+        Err(BusError::Unfit { .. }) if has_probes => map_all(false, has_offsets),
+        done => done,
+    };
+    match mapped {
+        // Is it they?
+        Err(BusError::Unfit { .. }) if has_offsets && map_all(false, false).is_ok() => {
+            Err(offsets::unmappable(device, drives))
+        }
         done => done,
     }
 }
 
 /// The outputs that a drive needs.
-fn outputs(drive: &DriveSettings, with_probe: bool) -> Vec<u32> {
-    let probe = drive.touch_probe().filter(|_| with_probe);
+fn outputs(drive: &DriveSettings, with: With) -> Vec<u32> {
+    let probe = drive.touch_probe().filter(|_| with.probes);
     let mut entries = OUTPUTS.to_vec();
     entries.extend(probe.map(|_| PROBE_OUTPUT));
+    entries.extend(offsets::entries(drive).filter(|_| with.offsets));
     entries
 }
 
 /// The inputs that a drive needs.
-fn inputs(drive: &DriveSettings, with_probe: bool) -> Vec<u32> {
+fn inputs(drive: &DriveSettings, with: With) -> Vec<u32> {
     let mut entries = INPUTS.to_vec();
     entries.extend(drive.has_inputs.then_some(DIGITAL));
-    if let Some(probe) = drive.touch_probe().filter(|_| with_probe) {
+    if let Some(probe) = drive.touch_probe().filter(|_| with.probes) {
         let kept = probe.places().map(|index| u32::from(index) << 16 | 0x20);
         entries.push(PROBE_STATUS);
         entries.extend(kept);

@@ -20,14 +20,17 @@ use super::probe_mail::ProbeMail;
 use super::state::{ERROR, INIT};
 use crate::bus_clock::{BusClock, FrameTimes};
 use crate::device_state::DeviceState;
+use crate::diagnosis::Diagnosis;
 use crate::error::BusError;
 use crate::exchange::{Exchange, station};
 use crate::frame::{Address, Command, Frame, Slot};
 use crate::image::{Inputs, Outputs};
 use crate::layout::Drives;
 use crate::registers::{AL_CONTROL, AL_STATUS, SYSTEM_TIME};
+use crate::state;
 use crate::terminal::{Answered, Wiring, at_rest};
 use crate::wire::{MAX_FRAME, Wire};
+use glidepath_link::DriveState;
 use std::io;
 
 /// The outcome of a frame.
@@ -69,6 +72,8 @@ pub struct Op<'w, W> {
     of_devices: Vec<DeviceState>,
     drives: Drives,
     others: Others,
+    /// Which of all have failed, as states are told.
+    failed: Vec<bool>,
     /// What the others are to put out, and what they told last.
     others_outputs: Vec<u8>,
     others_inputs: Vec<u8>,
@@ -120,6 +125,7 @@ impl<'w, W: Wire> Op<'w, W> {
             reference: station(reference),
             bus_time,
             states: vec![DeviceState::default(); drives.axes.len() + others.devices.len()],
+            failed: vec![false; drives.axes.len() + others.devices.len()],
             of_devices: vec![DeviceState::default(); stations.len()],
             stations,
             drives,
@@ -185,6 +191,40 @@ impl<'w, W: Wire> Op<'w, W> {
     /// The emergency that came last, and from which device, drives first; `None` if that was told.
     pub const fn take_emergency(&mut self) -> Option<(usize, u16)> {
         self.asides.take_emergency()
+    }
+
+    /// The message of a diagnosis history that came last, and of which device, drives first; `None` if that
+    /// was told.
+    pub fn take_diagnosis(&mut self) -> Option<(usize, Diagnosis)> {
+        self.asides.take_diagnosis()
+    }
+
+    /// A device, drives first, has failed: its diagnosis history is asked, beside the cycles.
+    pub fn want_history(&mut self, nth: usize) {
+        let device = self.drives.axes.get(nth).map(|axis| axis.device);
+        let first = self
+            .drives
+            .axes
+            .iter()
+            .position(|axis| Some(axis.device) == device);
+        self.asides.want_history(first.unwrap_or(nth));
+    }
+
+    /// Asks for the histories of those that have failed since the last frame.
+    fn watch_failures(&mut self, inputs: &[Inputs]) {
+        for nth in 0..self.failed.len() {
+            let state = self.states[nth];
+            let status = inputs.get(nth).map_or(0, |inputs| inputs.status);
+            let is_fault = matches!(
+                state::of(status),
+                DriveState::Fault | DriveState::FaultReaction
+            );
+            let has_failed = is_fault || state.has_error;
+            let had_failed = core::mem::replace(&mut self.failed[nth], has_failed);
+            if has_failed && !had_failed {
+                self.want_history(nth);
+            }
+        }
     }
 
     /// The number of the datagrams of the frame that was sent last.
@@ -263,6 +303,7 @@ impl<'w, W: Wire> Op<'w, W> {
                 self.stale += 1;
                 continue;
             };
+            self.watch_failures(inputs);
             return Ok(reception);
         }
         Ok(Reception::Lost)

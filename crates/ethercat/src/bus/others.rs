@@ -14,6 +14,7 @@ use crate::entry::{Mapping, bytes};
 use crate::error::BusError;
 use crate::exchange::Exchange;
 use crate::registers::{FMMU, SYNC_MANAGER};
+use crate::segments;
 use crate::terminal::{SpindleSettings, TerminalSettings, Wiring};
 use crate::wire::Wire;
 
@@ -71,8 +72,9 @@ impl Others {
             return Err(unfit(device, what.to_owned()));
         }
         for parameter in &settings.parameters {
-            let object = object(parameter.index, parameter.sub, parameter.size);
-            write(bus, device, object, parameter.value)?;
+            let bytes = parameter.value.to_le_bytes();
+            let bytes = bytes.get(..parameter.size.into()).unwrap_or(&bytes);
+            segments::write(bus, device, (parameter.index, parameter.sub), bytes)?;
         }
         if let Some(spindle) = &settings.spindle {
             lead_spindle(bus, device, spindle, period_ns)?;

@@ -14,6 +14,7 @@ use crate::error::BusError;
 use crate::exchange::Exchange;
 use crate::layout::{Drives, LedAxis};
 use crate::registers::{FMMU, SYNC_MANAGER};
+use crate::segments;
 use crate::settings::{DriveSettings, Settings};
 use crate::wire::{MAX_FRAME, Wire};
 
@@ -50,6 +51,40 @@ impl<'w, W: Wire> PreOp<'w, W> {
             found: self.devices.len(),
         })?;
         coe::read(&mut self.bus, device, object)
+    }
+
+    /// Reads a parameter of any length, of `most` bytes at most.
+    ///
+    /// # Errors
+    ///
+    /// There is no such device, or it refuses, does not answer, or does not give it as a whole.
+    pub fn read_bytes(
+        &mut self,
+        position: usize,
+        (index, sub): (u16, u8),
+        most: usize,
+    ) -> Result<Vec<u8>, BusError> {
+        let found = self.devices.len();
+        let device = self.devices.get(position);
+        let device = device.ok_or(BusError::Missing { position, found })?;
+        segments::read(&mut self.bus, device, (index, sub), most)
+    }
+
+    /// Writes a parameter of any length.
+    ///
+    /// # Errors
+    ///
+    /// There is no such device, or it refuses, does not answer, or does not take it as a whole.
+    pub fn write_bytes(
+        &mut self,
+        position: usize,
+        (index, sub): (u16, u8),
+        bytes: &[u8],
+    ) -> Result<(), BusError> {
+        let found = self.devices.len();
+        let device = self.devices.get(position);
+        let device = device.ok_or(BusError::Missing { position, found })?;
+        segments::write(&mut self.bus, device, (index, sub), bytes)
     }
 
     /// What is in the process data of a device, as far as it tells: a simple one by its EEPROM, one with

@@ -105,6 +105,15 @@ impl ProbeMail {
         }
     }
 
+    /// The number of the next message to a mailbox, of whatever it is about.
+    pub(super) fn next_number(&mut self, mailbox: usize) -> u8 {
+        let number = self.numbers.get_mut(mailbox);
+        number.map_or(1, |number| {
+            *number = *number % 7 + 1;
+            *number
+        })
+    }
+
     /// What it has answered, or is taken to do until it has heard what is wanted; `None` if that is in the process data.
     pub(super) fn told(&self, axis: usize) -> Option<ProbeInputs> {
         let probe = self.probes.iter().find(|probe| probe.axis == axis)?;
@@ -142,16 +151,12 @@ impl ProbeMail {
                 What::Place(_) => {}
             }
         }
-        let number = self
-            .probes
-            .get(nth)
-            .and_then(|probe| self.numbers.get_mut(probe.mailbox));
-        if let Some(number) = number {
-            *number = *number % 7 + 1;
+        if let Some(mailbox) = self.probes.get(nth).map(|probe| probe.mailbox) {
+            let number = self.next_number(mailbox);
             self.question = Some(Question {
                 nth,
                 what,
-                number: *number,
+                number,
                 since: None,
             });
         }
@@ -215,7 +220,7 @@ impl ProbeMail {
         let next = match coe::reply(message, probe.object(what)) {
             Reply::Value(value) => probe.take(what, value),
             // What it refuses now it took before the cycles began (see `probes`): asked again in its turn.
-            Reply::Abort(_) => None,
+            Reply::Abort(_) | Reply::Longer(_) => None,
             Reply::Other => return false,
         };
         self.question = None;

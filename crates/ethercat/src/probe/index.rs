@@ -178,6 +178,7 @@ mod tests {
             following_ms: 10,
             enable_window: 0.05,
             quick_stop_a: 4000.0,
+            feed_forward: None,
             probe: None,
             index: Some(1),
             has_inputs: false,

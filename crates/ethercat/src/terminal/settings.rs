@@ -116,10 +116,10 @@ pub struct Parameter {
     pub index: u16,
     /// Subindex.
     pub sub: u8,
-    /// 1, 2 or 4 bytes.
+    /// 1, 2, 4 or 8 bytes.
     pub size: u8,
     /// What is written, a negative number as its bits.
-    pub value: u32,
+    pub value: u64,
 }
 
 /// A device that is no drive.

@@ -1,9 +1,10 @@
-//! The judge of what the drives themselves have recorded.
+//! The judge of what drives and outputs themselves have recorded.
 
 use crate::machine::{Outcome, Setup, limits};
 use glidepath_audit::{Audit, AuditReport, AuditSettings, Sample};
-use glidepath_emulator::SyncRecord;
+use glidepath_emulator::{OutputRecord, SyncRecord};
 use glidepath_geometry::AxisVector;
+use glidepath_program::Event as Told;
 
 /// The auditor's report on the targets that the drives took over, at the period of the bus.
 pub(crate) fn audited(setup: &Setup, records: &[Vec<SyncRecord>]) -> AuditReport {
@@ -58,4 +59,31 @@ pub(crate) fn model_error(setup: &Setup, outcome: &Outcome, joint: usize) -> f64
         }
     }
     worst
+}
+
+/// The changes of a bit of the outputs, from the first on.
+pub(crate) fn output_changes(records: &[OutputRecord], bit: u8) -> Vec<(u64, bool)> {
+    let mut changes: Vec<(u64, bool)> = Vec::new();
+    for record in records {
+        let is_on = record.outputs[0] & bit != 0;
+        if changes.last().map_or(is_on, |(_, before)| *before != is_on) {
+            changes.push((record.at_ns, is_on));
+        }
+    }
+    changes
+}
+
+/// When an output of programs was commanded to be on and off.
+pub(crate) fn commanded(outcome: &Outcome, output: u32) -> Vec<(u64, bool)> {
+    let of = |setpoint: &glidepath_link::Setpoint| {
+        let events = setpoint.events().to_vec().into_iter();
+        let since_ns = setpoint.scheduled_ns;
+        events.filter_map(move |record| match record.event() {
+            Ok(Told::DigitalOutput { number, on }) if number == output => {
+                Some((since_ns + u64::from(record.offset_ns), on))
+            }
+            _ => None,
+        })
+    };
+    outcome.setpoints.iter().flat_map(of).collect()
 }

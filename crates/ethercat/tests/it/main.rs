@@ -15,6 +15,8 @@ mod bring_up;
 mod captures;
 mod encoder;
 mod ending;
+mod feed_forward;
+mod history;
 mod judge;
 mod life;
 mod losses;
@@ -22,10 +24,12 @@ mod machine;
 mod maps;
 mod matrix;
 mod probing;
+mod segments;
 mod spindle;
 mod terminals;
 mod terminals_up;
 mod threads;
+mod whole_machine;
 mod wire;
 
 /// The thread of the bus does not allocate.

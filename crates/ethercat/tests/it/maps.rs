@@ -4,7 +4,7 @@ use crate::life::{Day, assert_clean};
 use crate::machine::{Setup, run};
 use crate::wire::{MemoryWire, Quiet};
 use glidepath_emulator::{DriveSettings as Emulated, Maps, Segment};
-use glidepath_ethercat::{Event, Init, Mapping, Settings};
+use glidepath_ethercat::{BusError, Event, Init, Mapping, Settings};
 use glidepath_link::servo::ServoSettings;
 
 /// As an Omron G5 has it, with its limit of torque: no mode.
@@ -73,7 +73,7 @@ fn maps_that_are_kept_lead_a_drive_as_those_that_are_written() {
     is_at_the_end(&setup);
 }
 
-fn refusal(setup: &Setup) -> String {
+fn to_safe_op(setup: &Setup) -> Result<(), BusError> {
     let segment = Segment::new_at(&setup.emulated, 0);
     let mut wire = MemoryWire::new(segment, Quiet, 5_000_000_000);
     let settings = Settings {
@@ -84,8 +84,18 @@ fn refusal(setup: &Setup) -> String {
         servo: ServoSettings::default(),
     };
     let bus = Init::find(&mut wire).and_then(Init::into_pre_op);
-    let refused = bus.and_then(|bus| bus.into_safe_op(&settings));
-    refused.map(|_| ()).unwrap_err().to_string()
+    let safe = bus.and_then(|bus| bus.into_safe_op(&settings));
+    safe.map(|_| ())
+}
+
+/// What a start is refused with.
+pub(crate) fn refusal(setup: &Setup) -> String {
+    to_safe_op(setup).unwrap_err().to_string()
+}
+
+/// A start that is not refused.
+pub(crate) fn comes_up(setup: &Setup) {
+    to_safe_op(setup).unwrap();
 }
 
 #[test]

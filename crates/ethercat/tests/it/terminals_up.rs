@@ -261,6 +261,24 @@ fn parameters_that_a_terminal_does_not_take_are_told() {
     );
     let mut known = wire(Emulated::analog_outputs(2));
     come_up(&mut known, vec![told(0x8000, 2)]).unwrap();
+    // One of eight bytes goes like any other.
+    let long = Emulated {
+        long_objects: vec![((0x8010, 1), Vec::new())],
+        ..Emulated::analog_outputs(2)
+    };
+    let mut known = wire(long);
+    let eight = TerminalSettings {
+        parameters: vec![Parameter {
+            index: 0x8010,
+            sub: 1,
+            size: 8,
+            value: 0x0102_0304_0506_0708,
+        }],
+        ..at(2)
+    };
+    come_up(&mut known, vec![eight]).unwrap();
+    let written = known.segment.long_object(2, (0x8010, 1)).unwrap();
+    assert_eq!(written, [8, 7, 6, 5, 4, 3, 2, 1]);
     let assigned = TerminalSettings {
         assign_inputs: Some(vec![0x1a00; 9]),
         ..at(2)

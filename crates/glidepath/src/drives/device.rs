@@ -203,25 +203,27 @@ impl Devices<'_> {
         let (index, sub) = self.object("device.parameters.object", &raw.object)?;
         let bytes = *raw.bytes.as_ref();
         let size = match bytes {
-            1 | 2 | 4 => u8::try_from(bytes).unwrap_or(1),
+            1 | 2 | 4 | 8 => u8::try_from(bytes).unwrap_or(1),
             _ => {
                 let message = format!("device.parameters.bytes = {bytes} is not known");
-                let help = "give 1, 2 or 4: longer objects are not written";
+                let help = "give 1, 2, 4 or 8";
                 self.tell("device.parameters.bytes", message, help, raw.bytes.span());
                 return None;
             }
         };
-        let bits = 8 * i64::from(size);
-        let range = (-(1 << (bits - 1)), (1 << bits) - 1);
+        // TOML has no larger numbers than those of eight bytes with a sign.
+        let range = match size {
+            8 => (i64::MIN, i64::MAX),
+            size => (-(1 << (8 * size - 1)), (1 << (8 * size)) - 1),
+        };
         let help = "as many bytes as the object has";
         let key = "device.parameters.value";
         let value: i64 = self.judge.whole(key, &raw.value, range, help)?;
         #[allow(
-            clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
             reason = "a negative number is written as its bits"
         )]
-        let value = value as u32;
+        let value = value as u64;
         Some(Parameter {
             index,
             sub,

@@ -4,6 +4,7 @@
 use super::bus::bus;
 use super::config::DrivesConfig;
 use super::device;
+use super::feed_forward::feed_forward;
 use super::raw::{RawDrive, RawDrives, RawHoming};
 use super::source::{DrivesSource, Place};
 use super::touch_probe;
@@ -56,14 +57,25 @@ const RATE: Range = Range {
 
 /// The highest speed of each joint, mm/s or °/s.
 pub(crate) fn joint_velocities(machine: &MachineConfig) -> Vec<f64> {
+    let limits = joint_limits(machine).into_iter();
+    limits.map(|(velocity, _)| velocity).collect()
+}
+
+/// The highest speed and acceleration of each joint, mm or degrees and s.
+fn joint_limits(machine: &MachineConfig) -> Vec<(f64, f64)> {
     if machine.joints() > 0 {
         let own = machine.joint_limits.0.iter().take(machine.joints());
-        return own.map(|limits| limits.velocity).collect();
+        return own
+            .map(|limits| (limits.velocity, limits.acceleration))
+            .collect();
     }
     let axes = machine.axis_of_joints().into_iter();
     let of = |name| machine.axes.iter().find(|axis| axis.axis == name);
-    axes.filter_map(|name| Some(of(name)?.max_velocity))
-        .collect()
+    let limits = |name| {
+        let axis = of(name)?;
+        Some((axis.max_velocity, axis.max_acceleration))
+    };
+    axes.filter_map(limits).collect()
 }
 
 /// Judges every value.
@@ -78,15 +90,14 @@ pub(super) fn judge(
     let mut judge = Judge { diagnostics: found };
     let interface = raw.bus.interface.clone();
     let bus = bus(&mut judge, &raw.bus);
-    let velocities = joint_velocities(machine);
+    let limits = joint_limits(machine);
     let mut tables = raw.drive;
     let inputs = tables
         .iter_mut()
         .map(|drive| take(&mut drive.as_mut().inputs));
     let inputs: Vec<_> = inputs.collect();
-    let drives = drives(&mut judge, tables, machine, &velocities);
-    let missing =
-        (0..velocities.len()).find(|joint| !drives.iter().any(|(d, _)| d.joint == *joint));
+    let drives = drives(&mut judge, tables, machine, &limits);
+    let missing = (0..limits.len()).find(|joint| !drives.iter().any(|(d, _)| d.joint == *joint));
     if let Some(joint) = missing {
         judge.diagnostics.push(ConfigDiagnostic {
             key: "drive".to_owned(),
@@ -107,7 +118,7 @@ pub(super) fn judge(
         .collect();
     let tables = (inputs, raw.device);
     let (drive_inputs, terminals, of_devices) =
-        device::devices(&mut judge, tables, &drives, velocities.len());
+        device::devices(&mut judge, tables, &drives, limits.len());
     let of_terminals = terminals.iter().flat_map(|device| &device.inputs);
     let all_inputs = of_terminals.chain(drive_inputs.iter().map(|(_, input)| input));
     let numbers: Vec<usize> = all_inputs.filter_map(|input| input.number).collect();
@@ -144,12 +155,12 @@ fn drives(
     judge: &mut Judge,
     raw: Vec<Spanned<RawDrive>>,
     machine: &MachineConfig,
-    velocities: &[f64],
+    limits: &[(f64, f64)],
 ) -> Vec<(DriveSettings, Span<usize>)> {
     let mut drives: Vec<(DriveSettings, Span<usize>)> = Vec::new();
     for drive in raw {
         let span = drive.span();
-        let settings = self::drive(judge, drive.into_inner(), velocities);
+        let settings = self::drive(judge, drive.into_inner(), limits);
         if machine.feedback.homing == HomingBy::Drive {
             // An absolute encoder knows where it is, too.
         } else if settings.homing.is_some() {
@@ -218,8 +229,8 @@ const fn of_device(drive: &DriveSettings) -> ([u32; 2], u16, u16, Option<(u16, u
     (ids, alias, step, drive.process_at, drive.mapping)
 }
 
-fn drive(judge: &mut Judge, raw: RawDrive, velocities: &[f64]) -> DriveSettings {
-    let most = i64::try_from(velocities.len()).unwrap_or(1) - 1;
+fn drive(judge: &mut Judge, raw: RawDrive, limits: &[(f64, f64)]) -> DriveSettings {
+    let most = i64::try_from(limits.len()).unwrap_or(1) - 1;
     let joint: usize = judge
         .whole(
             "drive.joint",
@@ -247,19 +258,7 @@ fn drive(judge: &mut Judge, raw: RawDrive, velocities: &[f64]) -> DriveSettings 
     let vendor = id("drive.vendor", &raw.vendor, u32::MAX.into());
     let product = id("drive.product", &raw.product, u32::MAX.into());
     let alias = id("drive.alias", &raw.alias, u16::MAX.into());
-    let counts = match (&raw.counts_per_mm, &raw.counts_per_deg) {
-        (Some(counts), None) => judge.number("drive.counts_per_mm", counts, &COUNTS),
-        (None, Some(counts)) => judge.number("drive.counts_per_deg", counts, &COUNTS),
-        _ => {
-            judge.diagnostics.push(ConfigDiagnostic {
-                key: "drive.counts_per_mm".to_owned(),
-                message: "a drive has counts_per_mm, or counts_per_deg".to_owned(),
-                help: Some("give one of them".to_owned()),
-                span: Some(raw.joint.span()),
-            });
-            1.0
-        }
-    };
+    let counts = counts(judge, &raw);
     let following_ms = raw.following_ms.as_ref().and_then(|value| {
         judge.whole(
             "drive.following_ms",
@@ -268,6 +267,9 @@ fn drive(judge: &mut Judge, raw: RawDrive, velocities: &[f64]) -> DriveSettings 
             "how long it may be further away",
         )
     });
+    let own_limits = limits.get(joint).copied().unwrap_or((1.0, 1.0));
+    let told = raw.feed_forward.as_ref();
+    let feed_forward = told.and_then(|told| feed_forward(judge, told, counts, own_limits));
     let process_at = process_at(judge, &raw);
     let probe = raw.probe.as_ref();
     let probe = probe.and_then(|probe| touch_probe::touch_probe(judge, probe));
@@ -292,10 +294,28 @@ fn drive(judge: &mut Judge, raw: RawDrive, velocities: &[f64]) -> DriveSettings 
         following_ms: following_ms.unwrap_or(10),
         enable_window: judge.number_or("drive.enable_window", &raw.enable_window, &WINDOW, 0.05),
         quick_stop_a: judge.number("drive.quick_stop", &raw.quick_stop, &RATE),
+        feed_forward,
         probe,
         index,
         has_inputs: false,
-        max_v: velocities.get(joint).copied().unwrap_or(1.0),
+        max_v: own_limits.0,
+    }
+}
+
+/// How much it counts for a mm or a degree.
+fn counts(judge: &mut Judge, raw: &RawDrive) -> f64 {
+    match (&raw.counts_per_mm, &raw.counts_per_deg) {
+        (Some(counts), None) => judge.number("drive.counts_per_mm", counts, &COUNTS),
+        (None, Some(counts)) => judge.number("drive.counts_per_deg", counts, &COUNTS),
+        _ => {
+            judge.diagnostics.push(ConfigDiagnostic {
+                key: "drive.counts_per_mm".to_owned(),
+                message: "a drive has counts_per_mm, or counts_per_deg".to_owned(),
+                help: Some("give one of them".to_owned()),
+                span: Some(raw.joint.span()),
+            });
+            1.0
+        }
     }
 }
 

@@ -6,6 +6,7 @@ mod bus;
 mod config;
 mod device;
 mod encoder;
+mod feed_forward;
 mod found;
 mod judge;
 mod raw;

@@ -48,11 +48,29 @@ pub(super) struct RawDrive {
     pub(super) following_ms: Optional<i64>,
     pub(super) enable_window: Optional<f64>,
     pub(super) quick_stop: Spanned<f64>,
+    pub(super) feed_forward: Optional<RawFeedForward>,
     pub(super) homing: Optional<RawHoming>,
     pub(super) probe: Option<RawTouchProbe>,
     pub(super) index: Optional<i64>,
     #[serde(default)]
     pub(super) inputs: Vec<Spanned<RawInput>>,
+}
+
+/// What a drive is told of the motion beside its targets.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawFeedForward {
+    #[serde(default)]
+    pub(super) velocity: bool,
+    pub(super) velocity_units: Optional<f64>,
+    pub(super) inertia: Optional<f64>,
+    pub(super) rated_torque: Optional<f64>,
+    pub(super) revolution: Optional<f64>,
+    pub(super) acceleration_torque: Optional<f64>,
+    pub(super) viscous: Optional<f64>,
+    pub(super) coulomb: Optional<f64>,
+    pub(super) friction_from: Optional<f64>,
+    pub(super) most: Optional<f64>,
 }
 
 #[derive(Debug, Deserialize)]

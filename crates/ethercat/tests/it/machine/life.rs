@@ -1,7 +1,7 @@
 //! One life of an interpolator, and what plans for it.
 
 use super::setup::{PERIOD_NS, limits};
-use glidepath_gcode::{Connections, Options};
+use glidepath_gcode::{Connections, Options, Threading};
 use glidepath_geometry::AxisVector;
 use glidepath_interpolator::Served;
 use glidepath_link::{
@@ -20,6 +20,7 @@ pub(crate) fn plan(text: &str, start: AxisVector, epoch: u64) -> Vec<SetpointFra
         start,
         connections: Connections::Real,
         probing_v: Some(20.0),
+        threading: Some(Threading::new(limits(), 0.004)),
         ..Options::default()
     };
     let settings = PlanSettings {

@@ -42,6 +42,7 @@ pub(crate) fn drive(joint: usize) -> DriveSettings {
         following_ms: 10,
         enable_window: 0.05,
         quick_stop_a: 4000.0,
+        feed_forward: None,
         probe: None,
         index: None,
         has_inputs: false,
@@ -84,8 +85,11 @@ pub(crate) struct Setup {
     pub(crate) emulated: Vec<Emulated>,
     pub(crate) drive_inputs: Vec<(usize, DigitalInput)>,
     pub(crate) terminals: Vec<TerminalSettings>,
-    /// The first joint is brought home by the controller.
+    /// The following error that is no fault at rest, mm.
+    pub(crate) resting_error: f64,
+    /// The first joints, so many, are brought home by the controller.
     pub(crate) homing: Option<JointHoming>,
+    pub(crate) homed: usize,
     pub(crate) probe: Option<ProbeInput>,
     /// M codes that are waited for.
     pub(crate) waits: Vec<MCodeWait>,
@@ -107,7 +111,9 @@ impl Setup {
             emulated: vec![Emulated::default(); 3],
             drive_inputs: Vec::new(),
             terminals: Vec::new(),
+            resting_error: 0.2,
             homing: None,
+            homed: 1,
             probe: None,
             waits: Vec::new(),
         }
@@ -136,14 +142,16 @@ pub(super) fn config(setup: &Setup) -> Config {
         &setup.bus,
     );
     let joint = JointFeedback {
-        min_following_error: 0.2,
+        min_following_error: setup.resting_error,
         following_error: 2.0,
         max_velocity: 200.0,
         homes,
         homing: None,
     };
     let mut feedback = FeedbackSettings::new(PERIOD_NS, joint);
-    feedback.joints[0].homing = setup.homing;
+    for joint in &mut feedback.joints[..setup.homed] {
+        joint.homing = setup.homing;
+    }
     Config {
         feedback: Some(FeedbackSettings {
             probe: setup.probe,

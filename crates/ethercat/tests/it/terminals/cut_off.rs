@@ -1,7 +1,8 @@
 //! What is left of the machine with terminals where a cable is pulled, or the interpolator or the bridge dies.
 
 use super::shift::{LONG, Part, Shift};
-use super::{FIFTH, FLOOD, FORWARD, INPUTS, LAMP, OUTPUTS, QUARTER, changes, input, setup};
+use super::{FIFTH, FLOOD, FORWARD, INPUTS, LAMP, OUTPUTS, QUARTER, input, setup};
+use crate::judge::output_changes;
 use crate::life::Day;
 use crate::machine::{Case, Hands, run};
 use glidepath_emulator::{DriveSettings as Emulated, Segment};
@@ -54,7 +55,7 @@ fn without_an_interpolator_outputs_are_at_rest_when_the_joints_are() {
     assert_eq!(shift.after[0], (LAMP, 0));
     // The spindle turned until the joints stood: until the frame that told them the last target.
     let records = outcome.left.0.take_output_records(OUTPUTS);
-    let spindle_ns = changes(&records, FORWARD)[1].0;
+    let spindle_ns = output_changes(&records, FORWARD)[1].0;
     let moved = outcome.records[0].windows(2);
     let mut moved = moved.filter(|pair| pair[0].follows && pair[0].target != pair[1].target);
     let rests_ns = moved.next_back().unwrap()[1].at_ns;

@@ -10,7 +10,7 @@ mod shift;
 mod whole_life;
 
 use crate::machine::Setup;
-use glidepath_emulator::{ClockKind, DriveSettings as Emulated, OutputRecord, Segment};
+use glidepath_emulator::{ClockKind, DriveSettings as Emulated, Segment};
 use glidepath_ethercat::{
     AnalogInput, AnalogOutput, At, DigitalInput, DigitalOutput, Parameter, Quantity, Signal,
     TerminalSettings,
@@ -166,16 +166,4 @@ pub(crate) type Pins = (u8, u16);
 pub(crate) fn pins(segment: &Segment) -> Pins {
     let (bits, speed) = (segment.outputs(OUTPUTS), segment.outputs(SPEED));
     (bits[0], u16::from_le_bytes([speed[2], speed[3]]))
-}
-
-/// The changes of a bit of the outputs, from the first on.
-fn changes(records: &[OutputRecord], bit: u8) -> Vec<(u64, bool)> {
-    let mut changes: Vec<(u64, bool)> = Vec::new();
-    for record in records {
-        let is_on = record.outputs[0] & bit != 0;
-        if changes.last().map_or(is_on, |(_, before)| *before != is_on) {
-            changes.push((record.at_ns, is_on));
-        }
-    }
-    changes
 }

@@ -2,30 +2,14 @@
 
 use super::shift::{LONG, MARKED, Part, Shift, TOUCH};
 use super::{
-    FIFTH, FLOOD, FORWARD, INPUTS, LAMP, LEVEL, OUTPUTS, PART_Z, QUARTER, changes, input, output,
-    setup,
+    FIFTH, FLOOD, FORWARD, INPUTS, LAMP, LEVEL, OUTPUTS, PART_Z, QUARTER, input, output, setup,
 };
+use crate::judge::{commanded, output_changes};
 use crate::life::{Day, assert_clean};
-use crate::machine::{COUNTS, Case, Hands, Outcome, run};
+use crate::machine::{COUNTS, Case, Hands, run};
 use glidepath_emulator::{ClockKind, DriveSettings as Emulated, Segment};
 use glidepath_ethercat::{Signal, TerminalSettings};
 use glidepath_link::ContactKind;
-use glidepath_program::Event as Told;
-
-/// When output 5 was commanded to be on and off.
-fn commanded(outcome: &Outcome) -> Vec<(u64, bool)> {
-    let of = |setpoint: &glidepath_link::Setpoint| {
-        let events = setpoint.events().to_vec().into_iter();
-        let since_ns = setpoint.scheduled_ns;
-        events.filter_map(move |record| match record.event() {
-            Ok(Told::DigitalOutput { number: 5, on }) => {
-                Some((since_ns + u64::from(record.offset_ns), on))
-            }
-            _ => None,
-        })
-    };
-    outcome.setpoints.iter().flat_map(of).collect()
-}
 
 #[test]
 fn a_whole_life_with_terminals() {
@@ -62,8 +46,8 @@ fn a_whole_life_with_terminals() {
     assert_eq!(shift.after[3], (running | aborted, QUARTER));
     // M62 and M63 are in place to the period of the bus: half of it before to half of it after.
     let records = outcome.left.0.take_output_records(OUTPUTS);
-    let seen = changes(&records, FIFTH);
-    let meant = commanded(&outcome);
+    let seen = output_changes(&records, FIFTH);
+    let meant = commanded(&outcome, 5);
     assert!(meant.len() >= 4, "{meant:?}");
     for (at_ns, on) in &meant[..2] {
         let due_ns = at_ns + setup.bus.delay_ns;
@@ -79,13 +63,13 @@ fn a_whole_life_with_terminals() {
     let ends = &records[records.len() - 2..];
     let last: Vec<_> = ends.iter().map(|record| record.outputs[0]).collect();
     assert_eq!(last[1], 0, "{records:?}");
-    let spindle_ns = changes(&records, FORWARD).last().unwrap().0;
-    let flood_ns = changes(&records, FLOOD).last().unwrap().0;
+    let spindle_ns = output_changes(&records, FORWARD).last().unwrap().0;
+    let flood_ns = output_changes(&records, FLOOD).last().unwrap().0;
     assert!(
         spindle_ns + setup.bus.period_ns <= flood_ns + 1_000,
         "{records:?}"
     );
-    assert!(!changes(&records, LAMP).last().unwrap().1);
+    assert!(!output_changes(&records, LAMP).last().unwrap().1);
 }
 
 #[test]

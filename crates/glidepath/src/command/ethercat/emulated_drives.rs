@@ -2,7 +2,7 @@
 
 use crate::config::{HomingBy, MachineConfig};
 use crate::drives;
-use glidepath_emulator::{DriveSettings as Emulated, HomeSwitch, ZeroImpulse};
+use glidepath_emulator::{DriveSettings as Emulated, HomeSwitch, OffsetAccess, ZeroImpulse};
 use glidepath_ethercat::{DriveSettings, HomingSettings, Mapping, TerminalSettings};
 use glidepath_interpolator::IndexPulse;
 
@@ -57,6 +57,7 @@ pub(super) fn desk_drives(
         following_ms: 50,
         enable_window: 0.05,
         quick_stop_a: 4000.0,
+        feed_forward: None,
         probe: None,
         index: keeps_index(config, joint).then_some(1),
         has_inputs: false,
@@ -99,6 +100,9 @@ pub(super) fn as_they_are(
             let probe = there.touch_probe.get_or_insert_default();
             // That of the first axis that keeps one.
             probe.zero = probe.zero.or(drive.index.map(|_| zero_impulse(drive)));
+        }
+        if drive.feed_forward.is_some() {
+            there.offsets = OffsetAccess::Mapped;
         }
         there.identity[0] = if drive.vendor == 0 {
             there.identity[0]

@@ -288,6 +288,7 @@ mod tests {
             following_ms: 10,
             enable_window: 0.05,
             quick_stop_a: 1000.0,
+            feed_forward: None,
             probe: None,
             index: None,
             has_inputs: false,

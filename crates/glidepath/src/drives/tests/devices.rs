@@ -94,7 +94,7 @@ fn devices_that_are_no_drives_have_inputs_and_outputs() {
     ];
     assert_eq!(seen, meant);
     let parameter = speed.parameters[0];
-    assert_eq!((parameter.index, parameter.value), (0x8000, u32::MAX));
+    assert_eq!((parameter.index, parameter.value), (0x8000, u64::MAX));
     assert_eq!(speed.analog_outputs[0].from, Quantity::SpindleSpeed);
     assert_eq!(level.assign_inputs, Some(vec![0x1a00, 0x1a02]));
     assert!(!level.analog_inputs[0].is_signed);

@@ -4,6 +4,7 @@
 mod devices;
 mod drive_inputs;
 mod encoder;
+mod feed_forward;
 mod touch_probe;
 
 use super::{Found, parse, written};
