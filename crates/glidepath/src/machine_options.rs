@@ -8,7 +8,15 @@ use std::path::Path;
 use std::sync::OnceLock;
 
 /// Commands that work on a configuration alone.
-const WITHOUT_INSTANCE: [&str; 6] = ["audit", "bench", "doctor", "fit", "jitter", "preview"];
+const WITHOUT_INSTANCE: [&str; 7] = [
+    "audit",
+    "bench",
+    "calibrate",
+    "doctor",
+    "fit",
+    "jitter",
+    "preview",
+];
 /// Commands that know no machine.
 const WITHOUT_MACHINE: [&str; 3] = ["config", "help", "setup"];
 

@@ -22,6 +22,8 @@
 //! of joints ([`PathRates`]), beside it by how they change with a curve ([`CurveRates`]), and judges each plan ([`JointWatch`]); the interpolator maps every setpoint to joints. The mechanisms are [`Trivial`], [`CoreXy`], [`LinearDelta`],
 //! [`RotaryDelta`], [`Scara`], [`FiveBar`], [`FiveAxis`], [`Hexapod`] and [`TranslationalHexapod`].
 //!
+//! The dimensions of a mechanism can be found from points that were measured: [`calibrate`].
+//!
 //! What always holds:
 //!
 //! * Lengths are in mm, angles in degrees at interfaces and radians inside.
@@ -49,6 +51,7 @@
 
 mod axes;
 mod axis_share;
+mod calibration;
 mod compensation;
 mod core_xy;
 mod curve_rates;
@@ -71,6 +74,11 @@ mod watch;
 
 pub use axes::AxisList;
 pub use axis_share::{AloneLimits, AxisRates, AxisShare};
+pub use calibration::{
+    Calibration, CalibrationError, CalibrationSettings, DimensionName, DimensionPart, DimensionSum,
+    DimensionUnit, FoundDimension, MeasuredPoint, MeasuringAccuracy, PointResiduals, ResidualSize,
+    calibrate, dimension_names,
+};
 pub use compensation::{
     CompensationError, CompensationPoint, JointCompensation, MOST_POINTS, TAKE_UP,
 };

@@ -68,6 +68,10 @@ fn desk(instance: &Instance, number: usize) -> PathBuf {
     let mill = std::fs::read_to_string(root().join("config/mill.toml")).unwrap();
     write("mill.toml", &mill.replace("# directory = ", "directory = "));
     write("linuxcnc.var", "5220\t1\n5221\t1.5\n5222\t0\n5223\t0\n");
+    let delta = std::fs::read_to_string(root().join("config/rotary-delta.toml")).unwrap();
+    write("delta.toml", &delta);
+    let points = root().join("tests/data/calibration/rotary-delta.csv");
+    std::fs::copy(points, folder.join("points.csv")).unwrap();
     write("x.csv", "position,error\n0,0\n100,0.004\n");
     let data = root().join("tests/data/migration");
     for (name, from) in [

@@ -1,6 +1,7 @@
 //! The subcommands.
 
 use super::basic::BasicArgs;
+use super::calibrate::CalibrateArgs;
 use super::config::ConfigArgs;
 use super::curves::{FitArgs, PreviewArgs};
 use super::ethercat::{EthercatAction, EthercatArgs};
@@ -191,6 +192,12 @@ pub enum CliCommand {
         after_help = "Examples: glidepath setup · glidepath setup router.toml · glidepath setup --suggested mill.toml"
     )]
     Setup(SetupArgs),
+    /// Find the dimensions of a delta, a hexapod, an arm or a five-axis machine from measured points
+    #[command(
+        after_help = "Examples: glidepath calibrate points.csv --config delta.toml · \
+                            glidepath calibrate points.csv --config delta.toml --keep rod --accuracy 0.02"
+    )]
+    Calibrate(CalibrateArgs),
     /// Print, explain or check a configuration, or convert that of another control
     #[command(after_help = "Examples: glidepath config --default > mill.toml · \
                             glidepath config --explain path.tolerance · \
@@ -272,6 +279,7 @@ impl CliCommand {
             Self::Fit(args) => &args.basic,
             Self::Preview(args) => &args.basic,
             Self::Bench(args) => &args.basic,
+            Self::Calibrate(args) => &args.basic,
             Self::Doctor(args) => &args.basic,
             Self::Jitter(args) => &args.basic,
         })
@@ -330,6 +338,7 @@ impl CliCommand {
             | Self::Fit(_)
             | Self::Preview(_)
             | Self::Bench(_)
+            | Self::Calibrate(_)
             | Self::Doctor(_)
             | Self::Jitter(_) => return None,
         };

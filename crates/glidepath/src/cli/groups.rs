@@ -54,7 +54,7 @@ const GROUPS: [(&str, &[&str]); 6] = [
     ),
     (
         "Configuration and host",
-        &["setup", "config", "doctor", "jitter", "bench"],
+        &["setup", "config", "calibrate", "doctor", "jitter", "bench"],
     ),
 ];
 

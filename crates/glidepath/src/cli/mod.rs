@@ -1,6 +1,7 @@
 //! The command line.
 
 mod basic;
+mod calibrate;
 mod command;
 mod config;
 mod curves;
@@ -22,6 +23,7 @@ mod telemetry;
 mod time;
 
 pub use basic::{BasicArgs, InstanceArgs, OverwriteArgs, RunInstanceArgs};
+pub use calibrate::CalibrateArgs;
 pub use command::CliCommand;
 pub use config::{
     ConfigAction, ConfigArgs, ConfigSource, ConvertArgs, ScrewArgs, ScrewUnit, Values,

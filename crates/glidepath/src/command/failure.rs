@@ -5,16 +5,17 @@ use crate::command::evidence::Evidence;
 use crate::command::grbl::error::EndpointError;
 use crate::command::other_users::OtherUsers;
 use crate::config::ConfigError;
-use crate::curve_file::CurveDiagnostic;
 use crate::exit::Exit;
 use crate::file_error::FileError;
 use crate::jitter::JitterError;
 use crate::persistence::error::StateError;
 use crate::program_text::UnknownEvent;
+use crate::text_diagnostic::TextDiagnostic;
 use glidepath_ethercat as ethercat;
 use glidepath_gcode::Diagnostic;
 use glidepath_hal::HalError;
 use glidepath_interpolator as interpolator;
+use glidepath_kinematics::CalibrationError;
 use glidepath_link::mirror::MirrorError;
 use glidepath_link::{LinkError, refused};
 use glidepath_live::ServerError;
@@ -129,7 +130,31 @@ pub(super) enum Failure {
     },
     /// A curve file has something to mend.
     #[error("the curve is rejected: {0}")]
-    Curve(Box<CurveDiagnostic>),
+    Curve(Box<TextDiagnostic>),
+    /// A file of measured points has something to mend.
+    #[error("the points are rejected: {} {} to mend", rows.len() as u64 + more, if rows.len() == 1 { "place has" } else { "places have" })]
+    Points {
+        /// What was found, in the order of the text.
+        rows: Vec<TextDiagnostic>,
+        /// How many more there are.
+        more: u64,
+    },
+    /// Measured points give no dimensions.
+    #[error("{error}; {remedy}")]
+    NotCalibrated {
+        /// Why.
+        error: CalibrationError,
+        /// What to do.
+        remedy: &'static str,
+    },
+    /// A dimension to keep that the mechanism does not have.
+    #[error("the mechanism has no dimension `{name}`; it has: {}", .names.join(", "))]
+    UnknownDimension {
+        /// What was asked for.
+        name: String,
+        /// Those that there are.
+        names: Vec<String>,
+    },
     /// A curve file holds one curve.
     #[error("{runs} runs cannot be written as one curve; write a program: --output FILE.ngc")]
     NotOneCurve {

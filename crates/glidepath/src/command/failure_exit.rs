@@ -48,6 +48,7 @@ impl Failure {
             | Self::Var { .. }
             | Self::Foreign { .. }
             | Self::NoFeed
+            | Self::UnknownDimension { .. }
             | Self::NotOneCurve { .. }
             | Self::UnknownEvent(_)
             | Self::Jitter(JitterError::Cyclictest(CyclictestError::Absent)) => Exit::Usage,
@@ -63,6 +64,8 @@ impl Failure {
             Self::Rejected { .. }
             | Self::TooLong { .. }
             | Self::Curve(_)
+            | Self::Points { .. }
+            | Self::NotCalibrated { .. }
             | Self::CurveBeyond { .. }
             | Self::Refused(_)
             | Self::Planner(planner::RunError::Refused(_) | planner::RunError::Resume(_))

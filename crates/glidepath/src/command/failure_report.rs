@@ -8,6 +8,7 @@ use crate::exit::Exit;
 use crate::machine_options::complete;
 use crate::output;
 use crate::report::diagnostic_object;
+use crate::text_diagnostic::TextDiagnostic;
 use glidepath_planner::RunError;
 use miette::Diagnostic;
 use serde_json::{Value, json};
@@ -33,6 +34,9 @@ pub(super) fn report(failure: &Failure, command: &CliCommand) -> Exit {
         print_diagnostics(program, diagnostics, *more);
         output::note(&format!("error: {failure}"));
     } else {
+        if let Failure::Points { rows, .. } = failure {
+            output::diagnostics(rows.iter().map(|row| row as &dyn Diagnostic));
+        }
         if let Failure::Curve(error) = failure {
             output::diagnostics([error.as_ref() as &dyn Diagnostic]);
         }
@@ -53,6 +57,7 @@ fn failure_object(failure: &Failure) -> Value {
             .map(|diagnostic| diagnostic_object(program, diagnostic))
             .collect(),
         Failure::Curve(error) => vec![error.object()],
+        Failure::Points { rows, .. } => rows.iter().map(TextDiagnostic::object).collect(),
         _ => Vec::new(),
     };
     let mut object = json!({

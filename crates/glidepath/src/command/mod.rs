@@ -6,6 +6,7 @@ mod attention;
 mod audit;
 mod begins_with;
 mod bench;
+mod calibrate;
 mod changed;
 mod check;
 mod configuration;
@@ -179,6 +180,7 @@ fn dispatch(command: &CliCommand) -> Result<Exit, Failure> {
         CliCommand::Return(args) => rest::return_to_path(args, &config()?),
         CliCommand::Bench(args) => bench::bench(args, &config()?),
         CliCommand::Setup(args) => setup::setup(args),
+        CliCommand::Calibrate(args) => calibrate::calibrate(args, &config()?),
         CliCommand::Doctor(args) => Ok(doctor::doctor(args, &config()?)),
         CliCommand::Jitter(args) => jitter::jitter(args, &config()?),
     }

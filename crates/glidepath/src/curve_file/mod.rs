@@ -1,10 +1,8 @@
 //! The reader and the writer of NURBS curve files, for the commands that look at curves themselves.
 
-mod diagnostic;
 mod read;
 mod write;
 
-pub use diagnostic::CurveDiagnostic;
 pub use read::{CurveFileError, MOST_BYTES, parse, read};
 pub use write::to_toml;
 

@@ -1,7 +1,7 @@
 //! The reader of NURBS curve files.
 
-use super::diagnostic::CurveDiagnostic;
 use crate::file_error::FileError;
+use crate::text_diagnostic::TextDiagnostic;
 use crate::text_file;
 use glidepath_curve::NurbsFile;
 use std::path::Path;
@@ -18,7 +18,7 @@ pub enum CurveFileError {
     Unreadable(#[from] FileError),
     /// Something in it has to be mended.
     #[error(transparent)]
-    Rejected(#[from] Box<CurveDiagnostic>),
+    Rejected(#[from] Box<TextDiagnostic>),
 }
 
 /// Reads a curve file of a name, from where it can be read: what came through a pipe is elsewhere.
@@ -35,9 +35,9 @@ pub fn read(named: &Path, path: &Path) -> Result<NurbsFile, CurveFileError> {
 ///
 /// # Errors
 /// The first thing that has to be mended.
-pub fn parse(name: &str, text: &str) -> Result<NurbsFile, Box<CurveDiagnostic>> {
+pub fn parse(name: &str, text: &str) -> Result<NurbsFile, Box<TextDiagnostic>> {
     let mut file = NurbsFile::parse(text)
-        .map_err(|fault| CurveDiagnostic::new(name, text, fault.at, fault.message, &fault.help))?;
+        .map_err(|fault| TextDiagnostic::new(name, text, fault.at, fault.message, &fault.help))?;
     file.name.get_or_insert_with(|| name.to_owned());
     Ok(file)
 }

@@ -3,6 +3,7 @@
 mod active_program;
 mod auxiliary;
 mod beside;
+mod calibration;
 mod diagnosis;
 mod diagnostic;
 mod fit;
@@ -22,6 +23,7 @@ mod work_offset;
 pub use active_program::{active_object, active_text};
 pub use auxiliary::{coolant_words, spindle_words};
 pub use beside::Beside;
+pub use calibration::CalibrationReport;
 pub use diagnosis::{DiagnosisReport, PlaceReport};
 pub use diagnostic::{ProgramDiagnostic, diagnostic_object};
 pub use fit::{FitReport, FittedRun};

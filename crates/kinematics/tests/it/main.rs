@@ -1,5 +1,6 @@
 //! Tests of mechanisms, held against vectors, and there and back.
 
+mod calibration;
 mod caps;
 mod curve_rates;
 mod five_axis;

@@ -1,23 +1,23 @@
-//! The diagnostic of a curve file: what is wrong, and where.
+//! The diagnostic of a file whose text has something to mend: what, and where.
 
 use core::fmt;
 use core::ops::Range;
 use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode};
 use serde_json::{Value, json};
 
-/// A diagnostic of a curve file: one thing to mend.
+/// A diagnostic of a text: one thing to mend.
 #[derive(Debug)]
-pub struct CurveDiagnostic {
+pub struct TextDiagnostic {
     file: String,
     message: String,
-    pub(super) help: String,
+    pub(crate) help: String,
     span: Range<usize>,
     source: NamedSource<String>,
 }
 
-impl CurveDiagnostic {
+impl TextDiagnostic {
     /// What is wrong with some bytes of the text.
-    pub(super) fn new(
+    pub(crate) fn new(
         file: &str,
         text: &str,
         span: Range<usize>,
@@ -57,15 +57,15 @@ impl CurveDiagnostic {
     }
 }
 
-impl fmt::Display for CurveDiagnostic {
+impl fmt::Display for TextDiagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.message)
     }
 }
 
-impl std::error::Error for CurveDiagnostic {}
+impl std::error::Error for TextDiagnostic {}
 
-impl Diagnostic for CurveDiagnostic {
+impl Diagnostic for TextDiagnostic {
     fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
         Some(Box::new(&self.help))
     }
