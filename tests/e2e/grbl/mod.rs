@@ -154,7 +154,8 @@ fn a_long_program_is_streamed_without_a_stop_and_on_its_path() {
     let text = wave(lines());
     let part = instance.file("part.ngc", &text);
     let program: Vec<&str> = text.lines().collect();
-    // A host of tests stands still for tens of milliseconds: more lines have to be on their way than 128 bytes.
+    // A host of tests stands still for tens of milliseconds: more lines have to be on their way than 128 bytes. The
+    // motion begins with the first of them and must not rest at the end of these.
     let bench = Bench::with(&instance, &["--rx-bytes", "1024"]);
     let mut sender = bench.sender();
     sender.window = 1000;
@@ -175,6 +176,11 @@ fn a_long_program_is_streamed_without_a_stop_and_on_its_path() {
     let streamed = rows(&received);
     let whole = rows(&planned(&instance, &part));
     assert!(streamed < whole * 1.02 + 50.0, "{streamed} for {whole}");
+    let states = received.states();
+    let is_moving = |row: &[JointState; 3]| row.iter().any(|joint| joint.velocity.abs() > 0.0);
+    let moving: Vec<_> = states.iter().map(is_moving).collect();
+    let begins = moving.windows(2).filter(|pair| !pair[0] && pair[1]).count();
+    assert_eq!(begins, 1, "times that the motion sets out");
 }
 
 #[test]

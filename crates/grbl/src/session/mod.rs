@@ -127,7 +127,10 @@ impl Session {
         if self.jogging.cancel() {
             self.acts.push(Act::LetGo);
         }
-        let rests = self.machine.doing == Doing::Waiting && !self.stream.has_unread();
+        // At rest, with all executed that was read; the job may be open for a moment yet.
+        let rests = matches!(self.machine.doing, Doing::Waiting | Doing::Idle)
+            && !self.stream.has_unread()
+            && self.ahead_t <= 0.0;
         let was_open = self.stream.is_open() && !rests;
         let dropped = self.lines.len();
         self.stream.abandon();

@@ -46,7 +46,7 @@ impl Session {
                 let lines = self.facts.lines(self.units, &self.settings.axes);
                 self.say_all_and_ok(&lines);
             }
-            Wanted::Settings if is_quiet || state == State::Sleep => {
+            Wanted::Settings if is_quiet || state.is_held() || state == State::Sleep => {
                 let is_inch = self.units == Units::Inch;
                 let lines = self.settings.lines(self.mask, is_inch);
                 self.say_all_and_ok(&lines);

@@ -296,6 +296,40 @@ fn a_machine_that_is_about_to_move_is_not_idle() {
     assert_eq!(desk.state(), "Idle");
 }
 
+/// The job is open for a moment yet when all of it is executed.
+#[test]
+fn a_sender_that_leaves_when_all_is_executed_is_not_lost() {
+    for (doing, ahead_t, is_lost) in [
+        (Doing::Idle, 0.0, false),
+        (Doing::Waiting, 0.0, false),
+        (Doing::Idle, 0.2, true),
+        (Doing::Running, 0.2, true),
+    ] {
+        let mut desk = Desk::new();
+        (desk.machine.doing, desk.ahead_t) = (doing, ahead_t);
+        desk.session.hear(b"G0 X1\n", desk.now);
+        desk.looks(4);
+        assert_eq!(answers(&desk.said()), ["ok"]);
+        desk.session.lost();
+        desk.session.connected(desk.now);
+        let said = desk.said();
+        let is_told = said.iter().any(|line| line.contains("was lost"));
+        assert_eq!(is_told, is_lost, "{doing:?} {ahead_t}: {said:?}");
+    }
+}
+
+#[test]
+fn settings_are_told_in_a_hold() {
+    let mut desk = Desk::new();
+    desk.says(b"G0 X1\n");
+    desk.machine.doing = Doing::Held;
+    desk.looks(1);
+    assert!(desk.state().starts_with("Hold"));
+    let said = desk.says(b"$$\n");
+    assert_eq!(answers(&said), ["ok"]);
+    assert!(said.iter().any(|line| line.starts_with("$110=")));
+}
+
 #[test]
 fn the_end_of_a_program_is_told_and_what_follows_is_executed() {
     let mut desk = Desk::new();

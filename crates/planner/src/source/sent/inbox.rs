@@ -18,6 +18,10 @@ const MOST_UNREAD: usize = 4096;
 /// publish.
 const FLUSH: Duration = Duration::from_millis(20);
 
+/// The same for a machine that stands and has several moves: a program begins, and senders pause in its first
+/// windows, by up to 0.2 s. A motion that rests at the end of one would mark the part.
+const FLUSH_AT_START: Duration = Duration::from_millis(250);
+
 /// How long no line comes before the job ends, when all is executed.
 const LINGER: Duration = Duration::from_millis(100);
 
@@ -58,8 +62,12 @@ struct Inbox {
     unread: VecDeque<u8>,
     taken: u64,
     read: u64,
-    /// When a line came last.
-    came: Instant,
+    /// When a line came last, or a client was told last that one was read: until then it may have to wait.
+    heard: Instant,
+    /// Lines that a client was told to be read.
+    told: u64,
+    /// Moves given out since all was executed.
+    moves: u64,
     /// How much motion may be ahead, s.
     most_ahead_t: f64,
     followed: Followed,
@@ -100,7 +108,9 @@ impl LineInbox {
             unread: VecDeque::new(),
             taken: 0,
             read: 0,
-            came: Instant::now(),
+            heard: Instant::now(),
+            told: 0,
+            moves: 0,
             most_ahead_t: 1.0,
             followed: Followed {
                 rests: true,
@@ -147,7 +157,7 @@ impl LineInbox {
                 inbox.unread.push_back(b'\n');
             }
             inbox.taken += 1;
-            inbox.came = Instant::now();
+            inbox.heard = Instant::now();
         }
     }
 
@@ -164,6 +174,9 @@ impl LineInbox {
         // What rests goes on when something is given out, and not before.
         let rests = inbox.followed.rests || followed.rests;
         inbox.followed = Followed { rests, ..*followed };
+        if rests {
+            inbox.moves = 0;
+        }
         let block = followed.block;
         while let Some((behind, zero)) = inbox.zeros.front().copied()
             && (behind < block || rests)
@@ -198,7 +211,11 @@ impl LineInbox {
 
     /// The answer to a request about them.
     pub(crate) fn reply(&self, request: &LinesRequest) -> LinesReply {
-        let inbox = self.lock();
+        let mut inbox = self.lock();
+        if inbox.told != inbox.read {
+            inbox.told = inbox.read;
+            inbox.heard = Instant::now();
+        }
         let state = match &inbox.end {
             None => LinesState::Open,
             Some((LinesEnd::Done, _)) if inbox.program_end.is_some() => LinesState::ProgramEnd,
@@ -256,20 +273,28 @@ impl LineInbox {
     }
 
     /// Something was given out that is not executed.
-    pub(super) fn give(&self) {
-        self.lock().followed.rests = false;
+    pub(super) fn give(&self, is_move: bool) {
+        let mut inbox = self.lock();
+        inbox.followed.rests = false;
+        inbox.moves += u64::from(is_move);
     }
 
-    /// Whether no line has come for a while.
+    /// Whether no line has come for a while, though one could.
     pub(super) fn is_silent(&self) -> bool {
         let inbox = self.lock();
-        inbox.unread.is_empty() && inbox.came.elapsed() >= FLUSH
+        let stands = inbox.followed.ahead_t <= 0.0;
+        let flush = if stands && inbox.moves > 1 {
+            FLUSH_AT_START
+        } else {
+            FLUSH
+        };
+        inbox.unread.is_empty() && inbox.told == inbox.read && inbox.heard.elapsed() >= flush
     }
 
     /// Ends the job where nothing more is to come. Returns whether it has.
     pub(super) fn end_if_done(&self, is_settled: bool) -> bool {
         let mut inbox = self.lock();
-        let is_silent = inbox.unread.is_empty() && inbox.came.elapsed() >= LINGER;
+        let is_silent = inbox.unread.is_empty() && inbox.heard.elapsed() >= LINGER;
         inbox.is_over |= inbox.is_closing || (is_settled && inbox.followed.rests && is_silent);
         inbox.is_over
     }
@@ -328,7 +353,7 @@ impl LineInbox {
     pub(crate) fn age(&self, age: Duration) {
         let mut inbox = self.lock();
         if let Some(came) = Instant::now().checked_sub(age) {
-            inbox.came = came;
+            inbox.heard = came;
         }
     }
 }

@@ -9,9 +9,9 @@
 //!                        └────────── Followed: how far it is executed ◄───┘
 //! ```
 //!
-//! * **What has come moves.** Where no more has come for 20 ms and no planned motion is left to be published,
-//!   the motion is planned to rest at the end of what there is. More lines go on from there, without the rest where
-//!   there is time for that.
+//! * **What has come moves.** Where no more has come for 20 ms since the client was told that all of it is read, and
+//!   no planned motion is left to be published, the motion is planned to rest at the end of what there is. A machine
+//!   that stands and has several moves waits for 250 ms: a program begins. More lines go on from that rest.
 //! * **What was read is told.** A line is read when there is room for its motion: while more of it is planned ahead
 //!   than the client allows, lines wait. One behind which the machine rests (a dwell, a stop, a tool) counts as read
 //!   when it was executed, and so does a probing move.

@@ -142,7 +142,7 @@ impl ItemSource for SentLines {
             Supply::Item(item) => {
                 self.given = self.given.saturating_add(1);
                 self.ends_at_rest |= ends_at_rest(&item.kind);
-                self.inbox.give();
+                self.inbox.give(matches!(item.kind, ItemKind::Move { .. }));
                 self.note(behind);
                 let lines = self.source.lines_read();
                 let is_whole = !self.ends_at_rest && self.program().is_line_given();

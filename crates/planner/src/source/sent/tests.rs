@@ -145,11 +145,44 @@ fn lines_wait_while_enough_is_planned() {
     assert_eq!(desk.items().len(), 1);
 }
 
+/// A sender whose window is full may send nothing before it is told that a line was read, and one that begins a
+/// program pauses: a rest at the end of what has come would mark the part.
+#[test]
+fn a_program_that_begins_is_waited_for_and_a_single_move_is_not() {
+    let mut desk = Desk::new();
+    let pause = Duration::from_millis(50);
+    desk.inbox.take(&request(1, "G91 G0 X1\n"));
+    assert_eq!(desk.items().len(), 1);
+    desk.inbox.age(pause);
+    assert!(!desk.source.is_silent(), "nobody was told that it is read");
+    desk.reply();
+    assert!(!desk.source.is_silent(), "the client has just been told");
+    desk.inbox.age(pause);
+    assert!(desk.source.is_silent());
+    desk.executed(1);
+    desk.inbox.take(&request(2, "G1 X1 F600\nG1 X2\n"));
+    assert_eq!(desk.items().len(), 2);
+    desk.reply();
+    desk.inbox.age(pause);
+    assert!(!desk.source.is_silent(), "two moves are a program");
+    desk.inbox.age(Duration::from_millis(260));
+    assert!(desk.source.is_silent());
+    // What moves is not waited for so long: it would stop by itself.
+    desk.inbox.follow(&Followed {
+        ahead_t: 0.1,
+        rests: false,
+        block: 2,
+    });
+    desk.inbox.age(pause);
+    assert!(desk.source.is_silent());
+}
+
 #[test]
 fn a_job_ends_when_nothing_more_comes_and_all_is_executed() {
     let mut desk = Desk::new();
     desk.inbox.take(&request(1, "G0 X1\n"));
     assert_eq!(desk.items().len(), 1);
+    assert_eq!(desk.reply().read, 1);
     assert!(!desk.source.is_silent());
     desk.inbox.age(Duration::from_secs(1));
     assert!(desk.source.is_silent());
