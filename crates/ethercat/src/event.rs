@@ -66,31 +66,10 @@ pub enum Event {
     Probe(ProbeTrouble),
 }
 
-impl fmt::Display for Event {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl Event {
+    /// Words for what is no drive of a joint.
+    fn tell_other(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::InOperation => write!(f, "all drives are in OP"),
-            Self::Follows(joint) => write!(f, "J{joint} has power and follows"),
-            Self::Off(joint) => write!(f, "J{joint} is without power"),
-            Self::Fault(joint, code) => {
-                write!(f, "J{joint}: fault {}", fault_text::text(*code))
-            }
-            Self::Reset(joint) => write!(f, "J{joint}: its fault is reset"),
-            Self::LeftOp(joint, code) => {
-                write!(f, "J{joint} is not in OP: {}", al_status::text(*code))
-            }
-            Self::Gone(joint) => {
-                write!(
-                    f,
-                    "J{joint} does not answer: its supply, or the cable before it"
-                )
-            }
-            Self::Emergency(joint, code) => {
-                write!(f, "J{joint}: emergency message {}", fault_text::text(*code))
-            }
-            Self::History(joint, diagnosis) => {
-                write!(f, "J{joint}: the drive's diagnosis history has {diagnosis}")
-            }
             Self::TerminalHistory(position, diagnosis) => write!(
                 f,
                 "the device at position {position}: its diagnosis history has {diagnosis}"
@@ -123,6 +102,43 @@ impl fmt::Display for Event {
                 "a device that is no drive does not take part, and says that it is in OP: its inputs and \
                  outputs are not known"
             ),
+            _ => Ok(()),
+        }
+    }
+}
+
+impl fmt::Display for Event {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::InOperation => write!(f, "all drives are in OP"),
+            Self::Follows(joint) => write!(f, "J{joint} has power and follows"),
+            Self::Off(joint) => write!(f, "J{joint} is without power"),
+            Self::Fault(joint, code) => {
+                write!(f, "J{joint}: fault {}", fault_text::text(*code))
+            }
+            Self::Reset(joint) => write!(f, "J{joint}: its fault is reset"),
+            Self::LeftOp(joint, code) => {
+                write!(f, "J{joint} is not in OP: {}", al_status::text(*code))
+            }
+            Self::Gone(joint) => {
+                write!(
+                    f,
+                    "J{joint} does not answer: its supply, or the cable before it"
+                )
+            }
+            Self::Emergency(joint, code) => {
+                write!(f, "J{joint}: emergency message {}", fault_text::text(*code))
+            }
+            Self::History(joint, diagnosis) => {
+                write!(f, "J{joint}: the drive's diagnosis history has {diagnosis}")
+            }
+            Self::TerminalHistory(..)
+            | Self::TerminalGone(_)
+            | Self::TerminalLeftOp(..)
+            | Self::TerminalEmergency(..)
+            | Self::SpindleFault(_)
+            | Self::SpindleWithoutPower(_)
+            | Self::TerminalsShort => self.tell_other(f),
             Self::Homing(joint) => write!(f, "J{joint} looks for its home"),
             Self::Home(joint) => write!(f, "J{joint} has found its home"),
             Self::Trouble(trouble) => write!(f, "{trouble}"),
