@@ -263,6 +263,21 @@ impl Dictionary {
         }
     }
 
+    /// The lowest and the highest number of the counter.
+    #[allow(clippy::cast_sign_loss, reason = "the bits of a number with a sign")]
+    pub(crate) fn add_range(&mut self, axes: u16, (lowest, highest): (i32, i32)) {
+        for first in (0..axes).map(|axis| OBJECT_STEP * axis) {
+            self.0.insert((0x607b + first, 0), (1, 2));
+            self.0.insert((0x607b + first, 1), (4, lowest as u32));
+            self.0.insert((0x607b + first, 2), (4, highest as u32));
+        }
+    }
+
+    /// Takes objects away.
+    pub(crate) fn remove(&mut self, lacks: &[u16]) {
+        self.0.retain(|(index, _), _| !lacks.contains(index));
+    }
+
     /// Maps that stay: where the master looks for others, there are none.
     pub(crate) fn fix_maps(&mut self, outputs: &[u32], inputs: &[u32]) {
         self.0

@@ -39,6 +39,7 @@ enum Homing {
 #[derive(Debug, Clone)]
 pub(crate) struct Drive {
     lag_t: f64,
+    range: Option<(i32, i32)>,
     brake_t: f64,
     home: Option<HomeSwitch>,
     spindle: Option<SpindleMotor>,
@@ -74,6 +75,7 @@ impl Drive {
     pub(crate) fn new(settings: &DriveSettings, axis: usize) -> Self {
         Self {
             lag_t: settings.lag_t,
+            range: settings.range,
             brake_t: settings.brake_t,
             home: settings.home,
             spindle: settings.spindle,
@@ -146,8 +148,22 @@ impl Drive {
     }
 
     #[allow(clippy::cast_possible_truncation, reason = "a drive wraps, too")]
-    const fn actual(&self) -> i32 {
-        self.told_place().round() as i64 as i32
+    fn actual(&self) -> i32 {
+        let counts = self.told_place().round() as i64;
+        self.range.map_or(counts as i32, |(lowest, highest)| {
+            let (lowest, highest) = (i64::from(lowest), i64::from(highest));
+            (lowest + (counts - lowest).rem_euclid(highest - lowest + 1)) as i32
+        })
+    }
+
+    /// Where its target is: round the shorter way, where the counter goes round.
+    fn target(&self) -> f64 {
+        let target = f64::from(self.outputs.target) - self.offset;
+        let Some((lowest, highest)) = self.range else {
+            return target;
+        };
+        let count = f64::from(highest) - f64::from(lowest) + 1.0;
+        self.place + (target - self.place + 0.5 * count).rem_euclid(count) - 0.5 * count
     }
 
     /// What it tells.
@@ -337,7 +353,7 @@ impl Drive {
     }
 
     fn follow(&mut self, step_t: f64, objects: AxisObjects<'_>) {
-        let target = f64::from(self.outputs.target) - self.offset;
+        let target = self.target();
         if let Some(loops) = self.loops {
             let motor = self
                 .motor
@@ -365,7 +381,7 @@ impl Drive {
     fn watch_following(&mut self, step_t: f64, objects: AxisObjects<'_>) {
         let window = objects.value(FOLLOWING_WINDOW);
         let follows = self.power == Power::Enabled && self.outputs.mode == CYCLIC_POSITION;
-        let behind = f64::from(self.outputs.target) - self.place - self.offset;
+        let behind = self.target() - self.place;
         if !follows || window == u32::MAX || behind.abs() <= f64::from(window) {
             self.behind_t = 0.0;
             return;

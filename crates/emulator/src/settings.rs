@@ -78,6 +78,9 @@ pub struct DriveSettings {
     pub axes: usize,
     /// What each of them counts at the start; those that are not here, 0.
     pub start_counts: Vec<i32>,
+    /// The lowest and the highest number of its counter (0x607B), which goes round between them; `None` for 32 bits
+    /// that end.
+    pub range: Option<(i32, i32)>,
     /// Time constant of its lag, s; 0 for none.
     pub lag_t: f64,
     /// Its loops and its motor, in the place of a lag.
@@ -99,6 +102,8 @@ pub struct DriveSettings {
     pub long_objects: Vec<((u16, u8), Vec<u8>)>,
     /// What it does wrong where those go in segments.
     pub segment_fault: SegmentFault,
+    /// Objects that it does not have.
+    pub lacks: Vec<u16>,
     /// Whether it keeps a diagnosis history (0x10F3) of what is injected into it.
     pub has_history: bool,
     /// Whether its EEPROM says where its process data is.
@@ -232,6 +237,7 @@ impl Default for DriveSettings {
             name: "GPDRIVE".to_owned(),
             axes: 1,
             start_counts: Vec::new(),
+            range: None,
             lag_t: 0.002,
             position_loop: None,
             offsets: OffsetAccess::None,
@@ -242,6 +248,7 @@ impl Default for DriveSettings {
             maps: Maps::Free,
             long_objects: Vec::new(),
             segment_fault: SegmentFault::None,
+            lacks: Vec::new(),
             has_history: false,
             tells_managers: true,
             image: ImageAccess::Both,

@@ -12,7 +12,7 @@ pub struct Outputs {
     /// Controlword, 0x6040.
     pub control: u16,
     /// Target position, 0x607A, counts.
-    pub target: i32,
+    pub target: i64,
     /// Mode of operation, 0x6060.
     pub mode: i8,
     /// What the target takes, 0x60B1 and 0x60B2; zero where nothing moves.
@@ -28,8 +28,8 @@ pub struct Outputs {
 pub struct Inputs {
     /// Statusword, 0x6041.
     pub status: u16,
-    /// Actual position, 0x6064, counts.
-    pub actual: i32,
+    /// Actual position, 0x6064, counts: all that were counted, where the counter goes round.
+    pub actual: i64,
     /// Mode that is in force, 0x6061.
     pub mode: i8,
     /// Error code, 0x603F.
@@ -83,7 +83,7 @@ impl Outputs {
             }
         };
         write(layout.control, &self.control.to_le_bytes());
-        write(layout.target, &self.target.to_le_bytes());
+        write(layout.target, &shown(layout, self.target).to_le_bytes());
         if let Some(at) = layout.mode {
             write(at, &self.mode.to_le_bytes());
         }
@@ -103,9 +103,9 @@ impl Outputs {
 }
 
 impl Inputs {
-    /// From where a drive has it. A mode that is not mapped is the one that the drive was set to, and a
+    /// From where a drive has it, `before` having been its counts. A mode that is not mapped is the one that the drive was set to, and a
     /// number of its fault that is not mapped is that of any.
-    pub(crate) fn take(layout: &Layout, bytes: &[u8]) -> Option<Self> {
+    pub(crate) fn take(layout: &Layout, bytes: &[u8], before: i64) -> Option<Self> {
         let word = |at: usize| {
             bytes
                 .get(at..)?
@@ -118,10 +118,10 @@ impl Inputs {
             state::of(status),
             DriveState::Fault | DriveState::FaultReaction
         );
-        let actual = *bytes.get(layout.actual..)?.first_chunk()?;
+        let actual = i32::from_le_bytes(*bytes.get(layout.actual..)?.first_chunk()?);
         Some(Self {
             status,
-            actual: i32::from_le_bytes(actual),
+            actual: counted(layout, actual, before),
             mode: match layout.shown_mode {
                 Some(at) => i8::from_le_bytes([*bytes.get(at)?]),
                 None => CYCLIC_POSITION,
@@ -136,11 +136,27 @@ impl Inputs {
                 None => 0,
             },
             probe: match layout.probe {
-                Some(access) => probe(access, bytes)?,
+                Some(access) => {
+                    probe(access, bytes)?.near(layout.round, counted(layout, actual, before))
+                }
                 None => ProbeInputs::default(),
             },
         })
     }
+}
+
+/// What the counter of a drive is to show.
+#[allow(clippy::cast_possible_truncation, reason = "inside of it, or round it")]
+fn shown(layout: &Layout, counts: i64) -> i32 {
+    layout
+        .round
+        .map_or(counts as i32, |round| round.shown(counts))
+}
+
+/// What it has counted, by what it shows and by what it had counted before.
+fn counted(layout: &Layout, shown: i32, before: i64) -> i64 {
+    let round = layout.round.map(|round| round.counts(shown, before));
+    round.unwrap_or_else(|| shown.into())
 }
 
 /// What a touch probe that is mapped says; nothing of one that is not.
@@ -149,7 +165,7 @@ fn probe(access: ProbeAccess, bytes: &[u8]) -> Option<ProbeInputs> {
         return Some(ProbeInputs::default());
     };
     let status = *bytes.get(places.status..)?.first_chunk()?;
-    let kept = |at: usize| Some(i32::from_le_bytes(*bytes.get(at..)?.first_chunk()?));
+    let kept = |at: usize| Some(i32::from_le_bytes(*bytes.get(at..)?.first_chunk()?).into());
     Some(ProbeInputs {
         status: access.probe.status(u16::from_le_bytes(status)),
         places: [kept(places.kept[0])?, kept(places.kept[1])?],

@@ -4,6 +4,7 @@ use crate::device::Device;
 use crate::entry::{Entry, bits};
 use crate::probe::TouchProbe;
 use crate::settings::DriveSettings;
+use crate::turns::Round;
 
 const CONTROL: Wanted = Wanted(0x6040, 16, "0x6040 (controlword)");
 const TARGET: Wanted = Wanted(0x607a, 32, "0x607A (target position)");
@@ -62,6 +63,8 @@ pub(crate) struct Layout {
     pub(crate) shown_mode: Option<usize>,
     pub(crate) fault: Option<usize>,
     pub(crate) digital: Option<usize>,
+    /// The range of its counter, if that goes round.
+    pub(crate) round: Option<Round>,
     /// Its touch probe, if it has one that is used.
     pub(crate) probe: Option<ProbeAccess>,
 }
@@ -168,6 +171,7 @@ impl Layout {
             shown_mode: inputs.place(SHOWN_MODE),
             fault: inputs.place(FAULT),
             digital: inputs.place(DIGITAL),
+            round: None,
             probe: None,
         })
     }

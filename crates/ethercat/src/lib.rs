@@ -69,6 +69,7 @@ mod settings;
 mod state;
 mod terminal;
 mod transfer_trouble;
+mod turns;
 mod wire;
 
 pub use abort_text::text as abort_text;

@@ -54,6 +54,8 @@ pub struct HomingSettings {
 
 /// Axes that a device has at most: their objects are from 0x6000 to 0x9FFF.
 pub const DEVICE_AXES: u16 = 8;
+/// Counts of a drive that turns on and on: 2⁵³.
+const MOST_COUNTS: f64 = 9_007_199_254_740_992.0;
 /// How far the objects of an axis are from those of the one before.
 const OBJECT_STEP: u16 = 0x800;
 
@@ -80,6 +82,8 @@ pub struct DriveSettings {
     pub mapping: Mapping,
     /// Counts a mm or a degree, > 0.
     pub counts_per_unit: f64,
+    /// It turns on and on: its counter goes round and begins anew, by its range (0x607B) or by 32 bits.
+    pub is_modulo: bool,
     /// It counts the other way.
     pub is_inverted: bool,
     /// Where the joint is when the drive counts zero, mm or degrees.
@@ -94,6 +98,9 @@ pub struct DriveSettings {
     pub enable_window: f64,
     /// Deceleration of the drive's own stop, mm/s² or °/s².
     pub quick_stop_a: f64,
+    /// The most torque in the positive and in the negative direction of the joint, thousandths of the rated one
+    /// (0x60E0, 0x60E1); `None` leaves what the drive has.
+    pub torque_limits: [Option<u16>; 2],
     /// What of the motion is told beside its targets; `None` for nothing.
     pub feed_forward: Option<FeedForward>,
     /// Its touch probe; of all drives or of none.
@@ -132,18 +139,23 @@ impl DriveSettings {
 
     /// Where the joint is when the drive counts `counts`, mm or degrees.
     #[must_use]
-    pub fn place(&self, counts: i32) -> f64 {
-        self.sign() * f64::from(counts) / self.counts_per_unit + self.home_offset
+    #[allow(clippy::cast_precision_loss, reason = "far below 2⁵³")]
+    pub fn place(&self, counts: impl Into<i64>) -> f64 {
+        self.sign() * counts.into() as f64 / self.counts_per_unit + self.home_offset
     }
 
     /// What the drive counts when the joint is at a place; `None` where its counter ends.
     #[must_use]
     #[allow(clippy::cast_possible_truncation, reason = "it is inside the type")]
-    pub fn counts(&self, place: f64) -> Option<i32> {
+    pub fn counts(&self, place: f64) -> Option<i64> {
         let counts = (self.sign() * (place - self.home_offset) * self.counts_per_unit).round();
-        (f64::from(i32::MIN)..=f64::from(i32::MAX))
-            .contains(&counts)
-            .then_some(counts as i32)
+        // Up to where every count is a number of its own.
+        let range = if self.is_modulo {
+            -MOST_COUNTS..=MOST_COUNTS
+        } else {
+            f64::from(i32::MIN)..=f64::from(i32::MAX)
+        };
+        range.contains(&counts).then_some(counts as i64)
     }
 
     /// What is told beside the target of a motion with this velocity and acceleration.
@@ -152,6 +164,16 @@ impl DriveSettings {
         told.map_or_else(Offsets::default, |told| {
             told.offsets(sign * velocity, sign * acceleration)
         })
+    }
+
+    /// The limits of torque as the drive turns: forwards and backwards.
+    pub(crate) const fn own_torque_limits(&self) -> [Option<u16>; 2] {
+        let [positive, negative] = self.torque_limits;
+        if self.is_inverted {
+            [negative, positive]
+        } else {
+            [positive, negative]
+        }
     }
 
     /// A positive rate or distance in counts, at most what the object can hold.

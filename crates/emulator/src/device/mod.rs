@@ -105,6 +105,10 @@ impl Device {
         if settings.offsets != OffsetAccess::None {
             objects.add_offsets(axes);
         }
+        if let Some(range) = settings.range {
+            objects.add_range(axes, range);
+        }
+        objects.remove(&settings.lacks);
         if settings.has_history {
             objects.add_history(history::MESSAGES);
         }

@@ -12,14 +12,14 @@ const GRACE: u32 = 5;
 
 #[derive(Debug, Clone)]
 pub(super) struct Following {
-    target: i32,
+    target: i64,
     /// Whether demands are followed: the first one was where the joint stands.
     is_led: bool,
     strayed: u32,
 }
 
 impl Following {
-    pub(super) const fn new(target: i32) -> Self {
+    pub(super) const fn new(target: i64) -> Self {
         Self {
             target,
             is_led: false,
@@ -80,10 +80,11 @@ impl Following {
         }
     }
 
-    fn judge(&self, step: &Step<'_>, demand: f64) -> Result<i32, BusFault> {
+    fn judge(&self, step: &Step<'_>, demand: f64) -> Result<i64, BusFault> {
         let (settings, joint) = (step.settings, step.settings.joint);
         let target = settings.counts(demand).ok_or(BusFault::Range(joint))?;
-        let stepped = f64::from(target) - f64::from(self.target);
+        #[allow(clippy::cast_precision_loss, reason = "a step")]
+        let stepped = (target - self.target) as f64;
         let most = settings.guard_counts(step.drive_inputs.since_ns);
         if stepped.abs() > most {
             return Err(BusFault::Step(joint, stepped, most));

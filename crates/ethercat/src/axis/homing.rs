@@ -32,7 +32,7 @@ enum Part {
 pub(super) struct Homing {
     part: Part,
     since_ns: u64,
-    target: i32,
+    target: i64,
 }
 
 impl Homing {

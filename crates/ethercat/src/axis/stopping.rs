@@ -12,7 +12,7 @@ const STILL: u32 = 3;
 pub(super) struct Stopping {
     since_ns: u64,
     still: u32,
-    place: Option<i32>,
+    place: Option<i64>,
 }
 
 impl Stopping {

@@ -1,6 +1,6 @@
 //! What is in the process data of a drive: mapped by the master, or taken as the drive has it.
 
-use super::{offsets, probes};
+use super::{offsets, parameters, probes};
 use crate::abort_text;
 use crate::coe::{Object, object, read, write};
 use crate::device::Device;
@@ -83,6 +83,9 @@ pub(super) fn set<W: Wire>(
         if let Some(probe) = drive.touch_probe() {
             let access = probes::prepare(bus, device, drive, probe)?;
             layout.probe = Some(access.find((&outputs, &inputs), &own));
+        }
+        if drive.is_modulo {
+            layout.round = Some(parameters::round(bus, device, drive)?);
         }
         layouts.push(layout);
     }

@@ -352,8 +352,11 @@ impl<'w, W: Wire> Op<'w, W> {
         }
         for (nth, (axis, input)) in self.drives.axes.iter().zip(inputs).enumerate() {
             let led = self.drives.devices.get(axis.device)?;
-            *input = Inputs::take(&axis.layout, drives.inputs.get(led.inputs_at..)?)?;
-            input.probe = self.asides.told(nth).unwrap_or(input.probe);
+            let bytes = drives.inputs.get(led.inputs_at..)?;
+            *input = Inputs::take(&axis.layout, bytes, input.actual)?;
+            let asked = self.asides.told(nth);
+            let asked = asked.map(|asked| asked.near(axis.layout.round, input.actual));
+            input.probe = asked.unwrap_or(input.probe);
         }
         Some(Reception::Good(FrameTimes {
             sent_ns: self.sent_ns,

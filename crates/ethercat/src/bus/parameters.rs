@@ -6,6 +6,7 @@ use crate::error::BusError;
 use crate::exchange::Exchange;
 use crate::settings::{BusSettings, DriveSettings};
 use crate::terminal::SpindleMode;
+use crate::turns::Round;
 use crate::wire::Wire;
 
 /// The synchronization types of outputs and of inputs, and what they can be.
@@ -21,7 +22,8 @@ const BY_RAMP: u32 = 2;
 /// The codes of refusals to write an object that a drive does not have, or has fixed.
 const NOT_THERE: [u32; 4] = [0x0602_0000, 0x0609_0011, 0x0601_0002, 0x0601_0000];
 
-/// Writes all parameters of a drive.
+/// Writes all parameters of a drive, before its process data is mapped: what of it is in maps that stay is sent as the
+/// drive has it then.
 pub(super) fn write_all<W: Wire>(
     bus: &mut Exchange<'_, W>,
     device: &Device,
@@ -38,6 +40,12 @@ pub(super) fn write_all<W: Wire>(
     set(own(0x6065, 0, 4), drive.unsigned(drive.following_error))?;
     set(own(0x6066, 0, 2), drive.following_ms.into())?;
     set(own(0x6085, 0, 4), drive.unsigned(drive.quick_stop_a))?;
+    let limits = [0x60e0, 0x60e1].into_iter().zip(drive.own_torque_limits());
+    for (index, limit) in limits {
+        if let Some(limit) = limit {
+            set(own(index, 0, 2), limit.into())?;
+        }
+    }
     if let Some(homing) = drive.homing {
         #[allow(clippy::cast_sign_loss, reason = "the object is a signed byte")]
         set(own(0x6098, 0, 1), u32::from(homing.method as u8))?;
@@ -57,6 +65,27 @@ pub(super) fn write_all<W: Wire>(
         where_possible(write(bus, device, option, value))?;
     }
     Ok(())
+}
+
+/// The range of a drive's counter (0x607B); one that does not tell has 32 bits.
+#[allow(
+    clippy::cast_possible_wrap,
+    reason = "the bits of a number with a sign"
+)]
+pub(super) fn round<W: Wire>(
+    bus: &mut Exchange<'_, W>,
+    device: &Device,
+    drive: &DriveSettings,
+) -> Result<Round, BusError> {
+    let mut ends = [0; 2];
+    for (sub, end) in (1..).zip(&mut ends) {
+        match read(bus, device, object(drive.own(0x607b), sub, 4)) {
+            Ok(told) => *end = told as i32,
+            Err(BusError::Object { .. }) => return Ok(Round::of(0, 0)),
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(Round::of(ends[0], ends[1]))
 }
 
 /// Gives the drive of the spindle its mode, and tells one that works with SYNC0 its period.

@@ -156,7 +156,7 @@ impl<'w, W: Wire> PreOp<'w, W> {
         })
     }
 
-    /// Maps the process data of all drives, a device at a time, and gives each its parameters.
+    /// Gives all drives their parameters and maps their process data, a device at a time.
     fn drives(&mut self, settings: &Settings) -> Result<Drives, BusError> {
         let mut drives = Drives::default();
         let mut axes: Vec<Option<LedAxis>> = vec![None; settings.drives.len()];
@@ -173,9 +173,11 @@ impl<'w, W: Wire> PreOp<'w, W> {
                 device = self.drive(drive)?;
             }
             let own: Vec<_> = of_device.iter().map(|(_, drive)| *drive).collect();
-            let mapped = mapping::set(&mut self.bus, &device, &own)?;
-            for ((nth, drive), layout) in of_device.into_iter().zip(mapped.layouts) {
+            for drive in &own {
                 parameters::write_all(&mut self.bus, &device, &settings.bus, drive)?;
+            }
+            let mapped = mapping::set(&mut self.bus, &device, &own)?;
+            for ((nth, _), layout) in of_device.into_iter().zip(mapped.layouts) {
                 axes[nth] = Some(LedAxis {
                     device: drives.devices.len(),
                     layout,

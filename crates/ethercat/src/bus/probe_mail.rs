@@ -285,7 +285,7 @@ impl Mailed {
                 0
             }
             What::Place(edge) => {
-                self.reading.places[edge.min(1)] = value as i32;
+                self.reading.places[edge.min(1)] = (value as i32).into();
                 edge + 1
             }
         };

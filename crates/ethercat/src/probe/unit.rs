@@ -1,6 +1,7 @@
 //! A unit of a touch probe: switched off and on again, it keeps the next edge.
 
 use super::settings::ProbeUse;
+use crate::turns::Round;
 
 /// The bits of a unit's status.
 const IS_ON: u8 = 1;
@@ -13,10 +14,20 @@ pub struct ProbeInputs {
     /// On, stored at a rising edge, at a falling one: bits 0 to 2.
     pub status: u8,
     /// The places that it keeps, counts: at a rising edge, and at a falling one.
-    pub places: [i32; 2],
+    pub places: [i64; 2],
 }
 
 impl ProbeInputs {
+    /// The same where the counter goes round: what it keeps is near what is counted now.
+    pub(crate) fn near(self, round: Option<Round>, counts: i64) -> Self {
+        let Some(round) = round else {
+            return self;
+        };
+        #[allow(clippy::cast_possible_truncation, reason = "as the drive shows it")]
+        let places = self.places.map(|place| round.counts(place as i32, counts));
+        Self { places, ..self }
+    }
+
     /// Whether it keeps an edge, of those of a mask.
     pub(crate) const fn has(&self, edges: u8) -> bool {
         self.status & edges != 0

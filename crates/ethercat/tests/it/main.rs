@@ -23,12 +23,14 @@ mod losses;
 mod machine;
 mod maps;
 mod matrix;
+mod modulo;
 mod probing;
 mod segments;
 mod spindle;
 mod terminals;
 mod terminals_up;
 mod threads;
+mod torque_limits;
 mod whole_machine;
 mod wire;
 

@@ -55,6 +55,13 @@ const RATE: Range = Range {
     help: "what the joint can do without its own mechanics",
 };
 
+const TORQUE: Range = Range {
+    min: 0.1,
+    max: 1000.0,
+    unit: "% of the rated torque",
+    help: "the most torque in this direction of the joint (0x60E0, 0x60E1); leave it out for what the drive has",
+};
+
 /// The highest speed of each joint, mm/s or °/s.
 pub(crate) fn joint_velocities(machine: &MachineConfig) -> Vec<f64> {
     let limits = joint_limits(machine).into_iter();
@@ -270,6 +277,7 @@ fn drive(judge: &mut Judge, raw: RawDrive, limits: &[(f64, f64)]) -> DriveSettin
     let own_limits = limits.get(joint).copied().unwrap_or((1.0, 1.0));
     let told = raw.feed_forward.as_ref();
     let feed_forward = told.and_then(|told| feed_forward(judge, told, counts, own_limits));
+    let torque_limits = torque_limits(judge, &raw);
     let process_at = process_at(judge, &raw);
     let probe = raw.probe.as_ref();
     let probe = probe.and_then(|probe| touch_probe::touch_probe(judge, probe));
@@ -285,6 +293,7 @@ fn drive(judge: &mut Judge, raw: RawDrive, limits: &[(f64, f64)]) -> DriveSettin
         process_at,
         mapping: raw.map.into(),
         counts_per_unit: counts,
+        is_modulo: raw.modulo,
         is_inverted: raw.invert,
         home_offset: judge.number_or("drive.home_offset", &raw.home_offset, &PLACE, 0.0),
         homing: raw
@@ -294,6 +303,7 @@ fn drive(judge: &mut Judge, raw: RawDrive, limits: &[(f64, f64)]) -> DriveSettin
         following_ms: following_ms.unwrap_or(10),
         enable_window: judge.number_or("drive.enable_window", &raw.enable_window, &WINDOW, 0.05),
         quick_stop_a: judge.number("drive.quick_stop", &raw.quick_stop, &RATE),
+        torque_limits,
         feed_forward,
         probe,
         index,
@@ -317,6 +327,24 @@ fn counts(judge: &mut Judge, raw: &RawDrive) -> f64 {
             1.0
         }
     }
+}
+
+/// The limits of torque in both directions, thousandths of the rated one.
+fn torque_limits(judge: &mut Judge, raw: &RawDrive) -> [Option<u16>; 2] {
+    let mut limit = |key, value: &Option<Spanned<f64>>| {
+        let percent = judge.number(key, value.as_ref()?, &TORQUE);
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "judged: 10 000 at most"
+        )]
+        let thousandths = (10.0 * percent).round() as u16;
+        Some(thousandths)
+    };
+    [
+        limit("drive.torque_positive", &raw.torque_positive),
+        limit("drive.torque_negative", &raw.torque_negative),
+    ]
 }
 
 /// Which axis of a device it is, and how far the maps of axes are apart.

@@ -42,12 +42,16 @@ pub(super) struct RawDrive {
     pub(super) counts_per_mm: Optional<f64>,
     pub(super) counts_per_deg: Optional<f64>,
     #[serde(default)]
+    pub(super) modulo: bool,
+    #[serde(default)]
     pub(super) invert: bool,
     pub(super) home_offset: Optional<f64>,
     pub(super) following_error: Spanned<f64>,
     pub(super) following_ms: Optional<i64>,
     pub(super) enable_window: Optional<f64>,
     pub(super) quick_stop: Spanned<f64>,
+    pub(super) torque_positive: Optional<f64>,
+    pub(super) torque_negative: Optional<f64>,
     pub(super) feed_forward: Optional<RawFeedForward>,
     pub(super) homing: Optional<RawHoming>,
     pub(super) probe: Option<RawTouchProbe>,

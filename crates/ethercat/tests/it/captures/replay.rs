@@ -251,12 +251,11 @@ fn refused_as_drive(known: &[Known], nth: usize) -> (String, Option<(u16, u8)>) 
     (told.unwrap_err().to_string(), unknown)
 }
 
-/// Devices that go on until they are asked what no capture knows. The AKD has all that a drive needs in its maps as
-/// it is delivered; of the others maps were asked all at once.
+/// Devices that go on until they are told what no capture knows: the first parameter of a drive.
 const UNASKED: [(&str, usize, (u16, u8)); 3] = [
-    ("soem-dual-lan9252.pcapng", 0, (0x1c12, 0)),
+    ("soem-dual-lan9252.pcapng", 0, (0x60c2, 1)),
     ("soem-sdinfo-akd.pcapng", 0, (0x60c2, 1)),
-    ("soem-single-lan9252.pcapng", 0, (0x1c12, 0)),
+    ("soem-single-lan9252.pcapng", 0, (0x60c2, 1)),
 ];
 
 /// All other refusals: of couplers and simple terminals; of an EK1914 and an EL3004; and of a board whose EEPROM

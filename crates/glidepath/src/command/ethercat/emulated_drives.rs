@@ -43,6 +43,7 @@ pub(super) fn desk_drives(
         process_at: None,
         mapping: Mapping::Written,
         counts_per_unit: COUNTS.min(REACH / reach),
+        is_modulo: false,
         is_inverted: false,
         home_offset: if homes { begins[joint] - TO_HOME } else { 0.0 },
         homing: homes.then_some(HomingSettings {
@@ -57,6 +58,7 @@ pub(super) fn desk_drives(
         following_ms: 50,
         enable_window: 0.05,
         quick_stop_a: 4000.0,
+        torque_limits: [None; 2],
         feed_forward: None,
         probe: None,
         index: keeps_index(config, joint).then_some(1),
@@ -93,13 +95,19 @@ pub(super) fn as_they_are(
     let last = positions.max().unwrap_or(0);
     let mut emulated = vec![Emulated::default(); last + 1];
     for drive in drives {
-        let begin = drive.counts(begins[drive.joint]).unwrap_or(0);
+        let begin = drive.counts(begins[drive.joint]);
+        // One that turns on and on begins inside its range.
+        let begin = begin.and_then(|counts| i32::try_from(counts).ok());
+        let begin = begin.unwrap_or(0);
         let there = &mut emulated[drive.position];
         there.axes = there.axes.max(usize::from(drive.axis) + 1);
         if drive.probe.is_some() || drive.index.is_some() {
             let probe = there.touch_probe.get_or_insert_default();
             // That of the first axis that keeps one.
             probe.zero = probe.zero.or(drive.index.map(|_| zero_impulse(drive)));
+        }
+        if drive.is_modulo {
+            there.range = Some((i32::MIN, i32::MAX));
         }
         if drive.feed_forward.is_some() {
             there.offsets = OffsetAccess::Mapped;

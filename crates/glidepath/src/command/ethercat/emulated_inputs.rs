@@ -158,7 +158,8 @@ impl Pins {
     fn drive(&self, joint: usize, place: f64) -> Option<(&DriveSettings, f64, i32)> {
         let mut drives = self.drives.iter();
         let (drive, begins) = drives.find(|(drive, _)| drive.joint == joint)?;
-        Some((drive, *begins, drive.counts(place)?))
+        let counts = i32::try_from(drive.counts(place)?).ok()?;
+        Some((drive, *begins, counts))
     }
 
     /// A probe that is on at a place of a joint and beyond it, as seen from where the joint begins. All touch
@@ -281,6 +282,7 @@ mod tests {
             process_at: None,
             mapping: glidepath_ethercat::Mapping::Written,
             counts_per_unit: 1000.0,
+            is_modulo: false,
             is_inverted: true,
             home_offset: 0.0,
             homing: None,
@@ -288,6 +290,7 @@ mod tests {
             following_ms: 10,
             enable_window: 0.05,
             quick_stop_a: 1000.0,
+            torque_limits: [None; 2],
             feed_forward: None,
             probe: None,
             index: None,

@@ -58,6 +58,28 @@ fn wrong(text: &str) -> Vec<(usize, String)> {
 }
 
 #[test]
+fn limits_of_torque_are_in_percent_and_of_each_direction() {
+    let drive = |joint: usize, more: &str| {
+        format!(
+            "[[drive]]\njoint = {joint}\nposition = {joint}\ncounts_per_mm = 1000.0\nfollowing_error = 1.0\n\
+             quick_stop = 2000.0\n{more}\n"
+        )
+    };
+    let file = |more: &str| {
+        let [first, second, third] = [drive(0, more), drive(1, ""), drive(2, "")];
+        format!("[bus]\ninterface = \"eth9\"\n{first}{second}{third}")
+    };
+    let text = file("torque_positive = 80.0\ntorque_negative = 62.5");
+    let drives = parse("drives.toml", &text, &machine("none"))
+        .unwrap()
+        .drives;
+    assert_eq!(drives[0].torque_limits, [Some(800), Some(625)]);
+    assert_eq!(drives[1].torque_limits, [None, None]);
+    let told = wrong(&file("torque_positive = 0.0"));
+    assert!(told[0].1.contains("drive.torque_positive"), "{told:?}");
+}
+
+#[test]
 fn a_first_file_is_refused_until_somebody_says_how_far_a_turn_is() {
     let text = written("enp3s0", &[found(0), found(1), found(2)]);
     assert!(text.contains("8388608 counts of a revolution"), "{text}");
