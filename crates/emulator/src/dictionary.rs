@@ -24,6 +24,8 @@ pub(crate) const PROBE_FUNCTION: Object = (0x60b8, 0);
 pub(crate) const PROBE_SOURCE: u16 = 0x60d0;
 pub(crate) const DIGITAL_INPUTS: Object = (0x60fd, 0);
 pub(crate) const HISTORY: u16 = 0x10f3;
+/// Messages that it keeps at most.
+pub(crate) const MESSAGES: u32 = 4;
 /// Which of its messages is the newest.
 pub(crate) const NEWEST: Object = (HISTORY, 2);
 pub(crate) const SYNC_OUTPUTS: Object = (0x1c32, 1);
@@ -250,10 +252,10 @@ impl Dictionary {
     }
 
     /// The diagnosis history: how many messages there are at most, and which is the newest.
-    pub(crate) fn add_history(&mut self, messages: u32) {
+    pub(crate) fn add_history(&mut self) {
         for (sub, size, value) in [
-            (0, 1, 5 + messages),
-            (1, 1, messages),
+            (0, 1, 5 + MESSAGES),
+            (1, 1, MESSAGES),
             (2, 1, 0),
             (3, 1, 0),
             (4, 1, 0),

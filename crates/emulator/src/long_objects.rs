@@ -3,6 +3,7 @@
 
 use crate::dictionary::Object;
 use crate::eeprom::MAILBOX;
+use crate::segment_fault::SegmentFault;
 use std::collections::BTreeMap;
 
 /// Bytes of a message in front of the data of its first part, and of a segment.
@@ -15,24 +16,6 @@ const LEAST: usize = 7;
 const WRONG_TOGGLE: u32 = 0x0503_0000;
 const NO_COMMAND: u32 = 0x0504_0001;
 const WRONG_LENGTH: u32 = 0x0607_0010;
-
-/// What a device does wrong with segments.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum SegmentFault {
-    /// Nothing.
-    #[default]
-    None,
-    /// From the second one on their toggle bit does not change.
-    SameToggle,
-    /// Instead of the nth one, from 0, it aborts with this code.
-    Abort(u32, u32),
-    /// It tells so many bytes more than it gives, or less.
-    Length(i32),
-    /// They are empty, and none is the last one.
-    Empty,
-    /// The nth one, from 0, is not answered, once.
-    Silent(u32),
-}
 
 /// A transfer under way.
 #[derive(Debug, Clone)]

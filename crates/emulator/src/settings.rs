@@ -2,8 +2,8 @@
 
 use crate::channels::Channels;
 use crate::clock::ClockKind;
-use crate::long_objects::SegmentFault;
 use crate::position_loop::{OffsetAccess, PositionLoop};
+use crate::segment_fault::SegmentFault;
 use crate::spindle::SpindleMotor;
 use crate::touch_probe::TouchProbe;
 

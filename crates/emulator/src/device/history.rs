@@ -1,10 +1,9 @@
 //! The diagnosis history of a device (0x10F3): what it has to say of its faults.
 
 use super::Device;
-use crate::dictionary::{HISTORY, NEWEST};
+use crate::dictionary::{HISTORY, MESSAGES, NEWEST};
 
-/// Messages that it keeps, and the subindex of the first one.
-pub(super) const MESSAGES: u32 = 4;
+/// The subindex of the first message.
 const FIRST: u32 = 6;
 /// A code that says that the number of a fault of CiA 402 is behind it, and the flag of an error.
 const FAULT: u16 = 0xe800;

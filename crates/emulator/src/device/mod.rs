@@ -110,7 +110,7 @@ impl Device {
         }
         objects.remove(&settings.lacks);
         if settings.has_history {
-            objects.add_history(history::MESSAGES);
+            objects.add_history();
         }
         if let Some(probe) = settings.touch_probe {
             objects.add_touch_probes(axes, probe.has_sources);
