@@ -10,10 +10,11 @@ use std::sync::mpsc;
 use std::time::Duration;
 
 /// The shipped machines, between them with every mechanism that has lengths.
-const MACHINES: [&str; 6] = [
+const MACHINES: [&str; 7] = [
     "mill",
     "hexapod",
     "translational-hexapod",
+    "nutating-head",
     "scara",
     "five-bar",
     "rotary-delta",

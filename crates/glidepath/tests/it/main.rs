@@ -20,6 +20,7 @@ mod manual_words;
 mod migration;
 mod mistaken_files;
 mod nurbs;
+mod nutating;
 mod outputs;
 mod pipes;
 mod plot;

@@ -6,5 +6,6 @@ mod curve_rates;
 mod five_axis;
 mod five_bar;
 mod mechanisms;
+mod skewed;
 mod support;
 mod vectors;
