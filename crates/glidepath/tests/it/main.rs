@@ -1,6 +1,7 @@
 //! The command, as it is typed.
 
 mod arms;
+mod binding_joints;
 mod calibrate;
 mod command_line;
 mod command_options;
