@@ -6,6 +6,9 @@
 
 use crate::violation::{JointRate, ViolationKind, ViolationList};
 
+/// Most joints of a machine.
+pub(crate) const JOINTS: usize = 9;
+
 /// A limit counts as kept up to this factor.
 const SLACK: f64 = 1.0 + 1e-6;
 

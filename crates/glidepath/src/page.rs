@@ -61,6 +61,11 @@ const fn limit_of(binding: Option<Binding>) -> (LimitKind, usize) {
         Some(Binding::Velocity(axis)) => (LimitKind::Velocity, axis.index()),
         Some(Binding::Acceleration(axis)) => (LimitKind::Acceleration, axis.index()),
         Some(Binding::Jerk(axis)) => (LimitKind::Jerk, axis.index()),
+        Some(Binding::JointVelocity(joint)) => (LimitKind::Velocity, MotionSample::joint(joint)),
+        Some(Binding::JointAcceleration(joint)) => {
+            (LimitKind::Acceleration, MotionSample::joint(joint))
+        }
+        Some(Binding::JointJerk(joint)) => (LimitKind::Jerk, MotionSample::joint(joint)),
         Some(Binding::Tolerance) => (LimitKind::Tolerance, 0),
         Some(Binding::ChordError) => (LimitKind::ChordError, 0),
         Some(Binding::None) | None => (LimitKind::None, 0),

@@ -9,7 +9,8 @@
 //!   table, head   q = c₀ + Rz(γ)(w − c₀) + L (Rt(θ) ẑ − ẑ)
 //! ```
 //!
-//! θ and γ are the programmed angles times the sign of their axis. In all of them q is w, shifted
+//! θ and γ are the programmed angles times the sign of their axis; Rt turns about x, y or a direction of the machine's
+//! own ([`Tilt`]). In all of them q is w, shifted
 //! by constants, when both angles are zero. Signs, order, pivots and offsets are data of the
 //! machine.
 //!
@@ -18,20 +19,12 @@
 //! ([`FiveAxis::angles_deg`]).
 
 use crate::machine::{AxisSeries, Conditioning, JointSeries, JointVector, Kinematics};
-use crate::space::{Point, Turn, add, offset, stretched, turned};
+use crate::space::{Point, Turn, add, offset, stretched};
+use crate::tilt::{SkewedTilt, Tilt};
 use crate::{JOINTS, KinematicsError};
 use glidepath_geometry::number::{Number, Series};
 use glidepath_geometry::{Axis, AxisVector};
 use nalgebra::Vector3;
-
-/// The axis that tilts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Tilt {
-    /// About x.
-    A,
-    /// About y.
-    B,
-}
 
 /// What the rotary axes carry.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -83,18 +76,7 @@ impl FiveAxis {
     /// The axis that tilts.
     #[must_use]
     pub const fn tilt_axis(&self) -> Axis {
-        match self.tilt {
-            Tilt::A => Axis::A,
-            Tilt::B => Axis::B,
-        }
-    }
-
-    /// Index in space of the axis the tilt turns about.
-    const fn tilt_about(&self) -> usize {
-        match self.tilt {
-            Tilt::A => 0,
-            Tilt::B => 1,
-        }
+        self.tilt.axis()
     }
 
     fn signs(&self) -> (f64, f64) {
@@ -108,10 +90,7 @@ impl FiveAxis {
         rotary: Series<N, T>,
     ) -> (Turn<N, T>, Turn<N, T>) {
         let (t, r) = self.signs();
-        (
-            Turn::new(self.tilt_about(), tilt.scale(t)),
-            Turn::new(2, rotary.scale(r)),
-        )
+        (self.tilt.turn(tilt.scale(t)), Turn::new(2, rotary.scale(r)))
     }
 
     /// The joints' linear part as a function of the tip; with `back`, the other way.
@@ -166,39 +145,49 @@ impl FiveAxis {
     #[must_use]
     pub fn tool_axis(&self, tilt_deg: f64, rotary_deg: f64) -> Vector3<f64> {
         let (t, r) = self.signs();
+        let tilted = |angle| self.tilt.turn(Series::<1>::new([angle])).of(&Vector3::z());
+        let turned = |angle, way| Turn::new(2, Series::<1>::new([angle])).of(&way);
         let (tilt, rotary) = (t * tilt_deg, r * rotary_deg);
-        let about = self.tilt_about();
-        let z = Vector3::z();
         match self.rotaries {
-            Rotaries::TableTable { .. } => turned(2, -rotary, &turned(about, -tilt, &z)),
-            Rotaries::HeadHead { .. } => turned(2, rotary, &turned(about, tilt, &z)),
-            Rotaries::TableHead { .. } => turned(2, -rotary, &turned(about, tilt, &z)),
+            Rotaries::TableTable { .. } => turned(-rotary, tilted(-tilt)),
+            Rotaries::HeadHead { .. } => turned(rotary, tilted(tilt)),
+            Rotaries::TableHead { .. } => turned(-rotary, tilted(tilt)),
         }
     }
 
     /// The programmed angles (tilt, C) that give the tool a direction: of the two branches that
-    /// next to `near_deg`, with C unwrapped to it. Along the rotary axis C stays as it is.
+    /// next to `near_deg`, with C unwrapped to it. Along the rotary axis C stays as it is. None if the tool cannot
+    /// lean so far.
     #[must_use]
-    pub fn angles_deg(&self, tool_axis: &Vector3<f64>, near_deg: (f64, f64)) -> (f64, f64) {
-        let branches = self.branches_deg(tool_axis, near_deg.1);
+    pub fn angles_deg(&self, tool_axis: &Vector3<f64>, near_deg: (f64, f64)) -> Option<(f64, f64)> {
+        let branches = self.branches_deg(tool_axis, near_deg.1)?;
         let far =
             |(tilt, rotary): (f64, f64)| (tilt - near_deg.0).abs().max((rotary - near_deg.1).abs());
-        if far(branches[1]) < far(branches[0]) {
+        Some(if far(branches[1]) < far(branches[0]) {
             branches[1]
         } else {
             branches[0]
-        }
+        })
     }
 
     /// Both ways (tilt, C) to give the tool a direction, with C unwrapped to `near_rotary_deg`. Along
-    /// the rotary axis, where every C will do, C stays as it is.
+    /// the rotary axis, where every C will do, C stays as it is. None if the tool cannot lean so far, which is on
+    /// machines with a skewed tilt axis alone; at the most that it leans, both are the same but for a turn of the
+    /// tilt.
     #[must_use]
-    pub fn branches_deg(&self, tool_axis: &Vector3<f64>, near_rotary_deg: f64) -> [(f64, f64); 2] {
+    pub fn branches_deg(
+        &self,
+        tool_axis: &Vector3<f64>,
+        near_rotary_deg: f64,
+    ) -> Option<[(f64, f64); 2]> {
+        if let Tilt::Skewed(skewed) = &self.tilt {
+            return self.skewed_branches_deg(skewed, tool_axis, near_rotary_deg);
+        }
         let (t, r) = self.signs();
         let flat = tool_axis.x.hypot(tool_axis.y);
         let tilt = flat.atan2(tool_axis.z).to_degrees();
         if flat < POLE_R * tool_axis.norm() {
-            return [(t * tilt, near_rotary_deg); 2];
+            return Some([(t * tilt, near_rotary_deg); 2]);
         }
         // Where a small positive tilt leans the tool at C = 0, and which way C then takes it.
         let lean = Self {
@@ -206,18 +195,50 @@ impl FiveAxis {
             ..*self
         }
         .tool_axis(90.0, 0.0);
-        let sense = match self.rotaries {
+        let heading = tool_axis.y.atan2(tool_axis.x) - lean.y.atan2(lean.x);
+        let rotary = self.sense() * heading.to_degrees();
+        Some([
+            (t * tilt, unwrapped(r * rotary, near_rotary_deg)),
+            (-t * tilt, unwrapped(r * (rotary + 180.0), near_rotary_deg)),
+        ])
+    }
+
+    /// Which way C turns the tool against the work.
+    const fn sense(&self) -> f64 {
+        match self.rotaries {
             Rotaries::HeadHead { .. } => 1.0,
             Rotaries::TableTable { .. } | Rotaries::TableHead { .. } => -1.0,
-        };
-        let heading = tool_axis.y.atan2(tool_axis.x) - lean.y.atan2(lean.x);
-        let rotary = sense * heading.to_degrees();
-        let unwrapped = |angle: f64| angle + 360.0 * ((near_rotary_deg - angle) / 360.0).round();
-        [
-            (t * tilt, unwrapped(r * rotary)),
-            (-t * tilt, unwrapped(r * (rotary + 180.0))),
-        ]
+        }
     }
+
+    /// [`branches_deg`](Self::branches_deg) of a tilt axis that is skewed: the tilt leans the tool to the direction's
+    /// height, one way or the other, and C turns it to its heading from where that took it.
+    fn skewed_branches_deg(
+        &self,
+        skewed: &SkewedTilt,
+        tool_axis: &Vector3<f64>,
+        near_rotary_deg: f64,
+    ) -> Option<[(f64, f64); 2]> {
+        let (t, r) = self.signs();
+        let way = tool_axis.normalize();
+        let tilt = skewed.angle_deg(&way)?;
+        let is_pole = way.x.hypot(way.y) < POLE_R;
+        Some([tilt, -tilt].map(|tilt| {
+            let programmed = t * tilt;
+            if is_pole {
+                return (programmed, near_rotary_deg);
+            }
+            let lean = self.tool_axis(programmed, 0.0);
+            let heading = way.y.atan2(way.x) - lean.y.atan2(lean.x);
+            let rotary = r * self.sense() * heading.to_degrees();
+            (programmed, unwrapped(rotary, near_rotary_deg))
+        }))
+    }
+}
+
+/// The angle with as many turns as bring it next to another, degrees.
+fn unwrapped(angle_deg: f64, near_deg: f64) -> f64 {
+    angle_deg + 360.0 * ((near_deg - angle_deg) / 360.0).round()
 }
 
 impl Kinematics for FiveAxis {

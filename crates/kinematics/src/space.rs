@@ -37,27 +37,61 @@ pub(crate) fn norm_squared<const N: usize, T: Number>(a: Point<N, T>) -> Series<
     a[0].square() + a[1].square() + a[2].square()
 }
 
-/// A rotation about one of the axes of space, 0 for x, by an angle in degrees.
+/// What a rotation is about.
+#[derive(Debug, Clone, Copy)]
+enum About {
+    /// One of the axes of space, 0 for x.
+    Axis(usize),
+    /// A direction of length 1.
+    Direction(Vector3<f64>),
+}
+
+/// A rotation by an angle in degrees.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Turn<const N: usize, T = f64> {
-    axis: usize,
+    about: About,
     sin: Series<N, T>,
     cos: Series<N, T>,
 }
 
 impl<const N: usize, T: Number> Turn<N, T> {
+    /// About one of the axes of space, 0 for x.
     pub(crate) fn new(axis: usize, angle_deg: Series<N, T>) -> Self {
+        Self::by(About::Axis(axis), angle_deg)
+    }
+
+    /// About a direction of length 1.
+    pub(crate) fn about(direction: Vector3<f64>, angle_deg: Series<N, T>) -> Self {
+        Self::by(About::Direction(direction), angle_deg)
+    }
+
+    fn by(about: About, angle_deg: Series<N, T>) -> Self {
         let (sin, cos) = angle_deg.scale(RAD).sin_cos();
-        Self { axis, sin, cos }
+        Self { about, sin, cos }
     }
 
     /// Right-handed about the axis.
     pub(crate) fn apply(&self, a: Point<N, T>) -> Point<N, T> {
-        let (i, j) = ((self.axis + 1) % 3, (self.axis + 2) % 3);
+        let axis = match &self.about {
+            About::Axis(axis) => axis,
+            About::Direction(direction) => return self.about_direction(direction, a),
+        };
+        let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
         let mut turned = a;
         turned[i] = self.cos * a[i] - self.sin * a[j];
         turned[j] = self.sin * a[i] + self.cos * a[j];
         turned
+    }
+
+    /// By Rodrigues' formula: a cos + (d × a) sin + d (d · a) (1 − cos).
+    fn about_direction(&self, d: &Vector3<f64>, a: Point<N, T>) -> Point<N, T> {
+        let along = a[0].scale(d.x) + a[1].scale(d.y) + a[2].scale(d.z);
+        let kept = along - along * self.cos;
+        core::array::from_fn(|i| {
+            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+            let across = a[k].scale(d[j]) - a[j].scale(d[k]);
+            self.cos * a[i] + self.sin * across + kept.scale(d[i])
+        })
     }
 
     /// The other way round.
@@ -70,10 +104,11 @@ impl<const N: usize, T: Number> Turn<N, T> {
     }
 }
 
-/// A rotation by an angle in degrees of a plain vector.
-pub(crate) fn turned(axis: usize, angle_deg: f64, a: &Vector3<f64>) -> Vector3<f64> {
-    let turn = Turn::new(axis, Series::<1>::new([angle_deg]));
-    turn.apply(constant(a)).map(|s| s.value()).into()
+impl Turn<1> {
+    /// Of a plain vector.
+    pub(crate) fn of(&self, a: &Vector3<f64>) -> Vector3<f64> {
+        self.apply(constant(a)).map(|s| s.value()).into()
+    }
 }
 
 /// The lower of the two points at the same distance from three centres, by trilateration: a closed form, as

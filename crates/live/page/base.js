@@ -77,7 +77,7 @@ const LIMIT_COLOURS = { rest: '--b-none', feed: '--b-feed', velocity: '--b-vel',
 const limitOf = code => LIMITS[code & 7];
 const limitText = code => {
   if (code & 128) return 'rapid';
-  const kind = code & 7, axis = 'XYZABCUVW'[code >> 3 & 15];
+  const kind = code & 7, axis = [...'XYZABCUVW', 'J0', 'J1', 'J2', 'J3', 'J4', 'J5', 'of a joint'][code >> 3 & 15];
   return kind >= 2 && kind <= 4 ? `${LIMITS[kind]} ${axis}` : LIMIT_WORDS[LIMITS[kind]];
 };
 

@@ -17,6 +17,7 @@ function whyAt(p) {
 function limitWords(limit) {
   const [kind, name] = limit.split(' '), axis = AXES().find(axis => axis.name === name), k = ['velocity', 'acceleration', 'jerk'].indexOf(kind);
   if (axis && k >= 0) return `the ${kind} of ${name}, ${grouped(axis.limits[k])} ${axis.unit}/s${['', '²', '³'][k]}`;
+  if (k >= 0 && /^J\d$/.test(name)) return `the ${kind} of joint ${name}`;
   if (limit === 'tolerance') return `the tolerance, ${num(INFO.report.tolerance_mm, 3)} mm`;
   if (limit === 'feed' || limit === LIMIT_WORDS.feed) return 'the programmed feed';
   return { none: 'no single limit', rest: 'a rest', rapid: 'the rapids of the axes', 'chord error': 'the chord error: the period is long for this curve' }[limit] || limit;

@@ -1,5 +1,6 @@
 //! The limits that can bind, each with an index.
 
+use crate::joints::JOINTS;
 use core::fmt;
 use glidepath_geometry::{AXES, Axis};
 
@@ -16,6 +17,12 @@ pub enum Binding {
     Acceleration(Axis),
     /// The acceleration of an axis changes as fast as it can.
     Jerk(Axis),
+    /// A joint is as fast as it can be, J0 by 0.
+    JointVelocity(usize),
+    /// A joint accelerates or brakes as hard as it can.
+    JointAcceleration(usize),
+    /// The acceleration of a joint changes as fast as it can.
+    JointJerk(usize),
     /// The motion is as far from the programmed path as it may be.
     Tolerance,
     /// The straight line between two setpoints is as far from the path as it may be: the period is
@@ -26,18 +33,22 @@ pub enum Binding {
 }
 
 /// Number of different bindings.
-pub(super) const COUNT: usize = 5 + 3 * AXES;
+pub(super) const COUNT: usize = 5 + 3 * AXES + 3 * JOINTS;
 
 impl Binding {
     /// All of them, in the order of [`Binding::index`].
     pub(super) fn all() -> impl Iterator<Item = Self> {
         let per_axis = |of: fn(Axis) -> Self| Axis::ALL.into_iter().map(of);
+        let per_joint = |of: fn(usize) -> Self| (0..JOINTS).map(of);
         [Self::Rest, Self::Feed]
             .into_iter()
             .chain(per_axis(Self::Velocity))
             .chain(per_axis(Self::Acceleration))
             .chain(per_axis(Self::Jerk))
             .chain([Self::Tolerance, Self::ChordError, Self::None])
+            .chain(per_joint(Self::JointVelocity))
+            .chain(per_joint(Self::JointAcceleration))
+            .chain(per_joint(Self::JointJerk))
     }
 
     /// A number of its own, from 0, below `COUNT`.
@@ -51,6 +62,9 @@ impl Binding {
             Self::Tolerance => 2 + 3 * AXES,
             Self::ChordError => 3 + 3 * AXES,
             Self::None => 4 + 3 * AXES,
+            Self::JointVelocity(joint) => 5 + 3 * AXES + joint,
+            Self::JointAcceleration(joint) => 5 + 3 * AXES + JOINTS + joint,
+            Self::JointJerk(joint) => 5 + 3 * AXES + 2 * JOINTS + joint,
         }
     }
 }
@@ -63,6 +77,9 @@ impl fmt::Display for Binding {
             Self::Velocity(axis) => write!(f, "velocity {axis}"),
             Self::Acceleration(axis) => write!(f, "acceleration {axis}"),
             Self::Jerk(axis) => write!(f, "jerk {axis}"),
+            Self::JointVelocity(joint) => write!(f, "velocity J{joint}"),
+            Self::JointAcceleration(joint) => write!(f, "acceleration J{joint}"),
+            Self::JointJerk(joint) => write!(f, "jerk J{joint}"),
             Self::Tolerance => write!(f, "tolerance"),
             Self::ChordError => write!(f, "chord error"),
             Self::None => write!(f, "none"),

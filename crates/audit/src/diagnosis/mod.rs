@@ -11,6 +11,7 @@
 
 mod binding;
 mod differences;
+mod joint_differences;
 mod places;
 
 pub use binding::Binding;
@@ -18,21 +19,30 @@ pub use places::SlowPlace;
 
 use crate::AuditSettings;
 use crate::follow::{Follow, Nearby};
+use crate::joints::JointBounds;
 use crate::passed_points::PassedPoints;
 use crate::shape::{Shape, ShapeReport};
 use crate::smoothness::{Smoothness, SmoothnessReport};
 use binding::COUNT;
 use differences::Differences;
+use glidepath_geometry::Axis;
 use glidepath_program::{Frame, FrameFlags, Item};
+use joint_differences::JointDifferences;
 use places::{Places, Visit};
 
 /// A limit counts as used fully from this share on. Plans keep some parts in a thousand below.
 const FULLY_R: f64 = 0.98;
+/// The same of a joint. Along a piece of a path plans keep to what its joints can do where they can do least, so that
+/// they are some parts in a hundred below on the rest of it.
+const JOINT_FULLY_R: f64 = 0.95;
 
 /// A diagnosis under way.
 #[derive(Debug)]
 pub struct Diagnosis {
     differences: Differences,
+    /// Of the joints, where they are not the axes.
+    joints: Option<JointDifferences>,
+    period_t: f64,
     follow: Follow,
     passed: PassedPoints,
     counts: [u64; COUNT],
@@ -74,6 +84,8 @@ impl Diagnosis {
     pub fn new(settings: &AuditSettings) -> Self {
         Self {
             differences: Differences::new(&settings.limits, settings.period_t),
+            joints: None,
+            period_t: settings.period_t,
             follow: Follow::new(settings),
             passed: PassedPoints::default(),
             counts: [0; COUNT],
@@ -82,6 +94,28 @@ impl Diagnosis {
             shape: Shape::new(settings.corners),
             deviation: Deviation::default(),
             feed_v: 0.0,
+        }
+    }
+
+    /// A diagnosis that tells of joints, too, where they are not the axes: [`joints`](Self::joints) is to be told where
+    /// they are.
+    #[must_use]
+    pub fn with_joints(mut self, bounds: &[JointBounds]) -> Self {
+        self.joints = Some(JointDifferences::new(bounds, self.period_t));
+        self
+    }
+
+    /// Where the joints are at the next frame, mm or degrees: before that frame, or its passing, is told.
+    pub fn joints(&mut self, positions: &[f64]) {
+        if let Some(joints) = &mut self.joints {
+            joints.next(positions);
+        }
+    }
+
+    /// A motion begins where the joints are now.
+    fn begin_joints(&mut self) {
+        if let Some(joints) = &mut self.joints {
+            joints.rest();
         }
     }
 
@@ -103,13 +137,17 @@ impl Diagnosis {
     pub fn frame(&mut self, frame: &Frame) -> Binding {
         let is_first = frame.flags.contains(FrameFlags::FIRST);
         self.differences.next(&frame.position, is_first);
+        if is_first {
+            self.begin_joints();
+        }
         let is_at_rest = self.differences.is_at_rest();
         let nearby = self.follow.to(frame);
         self.shape.next(&frame.position, frame.line, &self.follow);
         let binding = if is_at_rest {
             Binding::Rest
         } else {
-            classify(frame.path_v, &self.differences, (&nearby, &self.follow))
+            let used = (&self.differences, self.joints.as_ref());
+            classify(frame.path_v, used, (&nearby, &self.follow))
         };
         let deviation_mm = self.follow.least_deviation_mm();
         let (passed, earliest) = (self.follow.passed(), self.follow.earliest());
@@ -185,20 +223,32 @@ impl Diagnosis {
 /// What binds in a period: of the limits that are used fully, the one whose change would help
 /// first. The feed and the velocity of an axis bind whatever else does; acceleration and jerk bind
 /// only until a speed is reached; the tolerance binds where none of them does.
-fn classify(path_v: f64, used: &Differences, (nearby, follow): (&Nearby, &Follow)) -> Binding {
+fn classify(
+    path_v: f64,
+    (used, joints): (&Differences, Option<&JointDifferences>),
+    (nearby, follow): (&Nearby, &Follow),
+) -> Binding {
     if path_v >= FULLY_R * nearby.feed_v {
         return Binding::Feed;
     }
-    let [velocity, acceleration, jerk] = used.ratios();
-    for (ratio, binding) in [
-        (velocity, Binding::Velocity as fn(_) -> _),
-        (acceleration, Binding::Acceleration as fn(_) -> _),
-        (jerk, Binding::Jerk as fn(_) -> _),
-    ] {
-        if let Some((axis, ratio)) = ratio
-            && ratio >= FULLY_R
-        {
-            return binding(axis);
+    let of_axes: [fn(Axis) -> Binding; 3] =
+        [Binding::Velocity, Binding::Acceleration, Binding::Jerk];
+    let of_joints: [fn(usize) -> Binding; 3] = [
+        Binding::JointVelocity,
+        Binding::JointAcceleration,
+        Binding::JointJerk,
+    ];
+    let by_joints = joints.map_or([None; 3], JointDifferences::ratios);
+    for (order, by_axis) in used.ratios().into_iter().enumerate() {
+        let axis = by_axis.filter(|(_, ratio)| *ratio >= FULLY_R);
+        let joint = by_joints[order].filter(|(_, ratio)| *ratio >= JOINT_FULLY_R);
+        match (axis, joint) {
+            (Some((_, of_axis)), Some((joint, of_joint))) if of_joint >= of_axis => {
+                return of_joints[order](joint);
+            }
+            (Some((axis, _)), _) => return of_axes[order](axis),
+            (None, Some((joint, _))) => return of_joints[order](joint),
+            (None, None) => {}
         }
     }
     let chord_mm = used.chord_mm();

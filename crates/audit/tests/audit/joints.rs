@@ -1,9 +1,11 @@
 //! Tests of the check of joints that are not the axes.
 
+use glidepath_audit::diagnosis::{Binding, Diagnosis};
 use glidepath_audit::{
     Audit, AuditReport, AuditSettings, JointBounds, JointRate, Violation, ViolationKind,
 };
-use glidepath_program::Limits;
+use glidepath_geometry::{AxisVector, Segment};
+use glidepath_program::{Corners, Frame, FrameFlags, Item, ItemKind, Limits, PathMode, Rate};
 
 const PERIOD_T: f64 = 0.004;
 
@@ -17,7 +19,7 @@ fn judged(positions: &[[f64; 2]]) -> AuditReport {
         limits: Limits::uniform(1.0, 1.0, 1.0),
         period_t: PERIOD_T,
         tolerance_mm: 0.02,
-        corners: glidepath_program::Corners::default(),
+        corners: Corners::default(),
     })
     .with_joints(vec![bounds(1.0), bounds(0.5)]);
     for (tick, joints) in (0..).zip(positions) {
@@ -110,4 +112,70 @@ fn a_position_that_is_none_is_told() {
     let report = judged(&[[0.0, 0.0], [f64::NAN, 0.0]]);
     let is_told = |found: &Violation| matches!(found.kind, ViolationKind::NotFinite);
     assert!(report.violations.iter().any(is_told));
+}
+
+/// What binds at every period of a motion of two joints, of which the first does what `there` says and the second that
+/// times a factor, with limits for which the jerk of `there` is the whole.
+fn bound_by(factor: f64, with_joints: bool) -> Vec<Binding> {
+    let bounds = JointBounds {
+        range: [f64::NEG_INFINITY, f64::INFINITY],
+        rates: [64.0, 1000.0, 10_000.0],
+    };
+    let settings = AuditSettings {
+        limits: Limits::uniform(1e5, 1e7, 1e10),
+        period_t: PERIOD_T,
+        tolerance_mm: 0.02,
+        corners: Corners::default(),
+    };
+    let mut diagnosis = Diagnosis::new(&settings);
+    if with_joints {
+        diagnosis = diagnosis.with_joints(&[bounds; 2]);
+    }
+    let positions = there(10_000.0);
+    let mut position = AxisVector::zeros();
+    let mut end = position;
+    end[0] = positions[80];
+    diagnosis.program(&Item {
+        block: 0,
+        line: 1,
+        kind: ItemKind::Move {
+            segment: Segment::line(position, end),
+            rate: Rate::Feed(1e4),
+            mode: PathMode::Continuous { tolerance_mm: None },
+        },
+    });
+    let bound = (0..).zip(&positions).map(|(sequence, place)| {
+        position[0] = *place;
+        diagnosis.joints(&[*place, factor * place]);
+        diagnosis.frame(&Frame {
+            sequence,
+            line: 1,
+            planned_override: 1.0,
+            flags: if sequence == 0 {
+                FrameFlags::FIRST
+            } else {
+                FrameFlags::default()
+            },
+            ..Frame::blank(position)
+        })
+    });
+    bound.collect()
+}
+
+#[test]
+fn the_joint_that_binds_is_told() {
+    let count = |bound: &[Binding], wanted: Binding| bound.iter().filter(|b| **b == wanted).count();
+    // The first joint alone is at its jerk, but for the periods in which that changes, and at its velocity halfway.
+    let first = bound_by(0.5, true);
+    assert!(count(&first, Binding::JointJerk(0)) >= 60, "{first:?}");
+    assert!(count(&first, Binding::JointVelocity(0)) >= 3, "{first:?}");
+    assert_eq!(count(&first, Binding::JointJerk(1)), 0);
+    assert_eq!(first[0], Binding::Rest);
+    // The second joint, which has further to go.
+    let second = bound_by(1.0001, true);
+    assert!(count(&second, Binding::JointJerk(1)) >= 60, "{second:?}");
+    assert_eq!(count(&second, Binding::JointJerk(0)), 0);
+    // Nobody looks at joints.
+    let none = bound_by(1.0001, false);
+    assert!(count(&none, Binding::None) >= 75, "{none:?}");
 }

@@ -6,7 +6,7 @@
 
 use glidepath_gcode::{Connections, Dialect, Options, Program, Threading, Tool, ToolTable, check};
 use glidepath_geometry::{Axis, AxisVector};
-use glidepath_kinematics::{FiveAxis, Rotaries, Tilt};
+use glidepath_kinematics::{FiveAxis, Rotaries, SkewedTilt, Tilt};
 use glidepath_program::{ItemKind, Limits, Rate};
 use nalgebra::Vector3;
 use proptest::prelude::*;
@@ -445,5 +445,55 @@ fn arcs_of_a_turned_table_that_are_too_large_are_refused() {
     ] {
         let text = format!("M429\nG0 X10 Y0 A10\n{arc} F600\nM2\n");
         finds(Dialect::LinuxCnc, &text, &[code]);
+    }
+}
+
+/// The same machine with a tilt axis at 45° between y and z.
+fn nutating(dialect: Dialect) -> Options {
+    let options = options(dialect);
+    let tilt = SkewedTilt::new(Axis::A, &Vector3::new(0.0, 1.0, 1.0)).map(Tilt::Skewed);
+    Options {
+        five_axis: options.five_axis.map(|machine| FiveAxis {
+            tilt: tilt.expect("a tilt axis"),
+            ..machine
+        }),
+        ..options
+    }
+}
+
+#[test]
+fn planes_and_directions_that_a_skewed_axis_does_not_reach_are_refused() {
+    let told = |dialect: Dialect, text: &str| listed(&check(text.as_bytes(), nutating(dialect)));
+    let none: [&str; 0] = [];
+    assert_eq!(told(Dialect::Fanuc, "G68.2 J89\nG53.1"), none);
+    assert_eq!(told(Dialect::Fanuc, "G68.2 J91\nG53.1"), ["2:1 soft-limit"]);
+    let siemens = |text: &str| told(Dialect::Siemens, text);
+    assert_eq!(siemens("TRAORI\nG0 X1 A3=1 C3=0.01"), none);
+    assert_eq!(
+        siemens("TRAORI\nG0 X1 A3=1 C3=-0.01"),
+        ["2:7 invalid-value"]
+    );
+}
+
+proptest! {
+    #[test]
+    fn a_skewed_tool_stands_along_its_direction(
+        way in prop::array::uniform3(-1.0_f64..1.0),
+        scale in 0.1_f64..10.0,
+    ) {
+        let way = Vector3::new(way[0], way[1], way[2].abs());
+        prop_assume!(way.norm() > 0.1);
+        let long = way * scale;
+        let text = format!("TRAORI\nG0 A3={} B3={} C3={}", long.x, long.y, long.z);
+        let options = nutating(Dialect::Siemens);
+        let machine = options.five_axis.expect("five axes");
+        let items = Program::new(text.as_bytes(), options).map(|item| item.unwrap_or_else(|d| panic!("{text}\n{d}")));
+        let ends = items.filter_map(|item| match item.kind {
+            ItemKind::Move { segment, .. } => Some(segment.end()),
+            _ => None,
+        });
+        let axes = ends.last().expect("a move");
+        let tool = machine.tool_axis(axes[Axis::A.index()], axes[Axis::C.index()]);
+        prop_assert!((tool - way.normalize()).norm() < 1e-7);
     }
 }

@@ -158,7 +158,7 @@ impl Pass {
             items: Vec::with_capacity(STEPS_PER_TURN),
             frames: Vec::with_capacity(STEPS_PER_TURN),
             audit: audit(config),
-            diagnosis: Diagnosis::new(&judged),
+            diagnosis: config.diagnosis(&judged),
             joints: PlanWatch::new(path, config),
             mechanism: config.mechanism,
             period_t: settings.period_t,
@@ -185,6 +185,7 @@ impl Pass {
                 {
                     self.audit
                         .joints(frame.sequence, frame.line, joints.as_slice());
+                    self.diagnosis.joints(joints.as_slice());
                 }
                 let binding = self.diagnosis.frame(frame);
                 if let Some(joints) = &mut self.joints {

@@ -8,6 +8,7 @@ use super::settings::{
     PathConfig,
 };
 use super::spindle::SpindleConfig;
+use glidepath_audit::diagnosis::Diagnosis;
 use glidepath_audit::{AuditSettings, JointBounds};
 use glidepath_gcode::{
     AxisTravel, Connections, LoopLimits, MCodes, Machine, Options, SpindleAxis, Threading,
@@ -261,6 +262,16 @@ impl MachineConfig {
         };
         let limits = self.joint_limits.0.iter().take(count);
         (count > 0).then(|| limits.map(of_joint).collect())
+    }
+
+    /// A diagnosis of a motion that is judged so, told of the joints where they are not the axes.
+    #[must_use]
+    pub fn diagnosis(&self, judged: &AuditSettings) -> Diagnosis {
+        let diagnosis = Diagnosis::new(judged);
+        match self.joint_bounds() {
+            Some(bounds) => diagnosis.with_joints(&bounds),
+            None => diagnosis,
+        }
     }
 
     /// The axes in the order X Y Z A B C U V W.

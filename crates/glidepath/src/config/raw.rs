@@ -348,6 +348,7 @@ pub(super) struct RawFiveBar {
 pub(super) struct RawFiveAxis {
     pub(super) layout: Spanned<String>,
     pub(super) tilt: Spanned<String>,
+    pub(super) tilt_direction: Optional<[f64; 3]>,
     #[serde(default)]
     pub(super) tilt_reversed: bool,
     #[serde(default)]

@@ -28,9 +28,9 @@ impl Bound {
     pub(super) const fn of(binding: Binding) -> Self {
         match binding {
             Binding::Feed => Self::Feed,
-            Binding::Velocity(_) => Self::Velocity,
-            Binding::Acceleration(_) => Self::Acceleration,
-            Binding::Jerk(_) => Self::Jerk,
+            Binding::Velocity(_) | Binding::JointVelocity(_) => Self::Velocity,
+            Binding::Acceleration(_) | Binding::JointAcceleration(_) => Self::Acceleration,
+            Binding::Jerk(_) | Binding::JointJerk(_) => Self::Jerk,
             Binding::Tolerance => Self::Tolerance,
             Binding::ChordError => Self::ChordError,
             // A rest is a point of the track: nothing is drawn of it.

@@ -181,10 +181,10 @@ impl CalibrationReport<'_> {
             };
             let _ = writeln!(
                 text,
-                "#   {}: {how}; {} keeps {:?}",
+                "#   {}: {how}; {} keeps {}",
                 self.sum(sum),
                 kept.name,
-                kept.nominal
+                decimal(kept.nominal)
             );
         }
         if !found.weak.is_empty() {
@@ -271,7 +271,7 @@ fn number(dimension: &FoundDimension) -> String {
     if dimension.deviation.is_some() {
         format!("{:.5}", dimension.value)
     } else {
-        format!("{:?}", dimension.nominal)
+        decimal(dimension.nominal)
     }
 }
 
@@ -283,7 +283,7 @@ fn comment(dimensions: &[&FoundDimension], unit: DimensionUnit) -> String {
     if dimensions.iter().all(|d| d.deviation.is_none()) {
         return "kept".to_owned();
     }
-    let before = list(&|d| format!("{:?}", d.nominal));
+    let before = list(&|d| decimal(d.nominal));
     let deviations = list(&|d| {
         d.deviation.map_or_else(
             || "kept".to_owned(),
@@ -295,6 +295,16 @@ fn comment(dimensions: &[&FoundDimension], unit: DimensionUnit) -> String {
 
 fn padded(line: &str) -> String {
     format!("{line:COMMENT$}  ")
+}
+
+/// As a configuration has numbers: with a decimal point.
+fn decimal(value: f64) -> String {
+    let text = value.to_string();
+    if text.contains('.') {
+        text
+    } else {
+        text + ".0"
+    }
 }
 
 /// Two digits that count.

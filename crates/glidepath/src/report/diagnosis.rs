@@ -17,8 +17,8 @@ const WORTH_R: f64 = 0.005;
 /// The diagnosis of a motion: which limits bind, and where time is lost.
 #[derive(Debug, Clone, Serialize)]
 pub struct DiagnosisReport {
-    /// Share of the time, 0 to 1, by limit: `feed`, `velocity X`, `acceleration X`, `jerk X`,
-    /// `tolerance`, `chord error`, `rest`, `none`.
+    /// Share of the time, 0 to 1, by limit: `feed`, `velocity X`, `acceleration X`, `jerk X`, of a joint
+    /// `velocity J0`, `acceleration J0`, `jerk J0`, `tolerance`, `chord error`, `rest`, `none`.
     pub binding: BTreeMap<String, f64>,
     /// Where most time is lost against the programmed feed, the worst first.
     pub slowest: Vec<PlaceReport>,

@@ -10,7 +10,15 @@ use std::sync::mpsc;
 use std::time::Duration;
 
 /// The shipped machines, between them with every mechanism that has lengths.
-const MACHINES: [&str; 5] = ["mill", "hexapod", "scara", "five-bar", "rotary-delta"];
+const MACHINES: [&str; 7] = [
+    "mill",
+    "hexapod",
+    "translational-hexapod",
+    "nutating-head",
+    "scara",
+    "five-bar",
+    "rotary-delta",
+];
 
 /// Numbers that are in no range, at the end of many, or nearly zero.
 const HOSTILE: [&str; 12] = [
@@ -19,14 +27,10 @@ const HOSTILE: [&str; 12] = [
 ];
 
 /// Machines that are not shipped, with their keys at plausible values.
-const OTHERS: [(&str, &str); 3] = [
+const OTHERS: [(&str, &str); 2] = [
     (
         "linear-delta",
         "rod = 250.0\nradius = 120.0\ntower_angles = [90.0, 210.0, 330.0]\n",
-    ),
-    (
-        "translational-hexapod",
-        "radius_difference = 100.0\nbase_z = 0.0\n",
     ),
     (
         "five-axis",

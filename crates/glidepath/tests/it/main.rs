@@ -1,6 +1,7 @@
 //! The command, as it is typed.
 
 mod arms;
+mod binding_joints;
 mod calibrate;
 mod command_line;
 mod command_options;
@@ -20,6 +21,7 @@ mod manual_words;
 mod migration;
 mod mistaken_files;
 mod nurbs;
+mod nutating;
 mod outputs;
 mod pipes;
 mod plot;

@@ -5,8 +5,8 @@
 //! after a step that was one, and rises until there is one. Directions in which nothing is told have σ = 0, and no
 //! step.
 
-use super::CalibrationError;
 use super::dimensions::Model;
+use super::error::CalibrationError;
 use super::residuals::{Evaluated, Gathering, MeasuredPoint, MeasuringAccuracy};
 use crate::{Kinematics as _, KinematicsError};
 use nalgebra::{DMatrix, DVector, SVD};

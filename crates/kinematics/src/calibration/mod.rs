@@ -16,19 +16,20 @@
 //! ([`untold`]).
 
 mod dimensions;
+mod error;
 mod least_squares;
 mod residuals;
 mod untold;
 
 pub use dimensions::{DimensionName, DimensionUnit};
+pub use error::CalibrationError;
 pub use residuals::{MeasuredPoint, MeasuringAccuracy, PointResiduals, ResidualSize};
 pub use untold::{DimensionPart, DimensionSum};
 
-use crate::{JointVector, KinematicsError, Mechanism};
+use crate::{JointVector, Mechanism};
 use dimensions::Model;
 use least_squares::{Problem, minimise};
 use nalgebra::DVector;
-use thiserror::Error;
 use untold::Told;
 
 /// What is asked of a calibration.
@@ -77,38 +78,6 @@ pub struct Calibration {
     /// How many times the stated accuracy the points are off as they are; at least 1. `None` if as many
     /// dimensions were found as numbers were measured: nothing is left to tell.
     pub spread_r: Option<f64>,
-}
-
-/// The reason why points give no dimensions.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
-pub enum CalibrationError {
-    /// The joints are the axes, or nearly.
-    #[error("the mechanism has no dimensions that points could tell")]
-    NoDimensions,
-    /// There are fewer numbers than dimensions.
-    #[error("{numbers} measured numbers cannot tell {dimensions} dimensions")]
-    TooFew {
-        /// How many numbers were measured.
-        numbers: usize,
-        /// How many dimensions are looked for.
-        dimensions: usize,
-    },
-    /// No place of the tool fits the joints of a point, with nominal dimensions.
-    #[error(
-        "with the dimensions of the configuration no position of the tool fits these joints: {error}"
-    )]
-    Unreachable {
-        /// The point, from 0.
-        point: usize,
-        /// Why.
-        error: KinematicsError,
-    },
-    /// The points tell none of the dimensions.
-    #[error("the points tell none of the dimensions")]
-    NothingTold,
-    /// The search did not come to an end.
-    #[error("no dimensions were found that fit: the search did not settle")]
-    NotSettled,
 }
 
 /// The names of all dimensions of a mechanism and of its joints' zeros, in the order of

@@ -1,9 +1,8 @@
 //! What points do not tell of dimensions: sums of them that could have any value.
 
-use super::CalibrationError;
-use super::dimensions::Model;
+use super::dimensions::{DimensionName, Model};
+use super::error::CalibrationError;
 use super::least_squares::{Decomposed, Problem, decomposed};
-use crate::calibration::DimensionName;
 use nalgebra::{DMatrix, DVector};
 
 /// Singular values below this share of the largest one are rounding's and that of differences.

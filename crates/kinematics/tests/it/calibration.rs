@@ -12,7 +12,7 @@
 use crate::support::*;
 use glidepath_geometry::Axis;
 use glidepath_kinematics::*;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 
 /// Noise that is about normal, the same every time.
 struct Noise(u64);
@@ -129,15 +129,6 @@ fn rotary_delta_case(noise: &mut Noise) -> Case {
         nominal: Mechanism::RotaryDelta(rotary_delta()),
         points: (0..40).map(point).collect(),
         truth: [&[base, platform, upper, fore][..], &arms, &zeros].concat(),
-    }
-}
-
-fn about(axis: usize, degrees: f64) -> Matrix3<f64> {
-    let (s, c) = degrees.to_radians().sin_cos();
-    match axis {
-        0 => Matrix3::new(1., 0., 0., 0., c, -s, 0., s, c),
-        1 => Matrix3::new(c, 0., s, 0., 1., 0., -s, 0., c),
-        _ => Matrix3::new(c, -s, 0., s, c, 0., 0., 0., 1.),
     }
 }
 

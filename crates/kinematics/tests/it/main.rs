@@ -6,5 +6,7 @@ mod curve_rates;
 mod five_axis;
 mod five_bar;
 mod mechanisms;
+mod other_formulas;
+mod skewed;
 mod support;
 mod vectors;

@@ -78,10 +78,15 @@ fn five_axes() -> Vec<Boxed> {
     let tilting_a = [300.0, 300.0, 200.0, 100.0, 0.0, 400.0];
     let tilting_b = [300.0, 300.0, 200.0, 0.0, 100.0, 400.0];
     let tables = table_table(Tilt::A, true);
+    let nutating = FiveAxis {
+        tilt: skewed(Axis::B, [0.0, 1.0, 1.0]),
+        ..table_head
+    };
     vec![
         (Mechanism::FiveAxis(offsets), ZERO, tilting_a),
         (Mechanism::FiveAxis(table_head), ZERO, tilting_b),
         (Mechanism::FiveAxis(tables), ZERO, tilting_a),
+        (Mechanism::FiveAxis(nutating), ZERO, tilting_b),
     ]
 }
 

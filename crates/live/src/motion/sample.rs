@@ -51,13 +51,27 @@ pub struct MotionSample {
     pub path_mm: f64,
     /// What keeps it from being faster.
     pub limit: LimitKind,
-    /// The index of the axis of that limit, 0 if it has none.
+    /// The index of the axis of that limit, 0 if it has none; of a joint's, what [`MotionSample::joint`] gives.
     pub limit_axis: usize,
     /// In a rapid.
     pub is_rapid: bool,
 }
 
+/// Axes come first in what a limit is of; then joints by their numbers, and one for those beyond.
+const AXES: usize = 9;
+const NAMED_JOINTS: usize = 6;
+
 impl MotionSample {
+    /// What the limit of a joint is of, as [`limit_axis`](Self::limit_axis) has it. Joints from J6 on have no name there.
+    #[must_use]
+    pub const fn joint(joint: usize) -> usize {
+        if joint < NAMED_JOINTS {
+            AXES + joint
+        } else {
+            AXES + NAMED_JOINTS
+        }
+    }
+
     /// Kind of the limit, its axis and whether it is a rapid, in one byte.
     #[allow(
         clippy::cast_possible_truncation,
@@ -65,5 +79,29 @@ impl MotionSample {
     )]
     pub(super) const fn code(&self) -> u8 {
         self.limit as u8 | ((self.limit_axis as u8 & 15) << 3) | ((self.is_rapid as u8) << 7)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_limit_is_of_is_in_its_code() {
+        let of = |limit_axis: usize| {
+            let sample = MotionSample {
+                limit: LimitKind::Jerk,
+                limit_axis,
+                ..MotionSample::default()
+            };
+            assert_eq!(sample.code() & 7, LimitKind::Jerk as u8);
+            assert_eq!(sample.code() >> 7, 0);
+            usize::from(sample.code() >> 3 & 15)
+        };
+        for index in 0..16 {
+            assert_eq!(of(index), index);
+        }
+        let joints = [0, 5, 6, 8].map(MotionSample::joint);
+        assert_eq!(joints, [9, 14, 15, 15], "those from J6 on are one");
     }
 }

@@ -39,6 +39,8 @@ pub(super) enum NoCircle {
     ByPole,
     /// C would turn farther than the direction needs it.
     Farther,
+    /// It would leave what the tilt axis can lean the tool to.
+    OutOfReach,
 }
 
 impl GreatCircle {
@@ -64,17 +66,21 @@ impl GreatCircle {
             return Err(NoCircle::Farther);
         }
         let branch_of = |way: &Vector3<f64>, end: usize| {
-            let both = machine.branches_deg(way, rotary_deg[end]);
+            let both = machine.branches_deg(way, rotary_deg[end])?;
             let far = both.map(|(tilt, rotary)| {
                 (tilt - tilts[end])
                     .abs()
                     .max((rotary - rotary_deg[end]).abs())
             });
-            usize::from(far[1] < far[0])
+            Some(usize::from(far[1] < far[0]))
         };
-        let branch = branch_of(&from, 0);
         let side = (to - from * from.dot(&to)).normalize();
-        if branch != branch_of(&to, 1) || passes_pole(&from, &side, angle_rad) {
+        let lowest = lowest(&from, &side, angle_rad);
+        if machine.branches_deg(&lowest, 0.0).is_none() {
+            return Err(NoCircle::OutOfReach);
+        }
+        let branch = branch_of(&from, 0).ok_or(NoCircle::OutOfReach)?;
+        if Some(branch) != branch_of(&to, 1) || passes_pole(&from, &side, angle_rad) {
             return Err(NoCircle::ByPole);
         }
         Ok(Some(Self {
@@ -93,10 +99,25 @@ impl GreatCircle {
         let way = self.from * cos + self.side * sin;
         let [first, last] = self.rotary_deg;
         let near = first + share * (last - first);
-        let (tilt, rotary) = self.machine.branches_deg(&way, near)[self.branch];
+        // The lowest direction of the turn is in reach, and so are all.
+        let Some(branches) = self.machine.branches_deg(&way, near) else {
+            return;
+        };
+        let (tilt, rotary) = branches[self.branch];
         place[self.machine.tilt_axis().index()] = tilt;
         place[Axis::C.index()] = rotary;
     }
+}
+
+/// Where the tool leans most on a turn.
+fn lowest(from: &Vector3<f64>, side: &Vector3<f64>, angle_rad: f64) -> Vector3<f64> {
+    let at = |angle: f64| from * angle.cos() + side * angle.sin();
+    // The plane of the turn is lowest half a turn from where it is highest.
+    let bottom_rad = (-side.z).atan2(-from.z).rem_euclid(core::f64::consts::TAU);
+    let inside = (bottom_rad < angle_rad).then_some(bottom_rad);
+    let places = [Some(0.0), Some(angle_rad), inside];
+    let lower = |a: Vector3<f64>, b: Vector3<f64>| if b.z < a.z { b } else { a };
+    places.into_iter().flatten().map(at).fold(*from, lower)
 }
 
 /// True where a turn comes nearer to the pole than C can follow.

@@ -198,6 +198,10 @@ fn circle_of(
                 "a turn of C by more than the direction of the tool needs, with ORIVECT",
                 "on a great circle the tool turns the short way",
             ),
+            NoCircle::OutOfReach => (
+                "a turn of the tool to where it cannot lean, with ORIVECT",
+                "the tilt axis is skewed, and does not lean the tool so far",
+            ),
         };
         BlockDiagnostic::new(DiagnosticCode::NotSupported, block.motion_span(), message)
             .because(reason)

@@ -153,8 +153,10 @@ impl Interpreter {
             travel.is_none_or(|travel| (travel.min - SAME..=travel.max + SAME).contains(&angle))
         };
         let branches = machine.branches_deg(&normal, near[1]);
+        let is_too_low = branches.is_none();
         let mut reached: Vec<(f64, f64)> = branches
             .into_iter()
+            .flatten()
             .filter(|(tilt, rotary)| {
                 in_travel(machine.tilt_axis(), *tilt) && in_travel(Axis::C, *rotary)
             })
@@ -170,7 +172,11 @@ impl Interpreter {
             let message = "a tilted plane whose normal the tool cannot stand along";
             return Err(
                 BlockDiagnostic::new(DiagnosticCode::SoftLimit, span, message)
-                    .because("both ways to turn the rotary axes are outside of their travel")
+                    .because(if is_too_low {
+                        "the tilt axis is skewed, and does not lean the tool so far"
+                    } else {
+                        "both ways to turn the rotary axes are outside of their travel"
+                    })
                     .help("set the work up in another way"),
             );
         };
@@ -254,7 +260,13 @@ impl Interpreter {
             );
         }
         let here = *self.axes_place();
-        let angles = machine.angles_deg(&direction, (here[tilt], here[rotary]));
+        let Some(angles) = machine.angles_deg(&direction, (here[tilt], here[rotary])) else {
+            return refuse(
+                "a direction that the tool cannot stand along",
+                "the tilt axis is skewed, and does not lean the tool so far",
+                "set the work up in another way",
+            );
+        };
         let base = |axis: usize| match self.state.modal.distance {
             Distance::Absolute => self.state.offsets.origin(axis),
             Distance::Incremental => here[axis],

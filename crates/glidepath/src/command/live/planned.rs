@@ -14,7 +14,7 @@ use glidepath_audit::AuditSettings;
 use glidepath_audit::diagnosis::Diagnosis;
 use glidepath_gcode::{Lacking, ReadingWatch};
 use glidepath_geometry::AxisVector;
-use glidepath_kinematics::JointVector;
+use glidepath_kinematics::{JointVector, Kinematics as _};
 use glidepath_live::Motion;
 use glidepath_planner::{FileSource, ItemSource as _, Supply};
 use glidepath_program::{Frame, Item};
@@ -38,7 +38,7 @@ pub(super) struct Planned {
 impl Planned {
     pub(super) fn new(config: &MachineConfig, board: Board) -> Self {
         Self {
-            diagnosis: Diagnosis::new(&AuditSettings::from(&config.settings())),
+            diagnosis: config.diagnosis(&AuditSettings::from(&config.settings())),
             motion: page::motion(config),
             course: Course::new(config),
             config: config.clone(),
@@ -63,6 +63,11 @@ impl Spectator for Planned {
     }
 
     fn frame(&mut self, frame: &Frame) {
+        if self.config.joints() > 0
+            && let Ok(joints) = self.config.mechanism.inverse(&frame.position)
+        {
+            self.diagnosis.joints(joints.as_slice());
+        }
         let binding = self.diagnosis.frame(frame);
         let sample = TickSample::planned(frame, self.config.period_t(), JointVector::zeros());
         page::push(
@@ -84,7 +89,7 @@ impl Spectator for Planned {
             return;
         }
         let settings = AuditSettings::from(&self.config.settings());
-        let diagnosis = core::mem::replace(&mut self.diagnosis, Diagnosis::new(&settings));
+        let diagnosis = core::mem::replace(&mut self.diagnosis, self.config.diagnosis(&settings));
         let diagnosis = DiagnosisReport::new(&diagnosis.finish(), &self.config);
         let mut report = page::report_object(&diagnosis, self.path_mm, self.most);
         report["course"] = self.course.object();

@@ -171,7 +171,7 @@ impl Judge {
         }
         Ok(Self {
             audit,
-            diagnosis: Diagnosis::new(&judged),
+            diagnosis: config.diagnosis(&judged),
             program,
             told_s: 0.0,
             passed: Passed::default(),
@@ -220,6 +220,9 @@ impl Judge {
             self.audit.sample_away(&judged);
         } else {
             self.audit.sample(&judged);
+        }
+        if is_again || !is_idle {
+            self.diagnosis.joints(&setpoint.joint_position);
         }
         if is_again {
             self.diagnosis.pass(&as_frame(setpoint));

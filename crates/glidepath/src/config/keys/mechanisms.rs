@@ -22,6 +22,11 @@ const POINT: Takes = Takes::ThreeNumbers {
     max: 1e5,
     unit: "mm",
 };
+const PARTS: Takes = Takes::ThreeNumbers {
+    min: -1e3,
+    max: 1e3,
+    unit: "",
+};
 const DIRECTIONS: Takes = Takes::ThreeNumbers {
     min: -360.0,
     max: 360.0,
@@ -163,6 +168,12 @@ const FIVE_AXIS: &[Key] = &[
         Takes::Choice { of: &["A", "B"] },
         LeftOut::Refused,
         "the axis that tilts; the rotary axis is C",
+    ),
+    key(
+        "machine.five-axis.tilt_direction",
+        PARTS,
+        LeftOut::Means("along X for A, along Y for B"),
+        "direction of the tilt axis with C at zero, of any length; [0, 1, 1]: at 45° between Y and Z (nutating)",
     ),
     key(
         "machine.five-axis.tool",

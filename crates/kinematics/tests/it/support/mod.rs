@@ -171,7 +171,7 @@ pub(crate) fn table_table(tilt: Tilt, reversed: bool) -> FiveAxis {
             tilt_point: Vector3::new(0.0, 0.0, -50.0),
             rotary_point: match tilt {
                 Tilt::A => Vector3::new(0.0, 20.0, 0.0),
-                Tilt::B => Vector3::new(20.0, 0.0, 0.0),
+                Tilt::B | Tilt::Skewed(_) => Vector3::new(20.0, 0.0, 0.0),
             },
         },
         tilt,
@@ -192,4 +192,33 @@ pub(crate) fn head_head(tilt: Tilt, reversed: (bool, bool)) -> FiveAxis {
         rotary_reversed: reversed.1,
         tool_mm: 250.0,
     }
+}
+
+/// A point of the unit cube; those of the numbers from 1 on fill it evenly.
+pub(crate) fn halton_place<const N: usize>(number: u32) -> [f64; N] {
+    const BASES: [u32; 6] = [2, 3, 5, 7, 11, 13];
+    core::array::from_fn(|axis| {
+        let (mut index, mut share, mut sum) = (number, 1.0, 0.0);
+        while index > 0 {
+            share /= f64::from(BASES[axis]);
+            sum += share * f64::from(index % BASES[axis]);
+            index /= BASES[axis];
+        }
+        sum
+    })
+}
+
+/// Right-handed about x, y or z, by an angle in degrees.
+pub(crate) fn about(axis: usize, degrees: f64) -> Matrix3<f64> {
+    let (s, c) = degrees.to_radians().sin_cos();
+    match axis {
+        0 => Matrix3::new(1., 0., 0., 0., c, -s, 0., s, c),
+        1 => Matrix3::new(c, 0., s, 0., 1., 0., -s, 0., c),
+        _ => Matrix3::new(c, -s, 0., s, c, 0., 0., 0., 1.),
+    }
+}
+
+/// A tilt axis of a letter about a direction.
+pub(crate) fn skewed(axis: Axis, direction: [f64; 3]) -> Tilt {
+    Tilt::Skewed(SkewedTilt::new(axis, &direction.into()).unwrap())
 }

@@ -5,7 +5,7 @@ use glidepath_kinematics::{
     Elbow, FiveAxis, FiveBar, Hexapod, LinearDelta, Mechanism, Rotaries, RotaryDelta, Scara, Tilt,
     TranslationalHexapod,
 };
-use nalgebra::{Rotation3, Vector2, Vector3};
+use nalgebra::{Rotation3, Unit, Vector2, Vector3};
 
 /// The joints at a position of the axes, J0 first, mm or degrees; not a number out of reach.
 pub(crate) fn joints(mechanism: &Mechanism, axes: &AxisVector) -> Vec<f64> {
@@ -95,6 +95,10 @@ fn five_axis(machine: &FiveAxis, tip: &Vector3<f64>, axes: &AxisVector) -> Vec<f
     let (about, tilt_deg) = match machine.tilt {
         Tilt::A => (Vector3::x_axis(), axes[3]),
         Tilt::B => (Vector3::y_axis(), axes[4]),
+        Tilt::Skewed(skewed) => (
+            Unit::new_normalize(*skewed.direction()),
+            axes[machine.tilt_axis().index()],
+        ),
     };
     let sign = |reversed: bool| if reversed { -1.0 } else { 1.0 };
     let tilt = sign(machine.tilt_reversed) * tilt_deg.to_radians();

@@ -5,7 +5,7 @@ use glidepath_audit::JointBounds;
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_kinematics::{
     CoreXy, Elbow, FiveAxis, FiveBar, Guards, Hexapod, JointLimit, JointLimits, Kinematics as _,
-    LimitedMechanism, LinearDelta, Mechanism, Rotaries, RotaryDelta, Scara, Tilt,
+    LimitedMechanism, LinearDelta, Mechanism, Rotaries, RotaryDelta, Scara, SkewedTilt, Tilt,
     TranslationalHexapod,
 };
 
@@ -257,7 +257,13 @@ fn struts() -> [Machine; 2] {
     ]
 }
 
-fn five_axes() -> [Machine; 4] {
+/// B at 45° between y and z.
+fn nutating() -> Tilt {
+    let skewed = SkewedTilt::new(Axis::B, &[0.0, 1.0, 1.0].into());
+    skewed.map_or(Tilt::B, Tilt::Skewed)
+}
+
+fn five_axes() -> [Machine; 5] {
     let machine = |name, rotaries, tilt, reversed, tool_mm| {
         let five_axis = FiveAxis {
             rotaries,
@@ -302,5 +308,6 @@ fn five_axes() -> [Machine; 4] {
         ),
         machine("head-head", heads, Tilt::A, true, 150.0),
         machine("table-head", both, Tilt::B, false, 150.0),
+        machine("table-head, skewed", both, nutating(), false, 150.0),
     ]
 }

@@ -34,7 +34,7 @@ use std::time::Instant;
 /// What axes can do whose limits nobody gives, as configurations have it.
 const MOST_OF_AXES: [f64; 3] = [1e5, 1e7, 1e10];
 /// The programs that run by default, by their numbers: one of each machine, which take little work.
-const SAMPLE: [(&str, u32); 12] = [
+const SAMPLE: [(&str, u32); 13] = [
     ("corexy", 7),
     ("linear delta", 20),
     ("rotary delta", 19),
@@ -47,6 +47,7 @@ const SAMPLE: [(&str, u32); 12] = [
     ("table-table, offset", 0),
     ("head-head", 3),
     ("table-head", 0),
+    ("table-head, skewed", 1),
 ];
 /// Programs that failed once, by machine, seed and number: near a stretched arm and a flat rod they took from eleven to
 /// two hundred times as long as they do.

@@ -89,11 +89,11 @@ fn an_axis_beyond_its_travel_in_a_program_is_found_and_by_hand_it_is_not() {
     assert_eq!(found(end + 1e-5, 1, MachineState::Running), 1);
     assert_eq!(found(end + 1e-5, 1, MachineState::Jogging), 0);
     assert_eq!(found(end + 1e-5, 0, MachineState::Idle), 0);
-    // A rest within a period swings over its place before.
-    let swing = config.limits().jerk[0] * config.period_t().powi(3) / 768.0;
+    // Between two frames a motion may be seen beyond.
+    let swing = config.limits().jerk[0] * config.period_t().powi(3) / 162.0;
     assert_eq!(found_at(end + swing, 1, MachineState::Held, 0.5), 0);
     assert_eq!(found_at(end + swing, 1, MachineState::Held, 0.0), 1);
-    assert_eq!(found_at(end + 4.0 * swing, 1, MachineState::Held, 0.5), 1);
+    assert_eq!(found_at(end + 1.1 * swing, 1, MachineState::Held, 0.5), 1);
 }
 
 /// An axis that stands outside behind an abort, because an offset became part of its position: it stands there,

@@ -1,9 +1,11 @@
 //! `[machine.five-axis]`.
 
-use super::ranges::OFFSET;
+use super::ranges::{OFFSET, PART};
+use crate::config::diagnostic::ConfigDiagnostic;
 use crate::config::judge::values::Judge;
 use crate::config::raw::{Optional, RawFiveAxis};
-use glidepath_kinematics::{FiveAxis, Mechanism, Rotaries, Tilt};
+use glidepath_geometry::Axis;
+use glidepath_kinematics::{FiveAxis, Mechanism, Rotaries, SkewedTilt, Tilt};
 use toml::Spanned;
 
 impl Judge {
@@ -36,12 +38,50 @@ impl Judge {
         ];
         let rotaries = self.choice(&key("layout"), Some(raw.layout.clone()), &layouts);
         let tilts = [("A", Tilt::A), ("B", Tilt::B)];
+        let tilt = self.choice(&key("tilt"), Some(raw.tilt.clone()), &tilts);
         Mechanism::FiveAxis(FiveAxis {
             rotaries,
-            tilt: self.choice(&key("tilt"), Some(raw.tilt.clone()), &tilts),
+            tilt: self.direction_of_tilt(tilt, &raw.tilt_direction),
             tilt_reversed: raw.tilt_reversed,
             rotary_reversed: raw.rotary_reversed,
             tool_mm: self.number(&key("tool"), &raw.tool, &OFFSET),
         })
+    }
+
+    /// The tilt about the direction that the file gives, if it gives one.
+    fn direction_of_tilt(&mut self, tilt: Tilt, value: &Optional<[f64; 3]>) -> Tilt {
+        const KEY: &str = "machine.five-axis.tilt_direction";
+        let Some(given) = value else {
+            return tilt;
+        };
+        let before = self.diagnostics.len();
+        let direction = self.three(KEY, value, &PART, [0.0; 3]);
+        if self.diagnostics.len() > before {
+            return tilt;
+        }
+        // Along x or y it is no other machine than without the key.
+        let [x, y, z] = direction;
+        let is_plain = match tilt.axis() {
+            Axis::A => x > 0.0 && y.hypot(z) <= 0.0,
+            _ => y > 0.0 && x.hypot(z) <= 0.0,
+        };
+        if is_plain {
+            return tilt;
+        }
+        match SkewedTilt::new(tilt.axis(), &direction.into()) {
+            Some(skewed) => Tilt::Skewed(skewed),
+            None => {
+                self.diagnostics.push(ConfigDiagnostic {
+                    key: KEY.to_owned(),
+                    message: format!("{KEY} = [{x}, {y}, {z}] tilts nothing"),
+                    help: Some(
+                        "give a direction that is at least 5° from Z, the axis of C; [0, 1, 1] is 45° between Y and Z"
+                            .to_owned(),
+                    ),
+                    span: Some(given.span()),
+                });
+                tilt
+            }
+        }
     }
 }

@@ -12,7 +12,7 @@ use crate::config::diagnostic::ConfigDiagnostic;
 use crate::config::raw::{Optional, RawMachine};
 use core::ops::Range as Bytes;
 use glidepath_geometry::Axis;
-use glidepath_kinematics::{AxisList, CoreXy, Mechanism, Tilt, Trivial};
+use glidepath_kinematics::{AxisList, CoreXy, Mechanism, Trivial};
 use toml::Spanned;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -125,10 +125,8 @@ impl Judge {
             Mechanism::Trivial(_) => return,
             Mechanism::CoreXy(_) | Mechanism::FiveBar(_) => (&[X, Y], true),
             Mechanism::LinearDelta(_) => (&[X, Y, Z], true),
-            Mechanism::FiveAxis(machine) => match machine.tilt {
-                Tilt::A => (&[X, Y, Z, A, C], false),
-                Tilt::B => (&[X, Y, Z, B, C], false),
-            },
+            Mechanism::FiveAxis(machine) if machine.tilt_axis() == A => (&[X, Y, Z, A, C], false),
+            Mechanism::FiveAxis(_) => (&[X, Y, Z, B, C], false),
             Mechanism::Scara(_) => (&[X, Y, Z, C], false),
             Mechanism::Hexapod(_) => (&[X, Y, Z, A, B, C], false),
             Mechanism::RotaryDelta(_) | Mechanism::Translational(_) => (&[X, Y, Z], false),

@@ -20,6 +20,12 @@ pub(super) const ANGLE: Range = Range {
     unit: "°",
     help: "an angle of the mechanism",
 };
+pub(super) const PART: Range = Range {
+    min: -1e3,
+    max: 1e3,
+    unit: "",
+    help: "a part of a direction, which may have any length",
+};
 pub(super) const DIRECTION: Range = Range {
     min: -360.0,
     max: 360.0,
