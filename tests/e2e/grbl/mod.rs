@@ -6,6 +6,7 @@ mod sender;
 use std::time::{Duration, Instant};
 
 use glidepath_link::MachineState;
+use glidepath_link::servo::JointState;
 use glidepath_tests::{Instance, Operated, Process, Services, SetpointFile, Watchdog, planned};
 use rustix::process::Signal;
 use sender::{Endpoint, Sender};
