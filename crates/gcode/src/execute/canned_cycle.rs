@@ -160,7 +160,8 @@ impl Interpreter {
             bottom,
             clear,
         };
-        let places = self.places(block, holes)?;
+        let mut places = self.places(block, holes)?;
+        self.repeat_polar(block, &mut places);
         self.make_holes(block, hole, &places, out)
     }
 

@@ -264,6 +264,28 @@ fn radius_and_angle_are_a_place() {
     assert_eq!(last("G0 X10 Y10\nG16\nG91 X5 Y90.\nY90."), [5.0, 10.0, 0.0]);
 }
 
+/// The bolt circle of the manual, with two of its blocks written as one.
+#[test]
+fn an_angle_that_is_repeated_stays_on_its_circle() {
+    let circle = "G17 G16 G90\nG81 X100. Y30. Z-20. R-5. F200.\n";
+    let near = |text: &str, [x, y]: [f64; 2]| {
+        let end = last(text);
+        assert!(
+            (end[0] - x).abs() < 1e-9 && (end[1] - y).abs() < 1e-9,
+            "{text}: {end:?}"
+        );
+    };
+    near(&format!("{circle}G91 Y120.\nY120."), [0.0, -100.0]);
+    near(&format!("{circle}G91 Y120. K2"), [0.0, -100.0]);
+    // What follows counts from the last of them.
+    near(&format!("{circle}G91 Y60. K2\nY120."), [0.0, -100.0]);
+    // A radius is from where the tool is, each time.
+    near(
+        "G17 G16 G90\nG81 X10. Y0. Z-20. R-5. F200.\nG91 X10. K2",
+        [30.0, 0.0],
+    );
+}
+
 fn length(text: &str) -> f64 {
     let items = Program::new(text.as_bytes(), options());
     items

@@ -1,7 +1,7 @@
 //! Tests of places and states that printers' programs keep, and offsets of Klipper.
 
 use glidepath_gcode::{Connections, Dialect, Machine, Options, Program, check};
-use glidepath_geometry::Axis;
+use glidepath_geometry::{Axis, Segment};
 use glidepath_program::{Event, ItemKind, Rate};
 
 use crate::support::listed;
@@ -187,5 +187,46 @@ fn a_line_has_one_command() {
     finds(
         "N7 G1 X5\nG28 X Y\nG92 X0 E0\nM104 S200 T0\nG4 P1\nT0\nX6",
         &[],
+    );
+}
+
+/// A printer that is at home knows where it is: what G92 said of an axis before is gone, and a nozzle that
+/// went 4 mm below its bed showed it.
+#[test]
+fn an_axis_that_is_at_home_counts_from_there() {
+    let text = "G90\nG1 X10 Y10 F3000\nG92 Z5\nG28 Z\nG1 Z1";
+    assert_eq!(last(text), [10.0, 10.0, 1.0, 0.0]);
+    let text = "G1 X10 Y10\nG92 X0 Y0\nG28 X\nG1 X5 Y1";
+    assert_eq!(last(text), [5.0, 11.0, 0.0, 0.0], "of X alone");
+    let text = "G1 X10 Y10\nG92 X0 Y0\nG28\nG1 X5 Y1";
+    assert_eq!(last(text), [5.0, 1.0, 0.0, 0.0]);
+    // What SET_GCODE_OFFSET said stays.
+    let text = "SET_GCODE_OFFSET X=2\nG1 X10\nG92 X5\nG28 X\nG1 X5";
+    assert_eq!(last(text), [7.0, 0.0, 0.0, 0.0]);
+}
+
+#[test]
+fn circles_come_before_the_arc_which_may_be_one_itself() {
+    let turns = |text: &str| {
+        let items = Program::new(text.as_bytes(), options());
+        let lengths = items.filter_map(|item| match item.expect("it is read").kind {
+            ItemKind::Move {
+                segment: segment @ Segment::Arc(_),
+                ..
+            } => Some(segment.length()),
+            _ => None,
+        });
+        lengths.sum::<f64>() / (20.0 * std::f64::consts::PI)
+    };
+    for (circles, expected) in [("", 1.0), (" P0", 1.0), (" P1", 2.0), (" P2", 3.0)] {
+        let found = turns(&format!("G1 X10\nG3 I-10{circles}"));
+        assert!((found - expected).abs() < 1e-9, "{circles}: {found}");
+    }
+    let found = turns("G1 X10\nG3 X0 Y10 I-10 J0 P1");
+    assert!((found - 1.25).abs() < 1e-9, "{found}");
+    // Klipper makes no arcs in increments.
+    finds(
+        "SET_GCODE_OFFSET Z=0\nG91\nG2 X10 Y10 I10 J0",
+        &["3:1 not-supported"],
     );
 }

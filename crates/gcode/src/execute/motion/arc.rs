@@ -23,10 +23,11 @@ use crate::execute::motion::pole::is_polar;
 use crate::execute::motion::settled::settled;
 use crate::execute::motion::speed::Pace;
 use crate::execute::state::frame::PlaneImage;
+use crate::setup::firmware::Firmware;
 use crate::syntax::block::Block;
 use crate::syntax::dialect::Dialect;
 use crate::syntax::letters::Letters;
-use crate::syntax::modes::Motion;
+use crate::syntax::modes::{Distance, Motion};
 use crate::syntax::named_word::Named;
 use crate::syntax::word_check::whole;
 
@@ -42,6 +43,10 @@ impl Interpreter {
     ) -> Outcome<()> {
         if self.state.leaving_contour {
             return Err(arc_off_contour(block.motion_span()));
+        }
+        let is_klipper = self.state.firmware == Some(Firmware::Klipper);
+        if is_klipper && self.state.modal.distance == Distance::Incremental {
+            return Err(arc_in_increments(block.motion_span()));
         }
         let named = self.plane_of_arc(block)?;
         check_center_words(block, named)?;
@@ -87,7 +92,7 @@ impl Interpreter {
                 center
             }
         };
-        let turns = turns(block, ends.is_closed())?;
+        let turns = turns(block)?;
         let sweep_rad = sweep(ends, center, counterclockwise, turns);
         let arc = Arc {
             start,
@@ -191,7 +196,7 @@ impl Interpreter {
                 center
             }
         };
-        let turns = turns(block, ends.is_closed())?;
+        let turns = turns(block)?;
         let sweep_rad = sweep(ends, center, counterclockwise, turns);
         self.arc_in_tilted_frame(block, plane, (start, end), (center, sweep_rad), out)?;
         self.state.position = target;
@@ -283,19 +288,19 @@ fn turned_about(
     [center[0] + u * cos - v * sin, center[1] + u * sin + v * cos]
 }
 
+#[cold]
+fn arc_in_increments(span: SourceSpan) -> Box<BlockDiagnostic> {
+    let message = "an arc with incremental distances (G91)";
+    BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
+        .because("Klipper makes no arcs there")
+        .help("write G90 and the end of the arc")
+}
+
 /// Turns of an arc: P.
-fn turns(block: &Block, is_closed: bool) -> Outcome<f64> {
+fn turns(block: &Block) -> Outcome<f64> {
     match whole(block, b'P', MAX_TURNS)? {
-        // Marlin counts the circles in front of the arc; where that goes nowhere they are all.
-        turns if block.dialect == Dialect::Marlin => {
-            let circles = turns.unwrap_or(0);
-            let all = if is_closed {
-                circles.max(1)
-            } else {
-                circles + 1
-            };
-            Ok(f64::from(all))
-        }
+        // Marlin counts the circles in front of the arc, which is one itself where it ends at its start.
+        turns if block.dialect == Dialect::Marlin => Ok(f64::from(turns.unwrap_or(0) + 1)),
         Some(0) => {
             let message = "an arc of no turns";
             Err(

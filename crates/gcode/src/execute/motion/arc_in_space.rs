@@ -173,7 +173,9 @@ impl Interpreter {
         let incremental = self.state.modal.distance == Distance::Incremental;
         for (i, value) in via.into_iter().enumerate() {
             if let Some(value) = value {
-                place[i] = value * scale + if incremental { place[i] } else { 0.0 };
+                let is_diameter = i == 0 && self.state.modal.diameter && !incremental;
+                let share = if is_diameter { 0.5 } else { 1.0 };
+                place[i] = value * share * scale + if incremental { place[i] } else { 0.0 };
             }
         }
         let via = self.state.offsets.to_machine(place);

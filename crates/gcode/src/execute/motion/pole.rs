@@ -8,7 +8,7 @@
 //! AP is the angle from the first axis of the plane, in degrees, RP the distance from the pole. One
 //! that is missing keeps its value. With G2 and G3 the pole is the centre, unless the block names one.
 
-use glidepath_geometry::AXES;
+use glidepath_geometry::{AXES, Axis};
 
 use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
@@ -75,7 +75,12 @@ impl Interpreter {
                         .because("a pole is a point of X, Y and Z")
                         .help("write the axes of the plane"));
                 };
-                *slot += axis_value(axis, value, scale);
+                let is_diameter = axis == Axis::X && self.state.modal.diameter;
+                if is_diameter && from != PoleFrom::Zero {
+                    return Err(pole_beside_diameters(block.axis_span(axis)));
+                }
+                let share = if is_diameter { 0.5 } else { 1.0 };
+                *slot += share * axis_value(axis, value, scale);
             }
         }
         self.state.pole = Pole {
@@ -150,6 +155,14 @@ impl Interpreter {
         values[second] = Some(pole.at[second] + radius_mm * sin);
         Ok(())
     }
+}
+
+#[cold]
+fn pole_beside_diameters(span: SourceSpan) -> Box<BlockDiagnostic> {
+    let message = "X of a pole that counts from a place, where X is a diameter";
+    BlockDiagnostic::new(DiagnosticCode::Polar, span, message)
+        .because("whether the distance is a radius or a diameter is not known: they are two places")
+        .help("write the pole by G111, from the zero of the program")
 }
 
 #[cold]

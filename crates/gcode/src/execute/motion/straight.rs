@@ -124,7 +124,23 @@ impl Interpreter {
         if followed {
             self.follow_tip_again(block, out)?;
         }
+        if block.dialect == Dialect::Marlin {
+            self.count_anew(|axis| values[axis.index()].is_some() || all);
+        }
         Ok(())
+    }
+
+    /// An axis of a printer that is at home counts from there: what G92 shifted is gone, and what Klipper's
+    /// `SET_GCODE_OFFSET` set stays.
+    fn count_anew(&mut self, is_home: impl Fn(Axis) -> bool) {
+        for axis in [Axis::X, Axis::Y, Axis::Z]
+            .into_iter()
+            .filter(|axis| is_home(*axis))
+        {
+            let i = axis.index();
+            self.state.offsets.shift[i] = self.state.gcode_offset[i];
+            self.state.offsets.saved_shift[i] = self.state.offsets.shift[i];
+        }
     }
 
     /// A Haas sends all axes home where G28 names none, a FANUC moves nothing.

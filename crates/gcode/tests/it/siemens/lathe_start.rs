@@ -158,3 +158,61 @@ fn what_was_typed_stays_in_force_for_the_next_line() {
     assert_eq!(after("DIAMOF", "G0 X20"), [20.0]);
     assert_eq!(after("DIAMON\nM30", "G0 X20"), [20.0]);
 }
+
+fn near(text: &str, expected: [f64; 2]) {
+    let (ends, _) = read(text, lathe(LatheX::Diameter));
+    let end = ends.last().expect("a move");
+    let off = (end[0] - expected[0]).hypot(end[1] - expected[1]);
+    assert!(off < 1e-3, "{text}: {end:?}");
+}
+
+/// The control's manual has both as the same arc ("Example 2: Turning", arcs by their angle).
+#[test]
+fn a_centre_at_a_place_is_at_a_diameter() {
+    let by = |centre: &str| format!("G0 X40 Z-25\nG3 AR=135.944 {centre} F100");
+    let (ends, _) = read(&by("I-3.335 K-29.25"), lathe(LatheX::Diameter));
+    let end = ends[1];
+    assert!((end[0] - 34.61).abs() < 0.01, "{end:?}");
+    near(&by("I=AC(33.33) K=AC(-54.25)"), end);
+    near(&format!("DIAM90\n{}", by("I=AC(33.33) K=AC(-54.25)")), end);
+    near(&format!("DIAM90\n{}", by("I=IC(-3.335) K=IC(-29.25)")), end);
+    let radii = "DIAMOF\nG0 X20 Z-25\nG3 AR=135.944 I=AC(16.665) K=AC(-54.25) F100";
+    near(radii, end);
+}
+
+/// An arc of 2.5 mm over a chord of 20.
+#[test]
+fn a_point_on_the_way_is_at_a_diameter() {
+    let radius_mm: f64 = 20.0 * 20.0 / (8.0 * 2.5) + 2.5 / 2.0;
+    let expected = 2.0 * radius_mm * (10.0 / radius_mm).asin();
+    for via in ["K1=40 I1=45", "K1=AC(40) I1=AC(45)", "K1=IC(10) I1=IC(2.5)"] {
+        let text = format!("G0 Z30 X40\nG95 M3 S100 F0.1\nCIP Z50 X40 {via}");
+        let items = Program::new(text.as_bytes(), lathe(LatheX::Diameter));
+        let lengths =
+            items.filter_map(
+                |item| match item.unwrap_or_else(|d| panic!("{text}\n{d}")).kind {
+                    ItemKind::Move { segment, .. } => Some(segment.length()),
+                    _ => None,
+                },
+            );
+        let found: f64 = lengths.skip(1).sum();
+        assert!(
+            (found - expected).abs() < 1e-3,
+            "{via}: {found}, {expected}"
+        );
+    }
+}
+
+#[test]
+fn a_pole_is_at_a_diameter() {
+    near(
+        "G0 X50 Z-15\nG111 X50 Z-25\nG1 RP=10 AP=90 F100",
+        [35.0, -25.0],
+    );
+    let found = check("G0 X50 Z-15\nG110 X2\n".as_bytes(), lathe(LatheX::Diameter));
+    assert_eq!(
+        crate::support::listed(&found),
+        ["2:6 polar"],
+        "a radius or a diameter"
+    );
+}

@@ -74,4 +74,30 @@ impl Interpreter {
         }
         Ok(())
     }
+
+    /// The holes of a block that is repeated in G91: each as if the block stood there once more.
+    pub(crate) fn repeat_polar(&mut self, block: &Block, places: &mut [[Option<f64>; AXES]]) {
+        let Some(mut polar) = self.state.fanuc.polar else {
+            return;
+        };
+        if self.state.modal.distance != Distance::Incremental {
+            return;
+        }
+        let (first, second) = self.state.modal.plane.axes();
+        let word = |wanted| block.axes().find(|(axis, _)| *axis == wanted);
+        let (radius, angle) = (word(first), word(second));
+        if radius.is_none() && angle.is_none() {
+            return;
+        }
+        for place in places.iter_mut().skip(1) {
+            if radius.is_some() {
+                polar.centre = polar.point();
+            }
+            polar.degrees += angle.map_or(0.0, |(_, value)| value);
+            for (axis, at) in [first, second].into_iter().zip(polar.point()) {
+                place[axis.index()] = Some(at);
+            }
+        }
+        self.state.fanuc.polar = Some(polar);
+    }
 }

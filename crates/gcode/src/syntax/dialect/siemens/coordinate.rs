@@ -53,6 +53,7 @@ impl Way {
 }
 
 /// Which words of X are diameters.
+#[derive(PartialEq, Eq)]
 enum Diameters {
     /// DIAMON.
     All,
@@ -131,7 +132,8 @@ impl Writer<'_> {
         }
     }
 
-    /// `I1=5`, `I1=AC(5)`, `I1=IC(5)`: a place on an arc; `length` is that of the name. X counts radii there.
+    /// `I1=5`, `I1=AC(5)`, `I1=IC(5)`: a place on an arc; `length` is that of the name. A place of X is a
+    /// diameter where coordinates are.
     pub(super) fn via(&mut self, start: usize, length: usize, axis: usize) -> Outcome<()> {
         let letter = Named::Via(axis).letter();
         self.input.at = start + length;
@@ -152,9 +154,16 @@ impl Writer<'_> {
         let here = u32::try_from(axis).ok();
         let here = here.and_then(|axis| self.names.scope.numbered(COORDINATES + axis));
         let here = here.unwrap_or(0.0);
-        let value = match (increment, self.is_incremental()) {
-            (true, false) => value + here,
-            (false, true) => value - here,
+        let incremental = self.is_incremental();
+        // A place is at a diameter, and an increment a length; the block has what counts in its own mode.
+        let diameters = if axis == 0 && self.diameters() != Diameters::None {
+            2.0
+        } else {
+            1.0
+        };
+        let value = match (increment, incremental) {
+            (true, false) => (value + here) * diameters,
+            (false, true) => value / diameters - here,
             _ => *value,
         };
         self.put(start, &[b',', letter, b'['], value);
@@ -232,6 +241,9 @@ impl Writer<'_> {
             value *= unit.of_value;
             here *= unit.of_place;
             unit_of_place = unit.of_place;
+        } else if axis == 0 && way == Way::Absolute && self.diameters() != Diameters::None {
+            // The centre is at a diameter, as the end is; its distance from the start is a length.
+            value *= 0.5;
         } else if matches!(name.as_slice(), [b'D' | b'R', _, b'C']) {
             return Err(no_diameter(char::from(letter), word));
         }
