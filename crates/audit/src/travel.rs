@@ -170,7 +170,7 @@ mod tests {
         };
         let most = (1..40).map(|k| integral(f64::from(k) / 40.0));
         let most = most.fold(0.0, f64::max);
-        assert!(most <= SWING_R && most >= 0.99 * SWING_R, "{most}");
+        assert!((0.99 * SWING_R..=SWING_R).contains(&most), "{most}");
     }
 
     #[test]

@@ -231,7 +231,7 @@ impl InTubeEngine {
         let (grid, start_s) = (&mut self.grid, self.path_s);
         let here = (period.tag, period.path_s);
         stretch.ledger.come_to(here, |events, from_s, beside| {
-            grid.announce(events, start_s + from_s, beside)
+            grid.announce(events, start_s + from_s, beside);
         });
         if period.rest_at_end {
             grid.pass(stretch.ledger.passing(period.path_s));

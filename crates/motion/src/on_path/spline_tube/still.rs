@@ -92,8 +92,9 @@ impl<const D: usize> StillCoordinates<D> {
                     } else {
                         from + to - fading_end(from..to, |i| off(from + to - 1 - i))
                     };
-                    for i in comes.max(free.start)..leaves.min(free.end) {
-                        control[i][axis] = level;
+                    let held = comes.max(free.start)..leaves.min(free.end);
+                    for point in control.get_mut(held).into_iter().flatten() {
+                        point[axis] = level;
                     }
                 }
                 from = to;
