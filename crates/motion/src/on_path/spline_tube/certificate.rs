@@ -8,8 +8,9 @@
 //! distances bounds the width of a matching of the curve with the polyline that never goes back: no
 //! point of either is farther from the other, and both are passed in the same order.
 
-use super::fit::{Sample, Spline};
+use super::fit::Spline;
 use super::knots::{bezier, hermite_points, steps};
+use super::sample::Sample;
 use super::vector::{add_scaled, dot, minus, tolerance_square};
 use core::ops::Range;
 

@@ -1,7 +1,7 @@
 //! The driver of the window: full, it is fitted, and where that fails, refined or given up.
 
-use super::fit::Sample;
 use super::output::Output;
+use super::sample::Sample;
 use super::window::{End, MOST_SAMPLES, WINDOW, Window, first_weight};
 
 /// Refinements of a window whose certificate fails.

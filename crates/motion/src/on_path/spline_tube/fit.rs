@@ -20,25 +20,9 @@
 
 use super::banded::Banded;
 use super::knots::{Basis, DEGREE, third_derivative};
+use super::sample::Sample;
 use super::still::StillCoordinates;
 use super::vector::{add_scaled, dot, minus};
-
-/// A point that the curve has to come near.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Sample<const D: usize> {
-    pub(super) point: [f64; D],
-    /// Where it is along the merged chords.
-    pub(super) along_t: f64,
-    /// Distance from the sample before.
-    pub(super) spacing_t: f64,
-    /// Parameter of the curve's point that it is matched with.
-    pub(super) foot_t: f64,
-    pub(super) weight: f64,
-    /// How fast it is passed at the feed, by `along_t`.
-    pub(super) feed_v: f64,
-    /// Its distance from that point, mm.
-    pub(super) error_mm: f64,
-}
 
 /// The share of the distance to its neighbours' feet that a foot may move in a window. Feet that
 /// run free let the curve fold: it was 2.4 mm off then. Below a half no two can pass each other.

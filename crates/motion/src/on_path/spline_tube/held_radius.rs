@@ -16,8 +16,9 @@
 //! hardly more than nothing where the path is straight, and still let noise of the program pass
 //! unheeded, which has shorter waves.
 
-use super::fit::{Sample, Spline};
+use super::fit::Spline;
 use super::knots::second_derivative;
+use super::sample::Sample;
 use super::vector::norm;
 use core::ops::Range;
 use glidepath_program::Limits;

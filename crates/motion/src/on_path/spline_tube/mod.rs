@@ -29,6 +29,7 @@ mod knots;
 mod marks;
 mod output;
 mod resort;
+mod sample;
 mod sample_layout;
 mod shares;
 mod still;

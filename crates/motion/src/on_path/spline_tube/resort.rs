@@ -6,9 +6,9 @@
 //! whatever happens: each leads from a point near a chord to the end of that chord, or along a
 //! chord.
 
-use super::fit::Sample;
 use super::knots::DEGREE;
 use super::output::Output;
+use super::sample::Sample;
 use super::vector::between;
 use super::window::{End, Window, first_weight};
 

@@ -6,8 +6,8 @@
 //! coordinate, and it may leave it, each from one side and without turning round; those between are put on
 //! it. A spline turns round no more often than its control points do.
 
-use super::fit::Sample;
 use super::knots::DEGREE;
+use super::sample::Sample;
 use core::ops::Range;
 
 /// The coordinates that belong to control points, as far as they are left alone.

@@ -15,9 +15,10 @@
 //! a few times before the certificate is asked for. Where that fails the weights near the worst
 //! place are raised more, and then [`super::resort`] is taken.
 
-use super::fit::{Sample, Spline, span_of};
+use super::fit::{Spline, span_of};
 use super::knots::{DEGREE, bezier, greville};
 use super::output::Output;
+use super::sample::Sample;
 use super::shares::ToleranceShares;
 use super::vector::{add_scaled, between, minus, norm};
 use core::f64::consts::{PI, TAU};
