@@ -147,21 +147,13 @@ impl LongObjects {
     }
 
     fn upload_segment(&mut self, command: u8) -> Taken {
-        let Some(transfer) = self.transfer.as_mut().filter(|transfer| transfer.is_upload) else {
-            return abort((0, 0), NO_COMMAND);
+        let (told, object, nth) = match self.next_segment(true, command) {
+            Ok(step) => step,
+            Err(refused) => return refused,
         };
-        let (object, nth) = (transfer.object, transfer.nth);
-        if command & 0x10 != transfer.toggle {
-            self.transfer = None;
-            return abort(object, WRONG_TOGGLE);
-        }
-        let told = if self.fault == SegmentFault::SameToggle {
-            0
-        } else {
-            transfer.toggle
+        let Some(transfer) = &mut self.transfer else {
+            return abort(object, NO_COMMAND);
         };
-        transfer.toggle ^= 0x10;
-        transfer.nth += 1;
         let most = usize::from(MAILBOX) - BEFORE_SEGMENT;
         let count = if self.fault == SegmentFault::Empty {
             0
@@ -224,18 +216,16 @@ impl LongObjects {
         None
     }
 
-    fn download_segment(&mut self, request: &[u8]) -> Taken {
-        let Some(transfer) = self
-            .transfer
-            .as_mut()
-            .filter(|transfer| !transfer.is_upload)
-        else {
-            return abort((0, 0), NO_COMMAND);
+    /// The toggle to tell of the next segment, its object and its number; or why there is none.
+    fn next_segment(&mut self, is_upload: bool, command: u8) -> Result<(u8, Object, u32), Taken> {
+        let under_way = self.transfer.as_mut();
+        let Some(transfer) = under_way.filter(|transfer| transfer.is_upload == is_upload) else {
+            return Err(abort((0, 0), NO_COMMAND));
         };
-        let (object, nth, command) = (transfer.object, transfer.nth, request[0]);
+        let (object, nth) = (transfer.object, transfer.nth);
         if command & 0x10 != transfer.toggle {
             self.transfer = None;
-            return abort(object, WRONG_TOGGLE);
+            return Err(abort(object, WRONG_TOGGLE));
         }
         let told = if self.fault == SegmentFault::SameToggle {
             0
@@ -244,6 +234,18 @@ impl LongObjects {
         };
         transfer.toggle ^= 0x10;
         transfer.nth += 1;
+        Ok((told, object, nth))
+    }
+
+    fn download_segment(&mut self, request: &[u8]) -> Taken {
+        let command = request[0];
+        let (told, object, nth) = match self.next_segment(false, command) {
+            Ok(step) => step,
+            Err(refused) => return refused,
+        };
+        let Some(transfer) = &mut self.transfer else {
+            return abort(object, NO_COMMAND);
+        };
         let unused = usize::from(command >> 1 & 7);
         let data = &request[1..];
         let data = &data[..data.len().saturating_sub(unused)];

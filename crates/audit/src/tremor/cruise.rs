@@ -25,6 +25,9 @@ const LIMIT_SLACK_R: f64 = 0.01;
 /// Jerk below this share of what it may be off is not summed.
 const QUIET_R: f64 = 0.1;
 
+/// Most jerks of a run that are kept open: one whose speed is never the feed again has no end.
+const MOST_OPEN: usize = 1 << 12;
+
 /// A cruise under way.
 #[derive(Debug)]
 pub(crate) struct Cruise {
@@ -222,6 +225,9 @@ impl Run {
                 over_j,
                 allowed_j,
             };
+            if self.open.len() >= MOST_OPEN {
+                self.open.pop_front();
+            }
             self.open.push_back(Jerk {
                 tick: place.tick,
                 line: place.line,

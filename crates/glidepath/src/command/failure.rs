@@ -10,6 +10,7 @@ use crate::file_error::FileError;
 use crate::jitter::JitterError;
 use crate::persistence::error::StateError;
 use crate::program_text::UnknownEvent;
+use crate::report::counted;
 use crate::text_diagnostic::TextDiagnostic;
 use glidepath_ethercat as ethercat;
 use glidepath_gcode::Diagnostic;
@@ -132,7 +133,7 @@ pub(super) enum Failure {
     #[error("the curve is rejected: {0}")]
     Curve(Box<TextDiagnostic>),
     /// A file of measured points has something to mend.
-    #[error("the points are rejected: {} {} to mend", rows.len() as u64 + more, if rows.len() == 1 { "place has" } else { "places have" })]
+    #[error("the points have {} to mend", counted(rows.len() as u64 + more, "place"))]
     Points {
         /// What was found, in the order of the text.
         rows: Vec<TextDiagnostic>,

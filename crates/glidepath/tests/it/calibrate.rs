@@ -250,7 +250,7 @@ fn rows_that_are_wrong_are_told_with_their_places() {
     let told = text(&output.stderr);
     assert!(told.contains("points.csv:5:4"), "{told}");
     assert!(
-        told.contains("error: the points are rejected: 6 places have to mend"),
+        told.contains("error: the points have 6 places to mend"),
         "{told}"
     );
 }

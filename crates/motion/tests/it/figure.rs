@@ -151,3 +151,38 @@ fn an_axis_that_a_row_leaves_alone_is_still() {
         );
     }
 }
+
+/// A line of 5.9 mm on which a table turns by 50°: the tolerance beside it was used from end to end, and the table was
+/// up to 0.14° off the angle that belongs to its place.
+#[test]
+fn a_long_line_is_straight_where_a_table_turns() {
+    let point = |x: f64, angle: f64| {
+        let mut point = at(x, 0.0);
+        point[3] = angle;
+        point
+    };
+    let curve = (0..40_i32).map(|k| point(0.0265 * f64::from(k), -0.65 * f64::from(k)));
+    let mut points: Vec<_> = curve.collect();
+    let begins = points[points.len() - 1];
+    points.push(begins + point(-5.856, 49.98));
+    let end = points[points.len() - 1];
+    for settings in efforts() {
+        let items = numbered(moves(&points, 12.0, FREE));
+        let frames = plan(&items, settings, usize::MAX);
+        let line = end - begins;
+        let mut judged = 0;
+        for frame in frames
+            .iter()
+            .filter(|frame| frame.line as usize == points.len() - 1)
+        {
+            let passed = frame.position - begins;
+            let share = passed.dot(&line) / line.dot(&line);
+            if (0.25..=0.75).contains(&share) {
+                let beside_mm = (passed - line * share).norm();
+                assert!(beside_mm <= BEYOND_MM, "{:?}: {beside_mm}", settings.effort);
+                judged += 1;
+            }
+        }
+        assert!(judged > 20, "{judged}");
+    }
+}
