@@ -1,7 +1,9 @@
 //! What is left of the machine with terminals where a cable is pulled, or the interpolator or the bridge dies.
 
 use super::shift::{LONG, Part, Shift};
-use super::{FIFTH, FLOOD, FORWARD, INPUTS, LAMP, OUTPUTS, QUARTER, input, setup};
+use super::{
+    FIFTH, FLOOD, FORWARD, INPUTS, LAMP, OUTPUTS, QUARTER, assert_fell_by_watchdogs, input, setup,
+};
 use crate::judge::output_changes;
 use crate::life::Day;
 use crate::machine::{Case, Hands, run};
@@ -20,25 +22,8 @@ fn without_the_cable_behind_the_coupler_everything_comes_to_rest() {
     let unplugged_ns = shift.unplugged_ns.unwrap();
     let fell = records.iter().find(|record| record.at_ns > unplugged_ns);
     let fell = fell.unwrap();
-    let late_ns = fell.at_ns - unplugged_ns;
-    assert_eq!(fell.outputs, [0]);
-    assert!(
-        late_ns <= setup.bus.watchdog_ns + setup.bus.period_ns,
-        "{late_ns}"
-    );
-    // A lost terminal is told from a lost drive, and the drives come to rest on the path.
-    assert!(
-        outcome.events.contains(&Event::TerminalGone(INPUTS)),
-        "{:?}",
-        outcome.events
-    );
-    let is_of_drive = |event: &Event| matches!(event, Event::Gone(_) | Event::LeftOp(..));
-    assert!(
-        !outcome.events.iter().any(is_of_drive),
-        "{:?}",
-        outcome.events
-    );
-    assert!(!outcome.events.contains(&Event::NobodyStops));
+    assert_fell_by_watchdogs((&setup, &outcome), fell, (INPUTS, unplugged_ns));
+    // The drives come to rest on the path.
     let status = outcome.setpoints.iter().rfind(|s| s.enable != 0).unwrap();
     assert!(status.velocity[0].abs() < 1e-9, "{status:?}");
     // The bus comes up again; outputs of programs come back when the fault is reset, and the spindle does not.

@@ -9,10 +9,10 @@ mod cut_off;
 mod shift;
 mod whole_life;
 
-use crate::machine::Setup;
-use glidepath_emulator::{ClockKind, DriveSettings as Emulated, Segment};
+use crate::machine::{Outcome, Setup};
+use glidepath_emulator::{ClockKind, DriveSettings as Emulated, OutputRecord, Segment};
 use glidepath_ethercat::{
-    AnalogInput, AnalogOutput, At, DigitalInput, DigitalOutput, Parameter, Quantity, Signal,
+    AnalogInput, AnalogOutput, At, DigitalInput, DigitalOutput, Event, Parameter, Quantity, Signal,
     TerminalSettings,
 };
 use glidepath_interpolator::{JointHoming, ProbeInput};
@@ -123,6 +123,60 @@ fn terminals() -> Vec<TerminalSettings> {
     ]
 }
 
+/// The probe at the first of the inputs, high where it touches.
+pub(crate) const PROBE: ProbeInput = ProbeInput {
+    number: 0,
+    high: true,
+    protects: false,
+};
+
+/// How a joint is brought home by a switch, whose edge is at a place.
+pub(crate) const fn homing_by_a_switch(offset: f64) -> JointHoming {
+    JointHoming {
+        search_v: -20.0,
+        latch_v: 1.0,
+        final_v: 50.0,
+        index: None,
+        offset,
+        home: 0.0,
+        absolute: None,
+        sequence: 0,
+        is_shared: false,
+        is_volatile: false,
+        ignores_limits: false,
+        search_travel: 60.0,
+        clearance: 2.0,
+    }
+}
+
+/// Outputs that were cut off fell by the watchdogs of their terminals, and what is told is that the device at a
+/// position is gone: drives take part as before.
+#[track_caller]
+pub(crate) fn assert_fell_by_watchdogs(
+    (setup, outcome): (&Setup, &Outcome),
+    fell: &OutputRecord,
+    (position, unplugged_ns): (usize, u64),
+) {
+    let late_ns = fell.at_ns - unplugged_ns;
+    assert_eq!(fell.outputs, [0]);
+    assert!(
+        late_ns <= setup.bus.watchdog_ns + setup.bus.period_ns,
+        "{late_ns}"
+    );
+    assert!(
+        outcome.events.contains(&Event::TerminalGone(position)),
+        "{:?}",
+        outcome.events
+    );
+    let is_of_drive = |event: &Event| matches!(event, Event::Gone(_) | Event::LeftOp(..));
+    assert!(
+        !outcome.events.iter().any(is_of_drive),
+        "{:?}",
+        outcome.events
+    );
+    assert!(!outcome.events.contains(&Event::NobodyStops));
+}
+
 /// Three axes and the terminals; J0 is brought home by its switch.
 pub(crate) fn setup() -> Setup {
     let mut setup = Setup::absolute(2_000_000);
@@ -134,26 +188,8 @@ pub(crate) fn setup() -> Setup {
         Emulated::analog_inputs(4),
     ]);
     setup.terminals = terminals();
-    setup.homing = Some(JointHoming {
-        search_v: -20.0,
-        latch_v: 1.0,
-        final_v: 50.0,
-        index: None,
-        offset: -10.5,
-        home: 0.0,
-        absolute: None,
-        sequence: 0,
-        is_shared: false,
-        is_volatile: false,
-        ignores_limits: false,
-        search_travel: 60.0,
-        clearance: 2.0,
-    });
-    setup.probe = Some(ProbeInput {
-        number: 0,
-        high: true,
-        protects: false,
-    });
+    setup.homing = Some(homing_by_a_switch(-10.5));
+    setup.probe = Some(PROBE);
     setup
 }
 

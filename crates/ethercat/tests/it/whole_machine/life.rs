@@ -7,6 +7,7 @@ use super::{
 };
 use crate::judge::{commanded, output_changes};
 use crate::machine::{COUNTS, Outcome, START_NS, Setup, run_on};
+use crate::terminals::assert_fell_by_watchdogs;
 use glidepath_ethercat::Event;
 use glidepath_link::{ContactKind, Setpoint};
 use glidepath_program::FrameFlags;
@@ -162,25 +163,8 @@ fn without_the_terminals_behind_the_coupler_outputs_are_safe() {
         .iter()
         .find(|record| record.at_ns > unplugged_ns)
         .unwrap();
-    let late_ns = fell.at_ns - unplugged_ns;
-    assert_eq!(fell.outputs, [0]);
-    assert!(
-        late_ns <= setup.bus.watchdog_ns + setup.bus.period_ns,
-        "{late_ns}"
-    );
     // The drives come to rest on the path, and the spindle along its ramp.
-    assert!(
-        outcome.events.contains(&Event::TerminalGone(INPUTS)),
-        "{:?}",
-        outcome.events
-    );
-    let is_of_drive = |event: &Event| matches!(event, Event::Gone(_) | Event::LeftOp(..));
-    assert!(
-        !outcome.events.iter().any(is_of_drive),
-        "{:?}",
-        outcome.events
-    );
-    assert!(!outcome.events.contains(&Event::NobodyStops));
+    assert_fell_by_watchdogs((&setup, &outcome), fell, (INPUTS, unplugged_ns));
     let fault = work.faults[0].clone().unwrap();
     assert!(
         fault.starts_with("a device on the bus of the drives is lost: the one at position 1"),

@@ -13,6 +13,7 @@ mod odd;
 mod work;
 
 use crate::machine::{COUNTS, START_NS, Setup};
+use crate::terminals::{PROBE, homing_by_a_switch};
 use core::time::Duration;
 use glidepath_emulator::{
     Cable, ClockKind, DriveSettings as Emulated, Encoder, Probe, Segment, SpindleMotor,
@@ -22,7 +23,7 @@ use glidepath_ethercat::{
     AnalogInput, AnalogOutput, At, DigitalInput, DigitalOutput, EncoderSettings, Mapping, Quantity,
     Signal, SpindleMode, SpindleSettings, TerminalSettings, TouchProbe,
 };
-use glidepath_interpolator::{AnswerSource, JointHoming, MCodeWait, ProbeInput};
+use glidepath_interpolator::{AnswerSource, MCodeWait};
 
 const INPUTS: usize = 1;
 const OUTPUTS: usize = 2;
@@ -220,26 +221,8 @@ fn setup() -> Setup {
     setup.emulated = line();
     setup.terminals = terminals();
     setup.homed = 3;
-    setup.homing = Some(JointHoming {
-        search_v: -20.0,
-        latch_v: 1.0,
-        final_v: 50.0,
-        index: None,
-        offset: HOME_EDGE,
-        home: 0.0,
-        absolute: None,
-        sequence: 0,
-        is_shared: false,
-        is_volatile: false,
-        ignores_limits: false,
-        search_travel: 60.0,
-        clearance: 2.0,
-    });
-    setup.probe = Some(ProbeInput {
-        number: 0,
-        high: true,
-        protects: false,
-    });
+    setup.homing = Some(homing_by_a_switch(HOME_EDGE));
+    setup.probe = Some(PROBE);
     // M3 and M4 are done at speed.
     setup.waits = vec![MCodeWait {
         first: 3,
