@@ -2,12 +2,14 @@
 
 use std::fs::File;
 use std::io::{Read as _, Write as _};
+use std::os::unix::process::CommandExt as _;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 use std::rc::Rc;
 use std::time::{Duration, Instant};
 
 use glidepath_testing::skip;
+use rustix::process::{Pid, Signal, kill_process_group};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
@@ -64,6 +66,8 @@ impl Browser {
             .arg("about:blank")
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
+            // A group of their own: a signal for the browser is for all of its processes.
+            .process_group(0)
             .spawn()
             .unwrap();
         let (to, from) = (child.stdin.take().unwrap(), child.stdout.take().unwrap());
@@ -216,6 +220,12 @@ impl Browser {
     /// Takes a finger up.
     pub fn finger_up(&mut self, place: &Value) {
         self.mouse("mouseReleased", place);
+    }
+
+    /// Signals every process of the browser. One that is stopped answers nothing until it goes on.
+    pub fn signal(&self, signal: Signal) {
+        let group = Pid::from_child(&self.child);
+        kill_process_group(group, signal).unwrap();
     }
 
     fn mouse(&mut self, kind: &str, place: &Value) {

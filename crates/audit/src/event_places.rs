@@ -19,7 +19,8 @@ const MOST_EXPECTED: usize = 1 << 16;
 #[derive(Debug, Clone, Copy)]
 struct Expected {
     event: Event,
-    place: AxisVector,
+    /// `None` before the first move: it happens where the machine stands.
+    place: Option<AxisVector>,
     line: u32,
 }
 
@@ -69,12 +70,11 @@ impl EventPlaces {
                 if self.expected.len() >= MOST_EXPECTED {
                     self.expected.pop_front();
                 }
-                // Before the first move it happens where the machine stands.
-                self.expected.extend(self.end.map(|place| Expected {
+                self.expected.push_back(Expected {
                     event: *event,
-                    place,
+                    place: self.end,
                     line: item.line,
-                }));
+                });
             }
             ItemKind::Event(_) | ItemKind::Dwell(_) => {}
         }
@@ -106,8 +106,11 @@ impl EventPlaces {
             let Some(expected) = self.expected.pop_front() else {
                 continue;
             };
+            let Some(place) = expected.place else {
+                continue;
+            };
             let at = before + (position - before) * part;
-            let off_mm = tolerance_norm(&(at - expected.place));
+            let off_mm = tolerance_norm(&(at - place));
             self.count += 1;
             self.sum_mm += off_mm;
             if off_mm > self.most_off.0 || self.count == 1 {
@@ -148,6 +151,31 @@ mod tests {
             places.sample(&at(0.4 * f64::from(k)));
         }
         places
+    }
+
+    #[test]
+    fn an_event_before_the_first_move_is_not_taken_for_its_like_behind_one() {
+        let mut places = EventPlaces::new(0.004);
+        let event = Event::SpindleSpeed(300.0);
+        let item = |kind| Item {
+            line: 7,
+            block: 0,
+            kind,
+        };
+        let leg = Segment::line(AxisVector::zeros(), AxisVector::x() * 84.0);
+        let leg = ItemKind::Move {
+            segment: leg,
+            rate: Rate::Feed(25.0),
+            mode: PathMode::Continuous { tolerance_mm: None },
+        };
+        for kind in [ItemKind::Event(event), leg, ItemKind::Event(event)] {
+            places.program(&item(kind));
+        }
+        for x in [0.0, 84.0] {
+            places.happens(event, 4_000_000);
+            places.sample(&(AxisVector::x() * x));
+        }
+        assert_eq!((places.count, places.most_off.0), (1, 0.0));
     }
 
     #[test]

@@ -59,7 +59,7 @@ pub(super) fn x(status: &Status) -> f64 {
 }
 
 /// Waits until the axes rest, and looks whether they stay.
-fn rests(services: &Services<'_>) -> Status {
+pub(super) fn rests(services: &Services<'_>) -> Status {
     let begun = Instant::now();
     let rest = services.wait_for(MachineState::Idle);
     assert!(begun.elapsed() < REST, "{:?}", begun.elapsed());

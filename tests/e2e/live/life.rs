@@ -1,5 +1,5 @@
 //! The test of a whole life with the mouse alone: off, home, jog, zero, upload, run, tool change,
-//! hold, abort.
+//! hold, jog away, return, back along the path and on, abort, and from a line to the end.
 #![allow(
     clippy::print_stderr,
     reason = "a test that fails tells what it pressed in vain"
@@ -63,8 +63,11 @@ fn press_for_state(
     }
 }
 
+/// A line of the program, some seconds before its end.
+pub(super) const NEAR_THE_END: u32 = 47;
+
 /// A program that asks for a tool, and then goes on for long.
-fn program() -> String {
+pub(super) fn program() -> String {
     let mut text = "G21 G90 F3000\nT2 M6\n".to_owned();
     // Long moves, so that it takes long and is soon planned on a busy host, too.
     for _ in 0..25 {
@@ -163,6 +166,64 @@ fn hold_and_return(browser: &mut Browser, operated: &Operated<'_>) {
     let _moving = operated.wait_for(MachineState::Running);
 }
 
+/// Seconds that the ribbon takes the tool back.
+const BACK_S: f64 = 5.0;
+
+/// Hold, the ribbon drags the tool back by the way of some seconds, and Resume goes on from there.
+fn shuttle_back_and_on(browser: &mut Browser, operated: &Operated<'_>) {
+    // So far that there is as much behind it.
+    browser.wait(&format!(
+        "S.status.feed_mm_s > 1 && S.p * DT() > {BACK_S} + 1"
+    ));
+    browser.press("[data-c=hold]");
+    browser.wait("S.state === 'held' && canShuttle()");
+    let held = operated.wait_for(MachineState::Held).path_s;
+    let place_s = |browser: &mut Browser| browser.evaluate("S.p * DT()").as_f64().unwrap();
+    let held_s = place_s(browser);
+    while place_s(browser) > held_s - BACK_S {
+        let place = browser.finger_down("#ribbon");
+        std::thread::sleep(HALF);
+        for step in 1..10 {
+            browser.finger_moved(&place, -20.0 * f64::from(step));
+            std::thread::sleep(Duration::from_millis(100));
+        }
+        std::thread::sleep(WHOLE);
+        browser.finger_up(&place);
+        browser.wait("S.state === 'held' && SHUTTLE.gesture === null");
+    }
+    let back = operated.wait_for(MachineState::Held).path_s;
+    assert!(back < held, "{back} {held}");
+    press(browser, "[data-c=go]", HALF);
+    let _beyond = operated
+        .wait(|status| status.state == MachineState::Running.code() && status.path_s > held + 1.0);
+}
+
+/// From a line near the end, whose state is compared before, to the end.
+fn from_a_line_to_the_end(browser: &mut Browser, operated: &Operated<'_>) {
+    browser.evaluate("setView('programs')");
+    press(browser, "#runkeys [data-do=from-line]", Duration::ZERO);
+    browser.evaluate(&format!(
+        "document.querySelector('#fromline').value = '{NEAR_THE_END}'"
+    ));
+    press(browser, "[data-do=compare]", Duration::ZERO);
+    browser.wait("document.querySelectorAll('.agree .around div').length === 5");
+    let begin = "[data-do=begin-there]";
+    for nth in 1.. {
+        assert!(nth <= PRESSES, "nothing came of {begin}");
+        press(browser, begin, WHOLE);
+        if operated.comes_to(MachineState::Running, LOST) {
+            break;
+        }
+    }
+    browser.wait(&format!(
+        "S.state === 'running' && S.status.line >= {NEAR_THE_END}"
+    ));
+    let _end = operated.wait_for(MachineState::Idle);
+    browser.wait(
+        "S.status.day.filter(job => job.name === 'life.ngc' && job.end === 'done').length === 1",
+    );
+}
+
 #[test]
 fn a_machine_is_run_with_the_mouse_alone() {
     let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
@@ -194,6 +255,7 @@ fn a_machine_is_run_with_the_mouse_alone() {
     zero(&mut browser, &operated);
     run(&mut browser, &operated);
     hold_and_return(&mut browser, &operated);
+    shuttle_back_and_on(&mut browser, &operated);
 
     // Abort is pressed for a second.
     browser.wait("S.state === 'running'");
@@ -203,6 +265,8 @@ fn a_machine_is_run_with_the_mouse_alone() {
     press(&mut browser, "[data-c=abort]", WHOLE);
     let _idle = operated.wait_for(MachineState::Idle);
     browser.wait("S.status.day.some(job => job.name === 'life.ngc' && job.end === 'aborted')");
+
+    from_a_line_to_the_end(&mut browser, &operated);
     drop(live);
 }
 

@@ -3,7 +3,9 @@
 
 mod certificate;
 mod colours;
+mod commanded_life;
 mod course;
+mod cut_off;
 mod devices;
 mod following;
 mod gamepad;

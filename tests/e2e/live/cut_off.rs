@@ -1,0 +1,79 @@
+//! The test of a finger whose page cannot be heard any more: no network, a browser that stands still, a browser that is killed.
+
+use std::time::{Duration, Instant};
+
+use glidepath_link::MachineState;
+use glidepath_tests::{Browser, Instance, Services, Watchdog};
+use rustix::process::Signal;
+use serde_json::json;
+
+use super::PATIENCE;
+use super::hands::{rests, x};
+use super::life::HALF;
+use super::operated_page::operated_page;
+
+const KEY: &str = ".jog[aria-label=\"move X+\"]";
+/// The way behind which the finger is taken to move the axis, mm.
+const MOVES: f64 = 1.0;
+
+/// Puts a finger on X+ until the axis moves. A page on a busy host may lose it: then it comes down anew.
+fn moving(browser: &mut Browser, services: &Services<'_>) -> serde_json::Value {
+    loop {
+        let before = x(&rests(services));
+        let place = browser.finger_down(KEY);
+        let begun = Instant::now();
+        while begun.elapsed() < 4 * HALF {
+            let status = services.wait(|_| true);
+            if status.state == MachineState::Jogging.code() && x(&status) > before + MOVES {
+                return place;
+            }
+        }
+        browser.finger_up(&place);
+    }
+}
+
+#[test]
+fn an_axis_rests_when_its_page_cannot_be_heard() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let Some((mut browser, live, service, services)) =
+        operated_page(&instance, (1024, 768), &[], &[])
+    else {
+        return;
+    };
+    browser.evaluate("setView('setup')");
+    browser.wait("document.querySelector('.jog:not([aria-disabled])')");
+
+    // No network: the finger is down all the time, and is still when the network is back.
+    let network = |browser: &mut Browser, is_gone: bool| {
+        let conditions = json!({
+            "offline": is_gone, "latency": 0, "downloadThroughput": -1, "uploadThroughput": -1,
+        });
+        let _done = browser.call("Network.emulateNetworkConditions", &conditions);
+    };
+    let _enabled = browser.call("Network.enable", &json!({}));
+    let place = moving(&mut browser, &services);
+    network(&mut browser, true);
+    let there = x(&rests(&services));
+    network(&mut browser, false);
+    std::thread::sleep(Duration::from_millis(800));
+    assert_eq!(x(&rests(&services)).to_bits(), there.to_bits());
+    browser.finger_up(&place);
+    browser.wait("S.state === 'idle' && document.querySelector('.jog:not([aria-disabled])')");
+
+    // The browser stands still, and goes on later.
+    let place = moving(&mut browser, &services);
+    browser.signal(Signal::STOP);
+    let there = x(&rests(&services));
+    browser.signal(Signal::CONT);
+    std::thread::sleep(Duration::from_millis(800));
+    assert_eq!(x(&rests(&services)).to_bits(), there.to_bits());
+    browser.finger_up(&place);
+    browser.wait("S.state === 'idle' && document.querySelector('.jog:not([aria-disabled])')");
+
+    // The browser is killed.
+    let _place = moving(&mut browser, &services);
+    browser.signal(Signal::KILL);
+    let _rest = rests(&services);
+    drop((live, service));
+    drop(services.end());
+}
