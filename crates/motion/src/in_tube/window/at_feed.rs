@@ -63,6 +63,7 @@ impl<const D: usize> Optimiser<D> {
         let style = Style {
             aims_beyond: braking_from.saturating_sub(1),
             aims_until: braking_from,
+            at_feed: braking_from,
             ..window_start.smooth_style(WEIGHT)
         };
         let along = window_start.points_along(path, &self.samples.progress);

@@ -20,7 +20,7 @@
 use super::samples::Samples;
 use super::scaled_path::ScaledPath;
 use super::solver::{Problem, dot};
-use super::tube::{Layout, Style};
+use super::tube::{JERK_AT_FEED, Layout, Style};
 
 /// Turn of the program, radians, from which there is a corner: what a motion does there crosses the path
 /// on purpose. With less, the vertices of a coarse polyline would leave all of it undamped.
@@ -31,9 +31,16 @@ const LEFT_OUT: usize = 4;
 /// Adds the prices that go with those of offset and jerk that the style has.
 pub(crate) fn add<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, D>) {
     let margin = margin(layout.path, layout.style);
-    let dearest_jerk = dearest_jerk(layout);
+    let usual_jerk = dearest_jerk(layout);
+    let at_feed = layout.style.intervals_at_feed();
     for k in 1..layout.samples.count() {
         if !is_near_corner(layout.path, layout.samples, k, margin) {
+            let interval = k * layout.style.grid.knots / layout.style.grid.periods;
+            let dearest_jerk = if interval < at_feed {
+                JERK_AT_FEED * usual_jerk
+            } else {
+                usual_jerk
+            };
             add_at(problem, layout, k, dearest_jerk);
         }
     }

@@ -232,21 +232,27 @@ impl<const D: usize> Optimiser<D> {
         if self.interior.is_spent() {
             return points;
         }
-        let style = Style {
-            is_centred: true,
-            ..window_start.style(true)
-        };
         let count = window_start.grid.periods_in(points.len() - 3);
         self.samples.cut(count);
         self.samples
             .project(path, &points, window_start.piece, &window_start.grid, false);
         self.samples.assign(path, window_start.piece);
-        let mut next = points.clone();
-        if self.finish_in(path, window_start, &style, &mut next, judge) {
-            next
-        } else {
-            points
+        let smooth = Style {
+            is_centred: true,
+            at_feed: window_start.near_feed_until(path, &points, &self.samples),
+            ..window_start.smooth_style(1.0)
+        };
+        let usual = Style {
+            is_centred: true,
+            ..window_start.style(true)
+        };
+        for style in [smooth, usual] {
+            let mut next = points.clone();
+            if self.finish_in(path, window_start, &style, &mut next, judge) {
+                return next;
+            }
         }
+        points
     }
 
     /// The same in as much more time as it has gained inside curves that are driven at the feed, if that passes: the
@@ -259,16 +265,17 @@ impl<const D: usize> Optimiser<D> {
         most_intervals: usize,
         judge: &mut impl FnMut(&[[f64; D]], JudgeQuestion) -> bool,
     ) -> Vec<[f64; D]> {
-        let style = Style {
-            is_centred: true,
-            ..window_start.smooth_style(1.0)
-        };
         let grid = &window_start.grid;
         let intervals = points.len() - 3;
         self.samples.cut(grid.periods_in(intervals));
         self.samples
             .project(path, &points, window_start.piece, grid, false);
         self.samples.assign(path, window_start.piece);
+        let style = Style {
+            is_centred: true,
+            at_feed: window_start.near_feed_until(path, &points, &self.samples),
+            ..window_start.smooth_style(1.0)
+        };
         let margin = damping::margin(path, &style);
         let by_grid = (grid, window_start.period_t, margin);
         let gained_t = shortcuts::gained_t(path, &points, &self.samples, by_grid);

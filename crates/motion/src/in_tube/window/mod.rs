@@ -64,6 +64,7 @@ mod hold_back;
 mod joint_rows;
 mod one_sided;
 mod optimiser;
+mod own_jerk;
 mod rate_changes;
 mod rounds;
 mod run_corners;

@@ -62,6 +62,7 @@ impl<const D: usize> WindowStart<'_, D> {
             is_centred: false,
             aims_beyond: 0,
             aims_until: usize::MAX,
+            at_feed: 0,
             keep_r: KEEP_R,
             attraction: self.bias.pull,
             jerk: self.bias.jerk,

@@ -108,12 +108,16 @@ impl<const D: usize> NormalEquations<D> {
     fn add_differences<const N: usize>(&mut self, problem: &Problem<D>, sides: &[HardConstraint]) {
         let order = N - 2;
         let per_square = problem.bounds[order].map(|bound| 1.0 / (bound * bound));
-        let price = if order == 2 { problem.jerk } else { [0.0; D] };
         let start = first_difference(order);
         let stencils = self.stencils[order].iter().enumerate();
         for ((k, stencil), sides) in stencils.zip(sides.chunks_exact(D)) {
             // Hessian of a row that is scaled to −1 ≤ Δx/bound ≤ 1: w/bound²; the price of jerk is
             // one on Δ³x itself.
+            let price = if order == 2 {
+                problem.jerk_at(k)
+            } else {
+                [0.0; D]
+            };
             let mut weights = [0.0; D];
             for a in 0..D {
                 weights[a] = sides[a].weight() * per_square[a] + price[a];
@@ -214,8 +218,9 @@ impl<const D: usize> NormalEquations<D> {
             }
             if order == 2 {
                 let third = combine(x, start + k, &DIFFERENCES[2]);
+                let price = problem.jerk_at(k);
                 for a in 0..D {
-                    pull[a] += problem.jerk[a] * third[a];
+                    pull[a] += price[a] * third[a];
                 }
             }
             take_away(&mut self.step, start + k, stencil, &pull);

@@ -115,6 +115,8 @@ pub(in crate::in_tube::window) struct Problem<const D: usize> {
     pub(in crate::in_tube::window) bounds: [[f64; D]; 3],
     /// Weight of half the square of third differences, by axis, objective per tolerance².
     pub(in crate::in_tube::window) jerk: [f64; D],
+    /// How many times as much it is in the first knot intervals, and in how many.
+    pub(in crate::in_tube::window) dear_jerk: (f64, usize),
     /// Which control points stay where they are given, by axis.
     pub(in crate::in_tube::window) fixed_axes: Vec<[bool; D]>,
     /// Gradient of the linear part of the objective, which is maximised, by control point, objective per
@@ -126,12 +128,23 @@ pub(in crate::in_tube::window) struct Problem<const D: usize> {
 }
 
 impl<const D: usize> Problem<D> {
+    /// Weight of half the square of the third difference `k`, by axis.
+    pub(super) fn jerk_at(&self, k: usize) -> [f64; D] {
+        let (times, intervals) = self.dear_jerk;
+        if k < intervals {
+            self.jerk.map(|weight| times * weight)
+        } else {
+            self.jerk
+        }
+    }
+
     pub(in crate::in_tube::window) const fn new() -> Self {
         Self {
             intervals: 0,
             is_end_fixed: false,
             bounds: [[f64::INFINITY; D]; 3],
             jerk: [0.0; D],
+            dear_jerk: (1.0, 0),
             fixed_axes: Vec::new(),
             aims: Vec::new(),
             sites: Vec::new(),
@@ -151,6 +164,17 @@ impl<const D: usize> Problem<D> {
         self.sites.clear();
         self.rows.clear();
         self.wide_rows.clear();
+    }
+
+    /// What the third difference `k` has for nothing: its price counts from there.
+    pub(in crate::in_tube::window) fn aim_jerk(&mut self, k: usize, own: &[f64; D]) {
+        // −½·w·(Δ³x − own)² is −½·w·(Δ³x)² + w·own·Δ³x, but for a constant.
+        let weight = self.jerk_at(k);
+        for (aims, part) in self.aims[k..].iter_mut().zip(DIFFERENCES[2]) {
+            for a in 0..D {
+                aims[a] += part * weight[a] * own[a];
+            }
+        }
     }
 
     /// Adds to the objective how far a weighted sum of control points is in a direction.
