@@ -170,6 +170,22 @@ fn g66_calls_its_macro_behind_the_blocks_of_subprograms() {
     );
 }
 
+/// Programs of a Haas have numbers of five digits.
+#[test]
+fn a_number_of_a_haas_is_no_count() {
+    let text = "M98 P21000\nM30\nO1000\nG91 G0 X3\nM99";
+    assert_eq!(last(text), [6.0, 0.0, 0.0]);
+    let haas = Options {
+        fanuc: FanucParameters {
+            offset_memory: OffsetMemory::Haas,
+            ..FanucParameters::default()
+        },
+        ..options()
+    };
+    let found = check(text.as_bytes(), haas);
+    assert_eq!(listed(&found), ["1:1 unknown-subroutine"]);
+}
+
 /// As posts write them into the first line of a program.
 #[test]
 fn g67_stands_beside_other_codes() {
