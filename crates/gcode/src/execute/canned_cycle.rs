@@ -16,19 +16,19 @@
 //! With G90 R and depth are coordinates; with G91 R counts from the initial level, the depth from
 //! R, and the in-plane words from hole to hole. The initial level is where the axis stood before
 //! the first of a series of cycles. The way to the next hole begins with a rise where one is
-//! needed.
+//! needed; a FANUC goes across where it stands, and back to the initial level below R, too.
 //!
 //! | cycle | down | at the bottom | out |
 //! |---|---|---|---|
 //! | G73 | Q at a time, 0.254 mm back after each | – | rapid |
 //! | G76 of FANUC | feed | dwell P, spindle stops at its angle (M19), aside | rapid, back, spindle on |
 //! | G87 of FANUC | beside the wall, rapid | back, spindle on, feed up to Z, dwell P | as G76, to the initial level |
-//! | G74, G84 | feed, overrides off | spindle reversed, dwell P | feed, then reversed again |
+//! | G74, G84 | feed, overrides off | spindle reversed, dwell P | feed, then reversed again; of FANUC: feed to R, rapid from there |
 //! | the same, rigidly | behind the spindle | – | behind the spindle to R, rapid from there |
 //! | G81 | feed | – | rapid |
 //! | G82 | feed | dwell P | rapid |
 //! | G83 | Q at a time, out to R after each | – | rapid |
-//! | G85 | feed | – | feed to R, rapid from there |
+//! | G85 | feed | – | feed to R (of a lathe of FANUC twice that), rapid from there |
 //! | G86 | feed | dwell P, spindle stop | rapid, spindle on |
 //! | G89 | feed | dwell P | feed; of FANUC: feed to R, rapid from there |
 
@@ -41,6 +41,7 @@ use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::speed::Pace;
 use crate::execute::state::sticky_words::{CycleSeries, StickyWords};
 use crate::execute::tapping_cycle::tap_turns;
+use crate::setup::fanuc::OffsetMemory;
 use crate::syntax::block::Block;
 use crate::syntax::dialect::Dialect;
 use crate::syntax::modes::{CannedCycle, Distance, Motion, Retract};
@@ -91,10 +92,10 @@ impl Interpreter {
         let mut sticky = self.keep(block, cycle)?;
         self.check_cycle(block, &sticky)?;
         // Beside I of depths, K is the least depth of Haas.
-        let depths = block.get(b'I').filter(|_| !cycle.goes_aside());
-        let repeats = match depths {
-            None => whole(block, b'K', MAX_HOLES)?.or(whole(block, b'L', MAX_HOLES)?),
-            Some(_) => whole(block, b'L', MAX_HOLES)?,
+        let is_depth = block.get(b'I').is_some() && !cycle.goes_aside();
+        let repeats = match is_depth || self.counts_holes_by_l(block) {
+            false => whole(block, b'K', MAX_HOLES)?.or(whole(block, b'L', MAX_HOLES)?),
+            true => whole(block, b'L', MAX_HOLES)?,
         };
         let holes = match repeats {
             // FANUC keeps the words for the blocks that follow.
@@ -152,6 +153,8 @@ impl Interpreter {
         }
         let clear = match self.state.modal.retract {
             Retract::RPlane if !block.has_increments() && cycle != CannedCycle::BackBore => r,
+            // A FANUC goes back to where the cycle began, below R, too.
+            _ if block.dialect == Dialect::Fanuc && cycle != CannedCycle::BackBore => initial,
             _ => initial.max(r),
         };
         let hole = Hole {
@@ -173,6 +176,7 @@ impl Interpreter {
         let [r, bottom] = sticky.levels_mm?;
         let clear = match self.state.modal.retract {
             Retract::RPlane if sticky.cycle != CannedCycle::BackBore => r,
+            _ if sticky.cycle != CannedCycle::BackBore => series.initial?,
             _ => series.initial?.max(r),
         };
         Some(Hole {
@@ -250,13 +254,16 @@ impl Interpreter {
         let normal = self.state.modal.plane.normal();
         let program = self.state.offsets.to_program(self.state.position);
         let mut level = program[normal.index()];
-        // Up first: a rapid across below the level the cycle asks for could hit something.
+        // Up first: a rapid across below the level the cycle asks for could hit something. A FANUC goes across at
+        // the level where it stands.
+        let is_fanuc = block.dialect == Dialect::Fanuc;
+        let goes_across = is_fanuc && hole.sticky.cycle != CannedCycle::BackBore;
         let safe = level.max(if self.state.modal.retract == Retract::Initial {
             hole.clear
         } else {
             hole.r
         });
-        if safe > level {
+        if safe > level && !goes_across {
             level = safe;
             self.along(block, normal, level, Pace::Rapid, out)?;
         }
@@ -269,7 +276,7 @@ impl Interpreter {
                 level = hole.clear;
                 continue;
             }
-            if level > hole.r {
+            if level > hole.r || level < hole.r && goes_across {
                 self.along(block, normal, hole.r, Pace::Rapid, out)?;
             }
             self.hole(block, hole, out)?;
@@ -309,12 +316,17 @@ impl Interpreter {
         } = hole.sticky;
         let code = |number: u32| ItemKind::Event(Event::MCode(number));
         if let Some(turning) = tap_turns(cycle) {
+            if hole.sticky.is_rigid {
+                let levels = [hole.bottom, hole.clear];
+                return self.tap_rigidly(block, turning, levels, [dwell_s, peck], out);
+            }
+            // Of a FANUC the thread ends at R.
+            if block.dialect == Dialect::Fanuc {
+                self.tap_with_holder(block, turning, [hole.bottom, hole.r], dwell_s, out)?;
+                return self.along(block, normal, hole.clear, Pace::Rapid, out);
+            }
             let levels = [hole.bottom, hole.clear];
-            return if hole.sticky.is_rigid {
-                self.tap_rigidly(block, turning, levels, [dwell_s, peck], out)
-            } else {
-                self.tap_with_holder(block, turning, levels, dwell_s, out)
-            };
+            return self.tap_with_holder(block, turning, levels, dwell_s, out);
         }
         if peck > 0.0 {
             self.pecks(block, hole, peck, out)?;
@@ -335,7 +347,15 @@ impl Interpreter {
         }
         let pace = match cycle {
             CannedCycle::Bore => {
-                self.along(block, normal, hole.r, Pace::Feed, out)?;
+                let feed = self.state.modal.feed;
+                // A lathe of FANUC comes out at twice the feed.
+                let is_haas = self.options.fanuc.offset_memory == OffsetMemory::Haas;
+                if block.is_lathe && !is_haas {
+                    self.state.modal.feed = feed.map(|feed| feed.times(2.0));
+                }
+                let made = self.along(block, normal, hole.r, Pace::Feed, out);
+                self.state.modal.feed = feed;
+                made?;
                 Pace::Rapid
             }
             // FANUC's goes on at rapid above R.
@@ -358,10 +378,16 @@ impl Interpreter {
         let normal = self.state.modal.plane.normal();
         let mut stroke = peck;
         let mut depth = hole.r - stroke;
+        let mut out_at = hole.r;
         // A last peck of less is rounding.
         while depth > hole.bottom + BOTTOM_MM {
             self.along(block, normal, depth, Pace::Feed, out)?;
-            if hole.sticky.cycle == CannedCycle::Peck {
+            let out_after = hole.sticky.out_after;
+            let is_deep = out_after > 0.0 && out_at - depth >= out_after - BOTTOM_MM;
+            if is_deep {
+                out_at = depth;
+            }
+            if hole.sticky.cycle == CannedCycle::Peck || is_deep {
                 self.along(block, normal, hole.r, Pace::Rapid, out)?;
             }
             // Never above the R plane, which a small Q would lead to.

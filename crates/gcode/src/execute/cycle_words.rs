@@ -52,6 +52,7 @@ impl Interpreter {
             peck: 0.0,
             less: 0.0,
             least: 0.0,
+            out_after: 0.0,
             shift_mm: [0.0; 2],
             is_rigid: false,
             starts_spindle: false,
@@ -81,6 +82,7 @@ impl Interpreter {
             CannedCycle::Drill | CannedCycle::Bore => {}
         }
         check_haas_words(block, cycle)?;
+        sticky.out_after = self.haas_way_out(block, cycle, last)?;
         if block.dialect == Dialect::Fanuc {
             // In every cycle.
             let word = fanuc_dwell(block);
@@ -152,6 +154,35 @@ impl Interpreter {
                 )
                 .help("write I and K above zero, K no more than I, and J of zero or more"),
         )
+    }
+
+    /// K of a Haas without I, which does not count holes: how deep G73 goes before it comes out to R.
+    fn haas_way_out(
+        &self,
+        block: &Block,
+        cycle: CannedCycle,
+        last: Option<StickyWords>,
+    ) -> Outcome<f64> {
+        if !self.counts_holes_by_l(block) || block.get(b'I').is_some() {
+            return Ok(0.0);
+        }
+        let Some(deep) = block.get(b'K') else {
+            return Ok(last.map_or(0.0, |last| last.out_after));
+        };
+        if cycle == CannedCycle::ChipBreak && deep > 0.0 {
+            return Ok(deep * self.state.modal.units.mm());
+        }
+        let message = format!("K{deep} in {} of a Haas", name(cycle));
+        Err(
+            BlockDiagnostic::new(DiagnosticCode::UnusedWord, block.span(b'K'), message)
+                .because("K is the least depth there beside I, and in G73 how deep it goes before it comes out to R; L counts holes")
+                .help("write L if holes are to be repeated"),
+        )
+    }
+
+    /// A Haas repeats holes by L alone.
+    pub(super) fn counts_holes_by_l(&self, block: &Block) -> bool {
+        block.dialect == Dialect::Fanuc && self.options.fanuc.offset_memory == OffsetMemory::Haas
     }
 
     /// The R plane of a lathe of system A: R is the way from the initial level, to FANUC. To Haas it is the

@@ -337,7 +337,7 @@ fn numbers_without_a_point_are_told_apart() {
 #[test]
 fn a_program_begins_in_g0_and_g80_leaves_the_code_from_before_the_cycles() {
     assert_eq!(last("X5"), [5.0, 0.0, 0.0]);
-    assert_eq!(last("G1 X1\nG81 X2 Z-1 R1\nG80 X5"), [5.0, 0.0, 1.0]);
+    assert_eq!(last("G1 X1\nG81 X2 Z-1 R1\nG80 X5"), [5.0, 0.0, 0.0]);
     // Z5, then across, to R, to the bottom and out.
     assert_eq!(ends("G0 Z5\nG81 Z-1 R1 K0\nX5").len(), 5);
     assert_eq!(

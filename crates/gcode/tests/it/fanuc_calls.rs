@@ -170,6 +170,37 @@ fn g66_calls_its_macro_behind_the_blocks_of_subprograms() {
     );
 }
 
+/// Programs of a Haas have numbers of five digits.
+#[test]
+fn a_number_of_a_haas_is_no_count() {
+    let text = "M98 P21000\nM30\nO1000\nG91 G0 X3\nM99";
+    assert_eq!(last(text), [6.0, 0.0, 0.0]);
+    let haas = Options {
+        fanuc: FanucParameters {
+            offset_memory: OffsetMemory::Haas,
+            ..FanucParameters::default()
+        },
+        ..options()
+    };
+    let found = check(text.as_bytes(), haas);
+    assert_eq!(listed(&found), ["1:1 unknown-subroutine"]);
+}
+
+/// As posts write them into the first line of a program.
+#[test]
+fn g67_stands_beside_other_codes() {
+    let sub = "\nM30\nO9\nG91 G0 Y#25\nG90\nM99";
+    let head = "N1 G17 G40 G49 G67 G69 G80 G90";
+    assert_eq!(ends(&format!("{head}\nG0 X1{sub}")), [[1.0, 0.0, 0.0]]);
+    // No macro is called behind its move.
+    let text = format!("G66 P9 Y1.\nG0 X1\nG67 G0 X2 (END){sub}");
+    assert_eq!(
+        ends(&text),
+        [[1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [2.0, 1.0, 0.0]]
+    );
+    finds(&format!("G67 M98 P9{sub}"), &["1:5 not-supported"]);
+}
+
 #[test]
 fn arguments_count_as_coordinates_do() {
     let call = |words: &str, variable: u32| {

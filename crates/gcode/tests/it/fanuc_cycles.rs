@@ -282,3 +282,55 @@ fn statements_for_devices_and_names_stand_alone() {
         &[],
     );
 }
+
+/// Below R the tool goes across where it stands, then up to R, and with G98 back to where it began.
+#[test]
+fn a_cycle_that_begins_below_r() {
+    assert_eq!(
+        ends("G0 Z1\nG98 G81 X10 Z-5 R2 F100\nX20")[1..],
+        [
+            [10.0, 0.0, 1.0],
+            [10.0, 0.0, 2.0],
+            [10.0, 0.0, -5.0],
+            [10.0, 0.0, 1.0],
+            [20.0, 0.0, 1.0],
+            [20.0, 0.0, 2.0],
+            [20.0, 0.0, -5.0],
+            [20.0, 0.0, 1.0],
+        ]
+    );
+    assert_eq!(
+        ends("G0 Z1\nG99 G81 X10 Z-5 R2 F100\nX20")[1..],
+        [
+            [10.0, 0.0, 1.0],
+            [10.0, 0.0, 2.0],
+            [10.0, 0.0, -5.0],
+            [10.0, 0.0, 2.0],
+            [20.0, 0.0, 2.0],
+            [20.0, 0.0, -5.0],
+            [20.0, 0.0, 2.0],
+        ]
+    );
+}
+
+/// A tap in a holder comes out to R at its feed, and goes on at rapid.
+#[test]
+fn a_tap_is_out_at_r() {
+    let text = "S500 M3\nG0 Z50\nG98 G84 Z-5 R5 F500";
+    let rates: Vec<String> = Program::new(text.as_bytes(), options())
+        .map(|item| item.unwrap_or_else(|d| panic!("{text}\n{d}")))
+        .filter_map(|item| match item.kind {
+            ItemKind::Move { segment, rate, .. } => {
+                let mark = if rate.is_rapid() { "r" } else { "" };
+                Some(format!("{}{mark}", segment.end()[2]))
+            }
+            ItemKind::Event(Event::MCode(code)) => Some(format!("M{code}")),
+            _ => None,
+        })
+        .collect();
+    let from_r = rates.iter().position(|it| it == "5r").expect("R");
+    assert_eq!(
+        rates[from_r..],
+        ["5r", "M49", "-5", "M4", "5", "M3", "M48", "50r"]
+    );
+}

@@ -165,6 +165,28 @@ fn r_of_a_hole_is_a_way_or_a_place() {
     );
 }
 
+/// A FANUC's lathe comes out of a bore at twice the feed.
+#[test]
+fn a_bore_is_left_at_twice_the_feed() {
+    let text = "G98 G0 X0 Z10\nG85 Z-30 R-8 F200\nG80\nG1 Z20";
+    let feeds = |offset_memory| -> Vec<f64> {
+        let fanuc = FanucParameters {
+            offset_memory,
+            ..options().fanuc
+        };
+        Program::new(text.as_bytes(), with(fanuc))
+            .map(|item| item.unwrap_or_else(|d| panic!("{text}\n{d}")))
+            .filter_map(|item| match item.kind {
+                ItemKind::Move { rate, .. } => rate.feed_v().filter(|_| !rate.is_rapid()),
+                _ => None,
+            })
+            .map(|feed_v| (feed_v * 60.0).round())
+            .collect()
+    };
+    assert_eq!(feeds(OffsetMemory::Unsaid), [200.0, 400.0, 200.0]);
+    assert_eq!(feeds(OffsetMemory::Haas), [200.0, 200.0, 200.0]);
+}
+
 #[test]
 fn a_place_of_the_machine_is_no_increment() {
     finds("G98\nG53 U5", &["2:1 machine-coordinates"]);

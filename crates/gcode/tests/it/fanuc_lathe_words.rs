@@ -83,6 +83,9 @@ fn grooves_are_made_side_by_side() {
     // By increments of the start.
     let increments = format!("{HEAD}G75 R0.5\nG75 U-12 W-7 P3000 Q3000 F100");
     assert_eq!(ways(&increments), expected);
+    // A single groove has no steps aside: Q0 is none.
+    let single = |words: &str| ends(&format!("{HEAD}G75 R0.5\nG75 X40 P3000 {words}F100"));
+    assert_eq!(single("Q0 "), single(""));
     // R beside X and Z leads aside at the bottom, but not in the first place.
     let aside = format!("{HEAD}G75 X40 Z-13 P6000 Q3000 R0.2 F100");
     assert_eq!(

@@ -1,11 +1,22 @@
 //! Tests of G45 to G48 of FANUC's mills. Values are computed by hand: the offset is the radius of D, 3 mm of D1 and
 //! 5 mm of D2.
 
-use glidepath_gcode::{Dialect, FanucParameters, Machine, OffsetMemory, Options, check};
-use glidepath_geometry::Axis;
+use glidepath_gcode::{Dialect, FanucParameters, Machine, OffsetMemory, Options, Program, check};
+use glidepath_geometry::{Axis, Segment};
+use glidepath_program::ItemKind;
 
 use crate::fanuc_calls::{ends, finds, options};
 use crate::support::listed;
+
+fn moves(text: &str) -> Vec<Segment> {
+    Program::new(text.as_bytes(), options())
+        .map(|item| item.unwrap_or_else(|d| panic!("{text}\n{d}")))
+        .filter_map(|item| match item.kind {
+            ItemKind::Move { segment, .. } => Some(segment),
+            _ => None,
+        })
+        .collect()
+}
 
 fn last(text: &str) -> [f64; 3] {
     *ends(text).last().expect("a move")
@@ -87,6 +98,60 @@ fn a_rectangle_is_gone_round_beside_it() {
     );
 }
 
+/// The program of FANUC's manual: round a part with a quarter outside and one inside, with a tool of 20 mm.
+#[test]
+fn quarters_of_a_circle_have_larger_or_smaller_radii() {
+    let text = "G10 L12 P1 R10
+G91 G46 G0 X80 Y50 D1
+G47 G1 X50 F120
+Y40
+G48 X40
+Y-40
+G45 X30
+G45 G3 X30 Y30 J30
+G45 G1 Y20
+G46 X0
+G46 G2 X-30 Y30 J30
+G45 G1 Y0
+G47 X-120
+G47 Y-80
+G46 G0 X-80 Y-50";
+    let way = [
+        [70.0, 40.0],
+        [140.0, 40.0],
+        [140.0, 80.0],
+        [160.0, 80.0],
+        [160.0, 40.0],
+        [200.0, 40.0],
+        [240.0, 80.0],
+        [240.0, 110.0],
+        [230.0, 110.0],
+        [210.0, 130.0],
+        [210.0, 140.0],
+        [70.0, 140.0],
+        [70.0, 40.0],
+        [0.0, 0.0],
+    ];
+    let found: Vec<[f64; 2]> = ends(text).into_iter().map(|[x, y, _]| [x, y]).collect();
+    assert_eq!(found, way);
+    let arcs: Vec<[f64; 3]> = moves(text)
+        .into_iter()
+        .filter_map(|segment| match segment {
+            Segment::Arc(arc) => Some([arc.center[0], arc.center[1], arc.sweep_rad.to_degrees()]),
+            _ => None,
+        })
+        .map(|arc| arc.map(f64::round))
+        .collect();
+    assert_eq!(arcs, [[200.0, 80.0, 90.0], [230.0, 130.0, -90.0]]);
+    // Three quarters have the same words.
+    let text = "G91 G45 G2 X10 Y10 J10 D1 F100";
+    assert_eq!(last(text), [13.0, 13.0, 0.0]);
+    let [Segment::Arc(arc)] = moves(text)[..] else {
+        panic!("an arc")
+    };
+    assert!((arc.sweep_rad.to_degrees() + 270.0).abs() < 1e-9);
+}
+
 #[test]
 fn what_it_does_not_go_with_is_refused() {
     for (text, expected) in [
@@ -94,7 +159,10 @@ fn what_it_does_not_go_with_is_refused() {
         ("G91 G45 D1", "1:5 missing-word"),
         ("G90 G45 G0 X10 D1", "1:5 not-supported"),
         ("G91 G45 G0 Z2 H1", "1:15 not-supported"),
-        ("G91 G45 G2 X10 Y10 I10 D1 F100", "1:5 not-supported"),
+        ("G91 G45 G2 X10 Y5 I10 D1 F100", "1:5 not-supported"),
+        ("G91 G45 G2 X10 I5 D1 F100", "1:5 not-supported"),
+        ("G91 G45 G2 X10 Y10 R10 D1 F100", "1:5 not-supported"),
+        ("G91 G45 G2 X10 Y10 Z1 I10 D1 F100", "1:5 not-supported"),
         ("G91 G45 G81 X10 Z-5 R1 F100", "1:5 not-supported"),
         ("G45 G28 X0", "1:1 not-supported"),
         ("G45 G53 X0", "1:1 not-supported"),

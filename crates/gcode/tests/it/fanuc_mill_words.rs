@@ -1,11 +1,13 @@
 //! Tests of FANUC's and Haas' mills: offsets by other words, depths of Haas, round pockets, names
 //! of programs and variables, what is printed. Values are computed by hand.
 
-use glidepath_gcode::{BoreShift, FanucParameters, Options, Program, RemarkKind, check};
+use glidepath_gcode::{
+    BoreShift, FanucParameters, OffsetMemory, Options, Program, RemarkKind, check,
+};
 use glidepath_geometry::Segment;
 use glidepath_program::{Event, ItemKind, Rate};
 
-use crate::fanuc_calls::options;
+use crate::fanuc_calls::{ends_with, options};
 use crate::support::listed;
 
 fn moves(text: &str) -> Vec<(Segment, Rate)> {
@@ -86,6 +88,30 @@ fn depths_of_haas_become_less() {
     finds("G0 Z20\nG83 X0 Z-5 R2 I8 Q1 F100", &["2:18 unused-word"]);
     finds("G0 Z20\nG81 X0 Z-5 R2 I8 F100", &["2:15 unused-word"]);
     finds("G0 Z20\nG83 X0 Z-5 R2 I2 K3 F100", &["2:15 canned-cycle"]);
+}
+
+/// K of a Haas counts no holes: in G73 beside Q it is how deep the tool goes before it comes out to R.
+#[test]
+fn g73_of_a_haas_comes_out_to_r_by_k() {
+    let haas = || Options {
+        fanuc: FanucParameters {
+            offset_memory: OffsetMemory::Haas,
+            ..FanucParameters::default()
+        },
+        ..options()
+    };
+    let levels: Vec<f64> = ends_with("G0 Z10\nG99 G73 Z-10 R0 Q2. K4. F300", haas())
+        .into_iter()
+        .map(|[_, _, z]| z)
+        .collect();
+    let right = [
+        10.0, 0.0, -2.0, -1.746, -4.0, 0.0, -3.746, -6.0, -5.746, -8.0, 0.0, -7.746, -10.0, 0.0,
+    ];
+    assert_eq!(levels, right);
+    let found = check("G0 Z10\nG81 Z-10 R0 K2 F300".as_bytes(), haas());
+    assert_eq!(listed(&found), ["2:13 unused-word"]);
+    let holes = ends_with("G91 G99 G81 X5 Z-1 R0 L2 F300", haas());
+    assert_eq!(holes.last(), Some(&[10.0, 0.0, 0.0]));
 }
 
 #[test]

@@ -1,7 +1,9 @@
 //! Tests of FANUC's G76 in its two forms, and the lead of G33.
 
 use crate::support::listed;
-use glidepath_gcode::{Dialect, FanucControl, FanucParameters, Options, Program, Threading, check};
+use glidepath_gcode::{
+    Dialect, FanucControl, FanucParameters, Options, PointInput, Program, Threading, check,
+};
 use glidepath_program::{Event, ItemKind, Limits, PHASE_STEPS, PathMode};
 
 fn options() -> Options {
@@ -69,6 +71,39 @@ fn a_thread_in_two_blocks() {
     // From where it stood, and back there.
     let report = check(text.as_bytes(), lathe());
     assert_eq!(report.final_position[2], 4.0);
+}
+
+/// R of the first block is a length, unlike P and Q: without a point it is what `point` says of lengths.
+#[test]
+fn the_finishing_allowance_is_a_length() {
+    let last = |allowance: &str, point: PointInput| {
+        let options = Options {
+            fanuc: FanucParameters {
+                point,
+                ..lathe().fanuc
+            },
+            ..lathe()
+        };
+        let text = format!(
+            "S600 M3\nG0 X24. Z4.\nG76 P010000 Q0 {allowance}\nG76 X18. Z-20. P1500 Q1500 F1.5"
+        );
+        cuts_with(&text, options)
+    };
+    let passes = |first: f64| [format!("1.5@0 {first},-20"), "1.5@0 9,-20".to_owned()];
+    use PointInput::{Calculator, Increment, Unsaid};
+    for (allowance, point, first) in [
+        ("R0.2", Unsaid, 9.2),
+        ("R200", Unsaid, 9.2),
+        ("R200", Increment, 9.2),
+        ("R0.2", Calculator, 9.2),
+        ("R1", Calculator, 10.0),
+    ] {
+        assert_eq!(
+            last(allowance, point),
+            passes(first),
+            "{allowance} {point:?}"
+        );
+    }
 }
 
 #[test]

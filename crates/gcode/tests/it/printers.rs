@@ -224,7 +224,12 @@ fn circles_come_before_the_arc_which_may_be_one_itself() {
     }
     let found = turns("G1 X10\nG3 X0 Y10 I-10 J0 P1");
     assert!((found - 1.25).abs() < 1e-9, "{found}");
-    // Klipper makes no arcs in increments.
+    // Klipper takes no radius.
+    finds(
+        "SET_GCODE_OFFSET Z=0\nG2 X10 Y10 R10",
+        &["2:12 not-supported"],
+    );
+    // Nor does it make arcs in increments.
     finds(
         "SET_GCODE_OFFSET Z=0\nG91\nG2 X10 Y10 I10 J0",
         &["3:1 not-supported"],

@@ -205,7 +205,7 @@ fn fanuc_s_m29_is_of_the_next_series_of_holes() {
          M49 f-10 M4 dwell0 f2 M3 M48"
     );
     assert_eq!(
-        items("S600\nM29\nG98 G74 Z-10 R2 F600", fanuc()),
+        items("S600\nM29\nG99 G74 Z-10 R2 F600", fanuc()),
         "S600 r2 M4 tap(-1,12) M5"
     );
     let deep = "S600\nM29\nG84 Z-10 R2 Q3 F600";
@@ -328,7 +328,7 @@ fn cycles_tap_by_the_axis_of_the_spindle() {
     // M29 needs no table of a machine that taps rigidly, and has it stand afterwards.
     assert_eq!(
         moves(
-            "M3 S300\nM29 S600\nG98 G84 Z-8 R2 Q4 P1 F600\nG80\nG0 Z5",
+            "M3 S300\nM29 S600\nG99 G84 Z-8 R2 Q4 P1 F600\nG80\nG0 Z5",
             with_axis(Dialect::Fanuc, false)
         ),
         "S300 M3 S600 M5 r2 stop (-2,1440)f600 (2,0)f600 (-6,2880)f600 (2,0)f600 (-8,3600)f600 \

@@ -9,6 +9,7 @@ use crate::diagnostic::span::SourceSpan;
 use crate::execute::block_words::require_axes;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::state::offsets::overlay;
+use crate::setup::fanuc::OffsetMemory;
 use crate::syntax::block::Block;
 use crate::syntax::codes::Coded;
 use crate::syntax::dialect::Dialect;
@@ -76,13 +77,13 @@ impl Interpreter {
             }
             NonModal::LatheSetting => {
                 if block.has_axes() {
-                    let values = self.axis_values(block)?;
+                    let values = self.named_places(block, non_modal.span)?;
                     self.end_local_offset(&values);
                     self.state.offsets.set_shift(position, &values);
                 }
             }
             NonModal::SetOffset => {
-                let values = self.axis_values(block)?;
+                let values = self.named_places(block, non_modal.span)?;
                 require_axes(block, non_modal.span, "G92")?;
                 self.end_local_offset(&values);
                 self.state.offsets.set_shift(position, &values);
@@ -96,6 +97,28 @@ impl Interpreter {
             NonModal::RestoreOffset => self.state.offsets.shift = self.state.offsets.saved_shift,
         }
         Ok(())
+    }
+
+    /// The coordinates that G92 gives the place of the machine. In G91 those of a FANUC are added to the present
+    /// ones; the other controls count them from zero in both.
+    fn named_places(&self, block: &Block, span: SourceSpan) -> Outcome<[Option<f64>; AXES]> {
+        let mut values = self.axis_values(block)?;
+        let is_added =
+            block.dialect == Dialect::Fanuc && self.state.modal.distance == Distance::Incremental;
+        if !is_added {
+            return Ok(values);
+        }
+        if self.options.fanuc.offset_memory == OffsetMemory::Haas {
+            let message = "G92 with incremental distances (G91) on a Haas";
+            return Err(BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
+                .because("whether its words are added to the coordinates, as a FANUC does, or are the coordinates is not known here")
+                .help("write G90 into this block, or before it"));
+        }
+        let program = self.state.offsets.to_program(self.state.position);
+        for (value, here) in values.iter_mut().zip(program.iter()) {
+            *value = value.map(|value| value + here);
+        }
+        Ok(values)
     }
 
     /// G92 ends the local offset (G52) of the axes that it names.

@@ -10,12 +10,34 @@ use crate::diagnostic::span::SourceSpan;
 use crate::execute::block_words::radius_word;
 use crate::execute::compensation::path::{Compensated, Compensation, MAX_HELD};
 use crate::execute::interpreter::Interpreter;
+use crate::setup::fanuc::OffsetMemory;
 use crate::setup::tool_table::MAX_TOOL;
 use crate::syntax::block::Block;
 use crate::syntax::codes::Coded;
 use crate::syntax::dialect::Dialect;
 use crate::syntax::modes::{CutterRadius, LatheCycle, Motion, NonModal, Side};
 use crate::syntax::word_check::{missing, whole};
+
+/// What the controls make of G41 and G42 while one of them is on.
+#[cold]
+fn on_already(dialect: Dialect, is_haas: bool, span: SourceSpan) -> Box<BlockDiagnostic> {
+    let why = match dialect {
+        Dialect::Fanuc if is_haas => "a Haas wants G40 before the other side",
+        Dialect::Fanuc => {
+            "a FANUC crosses to the other side at the corner, and the same code again puts the tool at right angles to the move before; neither is made here"
+        }
+        Dialect::Siemens => {
+            "whether the tool goes to the new side, or begins anew on the same one, at the corner or along the next move differs from control to control"
+        }
+        Dialect::LinuxCnc | Dialect::Marlin => {
+            "where the tool is would not be clear if its side or radius changed"
+        }
+    };
+    let message = "cutter radius compensation is on already";
+    BlockDiagnostic::new(DiagnosticCode::CutterRadius, span, message)
+        .because(why)
+        .help("write G40 and a move in between")
+}
 
 impl Interpreter {
     /// G40, G41, G42, G41.1, G42.1.
@@ -82,12 +104,8 @@ impl Interpreter {
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
         if self.state.on_contour {
-            let message = "cutter radius compensation is on already";
-            return Err(
-                BlockDiagnostic::new(DiagnosticCode::CutterRadius, span, message)
-                    .because("where the tool is would not be clear if its side or radius changed")
-                    .help("write G40 and a move in between"),
-            );
+            let is_haas = self.options.fanuc.offset_memory == OffsetMemory::Haas;
+            return Err(on_already(block.dialect, is_haas, span));
         }
         let follows = self.options.five_axis.is_some() && self.state.tip.follows();
         if block.dialect == Dialect::Fanuc && follows && self.state.tilted.is_none() {
@@ -122,7 +140,7 @@ impl Interpreter {
             return Err(
                 BlockDiagnostic::new(DiagnosticCode::CutterRadius, span, message)
                     .because("the plane of the contour would be no plane of the machine")
-                    .help("set the rotation to zero (G10 L2 R0)"),
+                    .help("set the rotation of the coordinate system to zero"),
             );
         }
         self.state.contour_side = side;

@@ -44,10 +44,7 @@ impl Interpreter {
         if self.state.leaving_contour {
             return Err(arc_off_contour(block.motion_span()));
         }
-        let is_klipper = self.state.firmware == Some(Firmware::Klipper);
-        if is_klipper && self.state.modal.distance == Distance::Incremental {
-            return Err(arc_in_increments(block.motion_span()));
-        }
+        self.check_firmware(block)?;
         let named = self.plane_of_arc(block)?;
         check_center_words(block, named)?;
         let Some(PlaneImage {
@@ -66,7 +63,7 @@ impl Interpreter {
         } else {
             self.state.path_end
         };
-        let mut target = self.target(block)?;
+        let (mut target, farther) = self.lengthened_arc(block, named, self.target(block)?)?;
         let counterclockwise = (motion == Motion::ArcCounterclockwise) != is_mirrored;
         let flat = |place: &AxisVector| [place[first.index()], place[second.index()]];
         if let Some(angle_rad) = angle_without_end(block, named)? {
@@ -88,6 +85,7 @@ impl Interpreter {
             Some(radius_mm) => center_from_radius(block, ends, radius_mm, counterclockwise)?,
             None => {
                 let center = self.center_point(block, named, plane)?;
+                let center = [center[0] + farther[0], center[1] + farther[1]];
                 check_radii(block, ends, center)?;
                 center
             }
@@ -121,6 +119,20 @@ impl Interpreter {
         Ok(())
     }
 
+    /// Refuses arcs that the firmware of a printer does not make.
+    fn check_firmware(&self, block: &Block) -> Outcome<()> {
+        if self.state.firmware != Some(Firmware::Klipper) {
+            return Ok(());
+        }
+        if self.state.modal.distance == Distance::Incremental {
+            return Err(arc_in_increments(block.motion_span()));
+        }
+        if block.get(b'R').is_some() {
+            return Err(arc_by_radius(block.span(b'R')));
+        }
+        Ok(())
+    }
+
     /// Refuses arcs that are no arcs in the machine's coordinates.
     fn check_plane(
         &self,
@@ -135,7 +147,7 @@ impl Interpreter {
             return Err(
                 BlockDiagnostic::new(DiagnosticCode::ArcPlane, span, message)
                     .because("its plane would be no coordinate plane of the machine")
-                    .help("set the rotation to zero (G10 L2 R0), or use G17"),
+                    .help("set the rotation of the coordinate system to zero, or use G17"),
             );
         }
         let of_uvw = matches!(plane, Plane::Uv | Plane::Wu | Plane::Vw);
@@ -294,6 +306,14 @@ fn arc_in_increments(span: SourceSpan) -> Box<BlockDiagnostic> {
     BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
         .because("Klipper makes no arcs there")
         .help("write G90 and the end of the arc")
+}
+
+#[cold]
+fn arc_by_radius(span: SourceSpan) -> Box<BlockDiagnostic> {
+    let message = "an arc by its radius";
+    BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
+        .because("Klipper takes the centre of an arc alone, and stops at R")
+        .help("write I and J")
 }
 
 /// Turns of an arc: P.

@@ -110,7 +110,7 @@ fn machine_point(offsets: &Offsets, point: AxisVector, axes: [Axis; 2]) -> [f64;
     axes.map(|axis| machine[axis.index()])
 }
 
-pub(super) const fn center_letter(axis: Axis) -> u8 {
+pub(crate) const fn center_letter(axis: Axis) -> u8 {
     match axis {
         Axis::Y | Axis::V => b'J',
         Axis::Z | Axis::W => b'K',

@@ -7,6 +7,7 @@ use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::motion::settled::MIN_MOVE;
 use crate::syntax::block::Block;
+use crate::syntax::dialect::Dialect;
 
 /// Difference of the radii that is always accepted, mm.
 const RADIUS_TOLERANCE_MM: f64 = 0.0127;
@@ -18,6 +19,10 @@ const RADIUS_TOLERANCE_MAX_MM: f64 = 100.0 * RADIUS_TOLERANCE_MM;
 const SHORT_RADIUS_MM: f64 = 0.00127;
 /// Ends closer than this make a full turn, mm.
 const SAME_POINT_MM: f64 = 1e-6;
+
+/// What to check of an arc whose centre always counts from its start.
+const CHECK_CENTER: &str =
+    "check the end, and I, J and K, which are the way from the start to the centre";
 
 /// The two in-plane coordinates of an arc's ends, mm.
 #[derive(Debug, Clone, Copy)]
@@ -51,7 +56,12 @@ pub(crate) fn check_radii(block: &Block, ends: Ends, center: [f64; 2]) -> Outcom
         return Err(
             BlockDiagnostic::new(DiagnosticCode::ArcZeroRadius, span, message)
                 .because("a circle of radius zero has no direction")
-                .help("write the centre relative to the start (G91.1), or use G90.1"),
+                .help(match block.dialect {
+                    Dialect::LinuxCnc => {
+                        "write the centre relative to the start (G91.1), or use G90.1"
+                    }
+                    _ => CHECK_CENTER,
+                }),
         );
     }
     let difference = (start - end).abs();
@@ -65,7 +75,12 @@ pub(crate) fn check_radii(block: &Block, ends: Ends, center: [f64; 2]) -> Outcom
         return Err(
             BlockDiagnostic::new(DiagnosticCode::ArcRadiusMismatch, span, message)
                 .because("both ends must lie on one circle about the centre")
-                .help("check that the centre is meant as G91.1 (relative) or G90.1 (absolute)"),
+                .help(match block.dialect {
+                    Dialect::LinuxCnc => {
+                        "check that the centre is meant as G91.1 (relative) or G90.1 (absolute)"
+                    }
+                    _ => CHECK_CENTER,
+                }),
         );
     }
     Ok(())

@@ -7,16 +7,19 @@
 use glidepath_geometry::{Arc, AxisVector, Plane, Segment};
 use glidepath_program::Item;
 
-use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
-use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::block_diagnostic::Outcome;
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::compensation::element::Element;
 use crate::execute::interpreter::Interpreter;
-use crate::execute::motion::corner_geometry::broken;
+use crate::execute::motion::corner_geometry::{CornerRules, broken};
+use crate::execute::motion::corner_refused::{
+    cannot_break, changed_between, no_second_move, not_in_plane, timed,
+};
 use crate::execute::motion::settled::MIN_MOVE;
 use crate::execute::motion::speed::Pace;
 use crate::execute::motion::tangent_arc::direction_behind;
 use crate::execute::state::open_corner::OpenCorner;
+use crate::setup::fanuc::OffsetMemory;
 use crate::syntax::block::{Block, CornerKind, CornerWord};
 use crate::syntax::codes::Codes;
 use crate::syntax::dialect::Dialect;
@@ -26,8 +29,9 @@ use crate::syntax::modes::{FeedMode, Motion, NonModal, Stop};
 /// Most items of blocks between the two moves of a corner.
 const MOST_BEHIND: usize = 8;
 
-/// Most blocks without a move between the two moves of a corner on a SINUMERIK.
+/// Most blocks without a move between the two moves of a corner: on a SINUMERIK, and dwells on a FANUC.
 const MOST_BETWEEN: u8 = 3;
+const MOST_DWELLS: u8 = 1;
 
 /// A move in the plane that begins where the tool is, or at a corner.
 #[derive(Debug, Clone, Copy)]
@@ -63,8 +67,11 @@ impl Interpreter {
         if is_move && block.codes.non_modal.is_none() && !changes_path {
             return Ok(());
         }
-        let may_wait = corner.behind.len() < MOST_BEHIND && corner.between < MOST_BETWEEN;
-        if may_wait && !changes_path && leaves_path(block, motion) {
+        let is_fanuc = block.dialect == Dialect::Fanuc;
+        let most = if is_fanuc { MOST_DWELLS } else { MOST_BETWEEN };
+        let may_wait = corner.behind.len() < MOST_BEHIND && corner.between < most;
+        let stays = leaves_path(block, motion) || is_fanuc && is_dwell(block);
+        if may_wait && !changes_path && stays {
             corner.between += 1;
             return Ok(());
         }
@@ -116,7 +123,7 @@ impl Interpreter {
         let Some(corner) = self.state.open.corner.take() else {
             return Ok(());
         };
-        self.make_held(block, &corner, corner.at, corner.arc, out)?;
+        self.leave_sharp(block, &corner, out)?;
         // CT goes on in its direction.
         self.state.tangent = direction_behind(out).or(self.state.tangent);
         Ok(())
@@ -137,7 +144,7 @@ impl Interpreter {
         let is_timed = self.state.modal.feed_mode == FeedMode::InverseTime;
         match self.state.open.corner.take() {
             Some(corner) if is_timed && corner.may_stay => {
-                self.make_held(block, &corner, corner.at, corner.arc, out)?;
+                self.leave_sharp(block, &corner, out)?;
             }
             Some(_) if is_timed => return Err(timed(block.motion_span())),
             Some(corner) => self.break_corner(block, &corner, &mut next, out)?,
@@ -190,7 +197,7 @@ impl Interpreter {
         }
     }
 
-    /// The held move up to a place on its way, and what comes behind it.
+    /// The held move up to a place on its way.
     fn make_held(
         &mut self,
         block: &Block,
@@ -206,11 +213,36 @@ impl Interpreter {
         let made = self.make_move(block, place, arc, out);
         self.state.modal = modal;
         self.line = line;
-        made?;
+        made
+    }
+
+    /// What comes behind the held move.
+    fn give_behind(&mut self, corner: &OpenCorner, out: &mut Vec<Item>) {
         for item in &corner.behind {
             self.give(*item, out);
         }
+    }
+
+    /// Both moves as they are.
+    fn leave_sharp(
+        &mut self,
+        block: &Block,
+        corner: &OpenCorner,
+        out: &mut Vec<Item>,
+    ) -> Outcome<()> {
+        self.make_held(block, corner, corner.at, corner.arc, out)?;
+        self.give_behind(corner, out);
         Ok(())
+    }
+
+    /// What the control of the program makes of a corner.
+    fn corner_rules(&self, block: &Block) -> CornerRules {
+        let is_haas = self.options.fanuc.offset_memory == OffsetMemory::Haas;
+        if block.dialect == Dialect::Fanuc && !is_haas {
+            CornerRules::FANUC
+        } else {
+            CornerRules::OTHERS
+        }
     }
 
     fn break_corner(
@@ -233,7 +265,7 @@ impl Interpreter {
         let is_out =
             leaves_plane(&corner.from, &corner.at) || leaves_plane(&corner.at, &next.target);
         if is_out && corner.may_stay {
-            return self.make_held(block, corner, corner.at, corner.arc, out);
+            return self.leave_sharp(block, corner, out);
         } else if is_out {
             return Err(not_in_plane(span));
         }
@@ -248,14 +280,14 @@ impl Interpreter {
             end: flat(&next.target),
             arc: next.arc,
         };
-        let broken = broken(before, behind, corner.kind, corner.size_mm * image.scale);
-        let broken = match broken {
+        let size = (corner.kind, corner.size_mm * image.scale);
+        let broken = match broken(before, behind, size, self.corner_rules(block)) {
             Ok(Some(broken)) => broken,
-            Ok(None) => return self.make_held(block, corner, corner.at, corner.arc, out),
+            Ok(None) => return self.leave_sharp(block, corner, out),
             Err(fault) if corner.may_stay && !fault.is_of_size() => {
-                return self.make_held(block, corner, corner.at, corner.arc, out);
+                return self.leave_sharp(block, corner, out);
             }
-            Err(fault) => return Err(cannot_break(span, fault.why())),
+            Err(fault) => return Err(cannot_break(block, span, fault)),
         };
         let place = |flat: [f64; 2]| {
             let mut place = corner.at;
@@ -269,12 +301,21 @@ impl Interpreter {
             broken.before.arc,
             out,
         )?;
+        // A FANUC dwells behind the chamfer or arc.
+        let is_fanuc = block.dialect == Dialect::Fanuc;
+        if !is_fanuc {
+            self.give_behind(corner, out);
+        }
         next.arc = broken.behind.arc;
         let feed = self.state.modal.feed;
         self.state.modal.feed = corner.corner_feed.or(feed);
         let made = self.make_move(block, place(broken.between.end), broken.between.arc, out);
         self.state.modal.feed = feed;
-        made
+        made?;
+        if is_fanuc {
+            self.give_behind(corner, out);
+        }
+        Ok(())
     }
 
     /// A line, or an arc, to a place; it begins where the tool is.
@@ -336,43 +377,16 @@ fn leaves_path(block: &Block, motion: Option<Motion>) -> bool {
     block.dialect == Dialect::Siemens && is_silent
 }
 
-#[cold]
-fn no_second_move(span: SourceSpan) -> Box<BlockDiagnostic> {
-    let message = "a corner that is broken has no move in the plane behind it";
-    BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
-        .because("the word in the block before counts between two moves of G1, G2 and G3")
-        .help("write the moves one behind the other, or write the chamfer or arc out")
-}
-
-#[cold]
-fn changed_between(span: SourceSpan) -> Box<BlockDiagnostic> {
-    let message =
-        "a corner that is broken in front of another plane, tool, compensation or spindle speed";
-    BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
-        .because("both moves of a corner have to be made with the same")
-        .help("write the change into the block before the corner, or write the chamfer or arc out")
-}
-
-#[cold]
-fn timed(span: SourceSpan) -> Box<BlockDiagnostic> {
-    let message = "a corner that is broken with a feed that is a time (G93)";
-    BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
-        .because("the time of a block is of its move, and the corner has none of its own")
-        .help("write G94 or G95 before both moves, or write the chamfer or arc out")
-}
-
-#[cold]
-fn not_in_plane(span: SourceSpan) -> Box<BlockDiagnostic> {
-    let message = "a corner that is broken outside the plane";
-    BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
-        .because("both moves have to be in the plane of arcs")
-        .help("write G17, G18 or G19, or write the chamfer or arc out")
-}
-
-#[cold]
-fn cannot_break(span: SourceSpan, why: &str) -> Box<BlockDiagnostic> {
-    let message = "the corner before this move cannot be broken";
-    BlockDiagnostic::new(DiagnosticCode::InvalidValue, span, message)
-        .because(why)
-        .help("write a smaller value")
+/// True for a block that dwells and does nothing else.
+fn is_dwell(block: &Block) -> bool {
+    let codes = &block.codes;
+    let dwells = matches!(
+        codes.non_modal.map(|coded| coded.code),
+        Some(NonModal::Dwell)
+    );
+    let others = Codes {
+        non_modal: None,
+        ..*codes
+    };
+    dwells && !others.any() && block.unused(Letters::of(b"PXU")).is_none() && block.corner.is_none()
 }

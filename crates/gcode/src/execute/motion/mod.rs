@@ -1,7 +1,7 @@
 //! The moves of a block: where its axis words lead, along which segments, and how fast.
 
 mod arc;
-mod arc_center;
+pub(crate) mod arc_center;
 pub(crate) mod arc_ends;
 mod arc_in_space;
 mod arc_plane;
@@ -9,6 +9,7 @@ pub(crate) mod axis_words;
 mod chords;
 pub(crate) mod corner;
 mod corner_geometry;
+mod corner_refused;
 mod curve;
 mod feedrate;
 mod great_circle;

@@ -29,9 +29,12 @@ use crate::execute::state::modal::Feed;
 use crate::execute::state::plain_run::PlainRun;
 use crate::execute::state::sticky_words::CycleSeries;
 use crate::syntax::dialect::Dialect;
-use crate::syntax::letters::{AXIS_WORDS, WordValues};
+use crate::syntax::letters::{AXIS_WORDS, Letters, WordValues};
 use crate::syntax::modes::{Distance, FeedMode, Motion, Units};
 use crate::syntax::straight_line::{WORDS, is_straight};
+
+/// Axes beside X, Y and Z.
+const OTHER_AXES: Letters = Letters::of(b"ABCUVW");
 
 impl Interpreter {
     /// Makes the straight move of a plain line; false if it makes none, or one that may have to be
@@ -48,7 +51,10 @@ impl Interpreter {
         let Some(motion) = code.or(self.state.modal.motion) else {
             return false;
         };
+        // The feed of a FANUC is shared with other axes.
+        let shares_feed = self.options.dialect == Dialect::Fanuc && words.has_any(OTHER_AXES);
         let is_move = is_straight(motion)
+            && !shares_feed
             && words.has_any(AXIS_WORDS)
             && words.beside(WORDS).is_empty()
             && !words.has_any(self.lacking);

@@ -17,6 +17,14 @@ pub struct Feed {
 }
 
 impl Feed {
+    /// So many times the feed.
+    pub(crate) fn times(self, by: f64) -> Self {
+        Self {
+            linear_v: self.linear_v * by,
+            rotary_v: self.rotary_v * by,
+        }
+    }
+
     /// The feed of a straight move.
     pub(crate) fn of_line(self, start: &AxisVector, end: &AxisVector) -> f64 {
         if LINEAR_XYZ

@@ -31,6 +31,9 @@ pub(crate) struct StickyWords {
     pub(crate) less: f64,
     #[serde(default)]
     pub(crate) least: f64,
+    /// G73 of a Haas comes out to R as often as it has gone so deep (K beside Q); 0: never.
+    #[serde(default)]
+    pub(crate) out_after: f64,
     /// How far fine boring (G76) goes aside at the bottom, along X and Y.
     #[serde(default)]
     pub(crate) shift_mm: [f64; 2],

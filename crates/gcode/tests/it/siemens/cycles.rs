@@ -88,6 +88,47 @@ fn deep_holes_are_drilled_in_strokes() {
         "G0 Z20\nCYCLE83(20,0,2,-18,,-8,,-0.5)",
         &["2:1 canned-cycle"],
     );
+    // Rapid ends 3 mm above the depth reached.
+    let text = format!("{head}CYCLE83(20,0,2,-30,,,15,0,,,1,1,,0,0,0,3)");
+    assert_eq!(
+        levels(&text),
+        ["20r", "2r", "-15", "2r", "-12r", "-30", "20r"]
+    );
+}
+
+/// MDEP: the least stroke where DAM is a factor.
+#[test]
+fn strokes_do_not_become_shorter_than_the_least_one() {
+    let bottoms = |text: &str| -> Vec<String> {
+        let text = format!("G0 Z20 F100\n{text}");
+        levels(&text).into_iter().skip(2).step_by(2).collect()
+    };
+    // 8, 4, 2, then 2 each.
+    assert_eq!(
+        bottoms("CYCLE83(20,0,2,-19,,-8,,-0.5,,,1,0,,2)")[..6],
+        ["-8", "-12", "-14", "-16", "-18", "-19"]
+    );
+    // 10, 8 (0.8), 6.4, then 6 each.
+    assert_eq!(
+        bottoms("CYCLE83(20,0,2,-40,,-10,,-0.8,,,1,0,,6)")[..6],
+        ["-10", "-18", "-24.4", "-30.4", "-36.4", "-40"]
+    );
+    // Longer than the first one.
+    assert_eq!(
+        bottoms("CYCLE83(20,0,2,-12,,-2,,-0.8,,,1,0,,5)")[..3],
+        ["-2", "-7", "-12"]
+    );
+    // With an amount it changes nothing as long as no stroke is shorter.
+    let plain = bottoms("CYCLE83(20,0,2,-33,,-10,,2,,,1,0)");
+    assert_eq!(bottoms("CYCLE83(20,0,2,-33,,-10,,2,,,1,0,,1)"), plain);
+    for (text, code) in [
+        ("CYCLE83(20,0,2,-33,,-10,,2,,,1,0,,1.8)", "canned-cycle"),
+        ("CYCLE83(20,0,2,-33,,-10,,2,,,1,0,,3)", "canned-cycle"),
+        ("CYCLE83(20,0,2,-33,,-10,,-0.8,,,1,0,,-1)", "canned-cycle"),
+        ("CYCLE83(20,0,2,-33,,-10,,-0.8,,,1,0,1,2)", "not-supported"),
+    ] {
+        finds(&format!("G0 Z20\n{text}"), &[&format!("2:1 {code}")]);
+    }
 }
 
 #[test]

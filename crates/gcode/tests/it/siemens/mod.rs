@@ -24,6 +24,7 @@ mod stock_removal;
 mod subprograms;
 mod texts;
 mod thread_cutting;
+mod words_of_x;
 
 use std::sync::Arc;
 

@@ -112,7 +112,7 @@ fn newer_arguments_of_cycles_are_read_where_they_say_nothing_else() {
         deep
     );
     finds("CYCLE81(5,0,2,-4,,0,0,13)", &["1:1 not-supported"]);
-    finds("CYCLE83(5,0,2,-20,,-6,,1,,,1,1,,6)", &["1:1 not-supported"]);
+    finds("CYCLE83(5,0,2,-20,,-6,,1,,,1,1,,6)", &["1:1 canned-cycle"]);
 }
 
 #[test]

@@ -75,8 +75,12 @@ impl Sets {
 const BESIDE: Letters = Letters::of(b"GMXYZABCUVWIJRFST");
 
 impl<R: BufRead> Program<R> {
-    /// The block that a call stands in without the call and its words, which has the columns of the text.
+    /// The block that a call stands in without the call and its words, which has the columns of the text. G67 is
+    /// executed in front of the rest of its block.
     pub(super) fn beside_call(&self, text: &[u8], call: Call) -> Outcome<Vec<u8>> {
+        if call.code == CallCode::EndModalMacro {
+            return Ok(Vec::new());
+        }
         let mut beside = text.get(..call.start).unwrap_or_default().to_vec();
         if !matches!(call.code, CallCode::Subprogram | CallCode::Local) {
             return Ok(beside);

@@ -29,10 +29,7 @@ impl<R: BufRead> Program<R> {
         let span = SourceSpan::new(call.start, call.end);
         match call.code {
             CallCode::Return => return self.fanuc_return(text, call),
-            CallCode::EndModalMacro => {
-                self.end_modal_macro();
-                return self.nothing_behind(text, call.end).map(|()| true);
-            }
+            CallCode::EndModalMacro => return self.end_modal_macro(text, call),
             CallCode::MacroOfEachBlock => {
                 let message = "G66.1 (a macro behind every block) is not supported";
                 return Err(
@@ -173,13 +170,11 @@ impl<R: BufRead> Program<R> {
             return Ok(());
         }
         let span = SourceSpan::new(cursor.at(), text.len());
-        Err(BlockDiagnostic::new(
-            DiagnosticCode::NotSupported,
-            span,
-            "words behind M99 or G67",
+        Err(
+            BlockDiagnostic::new(DiagnosticCode::NotSupported, span, "words behind M99")
+                .because("it ends a subprogram, and takes no word but P")
+                .help("write them into a block of their own"),
         )
-        .because("they end a subprogram or a macro, and take no words but P")
-        .help("write them into a block of their own"))
     }
 
     /// M99: back to the caller, to behind the call or to the block that P names.

@@ -136,6 +136,8 @@ impl Interpreter {
             (Some(_), Some(_)) => return Err(both(block, letter, haas)),
         };
         let length = (to - from).abs();
+        // Posts write Q0 for a single groove.
+        let written = written.filter(|step| *step != 0.0 || length > MIN_MOVE);
         let step_mm = written.unwrap_or(length.max(MIN_MOVE));
         if step_mm <= 0.0 || length / step_mm > MOST {
             let name = char::from(letter);

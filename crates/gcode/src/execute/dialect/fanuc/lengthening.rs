@@ -6,20 +6,25 @@
 //! | G47, G48 | longer, shorter by twice the offset |
 //!
 //! They are of their block alone. A way of zero has a direction, too: `X-0` goes down. With the radius of a
-//! tool as the offset, straight moves along the axes go beside a contour. They are read in G91 alone: what an
-//! absolute coordinate behind them counts from is not known here.
+//! tool as the offset, straight moves along the axes go beside a contour. Of arcs they take a quarter or three
+//! quarters of a circle by I, J, K: its centre is as much farther away or nearer as its end, so that it
+//! stays one. They are read in G91 alone: what an absolute coordinate behind them counts from is not known here.
 
-use glidepath_geometry::AxisVector;
+use glidepath_geometry::{AxisVector, Plane};
 
 use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
+use crate::execute::motion::arc_center::center_letter;
 use crate::setup::fanuc::OffsetMemory;
 use crate::syntax::block::Block;
 use crate::syntax::codes::Coded;
 use crate::syntax::modes::{Distance, Motion};
 use crate::syntax::word_check::missing;
+
+/// Words of a quarter circle that differ by less are rounding, mm.
+const ROUNDING_MM: f64 = 2e-3;
 
 /// The code that counts the offset so often.
 const fn name(times: i8) -> &'static str {
@@ -63,12 +68,17 @@ impl Interpreter {
             let meaning = "whose way is made longer or shorter";
             return Err(missing(span, name, "an axis", meaning));
         }
-        let is_straight = matches!(motion, Some(Motion::Rapid | Motion::Linear));
-        if !is_straight || block.codes.non_modal.is_some() {
+        let is_move = matches!(
+            motion,
+            Some(
+                Motion::Rapid | Motion::Linear | Motion::ArcClockwise | Motion::ArcCounterclockwise
+            )
+        );
+        if !is_move || block.codes.non_modal.is_some() {
             return Err(refused(
                 span,
-                format!("{name} in a block that is no straight move of G0 or G1"),
-                "its offset is added to the ways of straight moves; of arcs a FANUC takes those of quarters alone",
+                format!("{name} in a block that is no move of G0, G1, G2 or G3"),
+                "its offset is added to the ways of moves",
                 "let the CAM system write plain blocks, or use G41 or G42",
             ));
         }
@@ -89,6 +99,63 @@ impl Interpreter {
             return Ok(target);
         };
         self.check_ways(block, coded)?;
+        let by_mm = self.lengthening_mm(block, coded)?;
+        let mut target = target;
+        for (axis, way) in block.axes() {
+            target[axis.index()] += by_mm * 1.0_f64.copysign(way);
+        }
+        Ok(target)
+    }
+
+    /// The target of an arc with the offset of G45 to G48, and by how much its centre is farther from the start, in
+    /// the two axes of the plane.
+    pub(crate) fn lengthened_arc(
+        &self,
+        block: &Block,
+        plane: Plane,
+        target: AxisVector,
+    ) -> Outcome<(AxisVector, [f64; 2])> {
+        let Some(coded) = block.codes.lengthening else {
+            return Ok((target, [0.0; 2]));
+        };
+        let target = self.lengthened(block, target)?;
+        let (first, second) = plane.axes();
+        let axes = [first, second];
+        let ways = axes.map(|axis| block.axes().find(|(other, _)| *other == axis));
+        let ways = ways.map(|way| way.map_or(0.0, |(_, way)| way));
+        let center = axes.map(|axis| block.get(center_letter(axis)).unwrap_or(0.0));
+        let mm = self.state.modal.units.mm();
+        let same = |a: f64, b: f64| (a.abs() - b.abs()).abs() * mm <= ROUNDING_MM;
+        let is_in_plane = block.axes().all(|(axis, _)| axes.contains(&axis));
+        let radius = center.into_iter().find(|way| !same(*way, 0.0));
+        let along = center.iter().filter(|way| !same(**way, 0.0)).count();
+        let is_quarter = radius.is_some_and(|radius| ways.iter().all(|way| same(*way, radius)));
+        if !is_in_plane || along != 1 || !is_quarter || block.get(b'R').is_some() {
+            return Err(refused(
+                coded.span,
+                format!(
+                    "{} beside an arc that is no quarter of a circle by {} or {}",
+                    name(coded.code),
+                    char::from(center_letter(first)),
+                    char::from(center_letter(second))
+                ),
+                "a FANUC takes a quarter or three quarters of a circle, which begin and end along the axes",
+                "let the CAM system write plain blocks, or use G41 or G42",
+            ));
+        }
+        let by_mm = self.lengthening_mm(block, coded)?;
+        let farther = |way: f64| {
+            if same(way, 0.0) {
+                0.0
+            } else {
+                by_mm * 1.0_f64.copysign(way)
+            }
+        };
+        Ok((target, center.map(farther)))
+    }
+
+    /// How much longer each way is, mm.
+    fn lengthening_mm(&self, block: &Block, coded: Coded<i8>) -> Outcome<f64> {
         let number = self.state.fanuc.radius_offset;
         let span = if block.get(b'D').is_some() {
             block.span(b'D')
@@ -100,11 +167,7 @@ impl Interpreter {
             0 => 0.0,
             _ => 0.5 * tool.diameter_mm + self.state.offsets.fanuc.wear(number).radius_mm,
         };
-        let mut target = target;
-        for (axis, way) in block.axes() {
-            target[axis.index()] += f64::from(coded.code) * offset_mm * 1.0_f64.copysign(way);
-        }
-        Ok(target)
+        Ok(f64::from(coded.code) * offset_mm)
     }
 
     fn check_ways(&self, block: &Block, Coded { code, span }: Coded<i8>) -> Outcome<()> {

@@ -9,6 +9,8 @@ use crate::diagnostic::span::SourceSpan;
 use crate::execute::dialect::macro_call::{Arguments, ModalMacro};
 use crate::execute::dialect::tape::TapePlace;
 use crate::execute::program::Program;
+use crate::syntax::dialect::fanuc::{Call, Statement, statement};
+use crate::syntax::dialect::line_body::body;
 use crate::syntax::modes::NonModal;
 
 impl<R: BufRead> Program<R> {
@@ -37,9 +39,33 @@ impl<R: BufRead> Program<R> {
         Ok(())
     }
 
-    pub(super) fn end_modal_macro(&mut self) {
-        self.modal_macro = None;
-        self.interpreter.state.fanuc.calls_macro = false;
+    /// G67, and the other words of its block: behind their move no macro is called any more.
+    pub(super) fn end_modal_macro(&mut self, text: &[u8], call: Call) -> Outcome<bool> {
+        let blank = |(at, byte): (usize, &u8)| {
+            let is_code = (call.start..call.end).contains(&at);
+            if is_code { b' ' } else { *byte }
+        };
+        let rest: Vec<u8> = text.iter().enumerate().map(blank).collect();
+        if let Statement::Call(other) = statement(&rest).0 {
+            let span = SourceSpan::new(other.start, other.end);
+            let message = "another call in the block of G67";
+            return Err(
+                BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
+                    .because("which of them comes first is not clear")
+                    .help("write it into a block of its own"),
+            );
+        }
+        let before = self.modal_macro.take();
+        let calls_macro = core::mem::take(&mut self.interpreter.state.fanuc.calls_macro);
+        if body(&rest) >= rest.trim_ascii_end().len() {
+            return Ok(true);
+        }
+        let made = self.fanuc_text(self.line_of_program(), &rest);
+        if made.is_err() {
+            self.modal_macro = before;
+            self.interpreter.state.fanuc.calls_macro = calls_macro;
+        }
+        made
     }
 
     /// Refuses a move in the block of another call: the macro would come between the two.

@@ -14,6 +14,7 @@ use crate::execute::dialect::fanuc::arguments::CallWords;
 use crate::execute::dialect::tape::TapePlace;
 use crate::execute::flow::load::unusable;
 use crate::execute::program::Program;
+use crate::setup::fanuc::OffsetMemory;
 use crate::setup::subroutine_file::{NoSubroutineFile, NotTaken};
 use crate::syntax::dialect::fanuc::{Statement, statement};
 
@@ -54,7 +55,10 @@ impl<R: BufRead> Program<R> {
         let is_missing = found
             .as_ref()
             .is_err_and(|fault| fault.code == DiagnosticCode::UnknownSubroutine);
-        if !is_missing || turns == 0 || number == 0 || words.says_turns || words.is_macro {
+        // Programs of a Haas have five digits, and their calls are repeated by L.
+        let is_haas = self.interpreter.options.fanuc.offset_memory == OffsetMemory::Haas;
+        let has_turns = turns != 0 && number != 0 && !is_haas;
+        if !is_missing || !has_turns || words.says_turns || words.is_macro {
             return found.map(|place| (place, words.turns));
         }
         match self.fanuc_program(number, span) {

@@ -15,7 +15,7 @@ use crate::syntax::codes::Coded;
 use crate::syntax::cursor::Cursor;
 use crate::syntax::dialect::fanuc::{Statement, block_number, is_label, is_numbered, statement};
 use crate::syntax::dialect::line_body::{body, starts_with_word};
-use crate::syntax::expression::vacant::or_zero;
+use crate::syntax::expression::vacant::{is_vacant, or_zero};
 use crate::syntax::expression::value::value;
 use crate::syntax::modes::Motion;
 
@@ -89,6 +89,14 @@ fn without_deleted(text: &[u8]) -> &[u8] {
 pub(super) fn fault(span: SourceSpan, message: impl Into<String>) -> Box<BlockDiagnostic> {
     BlockDiagnostic::new(DiagnosticCode::FlowStructure, span, message)
         .because("IF, WHILE, GOTO and the calls have a line of their own each, in a fixed form")
+}
+
+#[cold]
+fn no_number(span: SourceSpan) -> Box<BlockDiagnostic> {
+    let message = "a variable without a value in the place of a number";
+    BlockDiagnostic::new(DiagnosticCode::FlowStructure, span, message)
+        .because("programs, blocks, loops and turns are numbered. `G65 H P Q R` of the older custom macro A, whose P is the variable of the result, is not read")
+        .help("assign the variable before it; write `G65 H2 P#100 Q#101 R#102` as #100=#101+#102")
 }
 
 impl<R: BufRead> Program<R> {
@@ -199,7 +207,7 @@ impl<R: BufRead> Program<R> {
     }
 
     /// Executes a text as a block, and the macro that is called behind it.
-    fn fanuc_text(&mut self, number: u32, text: &[u8]) -> Outcome<bool> {
+    pub(super) fn fanuc_text(&mut self, number: u32, text: &[u8]) -> Outcome<bool> {
         self.interpreter.line = number;
         let scope = ProgramScope {
             parameters: &self.parameters,
@@ -287,6 +295,9 @@ impl<R: BufRead> Program<R> {
             return Err(fault(span, "text behind the statement").help("remove it"));
         }
         let span = SourceSpan::new(at, cursor.end_of_word());
+        if is_vacant(number) {
+            return Err(no_number(span));
+        }
         if number.fract() != 0.0 || !(0.0..=99_999_999.0).contains(&number) {
             let message = format!("{number} is no block, loop or program number");
             return Err(fault(span, message).help("write a whole number"));

@@ -10,11 +10,11 @@
 //! | 86 | feed, with the spindle on (SDIR 3 or 4) | dwell DTB, the spindle stops at POSS, rapid by RPA, RPO, RPAP | rapid, and back in the plane |
 //!
 //! Behind each stroke CYCLE83 breaks the chip (VARI 0: VRT back, or 1 mm) or clears it (VARI 1: out to SDIS,
-//! dwell DTS, and back to 0.6 mm above the depth reached, or a fiftieth of the depth where that is
+//! dwell DTS, and back to DIS1 above the depth reached; 0: 0.6 mm, or a fiftieth of the depth where that is
 //! more, 7 mm at most). Of strokes as long as DAM the last two are alike. Of DAM below zero the
-//! negative is the part of a stroke that the next one has.
+//! negative is the part of a stroke that the next one has; none is shorter than MDEP then.
 
-use crate::diagnostic::block_diagnostic::Outcome;
+use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::execute::dialect::siemens::arguments::{Arguments, Levels};
 use crate::execute::dialect::siemens::cycle::{coordinate, plane_axes};
 use crate::execute::dialect::siemens::lines::Lines;
@@ -23,13 +23,27 @@ use crate::syntax::modes::FeedMode;
 
 /// Most strokes of a hole.
 const MAX_STROKES: usize = 10_000;
-/// Newer arguments of CYCLE83: the way back that breaks a chip, and the dwell at the last depth.
+/// Newer arguments of CYCLE83: the least stroke, the way back that breaks a chip, the dwell at the last depth,
+/// how far above the depth reached rapid ends.
+const MDEP: usize = 13;
 const VRT: usize = 14;
 const DTD: usize = 15;
+const DIS1: usize = 16;
 /// How far the tool goes back to break a chip, mm.
 const CHIP_BREAK_MM: f64 = 1.0;
 /// Depths as near to the bottom as this are the bottom, in the units in force.
 const BOTTOM: f64 = 1e-6;
+
+#[cold]
+fn least_beside_amount(arguments: Arguments<'_>, least: f64, less: f64) -> Box<BlockDiagnostic> {
+    let message = format!("MDEP {least} beside DAM {less}, whose strokes become shorter");
+    arguments
+        .refused(
+            message,
+            "the least stroke counts where DAM is a factor, below zero",
+        )
+        .help("leave MDEP out, or write DAM as a factor")
+}
 
 impl Interpreter {
     /// The lines of a cycle that begins: above the hole, clear of the surface.
@@ -74,10 +88,11 @@ impl Interpreter {
         }
         let unit = self.state.modal.units.mm();
         let depth = levels.surface - levels.bottom;
-        let ahead = if depth * unit <= 30.0 {
-            0.6 / unit
-        } else {
-            (depth / 50.0).min(7.0 / unit)
+        let meaning = "how far above the depth reached rapid ends";
+        let ahead = match arguments.not_negative(DIS1, "DIS1", meaning)? {
+            0.0 if depth * unit <= 30.0 => 0.6 / unit,
+            0.0 => (depth / 50.0).min(7.0 / unit),
+            ahead => ahead,
         };
         let back = match arguments.not_negative(VRT, "VRT", "how far to go back to break a chip")? {
             0.0 => CHIP_BREAK_MM / unit,
@@ -150,6 +165,7 @@ impl Interpreter {
                 )
                 .help("write a factor from -1 to 0, or by how much each stroke is shorter"));
         }
+        let least = arguments.not_negative(MDEP, "MDEP", "the least stroke")?;
         let mut level = first.max(levels.bottom);
         let mut stroke = levels.surface - level;
         let mut strokes = vec![level];
@@ -158,10 +174,16 @@ impl Interpreter {
             if less > 0.0 {
                 stroke = (stroke - less).max(less);
             } else if less < 0.0 {
-                stroke *= -less;
+                stroke = (stroke * -less).max(least);
             }
             // The last two are alike, so that none is too thin to cut.
-            if less > 0.0 && stroke <= less && left > stroke + BOTTOM && left < 2.0 * less {
+            let are_alike =
+                less > 0.0 && stroke <= less && left > stroke + BOTTOM && left < 2.0 * less;
+            let next = if are_alike { 0.5 * left } else { stroke };
+            if less > 0.0 && next < least - BOTTOM && left > next + BOTTOM {
+                return Err(least_beside_amount(arguments, least, less));
+            }
+            if are_alike {
                 strokes.extend([level - 0.5 * left, levels.bottom]);
                 break;
             }

@@ -7,8 +7,8 @@
 //! | DMODE | 0: the plane in force; 1, 2, 3: G17, G18, G19 | 0 |
 //! | AMODE | 0: DP or DPR is the depth, whichever is written; 1: an increment; 2: a coordinate | DTB: 0, 1 seconds; 2 turns |
 //!
-//! CYCLE83 has other arguments in front of them, and further digits of AMODE for its other depths and
-//! dwells.
+//! CYCLE83 has other arguments in front of them (AXN, MDEP, VRT, DTD, DIS1, which
+//! [the cycle](super::drilling) reads), and further digits of AMODE for its other depths and dwells.
 
 use glidepath_geometry::Plane;
 
@@ -36,8 +36,8 @@ const DP: usize = 3;
 const DPR: usize = 4;
 /// The dwell of most of them; CYCLE81 of older controls does not have it.
 const DTB: usize = 5;
-/// By how much the strokes of CYCLE83 become shorter.
-const DAM: usize = 7;
+/// Arguments of CYCLE83 between the older ones and GMODE.
+const OF_83: usize = 5;
 
 /// A call that is looked at.
 #[derive(Clone, Copy)]
@@ -62,39 +62,52 @@ impl Newer {
         }
         let hole = HOLES.into_iter().find(|(name, _)| *name == self.name);
         let Some((_, dwell)) = hole else {
-            return Err(self.more("what the others mean depends on the version of the control"));
+            return Err(self.more());
         };
         let is_deep = self.name == "CYCLE83";
-        let modes = self.most + if is_deep { 5 } else { 0 };
-        if arguments.len() > modes + 3 || !self.are_others_known(arguments) {
-            return Err(self.more("what the others mean depends on the version of the control"));
+        let modes = self.most + if is_deep { OF_83 } else { 0 };
+        if arguments.len() > modes + 3 {
+            return Err(self.more());
         }
-        if get(modes).is_some_and(|geometry| geometry != 0.0) {
-            return Err(self.more(
-                "GMODE other than 0 takes the depth for that of the shank, or for a diameter",
-            ));
+        if let Some(axis) = get(self.most).filter(|axis| is_deep && ![0.0, 3.0].contains(axis)) {
+            let reason = "the hole is along the axis normal to the plane: AXN 0 or 3";
+            return Err(self.refused(&format!("AXN is {axis}"), reason));
+        }
+        if let Some(geometry) = get(modes).filter(|geometry| *geometry != 0.0) {
+            let reason = "other than 0 it takes the depth for that of the shank, or for a diameter";
+            return Err(self.refused(&format!("GMODE is {geometry}"), reason));
         }
         let plane = get(modes + 1).filter(|plane| *plane != 0.0);
-        if plane.is_some() && plane != number_of(self.plane) && !self.is_without_dwell(arguments) {
-            return Err(self.more(if self.name == "CYCLE81" {
-                "behind DTB and GMODE, DMODE names another plane than the one in force"
-            } else {
-                "DMODE names another plane than the one in force"
-            }));
+        if let Some(named) = plane
+            && plane != number_of(self.plane)
+            && !self.is_without_dwell(arguments)
+        {
+            return Err(self.refused(
+                &format!("DMODE is {named}"),
+                if self.name == "CYCLE81" {
+                    "behind DTB and GMODE it names another plane than the one in force"
+                } else {
+                    "it names another plane than the one in force"
+                },
+            ));
         }
-        let amode = whole(get(modes + 2).unwrap_or(0.0));
+        let amode = get(modes + 2).unwrap_or(0.0);
         let known: &[i32] = if is_deep { &OTHERS_OF_83 } else { &[0] };
-        let Some(amode) = amode.filter(|amode| known.contains(&(amode / 100))) else {
-            return Err(self.more("AMODE has digits that are not known"));
+        let unknown = || {
+            self.refused(
+                &format!("AMODE is {amode}"),
+                "it has digits that are not known",
+            )
         };
+        let amode = whole(amode).filter(|amode| known.contains(&(amode / 100)));
+        let amode = amode.ok_or_else(unknown)?;
         let has_dwell = dwell.and_then(get).is_some_and(|dwell| dwell != 0.0);
         match amode / 10 % 10 {
             0 | 1 => {}
             2 if !has_dwell => {}
             _ => {
-                return Err(
-                    self.more("AMODE has a dwell in turns of the spindle, which are not counted")
-                );
+                let reason = "it counts the dwell in turns of the spindle, which are not counted";
+                return Err(self.refused(&format!("AMODE is {amode}"), reason));
             }
         }
         match amode % 10 {
@@ -106,7 +119,7 @@ impl Newer {
                 }
                 Ok(())
             }
-            _ => Err(self.more("AMODE has digits that are not known")),
+            _ => Err(unknown()),
         }
     }
 
@@ -141,25 +154,20 @@ impl Newer {
         Ok(())
     }
 
-    /// The axis of CYCLE83, its least depth, which counts where depths become less, by DAM, VRT and DTD, which the
-    /// cycle reads; DIS1 in front of GMODE is 0.
-    fn are_others_known(self, arguments: &[Option<f64>]) -> bool {
-        let get = |index: usize| arguments.get(index).copied().flatten().unwrap_or(0.0);
-        if self.name != "CYCLE83" {
-            return true;
-        }
-        let first = self.most;
-        let axis = [0.0, 3.0].contains(&get(first));
-        let least = get(first + 1) == 0.0 || get(DAM) == 0.0;
-        axis && least && get(first + 4) == 0.0
+    #[cold]
+    fn more(self) -> Box<BlockDiagnostic> {
+        let message = format!("{} with more than {} arguments", self.name, self.most);
+        BlockDiagnostic::new(DiagnosticCode::NotSupported, self.span, message)
+            .because("what the others mean depends on the version of the control")
+            .help("leave them out, or let the CAM system write plain blocks")
     }
 
     #[cold]
-    fn more(self, reason: &str) -> Box<BlockDiagnostic> {
-        let message = format!("{} with more than {} arguments", self.name, self.most);
+    fn refused(self, what: &str, reason: &str) -> Box<BlockDiagnostic> {
+        let message = format!("{}: {what}", self.name);
         BlockDiagnostic::new(DiagnosticCode::NotSupported, self.span, message)
             .because(reason)
-            .help("leave them out, or let the CAM system write plain blocks")
+            .help("write another value, or let the CAM system write plain blocks")
     }
 }
 

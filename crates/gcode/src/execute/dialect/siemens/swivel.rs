@@ -26,10 +26,21 @@ use crate::syntax::block::Block;
 const COUNT: usize = 16;
 /// The argument that is a name.
 const TC: usize = 1;
+/// X of the zero before and behind the turns.
+const X_BEFORE: usize = 4;
+const X_BEHIND: usize = 10;
 /// X, Y and Z: the rotary axes are where the plane has turned them.
 const LINEAR: usize = 3;
 /// Angles below this are none, degrees.
 const NO_ANGLE: f64 = 1e-12;
+
+#[cold]
+fn shifted_diameter(span: SourceSpan) -> Box<BlockDiagnostic> {
+    let message = "CYCLE800 with X0 or X1 where X counts diameters";
+    BlockDiagnostic::new(DiagnosticCode::CannedCycle, span, message)
+        .because("whether X is a diameter among the arguments, too, depends on the control")
+        .help("write DIAMOF before it, and radii")
+}
 
 impl<R: BufRead> Program<R> {
     /// A line with CYCLE800.
@@ -57,6 +68,12 @@ impl<R: BufRead> Program<R> {
             return Ok(());
         }
         let value = |index: usize| numbers.get(index).copied().flatten().unwrap_or(0.0);
+        let shifts_x = [X_BEFORE, X_BEHIND]
+            .iter()
+            .any(|index| value(*index) != 0.0);
+        if shifts_x && self.interpreter.counts_diameters() {
+            return Err(shifted_diameter(span));
+        }
         let own = frame(&value, self.interpreter.state.modal.units.mm(), span)?;
         let branch = branch(&value, span)?;
         check_rest(&numbers, &value, span)?;

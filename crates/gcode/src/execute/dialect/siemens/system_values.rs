@@ -2,7 +2,7 @@
 //!
 //! | | |
 //! |---|---|
-//! | `$P_EP[X]`, `$AA_IW[X]` | where the program has gone to, in its coordinates |
+//! | `$P_EP[X]`, `$AA_IW[X]` | where the program has gone to, in its coordinates; with DIAMON and DIAM90 X is a diameter, in G91 too |
 //! | `$AA_IM[X]` | the same in the machine's |
 //! | `$P_UIFR[1,X,TR]`, `[1,Z,RT]`; `$P_IFRAME[X,TR]`, `$P_UIFRNUM` | a coordinate system; the one in force |
 //! | `$P_PFRAME[X,TR]`, `[Z,RT]`, `[X,SC]`, `[X,MI]` | the frame of the program |
@@ -25,13 +25,18 @@ impl Interpreter {
     /// The value of a variable of the control; `None`: it is not known.
     pub(crate) fn siemens_value(&self, name: &[u8], index: &[Index]) -> Option<f64> {
         let modal = &self.state.modal;
-        // Whether X is a diameter there depends on the machine.
         let axis = match index {
-            [Index::Axis(axis)] => Some(*axis).filter(|axis| *axis != Axis::X || !modal.diameter),
+            [Index::Axis(axis)] => Some(*axis),
             _ => None,
         };
+        let is_diameter = axis == Some(Axis::X) && self.counts_diameters();
         Some(match (name, index) {
-            (b"$P_EP" | b"$AA_IW", _) => coordinate(self, axis?.index()),
+            (b"$P_EP" | b"$AA_IW", _) => {
+                let share = if is_diameter { 2.0 } else { 1.0 };
+                share * coordinate(self, axis?.index())
+            }
+            // The machine's places have no diameters in the control's manual, nor are they said to be radii.
+            (b"$AA_IM", _) if is_diameter => return None,
             (b"$AA_IM", _) => in_units(self, self.state.position, axis?.index()),
             // Asked for where a line is rewritten; no program can name these.
             (b"DIAM90", _) => f64::from(u8::from(self.state.diameter_by_distance)),

@@ -3,11 +3,18 @@
 use crate::diagnostic::block_diagnostic::BlockDiagnostic;
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::span::SourceSpan;
+use crate::syntax::dialect::siemens::statement::{Statement, statement};
 
-/// A word that is in no table.
+/// A word of a block that is in no table, or that has a block of its own.
 #[cold]
 pub(super) fn unknown(name: &[u8], span: SourceSpan) -> Box<BlockDiagnostic> {
     let shown = String::from_utf8_lossy(name).into_owned();
+    if statement(name).0 != Statement::Block {
+        let message = format!("{shown} beside other words");
+        return BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
+            .because("it stands alone in its block, with its own words behind it")
+            .help("write it into a block of its own");
+    }
     let message = format!("{shown} is not supported");
     BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
         .because(

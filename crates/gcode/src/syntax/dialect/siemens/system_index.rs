@@ -25,6 +25,11 @@ pub(crate) fn letters(name: &[u8]) -> String {
 #[cold]
 pub(crate) fn not_known(name: &[u8], span: SourceSpan) -> Box<BlockDiagnostic> {
     let message = format!("{} cannot be read", letters(name));
+    if name == b"$AA_IM" {
+        return BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
+            .because("it is read with the letter of an axis, and of X where X counts radii: whether a place of the machine is a diameter is not known here")
+            .help("write $AA_IW[X], which is a diameter as X is, or DIAMOF before it");
+    }
     BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
         .because("what this variable of the control holds is not known here, or depends on its machine data")
         .help("write the value, or a variable of the program")

@@ -1,0 +1,82 @@
+//! Tests of what F of a FANUC is the feed of: rotary axes beside linear ones, and helices.
+
+use std::f64::consts::PI;
+
+use glidepath_gcode::{FanucParameters, Machine, OffsetMemory, Options, Program};
+use glidepath_program::{ItemKind, Rate};
+
+/// A mill with the rotary axes A, B and C.
+fn options() -> Options {
+    Options {
+        machine: Machine::unlimited(),
+        ..crate::fanuc_calls::options()
+    }
+}
+
+/// Minutes that the last move takes at its feed.
+fn minutes(text: &str, options: Options) -> f64 {
+    let moves = Program::new(text.as_bytes(), options)
+        .map(|item| item.unwrap_or_else(|d| panic!("{text}\n{d}")))
+        .filter_map(|item| match item.kind {
+            ItemKind::Move {
+                segment,
+                rate: Rate::Feed(feed_v),
+                ..
+            } => Some(segment.length() / feed_v / 60.0),
+            _ => None,
+        });
+    moves.collect::<Vec<_>>().pop().expect("a move at feed")
+}
+
+#[track_caller]
+fn takes(text: &str, expected: f64) {
+    let found = minutes(text, options());
+    assert!((found - expected).abs() < 1e-9, "{text}: {found}");
+}
+
+/// The example of the control's manual.
+#[test]
+fn degrees_count_as_millimetres() {
+    takes("G91 G1 X20. C40. F300.", 20.0_f64.hypot(40.0) / 300.0);
+    takes("G1 X1. F300.\nX21. C40.", 20.0_f64.hypot(40.0) / 300.0);
+    takes("G1 X3. Y4. Z12. A84. F85.", 1.0);
+    // In inches they count as inches.
+    takes("G20 G91 G1 X30. C40. F10.", 5.0);
+    // Alone F is in degrees.
+    takes("G1 A30. B40. F10.", 5.0);
+    takes("G20 G1 A30. F10.", 3.0);
+    // A time is of all axes.
+    takes("G93 G1 X1. A90. F2.", 0.5);
+}
+
+#[test]
+fn a_helix_is_as_fast_as_its_arc() {
+    let around = 20.0 * PI / 100.0;
+    takes("G2 I10. Z-60. F100.", around);
+    takes("G18 G3 K10. Y5. F100.", around);
+    takes("G2 I10. F100.", around);
+}
+
+/// In G93 F times the radius is the feed of an arc; of a line it is over its minutes.
+#[test]
+fn an_arc_in_inverse_time_is_as_fast_as_its_radius() {
+    takes("G93 G1 X10. Y10. F4.", 0.25);
+    takes("G93 G2 I10. F1.", 2.0 * PI);
+    takes("G93 G2 I10. Z-60. F1.", 2.0 * PI);
+    takes("G20 G93 G2 I1. F1.", 2.0 * PI);
+}
+
+#[test]
+fn of_a_haas_it_is_the_feed_of_the_linear_axes() {
+    let haas = Options {
+        fanuc: FanucParameters {
+            offset_memory: OffsetMemory::Haas,
+            ..FanucParameters::default()
+        },
+        ..options()
+    };
+    assert_eq!(minutes("G1 X10. A90. F10.", haas.clone()), 1.0);
+    let helix = (20.0 * PI).hypot(60.0) / 100.0;
+    assert!((minutes("G2 I10. Z-60. F100.", haas.clone()) - helix).abs() < 1e-9);
+    assert!((minutes("G93 G2 I10. F1.", haas) - 1.0).abs() < 1e-9);
+}
