@@ -35,7 +35,10 @@ fn encoder(used: EncoderUse, home_offset: Option<f64>) -> JointEncoderSettings {
 
 /// A machine whose first joint has an encoder of so many bits on its load.
 fn setup(period_ns: u64, bits: u32, encoder: JointEncoderSettings) -> Setup {
-    let mut setup = Setup::absolute(period_ns);
+    on_load(Setup::absolute(period_ns), bits, encoder)
+}
+
+fn on_load(mut setup: Setup, bits: u32, encoder: JointEncoderSettings) -> Setup {
     setup.emulated.push(Emulated {
         channels: Some(Channels {
             inputs: vec![vec![0x6000_1120, 0x6010_1100 | bits]],
@@ -242,4 +245,17 @@ fn what_is_less_than_apart_is_watched_and_nothing_else() {
     let (script, outcome) = played(&setup, 5.0, &steps);
     assert_eq!(troubles(&outcome), []);
     assert_at(script.seen[0], 30.0, MachineState::Idle);
+}
+
+#[test]
+fn where_the_drive_finds_its_home_the_encoder_begins_anew() {
+    for used in [EncoderUse::Position, EncoderUse::Watch] {
+        let setup = on_load(Setup::homing(2_000_000), 32, encoder(used, None));
+        let home = Command::Home(7);
+        let steps = [ENABLE, (60, Do::Command(home)), (1500, Do::Look), RUN, LOOK];
+        let (script, outcome) = played(&setup, 1234.0, &steps);
+        assert_eq!(troubles(&outcome), [], "{:?}", outcome.events);
+        assert_at(script.seen[0], 0.0, MachineState::Idle);
+        assert_at(script.seen[1], 30.0, MachineState::Idle);
+    }
 }
