@@ -198,12 +198,18 @@ impl Drive {
     }
 
     /// How far a spindle has turned at a time, not before that of the last step.
-    #[allow(clippy::cast_precision_loss, reason = "a period")]
     pub(crate) fn revolutions(&self, now_ns: u64) -> Option<f64> {
         let motor = self.spindle.as_ref()?;
-        let since_ns = now_ns.saturating_sub(self.ways.as_ref()?.last_ns());
-        let place = self.place + self.velocity * since_ns as f64 * 1e-9;
-        Some(place / motor.counts_per_rev)
+        self.ways.as_ref()?;
+        Some(self.place_at(now_ns) / motor.counts_per_rev)
+    }
+
+    /// Where the motor is at a time, not before that of the last step: it goes on as it went. Counts.
+    #[allow(clippy::cast_precision_loss, reason = "a period")]
+    pub(crate) fn place_at(&self, now_ns: u64) -> f64 {
+        let last_ns = self.ways.as_ref().map_or(now_ns, Ways::last_ns);
+        let since_ns = now_ns.saturating_sub(last_ns);
+        self.place + self.velocity * since_ns as f64 * 1e-9
     }
 
     /// How fast a spindle turns, rev/min.

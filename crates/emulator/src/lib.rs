@@ -18,7 +18,8 @@
 //!
 //! Devices hang in a row, or in a tree of cables of any length, and answer as real ones were seen to:
 //! garbage in the times of closed ports, terminals that note times and have no clock. Terminals have
-//! digital inputs and outputs without a mailbox, or analog ones and encoders with; any part of the line can be unplugged.
+//! digital inputs and outputs without a mailbox, or analog ones and encoders with, on a spindle or on the load of a joint;
+//! any part of the line can be unplugged.
 //!
 //! What it does not have: redundancy, complete access to objects, hot connect.
 //!
@@ -50,6 +51,7 @@ mod eeprom;
 mod encoder;
 mod frame;
 mod injected_fault;
+mod load_encoder;
 mod long_objects;
 mod memory;
 mod pins;
@@ -70,6 +72,7 @@ pub use clock::ClockKind;
 pub use contact::Probe;
 pub use encoder::Encoder;
 pub use injected_fault::InjectedFault;
+pub use load_encoder::LoadEncoder;
 pub use pins::OutputRecord;
 pub use position_loop::{OffsetAccess, PositionLoop};
 pub use segment::{Segment, SyncRecord};

@@ -6,6 +6,7 @@ use crate::device::Device;
 use crate::encoder::{Encoder, EncoderAtWork};
 use crate::frame::{Datagram, datagrams};
 use crate::injected_fault::InjectedFault;
+use crate::load_encoder::{LoadEncoder, LoadEncoderAtWork};
 use crate::pins::OutputRecord;
 use crate::settings::DriveSettings;
 use core::ops::Range;
@@ -21,6 +22,7 @@ pub struct Segment {
     devices: Vec<Device>,
     contacts: Vec<Contact>,
     encoders: Vec<EncoderAtWork>,
+    load_encoders: Vec<LoadEncoderAtWork>,
 }
 
 impl Segment {
@@ -45,6 +47,7 @@ impl Segment {
             devices: Vec::new(),
             contacts: Vec::new(),
             encoders: Vec::new(),
+            load_encoders: Vec::new(),
         })
     }
 
@@ -60,6 +63,7 @@ impl Segment {
                 .collect(),
             contacts: Vec::new(),
             encoders: Vec::new(),
+            load_encoders: Vec::new(),
         })
     }
 
@@ -73,6 +77,20 @@ impl Segment {
     pub fn add_encoder(&mut self, encoder: Encoder) {
         self.devices.iter_mut().for_each(Device::keep_ways);
         self.encoders.push(EncoderAtWork::new(encoder));
+    }
+
+    /// Puts an encoder on a joint.
+    pub fn add_load_encoder(&mut self, encoder: LoadEncoder) {
+        self.devices.iter_mut().for_each(Device::keep_ways);
+        self.load_encoders.push(LoadEncoderAtWork::new(encoder));
+    }
+
+    /// The load of the encoder at a terminal slips on its motor.
+    pub fn slip_load(&mut self, device: usize, counts: f64) {
+        let mut encoders = self.load_encoders.iter_mut();
+        if let Some(encoder) = encoders.find(|encoder| encoder.device() == device) {
+            encoder.slip(counts);
+        }
     }
 
     /// How far a spindle has turned at a time that is not before the last frame; `None` where there is none.
@@ -196,6 +214,9 @@ impl Segment {
             contact.watch(&mut self.devices, now_ns);
         }
         for encoder in &mut self.encoders {
+            encoder.watch(&mut self.devices, now_ns);
+        }
+        for encoder in &self.load_encoders {
             encoder.watch(&mut self.devices, now_ns);
         }
     }

@@ -21,6 +21,9 @@ pub enum BusFault {
     Range(usize),
     /// A drive did not find its home.
     NoHome(usize),
+    /// The two encoders of a joint are too far apart: by so much, mm or degrees, and whether that stays so without
+    /// power.
+    EncodersApart(usize, f64, bool),
 }
 
 impl BusFault {
@@ -67,6 +70,22 @@ impl fmt::Display for BusFault {
                 )
             }
             Self::NoHome(joint) => write!(f, "J{joint}: its drive did not find its home"),
+            Self::EncodersApart(joint, by, stays) => {
+                write!(
+                    f,
+                    "J{joint}: its encoder at the terminal is {by:.4} (mm or degrees) from what its drive \
+                     counts, and apart in drives.toml allows less: something slips, or one of both \
+                     loses counts; all drives stop"
+                )?;
+                if *stays {
+                    write!(
+                        f,
+                        ". It gets no power until glidepath ethercat was started anew, and the joint is \
+                         to be homed then"
+                    )?;
+                }
+                Ok(())
+            }
         }
     }
 }

@@ -161,11 +161,11 @@ impl<W: Wire, S: Subscriber<Setpoint>> Run<'_, '_, W, S> {
         self.op.wire().sleep_until(beat.send_ns);
         let is_sent = self.op.send(&standing).is_ok();
         self.hear(&mut clock, &beat, is_sent);
-        self.bridge.begin(boot_id, &self.inputs);
         self.bridge.begin_terminals(self.op.wiring());
         let ends = &mut *self.ends;
         self.bridge
             .hear_terminals(self.op.answered(), &mut |event| ends.tell(event));
+        self.bridge.begin(boot_id, &self.inputs);
         self.ends.tell(Event::InOperation);
         let (mut ends_ns, mut off) = (None, 0);
         loop {

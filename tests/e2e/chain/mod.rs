@@ -14,6 +14,7 @@
 mod between;
 mod encoder;
 mod judge;
+mod load_side;
 mod terminals;
 mod touch_probe;
 

@@ -51,6 +51,9 @@ impl Following {
         if !drive_command.enable {
             return Next::Stop(None);
         }
+        if let Some((apart, stays)) = drive_inputs.apart {
+            return Next::Stop(Some(BusFault::EncodersApart(joint, apart, stays)));
+        }
         if drive_command.home && settings.homing.is_some() {
             return if drive_command.may_home {
                 Next::Home

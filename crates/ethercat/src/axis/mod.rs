@@ -81,6 +81,14 @@ impl Axis {
         matches!(self.phase, Phase::Following(_) | Phase::Homing(_))
     }
 
+    /// Whether it has power, or has had it in this moment: its counts keep what they mean.
+    pub(crate) const fn is_led(&self) -> bool {
+        matches!(
+            self.phase,
+            Phase::Following(_) | Phase::Homing(_) | Phase::Stopping(_)
+        )
+    }
+
     pub(crate) const fn is_homed(&self) -> bool {
         self.is_homed
     }

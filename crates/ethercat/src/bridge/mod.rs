@@ -1,6 +1,8 @@
 //! The bridge between setpoints and drives: what each drive is to be told in a cycle, and what is
 //! said of it.
 
+mod beginning;
+mod load_side;
 mod loss;
 mod losses;
 mod outputs;
@@ -11,12 +13,13 @@ use crate::device_state::DeviceState;
 use crate::event::Event;
 use crate::image::{Inputs, Outputs};
 use crate::probe::{IndexSearches, ProbeUse, Probing};
-use crate::settings::Settings;
+use crate::settings::{DriveSettings, Settings};
 use crate::state;
 use crate::terminal::{DigitalInput, Terminals};
 use glidepath_geometry::AXES;
 use glidepath_link::servo::{JointStates, OwnStop, Servo, ServoCounts};
 use glidepath_link::{DriveState, MachineState, Setpoint, Subscriber};
+use load_side::LoadSide;
 use loss::BridgeLoss;
 
 /// Over how many cycles a velocity is taken: a count is not to look like a motion.
@@ -33,11 +36,19 @@ struct Drive {
     /// The last places, mm or degrees.
     places: [f64; WINDOW],
     told: DeviceState,
+    /// Its second encoder.
+    load_side: Option<LoadSide>,
 }
 
 impl Drive {
     const fn is_present(&self) -> bool {
         self.device.is_in_op()
+    }
+
+    /// How far its two encoders are apart, if that is too much, and whether that stays so without power.
+    fn apart(&self) -> Option<(f64, bool)> {
+        let load_side = self.load_side.as_ref()?;
+        Some((load_side.beyond()?, load_side.stays()))
     }
 
     const fn has_failed(&self) -> bool {
@@ -94,7 +105,13 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
     /// of what faults there are.
     #[must_use]
     pub fn new(settings: &Settings, source: S) -> Self {
-        let drive = |settings| Drive {
+        let settings_of = |joint| {
+            let mut encoders = (settings.terminals.iter()).flat_map(|it| &it.joint_encoders);
+            encoders.find(|encoder| encoder.joint == joint).copied()
+        };
+        let drive = |settings: DriveSettings| Drive {
+            load_side: (settings_of(settings.joint))
+                .map(|encoder| LoadSide::new(encoder, settings.home_offset)),
             axis: Axis::new(settings),
             inputs: Inputs::default(),
             device: DeviceState::default(),
@@ -127,39 +144,6 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
             drive_inputs: settings.drive_inputs.clone(),
             probing: Probing::new(settings, WINDOW),
             indices: IndexSearches::new(settings.drives.len(), settings.bus.period_ns),
-        }
-    }
-
-    /// The bus was brought up, and says this: the drives count anew, maybe elsewhere. `boot_id` is a
-    /// number of this life of the bus.
-    pub fn begin(&mut self, boot_id: u64, inputs: &[Inputs]) {
-        let is_first = self.boot_id == 0;
-        self.boot_id = boot_id;
-        (self.number, self.cycles) = (0, 0);
-        // Nobody gets power by a setpoint of before.
-        (self.is_latched, self.is_bus_lost) = (true, false);
-        let (mut actual, mut window) = ([0.0; AXES], [f64::INFINITY; AXES]);
-        for (drive, inputs) in self.drives.iter_mut().zip(inputs) {
-            let settings = drive.axis.settings;
-            drive.axis = Axis::new(settings);
-            drive.inputs = *inputs;
-            drive.device = DeviceState::in_op();
-            drive.told = drive.device;
-            let place = settings.place(inputs.actual);
-            drive.places = [place; WINDOW];
-            if let (Some(actual), Some(window)) = (
-                actual.get_mut(settings.joint),
-                window.get_mut(settings.joint),
-            ) {
-                (*actual, *window) = (place, settings.enable_window);
-            }
-        }
-        if let Some(probing) = &mut self.probing {
-            probing.begin();
-        }
-        self.indices.begin();
-        if is_first {
-            self.servo.rearm_at(&actual, &window);
         }
     }
 
@@ -285,6 +269,7 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
                 since_ns: since_ns.max(self.period_ns),
                 inputs: drive.inputs,
                 is_present: drive.is_present(),
+                apart: drive.apart(),
                 fault: if drive.has_failed() {
                     drive.inputs.fault
                 } else {

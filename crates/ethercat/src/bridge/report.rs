@@ -29,7 +29,14 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
         let window_t = (WINDOW as u64 * self.period_ns) as f64 * 1e-9;
         for drive in &mut self.drives {
             let joint = drive.axis.settings.joint.min(AXES - 1);
-            let place = drive.axis.settings.place(drive.inputs.actual);
+            let place = match &mut drive.load_side {
+                None => drive.axis.settings.place(drive.inputs.actual),
+                Some(load_side) => {
+                    let terminals = self.terminals.as_ref();
+                    let said = terminals.and_then(|it| it.joint_place(joint, sample_ns));
+                    load_side.sample(said, &mut drive.axis, drive.inputs.actual)
+                }
+            };
             let before = core::mem::replace(&mut drive.places[slot], place);
             feedback.position[joint] = place;
             feedback.velocity[joint] = (place - before) / window_t;

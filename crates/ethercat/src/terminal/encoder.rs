@@ -8,6 +8,7 @@
 //! whole, and at every later one it has to be whole again. Between two frames it turns evenly.
 
 use super::bits::{bit, number, put_bit};
+use super::counter::Counter;
 use super::encoder_settings::EncoderSettings;
 use crate::event::Event;
 use glidepath_link::{Feedback, SpindleFlags};
@@ -24,9 +25,6 @@ const SETTLED_NS: u64 = 20_000_000;
 const STILL_V: f64 = 0.05;
 /// Samples over which a speed is taken.
 const WINDOW: usize = 16;
-/// Frames that are kept. The moment that is asked for is up to a period before the last one was sent; where the one
-/// before was sent late, it is before that, too.
-const FRAMES: usize = 4;
 
 /// The places of its values in the image of all, bits.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -63,13 +61,7 @@ pub(super) struct Encoder {
     wired: WiredEncoder,
     /// How much later than they say setpoints are played, by which samples are stamped earlier, ns.
     delay_ns: u64,
-    raw: Option<u32>,
-    /// The counter without wraps.
-    count: i64,
-    /// When the last frames were sent, ns, and the counter in them; the last one first.
-    frames: [(u64, i64); FRAMES],
-    /// This frame was without it.
-    is_missed: bool,
+    counter: Counter,
     is_armed: bool,
     index: Option<Index>,
     pulses: u64,
@@ -87,10 +79,7 @@ impl Encoder {
         Self {
             wired,
             delay_ns,
-            raw: None,
-            count: 0,
-            frames: [(0, 0); FRAMES],
-            is_missed: true,
+            counter: Counter::new(wired.counter),
             is_armed: false,
             index: None,
             pulses: 0,
@@ -107,16 +96,6 @@ impl Encoder {
         self.wired.nth
     }
 
-    /// How far a counter is from another, over its end if that is nearer.
-    #[allow(
-        clippy::cast_possible_wrap,
-        reason = "the bits of a number with a sign"
-    )]
-    fn apart(&self, raw: u32, from: u32) -> i64 {
-        let unused = 32 - self.wired.counter.1.clamp(1, 32);
-        ((raw.wrapping_sub(from) << unused) as i32 >> unused).into()
-    }
-
     /// Takes what a frame says that was sent at a time; nothing if its device did not take part.
     pub(super) fn hear(
         &mut self,
@@ -124,21 +103,15 @@ impl Encoder {
         sent_ns: u64,
         tell: &mut dyn FnMut(Event),
     ) {
-        self.is_missed = inputs.is_none();
+        let from = self.counter.count();
+        self.counter.hear(inputs, sent_ns);
         let Some(inputs) = inputs else {
             return;
         };
-        let (at, bits) = self.wired.counter;
-        let raw = number(inputs, at, bits);
-        let way = self.apart(raw, self.raw.unwrap_or(raw));
-        let from = self.count;
-        self.count += way;
-        self.raw = Some(raw);
-        self.frames.rotate_right(1);
-        self.frames[0] = (sent_ns, self.count);
-        let pulses = (self.revolutions(self.count).floor() - self.revolutions(from).floor()).abs();
+        let to = self.counter.count();
+        let pulses = (self.revolutions(to).floor() - self.revolutions(from).floor()).abs();
         if let Some(wired) = self.wired.index {
-            self.take_index(wired, (inputs, raw), tell);
+            self.take_index(wired, inputs, tell);
             self.count_pulses(pulses);
         }
     }
@@ -149,7 +122,7 @@ impl Encoder {
         reason = "a few whole revolutions, not negative"
     )]
     fn count_pulses(&mut self, pulses: f64) {
-        let revolutions = self.revolutions(self.count);
+        let revolutions = self.revolutions(self.counter.count());
         if let Some(index) = self.index
             && (revolutions - index.seen).abs() <= MISSING_R
         {
@@ -157,12 +130,7 @@ impl Encoder {
         }
     }
 
-    fn take_index(
-        &mut self,
-        wired: WiredIndex,
-        (inputs, raw): (&[u8], u32),
-        tell: &mut dyn FnMut(Event),
-    ) {
+    fn take_index(&mut self, wired: WiredIndex, inputs: &[u8], tell: &mut dyn FnMut(Event)) {
         let is_valid = bit(inputs, wired.valid);
         if !self.is_armed {
             self.is_armed = !is_valid;
@@ -173,7 +141,7 @@ impl Encoder {
         }
         self.is_armed = false;
         let kept = number(inputs, wired.latch, self.wired.counter.1);
-        let at = self.count - self.apart(raw, kept);
+        let at = self.counter.count_of(kept);
         let origin = self.index.map_or(at, |index| index.origin);
         let seen = self.turns(at - origin);
         let off = self.counts_off(at - origin);
@@ -215,20 +183,14 @@ impl Encoder {
     /// Whether the angle is known: with an index, when that was passed.
     const fn is_known(&self) -> bool {
         let knows = self.wired.index.is_none() || self.index.is_some();
-        self.raw.is_some() && knows && self.quiet_until_ns.is_none()
+        self.counter.is_known() && knows && self.quiet_until_ns.is_none()
     }
 
     /// The angle at a time around the last frames, between which it turns evenly.
-    #[allow(clippy::cast_precision_loss, reason = "some periods")]
     fn angle_at(&self, at_ns: u64) -> f64 {
-        let sent_before = |(sent_ns, _): &(u64, i64)| *sent_ns <= at_ns;
-        let older = self.frames[1..].iter().position(sent_before);
-        let nth = older.unwrap_or(FRAMES - 2);
-        let ((end_ns, end), (begin_ns, begin)) = (self.frames[nth], self.frames[nth + 1]);
+        let (end, begin, younger_r) = self.counter.around(at_ns);
         let (end, begin) = (self.revolutions(end), self.revolutions(begin));
-        let younger_ns = end_ns.saturating_sub(at_ns) as f64;
-        let span_ns = end_ns.saturating_sub(begin_ns).max(1) as f64;
-        end - (end - begin) * (younger_ns / span_ns).min(1.0)
+        end - (end - begin) * younger_r
     }
 
     /// Arms the index.
@@ -249,7 +211,7 @@ impl Encoder {
             self.quiet_until_ns = Some(now_ns + QUIET_NS);
         }
         self.quiet_until_ns = self.quiet_until_ns.filter(|until| now_ns < *until);
-        if self.is_missed || !self.is_known() {
+        if self.counter.is_missed() || !self.is_known() {
             self.near_ns = None;
             return;
         }

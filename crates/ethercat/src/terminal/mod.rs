@@ -2,21 +2,26 @@
 //!
 //! | file | has |
 //! |---|---|
-//! | `settings` | what the file says of them |
+//! | `settings`, `at` | what the file says of them |
 //! | `signal` | what outputs obey |
 //! | `commands` | what is commanded, and when |
 //! | `bits`, `wiring` | where in the process data everything is |
 //! | `driven` | outputs, cycle by cycle |
 //! | `spindle_settings`, `spindle_wiring`, `spindle_drive` | a spindle on a drive in velocity mode |
 //! | `encoder_settings`, `encoder_wiring`, `encoder` | the spindle's encoder |
+//! | `joint_encoder` | encoders of joints |
+//! | `counter` | a counter without its wraps, of both |
 //! | `worked` | all of it at work |
 
+mod at;
 mod bits;
 mod commands;
+mod counter;
 mod driven;
 mod encoder;
 mod encoder_settings;
 mod encoder_wiring;
+mod joint_encoder;
 mod settings;
 mod signal;
 mod spindle_drive;
@@ -26,9 +31,11 @@ mod unwired;
 mod wiring;
 mod worked;
 
+pub use at::At;
 pub use encoder_settings::EncoderSettings;
+pub use joint_encoder::{EncoderUse, JointEncoderSettings};
 pub use settings::{
-    ANALOG_INPUTS, AnalogInput, AnalogOutput, At, DIGITAL_INPUTS, DigitalInput, DigitalOutput,
+    ANALOG_INPUTS, AnalogInput, AnalogOutput, DIGITAL_INPUTS, DigitalInput, DigitalOutput,
     Parameter, TerminalSettings,
 };
 pub use signal::{Quantity, Signal};

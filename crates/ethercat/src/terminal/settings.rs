@@ -1,39 +1,16 @@
 //! The settings of a device that is no drive: what its inputs mean, and what its outputs obey.
 
+use super::at::At;
 use super::encoder_settings::EncoderSettings;
+use super::joint_encoder::JointEncoderSettings;
 use super::signal::{Quantity, Signal};
 use super::spindle_settings::SpindleSettings;
-use core::fmt;
 use glidepath_link::Feedback;
 
 /// Digital inputs that feedback has room for.
 pub const DIGITAL_INPUTS: usize = 64;
 /// Analog inputs that feedback has room for.
 pub const ANALOG_INPUTS: usize = 8;
-
-/// The place of a value in the process data of a device.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum At {
-    /// Where this object is mapped.
-    Object {
-        /// Index.
-        index: u16,
-        /// Subindex.
-        sub: u8,
-    },
-    /// So many bits after the beginning of its inputs or outputs.
-    Bit(u32),
-}
-
-impl fmt::Display for At {
-    /// As `drives.toml` has it.
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Object { index, sub } => write!(f, "0x{index:04x}:{sub:02x}"),
-            Self::Bit(bit) => write!(f, "bit {bit}"),
-        }
-    }
-}
 
 /// A digital input, and all that it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -149,6 +126,8 @@ pub struct TerminalSettings {
     pub analog_outputs: Vec<AnalogOutput>,
     /// The spindle's encoder is wired to it: to one device at most.
     pub encoder: Option<EncoderSettings>,
+    /// The encoders of joints that are wired to it: a joint has one at most.
+    pub joint_encoders: Vec<JointEncoderSettings>,
     /// It is the drive of the spindle: of one device at most.
     pub spindle: Option<SpindleSettings>,
 }

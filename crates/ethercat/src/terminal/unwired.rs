@@ -1,6 +1,6 @@
 //! What is not where the file says, in words.
 
-use super::settings::At;
+use super::at::At;
 use crate::entry::Entry;
 use core::fmt;
 

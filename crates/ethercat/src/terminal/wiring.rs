@@ -1,10 +1,10 @@
 //! The wiring of devices: where in the image of all each input and output is.
 
+use super::at::At;
 use super::encoder::WiredEncoder;
 use super::encoder_settings::EncoderSettings;
-use super::settings::{
-    AnalogInput, AnalogOutput, At, DigitalInput, DigitalOutput, TerminalSettings,
-};
+use super::joint_encoder::WiredJointEncoder;
+use super::settings::{AnalogInput, AnalogOutput, DigitalInput, DigitalOutput, TerminalSettings};
 use super::spindle_settings::SpindleSettings;
 use super::spindle_wiring::WiredSpindle;
 use super::unwired::{NotThere, Unwired};
@@ -31,6 +31,8 @@ pub(crate) struct Wiring {
     pub(crate) analog_outputs: Vec<Wired<AnalogOutput>>,
     /// The encoder of the spindle.
     pub(crate) encoder: Option<WiredEncoder>,
+    /// The encoders of joints.
+    pub(crate) joint_encoders: Vec<WiredJointEncoder>,
     /// The drive of the spindle.
     pub(crate) spindle: Option<WiredSpindle>,
     /// Bytes of the outputs and of the inputs.
@@ -195,6 +197,12 @@ impl Wiring {
         }
         if let Some(encoder) = settings.encoder {
             self.encoder = Some(encoder_of((encoder, self.devices), &outputs, &inputs)?);
+        }
+        for encoder in &settings.joint_encoders {
+            let wire = inputs.find(encoder.at, *encoder, WiredJointEncoder::fits)?;
+            let place = (wire.bit, wire.bits);
+            let wired = WiredJointEncoder::new(wire.what, self.devices, place);
+            self.joint_encoders.push(wired);
         }
         self.devices += 1;
         self.sizes.0 += outputs.bytes();

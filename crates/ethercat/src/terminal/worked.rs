@@ -4,6 +4,7 @@ use super::bits::{bit, number};
 use super::commands::Commands;
 use super::driven::DrivenOutputs;
 use super::encoder::Encoder;
+use super::joint_encoder::JointEncoder;
 use super::settings::AnalogInput;
 use super::spindle_drive::{SpindleCycle, SpindleDrive};
 use super::wiring::{Wired, Wiring};
@@ -31,6 +32,7 @@ pub(crate) struct Terminals {
     outputs: DrivenOutputs,
     spindle: Option<SpindleDrive>,
     encoder: Option<Encoder>,
+    joint_encoders: Vec<JointEncoder>,
     /// By how much samples are stamped earlier, ns.
     delay_ns: u64,
     wiring: Wiring,
@@ -52,6 +54,7 @@ impl Terminals {
             outputs: DrivenOutputs::default(),
             spindle: None,
             encoder: None,
+            joint_encoders: Vec::new(),
             delay_ns,
             wiring: Wiring::default(),
             inputs: Vec::new(),
@@ -69,6 +72,8 @@ impl Terminals {
         self.spindle = wiring.spindle.map(SpindleDrive::new);
         let encoder = |wired| Encoder::new(wired, self.delay_ns);
         self.encoder = wiring.encoder.map(encoder);
+        let of_joints = wiring.joint_encoders.iter().copied();
+        self.joint_encoders = of_joints.map(JointEncoder::new).collect();
         self.inputs = vec![0; wiring.sizes.1];
         let told = positions.map(|position| (position, DeviceState::in_op()));
         self.told = told.collect();
@@ -92,11 +97,16 @@ impl Terminals {
                 *own = *byte;
             }
         }
-        if let Some(encoder) = &mut self.encoder {
-            let state = answered.states.get(encoder.nth());
+        let inputs_of = |nth: usize| {
+            let state = answered.states.get(nth);
             let is_there = answered.is_whole && state.is_some_and(|state| state.is_in_op());
-            let inputs = is_there.then_some(&self.inputs[..]);
-            encoder.hear(inputs, answered.sent_ns, tell);
+            is_there.then_some(&self.inputs[..])
+        };
+        if let Some(encoder) = &mut self.encoder {
+            encoder.hear(inputs_of(encoder.nth()), answered.sent_ns, tell);
+        }
+        for encoder in &mut self.joint_encoders {
+            encoder.hear(inputs_of(encoder.nth()), answered.sent_ns);
         }
         self.short = if answered.is_whole {
             0
@@ -162,6 +172,14 @@ impl Terminals {
         has_dropped
     }
 
+    /// Where the encoder of a joint says that this was at the moment of a sample, mm or degrees; `None` while it is
+    /// not heard.
+    pub(crate) fn joint_place(&self, joint: usize, sample_ns: u64) -> Option<f64> {
+        let mut encoders = self.joint_encoders.iter();
+        let encoder = encoders.find(|encoder| encoder.joint() == joint)?;
+        encoder.place(sample_ns.saturating_add(self.delay_ns))
+    }
+
     /// The number of the fault of the spindle's drive, 0 if it has no power; `None` without.
     pub(crate) fn spindle_fault(&self) -> Option<u16> {
         self.spindle.as_ref()?.failed()
@@ -211,7 +229,8 @@ fn value(inputs: &[u8], wired: &Wired<AnalogInput>) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::terminal::settings::{At, DigitalInput};
+    use crate::terminal::at::At;
+    use crate::terminal::settings::DigitalInput;
     use bytemuck::Zeroable as _;
 
     fn switch(bit: usize, is_inverted: bool) -> Wired<DigitalInput> {

@@ -19,6 +19,7 @@ mod feed_forward;
 mod history;
 mod judge;
 mod life;
+mod load_side;
 mod losses;
 mod machine;
 mod maps;

@@ -1,6 +1,7 @@
 //! The judgement of devices that are no drives: what their inputs are, and what their outputs obey.
 
 mod inputs;
+mod joint_encoders;
 mod outputs;
 
 use super::encoder::encoder;
@@ -40,6 +41,8 @@ struct Devices<'j> {
     judge: &'j mut Judge,
     /// Joints of the machine.
     joints: usize,
+    /// Joints whose drives look for their home by themselves.
+    homes_itself: Vec<usize>,
     claims: Claims,
     /// Where each of them is in the file, and its inputs and outputs.
     places: Vec<Place>,
@@ -58,6 +61,10 @@ pub(super) fn devices(
     let mut devices = Devices {
         judge,
         joints,
+        homes_itself: (drives.iter())
+            .filter(|(drive, _)| drive.homing.is_some())
+            .map(|(drive, _)| drive.joint)
+            .collect(),
         claims: Claims::default(),
         places: Vec::new(),
     };
@@ -148,6 +155,9 @@ impl Devices<'_> {
         self.outputs(&mut terminal, raw.outputs, &raw.analog_outputs);
         terminal.spindle = raw.spindle.and_then(|raw| self.spindle(&raw));
         terminal.encoder = raw.encoder.and_then(|raw| self.encoder(&raw));
+        let of_joints = raw.joint_encoders.iter();
+        let of_joints = of_joints.filter_map(|raw| self.joint_encoder(position, raw));
+        terminal.joint_encoders = of_joints.collect();
         terminal
     }
 

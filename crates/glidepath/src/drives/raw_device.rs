@@ -27,6 +27,24 @@ pub(super) struct RawDevice {
     pub(super) analog_outputs: Vec<RawAnalogOutput>,
     pub(super) spindle: Optional<RawSpindle>,
     pub(super) encoder: Optional<RawEncoder>,
+    #[serde(default)]
+    pub(super) joint_encoders: Vec<Spanned<RawJointEncoder>>,
+}
+
+/// An encoder of a joint.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawJointEncoder {
+    pub(super) joint: Spanned<i64>,
+    #[serde(rename = "use")]
+    pub(super) used: Spanned<String>,
+    pub(super) at: Optional<String>,
+    pub(super) counts_per_mm: Optional<f64>,
+    pub(super) counts_per_deg: Optional<f64>,
+    #[serde(default)]
+    pub(super) invert: bool,
+    pub(super) home_offset: Optional<f64>,
+    pub(super) apart: Spanned<f64>,
 }
 
 /// The spindle's encoder.

@@ -62,6 +62,17 @@ pub enum MirrorError {
         /// What is in its way.
         obstacle: String,
     },
+    /// There is no room for the memory of the services.
+    #[error(
+        "{}: its memory cannot be taken ({source}); `df -h /dev/shm` shows how much is free: 22 MB are needed, and \
+         some kilobytes for each reader", .path.display()
+    )]
+    Memory {
+        /// The file.
+        path: PathBuf,
+        /// Why not.
+        source: std::io::Error,
+    },
     /// A record cannot be published.
     #[error("{service}: publishing failed: {detail}")]
     Publish {

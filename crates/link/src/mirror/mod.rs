@@ -22,6 +22,7 @@ mod error;
 mod gap;
 mod obstacle;
 mod record;
+mod reserve;
 
 pub use error::MirrorError;
 pub use gap::Gap;
@@ -32,6 +33,7 @@ use crate::{LinkError, Record as _, Transport};
 use copies::{Copies, Depth, Domain};
 use core::sync::atomic::{AtomicBool, Ordering};
 use gap::Gaps;
+use reserve::Reserved;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
@@ -69,6 +71,7 @@ pub struct Mirror {
     statuses: Copies<StatusMirror>,
     /// After the ports.
     domain: Domain,
+    reserved: Reserved,
 }
 
 impl Mirror {
@@ -83,11 +86,15 @@ impl Mirror {
     pub fn open(settings: &MirrorSettings) -> Result<Self, MirrorError> {
         let domain = Domain::join(settings.root.as_deref())?;
         let name = |what| format!("glidepath/{}/{what}", settings.instance);
-        Ok(Self {
+        let mut mirror = Self {
             setpoints: domain.copies(&name("setpoints"), Depth::SETPOINTS)?,
             statuses: domain.copies(&name("status"), Depth::STATUS)?,
             domain,
-        })
+            reserved: Reserved::default(),
+        };
+        let taken = mirror.reserved.take();
+        taken.map_err(|(path, source)| MirrorError::Memory { path, source })?;
+        Ok(mirror)
     }
 
     /// Hears an instance, and publishes what it hears, until `ending` is set. Tells of setpoints that
@@ -138,13 +145,16 @@ impl Mirror {
         Ok(counts)
     }
 
-    /// Frees what the dead hold on both sides, and gives readers that came the last record.
-    fn clean_up(&self, link: &dyn Transport) -> Result<(), MirrorError> {
+    /// Frees what the dead hold on both sides, gives readers that came the last record, and takes the memory for them.
+    fn clean_up(&mut self, link: &dyn Transport) -> Result<(), MirrorError> {
         link.clean_up_dead_peers()?;
         link.stands()?;
         self.domain.clean_up();
         self.setpoints.refresh()?;
-        self.statuses.refresh()
+        self.statuses.refresh()?;
+        // Of readers that came. Where there is no room now, it is tried again.
+        let _ = self.reserved.take();
+        Ok(())
     }
 }
 

@@ -44,9 +44,10 @@ mod tests {
     #[test]
     fn the_manual_and_the_examples_have_the_versions_of_today() {
         const MANUAL: &str = include_str!("../../../glidepath/docs/consumers.md");
-        const EXAMPLES: [&str; 2] = [
+        const EXAMPLES: [&str; 3] = [
             include_str!("../../examples/onlooker.rs"),
             include_str!("../../examples/onlooker.py"),
+            include_str!("../../examples/onlooker.c"),
         ];
         // SAFETY: it only names a type.
         let setpoint = unsafe { SetpointMirror::type_name() };

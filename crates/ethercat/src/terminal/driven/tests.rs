@@ -1,8 +1,8 @@
 //! Tests of terminals that are driven.
 
 use super::*;
+use crate::terminal::at::At;
 use crate::terminal::bits::{bit, number};
-use crate::terminal::settings::At;
 use crate::terminal::signal::Signal;
 use bytemuck::Zeroable as _;
 use glidepath_link::{EventRecord, Setpoint};

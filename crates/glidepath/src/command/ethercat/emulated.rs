@@ -76,6 +76,9 @@ pub(super) fn drive(args: &EthercatArgs, config: &MachineConfig) -> Result<Exit,
     if let Some(encoder) = emulated_terminals::encoder(&settings.terminals) {
         segment.add_encoder(encoder);
     }
+    for encoder in emulated_terminals::load_encoders(&settings.drives, &settings.terminals) {
+        segment.add_load_encoder(encoder);
+    }
     let record = args.emulated_record.as_deref();
     if record.is_some() {
         segment.keep_records();

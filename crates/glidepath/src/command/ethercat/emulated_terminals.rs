@@ -1,7 +1,12 @@
 //! Emulated devices that are no drives: each has what the file names, and nothing to set.
 
-use glidepath_emulator::{Channels, ClockKind, DriveSettings as Emulated, Encoder, SpindleMotor};
-use glidepath_ethercat::{At, Mapping, SpindleMode, SpindleSettings, TerminalSettings};
+use glidepath_emulator::{
+    Channels, ClockKind, DriveSettings as Emulated, Encoder, LoadEncoder, SpindleMotor,
+};
+use glidepath_ethercat::{
+    At, DriveSettings, JointEncoderSettings, Mapping, SpindleMode, SpindleSettings,
+    TerminalSettings,
+};
 
 /// Bits of an entry at most.
 const MOST_BITS: u32 = 248;
@@ -92,6 +97,34 @@ pub(super) fn encoder(terminals: &[TerminalSettings]) -> Option<Encoder> {
     })
 }
 
+/// The encoders of joints of a file, which the drives of the joints turn.
+pub(super) fn load_encoders(
+    drives: &[DriveSettings],
+    terminals: &[TerminalSettings],
+) -> Vec<LoadEncoder> {
+    let encoders = terminals.iter().flat_map(|device| {
+        let encoders = device.joint_encoders.iter();
+        encoders.map(move |encoder| (device.position, encoder))
+    });
+    let of_drive = |(device, encoder): (usize, &JointEncoderSettings)| {
+        let drive = drives.iter().find(|drive| drive.joint == encoder.joint)?;
+        let At::Object { index, sub } = encoder.at else {
+            return None;
+        };
+        let sign = |is_inverted: bool| if is_inverted { -1.0 } else { 1.0 };
+        let counts = sign(encoder.is_inverted) * encoder.counts_per_unit;
+        let from = encoder.home_offset.unwrap_or(0.0);
+        Some(LoadEncoder {
+            device,
+            counter: (index, sub),
+            drive: (drive.position, drive.axis.into()),
+            ratio: counts * sign(drive.is_inverted) / drive.counts_per_unit,
+            offset: counts * (drive.home_offset - from),
+        })
+    };
+    encoders.filter_map(of_drive).collect()
+}
+
 /// Where a device that has what a file names has an input, bits.
 pub(super) fn input_place(settings: &TerminalSettings, at: At) -> Option<usize> {
     let (index, sub) = match at {
@@ -112,7 +145,11 @@ pub(super) fn input_place(settings: &TerminalSettings, at: At) -> Option<usize> 
 fn input_maps(settings: &TerminalSettings) -> Vec<Vec<u32>> {
     let digital = settings.inputs.iter().map(|input| input.at);
     let analog = settings.analog_inputs.iter().map(|input| (input.at, 16));
-    maps(digital.collect(), analog.collect())
+    let counters = settings
+        .joint_encoders
+        .iter()
+        .map(|encoder| (encoder.at, 32));
+    maps(digital.collect(), analog.chain(counters).collect())
 }
 
 /// The settings without what an emulated device does not have: other maps, and parameters.

@@ -5,6 +5,7 @@ mod devices;
 mod drive_inputs;
 mod encoder;
 mod feed_forward;
+mod joint_encoders;
 mod touch_probe;
 
 use super::{Found, parse, written};

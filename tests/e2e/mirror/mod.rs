@@ -2,6 +2,9 @@
 //! subscribers hear, whoever ends and starts again, and nothing that is done to the mirror reaches the
 //! machine.
 
+mod command_line;
+mod intruder;
+
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -12,6 +15,9 @@ use glidepath_link::{MachineState, Setpoint};
 use glidepath_testing::{is_crowded, leave_out};
 use glidepath_tests::{Instance, Output, Process, Services, Tape, Watchdog, onlooker};
 use rustix::process::Signal;
+
+use bytemuck::bytes_of;
+use command_line::Recording;
 
 use crate::programs::{PROGRAM, long_program};
 
@@ -142,6 +148,7 @@ fn a_stock_reader_receives_what_a_private_subscriber_does() {
     let services = Services::start(&instance);
     let (tape, mirror) = (at_rest(&instance), mirror(&instance));
     let (reader, python) = (reader(&instance), python_reader(&instance));
+    let recording = Recording::start(&instance);
     let _planner = Process::join(&instance, &["planner", &program])
         .wait()
         .expect(0);
@@ -153,6 +160,7 @@ fn a_stock_reader_receives_what_a_private_subscriber_does() {
     while !is_told(&tape) {
         std::thread::sleep(Duration::from_millis(5));
     }
+    let recorded = recording.map(Recording::end);
     let report = mirror.end().expect(0).json();
     assert_eq!(
         (&report["lost_setpoints"], &report["refused"]),
@@ -163,6 +171,18 @@ fn a_stock_reader_receives_what_a_private_subscriber_does() {
     let private = tape.since(0);
     for reader in [Some(reader), python].into_iter().flatten() {
         judge(&Seen::of(&reader.wait().expect(0)), &private);
+    }
+    if let Some(recorded) = recorded {
+        judge(&Seen::of_setpoints(&recorded), &private);
+        let mut private = private
+            .iter()
+            .skip_while(|it| it.number < recorded[0].number);
+        let is_same = |it: &Setpoint| {
+            private
+                .next()
+                .is_some_and(|own| bytes_of(own) == bytes_of(it))
+        };
+        assert!(recorded.iter().all(is_same), "other bytes");
     }
     assert_eq!(tape.judge(), Vec::<String>::new());
     drop(services.end());
