@@ -119,6 +119,7 @@ mod tests {
             limits,
             period_t: 0.01,
             tolerance_mm: 0.01,
+            direction: glidepath_program::DirectionTolerance::default(),
             corners: glidepath_program::Corners::default(),
         };
         // A circle of radius 2 at a speed, with jerk along it.

@@ -9,6 +9,7 @@ use crate::matching::Matching;
 use crate::report::AuditReport;
 use crate::sample::{Sample, Seen};
 use crate::settings::AuditSettings;
+use crate::tool_axis::ToolAxis;
 use crate::travel::TravelAudit;
 use glidepath_program::{Event, Frame, Item};
 
@@ -46,6 +47,13 @@ impl Audit {
     #[must_use]
     pub fn with_joints(mut self, bounds: Vec<JointBounds>) -> Self {
         self.joints = Some(JointAudit::new(bounds, self.period_t));
+        self
+    }
+
+    /// Judges the direction of the tool, too, and no longer the rotary axes that turn it so.
+    #[must_use]
+    pub const fn with_tool(mut self, tool: Option<ToolAxis>) -> Self {
+        self.matching.rows.tool = tool;
         self
     }
 
@@ -167,6 +175,7 @@ mod tests {
             limits,
             period_t: 0.004,
             tolerance_mm: 0.02,
+            direction: glidepath_program::DirectionTolerance::default(),
             corners: glidepath_program::Corners::default(),
         }
     }

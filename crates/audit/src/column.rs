@@ -1,6 +1,6 @@
 //! One column of the free-space diagram: a chord of the motion against the chords of the program.
 
-use crate::free_space::{Chord, Interval};
+use crate::free_space::{Chord, Interval, Near, NearTurn};
 use crate::program::{DiagramRow, DiagramRows, Presence};
 use glidepath_program::tolerance_norm;
 
@@ -75,6 +75,8 @@ pub(crate) struct Level {
     pub(crate) exact_mm: f64,
     /// At least this, whatever the tolerance: 0 but for a motion that is out of tolerance.
     pub(crate) floor_mm: f64,
+    /// Whatever the direction of the tool is.
+    pub(crate) any_way: bool,
 }
 
 impl Level {
@@ -84,20 +86,43 @@ impl Level {
             lambda_mm,
             exact_mm: EXACT_MM,
             floor_mm: 0.0,
+            any_way: false,
         }
     }
 
-    pub(crate) fn along(&self, row: &DiagramRow) -> f64 {
-        row.tolerance_mm.min(self.lambda_mm).max(self.floor_mm)
+    pub(crate) fn along(&self, row: &DiagramRow) -> Near {
+        self.near(row, row.tolerance_mm, row.turn.along_deg)
     }
 
     /// At the end of a row, for a chord of the motion.
-    fn at_end(&self, row: &DiagramRow, chord: &Chord) -> f64 {
-        let tolerance = row.exact_end.map_or(row.end_tolerance_mm, |exact| {
-            let cut_mm = exact.cut(tolerance_norm(&chord.displacement()));
-            (self.exact_mm + cut_mm).min(row.end_tolerance_mm)
-        });
-        tolerance.min(self.lambda_mm).max(self.floor_mm)
+    fn at_end(&self, row: &DiagramRow, chord: &Chord) -> Near {
+        let Some(exact) = row.exact_end else {
+            return self.near(row, row.end_tolerance_mm, row.turn.end_deg);
+        };
+        // There the axes themselves are where the program has them.
+        let cut_mm = exact.cut(tolerance_norm(&chord.displacement(), 1.0));
+        let exact_mm = (self.exact_mm + cut_mm).min(row.end_tolerance_mm);
+        let mm = exact_mm.min(self.lambda_mm).max(self.floor_mm);
+        let rotary = if self.any_way {
+            NearTurn::Any
+        } else {
+            NearTurn::Axes(mm / row.turn.mm_per_deg)
+        };
+        Near { mm, rotary }
+    }
+
+    fn near(&self, row: &DiagramRow, tolerance_mm: f64, tolerance_deg: f64) -> Near {
+        let mm = tolerance_mm.min(self.lambda_mm).max(self.floor_mm);
+        let turn = &row.turn;
+        let rotary = if self.any_way {
+            NearTurn::Any
+        } else if turn.is_way {
+            // What is wanted of the level is how far the tip is off; the direction has all of its tolerance.
+            NearTurn::Way(tolerance_deg.max(self.floor_mm / turn.mm_per_deg))
+        } else {
+            NearTurn::Axes(mm / turn.mm_per_deg)
+        };
+        Near { mm, rotary }
     }
 }
 
@@ -150,16 +175,16 @@ pub(crate) fn step(
         if !(left.is_empty() && bottom.is_empty()) {
             // From below every place on the right is above; from the left every place on top is
             // to the right.
-            let along_mm = level.along(row);
-            if left_is_last || !row.chord.is_far(&chord.to, along_mm) {
-                right = row.chord.near(&chord.to, along_mm);
+            let along = level.along(row);
+            if left_is_last || !row.chord.is_far(&chord.to, along.mm) {
+                right = row.chord.near(&chord.end(), &along);
             }
             if bottom.is_empty() {
                 right = right.from(left.low);
             }
-            let end_mm = level.at_end(row, chord);
-            if !chord.is_far(&row.chord.to, end_mm) {
-                top = chord.near(&row.chord.to, end_mm);
+            let end = level.at_end(row, chord);
+            if !chord.is_far(&row.chord.to, end.mm) {
+                top = chord.near(&row.chord.end(), &end);
             }
             if left.is_empty() {
                 top = top.from(bottom.low);

@@ -110,7 +110,7 @@ impl EventPlaces {
                 continue;
             };
             let at = before + (position - before) * part;
-            let off_mm = tolerance_norm(&(at - place));
+            let off_mm = tolerance_norm(&(at - place), 1.0);
             self.count += 1;
             self.sum_mm += off_mm;
             if off_mm > self.most_off.0 || self.count == 1 {

@@ -89,7 +89,8 @@ impl Matching {
     ) -> impl Iterator<Item = usize> {
         let away = |reach: &Reach, index: usize| {
             let (row, part) = (self.rows.get(index)?, reach.get(index));
-            (!part.is_empty()).then(|| (row.chord.part(part).distance_mm(at), row))
+            let away_mm = || row.chord.part(part).distance_mm(at, row.turn.mm_per_deg);
+            (!part.is_empty()).then(|| (away_mm(), row))
         };
         let nearest_mm = (matched.low..matched.end())
             .filter_map(|index| away(matched, index))

@@ -17,7 +17,7 @@
 use crate::AuditSettings;
 use glidepath_geometry::{AxisVector, Prepared, Segment, feed_length, limit_along};
 use glidepath_program::tolerance_norm;
-use glidepath_program::{Frame, Item, ItemKind, Limits, Rate};
+use glidepath_program::{DirectionTolerance, Frame, Item, ItemKind, Limits, Rate};
 use std::collections::VecDeque;
 
 /// A tolerance counts as kept up to this factor.
@@ -39,6 +39,8 @@ pub(crate) struct Move {
     displacement_2: f64,
     rate: Rate,
     pub(crate) tolerance_mm: f64,
+    /// What a degree of the rotary axes counts for, mm.
+    mm_per_deg: f64,
     /// How near the motion is at least while it is on the move: at its start the tolerance of the
     /// move before holds.
     within_mm: f64,
@@ -49,6 +51,7 @@ pub(crate) struct Move {
 pub(crate) struct Follow {
     limits: Limits,
     tolerance_mm: f64,
+    direction: DirectionTolerance,
     /// The tolerance of the move fed last.
     last_tolerance_mm: f64,
     /// Moves fed.
@@ -103,6 +106,7 @@ impl Follow {
         Self {
             limits: settings.limits,
             tolerance_mm: settings.tolerance_mm,
+            direction: settings.direction,
             last_tolerance_mm: 0.0,
             count: 0,
             moves: VecDeque::new(),
@@ -142,6 +146,7 @@ impl Follow {
             displacement_2: (segment.end() - segment.start()).norm_squared(),
             rate,
             tolerance_mm,
+            mm_per_deg: self.direction.mm_per_deg(tolerance_mm),
             within_mm: tolerance_mm.max(self.last_tolerance_mm) * WITHIN_R,
         });
         self.last_tolerance_mm = tolerance_mm;
@@ -384,6 +389,6 @@ impl Move {
 
     /// How far a position is from a place on the move, mm.
     fn distance_mm(&self, position: &AxisVector, s: f64) -> f64 {
-        tolerance_norm(&(position - self.segment.position(s)))
+        tolerance_norm(&(position - self.segment.position(s)), self.mm_per_deg)
     }
 }

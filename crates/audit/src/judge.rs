@@ -22,7 +22,7 @@ impl Matching {
             return false;
         }
         if let Some(row) = self.rows.get(0) {
-            let deviation_mm = tolerance_norm(&(spot.position - row.chord.from));
+            let deviation_mm = tolerance_norm(&(spot.position - row.chord.from), 1.0);
             if deviation_mm > EXACT_MM {
                 let kind = ViolationKind::ExactStop { deviation_mm };
                 self.violations.push(spot.tick, spot.line, kind);
@@ -53,7 +53,7 @@ impl Matching {
             self.out_of_tolerance.is_none() && self.includes_end(&self.reach.clone(), &at);
         // Where the motion ends at the right place it is a question of deviation. One that was ended may
         // be at that place before the program's end: where it began, say.
-        let is_there = tolerance_norm(&(at - end)) <= EXACT_MM;
+        let is_there = tolerance_norm(&(at - end), 1.0) <= EXACT_MM;
         self.is_complete =
             is_reached || (must && is_there && self.widen(Goal::End) == Passage::Passed);
         if self.out_of_tolerance.is_some() {
@@ -85,7 +85,7 @@ impl Matching {
         let is_last = self.rows.reach(self.reach.end()) == Presence::Never;
         let row = self.rows.get(last);
         let line = row.map_or(line, |row| row.line);
-        let missed = row.map(|row| (tolerance_norm(&(at - row.chord.to)), row.tolerance_mm));
+        let missed = row.map(|row| (tolerance_norm(&(at - row.chord.to), 1.0), row.tolerance_mm));
         let kind = match missed {
             Some((deviation_mm, tolerance_mm))
                 if is_last && !is_there && deviation_mm <= tolerance_mm =>
@@ -182,7 +182,9 @@ impl Matching {
         let Some(row) = self.rows.get(last) else {
             return false;
         };
-        is_last && reach.get(last).high >= 1.0 && tolerance_norm(&(at - row.chord.to)) <= EXACT_MM
+        is_last
+            && reach.get(last).high >= 1.0
+            && tolerance_norm(&(at - row.chord.to), 1.0) <= EXACT_MM
     }
 
     /// Keeps in mind that the motion rested somewhere.
@@ -207,7 +209,7 @@ impl Matching {
         let Some(row) = self.rows.get(index).filter(|row| row.dwell_t > 0.0) else {
             return;
         };
-        let is_here = |at: &AxisVector| tolerance_norm(&(at - row.chord.to)) <= EXACT_MM;
+        let is_here = |at: &AxisVector| tolerance_norm(&(at - row.chord.to), 1.0) <= EXACT_MM;
         let ticks = self
             .rests
             .iter()
@@ -245,8 +247,31 @@ impl Matching {
             return Interval::EMPTY;
         };
         let level = Level::up_to(f64::INFINITY);
-        reach
-            .get(index)
-            .intersect(row.chord.near(at, level.along(row)))
+        let place = self.rows.place(at);
+        let near = row.chord.near(&place, &level.along(row));
+        reach.get(index).intersect(near)
+    }
+
+    /// Takes note of how far the direction of the tool is off.
+    pub(crate) fn note_turn(&mut self, spot: &Spot) {
+        let off_deg = self.off_way_deg(&spot.position).unwrap_or(0.0);
+        if off_deg > self.max_turn.ratio {
+            self.max_turn = Worst {
+                ratio: off_deg,
+                axis: None,
+                tick: spot.tick,
+                line: spot.line,
+            };
+        }
+    }
+
+    /// How far the direction of the tool is from the nearest of the program's that are in reach, degrees.
+    fn off_way_deg(&self, at: &AxisVector) -> Option<f64> {
+        let way = self.rows.place(at).way;
+        let rows = (self.reach.low..self.reach.end()).filter_map(|index| {
+            let (row, part) = (self.rows.get(index)?, self.reach.get(index));
+            (row.turn.is_way && !part.is_empty()).then(|| row.chord.part(part).off_way_deg(&way))
+        });
+        rows.reduce(f64::min)
     }
 }

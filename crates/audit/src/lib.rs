@@ -29,6 +29,7 @@
 //!     limits: Limits::uniform(200.0, 2000.0, 40_000.0), // mm/s, mm/s², mm/s³
 //!     period_t: 0.004,
 //!     tolerance_mm: 0.02,
+//!     direction: glidepath_program::DirectionTolerance::default(),
 //!     corners: glidepath_program::Corners::default(),
 //! });
 //! for (tick, x_mm) in [0.0, 0.0, 1.0, 1.0].into_iter().enumerate() {
@@ -71,8 +72,10 @@ mod sample;
 mod settings;
 pub mod shape;
 pub mod smoothness;
+mod tool_axis;
 mod travel;
 pub mod tremor;
+mod turn_tolerance;
 mod violation;
 mod widen;
 
@@ -82,4 +85,5 @@ pub use passed::Passed;
 pub use report::AuditReport;
 pub use sample::Sample;
 pub use settings::AuditSettings;
+pub use tool_axis::{AxisTurn, ToolAxis};
 pub use violation::{Inconsistency, JointRate, Violation, ViolationKind, Worst};

@@ -73,6 +73,8 @@ pub(crate) struct Matching {
     /// The deviation in mm, as `ratio`, and where it was met.
     pub(crate) max_deviation: Worst,
     pub(crate) max_feed: Worst,
+    /// How far the direction of the tool was off in degrees, as `ratio`, and where.
+    pub(crate) max_turn: Worst,
     pub(crate) is_complete: bool,
     pub(crate) period_t: f64,
     /// Largest override the feed may have been run at.
@@ -108,13 +110,14 @@ pub(crate) struct Matching {
 impl Matching {
     pub(crate) fn new(settings: &AuditSettings) -> Self {
         Self {
-            rows: DiagramRows::new(settings.tolerance_mm),
+            rows: DiagramRows::new(settings),
             violations: ViolationList::default(),
             still: StillAxes::new(settings.period_t),
             cruise: Cruise::new(settings),
             tremors: ViolationList::default(),
             max_deviation: Worst::default(),
             max_feed: Worst::default(),
+            max_turn: Worst::default(),
             is_complete: false,
             period_t: settings.period_t,
             feed_factor: 1.0,
@@ -218,7 +221,9 @@ impl Matching {
         if self.at.is_none() && !self.judge_start(spot) {
             return false;
         }
-        let chord = Chord::new(self.at.unwrap_or(spot.position), spot.position);
+        let chord = self
+            .rows
+            .chord(self.at.unwrap_or(spot.position), spot.position);
         let first = self.reach.low;
         let passage = match self.out_of_tolerance {
             None => {
@@ -314,6 +319,7 @@ impl Matching {
                 self.judge_feed(spot, waiting.ticks, feed_v);
             }
             self.note_deviation(self.lambda_mm, spot.tick, spot.line);
+            self.note_turn(spot);
         }
         if core::mem::take(&mut self.is_history_void) {
             self.restart_history(spot.position);
@@ -341,7 +347,7 @@ impl Matching {
         self.travel_mm = 0.0;
         let reach = self.reach.clone();
         self.history.push_back(Column {
-            chord: Chord::new(at, at),
+            chord: self.rows.chord(at, at),
             travel_mm: 0.0,
             tick,
             line,

@@ -47,7 +47,7 @@ impl PassedPoints {
     ) -> f64 {
         let chord = Chord::new(self.last.unwrap_or(*position), *position);
         for open in &mut self.open {
-            let distance_mm = chord.distance_mm(&open.point.position);
+            let distance_mm = chord.distance_mm(&open.point.position, 1.0);
             open.least_mm = open.least_mm.min(distance_mm);
         }
         if chord.displacement() != AxisVector::zeros() {
@@ -56,8 +56,8 @@ impl PassedPoints {
         }
         for point in passed {
             let last = self.chords.iter();
-            let distances_mm = last.map(|chord| chord.distance_mm(&point.position));
-            let least_mm = distances_mm.fold(chord.distance_mm(&point.position), f64::min);
+            let distances_mm = last.map(|chord| chord.distance_mm(&point.position, 1.0));
+            let least_mm = distances_mm.fold(chord.distance_mm(&point.position, 1.0), f64::min);
             self.open.push(Open {
                 point: *point,
                 least_mm,

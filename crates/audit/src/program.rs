@@ -2,10 +2,13 @@
 
 use crate::amount::Amount;
 use crate::flatten::{CURVE_FLATTENING, FLATTENING, chords, inner_point};
-use crate::free_space::Chord;
+use crate::free_space::{Chord, Place};
 use crate::piece::Piece;
+use crate::settings::AuditSettings;
+use crate::tool_axis::ToolAxis;
+use crate::turn_tolerance::{TurnTolerance, turn_chords};
 use glidepath_geometry::{AxisVector, Prepared, Segment, feed_length};
-use glidepath_program::{Item, ItemKind, PathMode, Rate};
+use glidepath_program::{DirectionTolerance, Item, ItemKind, PathMode, Rate};
 use std::collections::VecDeque;
 
 /// A tolerance of zero would leave no room for rounding, mm.
@@ -54,6 +57,8 @@ pub(crate) struct DiagramRow {
     pub(crate) end_tolerance_mm: f64,
     /// Tolerance of its move, whatever that of the move before is, mm.
     pub(crate) own_tolerance_mm: f64,
+    /// Tolerance of the rotary axes.
+    pub(crate) turn: TurnTolerance,
     /// Its end must be met.
     pub(crate) exact_end: Option<ExactEnd>,
     /// Time to rest at its end, s.
@@ -74,6 +79,7 @@ struct Move {
     /// Larger of the tolerances at its start and end.
     tolerance_mm: f64,
     end_tolerance_mm: f64,
+    turn: TurnTolerance,
     exact_end: Option<ExactEnd>,
     dwell_t: f64,
     is_exact_path: bool,
@@ -110,15 +116,19 @@ pub(crate) struct DiagramRows {
     is_ended: bool,
     end_position: Option<AxisVector>,
     default_tolerance_mm: f64,
+    direction: DirectionTolerance,
+    /// How the rotary axes turn the tool, where that is judged.
+    pub(crate) tool: Option<ToolAxis>,
     corner_tolerance_mm: f64,
+    corner_tolerance_deg: f64,
     /// Larger than any tolerance below which a place of the program may be near, mm.
     max_tolerance_mm: f64,
     amount: Amount,
 }
 
 impl DiagramRows {
-    pub(crate) fn new(tolerance_mm: f64) -> Self {
-        let tolerance_mm = tolerance_mm.max(SMALLEST_TOLERANCE_MM);
+    pub(crate) fn new(settings: &AuditSettings) -> Self {
+        let tolerance_mm = settings.tolerance_mm.max(SMALLEST_TOLERANCE_MM);
         Self {
             window: VecDeque::new(),
             base: 0,
@@ -128,7 +138,10 @@ impl DiagramRows {
             is_ended: false,
             end_position: None,
             default_tolerance_mm: tolerance_mm,
+            direction: settings.direction,
+            tool: None,
             corner_tolerance_mm: 0.0,
+            corner_tolerance_deg: 0.0,
             max_tolerance_mm: tolerance_mm,
             amount: Amount::default(),
         }
@@ -137,6 +150,18 @@ impl DiagramRows {
     /// Largest tolerance so far, mm.
     pub(crate) const fn max_tolerance_mm(&self) -> f64 {
         self.max_tolerance_mm
+    }
+
+    /// A place, with the direction of the tool there.
+    pub(crate) fn place<'a>(&self, axes: &'a AxisVector) -> Place<'a> {
+        let way = self.tool.map_or([0.0; 3], |tool| tool.way_deg(axes));
+        Place { axes, way }
+    }
+
+    /// A chord, with the directions of the tool at its ends.
+    pub(crate) fn chord(&self, from: AxisVector, to: AxisVector) -> Chord {
+        let ways = [&from, &to].map(|end| self.place(end).way);
+        Chord::with_ways(from, to, ways)
     }
 
     /// What has been fed amounts to.
@@ -216,6 +241,16 @@ impl DiagramRows {
         }
     }
 
+    /// What a degree of the rotary axes counts for where a tolerance is in force, mm. A direction is judged as it is,
+    /// whatever rotary axes make of it.
+    fn mm_per_deg(&self, tolerance_mm: f64) -> f64 {
+        if self.tool.is_some() {
+            tolerance_mm / self.direction.in_force_deg(tolerance_mm)
+        } else {
+            self.direction.mm_per_deg(tolerance_mm)
+        }
+    }
+
     fn feed_move(&mut self, line: u32, segment: &Segment, rate: Rate, mode: PathMode) {
         let length = segment.length();
         let is_stop = mode == PathMode::ExactStop;
@@ -225,7 +260,9 @@ impl DiagramRows {
             } => tolerance,
             _ => self.default_tolerance_mm,
         };
+        let mm_per_deg = self.mm_per_deg(end_tolerance_mm);
         let end_tolerance_mm = (end_tolerance_mm - segment.error_mm()).max(SMALLEST_TOLERANCE_MM);
+        let end_tolerance_deg = end_tolerance_mm / mm_per_deg;
         self.max_tolerance_mm = self.max_tolerance_mm.max(end_tolerance_mm);
         let slack = match segment {
             Segment::Line(_) => SLACK,
@@ -248,6 +285,17 @@ impl DiagramRows {
         }
         self.end_position = Some(segment.end());
         let tolerance_mm = end_tolerance_mm.max(self.corner_tolerance_mm) * slack;
+        let along = segment.end() - segment.start();
+        let turn_deg = self.tool.map_or(0.0, |tool| tool.turn_deg(&along));
+        let turn = TurnTolerance {
+            is_way: self.tool.is_some(),
+            mm_per_deg,
+            ..TurnTolerance::of_move(
+                [self.corner_tolerance_deg, end_tolerance_deg],
+                turn_deg,
+                slack,
+            )
+        };
         self.fed.push_back(Move {
             segment: *segment,
             length,
@@ -255,14 +303,16 @@ impl DiagramRows {
             feed_v: rate.feed_v().unwrap_or(f64::INFINITY).min(rate.most_v()),
             tolerance_mm,
             end_tolerance_mm: end_tolerance_mm * slack,
+            turn,
             exact_end: is_stop.then_some(ExactEnd::STOP),
             dwell_t: 0.0,
             is_exact_path: mode == PathMode::ExactPath,
-            chords: chords(segment, tolerance_mm),
+            chords: chords(segment, tolerance_mm).max(turn_chords(turn_deg, end_tolerance_deg)),
             piece: Piece::new(self.amount.moves, segment),
             is_open: true,
         });
         self.corner_tolerance_mm = end_tolerance_mm;
+        self.corner_tolerance_deg = end_tolerance_deg;
     }
 
     /// Nothing more will be fed: the end of the program is an exact stop.
@@ -302,7 +352,7 @@ impl DiagramRows {
                 inner_point(&next.segment, prepared, along_mm, next.chords)
             };
             self.window.push_back(DiagramRow {
-                chord: Chord::new(start, end),
+                chord: self.chord(start, end),
                 tolerance_mm: next.tolerance_mm,
                 end_tolerance_mm: if is_last {
                     next.end_tolerance_mm
@@ -310,6 +360,7 @@ impl DiagramRows {
                     next.tolerance_mm
                 },
                 own_tolerance_mm: next.end_tolerance_mm,
+                turn: next.turn.of_chord(is_last),
                 exact_end: next.exact_end.filter(|_| is_last),
                 dwell_t: if is_last { next.dwell_t } else { 0.0 },
                 feed_v: next.feed_v,

@@ -44,6 +44,11 @@ pub struct AuditReport {
     pub max_deviation_tick: u64,
     /// Line where it was met.
     pub max_deviation_line: u32,
+    /// Largest angle between the direction of the tool and the nearest programmed one at a sample, degrees, where it is
+    /// judged: of those within its tolerance where the tip is off by the least.
+    pub max_direction_deg: Option<f64>,
+    /// Line where it was met.
+    pub max_direction_line: u32,
     /// The largest tolerance in force for a move of the program that uses it (G64), mm; the
     /// configured one if there is none.
     pub tolerance_mm: f64,
@@ -137,6 +142,8 @@ impl AuditReport {
             max_deviation_mm: matching.max_deviation.ratio,
             max_deviation_tick: matching.max_deviation.tick,
             max_deviation_line: matching.max_deviation.line,
+            max_direction_deg: matching.rows.tool.map(|_| matching.max_turn.ratio),
+            max_direction_line: matching.max_turn.line,
             tolerance_mm,
             least_tolerance_mm,
             is_complete: matching.is_complete,

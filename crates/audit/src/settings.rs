@@ -1,7 +1,7 @@
 //! The settings of an audit: limits, period and tolerance that a motion is judged by.
 
 use glidepath_geometry::AxisVector;
-use glidepath_program::{Corners, Limits, Settings};
+use glidepath_program::{Corners, DirectionTolerance, Limits, Settings};
 
 /// The settings of an audit: what a motion is judged by.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -10,9 +10,12 @@ pub struct AuditSettings {
     pub limits: Limits,
     /// Interpolation period in seconds, > 0.
     pub period_t: f64,
-    /// Tolerance in mm where the program gives none (G64 P), > 0: for XYZ together, for UVW
-    /// together, and in degrees for each rotary axis.
+    /// Tolerance in mm where the program gives none (G64 P), > 0: for XYZ together, and for UVW
+    /// together.
     pub tolerance_mm: f64,
+    /// That of the direction of the tool, where it is told how the rotary axes turn it ([`crate::Audit::with_tool`]);
+    /// else that of the rotary axes together.
+    pub direction: DirectionTolerance,
     /// On which side of the program's corners the motion is to be.
     pub corners: Corners,
 }
@@ -34,6 +37,7 @@ impl From<&Settings> for AuditSettings {
             limits: planned.limits,
             period_t: planned.period_t,
             tolerance_mm: planned.tolerance_mm,
+            direction: planned.direction,
             corners: planned.corners,
         }
     }

@@ -106,6 +106,13 @@ pub enum ViolationKind {
         /// The distance a monotone matching needs, mm or degrees.
         deviation_mm: f64,
     },
+    /// The direction of the tool farther from the programmed one than its tolerance.
+    Direction {
+        /// The angle, degrees.
+        off_deg: f64,
+        /// What is allowed there, degrees.
+        allowed_deg: f64,
+    },
     /// An exact stop, or the start or end of the program, was not met.
     ExactStop {
         /// The distance by which it was missed, mm or degrees.
@@ -253,6 +260,10 @@ impl fmt::Display for Violation {
             ViolationKind::Deviation { deviation_mm } => {
                 write!(f, "{deviation_mm:.6} mm off the programmed path")
             }
+            ViolationKind::Direction {
+                off_deg,
+                allowed_deg,
+            } => write_direction(f, [off_deg, allowed_deg]),
             ViolationKind::ExactStop { deviation_mm } => {
                 write!(f, "exact stop missed by {deviation_mm:.6} mm")
             }
@@ -268,15 +279,30 @@ impl fmt::Display for Violation {
                 axis,
                 over_j,
                 allowed_j,
-            } => write!(
-                f,
-                "{axis} has jerk at constant feed that is {over_j:.1}{unit}/s³ off that of the path, where {allowed_j:.1}{unit}/s³ is allowed",
-                unit = unit(axis)
-            ),
+            } => write_unsteady(f, axis, [over_j, allowed_j]),
             ViolationKind::Lost => write!(f, "the motion does not follow the program any more"),
             ViolationKind::Incomplete => write!(f, "the motion ends before the program does"),
         }
     }
+}
+
+fn write_direction(f: &mut fmt::Formatter<'_>, [off_deg, allowed_deg]: [f64; 2]) -> fmt::Result {
+    write!(
+        f,
+        "the tool's direction is {off_deg:.6}° off the programmed one, where {allowed_deg:.6}° is allowed"
+    )
+}
+
+fn write_unsteady(
+    f: &mut fmt::Formatter<'_>,
+    axis: Axis,
+    [over_j, allowed_j]: [f64; 2],
+) -> fmt::Result {
+    write!(
+        f,
+        "{axis} has jerk at constant feed that is {over_j:.1}{unit}/s³ off that of the path, where {allowed_j:.1}{unit}/s³ is allowed",
+        unit = unit(axis)
+    )
 }
 
 /// The unit of an axis, as it stands behind a number.

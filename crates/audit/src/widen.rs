@@ -90,9 +90,8 @@ impl Matching {
         }
         let cap = self.cap();
         let relaxed = |exact_mm| Level {
-            lambda_mm: cap,
             exact_mm,
-            floor_mm: 0.0,
+            ..Level::up_to(cap)
         };
         match self.search(0, EXACT_MM, cap, goal, relaxed) {
             Found::At(deviation_mm) => {
@@ -205,6 +204,24 @@ impl Matching {
         Found::At(high)
     }
 
+    /// What a motion that needed such a width was: off the path with its tip, or with its tool's direction alone.
+    fn told_of(&mut self, deviation_mm: f64, goal: Goal) -> ViolationKind {
+        let any_way = Level {
+            any_way: true,
+            ..Level::up_to(self.cap())
+        };
+        let turn = self.rows.get(self.reach.low).map(|row| row.turn);
+        // Where the program has not been fed far enough, the tip has not left it.
+        let is_tip = self.replay(0, &any_way, goal) == Passage::Blocked;
+        match turn {
+            Some(turn) if turn.is_way && !is_tip => ViolationKind::Direction {
+                off_deg: deviation_mm / turn.mm_per_deg,
+                allowed_deg: turn.along_deg,
+            },
+            _ => ViolationKind::Deviation { deviation_mm },
+        }
+    }
+
     /// The motion is back within tolerance, or at its end: reports how far off it was.
     pub(crate) fn settle(&mut self, goal: Goal) {
         let Some(OutOfTolerance {
@@ -224,10 +241,16 @@ impl Matching {
             Found::At(deviation_mm) => deviation_mm,
             Found::Nowhere | Found::NotYet => floor_mm,
         };
+        let kind = self.told_of(deviation_mm, goal);
         self.replay_and_keep(0, &level(deviation_mm));
-        self.violations
-            .push(tick, line, ViolationKind::Deviation { deviation_mm });
-        self.note_deviation(deviation_mm, tick, line);
+        self.violations.push(tick, line, kind);
+        match kind {
+            ViolationKind::Direction { off_deg, .. } => {
+                self.max_turn.ratio = self.max_turn.ratio.max(off_deg);
+                (self.max_turn.tick, self.max_turn.line) = (tick, line);
+            }
+            _ => self.note_deviation(deviation_mm, tick, line),
+        }
         let Some(at) = self.at else { return };
         core::mem::swap(&mut self.reach, &mut self.scratch[0]);
         if goal == Goal::WithinTolerance {

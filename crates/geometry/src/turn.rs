@@ -45,25 +45,36 @@ impl Turn {
 }
 
 /// Half the largest change of direction at a corner in the sense of the path tolerance: of the XYZ
-/// part, of the UVW part, and of each rotary axis by itself. The deviation of a transition is
-/// proportional to it, and it is [`Turn::sb`] for a corner of XYZ alone.
+/// part, of the UVW part, and of the rotary axes, a degree of which counts for so many mm. The deviation of a
+/// transition is proportional to it, and it is [`Turn::sb`] for a corner of XYZ alone.
 #[must_use]
-pub fn tolerance_half_turn(t1: &AxisVector, t2: &AxisVector) -> f64 {
-    0.5 * tolerance_norm(&(t2 - t1))
+pub fn tolerance_half_turn(t1: &AxisVector, t2: &AxisVector, mm_per_deg: f64) -> f64 {
+    0.5 * tolerance_norm(&(t2 - t1), mm_per_deg)
 }
 
-/// The distance that a tolerance bounds, mm: the XYZ part, the UVW part, or a rotary axis (then in
-/// degrees), whichever is largest.
+/// The distance that a tolerance bounds, mm: the XYZ part, the UVW part, or the rotary axes, whichever is
+/// largest. Each is the root of its sum of squares; a degree of the rotary axes counts for `mm_per_deg`.
 ///
-/// Lengths and angles are not added: a tolerance of 0.02 allows 0.02 mm to the tool centre and
-/// 0.02° to each rotary axis.
+/// Lengths and angles are not added: where a degree counts for a millimetre, a tolerance of 0.02 allows 0.02 mm
+/// to the tip of the tool and 0.02° to the rotary axes together.
 #[inline]
 #[must_use]
-pub fn tolerance_norm(difference: &AxisVector) -> f64 {
-    let rotary = ROTARY_ABC.map(|i| difference[i].abs()).fold(0.0, f64::max);
+pub fn tolerance_norm(difference: &AxisVector, mm_per_deg: f64) -> f64 {
     norm_in(difference, LINEAR_XYZ)
         .max(norm_in(difference, UVW))
-        .max(rotary)
+        .max(rotary_norm(difference) * mm_per_deg)
+}
+
+/// Length of the rotary part, degrees; of one axis alone exactly how far that is.
+#[inline]
+fn rotary_norm(difference: &AxisVector) -> f64 {
+    let largest = ROTARY_ABC.map(|i| difference[i].abs()).fold(0.0, f64::max);
+    let turning = ROTARY_ABC.filter(|&i| difference[i] != 0.0).count();
+    if turning > 1 {
+        norm_in(difference, ROTARY_ABC)
+    } else {
+        largest
+    }
 }
 
 /// The largest magnitude along `direction` that keeps every axis within its limit:

@@ -124,6 +124,7 @@ fn planned() -> Vec<Frame> {
     let settings = Settings {
         limits: mill(),
         tolerance_mm: 0.02,
+        direction: glidepath_program::DirectionTolerance::default(),
         smoothing: Smoothing::Sextic,
         corners: glidepath_program::Corners::default(),
         period_t: 0.004,

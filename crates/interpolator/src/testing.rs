@@ -69,6 +69,7 @@ pub(crate) fn planned(
     let settings = Settings {
         limits,
         tolerance_mm: 0.02,
+        direction: glidepath_program::DirectionTolerance::default(),
         smoothing: Smoothing::Auto,
         corners: glidepath_program::Corners::default(),
         period_t: 0.004,

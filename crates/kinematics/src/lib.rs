@@ -55,6 +55,7 @@ mod calibration;
 mod compensation;
 mod core_xy;
 mod curve_rates;
+mod direction_gain;
 mod error;
 mod five_axis;
 mod five_bar;

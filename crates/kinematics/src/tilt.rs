@@ -46,6 +46,12 @@ impl SkewedTilt {
         (is_apart && matches!(axis, Axis::A | Axis::B)).then_some(Self { axis, direction })
     }
 
+    /// The letter of the axis.
+    #[must_use]
+    pub const fn axis_letter(&self) -> Axis {
+        self.axis
+    }
+
     /// The direction, of length 1.
     #[must_use]
     pub const fn direction(&self) -> &Vector3<f64> {
@@ -87,7 +93,7 @@ impl Tilt {
         match self {
             Self::A => Axis::A,
             Self::B => Axis::B,
-            Self::Skewed(skewed) => skewed.axis,
+            Self::Skewed(skewed) => skewed.axis_letter(),
         }
     }
 

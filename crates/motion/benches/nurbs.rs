@@ -89,6 +89,7 @@ fn plans(name: &str, path: &NurbsPath) {
         let settings = Settings {
             limits,
             tolerance_mm,
+            direction: glidepath_program::DirectionTolerance::default(),
             smoothing: Smoothing::Auto,
             corners: glidepath_program::Corners::default(),
             period_t: 0.004,

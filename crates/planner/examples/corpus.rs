@@ -168,6 +168,7 @@ fn settings(effort: Effort, smoothing: Smoothing, corners: Corners) -> Settings 
     Settings {
         limits: Limits::uniform(200.0, 2000.0, JERK_J),
         tolerance_mm: 0.02,
+        direction: glidepath_program::DirectionTolerance::default(),
         smoothing,
         corners,
         period_t: PERIOD_T,

@@ -55,7 +55,7 @@ pub use item::{
 };
 pub use limits::{Limits, PathBounds};
 pub use override_::Override;
-pub use settings::{Corners, Effort, Settings, Smoothing};
+pub use settings::{Corners, DirectionTolerance, Effort, Settings, Smoothing};
 pub use travel::Travel;
 // Who judges a deviation measures it as everybody else does.
 pub use glidepath_geometry::tolerance_norm;

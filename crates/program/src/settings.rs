@@ -56,14 +56,56 @@ impl Effort {
     }
 }
 
+/// How far the direction of the tool may be from the programmed one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DirectionTolerance {
+    /// Degrees, > 0, whatever the tolerance of the tip is. `None`: as many degrees as that has mm; then a flank is
+    /// off by no more than the tip may be, up to 57 mm above it (1 mm is a degree there).
+    pub angle_deg: Option<f64>,
+    /// By how many degrees the direction turns at most where the rotary axes turn by one together (the root of
+    /// their sum of squares), > 0.
+    pub turn_r: f64,
+}
+
+/// As many degrees as the tolerance of the tip has mm, for rotary axes that turn the tool by no more than they turn.
+impl Default for DirectionTolerance {
+    fn default() -> Self {
+        Self {
+            angle_deg: None,
+            turn_r: 1.0,
+        }
+    }
+}
+
+impl DirectionTolerance {
+    /// Share of the tolerance by which whoever reads a program may change a direction where it passes the pole. What it
+    /// gives out may be off by twice that, and the rest is left to the motion.
+    pub const POLE_R: f64 = 0.05;
+
+    /// Degrees, where the tolerance of the tip is so many mm.
+    #[must_use]
+    pub fn in_force_deg(&self, tolerance_mm: f64) -> f64 {
+        self.angle_deg.unwrap_or(tolerance_mm)
+    }
+
+    /// What a degree of the rotary axes counts for in [`crate::tolerance_norm`], where the tolerance of the tip is
+    /// so many mm: within it the direction is within its tolerance.
+    #[must_use]
+    pub fn mm_per_deg(&self, tolerance_mm: f64) -> f64 {
+        self.turn_r * self.angle_deg.map_or(1.0, |deg| tolerance_mm / deg)
+    }
+}
+
 /// Everything a plan depends on besides the program.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
     /// What each axis can do.
     pub limits: Limits,
     /// Tolerance in mm, smoothing and chord error together, > 0; G64 P overrides it. It holds for
-    /// the XYZ group, the UVW group, and (in degrees) for the rotary axes.
+    /// the XYZ group and for the UVW group.
     pub tolerance_mm: f64,
+    /// That of the rotary axes.
+    pub direction: DirectionTolerance,
     /// How corners are passed; what names a curve is planned with [`Effort::Fast`].
     pub smoothing: Smoothing,
     /// On which side of them [`Effort::Optimal`] may be. [`Effort::Fast`] rounds them, on the inner one.

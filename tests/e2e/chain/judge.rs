@@ -136,6 +136,7 @@ pub(super) fn judge(all: &[Vec<Row>; JOINTS], period_t: f64, planned: f64) -> Ve
         limits: settings().limits,
         period_t,
         tolerance_mm: 0.02,
+        direction: glidepath_program::DirectionTolerance::default(),
         corners: glidepath_program::Corners::default(),
     });
     let spans = missing_spans(&all[0]);

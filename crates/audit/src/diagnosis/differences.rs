@@ -74,7 +74,7 @@ impl Differences {
         } else {
             second
         };
-        tolerance_norm(&across) / 8.0
+        tolerance_norm(&across, 1.0) / 8.0
     }
 }
 

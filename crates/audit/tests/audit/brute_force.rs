@@ -23,8 +23,10 @@ fn place(size: f64) -> impl Strategy<Value = AxisVector> {
 
 fn distance(a: &AxisVector, b: &AxisVector) -> f64 {
     let d = a - b;
-    let rotary = (3..6).map(|i| d[i].abs()).fold(0.0, f64::max);
-    d.rows(0, 3).norm().max(d.rows(6, 3).norm()).max(rotary)
+    [0, 3, 6]
+        .map(|first| d.rows(first, 3).norm())
+        .into_iter()
+        .fold(0.0, f64::max)
 }
 
 /// Points on a polygon at most `step` apart.

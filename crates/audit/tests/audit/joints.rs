@@ -19,6 +19,7 @@ fn judged(positions: &[[f64; 2]]) -> AuditReport {
         limits: Limits::uniform(1.0, 1.0, 1.0),
         period_t: PERIOD_T,
         tolerance_mm: 0.02,
+        direction: glidepath_program::DirectionTolerance::default(),
         corners: Corners::default(),
     })
     .with_joints(vec![bounds(1.0), bounds(0.5)]);
@@ -125,6 +126,7 @@ fn bound_by(factor: f64, with_joints: bool) -> Vec<Binding> {
         limits: Limits::uniform(1e5, 1e7, 1e10),
         period_t: PERIOD_T,
         tolerance_mm: 0.02,
+        direction: glidepath_program::DirectionTolerance::default(),
         corners: Corners::default(),
     };
     let mut diagnosis = Diagnosis::new(&settings);

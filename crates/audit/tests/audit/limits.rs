@@ -49,6 +49,7 @@ fn judge(limits: Limits, samples: &[Sample]) -> AuditReport {
         limits,
         period_t: PERIOD,
         tolerance_mm: TOLERANCE,
+        direction: glidepath_program::DirectionTolerance::default(),
         corners: glidepath_program::Corners::default(),
     };
     let mut audit = Audit::new(&settings);
@@ -212,6 +213,7 @@ fn rounding_far_from_the_origin_is_no_jerk() {
         limits,
         period_t,
         tolerance_mm: TOLERANCE,
+        direction: glidepath_program::DirectionTolerance::default(),
         corners: glidepath_program::Corners::default(),
     });
     // At rest, but for the last bit of the coordinate.

@@ -3,6 +3,7 @@
 mod arcs;
 mod brute_force;
 mod deviation;
+mod direction;
 mod joints;
 mod limits;
 mod planted;
@@ -31,6 +32,7 @@ fn settings(limit: f64) -> AuditSettings {
         limits: Limits::uniform(limit, limit, limit),
         period_t: PERIOD,
         tolerance_mm: TOLERANCE,
+        direction: glidepath_program::DirectionTolerance::default(),
         corners: glidepath_program::Corners::default(),
     }
 }

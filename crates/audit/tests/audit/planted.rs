@@ -131,7 +131,7 @@ proptest! {
         let judge = |limit: f64, displaced: f64| {
             let mut limits = Limits::uniform(1e12, 1e12, 1e12);
             limits.jerk[axis] = limit;
-            let settings = AuditSettings { limits, period_t: PERIOD, tolerance_mm: TOLERANCE, corners: glidepath_program::Corners::default() };
+            let settings = AuditSettings { limits, period_t: PERIOD, tolerance_mm: TOLERANCE, direction: glidepath_program::DirectionTolerance::default(), corners: glidepath_program::Corners::default() };
             let mut audit = Audit::new(&settings);
             let mut worst = 0;
             for tick in 0..=60_u32 {

@@ -16,6 +16,7 @@ fn settings() -> AuditSettings {
         limits,
         period_t: PERIOD,
         tolerance_mm: TOLERANCE,
+        direction: glidepath_program::DirectionTolerance::default(),
         corners: glidepath_program::Corners::default(),
     }
 }

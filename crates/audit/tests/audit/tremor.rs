@@ -44,6 +44,7 @@ fn settings(limits: Limits) -> AuditSettings {
         limits,
         period_t: PERIOD,
         tolerance_mm: TOLERANCE,
+        direction: glidepath_program::DirectionTolerance::default(),
         corners: glidepath_program::Corners::default(),
     }
 }

@@ -12,6 +12,7 @@ pub(crate) fn audited(setup: &Setup, records: &[Vec<SyncRecord>]) -> AuditReport
         limits: limits(),
         period_t: setup.bus.period_ns as f64 * 1e-9,
         tolerance_mm: 0.02,
+        direction: glidepath_program::DirectionTolerance::default(),
         corners: glidepath_program::Corners::default(),
     });
     let count = records.iter().map(Vec::len).min().unwrap_or(0);

@@ -300,7 +300,7 @@ impl Interpreter {
                 if self.has_corners(block) && motion == Motion::Linear {
                     self.move_between_corners(block, CornerMove { target, arc: None }, out)?;
                 } else {
-                    self.straight(block, target, pace, out)?;
+                    self.straight_to_direction(block, target, pace, out)?;
                 }
             }
             Motion::ArcClockwise | Motion::ArcCounterclockwise => self.arc(block, motion, out)?,

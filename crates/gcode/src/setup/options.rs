@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_kinematics::FiveAxis;
+use glidepath_program::DirectionTolerance;
 
 use crate::execute::state::in_force::InForce;
 use crate::execute::state::tip::Tip;
@@ -71,6 +72,12 @@ pub struct Options {
     pub spindle_axis: Option<SpindleAxis>,
     /// Whether the feed follows an input of the machine (M52).
     pub adaptive_feed: AdaptiveFeed,
+    /// The tolerance of the path where no G64 P gives one, mm; 0: directions of the tool are taken to the letter.
+    pub tolerance_mm: f64,
+    /// That of the direction of the tool.
+    pub direction: DirectionTolerance,
+    /// Whether a rapid move to a direction of the tool may turn C back from the end of its travel.
+    pub unwinds_at_rapid: bool,
     /// How far the pieces a spline is made of may be away from it, mm, > 0. G64 P overrides it with
     /// a thousandth of P.
     pub spline_tolerance_mm: f64,
@@ -199,6 +206,9 @@ impl Default for Options {
             threading: None,
             spindle_axis: None,
             adaptive_feed: AdaptiveFeed::None,
+            tolerance_mm: 0.0,
+            direction: DirectionTolerance::default(),
+            unwinds_at_rapid: false,
             spline_tolerance_mm: 1e-5,
             tolerance_ratio: 1.0,
             m_codes: Arc::default(),

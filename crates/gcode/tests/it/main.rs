@@ -43,6 +43,7 @@ mod machining;
 mod motion;
 mod orientations;
 mod plain_lines;
+mod poles;
 mod posts;
 mod printers;
 mod probing;

@@ -243,7 +243,7 @@ impl Pass {
 
 /// An audit of a plan for a machine, its joints and all.
 fn audit(config: &MachineConfig) -> Audit {
-    let audit = Audit::new(&config.judged().beginning_at(&config.start()));
+    let audit = config.audit_at(&config.start());
     match config.joint_bounds() {
         Some(bounds) => audit.with_joints(bounds),
         None => audit,

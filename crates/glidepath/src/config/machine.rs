@@ -239,6 +239,7 @@ impl MachineConfig {
         Settings {
             limits: self.axis_limits(),
             tolerance_mm: self.path.tolerance_mm,
+            direction: self.direction_tolerance(),
             smoothing: self.path.smoothing,
             corners: self.path.corners,
             period_t: self.period_t(),
@@ -350,6 +351,9 @@ impl MachineConfig {
             watch: self.program.watch.clone(),
             m_codes: Arc::new(m_codes),
             waits_for_speed: self.waits_for_speed(),
+            tolerance_mm: self.path.tolerance_mm,
+            direction: self.direction_tolerance(),
+            unwinds_at_rapid: self.program.unwinds_at_rapid,
             spline_tolerance_mm: SPLINE_SHARE * self.path.tolerance_mm,
             tolerance_ratio: self.program.tolerance_ratio,
             loops: LoopLimits {

@@ -23,6 +23,7 @@ mod raw;
 mod settings;
 mod spindle;
 mod tolerance_ratio;
+mod tool_axis;
 mod tree;
 
 pub use compensation::Compensation;

@@ -36,6 +36,8 @@ pub struct ProgramConfig {
     pub connections: Connections,
     /// The axis E words move.
     pub extruder: Option<Axis>,
+    /// Whether a rapid move to a direction of the tool may turn C back from the end of its travel.
+    pub unwinds_at_rapid: bool,
     /// The firmware of the printer.
     pub firmware: Option<Firmware>,
     /// What is in force when the program begins, behind others of the same service.

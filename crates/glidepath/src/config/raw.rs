@@ -77,6 +77,7 @@ pub(super) struct RawProgram {
     pub(super) bore_shift: Optional<String>,
     pub(super) outer_corners: Optional<String>,
     pub(super) lathe_feed: Optional<String>,
+    pub(super) unwind: Optional<String>,
     pub(super) tool_change: Optional<String>,
     pub(super) edge_after_change: Optional<String>,
     pub(super) d_numbers: Optional<String>,
@@ -133,6 +134,7 @@ pub(super) struct RawAxis {
 #[serde(deny_unknown_fields, default)]
 pub(super) struct RawPath {
     pub(super) tolerance: Optional<f64>,
+    pub(super) direction_tolerance: Optional<f64>,
     pub(super) smoothing: Optional<String>,
     pub(super) corners: Optional<String>,
     pub(super) effort: Optional<String>,

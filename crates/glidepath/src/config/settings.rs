@@ -32,6 +32,8 @@ pub(super) const MOST_OF_AXES: [f64; 3] = [1e5, 1e7, 1e10];
 pub struct PathConfig {
     /// mm, smoothing and chord error together.
     pub tolerance_mm: f64,
+    /// Degrees, of the direction of the tool, or of rotary axes that turn none; `None`: as many as the tolerance has mm.
+    pub direction_deg: Option<f64>,
     /// The curve at corners.
     pub smoothing: Smoothing,
     /// The side of corners.

@@ -54,6 +54,12 @@ pub struct MotionReport {
     pub least_tolerance_mm: f64,
     /// Largest distance between programmed path and motion, either way, mm.
     pub max_deviation_mm: f64,
+    /// Largest angle between the direction of the tool and the programmed one, degrees, where rotary axes turn it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_direction_deg: Option<f64>,
+    /// The largest tolerance of that in force for a move, degrees.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub direction_tolerance_deg: Option<f64>,
     /// How far an axis was beyond an end of its travel at most, mm or degrees; 0 if none was.
     pub max_beyond_travel_mm: f64,
     /// Largest velocity, as a share of the axis' limit.
@@ -142,6 +148,11 @@ impl MotionReport {
             tolerance_mm: audit.tolerance_mm,
             least_tolerance_mm: audit.least_tolerance_mm,
             max_deviation_mm: audit.max_deviation_mm,
+            max_direction_deg: audit.max_direction_deg,
+            direction_tolerance_deg: audit.max_direction_deg.map(|_| {
+                let direction = config.settings().direction;
+                direction.in_force_deg(audit.tolerance_mm)
+            }),
             max_beyond_travel_mm: audit.max_beyond_travel_mm,
             max_velocity_ratio: audit.max_velocity_ratio.ratio,
             max_acceleration_ratio: audit.max_acceleration_ratio.ratio,
@@ -216,6 +227,14 @@ impl MotionReport {
             self.max_deviation_mm,
             self.tolerances()
         )?;
+        if let (Some(off_deg), Some(allowed_deg)) =
+            (self.max_direction_deg, self.direction_tolerance_deg)
+        {
+            writeln!(
+                text,
+                "  direction     {off_deg:.4}° of {allowed_deg}° allowed"
+            )?;
+        }
         writeln!(
             text,
             "  limits used   velocity {}, acceleration {}, jerk {}, feed {}",

@@ -95,7 +95,7 @@ fn a_misspelt_key_is_refused_with_the_right_one() {
     assert_eq!(message, "unknown key `qqqq`");
     assert_eq!(
         help,
-        "the keys here are: tolerance, smoothing, corners, effort, default_feed, \
+        "the keys here are: tolerance, direction_tolerance, smoothing, corners, effort, default_feed, \
          max_tangential_acceleration, max_normal_acceleration, max_jerk"
     );
 }

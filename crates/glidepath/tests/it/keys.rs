@@ -47,7 +47,7 @@ fn machine_with(key: &str) -> Table {
         let own = "[machine]\nkinematics = 'linear-delta'\n[machine.linear-delta]\nrod = 2000\nradius = 500\n";
         return parsed(&format!("{own}{}{}", axes("XYZ"), joints(3)));
     }
-    if key.starts_with("machine.five-axis") {
+    if key.starts_with("machine.five-axis") || key == "path.direction_tolerance" {
         let own = format!(
             "[machine]\nkinematics = 'five-axis'\n[machine.five-axis]\nlayout = '{layout}'\n\
              tilt = 'A'\ntool = 100\n"
@@ -354,7 +354,7 @@ fn keys_are_found_by_every_name_of_theirs() {
     assert_eq!(names("axis.Y.max_jerk"), ["axis.X.max_jerk"]);
     assert_eq!(names("joint.J4.max_jerk"), ["joint.J0.max_jerk"]);
     assert_eq!(names("path.tolerance"), ["path.tolerance"]);
-    assert_eq!(names("path").len(), 8);
+    assert_eq!(names("path").len(), 9);
     assert_eq!(
         names("max_jerk"),
         ["axis.X.max_jerk", "joint.J0.max_jerk", "path.max_jerk"]

@@ -35,5 +35,6 @@ mod superposition;
 #[path = "../support/mod.rs"]
 mod support;
 mod told_commands;
+mod tool_directions;
 mod travel;
 mod unchecked_loops;

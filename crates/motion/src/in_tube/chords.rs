@@ -29,6 +29,7 @@ pub(super) struct CutMove {
     done: u32,
     count: u32,
     error_mm: f64,
+    mm_per_deg: f64,
     most_v: f64,
 }
 
@@ -38,6 +39,8 @@ pub(super) struct FlatChord {
     pub(super) end: AxisVector,
     pub(super) rate: Rate,
     pub(super) tolerance_mm: f64,
+    /// What a degree of the rotary axes counts for, mm.
+    pub(super) mm_per_deg: f64,
     /// Distance from the program, mm.
     pub(super) error_mm: f64,
     /// From the middle of the chord to the program.
@@ -50,17 +53,18 @@ pub(super) struct FlatChord {
 
 impl FlatChord {
     pub(super) fn length_mm(&self) -> f64 {
-        tolerance_norm(&(self.end - self.start))
+        tolerance_norm(&(self.end - self.start), self.mm_per_deg)
     }
 }
 
 impl CutMove {
     pub(super) fn new(of: Move, settings: &Settings) -> Self {
+        let mm_per_deg = settings.direction.mm_per_deg(of.tolerance_mm);
         let (count, error_mm) = match &of.segment {
             Segment::Line(_) => (1, 0.0),
             Segment::Arc(arc) => cuts(arc, FLATTENING_R * of.tolerance_mm),
             Segment::Curve(curve) => {
-                let second_k = tolerance_norm(&curve.bounds().d2);
+                let second_k = tolerance_norm(&curve.bounds().d2, mm_per_deg);
                 let allowed_mm = FLATTENING_R * of.tolerance_mm;
                 let turn_rad = second_k * curve.length;
                 let (count, error_mm) = chords_of((curve.length, second_k, turn_rad), allowed_mm);
@@ -69,7 +73,13 @@ impl CutMove {
         };
         Self {
             at: of.segment.start(),
-            most_v: most_speed(&of.segment, of.tolerance_mm - error_mm, settings),
+            most_v: most_speed(
+                &of.segment,
+                of.tolerance_mm - error_mm,
+                mm_per_deg,
+                settings,
+            ),
+            mm_per_deg,
             of,
             done: 0,
             count,
@@ -106,6 +116,7 @@ impl CutMove {
             rate: self.of.rate,
             tolerance_mm: self.of.tolerance_mm,
             error_mm: self.error_mm,
+            mm_per_deg: self.mm_per_deg,
             most_v: self.most_v,
             line: self.of.line,
             events: core::mem::take(&mut self.of.events),
@@ -115,9 +126,9 @@ impl CutMove {
 
 /// The speed up to which the chord of a period is away from a segment by [`CHORD_R`] of a tolerance, mm/s; infinite
 /// for a line, and for what is cut more than it bends.
-fn most_speed(segment: &Segment, tolerance_mm: f64, settings: &Settings) -> f64 {
+fn most_speed(segment: &Segment, tolerance_mm: f64, mm_per_deg: f64, settings: &Settings) -> f64 {
     // The height of a chord grows with the square of the speed; at this one it is the tolerance.
-    let whole_v = chord_speed(segment, tolerance_mm, settings);
+    let whole_v = chord_speed(segment, tolerance_mm, mm_per_deg, settings);
     let chord_mm = whole_v * settings.period_t;
     let radius_mm = chord_mm * chord_mm / (8.0 * tolerance_mm);
     if radius_mm < LEAST_RADIUS_R * tolerance_mm {
@@ -163,6 +174,7 @@ mod tests {
         let settings = Settings {
             limits: Limits::uniform(200.0, 2000.0, 40_000.0),
             tolerance_mm: 0.02,
+            direction: glidepath_program::DirectionTolerance::default(),
             smoothing: Smoothing::Auto,
             corners: Corners::default(),
             period_t: 0.004,
@@ -178,13 +190,13 @@ mod tests {
             center: [0.0, 0.0],
             sweep_rad: core::f64::consts::TAU,
         });
-        let speed_v = most_speed(&arc, 0.001, &settings);
+        let speed_v = most_speed(&arc, 0.001, 1.0, &settings);
         let half_rad = 0.5 * speed_v * settings.period_t / radius_mm;
         let height_r = radius_mm * (1.0 - half_rad.cos()) / 0.001;
         assert!((height_r - 0.8).abs() < 1e-3, "{height_r}");
         // A line, and an arc of 30 tolerances.
         let line = Segment::line(start, AxisVector::zeros());
-        assert!(most_speed(&line, 0.001, &settings).is_infinite());
-        assert!(most_speed(&arc, 0.1, &settings).is_infinite());
+        assert!(most_speed(&line, 0.001, 1.0, &settings).is_infinite());
+        assert!(most_speed(&arc, 0.1, 1.0, &settings).is_infinite());
     }
 }

@@ -138,7 +138,7 @@ impl Flattener {
         } = open;
         // How far what it was drawn together from is beside it; of a chord of a curve, the curve.
         let drawn_mm = if dropped.is_empty() {
-            tolerance_norm(&chord.sagitta_vector)
+            tolerance_norm(&chord.sagitta_vector, chord.mm_per_deg)
         } else {
             dropped.error_mm
         };
@@ -153,7 +153,7 @@ impl Flattener {
             end: chord.end,
             top_v: rate.axes_v,
             tolerance_mm: left_mm,
-            tolerance_deg: left_mm,
+            tolerance_deg: left_mm / chord.mm_per_deg,
             sagitta_vector: chord.sagitta_vector,
             straight: straightness(&chord, drawn_mm, ruled_mm),
             beyond_mm: BEYOND_MM,
@@ -206,7 +206,7 @@ impl OpenChord {
     /// left at the end of a stretch.
     fn absorb(&mut self, next: &FlatChord) -> bool {
         let left = next.end - next.start;
-        let error_mm = self.chord.error_mm + tolerance_norm(&left);
+        let error_mm = self.chord.error_mm + tolerance_norm(&left, self.chord.mm_per_deg);
         let is_short = left.amax() < SHORTEST_MOVE_MM && next.events.is_empty();
         if !is_short || error_mm > 2.0 * MERGING_R * self.chord.tolerance_mm {
             return false;
@@ -247,9 +247,11 @@ impl OpenChord {
         };
         let base_mm = (chord.error_mm - self.dropped.error_mm).max(next.error_mm);
         if !alike
-            || !self
-                .dropped
-                .extend(&chord.start, &chord.end, &next.end, allowed_mm)
+            || !self.dropped.extend(
+                [&chord.start, &chord.end, &next.end],
+                allowed_mm,
+                chord.mm_per_deg,
+            )
         {
             return false;
         }

@@ -42,13 +42,12 @@ impl Dropped {
     }
 
     /// Drops the vertex `through` if the line from `start` to `end` stays within `allowed_mm` of it
-    /// and of those dropped before. Changes nothing if not.
+    /// and of those dropped before, where a degree of the rotary axes counts for so many mm. Changes nothing if not.
     pub(crate) fn extend(
         &mut self,
-        start: &AxisVector,
-        through: &AxisVector,
-        end: &AxisVector,
+        [start, through, end]: [&AxisVector; 3],
         allowed_mm: f64,
+        mm_per_deg: f64,
     ) -> bool {
         let (before, after) = (through - start, end - through);
         let line = end - start;
@@ -65,7 +64,7 @@ impl Dropped {
             let offset = vertex - start;
             let u = group.clone().map(|i| offset[i] * line[i]).sum::<f64>() / square_mm2;
             let across = offset - line * u;
-            let distance_mm = tolerance_norm(&across);
+            let distance_mm = tolerance_norm(&across, mm_per_deg);
             if !(passed_u..=1.0).contains(&u) || distance_mm > allowed_mm {
                 return false;
             }
@@ -83,7 +82,7 @@ impl Dropped {
             AxisVector::zeros()
         };
         let (size_mm, most_mm) = (
-            tolerance_norm(&sagitta_vector),
+            tolerance_norm(&sagitta_vector, mm_per_deg),
             MOST_SAGITTA_VECTOR_R * error_mm,
         );
         self.sagitta_vector = if size_mm > most_mm {
@@ -108,14 +107,14 @@ mod tests {
         };
         let (start, end) = (at(0.0, 0.0), at(20.0, 0.0));
         let mut dropped = Dropped::default();
-        assert!(dropped.extend(&start, &at(0.02, 0.001), &end, 0.002));
+        assert!(dropped.extend([&start, &at(0.02, 0.001), &end], 0.002, 1.0));
         assert!(
-            tolerance_norm(&dropped.sagitta_vector) <= 0.0021,
+            tolerance_norm(&dropped.sagitta_vector, 1.0) <= 0.0021,
             "{}",
             dropped.sagitta_vector
         );
         let mut middle = Dropped::default();
-        assert!(middle.extend(&start, &at(10.0, 0.001), &end, 0.002));
+        assert!(middle.extend([&start, &at(10.0, 0.001), &end], 0.002, 1.0));
         assert!(
             (middle.sagitta_vector[1] - 0.001).abs() < 1e-12,
             "{}",

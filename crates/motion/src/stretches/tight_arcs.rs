@@ -24,7 +24,9 @@ pub(crate) fn has_tight_arcs(items: &[Item], settings: &Settings) -> bool {
             mode,
         } => {
             let tolerance_mm = mode.tolerance_mm(settings.tolerance_mm);
-            let tight_v = TIGHT_R.sqrt() * chord_speed(&segment, tolerance_mm, settings);
+            let mm_per_deg = settings.direction.mm_per_deg(tolerance_mm);
+            let tight_v =
+                TIGHT_R.sqrt() * chord_speed(&segment, tolerance_mm, mm_per_deg, settings);
             most_mm > TIGHT_R * tolerance_mm && rate.feed_v().is_some_and(|feed_v| feed_v > tight_v)
         }
         _ => false,
@@ -46,6 +48,7 @@ mod tests {
         let settings = Settings {
             limits,
             tolerance_mm: 0.02,
+            direction: glidepath_program::DirectionTolerance::default(),
             smoothing: Smoothing::Auto,
             corners: Corners::default(),
             period_t: 0.004,

@@ -28,6 +28,7 @@ fn sheet(period_t: f64) -> Settings {
     Settings {
         limits,
         tolerance_mm: 0.001,
+        direction: glidepath_program::DirectionTolerance::default(),
         smoothing: Smoothing::Auto,
         corners: glidepath_program::Corners::default(),
         period_t,

@@ -173,6 +173,7 @@ fn a_curve_at_the_edge_of_its_tolerance_is_bound_by_the_tolerance() {
         limits: mill().limits,
         period_t: 0.004,
         tolerance_mm: 0.02,
+        direction: glidepath_program::DirectionTolerance::default(),
         corners: glidepath_program::Corners::default(),
     });
     diagnosis.program(&items[0]);

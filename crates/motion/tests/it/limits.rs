@@ -46,6 +46,7 @@ fn settings(limits: Limits, tolerance_mm: f64, smoothing: Smoothing, period_t: f
     Settings {
         limits,
         tolerance_mm,
+        direction: glidepath_program::DirectionTolerance::default(),
         smoothing,
         corners: glidepath_program::Corners::default(),
         period_t,

@@ -68,6 +68,7 @@ fn settings([velocity, acceleration, jerk]: [f64; 3], effort: Effort) -> Setting
     Settings {
         limits: Limits::uniform(velocity, acceleration, jerk),
         tolerance_mm: 0.02,
+        direction: glidepath_program::DirectionTolerance::default(),
         smoothing: Smoothing::Auto,
         corners: glidepath_program::Corners::default(),
         period_t: 0.004,

@@ -45,6 +45,7 @@ impl Machine {
         Settings {
             limits: Limits::uniform(self.velocity_v, self.acceleration_a, self.jerk_j),
             tolerance_mm: setup.tolerance_mm(),
+            direction: glidepath_program::DirectionTolerance::default(),
             smoothing: Smoothing::Auto,
             corners: setup.corners,
             period_t: setup.period_t,

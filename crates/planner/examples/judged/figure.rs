@@ -56,7 +56,7 @@ impl Figure {
         report: &AuditReport,
         shape: ShapeReport,
     ) -> Self {
-        let most_a = tolerance_norm(&report.max_acceleration);
+        let most_a = tolerance_norm(&report.max_acceleration, 1.0);
         let chord_mm = most_a * period_t * period_t / 8.0;
         Self {
             shape,

@@ -15,6 +15,7 @@ fn small_circles_take_as_long_in_chords_of_any_length() {
         let settings = Settings {
             limits: Limits::uniform(200.0, 2000.0, 40_000.0),
             tolerance_mm: 0.02,
+            direction: glidepath_program::DirectionTolerance::default(),
             smoothing: Smoothing::Auto,
             corners: glidepath_program::Corners::default(),
             period_t,

@@ -173,6 +173,7 @@ fn judge(case: &Case, text: &str, settings: Settings, mut joints: Option<Joints>
         limits: settings.limits,
         period_t: settings.period_t,
         tolerance_mm: TOLERANCE_MM,
+        direction: glidepath_program::DirectionTolerance::default(),
         corners: glidepath_program::Corners::default(),
     });
     let (mut chord_t, mut frame_t, mut uneven) = (0.0, 0.0, 0);

@@ -47,6 +47,7 @@ fn settings((velocity, acceleration, jerk): (f64, f64, f64), period_t: f64) -> S
     Settings {
         limits: Limits::uniform(velocity, acceleration, jerk),
         tolerance_mm: 0.02,
+        direction: glidepath_program::DirectionTolerance::default(),
         smoothing: Smoothing::Auto,
         corners: glidepath_program::Corners::default(),
         period_t,

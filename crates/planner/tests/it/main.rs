@@ -4,6 +4,7 @@ mod called_files;
 mod chords;
 mod curves;
 mod curves_on_machines;
+mod directions;
 mod families;
 mod from_line;
 mod joints;

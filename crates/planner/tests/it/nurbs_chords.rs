@@ -57,6 +57,7 @@ fn no_chord_is_beyond_the_tolerance() {
                             Settings {
                                 limits,
                                 tolerance_mm,
+                                direction: glidepath_program::DirectionTolerance::default(),
                                 smoothing: Smoothing::Auto,
                                 corners: glidepath_program::Corners::default(),
                                 period_t,

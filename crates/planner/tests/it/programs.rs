@@ -66,6 +66,7 @@ impl Profile {
         Settings {
             limits: Limits::uniform(velocity, acceleration, jerk),
             tolerance_mm: self.tolerance_mm,
+            direction: glidepath_program::DirectionTolerance::default(),
             smoothing,
             corners: Corners::Either,
             period_t: PERIOD_T,

@@ -115,6 +115,7 @@ fn deviation(items: &[Item], positions: impl Iterator<Item = AxisVector>) -> f64
         limits: Limits::uniform(1e6, 1e9, 1e12),
         period_t: 0.004,
         tolerance_mm: 0.02,
+        direction: glidepath_program::DirectionTolerance::default(),
         corners: glidepath_program::Corners::default(),
     });
     for item in items {

@@ -56,6 +56,7 @@ fn settings() -> Settings {
     Settings {
         limits: Limits::uniform(200.0, 2000.0, JERK_J),
         tolerance_mm: 0.02,
+        direction: glidepath_program::DirectionTolerance::default(),
         smoothing: Smoothing::Auto,
         // As the least times are.
         corners: Corners::Either,

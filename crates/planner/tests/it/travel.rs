@@ -60,6 +60,7 @@ impl Box3 {
         Settings {
             limits,
             tolerance_mm,
+            direction: glidepath_program::DirectionTolerance::default(),
             smoothing: Smoothing::Auto,
             corners: glidepath_program::Corners::default(),
             period_t,

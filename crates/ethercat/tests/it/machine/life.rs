@@ -26,6 +26,7 @@ pub(crate) fn plan(text: &str, start: AxisVector, epoch: u64) -> Vec<SetpointFra
     let settings = PlanSettings {
         limits: limits(),
         tolerance_mm: 0.02,
+        direction: glidepath_program::DirectionTolerance::default(),
         smoothing: Smoothing::Auto,
         corners: glidepath_program::Corners::default(),
         period_t: 0.004,

@@ -6,6 +6,7 @@ pub(crate) mod arc_ends;
 mod arc_in_space;
 mod arc_plane;
 pub(crate) mod axis_words;
+mod by_pole;
 mod chords;
 pub(crate) mod corner;
 mod corner_geometry;

@@ -260,7 +260,9 @@ impl Interpreter {
             );
         }
         let here = *self.axes_place();
-        let Some(angles) = machine.angles_deg(&direction, (here[tilt], here[rotary])) else {
+        let near = (here[tilt], here[rotary]);
+        let by_pole = self.angles_by_pole(machine, &direction, near);
+        let Some(angles) = by_pole.or_else(|| machine.angles_deg(&direction, near)) else {
             return refuse(
                 "a direction that the tool cannot stand along",
                 "the tilt axis is skewed, and does not lean the tool so far",

@@ -49,7 +49,7 @@ impl Follows {
             let options = config.program_options(stands);
             FileSource::unchecked(path, options, &config.settings())
         };
-        let settings = config.judged().beginning_at(&stands);
+        let settings = config.judged_at(&stands);
         // Another override plans other frames.
         #[allow(clippy::float_cmp, reason = "an override of 100 % is exactly 1")]
         let is_plain = least == 1.0 && most == 1.0;
@@ -68,7 +68,7 @@ impl Follows {
             None
         };
         Ok(Self {
-            audit: Audit::new(&settings).with_override(most.max(1.0)),
+            audit: config.audit_at(&stands).with_override(most.max(1.0)),
             shape: ShapeAudit::new(&settings),
             // After a pass over all of it, which identifies it.
             program: FileSource::open(path, config.program_options(stands), &config.settings())?,

@@ -160,8 +160,8 @@ impl Judge {
     fn new(path: &Path, config: &MachineConfig, stands: AxisVector) -> Result<Self, Failure> {
         let options = config.program_options(stands);
         let program = FileSource::unchecked(path, options, &config.settings())?;
-        let judged = config.judged().beginning_at(&stands);
-        let mut audit = Audit::new(&judged);
+        let judged = config.judged_at(&stands);
+        let mut audit = config.audit_at(&stands);
         if let Some(mut bounds) = config.joint_bounds() {
             // Drives may count from elsewhere.
             for bounds in &mut bounds {

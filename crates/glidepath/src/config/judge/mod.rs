@@ -105,7 +105,7 @@ pub(super) fn judge(
         joint_limits,
         axis_share,
         axes,
-        path: judge.path(raw.path),
+        path: judge.path(raw.path, &names),
         interpolator,
         jog,
         feedback,

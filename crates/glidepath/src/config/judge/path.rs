@@ -2,9 +2,12 @@
 //! beside those of its axes.
 
 use super::values::{Judge, Range};
+use crate::config::diagnostic::ConfigDiagnostic;
 use crate::config::raw::{Optional, RawPath};
 use crate::config::settings::PathConfig;
+use glidepath_geometry::Axis;
 use glidepath_program::{Corners, Effort, Limits, PathBounds, Smoothing};
+use toml::Spanned;
 
 pub(super) const TOLERANCE: Range = Range {
     min: 1e-5,
@@ -22,7 +25,7 @@ pub(super) const CORNERS: [(&str, Corners); 2] =
     [("inner", Corners::Inner), ("either", Corners::Either)];
 
 impl Judge {
-    pub(super) fn path(&mut self, raw: RawPath) -> PathConfig {
+    pub(super) fn path(&mut self, raw: RawPath, axes: &[Axis]) -> PathConfig {
         let feed = Range {
             min: 1e-3,
             max: 1e7,
@@ -32,6 +35,7 @@ impl Judge {
         PathConfig {
             bounds: self.bounds(&raw),
             tolerance_mm: self.number_or("path.tolerance", &raw.tolerance, &TOLERANCE, 0.02),
+            direction_deg: self.direction_deg(raw.direction_tolerance.as_ref(), axes),
             smoothing: self.choice(
                 "path.smoothing",
                 raw.smoothing,
@@ -48,6 +52,26 @@ impl Judge {
                 .default_feed
                 .map(|value| self.number("path.default_feed", &value, &feed)),
         }
+    }
+
+    fn direction_deg(&mut self, value: Option<&Spanned<f64>>, axes: &[Axis]) -> Option<f64> {
+        const KEY: &str = "path.direction_tolerance";
+        let range = Range {
+            min: 1e-5,
+            max: 10.0,
+            unit: "°",
+            help: "how far the direction of the tool may be from the programmed one",
+        };
+        let value = value?;
+        if !axes.iter().any(|axis| axis.is_rotary()) {
+            self.diagnostics.push(ConfigDiagnostic {
+                key: KEY.to_owned(),
+                message: format!("{KEY} on a machine without a rotary axis"),
+                help: Some("leave it out, or add the table of A, B or C".to_owned()),
+                span: Some(value.span()),
+            });
+        }
+        Some(self.number(KEY, value, &range))
     }
 
     fn bounds(&mut self, raw: &RawPath) -> PathBounds {

@@ -80,6 +80,11 @@ impl Judge {
             subroutines: None,
             connections,
             extruder: self.choice("program.extruder", raw.extruder, &EXTRUDERS),
+            unwinds_at_rapid: self.choice(
+                "program.unwind",
+                raw.unwind,
+                &[("never", false), ("rapids", true)],
+            ),
             firmware: self.choice("program.firmware", raw.firmware, &FIRMWARES),
             in_force: None,
             stands: None,

@@ -95,6 +95,15 @@ pub(super) const PROGRAM: &[Key] = &[
          in lines, but on arcs with offset_memory = \"haas\"",
     ),
     key(
+        "program.unwind",
+        Takes::Choice {
+            of: &["never", "rapids"],
+        },
+        LeftOut::Value("\"never\""),
+        "whether C of a five-axis machine is turned back where it has wound up to the end of its travel: \"rapids\": by \
+         rapid moves to a direction of the tool; \"never\": such a move is refused, as one at feed is in any case",
+    ),
+    key(
         "program.tool_change",
         Takes::Choice {
             of: &["auto", "T", "M6"],

@@ -220,7 +220,16 @@ pub(super) const PATH: &[Key] = &[
         number(1e-5, 10.0, "mm"),
         LeftOut::Value("0.02"),
         "how far the motion may leave the programmed path, everything included: corner smoothing, chord \
-         error, merged lines. G64 P overrides it. It holds in degrees for rotary axes",
+         error, merged lines. G64 P overrides it",
+    ),
+    key(
+        "path.direction_tolerance",
+        number(1e-5, 10.0, "°"),
+        LeftOut::Means(
+            "as many degrees as the tolerance in force has mm: a flank is off by no more than the tip may be, up to 57 mm above it",
+        ),
+        "how far the direction of the tool may be from the programmed one, whatever the tolerance in force is; on \
+         machines whose rotary axes turn no tool, how far these may be off together",
     ),
     key(
         "path.smoothing",

@@ -40,7 +40,7 @@ pub(crate) struct Reference {
     /// How far the motion may be from the path, and each vertex from the motion, in XYZ and in UVW,
     /// mm, > 0. At a vertex the smaller tolerance of both sides holds.
     pub(crate) tolerance_mm: f64,
-    /// The same for each rotary axis, degrees, > 0.
+    /// The same for the rotary axes together, degrees, > 0.
     pub(crate) tolerance_deg: f64,
     /// From the middle of the piece to the program it stands for, which is taken to be a parabola
     /// over it: where the motion is drawn to. Within what the tolerance is smaller by.

@@ -46,7 +46,7 @@ pub(crate) struct TubePiece {
     pub(crate) top_v: f64,
     /// Tolerance of the linear axes, mm.
     pub(crate) tolerance_mm: f64,
-    /// Tolerance of each rotary axis, degrees.
+    /// Tolerance of the rotary axes together, degrees.
     pub(crate) tolerance_deg: f64,
     /// From its middle to the program.
     pub(crate) sagitta_vector: AxisVector,
@@ -84,7 +84,7 @@ pub(crate) struct CornerBefore {
 pub(crate) struct Displacement {
     /// XYZ, or UVW.
     linear_mm: f64,
-    /// A rotary axis.
+    /// The rotary axes together.
     rotary_deg: f64,
 }
 
@@ -95,13 +95,8 @@ impl Displacement {
             |axes: core::ops::Range<usize>| axes.map(|i| vector[i] * vector[i]).sum::<f64>().sqrt();
         Self {
             linear_mm: norm(LINEAR_XYZ).max(norm(UVW)),
-            rotary_deg: ROTARY_ABC.map(|i| vector[i].abs()).fold(0.0, f64::max),
+            rotary_deg: norm(ROTARY_ABC),
         }
-    }
-
-    /// The largest of all, mm or degrees.
-    pub(crate) const fn size(self) -> f64 {
-        self.linear_mm.max(self.rotary_deg)
     }
 
     /// The larger one of each kind.
@@ -123,6 +118,12 @@ impl TubePiece {
     pub(crate) const fn in_tolerances(&self, displacement: Displacement) -> f64 {
         let linear = displacement.linear_mm / self.tolerance_mm;
         linear.max(displacement.rotary_deg / self.tolerance_deg)
+    }
+
+    /// The same in mm, where both tolerances are as far.
+    pub(crate) const fn in_mm(&self, displacement: Displacement) -> f64 {
+        let rotary_mm = displacement.rotary_deg * (self.tolerance_mm / self.tolerance_deg);
+        displacement.linear_mm.max(rotary_mm)
     }
 }
 

@@ -119,6 +119,7 @@ impl Case {
             limits: self.limits,
             period_t: self.period_t,
             tolerance_mm: self.tolerance_mm,
+            direction: glidepath_program::DirectionTolerance::default(),
             corners: self.corners,
         });
         for item in self.items() {

@@ -14,8 +14,8 @@ use glidepath_geometry::{AxisVector, LINEAR_XYZ, ROTARY_ABC, UVW};
 use super::parameter_range::ParameterRange;
 use crate::in_tube::path::TubePiece;
 
-/// Axes with a tolerance together: two of three linear ones each, and every rotary one.
-const GROUPS: usize = 5;
+/// Axes with a tolerance together: two of three linear ones each, and the rotary ones.
+const GROUPS: usize = 3;
 
 /// A chord and a point beside it.
 #[derive(Debug, Clone, Copy)]
@@ -64,9 +64,7 @@ fn for_each_group(
     let vectors = (&along, &offset);
     AxisGroup::of::<3>(linear, LINEAR_XYZ.start, vectors).map(&mut take);
     AxisGroup::of::<3>(linear, UVW.start, vectors).map(&mut take);
-    for axis in ROTARY_ABC {
-        AxisGroup::of::<1>(rotary, axis, vectors).map(&mut take);
-    }
+    AxisGroup::of::<3>(rotary, ROTARY_ABC.start, vectors).map(&mut take);
 }
 
 impl Beside {

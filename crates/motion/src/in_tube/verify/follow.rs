@@ -113,7 +113,7 @@ impl Reachable {
             range.to
         };
         let program = piece.start + along * u + piece.sagitta_vector * (4.0 * u * (1.0 - u));
-        Some(Displacement::of(&(position - program)).size())
+        Some(piece.in_mm(Displacement::of(&(position - program))))
     }
 
     fn trim(&mut self) {

@@ -11,8 +11,8 @@ use super::follow::Reachable;
 use crate::in_tube::path::{ReferencePath, TubePiece};
 use glidepath_geometry::AxisVector;
 
-/// How much further than the nearest piece one may be whose feed still counts, mm (degrees of a rotary
-/// axis). It is the widest tolerance that needs no look: within it all pieces in reach are as near.
+/// How much further than the nearest piece one may be whose feed still counts, mm (of rotary axes as many
+/// tolerances). It is the widest tolerance that needs no look: within it all pieces in reach are as near.
 pub(crate) const FEED_CHANGE_MM: f64 = 0.05;
 
 /// The first and the last of the pieces that count at a position.
@@ -37,8 +37,7 @@ impl NearPieces {
         let Some(first) = pieces.next() else {
             return all;
         };
-        let is_narrow =
-            |piece: &TubePiece| piece.tolerance_mm.max(piece.tolerance_deg) <= FEED_CHANGE_MM;
+        let is_narrow = |piece: &TubePiece| piece.tolerance_mm <= FEED_CHANGE_MM;
         #[allow(clippy::float_cmp, reason = "the feed of moves alike is one number")]
         let is_alike = |piece: &TubePiece| piece.top_v == first.top_v;
         if pieces.all(|piece| is_alike(piece) || (is_narrow(piece) && is_narrow(first))) {

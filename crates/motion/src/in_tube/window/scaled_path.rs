@@ -85,6 +85,8 @@ pub(crate) struct ScaledPath<const D: usize> {
     /// The moving axes, and how many they are: the rest of the `D` stays at zero.
     pub(super) axes: [usize; D],
     pub(super) moving: usize,
+    /// The tolerance of the linear axes, mm.
+    pub(super) unit_mm: f64,
     /// The tolerance of each, mm or degrees, and where the window begins, which is its zero.
     pub(super) unit: [f64; D],
     pub(super) origin: AxisVector,
@@ -140,6 +142,7 @@ impl<const D: usize> ScaledPath<D> {
             is_final: range.end > 0 && reference_path.is_last(range.end - 1),
             axes: [0; D],
             moving: 0,
+            unit_mm: tolerances[0],
             unit: [1.0; D],
             origin,
             levels: core::array::from_fn(|_| Vec::new()),

@@ -11,8 +11,8 @@ use crate::on_path::pieces::{CurveRule, Element, JointRule, Piece, Shape, SpeedL
 use crate::programmed_rate::ProgrammedRate;
 use crate::rest::{Rest, RestKind};
 use crate::scurve::Profile;
-use glidepath_geometry::{Quintic, Segment, limit_along};
-use glidepath_program::{Event, Limits, Override, PathMode, ProgramLine, Settings};
+use glidepath_geometry::{Axis, Quintic, Segment, limit_along};
+use glidepath_program::{Event, Limits, Override, PathMode, ProgramLine, Settings, tolerance_norm};
 
 /// How often a line is halved at most: a metre to 15 µm.
 const MOST_HALVINGS: u32 = 16;
@@ -54,7 +54,8 @@ impl Assembly {
         let settings = self.settings;
         if let Some(held) = &mut self.pending {
             let tolerance_mm = held.mode.tolerance_mm(settings.tolerance_mm);
-            let chord_v = chord_speed(&held.segment, tolerance_mm, &settings);
+            let mm_per_deg = settings.direction.mm_per_deg(tolerance_mm);
+            let chord_v = chord_speed(&held.segment, tolerance_mm, mm_per_deg, &settings);
             held.rate_v = held.rate.under(wanted).min(chord_v);
         }
     }
@@ -165,6 +166,7 @@ impl Assembly {
         mode: PathMode,
     ) -> SpeedRule {
         let tolerance_mm = mode.tolerance_mm(self.settings.tolerance_mm);
+        let mm_per_deg = self.settings.direction.mm_per_deg(tolerance_mm);
         match segment {
             Segment::Line(_) => SpeedRule::Straight {
                 d1: segment.jet(0.0).d1,
@@ -173,14 +175,15 @@ impl Assembly {
             Segment::Arc(arc) => SpeedRule::Arc {
                 arc: *arc,
                 rate,
-                chord_v: chord_speed(segment, tolerance_mm, &self.settings),
+                chord_v: chord_speed(segment, tolerance_mm, mm_per_deg, &self.settings),
             },
             Segment::Curve(curve) => SpeedRule::Curve {
                 curve: Box::new(CurveRule {
                     bounds: curve.bounds(),
                     gentle: true,
                     stretch_r: 1.0,
-                    chord_v: chord_speed(segment, tolerance_mm, &self.settings),
+                    chord_v: chord_speed(segment, tolerance_mm, mm_per_deg, &self.settings),
+                    mm_per_deg,
                 }),
                 rates: [rate; 2],
             },
@@ -190,25 +193,37 @@ impl Assembly {
     /// Tells of the other way to drive up to the rest that comes next.
     pub(crate) fn put_stops(&self, stops: Option<Vec<Piece>>, out: &mut Vec<Element>) {
         if let Some(pieces) = stops {
-            let exact = self.stops_cut_mm(&pieces) > 0.05 * self.settings.tolerance_mm;
+            let tolerance_mm = self.settings.tolerance_mm;
+            let exact = self.stops_cut_mm(&pieces, tolerance_mm) > 0.05 * tolerance_mm;
             out.push(Element::Stops { pieces, exact });
         }
     }
 
     /// How much the chord of one period can cut off at a stop between two setpoints, at most, mm.
-    pub(crate) fn stop_cut_mm(&self) -> f64 {
+    pub(crate) fn stop_cut_mm(&self, tolerance_mm: f64) -> f64 {
+        let mm_per_deg = self.settings.direction.mm_per_deg(tolerance_mm);
         let jerk_j = self.settings.limits.jerk;
-        let limited = jerk_j.iter().filter(|j| **j < Limits::UNLIMITED);
-        self.cut_mm(limited.copied())
+        let limited = Axis::ALL.into_iter().filter_map(|axis| {
+            let axis_j = jerk_j[axis.index()];
+            let counts = if axis.is_rotary() { mm_per_deg } else { 1.0 };
+            (axis_j < Limits::UNLIMITED).then_some(counts * axis_j)
+        });
+        self.cut_mm(limited)
     }
 
     /// The same at the ends of some pieces: where joints limit the motion, there is much less jerk than
     /// axes allow.
-    fn stops_cut_mm(&self, pieces: &[Piece]) -> f64 {
+    fn stops_cut_mm(&self, pieces: &[Piece], tolerance_mm: f64) -> f64 {
         if self.joints.is_none() {
-            return self.stop_cut_mm();
+            return self.stop_cut_mm(tolerance_mm);
         }
-        self.cut_mm(pieces.iter().map(|piece| piece.limit.alone.jerk_j))
+        let mm_per_deg = self.settings.direction.mm_per_deg(tolerance_mm);
+        let of_piece = |piece: &Piece| {
+            // Rotary axes may go much further than the path does.
+            let per_path = tolerance_norm(&piece.jet(0.0).d1, mm_per_deg).max(1.0);
+            per_path * piece.limit.alone.jerk_j
+        };
+        self.cut_mm(pieces.iter().map(of_piece))
     }
 
     fn cut_mm(&self, jerk_j: impl Iterator<Item = f64>) -> f64 {
@@ -284,14 +299,20 @@ fn changing_chord_v(curve: &Quintic, steady_v: f64, settings: &Settings) -> f64 
     (half_v.hypot(steady_v) - half_v).max(LEAST_R * steady_v)
 }
 
-/// The speed at which the chords of one period reach a tolerance of an arc or another curve, mm/s.
-pub(crate) fn chord_speed(segment: &Segment, tolerance_mm: f64, settings: &Settings) -> f64 {
+/// The speed at which the chords of one period reach a tolerance of an arc or another curve, mm/s. A degree of the
+/// rotary axes counts for `mm_per_deg`.
+pub(crate) fn chord_speed(
+    segment: &Segment,
+    tolerance_mm: f64,
+    mm_per_deg: f64,
+    settings: &Settings,
+) -> f64 {
     let arc = match segment {
         Segment::Line(_) => return f64::INFINITY,
         Segment::Arc(arc) => arc,
         Segment::Curve(curve) => {
             let left_mm = tolerance_mm - curve.error_mm;
-            let at_unit_mm = chord_error_mm(&curve.bounds(), 1.0, settings.period_t);
+            let at_unit_mm = chord_error_mm(&curve.bounds(), 1.0, settings.period_t, mm_per_deg);
             let steady_v = (left_mm.max(0.0) / at_unit_mm).sqrt();
             return changing_chord_v(curve, steady_v, settings);
         }

@@ -174,8 +174,8 @@ impl PartOutput<'_> {
             PartShape::Stop => {
                 assembly.put_pending(out);
                 // The chord of one period must not cut off more than the fit left over.
-                let is_exact = assembly.stop_cut_mm()
-                    > 0.05 * mode.tolerance_mm(assembly.settings.tolerance_mm);
+                let tolerance_mm = mode.tolerance_mm(assembly.settings.tolerance_mm);
+                let is_exact = assembly.stop_cut_mm(tolerance_mm) > 0.05 * tolerance_mm;
                 let kind = if is_exact {
                     RestKind::ExactStop
                 } else {
@@ -242,14 +242,17 @@ impl PartOutput<'_> {
             return;
         };
         let bounds = span.bounds();
-        let left_mm =
-            (manner.mode.tolerance_mm(assembly.settings.tolerance_mm) - error_mm).max(0.0);
-        let at_unit_mm = chord_error_mm(&bounds, 1.0, assembly.settings.period_t);
+        let settings = &assembly.settings;
+        let tolerance_mm = manner.mode.tolerance_mm(settings.tolerance_mm);
+        let mm_per_deg = settings.direction.mm_per_deg(tolerance_mm);
+        let left_mm = (tolerance_mm - error_mm).max(0.0);
+        let at_unit_mm = chord_error_mm(&bounds, 1.0, settings.period_t, mm_per_deg);
         let curve = CurveRule {
             bounds,
             gentle: true,
             stretch_r: 1.0,
             chord_v: (left_mm / at_unit_mm).sqrt(),
+            mm_per_deg,
         };
         let end_s = span.length();
         let mut cuts = cuts.into_iter().peekable();

@@ -115,15 +115,15 @@ impl PathFront {
         }
         self.dense.end_run(assembly, out);
         let rate = programmed(&assembly.settings);
+        let settings = &assembly.settings;
+        let tolerance_mm = mode.tolerance_mm(settings.tolerance_mm);
+        let mm_per_deg = settings.direction.mm_per_deg(tolerance_mm);
+        let chord_v = chord_speed(&segment, tolerance_mm, mm_per_deg, settings);
         let mut next = Pending {
             segment,
             length_s,
             rate,
-            rate_v: rate.under(assembly.wanted).min(chord_speed(
-                &segment,
-                mode.tolerance_mm(assembly.settings.tolerance_mm),
-                &assembly.settings,
-            )),
+            rate_v: rate.under(assembly.wanted).min(chord_v),
             line,
             lines: Vec::new(),
             mode,

@@ -39,12 +39,13 @@ impl BesideCorner<'_> {
 
     /// How far from the corner the chord of one period can pass if the machine rests there between two
     /// setpoints: half a period before or after the rest it is at most J·(T/2)³/6 away.
-    pub(super) fn cut_by_chord_mm(&self, t1: &AxisVector, t2: &AxisVector) -> f64 {
-        [t1, t2]
+    pub(super) fn cut_by_chord_mm(&self, tangents: [&AxisVector; 2], mm_per_deg: f64) -> f64 {
+        tangents
             .map(|tangent| {
                 let limit = self.limit(tangent, f64::INFINITY);
                 let jerk_j = limit.change.jerk_j;
-                tolerance_norm(tangent) * jerk_j * self.settings.period_t.powi(3) / 48.0
+                let period_t = self.settings.period_t;
+                tolerance_norm(tangent, mm_per_deg) * jerk_j * period_t.powi(3) / 48.0
             })
             .into_iter()
             .fold(0.0, f64::max)

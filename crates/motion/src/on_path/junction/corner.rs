@@ -47,6 +47,8 @@ pub(super) struct Corner<'a> {
     pub(super) rate_v: f64,
     pub(super) gentle: bool,
     pub(super) tolerance_mm: f64,
+    /// What a degree of the rotary axes counts for, mm.
+    pub(super) mm_per_deg: f64,
     pub(super) family: Family,
     pub(super) straight: BesideCorner<'a>,
 }
@@ -163,6 +165,7 @@ impl Corner<'_> {
                 _ => 1.0,
             },
             chord_v: f64::INFINITY,
+            mm_per_deg: self.mm_per_deg,
         };
         let jet_at = |part: f64| transition.jet(part * transition.length());
         let mut limit = curve.limit(self.rate_v, &settings.limits);
@@ -172,17 +175,20 @@ impl Corner<'_> {
         let deviation_mm = match self.family {
             Family::Hermite => self.measured_deviation_mm(&transition, d_s),
             // Both families are symmetric: they are farthest from the program at the corner.
-            _ => tolerance_norm(&(transition.jet(0.5 * transition.length()).position - corner)),
+            _ => {
+                let middle = transition.jet(0.5 * transition.length()).position;
+                tolerance_norm(&(middle - corner), self.mm_per_deg)
+            }
         };
-        let period_t = settings.period_t;
+        let chord_mm = |v| chord_error_mm(&bounds, v, settings.period_t, self.mm_per_deg);
         let error_mm = if transition.is_within(&travel.lowest, &travel.highest, Travel::ROUNDING) {
-            deviation_mm + chord_error_mm(&bounds, limit.top_v, period_t)
+            deviation_mm + chord_mm(limit.top_v)
         } else {
             // Whatever the tolerance is, it is too much: a shorter one may stay inside.
             f64::MAX
         };
         let left_mm = (self.tolerance_mm - deviation_mm).max(0.0);
-        curve.chord_v = (left_mm / chord_error_mm(&bounds, 1.0, period_t)).sqrt();
+        curve.chord_v = (left_mm / chord_mm(1.0)).sqrt();
         (limit.top_v > 0.0 && error_mm.is_finite()).then_some(Candidate {
             d_s,
             transition,
@@ -202,7 +208,8 @@ impl Corner<'_> {
                 } else {
                     self.to.segment.jet(s - d_s)
                 };
-                tolerance_norm(&(transition.jet(s).position - program.position))
+                let off = transition.jet(s).position - program.position;
+                tolerance_norm(&off, self.mm_per_deg)
             })
             .fold(0.0, f64::max)
             * DEVIATION_MARGIN_R
@@ -241,8 +248,14 @@ fn arc_share(segment: &Segment) -> f64 {
     }
 }
 
-/// Largest distance between a curve and the chord of one period at a speed: |q″|·(v·T)²/8.
-pub(crate) fn chord_error_mm(bounds: &DerivativeBounds, top_v: f64, period_t: f64) -> f64 {
+/// Largest distance between a curve and the chord of one period at a speed: |q″|·(v·T)²/8. A degree of the rotary
+/// axes counts for `mm_per_deg`.
+pub(crate) fn chord_error_mm(
+    bounds: &DerivativeBounds,
+    top_v: f64,
+    period_t: f64,
+    mm_per_deg: f64,
+) -> f64 {
     let step_s = top_v * period_t;
-    tolerance_norm(&bounds.d2) * step_s * step_s / 8.0
+    tolerance_norm(&bounds.d2, mm_per_deg) * step_s * step_s / 8.0
 }

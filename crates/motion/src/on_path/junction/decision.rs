@@ -48,6 +48,7 @@ pub(crate) fn join(
     let jet_in = from.segment.jet(from.length_s);
     let jet_out = to.segment.jet(0.0);
     let tolerance_mm = from.mode.tolerance_mm(settings.tolerance_mm);
+    let mm_per_deg = settings.direction.mm_per_deg(tolerance_mm);
     let stop_wanted = match from.mode {
         PathMode::ExactStop => return Junction::Stop { exact: true },
         // A chord from a loose stretch must not reach into a tight one.
@@ -76,7 +77,7 @@ pub(crate) fn join(
     let turn = Turn::between(&jet_in.d1, &jet_out.d1);
     let stop = Junction::Stop {
         exact: from.mode == PathMode::ExactPath
-            || straight.cut_by_chord_mm(&jet_in.d1, &jet_out.d1) > 0.5 * tolerance_mm,
+            || straight.cut_by_chord_mm([&jet_in.d1, &jet_out.d1], mm_per_deg) > 0.5 * tolerance_mm,
     };
     if stop_wanted || turn.cb < REVERSAL_CB {
         return stop;
@@ -96,6 +97,7 @@ pub(crate) fn join(
         rate_v,
         gentle: turn.sb <= GENTLE_SB && turn.cb > 0.0,
         tolerance_mm: tolerance_mm - from.error_mm.max(to.error_mm),
+        mm_per_deg,
         family,
         straight,
     };

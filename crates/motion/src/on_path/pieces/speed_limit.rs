@@ -63,6 +63,8 @@ pub(crate) struct CurveRule {
     pub stretch_r: f64,
     /// The speed at which deviation and chord error reach the tolerance.
     pub chord_v: f64,
+    /// What a degree of the rotary axes counts for in that, mm.
+    pub mm_per_deg: f64,
 }
 
 impl SpeedRule {
@@ -178,7 +180,8 @@ impl SpeedRule {
                 (self.rate_v(wanted), chord_a, *chord_v)
             }
             Self::Curve { curve, .. } => {
-                let chord_a = curve.chord_v * curve.chord_v * tolerance_norm(&curve.bounds.d2);
+                let second_k = tolerance_norm(&curve.bounds.d2, curve.mm_per_deg);
+                let chord_a = curve.chord_v * curve.chord_v * second_k;
                 // On a straight one both factors are without meaning.
                 let chord_a = if chord_a.is_nan() {
                     f64::INFINITY

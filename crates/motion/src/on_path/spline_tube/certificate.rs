@@ -32,13 +32,13 @@ pub(super) struct Certificate {
 
 impl<const D: usize> Spline<D> {
     /// Certifies the first spans. The match starts a share `passed_u` along the first chord; the
-    /// distance on each span goes to `errors_mm`.
+    /// distance on each span goes to `errors_mm`. A degree of the rotary axes counts for `mm_per_deg`.
     pub(super) fn certify(
         &self,
         samples: &[Sample<D>],
         spans: usize,
         passed_u: f64,
-        feed_axes: &Range<usize>,
+        (feed_axes, mm_per_deg): (&Range<usize>, f64),
         errors_mm: &mut Vec<f64>,
     ) -> Certificate {
         errors_mm.clear();
@@ -70,7 +70,8 @@ impl<const D: usize> Spline<D> {
                 // Hermite data rather than a cut of the span's own Bézier points: the start is that of the
                 // last part, so each break costs one evaluation.
                 let points = hermite_points(&start, &end, to_t - from_t);
-                let square_mm2 = square_off_chord(&points, (a, &chord), &mut certificate.passed_u);
+                let passed_u = &mut certificate.passed_u;
+                let square_mm2 = square_off_chord(&points, (a, &chord), mm_per_deg, passed_u);
                 let error_mm = if is_regular {
                     square_mm2.sqrt()
                 } else {
@@ -82,7 +83,7 @@ impl<const D: usize> Spline<D> {
             if from_t < foot_t {
                 break;
             }
-            let missed_mm = tolerance_square(&minus(&start.0, b)).sqrt();
+            let missed_mm = tolerance_square(&minus(&start.0, b), mm_per_deg).sqrt();
             note(&mut certificate, &mut errors_mm[span], missed_mm, j + 1);
             (certificate.chord, certificate.passed_u) = (j + 1, 0.0);
             if from_t >= end_t {
@@ -115,6 +116,7 @@ impl<const D: usize> Spline<D> {
 fn square_off_chord<const D: usize>(
     points: &[[f64; D]; 4],
     (start, chord): (&[f64; D], &[f64; D]),
+    mm_per_deg: f64,
     passed_u: &mut f64,
 ) -> f64 {
     let per_square = 1.0 / dot(chord, chord);
@@ -122,7 +124,10 @@ fn square_off_chord<const D: usize>(
     for point in points {
         let offset = minus(point, start);
         let u = (dot(&offset, chord) * per_square).min(1.0).max(*passed_u);
-        square_mm2 = square_mm2.max(tolerance_square(&add_scaled(&offset, -u, chord)));
+        square_mm2 = square_mm2.max(tolerance_square(
+            &add_scaled(&offset, -u, chord),
+            mm_per_deg,
+        ));
         *passed_u = u;
     }
     square_mm2

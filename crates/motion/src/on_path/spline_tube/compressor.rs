@@ -21,7 +21,11 @@ struct StagesOver<const D: usize> {
 impl<const D: usize> StagesOver<D> {
     fn new(shares: ToleranceShares, start: &AxisVector) -> Self {
         Self {
-            thinning: Thinning::new(shares.merge_mm, shares.feed_axes.clone(), first_axes(start)),
+            thinning: Thinning::new(
+                (shares.merge_mm, shares.mm_per_deg),
+                shares.feed_axes.clone(),
+                first_axes(start),
+            ),
             layout: SampleLayout::new(shares),
             change: None,
         }

@@ -33,6 +33,8 @@ const LONGEST_R: f64 = 1250.0;
 pub(super) struct ToleranceShares {
     /// The tolerance of the program, everything together, mm.
     pub(super) tolerance_mm: f64,
+    /// What a degree of the rotary axes counts for, mm.
+    pub(super) mm_per_deg: f64,
     /// What merging may use of it.
     pub(super) merge_mm: f64,
     /// What the fit may use, and what it aims at.
@@ -65,6 +67,7 @@ impl ToleranceShares {
         let allowed_mm = tolerance_mm - merge_mm - chord_mm;
         Self {
             tolerance_mm,
+            mm_per_deg: settings.direction.mm_per_deg(tolerance_mm),
             merge_mm,
             allowed_mm,
             target_mm: TARGET_R * allowed_mm,

@@ -21,6 +21,7 @@ fn settings() -> Settings {
     Settings {
         limits: Limits::uniform(200.0, 2000.0, 40_000.0),
         tolerance_mm: TOLERANCE_MM,
+        direction: glidepath_program::DirectionTolerance::default(),
         smoothing: Smoothing::Sextic,
         corners: glidepath_program::Corners::default(),
         period_t: 0.004,
@@ -108,7 +109,7 @@ fn sampled(parts: &[SplinePart]) -> Vec<AxisVector> {
 fn distance(point: &AxisVector, a: &AxisVector, b: &AxisVector) -> f64 {
     let (ab, ap) = (b - a, point - a);
     let u = (ap.dot(&ab) / ab.dot(&ab).max(1e-300)).clamp(0.0, 1.0);
-    glidepath_program::tolerance_norm(&(ap - ab * u))
+    glidepath_program::tolerance_norm(&(ap - ab * u), 1.0)
 }
 
 /// Largest distance of points from a polyline, by trying all of it near the same share of length.

@@ -72,6 +72,8 @@ impl<const D: usize> MergedChord<D> {
 pub(super) struct Thinning<const D: usize> {
     /// Largest distance of a dropped vertex, mm.
     allowed_mm: f64,
+    /// What a degree of the rotary axes counts for, mm.
+    mm_per_deg: f64,
     feed_axes: Range<usize>,
     anchor: [f64; D],
     held: Vec<Vertex<D>>,
@@ -80,9 +82,15 @@ pub(super) struct Thinning<const D: usize> {
 }
 
 impl<const D: usize> Thinning<D> {
-    pub(super) fn new(allowed_mm: f64, feed_axes: Range<usize>, start: [f64; D]) -> Self {
+    /// A vertex may be dropped up to so many mm away, where a degree of the rotary axes counts for so many.
+    pub(super) fn new(
+        (allowed_mm, mm_per_deg): (f64, f64),
+        feed_axes: Range<usize>,
+        start: [f64; D],
+    ) -> Self {
         Self {
             allowed_mm,
+            mm_per_deg,
             feed_axes,
             anchor: start,
             held: Vec::with_capacity(MOST_HELD),
@@ -120,7 +128,10 @@ impl<const D: usize> Thinning<D> {
             blocks.push((from_u, vertex.line));
             let offset = minus(&vertex.point, &self.anchor);
             from_u = dot(&offset, &chord) * per_square;
-            error_mm2 = error_mm2.max(tolerance_square(&add_scaled(&offset, -from_u, &chord)));
+            error_mm2 = error_mm2.max(tolerance_square(
+                &add_scaled(&offset, -from_u, &chord),
+                self.mm_per_deg,
+            ));
         }
         let start = mem::replace(&mut self.anchor, end);
         Some(MergedChord {
@@ -156,7 +167,7 @@ impl<const D: usize> Thinning<D> {
             let offset = minus(&vertex.point, &self.anchor);
             let u = dot(&offset, &chord) * per_square;
             let off = add_scaled(&offset, -u, &chord);
-            if !(u > passed_u && u < 1.0) || tolerance_square(&off) > allowed_mm2 {
+            if !(u > passed_u && u < 1.0) || tolerance_square(&off, self.mm_per_deg) > allowed_mm2 {
                 return false;
             }
             passed_u = u;

@@ -35,14 +35,14 @@ pub(super) fn between<const D: usize>(a: &[f64; D], b: &[f64; D], share: f64) ->
     core::array::from_fn(|i| a[i] + share * (b[i] - a[i]))
 }
 
-/// The distance that a tolerance bounds, squared: of XYZ, of UVW, or of a rotary axis, whichever is
-/// largest. With fewer than nine axes all of them are linear.
+/// The distance that a tolerance bounds, squared: of XYZ, of UVW, or of the rotary axes, a degree of which counts
+/// for so many mm, whichever is largest. With fewer than nine axes all of them are linear.
 #[inline]
-pub(super) fn tolerance_square<const D: usize>(a: &[f64; D]) -> f64 {
+pub(super) fn tolerance_square<const D: usize>(a: &[f64; D], mm_per_deg: f64) -> f64 {
     if D < 9 {
         return dot(a, a);
     }
     let square = |axes: core::ops::Range<usize>| axes.map(|i| a[i] * a[i]).sum::<f64>();
-    let rotary = (3..6).map(|i| a[i] * a[i]).fold(0.0, f64::max);
+    let rotary = square(3..6) * (mm_per_deg * mm_per_deg);
     square(0..3).max(square(6..9)).max(rotary)
 }

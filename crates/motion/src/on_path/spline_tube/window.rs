@@ -232,7 +232,7 @@ impl<const D: usize> Window<D> {
                     &self.samples,
                     spans,
                     self.passed_u,
-                    &self.shares.feed_axes,
+                    (&self.shares.feed_axes, self.shares.mm_per_deg),
                     &mut self.errors_mm,
                 );
                 let is_in_tube = verdict.worst_mm <= self.shares.allowed_mm;

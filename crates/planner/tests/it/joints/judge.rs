@@ -3,6 +3,7 @@
 use super::closed_forms;
 use super::machines::Machine;
 use super::programs::axes;
+use super::tool::tool_axis;
 use glidepath_audit::{Audit, AuditReport, AuditSettings, JointBounds};
 use glidepath_gcode::{AxisTravel, Machine as ProgramMachine, Options};
 use glidepath_geometry::AxisVector;
@@ -80,7 +81,7 @@ impl<'a> Joints<'a> {
     }
 }
 
-fn options(machine: &Machine) -> Options {
+pub(crate) fn options(machine: &Machine) -> Options {
     let reader = ProgramMachine::new(&axes(machine));
     let reader = machine
         .travel
@@ -110,6 +111,7 @@ pub(crate) fn judged(machine: &Machine, text: &str, way: &Way) -> Verdict {
     let most = way.change.map_or(1.0, |(_, wanted)| wanted.feed_r.max(1.0));
     let mut audit = Audit::new(&AuditSettings::from(&settings))
         .with_override(most)
+        .with_tool(tool_axis(&machine.mechanism))
         .with_joints(machine.joints.clone());
     let mut joints = Joints::new(machine, settings.period_t, &machine.home);
     let (mut frames, mut last, mut refusal) = (0, machine.home, None);

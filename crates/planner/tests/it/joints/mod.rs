@@ -18,15 +18,18 @@
 )]
 
 mod closed_forms;
-mod judge;
-mod machines;
+pub(crate) mod judge;
+pub(crate) mod machines;
 mod programs;
+pub(crate) mod tool;
 
 use crate::support::random::Random;
 use core::ops::Range;
 use glidepath_geometry::AxisVector;
 use glidepath_kinematics::Kinematics as _;
-use glidepath_program::{Corners, Effort, Limits, Override, Settings, Smoothing};
+use glidepath_program::{
+    Corners, DirectionTolerance, Effort, Limits, Override, Settings, Smoothing,
+};
 use judge::{Verdict, Way, judged};
 use machines::{Machine, machines};
 use std::time::Instant;
@@ -105,6 +108,12 @@ fn settings(machine: &Machine, random: &mut Random) -> (Settings, &'static str) 
     let settings = Settings {
         limits,
         tolerance_mm: random.of(&[0.005, 0.02, 0.05, 0.2]),
+        direction: DirectionTolerance {
+            angle_deg: None,
+            turn_r: machine
+                .mechanism
+                .direction_gain(&limits.travel.lowest, &limits.travel.highest),
+        },
         smoothing: Smoothing::Auto,
         corners: random.of(&[Corners::Inner, Corners::Inner, Corners::Either]),
         period_t: random.of(&[0.001, 0.002, 0.004, 0.004, 0.008]),

@@ -96,6 +96,7 @@ fn a_short_period_gets_under_way() {
     let settings = Settings {
         limits: mill(),
         tolerance_mm: 0.02,
+        direction: glidepath_program::DirectionTolerance::default(),
         smoothing: Smoothing::Sextic,
         corners: glidepath_program::Corners::default(),
         period_t: 0.000_9,
