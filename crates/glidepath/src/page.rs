@@ -1,7 +1,7 @@
 //! The data that the page of `live` and `plan --plot` is given of a machine and its motion.
 
 use crate::chords::chords;
-use crate::config::MachineConfig;
+use crate::config::{AxisConfig, MachineConfig};
 use crate::report::DiagnosisReport;
 use crate::sample::TickSample;
 use glidepath_audit::diagnosis::Binding;
@@ -9,23 +9,30 @@ use glidepath_live::{AxisScale, LimitKind, Motion, MotionSample};
 use glidepath_program::Item;
 use serde_json::{Value, json};
 
+/// How many times as far as joints let an axis go alone, anywhere in its travel, what it does is shown where it has no
+/// limit of its own: elsewhere they let it do more.
+const BY_JOINTS: f64 = 8.0;
+
+/// Velocity, acceleration and jerk of an axis up to which its motion is shown: its limits, as far as it has such.
+fn shown(axis: &AxisConfig) -> [f64; 3] {
+    let limits = [axis.max_velocity, axis.max_acceleration, axis.max_jerk];
+    core::array::from_fn(|k| {
+        if axis.has_own[k] {
+            limits[k]
+        } else {
+            BY_JOINTS * limits[k]
+        }
+    })
+}
+
 /// A motion of a machine with nothing in it.
 #[must_use]
 pub fn motion(config: &MachineConfig) -> Motion {
-    let limits = config.axis_limits();
-    let axes: Vec<AxisScale> = config
-        .axis_names()
-        .into_iter()
-        .map(|axis| {
-            let index = axis.index();
-            AxisScale {
-                index,
-                limits: [limits.velocity, limits.acceleration, limits.jerk]
-                    .map(|limit| limit[index]),
-            }
-        })
-        .collect();
-    Motion::new(&axes, config.period_t())
+    let axes = config.axes.iter().map(|axis| AxisScale {
+        index: axis.axis.index(),
+        limits: shown(axis),
+    });
+    Motion::new(&axes.collect::<Vec<_>>(), config.period_t())
 }
 
 /// Takes the next sample of a motion.
@@ -75,16 +82,16 @@ const fn limit_of(binding: Option<Binding>) -> (LimitKind, usize) {
 /// The machine as the page knows it, as an object.
 #[must_use]
 pub fn machine_object(config: &MachineConfig, instance: &str) -> Value {
-    let limits = config.axis_limits();
     let axes: Vec<Value> = config
         .axes
         .iter()
         .map(|axis| {
-            let i = axis.axis.index();
             json!({
                 "name": axis.axis.to_string(),
                 "unit": if axis.axis.is_rotary() { "°" } else { "mm" },
-                "limits": [limits.velocity[i], limits.acceleration[i], limits.jerk[i]],
+                "limits": shown(axis),
+                // Without, what is above is a scale alone: joints limit the axis.
+                "has_limit": axis.has_own,
                 "travel": axis.travel.map(|(low, high)| [low, high]),
             })
         })

@@ -63,7 +63,7 @@ function atFault(k, name) {
   return name === 'p' ? `${place(axis, value)} ${unitOf(axis)}` : `${name === 'v' ? num(value, 1) : grouped(value)} ${axis.unit}${unit}`;
 }
 function drawLastCell(c, k, [name, , kind], { x, y, wide, high }) {
-  const axis = AXES()[k], values = LAST.taken.axes[k][name], t = LAST.taken.t, limit = name === 'p' ? 0 : axis.limits['vaj'.indexOf(name)];
+  const axis = AXES()[k], values = LAST.taken.axes[k][name], t = LAST.taken.t, n = 'vaj'.indexOf(name), limit = n >= 0 && axis.has_limit[n] ? axis.limits[n] : 0;
   const label = 15, a = y + label + 2, b = y + high - 3, X = s => x + (s + LAST_S) / (LAST_S + BEHIND_S) * wide;
   let low = Infinity, most = -Infinity;
   for (const value of values) { low = Math.min(low, value); most = Math.max(most, value); }

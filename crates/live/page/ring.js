@@ -71,6 +71,7 @@ class Ring {
     while (a < b) { const m = (a + b) >> 1; if (this.p[m & (RING - 1)] < p) a = m + 1; else b = m; }
     return this.tick[a & (RING - 1)] * this.dt;
   }
+  last_range(axis, n) { return this.axes[axis].ranges[n][(this.count - 1) & (RING - 1)]; }
   last_position(axis) { return this.count ? this.axes[axis].position[(this.count - 1) & (RING - 1)] : 0; }
 }
 let RINGED = null;

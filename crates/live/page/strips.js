@@ -24,8 +24,9 @@ function stripList() {
     }
     for (const part of ['v', 'a', 'j']) {
       if (!S.parts[part]) continue;
-      const n = RANGES[part], limit = axis.limits[n], scale = limit * 1.25 / 32767;
-      strips.push({ name: `${axis.name} ${KINDS[part]}`, unit: UNITS[part][rotary], from: -limit * 1.1, to: limit * 1.1, limit, signed: true, kind: KINDS[part], digits: part === 'v' ? 1 : 0, gap,
+      const n = RANGES[part], scale = axis.limits[n] * 1.25 / 32767, limit = axis.has_limit[n] ? axis.limits[n] : 0;
+      const most = limit ? limit * 1.1 : reach(k, n, scale);
+      strips.push({ name: `${axis.name} ${KINDS[part]}`, unit: UNITS[part][rotary], from: -most, to: most, limit, signed: true, kind: KINDS[part], digits: part === 'v' ? 1 : 0, gap,
         past: r => [r.axes[k].ranges[n], r.axes[k].ranges[n]], plan: p => [p.axes[k].ranges[n].lo, p.axes[k].ranges[n].hi, scale, n + 1] });
       gap = false;
     }
@@ -53,6 +54,19 @@ function extent(k, axis) {
   if (!(kept[1] > kept[0])) return [kept[0] - 1 || -1, kept[0] + 1 || 1];
   const margin = (kept[1] - kept[0]) * 0.08;
   return [kept[0] - margin, kept[1] + margin];
+}
+
+/* Up to what a strip of an axis shows whose joints limit it: what the plan and the machine have had. */
+const reaches = [];
+function reach(k, n, scale) {
+  const kept = reaches[3 * k + n] || (reaches[3 * k + n] = { most: 0, plan: null });
+  if (PLAN && kept.plan !== PLAN) {
+    const { lo, hi } = PLAN.axes[k].ranges[n];
+    for (let i = 0; i < hi.length; i++) kept.most = Math.max(kept.most, hi[i] * scale, -lo[i] * scale);
+    kept.plan = PLAN;
+  }
+  if (RINGED && RINGED.count) kept.most = Math.max(kept.most, Math.abs(RINGED.last_range(k, n)));
+  return nice(Math.max(1, kept.most * 1.05), [1, 1.5, 2, 3, 5, 7]);
 }
 
 /* The stretch of time that is shown. */
