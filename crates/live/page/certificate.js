@@ -4,7 +4,7 @@
 
 /* Its rows: what, and how much. */
 function certificateRows(c) {
-  const seen = c.seen, axes = ['velocity', 'acceleration', 'jerk'].map(kind => [kind, seen.limits[kind]]).map(([kind, of]) => [`Largest ${kind}`, of.axis ? `${num(of.part * 100, 1)} % of the limit of ${of.axis}` : 'nothing moved']);
+  const seen = c.seen, axes = ['velocity', 'acceleration', 'jerk'].map(kind => [kind, seen.limits[kind]]).map(([kind, of]) => [`Largest ${kind}`, of.axis ? `${num(of.part * 100, 1)} % of the limit of ${of.axis}` : of.has_limit ? 'nothing moved' : 'axes have no limit of their own: joints limit them']);
   const range = ([least, most]) => least === most ? `${Math.round(most * 100)} %` : `${Math.round(least * 100)} to ${Math.round(most * 100)} %`;
   const micrometres = x => `${num(x * 1000, 1)} µm`;
   return [

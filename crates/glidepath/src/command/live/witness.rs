@@ -5,6 +5,7 @@
 use crate::config::MachineConfig;
 use glidepath_geometry::{AXES, Axis};
 use glidepath_link::{MachineState, Setpoint};
+use glidepath_program::Limits;
 use serde_json::{Map, Value, json};
 use std::collections::VecDeque;
 use std::ops::RangeInclusive;
@@ -52,10 +53,19 @@ struct Seen {
 
 impl Witness {
     pub(super) fn new(config: &MachineConfig) -> Self {
-        let limits = config.axis_limits();
+        // Without a limit of its own, joints limit an axis: nothing is a part of none.
+        let limits = config.own_limits();
         Self {
             axes: config.axis_names(),
-            limits: [limits.velocity, limits.acceleration, limits.jerk].map(Into::into),
+            limits: [limits.velocity, limits.acceleration, limits.jerk].map(|of| {
+                <[f64; AXES]>::from(of).map(|limit| {
+                    if limit < Limits::UNLIMITED {
+                        limit
+                    } else {
+                        f64::INFINITY
+                    }
+                })
+            }),
             period_t: config.period_t(),
             before: None,
             epochs: VecDeque::new(),
@@ -148,10 +158,17 @@ impl Witness {
         let seen = of_job.copied().reduce(Seen::with)?;
         let limits: Map<String, Value> = KINDS
             .iter()
-            .zip(seen.most)
-            .map(|(kind, (part, axis))| {
-                let axis = self.axes.iter().find(|it| it.index() == axis);
-                let object = json!({ "part": part, "axis": axis.map(ToString::to_string) });
+            .zip(seen.most.iter().zip(&self.limits))
+            .map(|(kind, ((part, axis), limits))| {
+                let axis = self
+                    .axes
+                    .iter()
+                    .find(|it| *part > 0.0 && it.index() == *axis);
+                let object = json!({
+                    "part": part,
+                    "axis": axis.map(ToString::to_string),
+                    "has_limit": limits.iter().any(|limit| limit.is_finite()),
+                });
                 ((*kind).to_owned(), object)
             })
             .collect();
