@@ -21,8 +21,8 @@ pub enum BusFault {
     Range(usize),
     /// A drive did not find its home.
     NoHome(usize),
-    /// The two encoders of a joint are too far apart: by so much, mm or degrees, and whether that stays so without
-    /// power.
+    /// The two encoders of a joint are too far apart: by so much, mm or degrees, and whether it stays so until the
+    /// process ends.
     EncodersApart(usize, f64, bool),
 }
 

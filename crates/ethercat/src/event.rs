@@ -62,6 +62,9 @@ pub enum Event {
     Restart,
     /// The counter of the spindle's encoder was off at its index, by so many counts.
     EncoderSlipped(i64),
+    /// Without power, the load of a joint has gone so far from its drive by the encoder at the terminal, mm or degrees;
+    /// and whether that is not to be believed, because the drive turned the other way meanwhile, or the encoder jumped.
+    LoadSlipped(usize, f64, bool),
     /// Touch probes of drives have not told where the probe touched.
     Probe(ProbeTrouble),
 }
@@ -102,6 +105,19 @@ impl Event {
                 "a device that is no drive does not take part, and says that it is in OP: its inputs and \
                  outputs are not known"
             ),
+            Self::LoadSlipped(joint, by, is_doubted) => {
+                write!(
+                    f,
+                    "J{joint}: without power its encoder at the terminal has gone {by:.4} (mm or degrees) from what \
+                     its drive counts, and apart in drives.toml allows less: "
+                )?;
+                f.write_str(if *is_doubted {
+                    "the drive moved and the encoder did not, or it jumped, so one of both is wrong. The joint gets no \
+                     power until glidepath ethercat was started anew, and is to be homed then"
+                } else {
+                    "the joint is where the encoder says, and a home that its drive has found does not hold any more"
+                })
+            }
             _ => Ok(()),
         }
     }
@@ -138,7 +154,8 @@ impl fmt::Display for Event {
             | Self::TerminalEmergency(..)
             | Self::SpindleFault(_)
             | Self::SpindleWithoutPower(_)
-            | Self::TerminalsShort => self.tell_other(f),
+            | Self::TerminalsShort
+            | Self::LoadSlipped(..) => self.tell_other(f),
             Self::Homing(joint) => write!(f, "J{joint} looks for its home"),
             Self::Home(joint) => write!(f, "J{joint} has found its home"),
             Self::Trouble(trouble) => write!(f, "{trouble}"),

@@ -16,8 +16,8 @@ pub(crate) struct DriveInputs {
     pub(crate) inputs: Inputs,
     /// Whether it is in OP. What it told last is old otherwise.
     pub(crate) is_present: bool,
-    /// How far the two encoders of the joint are apart, mm or degrees, if that is too much, and whether that stays so
-    /// without power.
+    /// How far the two encoders of the joint are apart, mm or degrees, if that is too much, and whether it stays so
+    /// until the process ends.
     pub(crate) apart: Option<(f64, bool)>,
     /// The fault that it reports, 0 for none.
     pub(crate) fault: u16,

@@ -33,6 +33,9 @@ impl Enabling {
         if !step.drive_command.enable || !drive_inputs.is_present {
             return Next::Stop(None);
         }
+        if let Some((apart, stays)) = drive_inputs.apart {
+            return Next::Stop(Some(BusFault::EncodersApart(joint, apart, stays)));
+        }
         let is_on = state == DriveState::OperationEnabled;
         if is_on && drive_inputs.inputs.mode == CYCLIC_POSITION && drive_inputs.has(FOLLOWS) {
             return Next::Follow;

@@ -93,6 +93,11 @@ impl Axis {
         self.is_homed
     }
 
+    /// The home that its drive has found does not hold any more.
+    pub(crate) const fn lose_home(&mut self) {
+        self.is_homed = self.settings.homing.is_none();
+    }
+
     pub(crate) const fn is_homing(&self) -> bool {
         matches!(&self.phase, Phase::Homing(homing) if homing.is_under_way())
     }
@@ -176,6 +181,11 @@ impl Axis {
                 Phase::Off
             }
             Next::Enable => Phase::Enabling(Enabling::new(now_ns)),
+            Next::Refuse(trouble) => {
+                self.is_latched = true;
+                tell(Event::Trouble(trouble));
+                return;
+            }
             Next::Follow => {
                 if !matches!(self.phase, Phase::Homing(_)) {
                     tell(Event::Follows(joint));

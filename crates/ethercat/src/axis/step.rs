@@ -37,6 +37,8 @@ pub(super) enum Next {
     Stay,
     Off,
     Enable,
+    /// No power, with the trouble that is the reason.
+    Refuse(BusFault),
     Follow,
     Home,
     /// Home was found, and is stayed at.

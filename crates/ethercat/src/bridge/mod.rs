@@ -45,10 +45,9 @@ impl Drive {
         self.device.is_in_op()
     }
 
-    /// How far its two encoders are apart, if that is too much, and whether that stays so without power.
+    /// How far its two encoders are apart, if that is too much, and whether it stays so until the process ends.
     fn apart(&self) -> Option<(f64, bool)> {
-        let load_side = self.load_side.as_ref()?;
-        Some((load_side.beyond()?, load_side.stays()))
+        self.load_side.as_ref()?.beyond()
     }
 
     const fn has_failed(&self) -> bool {
@@ -109,9 +108,12 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
             let mut encoders = (settings.terminals.iter()).flat_map(|it| &it.joint_encoders);
             encoders.find(|encoder| encoder.joint == joint).copied()
         };
+        #[allow(clippy::cast_precision_loss, reason = "a period")]
+        let period_t = settings.bus.period_ns as f64 * 1e-9;
         let drive = |settings: DriveSettings| Drive {
-            load_side: (settings_of(settings.joint))
-                .map(|encoder| LoadSide::new(encoder, settings.home_offset)),
+            load_side: settings_of(settings.joint).map(|encoder| {
+                LoadSide::new(encoder, settings.home_offset, settings.max_v * period_t)
+            }),
             axis: Axis::new(settings),
             inputs: Inputs::default(),
             device: DeviceState::default(),
@@ -263,6 +265,9 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
         let resets = core::mem::take(&mut self.resets);
         let mut latches = false;
         for (drive, output) in self.drives.iter_mut().zip(&mut self.outputs) {
+            if let Some(event) = drive.load_side.as_mut().and_then(LoadSide::take_event) {
+                tell(event);
+            }
             let bit = 1 << drive.axis.settings.joint;
             let drive_inputs = DriveInputs {
                 now_ns,

@@ -1,5 +1,6 @@
 //! The feedback of a bridge: what is known of the joints and of the inputs.
 
+use super::load_side::LoadSide;
 use super::{Bridge, WINDOW};
 use crate::probe::Seen;
 use crate::state;
@@ -75,6 +76,7 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
             settings: &drive.axis.settings,
             inputs: drive.inputs.probe,
             is_present: drive.is_present(),
+            added: drive.load_side.as_ref().map_or(0.0, LoadSide::added),
             places: &drive.places,
             newest: slot,
         });

@@ -60,9 +60,7 @@ impl Phase {
             }
             Self::Arming if seen.inputs.is_on() => Self::Armed,
             Self::Armed if is_off => Self::Lost,
-            Self::Armed if seen.inputs.has(RISING) => {
-                Self::Kept(seen.settings.place(seen.inputs.places[0]))
-            }
+            Self::Armed if seen.inputs.has(RISING) => Self::Kept(seen.latched(0)),
             Self::Arming | Self::Armed | Self::Kept(_) | Self::Lost => self,
         }
     }
@@ -194,6 +192,7 @@ mod tests {
                     places: [0; 2],
                 },
                 is_present: status.is_some(),
+                added: 0.25,
                 places: &[],
                 newest: 0,
             };
@@ -222,6 +221,11 @@ mod tests {
         // What is kept is known, but not to a drive that has begun anew.
         assert_eq!(through(Phase::Kept(1.0), &[Some(0)]), Phase::Kept(1.0));
         assert_eq!(through(Phase::Kept(1.0), &[None]), Phase::Lost);
+    }
+
+    #[test]
+    fn what_is_kept_is_where_the_joint_is_by_its_encoder_on_the_load() {
+        assert_eq!(through(Phase::Armed, &[Some(3)]), Phase::Kept(0.25));
     }
 
     #[test]

@@ -23,6 +23,8 @@ pub(crate) struct Seen<'a> {
     pub(crate) settings: &'a DriveSettings,
     pub(crate) inputs: ProbeInputs,
     pub(crate) is_present: bool,
+    /// How far the joint is from where the counts of its drive say, mm or degrees: by its encoder at a terminal.
+    pub(crate) added: f64,
     /// Its last places, mm or degrees, in a ring, and which one is the newest.
     pub(crate) places: &'a [f64],
     pub(crate) newest: usize,
@@ -36,6 +38,11 @@ impl Seen<'_> {
         self.places.get(nth).copied().unwrap_or(0.0)
     }
 
+    /// Where the joint was at the edge that the unit keeps there.
+    pub(super) fn latched(&self, nth: usize) -> f64 {
+        self.settings.place(self.inputs.places[nth]) + self.added
+    }
+
     /// What its unit keeps of an edge of the input.
     fn kept(&self, rises: bool) -> Option<f64> {
         let probe = self.settings.probe?;
@@ -45,7 +52,7 @@ impl Seen<'_> {
             (RISING, 0)
         };
         let is_there = self.is_present && self.inputs.has(mask);
-        is_there.then(|| self.settings.place(self.inputs.places[nth]))
+        is_there.then(|| self.latched(nth))
     }
 }
 

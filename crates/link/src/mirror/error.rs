@@ -64,12 +64,14 @@ pub enum MirrorError {
     },
     /// There is no room for the memory of the services.
     #[error(
-        "{}: its memory cannot be taken ({source}); `df -h /dev/shm` shows how much is free: 22 MB are needed, and \
-         some kilobytes for each reader", .path.display()
+        "{}: its memory cannot be taken ({source}); `df -h /dev/shm` shows how much is free: {} needed in all, and some \
+         kilobytes for each reader", .path.display(), needed(*.bytes)
     )]
     Memory {
         /// The file.
         path: PathBuf,
+        /// How long all files are together, bytes; 0 if that is not known.
+        bytes: u64,
         /// Why not.
         source: std::io::Error,
     },
@@ -84,4 +86,33 @@ pub enum MirrorError {
     /// The instance cannot be heard.
     #[error(transparent)]
     Link(LinkError),
+}
+
+#[allow(clippy::cast_precision_loss, reason = "for a message")]
+fn needed(bytes: u64) -> String {
+    match bytes {
+        0 => "it is not known how much is".to_owned(),
+        _ => format!("{:.1} MB are", bytes as f64 * 1e-6),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn how_much_memory_is_needed_is_told_as_it_was_measured() {
+        let told = |bytes| {
+            let source = std::io::Error::from(std::io::ErrorKind::StorageFull);
+            let path = PathBuf::from("/dev/shm/iox2_a.data");
+            let error = MirrorError::Memory {
+                path,
+                bytes,
+                source,
+            };
+            error.to_string()
+        };
+        assert!(told(31_460_000).contains("31.5 MB are needed in all"));
+        assert!(told(0).contains("it is not known how much is needed in all"));
+    }
 }

@@ -92,8 +92,7 @@ impl Mirror {
             domain,
             reserved: Reserved::default(),
         };
-        let taken = mirror.reserved.take();
-        taken.map_err(|(path, source)| MirrorError::Memory { path, source })?;
+        mirror.reserved.take()?;
         Ok(mirror)
     }
 

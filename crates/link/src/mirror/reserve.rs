@@ -3,6 +3,7 @@
 //! iceoryx2's stock files have holes: a page is taken when it is written to first, and where the file system is full by
 //! then, the process that writes ends by SIGBUS. Any user of the host can fill it.
 
+use super::error::MirrorError;
 use iceoryx2::prelude::Config;
 use rustix::fs::{FallocateFlags, fallocate};
 use std::fs::{self, File};
@@ -20,13 +21,18 @@ impl Reserved {
     /// Takes the memory of all files of iceoryx2 that this process has mapped by now.
     ///
     /// # Errors
-    /// The file for which there is no room, or the list of files, and why. The others have theirs.
-    pub(super) fn take(&mut self) -> Result<(), (PathBuf, io::Error)> {
+    /// [`MirrorError::Memory`]: the file for which there is no room, or the list of files. The others have theirs.
+    pub(super) fn take(&mut self) -> Result<(), MirrorError> {
         let maps = Path::new("/proc/self/maps");
-        let text = fs::read_to_string(maps).map_err(|error| (maps.to_owned(), error))?;
+        let text = fs::read_to_string(maps).map_err(|source| MirrorError::Memory {
+            path: maps.to_owned(),
+            bytes: 0,
+            source,
+        })?;
         let prefix = format!("{MEMORY}/{}", Config::global_config().global.prefix);
         let mapped = mapped(&text, &prefix);
         self.0.retain(|path| mapped.contains(path));
+        let bytes = mapped.iter().map(|path| length(path)).sum();
         let mut result = Ok(());
         for path in mapped {
             if self.0.contains(&path) {
@@ -36,11 +42,22 @@ impl Reserved {
                 Ok(()) => self.0.push(path),
                 // A reader that left has removed it.
                 Err(error) if error.kind() == io::ErrorKind::NotFound => {}
-                Err(error) => result = Err((path, error)),
+                Err(source) => {
+                    result = Err(MirrorError::Memory {
+                        path,
+                        bytes,
+                        source,
+                    });
+                }
             }
         }
         result
     }
+}
+
+/// How long a file is, bytes; 0 if it is not there any more.
+fn length(path: &Path) -> u64 {
+    path.metadata().map_or(0, |file| file.len())
 }
 
 fn taken(path: &Path) -> io::Result<()> {
