@@ -166,7 +166,8 @@ impl Audit {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glidepath_geometry::{Arc, AxisVector, Plane, Segment};
+    use crate::AxisTurn;
+    use glidepath_geometry::{Arc, Axis, AxisVector, Plane, Segment};
     use glidepath_program::{ItemKind, Limits, PathMode, Rate};
 
     fn settings() -> AuditSettings {
@@ -301,5 +302,45 @@ mod tests {
             "{}",
             report.max_deviation_mm
         );
+    }
+
+    /// C turns by a hundred rounds what leans by nothing, by less than the tolerance, and by more.
+    #[test]
+    fn a_turn_by_the_pole_is_audited_in_little_memory() {
+        let turn = |axis, about| AxisTurn { axis, about };
+        let tool = ToolAxis::new(&[
+            turn(Axis::C, [0.0, 0.0, 1.0]),
+            turn(Axis::A, [1.0, 0.0, 0.0]),
+        ]);
+        for (lean_deg, ticks, rows) in [
+            (0.0, 4000_u32, 20),
+            (0.009, 4000, 3000),
+            (0.02, 4000, 3000),
+            (45.0, 20_000, 3000),
+        ] {
+            let mut audit = Audit::new(&settings()).with_tool(Some(tool));
+            let place = |share: f64| {
+                let mut at = AxisVector::zeros();
+                at[Axis::A.index()] = lean_deg;
+                at[Axis::C.index()] = 36_000.0 * share;
+                at
+            };
+            audit.program(&item(Segment::line(place(0.0), place(1.0))));
+            let mut most = 0;
+            for k in 0..=ticks {
+                audit.sample(&Sample {
+                    tick: u64::from(k),
+                    line: 1,
+                    position: place(f64::from(k) / f64::from(ticks)),
+                    reported: None,
+                    is_between_frames: false,
+                });
+                most = most.max(audit.matching.rows.kept());
+            }
+            assert!(most <= rows, "{lean_deg}: {most}");
+            let report = audit.finish();
+            let is_clean = report.is_clean() && report.is_complete;
+            assert!(is_clean, "{lean_deg}: {:?}", report.violations);
+        }
     }
 }

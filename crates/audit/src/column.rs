@@ -2,10 +2,11 @@
 
 use crate::free_space::{Chord, Interval, Near, NearTurn};
 use crate::program::{DiagramRow, DiagramRows, Presence};
-use glidepath_program::tolerance_norm;
 
 /// How near an exact stop must be met, mm.
 pub(crate) const EXACT_MM: f64 = 1e-6;
+/// The same of the rotary axes, degrees.
+const EXACT_DEG: f64 = 1e-6;
 
 /// Intervals on the program that a matching can have reached at a sample.
 #[derive(Debug, Default)]
@@ -99,14 +100,21 @@ impl Level {
         let Some(exact) = row.exact_end else {
             return self.near(row, row.end_tolerance_mm, row.turn.end_deg);
         };
-        // There the axes themselves are where the program has them.
-        let cut_mm = exact.cut(tolerance_norm(&chord.displacement(), 1.0));
-        let exact_mm = (self.exact_mm + cut_mm).min(row.end_tolerance_mm);
+        let along = chord.displacement();
+        let exact_mm = (self.exact_mm + exact.cut_mm(&along)).min(row.end_tolerance_mm);
         let mm = exact_mm.min(self.lambda_mm).max(self.floor_mm);
+        let turn = &row.turn;
         let rotary = if self.any_way {
             NearTurn::Any
         } else {
-            NearTurn::Axes(mm / row.turn.mm_per_deg)
+            // There the axes themselves are where the program has them.
+            let relaxed_deg = (self.exact_mm - EXACT_MM).max(0.0) / turn.mm_per_deg;
+            let exact_deg = EXACT_DEG + relaxed_deg + exact.cut_deg(&along);
+            NearTurn::Axes(
+                exact_deg
+                    .min(turn.end_deg)
+                    .max(self.floor_mm / turn.mm_per_deg),
+            )
         };
         Near { mm, rotary }
     }
@@ -118,7 +126,13 @@ impl Level {
             NearTurn::Any
         } else if turn.is_way {
             // What is wanted of the level is how far the tip is off; the direction has all of its tolerance.
-            NearTurn::Way(tolerance_deg.max(self.floor_mm / turn.mm_per_deg))
+            let floor_deg = self.floor_mm / turn.mm_per_deg;
+            NearTurn::Way {
+                deg: tolerance_deg.max(floor_deg),
+                axes_deg: turn
+                    .axes_r
+                    .map(|axes_r| tolerance_deg.max(floor_deg) * axes_r),
+            }
         } else {
             NearTurn::Axes(mm / turn.mm_per_deg)
         };

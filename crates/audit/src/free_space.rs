@@ -74,8 +74,8 @@ pub(crate) struct Near {
 pub(crate) enum NearTurn {
     /// They together, degrees.
     Axes(f64),
-    /// The direction that they give the tool, degrees.
-    Way(f64),
+    /// The direction that they give the tool, and they together where each is a freedom of its own, degrees.
+    Way { deg: f64, axes_deg: Option<f64> },
     /// Whatever they do.
     Any,
 }
@@ -233,14 +233,17 @@ impl Chord {
         }
         match within.rotary {
             NearTurn::Axes(deg) if moves(ROTARY_ABC) => group(ROTARY_ABC, deg, part),
-            NearTurn::Way(deg) if moves(ROTARY_ABC) => {
+            NearTurn::Way { deg, axes_deg } if moves(ROTARY_ABC) => {
+                if let Some(axes_deg) = axes_deg {
+                    part = group(ROTARY_ABC, axes_deg, part);
+                }
                 let [from, to] = &self.ways;
                 let pairs = (0..3).map(|i| (to[i] - from[i], place.way[i] - from[i]));
                 let length_2 = pairs.clone().map(|(along, _)| along * along).sum();
                 // The place is on the sphere; what the chord is below it is across every difference of directions.
                 near_group(pairs, length_2, deg.hypot(self.dip_deg), part)
             }
-            NearTurn::Axes(_) | NearTurn::Way(_) | NearTurn::Any => part,
+            NearTurn::Axes(_) | NearTurn::Way { .. } | NearTurn::Any => part,
         }
     }
 }

@@ -54,6 +54,7 @@ mod column;
 pub mod diagnosis;
 mod end;
 mod event_places;
+mod exact_end;
 mod feed;
 mod flatten;
 mod follow;

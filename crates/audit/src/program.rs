@@ -1,13 +1,14 @@
 //! The programmed path as chords, made when they are needed.
 
 use crate::amount::Amount;
+use crate::exact_end::ExactEnd;
 use crate::flatten::{CURVE_FLATTENING, FLATTENING, chords, inner_point};
 use crate::free_space::{Chord, Place};
 use crate::piece::Piece;
 use crate::settings::AuditSettings;
-use crate::tool_axis::ToolAxis;
+use crate::tool_axis::{ToolAxis, Turn};
 use crate::turn_tolerance::{TurnTolerance, turn_chords};
-use glidepath_geometry::{AxisVector, Prepared, Segment, feed_length};
+use glidepath_geometry::{AxisVector, Prepared, Segment};
 use glidepath_program::{DirectionTolerance, Item, ItemKind, PathMode, Rate};
 use std::collections::VecDeque;
 
@@ -15,37 +16,6 @@ use std::collections::VecDeque;
 pub(crate) const SMALLEST_TOLERANCE_MM: f64 = 1e-6;
 /// A tolerance counts as kept up to this factor; on arcs the chords come in addition.
 const SLACK: f64 = 1.0 + 1e-6;
-
-/// A place the motion must pass exactly. Where it passes without a rest (G61), a chord between two
-/// samples on the path cuts it off by what follows from the turn and the curvature.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct ExactEnd {
-    /// Sine of half the turn.
-    sb: f64,
-    /// Largest curvature on either side, 1/mm.
-    max_k: f64,
-}
-
-impl ExactEnd {
-    /// At rest.
-    const STOP: Self = Self {
-        sb: 0.0,
-        max_k: 0.0,
-    };
-
-    fn passing(from: &Segment, to: &Segment) -> Self {
-        let (before, after) = (from.jet(from.length()), to.jet(0.0));
-        Self {
-            sb: 0.5 * feed_length(&(after.d1 - before.d1)),
-            max_k: before.d2.norm().max(after.d2.norm()),
-        }
-    }
-
-    /// What a chord of some length may cut off, mm.
-    pub(crate) fn cut(&self, chord_mm: f64) -> f64 {
-        0.5 * chord_mm * self.sb + chord_mm * chord_mm * self.max_k / 8.0
-    }
-}
 
 /// A chord of the programmed path.
 #[derive(Debug, Clone, Copy)]
@@ -285,14 +255,18 @@ impl DiagramRows {
         }
         self.end_position = Some(segment.end());
         let tolerance_mm = end_tolerance_mm.max(self.corner_tolerance_mm) * slack;
-        let along = segment.end() - segment.start();
-        let turn_deg = self.tool.map_or(0.0, |tool| tool.turn_deg(&along));
+        let bends = self.tool.map_or(Turn::NONE, |tool| {
+            tool.turn(&segment.start(), &segment.end())
+        });
+        let chords = chords(segment, tolerance_mm).max(turn_chords(bends, end_tolerance_deg));
         let turn = TurnTolerance {
             is_way: self.tool.is_some(),
+            axes_r: (self.tool.is_some_and(|tool| tool.are_axes_judged))
+                .then_some(1.0 / self.direction.turn_r),
             mm_per_deg,
             ..TurnTolerance::of_move(
                 [self.corner_tolerance_deg, end_tolerance_deg],
-                turn_deg,
+                (bends, chords),
                 slack,
             )
         };
@@ -307,7 +281,7 @@ impl DiagramRows {
             exact_end: is_stop.then_some(ExactEnd::STOP),
             dwell_t: 0.0,
             is_exact_path: mode == PathMode::ExactPath,
-            chords: chords(segment, tolerance_mm).max(turn_chords(turn_deg, end_tolerance_deg)),
+            chords,
             piece: Piece::new(self.amount.moves, segment),
             is_open: true,
         });

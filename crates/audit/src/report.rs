@@ -44,8 +44,8 @@ pub struct AuditReport {
     pub max_deviation_tick: u64,
     /// Line where it was met.
     pub max_deviation_line: u32,
-    /// Largest angle between the direction of the tool and the nearest programmed one at a sample, degrees, where it is
-    /// judged: of those within its tolerance where the tip is off by the least.
+    /// Largest angle at a sample between the direction of the tool and the programmed one, degrees; `None` where it is
+    /// not judged. The programmed one is the nearest of those that the motion can have come to there.
     pub max_direction_deg: Option<f64>,
     /// Line where it was met.
     pub max_direction_line: u32,

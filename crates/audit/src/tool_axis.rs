@@ -25,6 +25,8 @@ pub struct AxisTurn {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ToolAxis {
     turns: [Option<AxisTurn>; TURNS],
+    /// The angles themselves are judged, too.
+    pub(crate) are_axes_judged: bool,
 }
 
 impl ToolAxis {
@@ -35,7 +37,20 @@ impl ToolAxis {
         for (slot, turn) in all.iter_mut().zip(turns) {
             *slot = Some(*turn);
         }
-        Self { turns: all }
+        Self {
+            turns: all,
+            are_axes_judged: false,
+        }
+    }
+
+    /// The same where all angles count, and not only the direction that comes of them: where the tool is turned about
+    /// itself, too.
+    #[must_use]
+    pub const fn with_axes(self) -> Self {
+        Self {
+            are_axes_judged: true,
+            ..self
+        }
     }
 
     /// The direction from the tip to the spindle, of length 1.
@@ -57,10 +72,88 @@ impl ToolAxis {
         way
     }
 
-    /// By how many degrees the tool turns at most while the axes go straight from one place to another.
-    pub(crate) fn turn_deg(&self, along: &AxisVector) -> f64 {
-        let turns = self.turns.iter().flatten();
-        turns.map(|turn| along[turn.axis.index()].abs()).sum()
+    /// How the direction bends at most while the axes go straight from one place to another.
+    ///
+    /// With rates rᵢ of the angles and sᵢ the sine of the angle between what axis i turns about and what it turns, the
+    /// second derivative is no more than Σ rᵢ² sᵢ + 2 Σ rᵢ rⱼ sⱼ over i < j. A turn about the tool itself is none.
+    pub(crate) fn turn(&self, from: &AxisVector, to: &AxisVector) -> Turn {
+        let mut ways = [[0.0, 0.0, 1.0]; 2];
+        // Of the turns behind: the sum of their angles, and of their angles by their sines.
+        let (mut behind, mut behind_s) = (0.0, 0.0);
+        let mut bend = 0.0;
+        let mut across = core::f64::consts::PI;
+        for turn in self.turns.iter().rev().flatten() {
+            let i = turn.axis.index();
+            let by = (to[i] - from[i]).to_radians().abs();
+            let leans = range(ways.map(|way| angle(way, turn.about)), behind);
+            let sine = most_sine(leans);
+            across = 2.0 * leans[1];
+            bend += by * by * sine + 2.0 * by * behind_s;
+            behind_s += by * sine;
+            behind += by;
+            for (way, at) in ways.iter_mut().zip([from, to]) {
+                *way = turned(*way, turn.about, at[i].to_radians());
+            }
+        }
+        let span = behind_s.min(across);
+        Turn { bend, span }
+    }
+}
+
+/// How the direction of the tool bends along a move.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Turn {
+    /// Most of its second derivative over the move, rad.
+    pub(crate) bend: f64,
+    /// How far two directions of the move are apart at most, rad.
+    pub(crate) span: f64,
+}
+
+impl Turn {
+    /// Of a tool that nobody knows.
+    pub(crate) const NONE: Self = Self {
+        bend: 0.0,
+        span: 0.0,
+    };
+
+    pub(crate) fn span_deg(&self) -> f64 {
+        self.span * DEG
+    }
+
+    /// How far so many chords are from it at most, degrees: b/8n² of a radian, and no more than all of it.
+    pub(crate) fn flattened_deg(&self, chords: f64) -> f64 {
+        DEG * (self.bend / (8.0 * chords * chords)).min(self.span)
+    }
+
+    /// How many chords are no further from it than that, degrees.
+    pub(crate) fn chords(&self, allowed_deg: f64) -> f64 {
+        (self.bend * DEG / (8.0 * allowed_deg)).sqrt()
+    }
+}
+
+fn angle(a: [f64; 3], b: [f64; 3]) -> f64 {
+    let dot: f64 = (0..3).map(|i| a[i] * b[i]).sum();
+    let cross = [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ];
+    cross[0].hypot(cross[1]).hypot(cross[2]).atan2(dot)
+}
+
+/// Where an angle may be on its way from one to another, no longer than `way`, rad.
+fn range(ends: [f64; 2], way: f64) -> [f64; 2] {
+    let (sum, way) = (ends[0] + ends[1], way.max((ends[1] - ends[0]).abs()));
+    [0.5 * (sum - way), 0.5 * (sum + way)]
+}
+
+/// The largest sine in a range of angles: below 0 and beyond half a round it comes back.
+fn most_sine([low, high]: [f64; 2]) -> f64 {
+    let right = core::f64::consts::FRAC_PI_2;
+    if low <= right && right <= high {
+        1.0
+    } else {
+        low.sin().abs().max(high.sin().abs())
     }
 }
 
@@ -86,11 +179,6 @@ pub(crate) fn dip_deg(ends: &[[f64; 3]; 2]) -> f64 {
     half_2 / (DEG + (DEG * DEG - half_2).max(0.0).sqrt())
 }
 
-/// How many chords keep a turn by so many degrees in all within a share of a tolerance, degrees: φ²/8n² of a radian.
-pub(crate) fn chords(turn_deg: f64, allowed_deg: f64) -> f64 {
-    turn_deg * (1.0 / (8.0 * DEG * allowed_deg)).sqrt()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -110,7 +198,62 @@ mod tests {
         for (is, wanted) in way.into_iter().zip(wanted) {
             assert!((is - wanted).abs() < 1e-12, "{way:?}");
         }
-        assert!((tool.turn_deg(&at) - 120.0).abs() < 1e-12);
+    }
+
+    /// Against differences of the directions themselves.
+    #[test]
+    fn no_move_bends_more() {
+        let turn = |axis, about| AxisTurn { axis, about };
+        let skewed = [0.0, 0.5_f64.sqrt(), 0.5_f64.sqrt()];
+        let tools = [
+            ToolAxis::new(&[
+                turn(Axis::C, [0.0, 0.0, 1.0]),
+                turn(Axis::A, [1.0, 0.0, 0.0]),
+            ]),
+            ToolAxis::new(&[turn(Axis::C, [0.0, 0.0, 1.0]), turn(Axis::B, skewed)]),
+            ToolAxis::new(&[
+                turn(Axis::C, [0.0, 0.0, 1.0]),
+                turn(Axis::B, [0.0, 1.0, 0.0]),
+                turn(Axis::A, [1.0, 0.0, 0.0]),
+            ]),
+        ];
+        let place = |a, b, c| {
+            let mut at = AxisVector::zeros();
+            for (axis, angle) in [(Axis::A, a), (Axis::B, b), (Axis::C, c)] {
+                at[axis.index()] = angle;
+            }
+            at
+        };
+        let places = [
+            place(0.0, 0.0, 0.0),
+            place(0.0, 0.0, 3000.0),
+            place(0.01, 0.02, 90.0),
+            place(30.0, -20.0, 10.0),
+            place(-80.0, 120.0, 200.0),
+        ];
+        for tool in tools {
+            for (from, to) in places
+                .iter()
+                .flat_map(|a| places.iter().map(move |b| (a, b)))
+            {
+                let Turn { bend, span } = tool.turn(from, to);
+                let at = |t: f64| tool.direction(&(from + (to - from) * t));
+                let h = 1e-4;
+                for k in 1..1000 {
+                    let t = f64::from(k) / 1000.0;
+                    let [a, b, c] = [at(t - h), at(t), at(t + h)];
+                    assert!(angle(at(0.0), b) <= span + 1e-9, "{from} {to}");
+                    let second = [0, 1, 2].map(|i| (a[i] - 2.0 * b[i] + c[i]) / (h * h));
+                    let most = second[0].hypot(second[1]).hypot(second[2]);
+                    assert!(
+                        most <= bend * (1.0 + 1e-6) + 1e-5,
+                        "{from} {to} {most} {bend}"
+                    );
+                }
+            }
+        }
+        // A turn about the tool is none.
+        assert!(tools[0].turn(&places[0], &places[1]).bend < 1e-12);
     }
 
     #[test]
@@ -120,7 +263,9 @@ mod tests {
         let sagitta = DEG * (1.0 - 1.0_f64.to_radians().cos());
         assert!((dip_deg(&ends) - sagitta).abs() < 1e-9 * sagitta);
         // Two degrees in so many chords that each dips by a thousandth.
-        let parts = chords(2.0, 1e-3);
+        let bend = 2.0_f64.to_radians().powi(2);
+        let span = 2.0_f64.to_radians();
+        let parts = Turn { bend, span }.chords(1e-3);
         let part = DEG * (1.0 - (1.0 / parts).to_radians().cos());
         assert!((part - 1e-3).abs() < 1e-6, "{part}");
     }

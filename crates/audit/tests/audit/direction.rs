@@ -21,8 +21,18 @@ fn at(x: f64, a: f64, c: f64) -> AxisVector {
     place
 }
 
-/// Judges a motion in 100 periods along a line, off it by what is told of each share of the way.
 fn judged(
+    ends: [AxisVector; 2],
+    angle_deg: Option<f64>,
+    mode: PathMode,
+    off: impl Fn(f64) -> AxisVector,
+) -> AuditReport {
+    judged_of(tool(), ends, angle_deg, mode, off)
+}
+
+/// Judges a motion in 100 periods along a line, off it by what is told of each share of the way.
+fn judged_of(
+    tool: ToolAxis,
     ends: [AxisVector; 2],
     angle_deg: Option<f64>,
     mode: PathMode,
@@ -35,7 +45,7 @@ fn judged(
         },
         ..settings(Limits::UNLIMITED)
     };
-    let mut audit = Audit::new(&settings).with_tool(Some(tool()));
+    let mut audit = Audit::new(&settings).with_tool(Some(tool));
     let mut program = item(1, Segment::line(ends[0], ends[1]));
     if let ItemKind::Move { mode: of_move, .. } = &mut program.kind {
         *of_move = mode;
@@ -155,4 +165,50 @@ fn the_end_is_where_the_axes_are() {
         audit.sample(&sample(tick.into(), at(10.0 * share, 0.0, 45.0 * share)));
     }
     assert!(!audit.finish().is_clean());
+}
+
+#[test]
+fn axes_that_count_for_themselves_are_judged_beside_the_direction() {
+    // Upright, C turns the tool about itself: the direction is the same.
+    let ends = [at(0.0, 0.0, 0.0), at(10.0, 0.0, 0.0)];
+    let off = |deg: f64| move |_| at(0.0, 0.0, deg);
+    let of = |tool, deg| judged_of(tool, ends, None, PLAIN, off(deg));
+    assert!(of(tool(), 1.0).is_clean());
+    assert!(!of(tool().with_axes(), 1.0).is_clean());
+    let within = of(tool().with_axes(), 0.99 * TOLERANCE);
+    assert!(within.is_clean(), "{:?}", within.violations);
+    assert!(!of(tool().with_axes(), 1.01 * TOLERANCE).is_clean());
+}
+
+#[test]
+fn an_exact_end_is_that_whatever_a_degree_counts_for() {
+    // The tolerance of the tip is 0.02 mm: a degree counts for 0.04 and for 10 mm.
+    for angle_deg in [0.5, 0.002] {
+        let reached = |off_deg: f64| {
+            let ends = [at(0.0, 20.0, 0.0), at(10.0, 20.0, 10.0)];
+            let settings = AuditSettings {
+                direction: DirectionTolerance {
+                    angle_deg: Some(angle_deg),
+                    ..DirectionTolerance::default()
+                },
+                ..settings(Limits::UNLIMITED)
+            };
+            let mut audit = Audit::new(&settings).with_tool(Some(tool()));
+            audit.program(&item(1, Segment::line(ends[0], ends[1])));
+            for tick in 0..=100_u32 {
+                let share = f64::from(tick) / 100.0;
+                let place = ends[0] + (ends[1] - ends[0]) * share;
+                audit.sample(&sample(tick.into(), place + at(0.0, 0.0, off_deg * share)));
+            }
+            audit.finish()
+        };
+        for (off_deg, is_there) in [(0.9e-6, true), (1.2e-6, false), (1e-5, false)] {
+            let report = reached(off_deg);
+            assert_eq!(
+                report.is_clean(),
+                is_there,
+                "{angle_deg} {off_deg}: {report:?}"
+            );
+        }
+    }
 }

@@ -4,10 +4,11 @@
 //! cos A) on the work, which is written out here.
 
 use core::fmt::Write as _;
-use glidepath_gcode::{AxisTravel, Dialect, Machine, Options, Program};
+use glidepath_gcode::{AxisTravel, Dialect, Machine, Options, Program, Tool, ToolTable};
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_program::{DirectionTolerance, ItemKind, Rate};
 use nalgebra::Vector3;
+use std::sync::Arc;
 
 use crate::five_axes::{at, near, options};
 
@@ -182,6 +183,48 @@ fn from_the_pole_c_turns_before_the_tool_leans() {
         let all = moves(&machine(WIDE, ROUNDS), &text).expect("a program");
         assert!(!all.iter().any(is_turn), "{text}");
         near(all.last().expect("it").1, at(10.0, 0.0, 20.0, 45.0, 90.0));
+    }
+}
+
+#[test]
+fn beside_a_contour_that_is_left_no_turn_moves_the_tip() {
+    let mut tools = ToolTable::new();
+    tools.set(
+        1,
+        Tool {
+            diameter_mm: 10.0,
+            ..Tool::default()
+        },
+    );
+    let options = Options {
+        tools: Some(Arc::new(tools)),
+        ..machine(WIDE, ROUNDS)
+    };
+    let text = "T1 M6\nD1\nTRAORI\nG0 X0 Y-10 Z0 A0 C0\nG41 G1 X0 Y0 F600\nX10\nG40\nG1 X20 Y5 A3=1 B3=0 C3=1 F600";
+    let all = moves(&options, text).expect("a program");
+    let last = all.last().expect("it");
+    // From beside the contour, a radius of 5 from where the program has the tip, in one move at feed.
+    assert!((last.0[1] - 5.0).abs() < 1e-9, "{all:?}");
+    assert!(!last.2, "{all:?}");
+    near(last.1, at(20.0, 5.0, 0.0, 45.0, 90.0));
+    let feeds = all.iter().skip(1);
+    assert!(feeds.into_iter().all(|of| !of.2), "{all:?}");
+}
+
+#[test]
+fn what_is_near_the_pole_follows_the_ratio_of_tolerances() {
+    // Without a tolerance of its own, a direction has as many degrees as the tip has mm: .05 of it here, and .02 beside.
+    let options = |ratio: f64| Options {
+        tolerance_ratio: ratio,
+        ..machine(WIDE, ROUNDS)
+    };
+    let text = passage(0.02).1.replace("G64", "G641 ADIS=1");
+    for (ratio, is_passed) in [(1.0, true), (0.1, false)] {
+        let all = moves(&options(ratio), &text).expect("a program");
+        let turn = |(start, end, _): &Moved| (end - start)[Axis::C.index()].abs();
+        let turned: f64 = all.iter().skip(1).map(turn).sum();
+        // Half a round else.
+        assert_eq!(turned < 10.0, is_passed, "{ratio}: {turned}");
     }
 }
 

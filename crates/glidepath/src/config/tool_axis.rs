@@ -39,12 +39,15 @@ impl MachineConfig {
     fn tool_axis(&self) -> Option<ToolAxis> {
         match &self.mechanism {
             Mechanism::FiveAxis(machine) => Some(of_five_axes(machine)),
-            // The platform turns about the fixed x, then y, then z.
-            Mechanism::Hexapod(_) => Some(ToolAxis::new(&[
-                turn(Axis::C, [0.0, 0.0, 1.0]),
-                turn(Axis::B, [0.0, 1.0, 0.0]),
-                turn(Axis::A, [1.0, 0.0, 0.0]),
-            ])),
+            // The platform turns about the fixed x, then y, then z; how it is turned about the tool counts, too.
+            Mechanism::Hexapod(_) => {
+                let tool = ToolAxis::new(&[
+                    turn(Axis::C, [0.0, 0.0, 1.0]),
+                    turn(Axis::B, [0.0, 1.0, 0.0]),
+                    turn(Axis::A, [1.0, 0.0, 0.0]),
+                ]);
+                Some(tool.with_axes())
+            }
             _ => None,
         }
     }

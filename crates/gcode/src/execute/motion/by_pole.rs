@@ -152,11 +152,7 @@ impl Interpreter {
     /// How far from a programmed direction the tool may be along the axis of C instead, degrees.
     pub(super) fn pole_deg(&self) -> f64 {
         let options = &self.options;
-        let tolerance_mm = self
-            .state
-            .modal
-            .path_mode
-            .tolerance_mm(options.tolerance_mm);
+        let tolerance_mm = self.path_mode().tolerance_mm(options.tolerance_mm);
         DirectionTolerance::POLE_R * options.direction.in_force_deg(tolerance_mm)
     }
 
@@ -211,8 +207,10 @@ impl Interpreter {
         let Some(way) = directions.way(here, to, pace) else {
             return Err(wound(&directions, block, to));
         };
-        // In one part where the parts of a block are not told apart.
+        // In one part where the parts of a block are not told apart: in G93, and beside a contour up to the move that
+        // leads away, where the tip is not where the program has it.
         let is_whole = self.state.open.compensation.is_some()
+            || self.state.leaving_contour
             || self.state.modal.feed_mode == FeedMode::InverseTime;
         match way {
             Way::ByPole { .. } if is_whole => Err(wound(&directions, block, to)),
