@@ -153,7 +153,7 @@ fn a_round_between_corners_to_its_outer_side_is_cut_without_a_mark() {
         sweep_rad: -PI,
     };
     let segments = [
-        Segment::line(at(0.0, 4.5255), arc.start),
+        Segment::line(at(0.0, 0.0), arc.start),
         Segment::Arc(arc),
         Segment::line(arc.end, at(65.4745, 50.0)),
     ];

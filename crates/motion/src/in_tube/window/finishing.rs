@@ -8,6 +8,7 @@ use super::scaled_path::ScaledPath;
 use super::shortcuts;
 use super::spline::Grid;
 use super::tube::Style;
+use super::way::at_feed_until;
 use super::window_start::WindowStart;
 
 /// Lengths of the last window that are tried, and rounds for each. Steps that double over the 160
@@ -237,9 +238,10 @@ impl<const D: usize> Optimiser<D> {
         self.samples
             .project(path, &points, window_start.piece, &window_start.grid, false);
         self.samples.assign(path, window_start.piece);
+        let by_period = (&window_start.grid, window_start.period_t);
         let smooth = Style {
             is_centred: true,
-            at_feed: window_start.near_feed_until(path, &points, &self.samples),
+            at_feed: at_feed_until(path, &points, &self.samples, by_period),
             ..window_start.smooth_style(1.0)
         };
         let usual = Style {
@@ -271,9 +273,10 @@ impl<const D: usize> Optimiser<D> {
         self.samples
             .project(path, &points, window_start.piece, grid, false);
         self.samples.assign(path, window_start.piece);
+        let by_period = (grid, window_start.period_t);
         let style = Style {
             is_centred: true,
-            at_feed: window_start.near_feed_until(path, &points, &self.samples),
+            at_feed: at_feed_until(path, &points, &self.samples, by_period),
             ..window_start.smooth_style(1.0)
         };
         let margin = damping::margin(path, &style);

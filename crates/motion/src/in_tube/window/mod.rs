@@ -64,7 +64,6 @@ mod hold_back;
 mod joint_rows;
 mod one_sided;
 mod optimiser;
-mod own_jerk;
 mod rate_changes;
 mod rounds;
 mod run_corners;

@@ -14,8 +14,7 @@
 //! smaller, and in the end the motion of the search stays.
 //!
 //! Where a window begins at the feed, progress counts from where it slows down on, as it does in windows
-//! that go on at the feed ([`super::at_feed`]). Where it begins near the feed, jerk is dear up to there
-//! ([`super::tube::JERK_AT_FEED`]).
+//! that go on at the feed ([`super::at_feed`]), and jerk is dear up to there ([`super::tube::JERK_AT_FEED`]).
 //!
 //! Samples stay with the pieces that the search gave them to, but for those that were reached by a
 //! shorter way. A motion may have been found in a round in which it had no need to reach its pieces;
@@ -31,7 +30,7 @@ use super::scaled_path::ScaledPath;
 use super::search_bias::SearchBias;
 use super::shortcuts;
 use super::tube::{STEERING, Style};
-use super::way::{at_feed_until, near_feed_until};
+use super::way::at_feed_until;
 use super::window_start::WindowStart;
 
 /// Twice what an offset of the whole radius costs at one sample, and what jerk at its limit does, in periods
@@ -45,8 +44,6 @@ const JERK: f64 = 0.03;
 const WEIGHTS: [f64; 3] = [1.0, 0.1, 0.01];
 /// Rounds for each: on curves the planes that bound the feed are learnt in them.
 const ROUNDS: usize = 3;
-/// Share of the feed from which on jerk is dear ([`super::tube::JERK_AT_FEED`]).
-const NEAR_FEED_R: f64 = 0.995;
 /// Share of its progress that a window may lose: a period in 1.3 s at 4 ms. What is smooth is gained where
 /// the feed binds, and there nothing is lost; where limits bind, more smoothness costs more time.
 const MOST_LOSS: f64 = 0.003;
@@ -71,21 +68,6 @@ impl<const D: usize> WindowStart<'_, D> {
     /// False for another look at a short stretch, which is for time alone.
     fn is_first_look(&self) -> bool {
         self.bias == SearchBias::USUAL
-    }
-
-    /// Until which sample jerk is dear on a motion.
-    pub(super) fn near_feed_until(
-        &self,
-        path: &ScaledPath<D>,
-        points: &[[f64; D]],
-        samples: &Samples,
-    ) -> usize {
-        near_feed_until(
-            path,
-            points,
-            samples,
-            (&self.grid, self.period_t, NEAR_FEED_R),
-        )
     }
 
     /// How rows are made for a second solve, with so much of the weights. Where the pull to the path is
@@ -118,12 +100,6 @@ impl<const D: usize> Optimiser<D> {
             shortcuts::gained_t(path, points, samples, grid)
         };
         let (aims_beyond, scale) = aim(path, window_start, &points, &samples);
-        let near_feed = window_start.near_feed_until(path, &points, &samples);
-        let at_feed = if near_feed >= window_start.commit {
-            near_feed
-        } else {
-            0
-        };
         let gained_by_best_t = gained_t(&points, &samples);
         let mut samples = samples;
         let most_loss = if window_start.is_first_look() {
@@ -142,7 +118,7 @@ impl<const D: usize> Optimiser<D> {
             self.samples.clone_from(&samples);
             let style = Style {
                 aims_beyond,
-                at_feed,
+                at_feed: aims_beyond,
                 ..window_start.smooth_style(scale * *weight)
             };
             let mut round_state = RoundState::polishing(&points);

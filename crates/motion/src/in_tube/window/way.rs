@@ -20,32 +20,17 @@ pub(super) fn at_feed_until<const D: usize>(
     samples: &Samples,
     (grid, period_t): (&Grid, f64),
 ) -> usize {
-    near_feed_until(path, points, samples, (grid, period_t, AT_FEED_R))
-}
-
-/// Until which sample a motion has a share of the feed without a break.
-pub(super) fn near_feed_until<const D: usize>(
-    path: &ScaledPath<D>,
-    points: &[[f64; D]],
-    samples: &Samples,
-    (grid, period_t, share_r): (&Grid, f64, f64),
-) -> usize {
-    let is_near = |k: &usize| {
+    let is_at_feed = |k: &usize| {
         let turn = turn_before(points, (*k, grid));
-        way_t(path, points, samples, (*k, grid)) >= (share_r - missing_r(turn)) * period_t
+        way_t(path, points, samples, (*k, grid)) >= at_feed_r(turn) * period_t
     };
-    (1..=samples.count()).take_while(is_near).count()
+    (1..=samples.count()).take_while(is_at_feed).count()
 }
 
 /// Share of the feed that counts as all of it where the motion turns so much in a period, rad.
 pub(crate) fn at_feed_r(turn: f64) -> f64 {
-    AT_FEED_R - missing_r(turn)
-}
-
-/// Share of the feed that is missing where the motion turns so much in a period, rad.
-fn missing_r(turn: f64) -> f64 {
     let turn = turn.min(MOST_TURN);
-    OF_TURN * turn * turn
+    AT_FEED_R - OF_TURN * turn * turn
 }
 
 /// What the way in the period before sample `k` takes at the top speed, s. Progress says less: it

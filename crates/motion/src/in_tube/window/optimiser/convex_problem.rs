@@ -4,7 +4,7 @@ use super::Optimiser;
 use crate::in_tube::window::scaled_path::ScaledPath;
 use crate::in_tube::window::solver::Goal;
 use crate::in_tube::window::tube::{self, JERK_AT_FEED, Layout, Style};
-use crate::in_tube::window::{damping, feed_rows, joint_rows, own_jerk, shortcuts, travel_rows};
+use crate::in_tube::window::{damping, feed_rows, joint_rows, shortcuts, travel_rows};
 
 /// Interior point iterations in one problem, of which it usually takes 6 to 20. One that takes more counts
 /// as not solved ([`super::phases`]).
@@ -57,7 +57,6 @@ impl<const D: usize> Optimiser<D> {
             style,
         };
         tube::build(&mut self.problem, &layout, extents);
-        own_jerk::add(&mut self.problem, &layout, style.intervals_at_feed());
         feed_rows::add(&mut self.problem, &layout);
         travel_rows::add(&mut self.problem, &layout);
         if path.joints().is_some() {

@@ -166,17 +166,6 @@ impl<const D: usize> Problem<D> {
         self.wide_rows.clear();
     }
 
-    /// What the third difference `k` has for nothing: its price counts from there.
-    pub(in crate::in_tube::window) fn aim_jerk(&mut self, k: usize, own: &[f64; D]) {
-        // −½·w·(Δ³x − own)² is −½·w·(Δ³x)² + w·own·Δ³x, but for a constant.
-        let weight = self.jerk_at(k);
-        for (aims, part) in self.aims[k..].iter_mut().zip(DIFFERENCES[2]) {
-            for a in 0..D {
-                aims[a] += part * weight[a] * own[a];
-            }
-        }
-    }
-
     /// Adds to the objective how far a weighted sum of control points is in a direction.
     pub(in crate::in_tube::window) fn add_aim(
         &mut self,
