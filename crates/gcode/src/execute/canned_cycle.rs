@@ -44,7 +44,7 @@ use crate::execute::tapping_cycle::tap_turns;
 use crate::setup::fanuc::OffsetMemory;
 use crate::syntax::block::Block;
 use crate::syntax::dialect::Dialect;
-use crate::syntax::modes::{CannedCycle, Distance, Motion, Retract};
+use crate::syntax::modes::{CannedCycle, Distance, Retract};
 use crate::syntax::word_check::whole;
 
 /// How far the tool backs off from a depth it has reached, mm.
@@ -59,10 +59,10 @@ pub(super) const MAX_HOLES: u32 = 10_000;
 /// One hole: levels in program coordinates along the normal axis, mm.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Hole {
-    sticky: StickyWords,
-    r: f64,
-    bottom: f64,
-    clear: f64,
+    pub(super) sticky: StickyWords,
+    pub(super) r: f64,
+    pub(super) bottom: f64,
+    pub(super) clear: f64,
 }
 
 impl Interpreter {
@@ -88,7 +88,6 @@ impl Interpreter {
         cycle: CannedCycle,
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
-        let normal = self.state.modal.plane.normal();
         let mut sticky = self.keep(block, cycle)?;
         self.check_cycle(block, &sticky)?;
         // Beside I of depths, K is the least depth of Haas.
@@ -113,15 +112,8 @@ impl Interpreter {
             holes => holes.unwrap_or(1),
         };
         let incremental = self.state.modal.distance == Distance::Incremental;
-        let program = self.state.offsets.to_program(self.state.position);
-        let start = program[normal.index()];
-        // Increments count from where the length of the tool puts it.
-        let way = if incremental {
-            self.length_on_way()[normal.index()]
-        } else {
-            0.0
-        };
-        let initial = self.state.cycles.initial.unwrap_or(start + way);
+        let initial = self.state.cycles.initial;
+        let initial = initial.unwrap_or_else(|| self.level_before());
         let [r, bottom] = if block.has_increments() && !incremental {
             [self.r_of_lathe(initial, &sticky), sticky.depth]
         } else {
@@ -130,18 +122,8 @@ impl Interpreter {
         sticky.levels_mm = Some([r, bottom]);
         if cycle == CannedCycle::BackBore {
             self.check_back_bore(block, [r, bottom])?;
-        } else if r < bottom {
-            let message = "the R plane is below the bottom of the hole";
-            return Err(BlockDiagnostic::new(
-                DiagnosticCode::CannedCycle,
-                block.span(b'R'),
-                message,
-            )
-            .because(format!(
-                "the cycle goes from R down to {}; with G91 the depth counts from R",
-                normal.letter()
-            ))
-            .help("check both words, and G90 or G91"));
+        } else {
+            self.check_levels(block, [r, bottom])?;
         }
         self.state.cycles = CycleSeries {
             initial: Some(initial),
@@ -151,12 +133,7 @@ impl Interpreter {
             self.check_stored_place(block)?;
             return Ok(());
         }
-        let clear = match self.state.modal.retract {
-            Retract::RPlane if !block.has_increments() && cycle != CannedCycle::BackBore => r,
-            // A FANUC goes back to where the cycle began, below R, too.
-            _ if block.dialect == Dialect::Fanuc && cycle != CannedCycle::BackBore => initial,
-            _ => initial.max(r),
-        };
+        let clear = self.way_out(block, cycle, [initial, r, bottom])?;
         let hole = Hole {
             sticky,
             r,
@@ -166,25 +143,6 @@ impl Interpreter {
         let mut places = self.places(block, holes)?;
         self.repeat_polar(block, &mut places);
         self.make_holes(block, hole, &places, out)
-    }
-
-    /// The hole that the cycle in force makes; `None` if none is, or a lathe's.
-    pub(super) fn hole_of_series(&self) -> Option<Hole> {
-        let series = &self.state.cycles;
-        let is_on = matches!(self.state.modal.motion, Some(Motion::Cycle(_)));
-        let sticky = series.last.filter(|_| is_on)?;
-        let [r, bottom] = sticky.levels_mm?;
-        let clear = match self.state.modal.retract {
-            Retract::RPlane if sticky.cycle != CannedCycle::BackBore => r,
-            _ if sticky.cycle != CannedCycle::BackBore => series.initial?,
-            _ => series.initial?.max(r),
-        };
-        Some(Hole {
-            sticky,
-            r,
-            bottom,
-            clear,
-        })
     }
 
     /// Makes the holes at those places of the program, with exact corners.
@@ -202,27 +160,6 @@ impl Interpreter {
         let made = self.holes(block, hole, places, out);
         self.state.modal.path_mode = mode;
         made
-    }
-
-    /// The R plane and the bottom, coordinates. A FANUC keeps them as such: words of a block before mean
-    /// what they meant there.
-    fn levels(&self, block: &Block, sticky: &StickyWords, initial: f64) -> [f64; 2] {
-        let normal = self.state.modal.plane.normal();
-        let is_incremental = self.state.modal.distance == Distance::Incremental;
-        let last = self.state.cycles.last;
-        let kept = last.filter(|_| block.dialect == Dialect::Fanuc);
-        let kept = kept.and_then(|last| last.levels_mm);
-        let says_depth = block.axes().any(|(axis, _)| axis == normal);
-        let from = |base: f64| if is_incremental { base } else { 0.0 };
-        let r = match kept {
-            Some([r, _]) if block.get(b'R').is_none() => r,
-            _ => from(initial) + sticky.r,
-        };
-        let bottom = match kept {
-            Some([_, bottom]) if !says_depth => bottom,
-            _ => from(r) + sticky.depth,
-        };
-        [r, bottom]
     }
 
     fn holes(

@@ -109,6 +109,48 @@ fn words_of_cycles_stay_when_the_cycle_changes() {
     );
 }
 
+/// The way out to a level below the bottom leads through the part.
+#[test]
+fn a_cycle_that_begins_below_its_bottom_is_refused() {
+    for (text, at) in [
+        ("G0 Z-20\nG98 G81 X10 Z-10 R2 F600", "2:5 canned-cycle"),
+        ("G0 Z-10\nG98 G81 X10 Z-10 R2 F600", "2:5 canned-cycle"),
+        ("G0 Z-20\nG98 G85 X10 Z-10 R2 F600", "2:5 canned-cycle"),
+        ("G0 Z-20\nG91 G98 G81 X10 Z-5 R15 F600", "2:9 canned-cycle"),
+        // The level of the series is that of its first block.
+        (
+            "G0 Z-20\nG99 G81 X10 Z-30 R2 F600\nG98 X20 Z-10",
+            "3:5 canned-cycle",
+        ),
+        (
+            "G0 Z-20\nG99 G81 Z-10 R2 F600 L0\nG98 G70 I5 L3",
+            "3:5 canned-cycle",
+        ),
+    ] {
+        finds(text, &[at]);
+    }
+    let end = |text: &str| last(text)[2];
+    assert_eq!(end("G0 Z-20\nG99 G81 X10 Z-10 R2 F600"), 2.0);
+    assert_eq!(end("G0 Z-9\nG98 G81 X10 Z-10 R2 F600"), -9.0);
+    // What a Haas makes of a level below R is not known.
+    let haas = |text: &str| {
+        let haas = Options {
+            fanuc: FanucParameters {
+                offset_memory: OffsetMemory::Haas,
+                ..FanucParameters::default()
+            },
+            ..options()
+        };
+        crate::support::listed(&check(text.as_bytes(), haas))
+    };
+    assert_eq!(
+        haas("G0 Z-9\nG98 G81 X10 Z-10 R2 F600"),
+        ["2:5 canned-cycle"]
+    );
+    assert!(haas("G0 Z-9\nG99 G81 X10 Z-10 R2 F600").is_empty());
+    assert!(haas("G0 Z2\nG98 G81 X10 Z-10 R2 F600").is_empty());
+}
+
 #[test]
 fn g89_is_at_rapid_above_r() {
     let text = "G0 Z5\nG89 X0 Y0 Z-8 R2 F120";
