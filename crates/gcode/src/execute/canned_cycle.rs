@@ -20,15 +20,15 @@
 //!
 //! | cycle | down | at the bottom | out |
 //! |---|---|---|---|
-//! | G73 | Q at a time, 0.254 mm back after each | – | rapid |
+//! | G73 | Q at a time, 0.254 mm back after each | – (of a Haas dwell P) | rapid |
 //! | G76 of FANUC | feed | dwell P, spindle stops at its angle (M19), aside | rapid, back, spindle on |
 //! | G87 of FANUC | beside the wall, rapid | back, spindle on, feed up to Z, dwell P | as G76, to the initial level |
 //! | G74, G84 | feed, overrides off | spindle reversed, dwell P | feed, then reversed again; of FANUC: feed to R, rapid from there |
 //! | the same, rigidly | behind the spindle | – | behind the spindle to R, rapid from there |
 //! | G81 | feed | – | rapid |
 //! | G82 | feed | dwell P | rapid |
-//! | G83 | Q at a time, out to R after each | – | rapid |
-//! | G85 | feed | – | feed to R (of a lathe of FANUC twice that), rapid from there |
+//! | G83 | Q at a time, out to R after each | – (of a Haas and a lathe of FANUC dwell P) | rapid |
+//! | G85 | feed | – (of a lathe of FANUC dwell P) | feed to R (of a lathe of FANUC twice that), rapid from there |
 //! | G86 | feed | dwell P, spindle stop | rapid, spindle on |
 //! | G89 | feed | dwell P | feed; of FANUC: feed to R, rapid from there |
 
@@ -41,11 +41,10 @@ use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::speed::Pace;
 use crate::execute::state::sticky_words::{CycleSeries, StickyWords};
 use crate::execute::tapping_cycle::tap_turns;
-use crate::setup::fanuc::OffsetMemory;
 use crate::syntax::block::Block;
 use crate::syntax::dialect::Dialect;
 use crate::syntax::modes::{CannedCycle, Distance, Retract};
-use crate::syntax::word_check::whole;
+use crate::syntax::word_check::{whole, whole_count};
 
 /// How far the tool backs off from a depth it has reached, mm.
 const BACK_OFF_MM: f64 = 0.254;
@@ -93,7 +92,7 @@ impl Interpreter {
         // Beside I of depths, K is the least depth of Haas.
         let is_depth = block.get(b'I').is_some() && !cycle.goes_aside();
         let repeats = match is_depth || self.counts_holes_by_l(block) {
-            false => whole(block, b'K', MAX_HOLES)?.or(whole(block, b'L', MAX_HOLES)?),
+            false => whole_count(block, b'K', MAX_HOLES)?.or(whole(block, b'L', MAX_HOLES)?),
             true => whole(block, b'L', MAX_HOLES)?,
         };
         let holes = match repeats {
@@ -280,13 +279,16 @@ impl Interpreter {
                 self.push(out, ItemKind::Dwell(dwell_s));
                 self.push(out, code(5));
             }
+            _ if hole.sticky.dwell_s > 0.0 && self.dwells_beside(block, cycle) => {
+                self.push(out, ItemKind::Dwell(hole.sticky.dwell_s));
+            }
             _ => {}
         }
         let pace = match cycle {
             CannedCycle::Bore => {
                 let feed = self.state.modal.feed;
                 // A lathe of FANUC comes out at twice the feed.
-                let is_haas = self.options.fanuc.offset_memory == OffsetMemory::Haas;
+                let is_haas = self.options.fanuc.is_haas();
                 if block.is_lathe && !is_haas {
                     self.state.modal.feed = feed.map(|feed| feed.times(2.0));
                 }
@@ -308,6 +310,19 @@ impl Interpreter {
             self.push(out, code(turning.code()));
         }
         Ok(())
+    }
+
+    /// True where P, which other cycles need, may be a dwell at the bottom: G73 and G83 of a Haas, G83 and G85
+    /// of FANUC's lathes.
+    const fn dwells_beside(&self, block: &Block, cycle: CannedCycle) -> bool {
+        let is_haas = self.options.fanuc.is_haas();
+        let is_fanuc = matches!(block.dialect, Dialect::Fanuc);
+        is_fanuc
+            && match cycle {
+                CannedCycle::ChipBreak | CannedCycle::Peck => is_haas || block.is_lathe,
+                CannedCycle::Bore => !is_haas && block.is_lathe,
+                _ => false,
+            }
     }
 
     /// All depths of G73 and G83 but the last.
