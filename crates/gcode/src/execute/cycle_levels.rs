@@ -6,7 +6,6 @@ use crate::diagnostic::code::DiagnosticCode;
 use crate::execute::canned_cycle::Hole;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::state::sticky_words::StickyWords;
-use crate::setup::fanuc::OffsetMemory;
 use crate::syntax::block::Block;
 use crate::syntax::dialect::Dialect;
 use crate::syntax::modes::{CannedCycle, Distance, Motion, Retract};
@@ -77,7 +76,7 @@ impl Interpreter {
         if !is_fanuc || initial >= r {
             return Ok(initial.max(r));
         }
-        let is_haas = self.options.fanuc.offset_memory == OffsetMemory::Haas;
+        let is_haas = self.options.fanuc.is_haas();
         let (message, why) = if initial <= bottom {
             (
                 "the cycle begins below the bottom of its hole",
