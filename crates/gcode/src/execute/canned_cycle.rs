@@ -20,15 +20,15 @@
 //!
 //! | cycle | down | at the bottom | out |
 //! |---|---|---|---|
-//! | G73 | Q at a time, 0.254 mm back after each | – | rapid |
+//! | G73 | Q at a time, 0.254 mm back after each | – (of a Haas dwell P) | rapid |
 //! | G76 of FANUC | feed | dwell P, spindle stops at its angle (M19), aside | rapid, back, spindle on |
 //! | G87 of FANUC | beside the wall, rapid | back, spindle on, feed up to Z, dwell P | as G76, to the initial level |
 //! | G74, G84 | feed, overrides off | spindle reversed, dwell P | feed, then reversed again; of FANUC: feed to R, rapid from there |
 //! | the same, rigidly | behind the spindle | – | behind the spindle to R, rapid from there |
 //! | G81 | feed | – | rapid |
 //! | G82 | feed | dwell P | rapid |
-//! | G83 | Q at a time, out to R after each | – | rapid |
-//! | G85 | feed | – | feed to R (of a lathe of FANUC twice that), rapid from there |
+//! | G83 | Q at a time, out to R after each | – (of a Haas and a lathe of FANUC dwell P) | rapid |
+//! | G85 | feed | – (of a lathe of FANUC dwell P) | feed to R (of a lathe of FANUC twice that), rapid from there |
 //! | G86 | feed | dwell P, spindle stop | rapid, spindle on |
 //! | G89 | feed | dwell P | feed; of FANUC: feed to R, rapid from there |
 
@@ -41,11 +41,10 @@ use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::speed::Pace;
 use crate::execute::state::sticky_words::{CycleSeries, StickyWords};
 use crate::execute::tapping_cycle::tap_turns;
-use crate::setup::fanuc::OffsetMemory;
 use crate::syntax::block::Block;
 use crate::syntax::dialect::Dialect;
-use crate::syntax::modes::{CannedCycle, Distance, Motion, Retract};
-use crate::syntax::word_check::whole;
+use crate::syntax::modes::{CannedCycle, Distance, Retract};
+use crate::syntax::word_check::{whole, whole_count};
 
 /// How far the tool backs off from a depth it has reached, mm.
 const BACK_OFF_MM: f64 = 0.254;
@@ -59,10 +58,10 @@ pub(super) const MAX_HOLES: u32 = 10_000;
 /// One hole: levels in program coordinates along the normal axis, mm.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Hole {
-    sticky: StickyWords,
-    r: f64,
-    bottom: f64,
-    clear: f64,
+    pub(super) sticky: StickyWords,
+    pub(super) r: f64,
+    pub(super) bottom: f64,
+    pub(super) clear: f64,
 }
 
 impl Interpreter {
@@ -88,13 +87,12 @@ impl Interpreter {
         cycle: CannedCycle,
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
-        let normal = self.state.modal.plane.normal();
         let mut sticky = self.keep(block, cycle)?;
         self.check_cycle(block, &sticky)?;
         // Beside I of depths, K is the least depth of Haas.
         let is_depth = block.get(b'I').is_some() && !cycle.goes_aside();
         let repeats = match is_depth || self.counts_holes_by_l(block) {
-            false => whole(block, b'K', MAX_HOLES)?.or(whole(block, b'L', MAX_HOLES)?),
+            false => whole_count(block, b'K', MAX_HOLES)?.or(whole(block, b'L', MAX_HOLES)?),
             true => whole(block, b'L', MAX_HOLES)?,
         };
         let holes = match repeats {
@@ -113,15 +111,8 @@ impl Interpreter {
             holes => holes.unwrap_or(1),
         };
         let incremental = self.state.modal.distance == Distance::Incremental;
-        let program = self.state.offsets.to_program(self.state.position);
-        let start = program[normal.index()];
-        // Increments count from where the length of the tool puts it.
-        let way = if incremental {
-            self.length_on_way()[normal.index()]
-        } else {
-            0.0
-        };
-        let initial = self.state.cycles.initial.unwrap_or(start + way);
+        let initial = self.state.cycles.initial;
+        let initial = initial.unwrap_or_else(|| self.level_before());
         let [r, bottom] = if block.has_increments() && !incremental {
             [self.r_of_lathe(initial, &sticky), sticky.depth]
         } else {
@@ -130,18 +121,8 @@ impl Interpreter {
         sticky.levels_mm = Some([r, bottom]);
         if cycle == CannedCycle::BackBore {
             self.check_back_bore(block, [r, bottom])?;
-        } else if r < bottom {
-            let message = "the R plane is below the bottom of the hole";
-            return Err(BlockDiagnostic::new(
-                DiagnosticCode::CannedCycle,
-                block.span(b'R'),
-                message,
-            )
-            .because(format!(
-                "the cycle goes from R down to {}; with G91 the depth counts from R",
-                normal.letter()
-            ))
-            .help("check both words, and G90 or G91"));
+        } else {
+            self.check_levels(block, [r, bottom])?;
         }
         self.state.cycles = CycleSeries {
             initial: Some(initial),
@@ -151,12 +132,7 @@ impl Interpreter {
             self.check_stored_place(block)?;
             return Ok(());
         }
-        let clear = match self.state.modal.retract {
-            Retract::RPlane if !block.has_increments() && cycle != CannedCycle::BackBore => r,
-            // A FANUC goes back to where the cycle began, below R, too.
-            _ if block.dialect == Dialect::Fanuc && cycle != CannedCycle::BackBore => initial,
-            _ => initial.max(r),
-        };
+        let clear = self.way_out(block, cycle, [initial, r, bottom])?;
         let hole = Hole {
             sticky,
             r,
@@ -166,25 +142,6 @@ impl Interpreter {
         let mut places = self.places(block, holes)?;
         self.repeat_polar(block, &mut places);
         self.make_holes(block, hole, &places, out)
-    }
-
-    /// The hole that the cycle in force makes; `None` if none is, or a lathe's.
-    pub(super) fn hole_of_series(&self) -> Option<Hole> {
-        let series = &self.state.cycles;
-        let is_on = matches!(self.state.modal.motion, Some(Motion::Cycle(_)));
-        let sticky = series.last.filter(|_| is_on)?;
-        let [r, bottom] = sticky.levels_mm?;
-        let clear = match self.state.modal.retract {
-            Retract::RPlane if sticky.cycle != CannedCycle::BackBore => r,
-            _ if sticky.cycle != CannedCycle::BackBore => series.initial?,
-            _ => series.initial?.max(r),
-        };
-        Some(Hole {
-            sticky,
-            r,
-            bottom,
-            clear,
-        })
     }
 
     /// Makes the holes at those places of the program, with exact corners.
@@ -202,27 +159,6 @@ impl Interpreter {
         let made = self.holes(block, hole, places, out);
         self.state.modal.path_mode = mode;
         made
-    }
-
-    /// The R plane and the bottom, coordinates. A FANUC keeps them as such: words of a block before mean
-    /// what they meant there.
-    fn levels(&self, block: &Block, sticky: &StickyWords, initial: f64) -> [f64; 2] {
-        let normal = self.state.modal.plane.normal();
-        let is_incremental = self.state.modal.distance == Distance::Incremental;
-        let last = self.state.cycles.last;
-        let kept = last.filter(|_| block.dialect == Dialect::Fanuc);
-        let kept = kept.and_then(|last| last.levels_mm);
-        let says_depth = block.axes().any(|(axis, _)| axis == normal);
-        let from = |base: f64| if is_incremental { base } else { 0.0 };
-        let r = match kept {
-            Some([r, _]) if block.get(b'R').is_none() => r,
-            _ => from(initial) + sticky.r,
-        };
-        let bottom = match kept {
-            Some([_, bottom]) if !says_depth => bottom,
-            _ => from(r) + sticky.depth,
-        };
-        [r, bottom]
     }
 
     fn holes(
@@ -343,13 +279,16 @@ impl Interpreter {
                 self.push(out, ItemKind::Dwell(dwell_s));
                 self.push(out, code(5));
             }
+            _ if hole.sticky.dwell_s > 0.0 && self.dwells_beside(block, cycle) => {
+                self.push(out, ItemKind::Dwell(hole.sticky.dwell_s));
+            }
             _ => {}
         }
         let pace = match cycle {
             CannedCycle::Bore => {
                 let feed = self.state.modal.feed;
                 // A lathe of FANUC comes out at twice the feed.
-                let is_haas = self.options.fanuc.offset_memory == OffsetMemory::Haas;
+                let is_haas = self.options.fanuc.is_haas();
                 if block.is_lathe && !is_haas {
                     self.state.modal.feed = feed.map(|feed| feed.times(2.0));
                 }
@@ -371,6 +310,19 @@ impl Interpreter {
             self.push(out, code(turning.code()));
         }
         Ok(())
+    }
+
+    /// True where P, which other cycles need, may be a dwell at the bottom: G73 and G83 of a Haas, G83 and G85
+    /// of FANUC's lathes.
+    const fn dwells_beside(&self, block: &Block, cycle: CannedCycle) -> bool {
+        let is_haas = self.options.fanuc.is_haas();
+        let is_fanuc = matches!(block.dialect, Dialect::Fanuc);
+        is_fanuc
+            && match cycle {
+                CannedCycle::ChipBreak | CannedCycle::Peck => is_haas || block.is_lathe,
+                CannedCycle::Bore => !is_haas && block.is_lathe,
+                _ => false,
+            }
     }
 
     /// All depths of G73 and G83 but the last.

@@ -6,7 +6,7 @@ use crate::execute::auxiliary::order::fanuc_dwell;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::state::sticky_words::StickyWords;
 use crate::execute::tapping_cycle::tap_turns;
-use crate::setup::fanuc::{OffsetMemory, PointInput};
+use crate::setup::fanuc::PointInput;
 use crate::syntax::block::Block;
 use crate::syntax::dialect::Dialect;
 use crate::syntax::modes::{CannedCycle, Units};
@@ -182,13 +182,13 @@ impl Interpreter {
 
     /// A Haas repeats holes by L alone.
     pub(super) fn counts_holes_by_l(&self, block: &Block) -> bool {
-        block.dialect == Dialect::Fanuc && self.options.fanuc.offset_memory == OffsetMemory::Haas
+        block.dialect == Dialect::Fanuc && self.options.fanuc.is_haas()
     }
 
     /// The R plane of a lathe of system A: R is the way from the initial level, to FANUC. To Haas it is the
     /// place; a way that would lead away from the hole is one, too.
     pub(super) fn r_of_lathe(&self, initial: f64, sticky: &StickyWords) -> f64 {
-        let is_haas = self.options.fanuc.offset_memory == OffsetMemory::Haas;
+        let is_haas = self.options.fanuc.is_haas();
         if sticky.says_r && (is_haas || sticky.r > 0.0) {
             sticky.r
         } else {

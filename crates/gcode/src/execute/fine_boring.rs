@@ -24,7 +24,7 @@ use crate::execute::cycle_words::name;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::speed::Pace;
 use crate::execute::state::sticky_words::StickyWords;
-use crate::setup::fanuc::{OffsetMemory, PointInput};
+use crate::setup::fanuc::PointInput;
 use crate::syntax::block::Block;
 use crate::syntax::modes::CannedCycle;
 use crate::syntax::word_check::{missing, unused};
@@ -115,7 +115,7 @@ impl Interpreter {
                     .help(help),
             )
         };
-        if self.options.fanuc.offset_memory == OffsetMemory::Haas {
+        if self.options.fanuc.is_haas() {
             return refuse(
                 "G87 of a Haas is not supported",
                 "there it bores downwards, and the tool is drawn out by hand",

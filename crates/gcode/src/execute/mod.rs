@@ -22,6 +22,7 @@ pub(crate) mod canned_cycle;
 mod carry_over;
 pub(crate) mod compensation;
 mod cycle_check;
+mod cycle_levels;
 mod cycle_places;
 pub(crate) mod cycle_words;
 pub(crate) mod dialect;

@@ -15,7 +15,6 @@ use crate::execute::motion::rigid_tap::needs_axis;
 use crate::execute::motion::speed::Pace;
 use crate::execute::state::spindle::SpindleDirection;
 use crate::execute::state::sticky_words::StickyWords;
-use crate::setup::fanuc::OffsetMemory;
 use crate::syntax::block::Block;
 use crate::syntax::dialect::Dialect;
 use crate::syntax::modes::{CannedCycle, FeedMode};
@@ -61,9 +60,7 @@ impl Interpreter {
         let is_configured = options.threading.is_some_and(|it| it.rigid_tapping)
             || options.spindle_axis.is_some_and(|it| it.rigid_tapping);
         // G84 of a Haas turns the spindle on by itself, where it stands.
-        let is_haas = block.dialect == Dialect::Fanuc
-            && options.fanuc.offset_memory == OffsetMemory::Haas
-            && is_configured;
+        let is_haas = block.dialect == Dialect::Fanuc && options.fanuc.is_haas() && is_configured;
         let stands = self.state.spindle.turning.is_none();
         sticky.starts_spindle =
             is_armed || is_haas && stands || last.is_some_and(|last| last.starts_spindle);

@@ -127,12 +127,17 @@ pub struct FanucParameters {
 }
 
 impl FanucParameters {
+    /// True where the control is a Haas.
+    pub(crate) const fn is_haas(&self) -> bool {
+        matches!(self.offset_memory, OffsetMemory::Haas)
+    }
+
     /// True where the tool goes round outer corners in straight lines.
     pub(crate) const fn has_corners_of_lines(&self) -> bool {
         match self.outer_corners {
             OuterCorners::Lines => true,
             OuterCorners::Arcs => false,
-            OuterCorners::Unsaid => !matches!(self.offset_memory, OffsetMemory::Haas),
+            OuterCorners::Unsaid => !self.is_haas(),
         }
     }
 }

@@ -43,6 +43,8 @@ pub(crate) struct Block {
     pub(super) is_plain: bool,
     /// Letters of FANUC's words whose numbers have no decimal point.
     pub(crate) pointless: Letters,
+    /// What its lengths without a decimal point count, where that is a least increment.
+    pub(super) increment: f64,
     /// Words with longer names than a letter.
     pub(crate) named: NamedWords,
     /// `,C` and `,R` of FANUC.
@@ -141,6 +143,14 @@ impl Block {
     /// True if the word of a FANUC program was written without a decimal point.
     pub(crate) const fn has_no_point(&self, letter: u8) -> bool {
         self.pointless.has(letter)
+    }
+
+    /// The number of a word as it was written: without a decimal point it may have been taken to be in least
+    /// increments.
+    pub(crate) fn written(&self, letter: u8) -> Option<f64> {
+        let counted = self.has_no_point(letter) && self.point == PointInput::Increment;
+        let unit = if counted { self.increment } else { 1.0 };
+        self.get(letter).map(|value| value / unit)
     }
 
     /// True if the block has an axis word or a polar one.

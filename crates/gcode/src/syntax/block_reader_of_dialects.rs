@@ -102,6 +102,7 @@ impl Block {
             return Ok(value);
         }
         let span = SourceSpan::new(start, cursor.end_of_word());
+        self.increment = scope.least_increment();
         without_point_value(self.point, letter, value, scope, span)
     }
 

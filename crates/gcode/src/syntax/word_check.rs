@@ -70,9 +70,21 @@ pub(crate) fn none_wrong<'a>(
 
 /// Value of a word that must be a whole number from 0 to `max`.
 pub(crate) fn whole(block: &Block, letter: u8, max: u32) -> Outcome<Option<u32>> {
-    let Some(value) = block.get(letter) else {
-        return Ok(None);
-    };
+    let value = block.get(letter);
+    value
+        .map(|value| whole_value(block, letter, value, max))
+        .transpose()
+}
+
+/// The same of a count, which a FANUC writes in no increments.
+pub(crate) fn whole_count(block: &Block, letter: u8, max: u32) -> Outcome<Option<u32>> {
+    let value = block.written(letter);
+    value
+        .map(|value| whole_value(block, letter, value, max))
+        .transpose()
+}
+
+fn whole_value(block: &Block, letter: u8, value: f64, max: u32) -> Outcome<u32> {
     let nearest = value.round();
     let name = char::from(letter);
     if (value - nearest).abs() > 1e-4 {
@@ -98,5 +110,5 @@ pub(crate) fn whole(block: &Block, letter: u8, max: u32) -> Outcome<Option<u32>>
         clippy::cast_sign_loss,
         reason = "range checked"
     )]
-    Ok(Some(nearest as u32))
+    Ok(nearest as u32)
 }

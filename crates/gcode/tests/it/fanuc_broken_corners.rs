@@ -111,3 +111,11 @@ fn a_dwell_in_between() {
     );
     finds("G1 X10 ,C2 F100\nM8\nY20", &["2:1 not-supported"]);
 }
+
+#[test]
+fn a_corner_of_less_than_nothing_is_refused() {
+    for word in ["C-2.", "R-2."] {
+        let text = format!("G1 X10. F500 ,{word}\nY10.");
+        finds(&text, &["1:14 invalid-value"]);
+    }
+}

@@ -301,3 +301,16 @@ fn m_n_and_o_can_be_read() {
         [[9.0, 0.0, 0.0], [9.0, 1.0, 0.0]]
     );
 }
+
+/// What is wrong with a number is said of what stands there.
+#[test]
+fn a_variable_without_a_value_is_named() {
+    let message = |text: &str| {
+        let report = check(text.as_bytes(), options());
+        report.diagnostics[0].message.clone()
+    };
+    assert_eq!(message("GOTO #1"), "#1 has no value");
+    assert_eq!(message("M98 P#100"), "#100 has no value");
+    let older = "G65 H of custom macro A is not read";
+    assert_eq!(message("G65 H2 P#100 Q#101 R#102"), older);
+}

@@ -1,6 +1,8 @@
 //! Tests of words that FANUC's mills take where others do not: modes, D, cycles, dwells.
 
-use glidepath_gcode::{FanucParameters, Machine, OffsetMemory, Options, Program, Threading, check};
+use glidepath_gcode::{
+    FanucParameters, Machine, OffsetMemory, Options, PointInput, Program, Threading, check,
+};
 use glidepath_geometry::Axis;
 use glidepath_program::{Event, ItemKind, Limits, Rate};
 
@@ -107,6 +109,100 @@ fn words_of_cycles_stay_when_the_cycle_changes() {
             [0.0, 5.0]
         ]
     );
+}
+
+/// The way out to a level below the bottom leads through the part.
+#[test]
+fn a_cycle_that_begins_below_its_bottom_is_refused() {
+    for (text, at) in [
+        ("G0 Z-20\nG98 G81 X10 Z-10 R2 F600", "2:5 canned-cycle"),
+        ("G0 Z-10\nG98 G81 X10 Z-10 R2 F600", "2:5 canned-cycle"),
+        ("G0 Z-20\nG98 G85 X10 Z-10 R2 F600", "2:5 canned-cycle"),
+        ("G0 Z-20\nG91 G98 G81 X10 Z-5 R15 F600", "2:9 canned-cycle"),
+        // The level of the series is that of its first block.
+        (
+            "G0 Z-20\nG99 G81 X10 Z-30 R2 F600\nG98 X20 Z-10",
+            "3:5 canned-cycle",
+        ),
+        (
+            "G0 Z-20\nG99 G81 Z-10 R2 F600 L0\nG98 G70 I5 L3",
+            "3:5 canned-cycle",
+        ),
+    ] {
+        finds(text, &[at]);
+    }
+    let end = |text: &str| last(text)[2];
+    assert_eq!(end("G0 Z-20\nG99 G81 X10 Z-10 R2 F600"), 2.0);
+    assert_eq!(end("G0 Z-9\nG98 G81 X10 Z-10 R2 F600"), -9.0);
+    // What a Haas makes of a level below R is not known.
+    let haas = |text: &str| {
+        let haas = Options {
+            fanuc: FanucParameters {
+                offset_memory: OffsetMemory::Haas,
+                ..FanucParameters::default()
+            },
+            ..options()
+        };
+        crate::support::listed(&check(text.as_bytes(), haas))
+    };
+    assert_eq!(
+        haas("G0 Z-9\nG98 G81 X10 Z-10 R2 F600"),
+        ["2:5 canned-cycle"]
+    );
+    assert!(haas("G0 Z-9\nG99 G81 X10 Z-10 R2 F600").is_empty());
+    assert!(haas("G0 Z2\nG98 G81 X10 Z-10 R2 F600").is_empty());
+}
+
+/// P of G73 and G83 of a Haas is a pause at the bottom; those of a FANUC's mill have none, and keep it.
+#[test]
+fn a_haas_pauses_at_the_bottom_of_deep_holes() {
+    let dwells_of = |text: &str, offset_memory| -> Vec<f64> {
+        let options = Options {
+            fanuc: FanucParameters {
+                offset_memory,
+                ..FanucParameters::default()
+            },
+            ..options()
+        };
+        Program::new(text.as_bytes(), options)
+            .map(|item| item.unwrap_or_else(|d| panic!("{text}\n{d}")))
+            .filter_map(|item| match item.kind {
+                ItemKind::Dwell(seconds) => Some(seconds),
+                _ => None,
+            })
+            .collect()
+    };
+    for cycle in ["G73", "G83"] {
+        let text = format!("G0 Z5.\n{cycle} Z-5. R2. Q2. P500 F600.\nX10.");
+        assert_eq!(dwells_of(&text, OffsetMemory::Haas), [0.5, 0.5], "{text}");
+        assert!(dwells_of(&text, OffsetMemory::A).is_empty(), "{text}");
+        let kept = format!("{text}\nG82 X20.");
+        assert_eq!(dwells_of(&kept, OffsetMemory::A), [0.5], "{text}");
+    }
+}
+
+/// K counts, also where lengths without a point are least increments.
+#[test]
+fn k_counts_holes_whatever_a_number_without_a_point_is() {
+    for (point, head) in [
+        (PointInput::Increment, "G0 Z5."),
+        (PointInput::Increment, "G20 G0 Z5."),
+        (PointInput::Calculator, "G0 Z5."),
+    ] {
+        for word in ["K3", "K3.", "L3"] {
+            let options = Options {
+                fanuc: FanucParameters {
+                    point,
+                    ..FanucParameters::default()
+                },
+                ..options()
+            };
+            let text = format!("{head}\nG91 G98 G81 X1. R-3. Z-4. {word} F60.");
+            let ends = crate::fanuc_calls::ends_with(&text, options);
+            // Across, to R, to the bottom and out.
+            assert_eq!(ends.len(), 1 + 3 * 4, "{text}: {ends:?}");
+        }
+    }
 }
 
 #[test]

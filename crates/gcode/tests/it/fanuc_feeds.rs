@@ -2,7 +2,8 @@
 
 use std::f64::consts::PI;
 
-use glidepath_gcode::{FanucParameters, Machine, OffsetMemory, Options, Program};
+use glidepath_gcode::{Dialect, FanucParameters, Machine, OffsetMemory, Options, Program, check};
+use glidepath_geometry::Segment;
 use glidepath_program::{ItemKind, Rate};
 
 /// A mill with the rotary axes A, B and C.
@@ -64,6 +65,79 @@ fn an_arc_in_inverse_time_is_as_fast_as_its_radius() {
     takes("G93 G2 I10. F1.", 2.0 * PI);
     takes("G93 G2 I10. Z-60. F1.", 2.0 * PI);
     takes("G20 G93 G2 I1. F1.", 2.0 * PI);
+}
+
+/// Minutes of all moves at feed.
+fn minutes_in_all(text: &str, options: Options) -> f64 {
+    Program::new(text.as_bytes(), options)
+        .map(|item| item.unwrap_or_else(|d| panic!("{text}\n{d}")))
+        .filter_map(|item| match item.kind {
+            ItemKind::Move {
+                segment,
+                rate: Rate::Feed(feed_v),
+                ..
+            } => Some(segment.length() / feed_v / 60.0),
+            _ => None,
+        })
+        .sum()
+}
+
+/// Frames change nothing of F, whether they are turned or tilted.
+#[test]
+fn an_arc_in_a_frame_is_as_fast_as_without_one() {
+    let around = 20.0 * PI / 100.0;
+    let five = || crate::five_axes::options(Dialect::Fanuc);
+    for (text, expected) in [
+        ("G93 G2 I10. F1.", 2.0 * PI),
+        ("G93 G2 I10. Z-60. F1.", 2.0 * PI),
+        ("G2 I10. Z-60. F100.", around),
+        ("G2 I10. F100.", around),
+        ("G93 G1 X10. Y10. F4.", 0.25),
+    ] {
+        let turned = format!("G18 G68 X0 Z0 R30.\nG17 {text}");
+        let found = minutes_in_all(&turned, options());
+        assert!((found - expected).abs() < 1e-5, "{turned}: {found}");
+        let tilted = format!("G68.2 X20. Y10. Z0 J30.\nG53.1\nG0 X0 Y0 Z100.\n{text}");
+        let found = minutes_in_all(&tilted, five());
+        assert!((found - expected).abs() < 1e-5, "{tilted}: {found}");
+    }
+    let found = minutes_in_all("G68 X0 Y0 R30.\nG93 G18 G2 I10. F1.", options());
+    assert!((found - 2.0 * PI).abs() < 1e-5, "{found}");
+    // Twice as large, the arc takes twice the feed.
+    let found = minutes_in_all("G51 X0 Y0 Z0 P2.\nG93 G2 I10. F1.", options());
+    assert!((found - 2.0 * PI).abs() < 1e-5, "{found}");
+    // Where the tip is followed it is not known what F is.
+    let report = check(&b"G43.4 H1\nG93 G2 I10. F1."[..], five());
+    assert_eq!(crate::support::listed(&report), ["2:5 not-supported"]);
+    let report = check(&b"G43.4 H1\nG93 G1 X10. F1."[..], five());
+    assert!(crate::support::listed(&report).is_empty());
+}
+
+/// F of a helix is that of the arc that the tool makes in the plane.
+#[test]
+fn a_helix_beside_its_contour_is_as_fast_as_its_own_arc() {
+    let of_arc = |side: &str| {
+        let text = format!(
+            "G0 X-10. Y-20.\n{side} D2 G1 Y-10. F100.\nY0\nG2 X10. I10. Z-30.\nG1 Y-10.\nG40 Y-20."
+        );
+        let moves = Program::new(text.as_bytes(), options())
+            .map(|item| item.unwrap_or_else(|d| panic!("{text}\n{d}")))
+            .filter_map(|item| match item.kind {
+                ItemKind::Move {
+                    segment: segment @ Segment::Arc(_),
+                    rate: Rate::Feed(feed_v),
+                    ..
+                } => Some(segment.length() / feed_v / 60.0),
+                _ => None,
+            });
+        moves.collect::<Vec<_>>()
+    };
+    // Outside at a radius of 15; inside at 5, where F is the feed of the contour.
+    for (side, expected) in [("G41", 15.0 * PI / 100.0), ("G42", 10.0 * PI / 100.0)] {
+        let found = of_arc(side);
+        assert_eq!(found.len(), 1, "{side}: {found:?}");
+        assert!((found[0] - expected).abs() < 1e-9, "{side}: {found:?}");
+    }
 }
 
 #[test]

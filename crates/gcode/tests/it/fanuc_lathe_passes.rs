@@ -165,6 +165,23 @@ fn r_of_a_hole_is_a_way_or_a_place() {
     );
 }
 
+#[test]
+fn p_of_holes_on_the_face_is_a_dwell_at_the_bottom() {
+    let dwells = |cycle: &str| -> Vec<f64> {
+        let text = format!("G98 G0 X0 Z10\n{cycle} Z-30 R-8 P1500 F200");
+        Program::new(text.as_bytes(), options())
+            .map(|item| item.unwrap_or_else(|d| panic!("{text}\n{d}")))
+            .filter_map(|item| match item.kind {
+                ItemKind::Dwell(seconds) => Some(seconds),
+                _ => None,
+            })
+            .collect()
+    };
+    assert_eq!(dwells("G83"), [1.5]);
+    assert_eq!(dwells("G83 Q9000"), [1.5]);
+    assert_eq!(dwells("G85"), [1.5]);
+}
+
 /// A FANUC's lathe comes out of a bore at twice the feed.
 #[test]
 fn a_bore_is_left_at_twice_the_feed() {

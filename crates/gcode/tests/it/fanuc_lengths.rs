@@ -67,6 +67,38 @@ fn arcs_and_cycles_count_from_there_too() {
     assert_eq!(hole, [5.0, 12.0, 8.0, 15.0]);
 }
 
+/// The initial level is the place of the program, although Z has not made the length yet.
+#[test]
+fn a_cycle_comes_back_to_the_level_of_the_program() {
+    for (text, expected) in [
+        (
+            "G90 G0 Z10\nG43 H1\nG98 G81 X10 Z-5 R2 F600\nX20",
+            vec![10.0, 10.0, 12.0, 5.0, 20.0, 20.0, 12.0, 5.0, 20.0],
+        ),
+        // In the block of the cycle.
+        (
+            "G0 Z10\nG43 H1 G98 G81 Z-5 R2 F600",
+            vec![10.0, 12.0, 5.0, 20.0],
+        ),
+        // H alone.
+        (
+            "G43 H1 G0 Z5\nH2\nG98 G81 Z-3 R2 F600",
+            vec![15.0, 22.0, 17.0, 25.0],
+        ),
+        // A shorter tool.
+        (
+            "G43 H2 G0 Z5\nG49\nG98 G81 Z-3 R2 F600",
+            vec![25.0, 2.0, -3.0, 5.0],
+        ),
+        (
+            "G0 Z5\nG91 G43 H1\nG98 G81 R-3 Z-4",
+            vec![5.0, 12.0, 8.0, 15.0],
+        ),
+    ] {
+        assert_eq!(heights(text), expected, "{text}");
+    }
+}
+
 #[test]
 fn the_way_to_the_reference_position_begins_where_the_tool_is() {
     assert_eq!(

@@ -9,7 +9,6 @@ use crate::diagnostic::span::SourceSpan;
 use crate::execute::block_words::require_axes;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::state::offsets::overlay;
-use crate::setup::fanuc::OffsetMemory;
 use crate::syntax::block::Block;
 use crate::syntax::codes::Coded;
 use crate::syntax::dialect::Dialect;
@@ -108,7 +107,7 @@ impl Interpreter {
         if !is_added {
             return Ok(values);
         }
-        if self.options.fanuc.offset_memory == OffsetMemory::Haas {
+        if self.options.fanuc.is_haas() {
             let message = "G92 with incremental distances (G91) on a Haas";
             return Err(BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
                 .because("whether its words are added to the coordinates, as a FANUC does, or are the coordinates is not known here")

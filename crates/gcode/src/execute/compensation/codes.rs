@@ -10,7 +10,6 @@ use crate::diagnostic::span::SourceSpan;
 use crate::execute::block_words::radius_word;
 use crate::execute::compensation::path::{Compensated, Compensation, MAX_HELD};
 use crate::execute::interpreter::Interpreter;
-use crate::setup::fanuc::OffsetMemory;
 use crate::setup::tool_table::MAX_TOOL;
 use crate::syntax::block::Block;
 use crate::syntax::codes::Coded;
@@ -20,14 +19,26 @@ use crate::syntax::word_check::{missing, whole};
 
 /// What the controls make of G41 and G42 while one of them is on.
 #[cold]
-fn on_already(dialect: Dialect, is_haas: bool, span: SourceSpan) -> Box<BlockDiagnostic> {
+fn on_already(
+    dialect: Dialect,
+    is_haas: bool,
+    is_same: bool,
+    span: SourceSpan,
+) -> Box<BlockDiagnostic> {
     let why = match dialect {
+        Dialect::Fanuc if is_same && is_haas => {
+            "what a Haas makes of the same code again is not known"
+        }
+        Dialect::Fanuc if is_same => {
+            "on a FANUC the same code again puts the tool at right angles to the move before, which is not made here"
+        }
         Dialect::Fanuc if is_haas => "a Haas wants G40 before the other side",
-        Dialect::Fanuc => {
-            "a FANUC crosses to the other side at the corner, and the same code again puts the tool at right angles to the move before; neither is made here"
+        Dialect::Fanuc => "a FANUC crosses to the other side at the corner, which is not made here",
+        Dialect::Siemens if is_same => {
+            "whether the tool begins anew on the same side at the corner or along the next move differs from control to control"
         }
         Dialect::Siemens => {
-            "whether the tool goes to the new side, or begins anew on the same one, at the corner or along the next move differs from control to control"
+            "whether the tool goes to the new side at the corner or along the next move differs from control to control"
         }
         Dialect::LinuxCnc | Dialect::Marlin => {
             "where the tool is would not be clear if its side or radius changed"
@@ -104,8 +115,9 @@ impl Interpreter {
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
         if self.state.on_contour {
-            let is_haas = self.options.fanuc.offset_memory == OffsetMemory::Haas;
-            return Err(on_already(block.dialect, is_haas, span));
+            let is_haas = self.options.fanuc.is_haas();
+            let is_same = self.state.contour_side == side;
+            return Err(on_already(block.dialect, is_haas, is_same, span));
         }
         let follows = self.options.five_axis.is_some() && self.state.tip.follows();
         if block.dialect == Dialect::Fanuc && follows && self.state.tilted.is_none() {

@@ -7,6 +7,7 @@ use crate::diagnostic::block_diagnostic::Outcome;
 use crate::execute::compensation::element::{Element, distance};
 use crate::execute::compensation::path::ContourMove;
 use crate::execute::interpreter::Interpreter;
+use crate::execute::motion::feedrate::share_of_arc;
 use crate::execute::motion::settled::{MIN_MOVE, settled};
 use crate::execute::motion::speed::{Pace, Speed};
 use crate::syntax::block::Block;
@@ -43,6 +44,13 @@ impl Interpreter {
         let line = self.line;
         let mode = self.path_mode();
         let arc_feed = self.state.arc_feed;
+        let flat = match &segment {
+            Segment::Arc(arc) if self.has_feeds_of_fanuc(block) => Some(arc),
+            _ => None,
+        };
+        // F of a helix is that of its arc in the plane, beside the contour as on it.
+        let speed = flat.map_or(speed, |arc| speed.times(1.0 / share_of_arc(arc)));
+        let feeds_plane = flat.is_some();
         let Some(compensation) = &mut self.state.open.compensation else {
             return Ok(());
         };
@@ -71,6 +79,7 @@ impl Interpreter {
             contour,
             to: segment.end(),
             speed: speed.times(share),
+            feeds_plane,
             mode,
             span: block.motion_span(),
         };

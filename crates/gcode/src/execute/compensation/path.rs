@@ -7,6 +7,7 @@ use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::compensation::element::{Element, Point, distance, meet, turn};
+use crate::execute::motion::feedrate::share_of_arc;
 use crate::execute::motion::settled::MIN_MOVE;
 use crate::execute::motion::speed::Speed;
 use crate::syntax::modes::Side;
@@ -28,6 +29,8 @@ pub(crate) struct ContourMove {
     /// Where it ends; in the plane: the programmed end.
     pub(crate) to: AxisVector,
     pub(crate) speed: Speed,
+    /// The speed is that of an arc in the plane; the path of a helix is longer.
+    pub(crate) feeds_plane: bool,
     pub(crate) mode: PathMode,
     /// Where a diagnostic points.
     pub(crate) span: SourceSpan,
@@ -298,12 +301,16 @@ impl Compensation {
             return;
         }
         self.tool = end;
+        let speed = match &segment {
+            Segment::Arc(arc) if of.feeds_plane => of.speed.times(share_of_arc(arc)),
+            _ => of.speed,
+        };
         out.push(Item {
             block: 0,
             line: of.line,
             kind: ItemKind::Move {
                 segment,
-                rate: of.speed.rate(&segment),
+                rate: speed.rate(&segment),
                 mode: of.mode,
             },
         });

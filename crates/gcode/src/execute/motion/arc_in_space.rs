@@ -13,6 +13,7 @@ use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
+use crate::execute::motion::curve::Circle;
 use crate::execute::motion::settled::{MIN_MOVE, settled};
 use crate::syntax::block::Block;
 use crate::syntax::modes::Distance;
@@ -146,11 +147,19 @@ impl Interpreter {
         map: impl Fn(AxisVector) -> AxisVector,
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
+        let mut center = arc.start;
+        for (i, coordinate) in arc.center.into_iter().enumerate() {
+            center[i] = coordinate;
+        }
+        let radius = map(arc.start) - map(center);
+        let radius_mm = radius[0].hypot(radius[1]).hypot(radius[2]);
+        let flat_mm = radius_mm * arc.sweep_rad;
+        let circle = Some(Circle { radius_mm, flat_mm }).filter(|_| flat_mm > 0.0);
         let curve = arc.curve(map).map_err(|mut fault| {
             fault.span = block.motion_span();
             fault
         })?;
-        self.push_curve(block, curve, out)
+        self.push_curve(block, curve, circle, out)
     }
 
     /// CIP: an arc through a point, I1 J1 K1, to its end.

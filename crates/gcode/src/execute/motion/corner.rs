@@ -13,13 +13,12 @@ use crate::execute::compensation::element::Element;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::corner_geometry::{CornerRules, broken};
 use crate::execute::motion::corner_refused::{
-    cannot_break, changed_between, no_second_move, not_in_plane, timed,
+    below_zero, cannot_break, changed_between, no_second_move, not_in_plane, timed,
 };
 use crate::execute::motion::settled::MIN_MOVE;
 use crate::execute::motion::speed::Pace;
 use crate::execute::motion::tangent_arc::direction_behind;
 use crate::execute::state::open_corner::OpenCorner;
-use crate::setup::fanuc::OffsetMemory;
 use crate::syntax::block::{Block, CornerKind, CornerWord};
 use crate::syntax::codes::Codes;
 use crate::syntax::dialect::Dialect;
@@ -50,6 +49,11 @@ impl Interpreter {
         motion: Option<Motion>,
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
+        if let Some(CornerWord { value, span, .. }) = block.corner
+            && value < 0.0
+        {
+            return Err(below_zero(value, span));
+        }
         if let Some(word) = block.corner
             && word.kind == CornerKind::RoundAll
         {
@@ -237,7 +241,7 @@ impl Interpreter {
 
     /// What the control of the program makes of a corner.
     fn corner_rules(&self, block: &Block) -> CornerRules {
-        let is_haas = self.options.fanuc.offset_memory == OffsetMemory::Haas;
+        let is_haas = self.options.fanuc.is_haas();
         if block.dialect == Dialect::Fanuc && !is_haas {
             CornerRules::FANUC
         } else {

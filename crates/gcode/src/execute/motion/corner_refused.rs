@@ -16,6 +16,14 @@ pub(super) fn no_second_move(span: SourceSpan) -> Box<BlockDiagnostic> {
 }
 
 #[cold]
+pub(super) fn below_zero(value: f64, span: SourceSpan) -> Box<BlockDiagnostic> {
+    let message = format!("a chamfer or an arc of {value} at a corner");
+    BlockDiagnostic::new(DiagnosticCode::InvalidValue, span, message)
+        .because("it is a length, and says nothing of the side")
+        .help("write zero or more")
+}
+
+#[cold]
 pub(super) fn changed_between(span: SourceSpan) -> Box<BlockDiagnostic> {
     let message =
         "a corner that is broken in front of another plane, tool, compensation or spindle speed";

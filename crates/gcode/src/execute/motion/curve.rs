@@ -11,6 +11,14 @@ use crate::syntax::block::Block;
 /// Share of the tolerance of G64 P that the pieces of a curve may be away from it.
 const PIECE_R: f64 = 1e-3;
 
+/// The circle of a curve that is an arc, or a helix.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Circle {
+    pub(super) radius_mm: f64,
+    /// The length of the arc in its plane, > 0, mm.
+    pub(super) flat_mm: f64,
+}
+
 impl Interpreter {
     /// The path mode of moves: what is in force, with the tolerance that this run may use.
     #[inline]
@@ -35,11 +43,13 @@ impl Interpreter {
         }
     }
 
-    /// Gives out a curve, piece by piece, at the feedrate. It starts where the last move ended.
+    /// Gives out a curve, piece by piece, at the feedrate; `circle` if it is an arc. It starts where the last
+    /// move ended.
     pub(super) fn push_curve(
         &mut self,
         block: &Block,
         curve: Nurbs,
+        circle: Option<Circle>,
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
         let error_mm = self.piece_error_mm();
@@ -54,9 +64,16 @@ impl Interpreter {
             });
         self.check_limits(block, &low, &high, "a point")?;
         let farthest = Segment::line(low, high);
-        let speed = match self.speed(block, &farthest, Pace::Feed)? {
+        let length = path.length();
+        let speed = match circle.filter(|_| self.has_feeds_of_fanuc(block)) {
+            Some(Circle { radius_mm, flat_mm }) => {
+                self.speed_of_arc(block, radius_mm, length / flat_mm)?
+            }
+            None => self.speed(block, &farthest, Pace::Feed)?,
+        };
+        let speed = match speed {
             // The whole curve is one move.
-            Speed::Moves(per_minute) => Speed::Feed(path.length() * per_minute / 60.0),
+            Speed::Moves(per_minute) => Speed::Feed(length * per_minute / 60.0),
             speed => speed,
         };
         for segment in segments {

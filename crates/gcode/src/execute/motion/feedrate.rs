@@ -13,13 +13,13 @@
 //! F of a helix is the feed along it; on a FANUC it is that of its arc in the plane, beside which the third axis goes
 //! its way (parameter 1403#5 = 0).
 
-use glidepath_geometry::{LINEAR_XYZ, ROTARY_ABC, Segment, UVW};
+use glidepath_geometry::{Arc, LINEAR_XYZ, ROTARY_ABC, Segment, UVW};
 
 use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::speed::{Pace, Speed};
-use crate::setup::fanuc::OffsetMemory;
+use crate::execute::state::modal::Feed;
 use crate::syntax::block::Block;
 use crate::syntax::dialect::Dialect;
 use crate::syntax::modes::FeedMode;
@@ -30,27 +30,52 @@ impl Interpreter {
         if pace == Pace::Rapid {
             return Ok(Speed::Rapid);
         }
-        let modal = &self.state.modal;
-        if modal.feed_mode == FeedMode::InverseTime {
-            let per_minute = block.get(b'F').ok_or_else(|| {
-                BlockDiagnostic::new(
-                    DiagnosticCode::MissingFeed,
-                    block.motion_span(),
-                    "no F in an inverse-time block",
-                )
-                .because("with G93 every feed move has its own F: one over its minutes")
-                .help("add the F word, or go back to G94")
-            })?;
-            return Ok(match segment {
-                Segment::Arc(arc) if self.has_feeds_of_fanuc(block) => {
-                    let radius = 0.5 * (arc.start_radius() + arc.end_radius());
-                    let feed = per_minute * radius / 60.0;
-                    Speed::Feed(feed * self.share_of_feed(block, segment))
-                }
-                _ => Speed::Moves(per_minute),
-            });
+        let share = self.share_of_feed(block, segment);
+        if let Segment::Arc(arc) = segment {
+            let radius_mm = 0.5 * (arc.start_radius() + arc.end_radius());
+            return self.speed_of_arc(block, radius_mm, share);
         }
-        let feed = modal.feed.ok_or_else(|| {
+        if self.state.modal.feed_mode == FeedMode::InverseTime {
+            return self.moves_per_minute(block).map(Speed::Moves);
+        }
+        let feed = self.feed_in_force(block)?;
+        self.speed_at(
+            block,
+            feed.of_line(&segment.start(), &segment.end()) * share,
+        )
+    }
+
+    /// Speed of an arc of that radius, whose path is `share` times as long as its way in the plane.
+    pub(super) fn speed_of_arc(&self, block: &Block, radius_mm: f64, share: f64) -> Outcome<Speed> {
+        if self.state.modal.feed_mode != FeedMode::InverseTime {
+            let feed = self.feed_in_force(block)?;
+            return self.speed_at(block, feed.linear_v * share);
+        }
+        let per_minute = self.moves_per_minute(block)?;
+        if self.has_feeds_of_fanuc(block) {
+            return Ok(Speed::Feed(per_minute * radius_mm / 60.0 * share));
+        }
+        if block.dialect == Dialect::Fanuc && !self.options.fanuc.is_haas() && self.follows_tip() {
+            return Err(timed_arc(block));
+        }
+        Ok(Speed::Moves(per_minute))
+    }
+
+    /// F of a block in G93.
+    fn moves_per_minute(&self, block: &Block) -> Outcome<f64> {
+        block.get(b'F').ok_or_else(|| {
+            BlockDiagnostic::new(
+                DiagnosticCode::MissingFeed,
+                block.motion_span(),
+                "no F in an inverse-time block",
+            )
+            .because("with G93 every feed move has its own F: one over its minutes")
+            .help("add the F word, or go back to G94")
+        })
+    }
+
+    fn feed_in_force(&self, block: &Block) -> Outcome<Feed> {
+        self.state.modal.feed.ok_or_else(|| {
             BlockDiagnostic::new(
                 DiagnosticCode::MissingFeed,
                 block.motion_span(),
@@ -58,13 +83,12 @@ impl Interpreter {
             )
             .because("no F word came before it since the program, or its feed mode, began")
             .help("write an F word")
-        })?;
-        let feed = match segment {
-            Segment::Arc(_) => feed.linear_v,
-            _ => feed.of_line(&segment.start(), &segment.end()),
-        };
-        let feed = feed * self.share_of_feed(block, segment);
-        if modal.feed_mode == FeedMode::PerMinute {
+        })
+    }
+
+    /// Speed at a feed along the path, per minute or per revolution.
+    fn speed_at(&self, block: &Block, feed: f64) -> Outcome<Speed> {
+        if self.state.modal.feed_mode == FeedMode::PerMinute {
             return Ok(Speed::Feed(feed));
         }
         let speed = self.state.spindle.speed;
@@ -86,11 +110,15 @@ impl Interpreter {
     }
 
     /// True where F is a FANUC's. What a Haas makes of it depends on its settings; where the tip of the tool is
-    /// followed F is its feed.
-    fn has_feeds_of_fanuc(&self, block: &Block) -> bool {
-        let is_haas = self.options.fanuc.offset_memory == OffsetMemory::Haas;
-        let follows = self.options.five_axis.is_some() && self.state.tip.follows();
-        block.dialect == Dialect::Fanuc && !is_haas && !follows
+    /// followed F is its feed. A tilted plane is a frame: F is what it is without one.
+    pub(crate) fn has_feeds_of_fanuc(&self, block: &Block) -> bool {
+        block.dialect == Dialect::Fanuc && !self.options.fanuc.is_haas() && !self.follows_tip()
+    }
+
+    /// True where the program has the tip of the tool followed (G43.4).
+    fn follows_tip(&self) -> bool {
+        let state = &self.state;
+        self.options.five_axis.is_some() && state.tip.follows() && state.tilted.is_none()
     }
 
     /// The rate of path position over F.
@@ -98,13 +126,8 @@ impl Interpreter {
         if !self.has_feeds_of_fanuc(block) {
             return 1.0;
         }
-        let length = segment.length();
         let all = match segment {
-            Segment::Arc(arc) => {
-                let rise = arc.end - arc.start;
-                let rise = rise[arc.plane.normal().index()];
-                (length * length - rise * rise).max(0.0).sqrt()
-            }
+            Segment::Arc(arc) => return share_of_arc(arc),
             Segment::Line(line) => {
                 let way = line.end - line.start;
                 let is_turn_alone = LINEAR_XYZ.chain(UVW).all(|axis| way[axis] == 0.0);
@@ -122,8 +145,30 @@ impl Interpreter {
                 });
                 squares.sum::<f64>().sqrt()
             }
-            _ => return 1.0,
+            Segment::Curve(_) => return 1.0,
         };
-        if all > 0.0 { length / all } else { 1.0 }
+        if all > 0.0 {
+            segment.length() / all
+        } else {
+            1.0
+        }
     }
+}
+
+/// The length of a helix over that of its arc in the plane.
+pub(crate) fn share_of_arc(arc: &Arc) -> f64 {
+    let length = Segment::Arc(*arc).length();
+    let rise = (arc.end - arc.start)[arc.plane.normal().index()];
+    let flat = (length * length - rise * rise).max(0.0).sqrt();
+    if flat > 0.0 { length / flat } else { 1.0 }
+}
+
+#[cold]
+fn timed_arc(block: &Block) -> Box<BlockDiagnostic> {
+    let message = "an arc in inverse time (G93) with the tip of the tool followed";
+    BlockDiagnostic::new(DiagnosticCode::NotSupported, block.motion_span(), message)
+        .because(
+            "F over the radius, or one over the minutes of the whole move: which of them F is beside G43.4 is not known",
+        )
+        .help("write G94, or the arc in lines")
 }

@@ -208,7 +208,7 @@ impl Interpreter {
         let log = &self.spline_log;
         let curve = Nurbs::new(degree, log.points(open), log.weights(open), knots)
             .map_err(|error| no_curve(open, &error, span))?;
-        self.push_curve(block, curve, out)
+        self.push_curve(block, curve, None, out)
     }
 }
 

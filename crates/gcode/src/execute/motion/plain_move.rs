@@ -52,7 +52,10 @@ impl Interpreter {
             return false;
         };
         // The feed of a FANUC is shared with other axes.
-        let shares_feed = self.options.dialect == Dialect::Fanuc && words.has_any(OTHER_AXES);
+        let shares_feed = motion == Motion::Linear
+            && words.has_any(OTHER_AXES)
+            && self.options.dialect == Dialect::Fanuc
+            && !self.options.fanuc.is_haas();
         let is_move = is_straight(motion)
             && !shares_feed
             && words.has_any(AXIS_WORDS)

@@ -161,7 +161,7 @@ impl Interpreter {
             return Ok(());
         }
         match Nurbs::new(degree, points, &vec![1.0; points.len()], &knots) {
-            Ok(curve) => self.push_curve(block, curve, out),
+            Ok(curve) => self.push_curve(block, curve, None, out),
             Err(error) => Err(BlockDiagnostic::new(
                 DiagnosticCode::Spline,
                 block.motion_span(),

@@ -9,7 +9,6 @@ use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::axis_words::homes_without_mesh;
 use crate::execute::motion::settled::{MIN_MOVE, settled};
 use crate::execute::motion::speed::{Pace, Speed};
-use crate::setup::fanuc::OffsetMemory;
 use crate::syntax::block::Block;
 use crate::syntax::dialect::Dialect;
 
@@ -145,7 +144,7 @@ impl Interpreter {
 
     /// A Haas sends all axes home where G28 names none, a FANUC moves nothing.
     fn check_reference_of_all(&self, block: &Block) -> Outcome<()> {
-        if self.options.fanuc.offset_memory == OffsetMemory::Haas {
+        if self.options.fanuc.is_haas() {
             return Ok(());
         }
         let span = block

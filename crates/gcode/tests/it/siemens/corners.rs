@@ -352,3 +352,11 @@ fn a_corner_without_a_move_of_its_own_is_refused() {
     // None is broken by zero, and RNDM may stand in any block.
     finds("G0 X10 RND=0\nRNDM=1\nG1 Y10 F100", &[]);
 }
+
+#[test]
+fn a_corner_of_less_than_nothing_is_refused() {
+    for word in ["CHR=-2", "RND=-2", "RNDM=-2"] {
+        let text = format!("G1 X10 F500 {word}\nY10");
+        finds(&text, &["1:13 invalid-value"]);
+    }
+}

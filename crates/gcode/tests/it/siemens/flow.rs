@@ -108,3 +108,33 @@ fn measurements_are_refused_by_name_with_what_to_write() {
         assert!(help.contains("G38.3"), "{help}");
     }
 }
+
+/// A jump, a structure and a call have blocks of their own, and each is told so.
+#[test]
+fn what_has_a_block_of_its_own_says_so() {
+    for (text, word, why) in [
+        ("G0 X1 ELSE", "ELSE", "it has a block of its own"),
+        (
+            "G0 X1 GOTOF A_A",
+            "GOTOF",
+            "a jump has a block of its own, or stands behind IF",
+        ),
+        (
+            "G0 X1 CALL \"A\"",
+            "CALL",
+            "the call of a subprogram has a block of its own",
+        ),
+    ] {
+        let report = glidepath_gcode::check(text.as_bytes(), super::options());
+        let found = &report.diagnostics[0];
+        assert_eq!(
+            found.message,
+            format!("{word} beside other words"),
+            "{text}"
+        );
+        assert_eq!(found.reason, why, "{text}");
+    }
+    let report = glidepath_gcode::check(&b"G0 X1 L10 P2"[..], super::options());
+    let said = "L10 (the call of a subprogram beside other words) is not supported";
+    assert_eq!(report.diagnostics[0].message, said);
+}

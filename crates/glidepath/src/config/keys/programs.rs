@@ -65,7 +65,8 @@ pub(super) const PROGRAM: &[Key] = &[
         },
         LeftOut::Value("\"unsaid\""),
         "how a FANUC control divides the memory of tool offsets (parameter 6000#3), which says what \
-         #2001 to #2800 are; \"unsaid\": they are refused",
+         #2001 to #2800 are; \"unsaid\": they are refused; \"haas\": the control is a Haas in the rest, \
+         too (F, chamfers, G92, M98, K and R of cycles, G85 …)",
     ),
     key(
         "program.arctangent",

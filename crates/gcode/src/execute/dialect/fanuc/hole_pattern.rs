@@ -39,7 +39,7 @@ impl Interpreter {
                 .because("a pattern is one of the XY plane")
                 .help("write G17"));
         }
-        let Some(hole) = self.hole_of_series() else {
+        let Some(hole) = self.hole_of_series(block)? else {
             return Err(refused(span, "holes along a pattern without a cycle")
                 .because("the cycle in force says what is made at each hole")
                 .help("write the cycle before it, as G81 with L0; inches and millimetres are G20 and G21"));

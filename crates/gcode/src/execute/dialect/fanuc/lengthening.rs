@@ -17,7 +17,6 @@ use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::arc_center::center_letter;
-use crate::setup::fanuc::OffsetMemory;
 use crate::syntax::block::Block;
 use crate::syntax::codes::Coded;
 use crate::syntax::modes::{Distance, Motion};
@@ -55,7 +54,7 @@ impl Interpreter {
             return Ok(());
         };
         let name = name(code);
-        let is_haas = self.options.fanuc.offset_memory == OffsetMemory::Haas;
+        let is_haas = self.options.fanuc.is_haas();
         if is_haas || code == 2 && block.get(b'P').is_some() {
             return Err(refused(
                 span,

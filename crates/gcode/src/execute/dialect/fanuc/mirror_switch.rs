@@ -8,7 +8,6 @@ use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
-use crate::setup::fanuc::OffsetMemory;
 use crate::syntax::block::Block;
 use crate::syntax::codes::Codes;
 use crate::syntax::word_check::missing;
@@ -33,7 +32,7 @@ impl Interpreter {
                     .help(help),
             )
         };
-        if self.options.fanuc.offset_memory != OffsetMemory::Haas {
+        if !self.options.fanuc.is_haas() {
             return refuse(
                 span,
                 format!("{name}, which is a code of a Haas"),

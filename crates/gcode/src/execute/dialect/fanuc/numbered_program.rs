@@ -14,7 +14,6 @@ use crate::execute::dialect::fanuc::arguments::CallWords;
 use crate::execute::dialect::tape::TapePlace;
 use crate::execute::flow::load::unusable;
 use crate::execute::program::Program;
-use crate::setup::fanuc::OffsetMemory;
 use crate::setup::subroutine_file::{NoSubroutineFile, NotTaken};
 use crate::syntax::dialect::fanuc::{Statement, statement};
 
@@ -56,7 +55,7 @@ impl<R: BufRead> Program<R> {
             .as_ref()
             .is_err_and(|fault| fault.code == DiagnosticCode::UnknownSubroutine);
         // Programs of a Haas have five digits, and their calls are repeated by L.
-        let is_haas = self.interpreter.options.fanuc.offset_memory == OffsetMemory::Haas;
+        let is_haas = self.interpreter.options.fanuc.is_haas();
         let has_turns = turns != 0 && number != 0 && !is_haas;
         if !is_missing || !has_turns || words.says_turns || words.is_macro {
             return found.map(|place| (place, words.turns));

@@ -92,11 +92,28 @@ pub(super) fn fault(span: SourceSpan, message: impl Into<String>) -> Box<BlockDi
 }
 
 #[cold]
-fn no_number(span: SourceSpan) -> Box<BlockDiagnostic> {
-    let message = "a variable without a value in the place of a number";
+fn no_number(text: &[u8], span: SourceSpan) -> Box<BlockDiagnostic> {
+    if is_macro_a(text) {
+        let message = "G65 H of custom macro A is not read";
+        return BlockDiagnostic::new(DiagnosticCode::FlowStructure, span, message)
+            .because("its P is the variable of the result, and here the number of a program")
+            .help("write `G65 H2 P#100 Q#101 R#102` as #100=#101+#102");
+    }
+    let name = text.get(span.start..span.start + span.length);
+    let name = String::from_utf8_lossy(name.unwrap_or_default().trim_ascii()).into_owned();
+    let message = format!("{name} has no value");
     BlockDiagnostic::new(DiagnosticCode::FlowStructure, span, message)
-        .because("programs, blocks, loops and turns are numbered. `G65 H P Q R` of the older custom macro A, whose P is the variable of the result, is not read")
-        .help("assign the variable before it; write `G65 H2 P#100 Q#101 R#102` as #100=#101+#102")
+        .because("programs, blocks, loops and turns are numbered")
+        .help("assign the variable before it")
+}
+
+/// True for a block of G65 with H.
+fn is_macro_a(text: &[u8]) -> bool {
+    let code = text.split(|byte| *byte == b'(').next().unwrap_or_default();
+    let calls = code
+        .windows(3)
+        .any(|word| word.eq_ignore_ascii_case(b"G65"));
+    calls && code.iter().any(|byte| byte.eq_ignore_ascii_case(&b'H'))
 }
 
 impl<R: BufRead> Program<R> {
@@ -296,7 +313,7 @@ impl<R: BufRead> Program<R> {
         }
         let span = SourceSpan::new(at, cursor.end_of_word());
         if is_vacant(number) {
-            return Err(no_number(span));
+            return Err(no_number(text, span));
         }
         if number.fract() != 0.0 || !(0.0..=99_999_999.0).contains(&number) {
             let message = format!("{number} is no block, loop or program number");

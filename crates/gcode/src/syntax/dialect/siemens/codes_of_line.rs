@@ -60,8 +60,8 @@ impl Writer<'_> {
             ([b'L', _, ..], _) => {
                 return Err(refused(
                     &String::from_utf8_lossy(name),
-                    "a subprogram",
-                    "copy its blocks to where it is called",
+                    "the call of a subprogram beside other words",
+                    "write it into a block of its own",
                     span,
                 ));
             }

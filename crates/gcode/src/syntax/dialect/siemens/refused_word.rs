@@ -9,10 +9,22 @@ use crate::syntax::dialect::siemens::statement::{Statement, statement};
 #[cold]
 pub(super) fn unknown(name: &[u8], span: SourceSpan) -> Box<BlockDiagnostic> {
     let shown = String::from_utf8_lossy(name).into_owned();
-    if statement(name).0 != Statement::Block {
+    let why = match statement(name).0 {
+        Statement::Block => None,
+        Statement::TextCall(_) => Some("the call of a subprogram has a block of its own"),
+        Statement::Goto(_) => Some("a jump has a block of its own, or stands behind IF"),
+        Statement::Else
+        | Statement::EndIf
+        | Statement::EndWhile
+        | Statement::EndFor
+        | Statement::Loop
+        | Statement::EndLoop => Some("it has a block of its own"),
+        _ => Some("it stands alone in its block, with its own words behind it"),
+    };
+    if let Some(why) = why {
         let message = format!("{shown} beside other words");
         return BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
-            .because("it stands alone in its block, with its own words behind it")
+            .because(why)
             .help("write it into a block of its own");
     }
     let message = format!("{shown} is not supported");
