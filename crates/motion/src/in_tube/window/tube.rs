@@ -63,8 +63,8 @@ pub(crate) const SEARCH_STEERING: f64 = 0.1;
 /// How many times as dear jerk is where the motion is at the feed: no time is to be gained there. What windows do there
 /// differs from one to the next by a micrometre or so, and with the usual price the motion went over within six
 /// periods, with a jerk of up to a fifth of the limit. The time to settle goes with the sixth root: it is 1.8 times
-/// as long. Of twelve programs of CAM systems that trembled with the usual price five still did with 8 times as much, two
-/// with 32, three with 128.
+/// as long. Of eight programs of CAM systems that trembled with the usual price five still did with 8 times as much, three
+/// with 32, four with 128.
 pub(crate) const JERK_AT_FEED: f64 = 32.0;
 /// How the rows are to be made.
 #[derive(Debug, Clone, Copy)]
