@@ -110,6 +110,7 @@ impl Block {
                 _ => return Err(odd_character(text, cursor.at(), byte)),
             }
         }
+        self.count_increments(scope);
         match spindle {
             Some(span) if !self.tells_spindle() => Err(unused_spindle(span)),
             _ => Ok(()),
