@@ -111,7 +111,12 @@ impl Block {
             }
         }
         self.count_increments(scope);
-        match spindle {
+        self.check_spindle_number(spindle)
+    }
+
+    /// Refuses the number of a spindle where no word tells a spindle something.
+    fn check_spindle_number(&self, written: Option<SourceSpan>) -> Outcome<()> {
+        match written {
             Some(span) if !self.tells_spindle() => Err(unused_spindle(span)),
             _ => Ok(()),
         }
