@@ -87,6 +87,8 @@ pub(crate) enum CornerKind {
 pub(crate) struct CornerWord {
     pub(crate) kind: CornerKind,
     pub(crate) value: f64,
+    /// A FANUC's, whose number has no decimal point.
+    pub(crate) has_no_point: bool,
     pub(crate) span: SourceSpan,
 }
 
@@ -143,14 +145,6 @@ impl Block {
     /// True if the word of a FANUC program was written without a decimal point.
     pub(crate) const fn has_no_point(&self, letter: u8) -> bool {
         self.pointless.has(letter)
-    }
-
-    /// The number of a word as it was written: without a decimal point it may have been taken to be in least
-    /// increments.
-    pub(crate) fn written(&self, letter: u8) -> Option<f64> {
-        let counted = self.has_no_point(letter) && self.point == PointInput::Increment;
-        let unit = if counted { self.increment } else { 1.0 };
-        self.get(letter).map(|value| value / unit)
     }
 
     /// True if the block has an axis word or a polar one.

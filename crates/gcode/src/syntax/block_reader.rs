@@ -110,7 +110,13 @@ impl Block {
                 _ => return Err(odd_character(text, cursor.at(), byte)),
             }
         }
-        match spindle {
+        self.count_increments(scope);
+        self.check_spindle_number(spindle)
+    }
+
+    /// Refuses the number of a spindle where no word tells a spindle something.
+    fn check_spindle_number(&self, written: Option<SourceSpan>) -> Outcome<()> {
+        match written {
             Some(span) if !self.tells_spindle() => Err(unused_spindle(span)),
             _ => Ok(()),
         }

@@ -15,6 +15,7 @@ use crate::syntax::expression::scope::Scope;
 use crate::syntax::expression::vacant::is_vacant;
 use crate::syntax::expression::value::{open_expression, parameter, word_value};
 use crate::syntax::frame_codes::FrameCode;
+use crate::syntax::least_increments::OF_ANGLES;
 use crate::syntax::letters::{AXIS_WORDS, Letters, Slot};
 use crate::syntax::modes::NonModal;
 use crate::syntax::named_word::Named;
@@ -102,8 +103,18 @@ impl Block {
             return Ok(value);
         }
         let span = SourceSpan::new(start, cursor.end_of_word());
-        self.increment = scope.least_increment();
-        without_point_value(self.point, letter, value, scope, span)
+        self.checked_length(letter, value, span)
+    }
+
+    /// A length without a decimal point, unless nobody knows what it counts; increments are counted when the block
+    /// has all its codes.
+    fn checked_length(&self, letter: u8, value: f64, span: SourceSpan) -> Outcome<f64> {
+        match self.point {
+            PointInput::Unsaid if value.abs() > MOST_WITHOUT_POINT => {
+                Err(without_point(char::from(letter), value, span))
+            }
+            _ => Ok(value),
+        }
     }
 
     /// `[#DEPTH]=5`: FANUC's variable of a name.
@@ -152,10 +163,15 @@ impl Block {
             .filter(|word| is_siemens || *word == Named::LineAngle);
         if let Some(word) = named {
             cursor.advance();
-            let value = word_value(cursor, start, false, scope)?;
+            let is_counted =
+                !is_siemens && self.point == PointInput::Increment && is_without_point(cursor);
+            let mut value = word_value(cursor, start, false, scope)?;
             let span = SourceSpan::new(start, cursor.end_of_word());
             if is_vacant(value) {
                 return Ok(());
+            }
+            if is_counted {
+                value *= OF_ANGLES;
             }
             self.any = true;
             self.says_modes |= matches!(
@@ -181,20 +197,25 @@ impl Block {
         };
         cursor.advance();
         let has_no_point = self.dialect == Dialect::Fanuc && is_without_point(cursor);
-        let mut value = word_value(cursor, start, true, scope)?;
+        let value = word_value(cursor, start, true, scope)?;
         let span = SourceSpan::new(start, cursor.end_of_word());
         if is_vacant(value) {
             return Ok(());
         }
         if has_no_point {
             let letter = letter.unwrap_or(b',');
-            value = without_point_value(self.point, letter, value, scope, span)?;
+            self.checked_length(letter, value, span)?;
         }
         if self.corner.is_some() {
             return Err(duplicate(',', span));
         }
         self.any = true;
-        self.corner = Some(CornerWord { kind, value, span });
+        self.corner = Some(CornerWord {
+            kind,
+            value,
+            has_no_point,
+            span,
+        });
         Ok(())
     }
 }

@@ -389,3 +389,71 @@ fn what_a_profile_cannot_have_says_how_to_mend_it() {
         assert!(reason.contains("as it stands"), "{reason}");
     }
 }
+
+/// In systems B and C G90 and G91 say what X and Z of these cycles are, as of moves.
+#[test]
+fn cycles_of_one_block_go_by_increments_in_g91() {
+    let of = |control| {
+        with(FanucParameters {
+            control: Some(control),
+            ..FanucParameters::default()
+        })
+    };
+    let head = "G94 G97 S600 M3\nM24\nG0 X62 Z2\n";
+    let [b, c] = [FanucControl::LatheB, FanucControl::LatheC];
+    let same = |incremental: &str, absolute: &str, control| {
+        let text = format!("{head}G91 {incremental}\nG90 G0 X80");
+        let expected = format!("{head}G90 {absolute}\nG90 G0 X80");
+        let ways = ends_with(&text, of(control));
+        assert_eq!(ways, ends_with(&expected, of(control)), "{text}");
+        ways
+    };
+    let pass = |x: f64| [[x, 2.0], [x, -30.0], [31.0, -30.0], [31.0, 2.0]];
+    let turned = [&[[31.0, 2.0]][..], &pass(28.0), &pass(26.0), &[[40.0, 2.0]]].concat();
+    let ways = same("G77 X-6 Z-32 F300\nX-10", "G77 X56 Z-30 F300\nX52", b);
+    assert_eq!(ways, turned);
+    let ways = same("G20 X-6 Z-32 F300\nX-10", "G20 X56 Z-30 F300\nX52", c);
+    assert_eq!(ways, turned);
+    let faces = [
+        [31.0, 2.0],
+        [31.0, -8.0],
+        [10.0, -5.0],
+        [10.0, 2.0],
+        [31.0, 2.0],
+        [40.0, 2.0],
+    ];
+    for (code, control) in [("G79", b), ("G24", c)] {
+        let ways = same(
+            &format!("{code} X-42 Z-7 R-3 F300"),
+            &format!("{code} X20 Z-5 R-3 F300"),
+            control,
+        );
+        assert_eq!(ways, faces);
+    }
+    let thread = [
+        [31.0, 2.0],
+        [27.0, 2.0],
+        [28.0, -20.0],
+        [31.0, -20.0],
+        [31.0, 2.0],
+        [40.0, 2.0],
+    ];
+    for (code, control) in [("G78", b), ("G21", c)] {
+        let ways = same(
+            &format!("{code} X-6 Z-22 R-1 F1.5"),
+            &format!("{code} X56 Z-20 R-1 F1.5"),
+            control,
+        );
+        assert_eq!(ways, thread);
+    }
+    for (codes, control) in [(["G74", "G75"], b), (["G76", "G77"], c)] {
+        for code in codes {
+            let ways = same(
+                &format!("{code} X-12 Z-6 P3000 Q3000 F300"),
+                &format!("{code} X50 Z-4 P3000 Q3000 F300"),
+                control,
+            );
+            assert!(ways.contains(&[25.0, -4.0]), "{ways:?}");
+        }
+    }
+}

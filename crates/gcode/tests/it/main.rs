@@ -24,6 +24,7 @@ mod fanuc_corners;
 mod fanuc_cycles;
 mod fanuc_feeds;
 mod fanuc_heads;
+mod fanuc_increments;
 mod fanuc_lathe_passes;
 mod fanuc_lathe_variables;
 mod fanuc_lathe_words;

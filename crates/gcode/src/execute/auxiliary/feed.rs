@@ -4,9 +4,10 @@ use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::state::modal::Feed;
+use crate::setup::fanuc::PointInput;
 use crate::syntax::block::Block;
 use crate::syntax::dialect::Dialect;
-use crate::syntax::modes::{FeedMode, Motion, SpindleMode, Turning};
+use crate::syntax::modes::{FeedMode, Motion, SpindleMode, Turning, Units};
 use crate::syntax::named_word::Named;
 
 impl Interpreter {
@@ -37,6 +38,7 @@ impl Interpreter {
                 motion,
                 Some(Motion::Thread | Motion::ThreadCycle | Motion::Turning(Turning::Thread))
             );
+        self.check_counted_feed(block, is_pitch)?;
         // On a printer the F of G61 is that of its move alone.
         let is_own = is_pitch || block.codes.kept_place.is_some();
         let Some(feed) = block.get(b'F').filter(|_| !is_own) else {
@@ -57,6 +59,20 @@ impl Interpreter {
             self.state.modal.feed = Some(feed);
         }
         Ok(())
+    }
+
+    /// Refuses F without a point where it counts least increments of a feed; millimetres per minute it counts one
+    /// by one.
+    fn check_counted_feed(&self, block: &Block, is_pitch: bool) -> Outcome<()> {
+        let units = block.codes.units.map(|coded| coded.code);
+        let is_plain = units.unwrap_or(self.state.modal.units) == Units::Millimetre
+            && self.state.modal.feed_mode == FeedMode::PerMinute
+            && !is_pitch;
+        let is_counted = block.point == PointInput::Increment && block.has_no_point(b'F');
+        match block.get(b'F') {
+            Some(feed) if is_counted && !is_plain => Err(without_point(block, feed)),
+            _ => Ok(()),
+        }
     }
 
     /// What a value counts as a feed in the mode and the units in force; `None`: it is a time (G93).
@@ -138,6 +154,14 @@ fn feed_mode_of_speed(block: &Block) -> Option<FeedMode> {
         Some(SpindleMode::SurfaceSpeed | SpindleMode::Revolutions)
     );
     (is_per_revolution && block.dialect == Dialect::Siemens).then_some(FeedMode::PerRevolution)
+}
+
+#[cold]
+fn without_point(block: &Block, feed: f64) -> Box<BlockDiagnostic> {
+    let message = format!("F{feed} has no decimal point");
+    BlockDiagnostic::new(DiagnosticCode::AmbiguousWord, block.span(b'F'), message)
+        .because("with `point = \"increment\"` it counts least increments in inches, per revolution, in G93 and in threads, and how much one is a parameter of the control says")
+        .help(format!("write the point: F{feed}. if that is the value"))
 }
 
 #[cold]

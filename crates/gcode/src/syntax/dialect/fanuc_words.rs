@@ -32,8 +32,12 @@ impl Block {
                 continue;
             }
             if let Some((value, span)) = self.take(letter) {
-                let value = value.abs();
-                self.corner = Some(CornerWord { kind, value, span });
+                self.corner = Some(CornerWord {
+                    kind,
+                    value: value.abs() * self.length_in_count(letter),
+                    has_no_point: false,
+                    span,
+                });
             }
         }
         if !machine.has(Axis::A)

@@ -81,7 +81,7 @@ impl Interpreter {
             return Ok(());
         }
         let start = self.state.offsets.to_program(self.state.position);
-        let values = self.axis_values(block)?;
+        let values = self.ends_of_cycle(block)?;
         let (axis, other) = if across { (0, 2) } else { (2, 0) };
         let word = if across { "X" } else { "Z" };
         let span = block.motion_span();

@@ -51,10 +51,10 @@ impl Interpreter {
                 .ok_or_else(|| missing(span, name, &text, meaning))
         };
         let radius_mm = need(b'I', "the radius")? * self.state.modal.units.mm();
-        let first_deg = block.get(b'J').unwrap_or(0.0);
+        let first_deg = block.degrees(b'J').unwrap_or(0.0);
         let count = whole(block, b'L', MAX_HOLES)?.filter(|count| *count > 0);
         let count = count.ok_or_else(|| missing(span, name, "L", "how many holes"))?;
-        let step_deg = match block.get(b'K') {
+        let step_deg = match block.degrees(b'K') {
             Some(step) if is_arc => step,
             None if !is_arc => 360.0 / f64::from(count),
             None => return Err(missing(span, name, "K", "the angle from hole to hole")),

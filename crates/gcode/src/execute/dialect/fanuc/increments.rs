@@ -8,7 +8,7 @@ use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::axis_words::axis_value;
 use crate::syntax::block::Block;
 use crate::syntax::letters::AXIS_LETTERS;
-use crate::syntax::modes::NonModal;
+use crate::syntax::modes::{Distance, NonModal};
 
 /// Letters of increments, and the axis of each.
 const INCREMENTS: [(u8, Axis); 4] = [
@@ -33,6 +33,18 @@ impl Interpreter {
             .axes()
             .all(|(axis, _)| matches!(axis, Axis::U | Axis::V | Axis::W) || has(axis) || is_data);
         (of_increments || is_data) && of_others
+    }
+
+    /// Where X and Z of a lathe's cycle are, program coordinates: in G91 of systems B and C they are increments.
+    pub(crate) fn ends_of_cycle(&self, block: &Block) -> Outcome<[Option<f64>; AXES]> {
+        let mut values = self.axis_values(block)?;
+        if !block.has_increments() && self.state.modal.distance == Distance::Incremental {
+            let program = self.state.offsets.to_program(self.state.position);
+            for axis in [Axis::X, Axis::Z].map(Axis::index) {
+                values[axis] = values[axis].map(|by| program[axis] + by);
+            }
+        }
+        Ok(values)
     }
 
     /// Puts the ends that increments lead to into the places of their axes, program coordinates.

@@ -36,7 +36,7 @@ use crate::syntax::dialect::fanuc::{Statement, statement};
 use crate::syntax::letters::Letters;
 use crate::syntax::modes::{LatheCycle, Motion, Units};
 use crate::syntax::named_word::Named;
-use crate::syntax::word_check::{missing, unused, whole};
+use crate::syntax::word_check::{missing, unused, whole, whole_count};
 
 /// Largest block number.
 const MOST_NUMBER: u32 = 99_999_999;
@@ -297,7 +297,7 @@ impl Interpreter {
     /// The passes of G73, whose number is the word of a letter.
     fn repeating(&self, block: &Block, letter: u8, relief: [Option<f64>; 2]) -> Outcome<Repeating> {
         let name = char::from(letter).to_string();
-        let passes = whole(block, letter, MOST_PASSES)?
+        let passes = whole_count(block, letter, MOST_PASSES)?
             .filter(|passes| *passes > 0)
             .ok_or_else(|| missing(block.motion_span(), "G73", &name, "the number of passes"))?;
         let mm = self.state.modal.units.mm();

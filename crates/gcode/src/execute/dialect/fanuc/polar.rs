@@ -10,6 +10,7 @@ use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::axis_words::axis_value;
 use crate::execute::state::fanuc_modal::Polar;
 use crate::syntax::block::Block;
+use crate::syntax::letters::AXIS_LETTERS;
 use crate::syntax::modes::Distance;
 
 impl Interpreter {
@@ -38,10 +39,11 @@ impl Interpreter {
                     [0.0; 2]
                 };
             } else if axis == second {
+                let degrees = block.degrees(AXIS_LETTERS[axis.index()]).unwrap_or(value);
                 polar.degrees = if incremental {
-                    polar.degrees + value
+                    polar.degrees + degrees
                 } else {
-                    value
+                    degrees
                 };
             }
         }
@@ -93,7 +95,7 @@ impl Interpreter {
             if radius.is_some() {
                 polar.centre = polar.point();
             }
-            polar.degrees += angle.map_or(0.0, |(_, value)| value);
+            polar.degrees += block.degrees(AXIS_LETTERS[second.index()]).unwrap_or(0.0);
             for (axis, at) in [first, second].into_iter().zip(polar.point()) {
                 place[axis.index()] = Some(at);
             }

@@ -70,7 +70,7 @@ impl Interpreter {
     /// The words of the block, and those kept from the block before.
     fn turning_words(&self, block: &Block, cycle: Turning) -> Outcome<TurningWords> {
         let last = self.state.fanuc.turning.filter(|last| last.cycle == cycle);
-        let values = self.axis_values(block)?;
+        let values = self.ends_of_cycle(block)?;
         let need = |value: Option<f64>, word: &str| {
             value.ok_or_else(|| {
                 missing(
