@@ -30,6 +30,7 @@ mod execute_line;
 mod fanuc_thread;
 mod fine_boring;
 pub(crate) mod flow;
+mod helix_share;
 pub(crate) mod interpreter;
 pub(crate) mod lathe_cycle;
 pub(crate) mod line_origin;

@@ -7,7 +7,7 @@ use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::compensation::element::{Element, Point, distance, meet, turn};
-use crate::execute::motion::feedrate::share_of_arc;
+use crate::execute::helix_share::share_of_arc;
 use crate::execute::motion::settled::MIN_MOVE;
 use crate::execute::motion::speed::Speed;
 use crate::syntax::modes::Side;

@@ -13,10 +13,11 @@
 //! F of a helix is the feed along it; on a FANUC it is that of its arc in the plane, beside which the third axis goes
 //! its way (parameter 1403#5 = 0).
 
-use glidepath_geometry::{Arc, LINEAR_XYZ, ROTARY_ABC, Segment, UVW};
+use glidepath_geometry::{LINEAR_XYZ, ROTARY_ABC, Segment, UVW};
 
 use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
+use crate::execute::helix_share::share_of_arc;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::speed::{Pace, Speed};
 use crate::execute::state::modal::Feed;
@@ -153,14 +154,6 @@ impl Interpreter {
             1.0
         }
     }
-}
-
-/// The length of a helix over that of its arc in the plane.
-pub(crate) fn share_of_arc(arc: &Arc) -> f64 {
-    let length = Segment::Arc(*arc).length();
-    let rise = (arc.end - arc.start)[arc.plane.normal().index()];
-    let flat = (length * length - rise * rise).max(0.0).sqrt();
-    if flat > 0.0 { length / flat } else { 1.0 }
 }
 
 #[cold]

@@ -12,7 +12,7 @@ pub(crate) mod corner;
 mod corner_geometry;
 mod corner_refused;
 mod curve;
-pub(crate) mod feedrate;
+mod feedrate;
 mod great_circle;
 mod kinematics_switch;
 mod length_on_way;
