@@ -64,10 +64,10 @@ fn press_for_state(
 }
 
 /// A line of the program, some seconds before its end.
-pub(super) const NEAR_THE_END: u32 = 47;
+const NEAR_THE_END: u32 = 47;
 
 /// A program that asks for a tool, and then goes on for long.
-pub(super) fn program() -> String {
+fn program() -> String {
     let mut text = "G21 G90 F3000\nT2 M6\n".to_owned();
     // Long moves, so that it takes long and is soon planned on a busy host, too.
     for _ in 0..25 {

@@ -3,7 +3,6 @@
 
 mod certificate;
 mod colours;
-mod commanded_life;
 mod course;
 mod cut_off;
 mod devices;
