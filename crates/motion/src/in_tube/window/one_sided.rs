@@ -31,10 +31,6 @@ const NEAR_R: f64 = 3.0;
 const SHIFT: f64 = 0.02;
 /// What a motion may be beyond a border at least, in radii.
 const BEYOND_R: f64 = 0.01;
-/// The same on a chord of a curve, as a share of the way from its middle to the curve. The border bends with the
-/// curve, but a place on the chord is only known to [`SHIFT`] of it, and the curve is taken for a parabola there:
-/// with nothing for that, whole windows in the middle of an arc were refused for tenths of a micrometre.
-const BEYOND_CURVE_R: f64 = 0.25;
 
 impl<const D: usize> ScaledPath<D> {
     /// The same path with the sides on which the motion is to stay; the pieces are those it was made of.
@@ -160,10 +156,7 @@ impl<const D: usize> ScaledPath<D> {
     /// How far a motion on piece `i` may be outside of a border.
     fn allowed_beyond(&self, i: usize) -> f64 {
         let segment = &self.segments[i];
-        let bulge = dot(&segment.sagitta_vector, &segment.sagitta_vector).sqrt();
-        (BEYOND_R * segment.radius)
-            .max(BEYOND_CURVE_R * bulge)
-            .max(segment.beyond)
+        (BEYOND_R * segment.radius).max(segment.beyond)
     }
 
     /// True if the end of a period is on the sides on which the motion is to stay at a parameter of a
