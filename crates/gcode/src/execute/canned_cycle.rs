@@ -91,9 +91,10 @@ impl Interpreter {
         self.check_cycle(block, &sticky)?;
         // Beside I of depths, K is the least depth of Haas.
         let is_depth = block.get(b'I').is_some() && !cycle.goes_aside();
-        let repeats = match is_depth || self.counts_holes_by_l(block) {
-            false => whole_count(block, b'K', MAX_HOLES)?.or(whole(block, b'L', MAX_HOLES)?),
-            true => whole(block, b'L', MAX_HOLES)?,
+        let repeats = if is_depth || self.counts_holes_by_l(block) {
+            whole(block, b'L', MAX_HOLES)?
+        } else {
+            whole_count(block, b'K', MAX_HOLES)?.or(whole(block, b'L', MAX_HOLES)?)
         };
         let holes = match repeats {
             // FANUC keeps the words for the blocks that follow.

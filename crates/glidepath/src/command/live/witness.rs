@@ -53,7 +53,7 @@ struct Seen {
 
 impl Witness {
     pub(super) fn new(config: &MachineConfig) -> Self {
-        // Without a limit of its own, joints limit an axis: nothing is a part of none.
+        // Joints limit an axis that has no limit of its own: what it does is no part of one.
         let limits = config.own_limits();
         Self {
             axes: config.axis_names(),
