@@ -26,13 +26,17 @@ pub(crate) fn chords(of: &Segment, tolerance_mm: f64) -> u32 {
             curve.length * (max_k / (8.0 * CURVE_FLATTENING * tolerance_mm)).sqrt()
         }
     };
-    let count = count.ceil().clamp(1.0, 1e9);
+    whole(count, 1e9)
+}
+
+/// So many chords, as a whole number from 1 to `most`, < 2³².
+pub(crate) fn whole(count: f64, most: f64) -> u32 {
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
         reason = "clamped"
     )]
-    let count = count as u32;
+    let count = count.ceil().clamp(1.0, most) as u32;
     count
 }
 

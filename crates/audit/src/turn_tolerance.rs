@@ -1,5 +1,6 @@
 //! What the rotary axes, or the direction that they give the tool, may be off along a programmed move.
 
+use crate::flatten::whole;
 use crate::tool_axis::Turn;
 
 /// Distance between the directions of a move and their chords, as a part of the tolerance of direction.
@@ -61,13 +62,5 @@ pub(crate) fn turn_chords(turn: Turn, allowed_deg: f64) -> u32 {
     } else {
         1e9
     };
-    let count = turn.chords(FLATTENING * allowed_deg);
-    let count = count.ceil().clamp(1.0, most);
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "clamped"
-    )]
-    let count = count as u32;
-    count
+    whole(turn.chords(FLATTENING * allowed_deg), most)
 }

@@ -229,3 +229,36 @@ impl Settings {
         bits.fold(0, |all, bit| all | bit)
     }
 }
+
+#[cfg(test)]
+impl DriveSettings {
+    /// Those of a drive of 1000 counts a mm with an absolute encoder, for tests.
+    pub(crate) const fn of_1000_counts() -> Self {
+        Self {
+            joint: 0,
+            position: 0,
+            axis: 0,
+            map_step: 0x10,
+            vendor: 0,
+            product: 0,
+            alias: 0,
+            process_at: None,
+            mapping: Mapping::Written,
+            counts_per_unit: 1000.0,
+            is_modulo: false,
+            is_inverted: false,
+            home_offset: 0.0,
+            homing: None,
+            following_error: 2.0,
+            following_ms: 10,
+            enable_window: 0.05,
+            quick_stop_a: 4000.0,
+            torque_limits: [None; 2],
+            feed_forward: None,
+            probe: None,
+            index: Some(1),
+            has_inputs: false,
+            max_v: 200.0,
+        }
+    }
+}

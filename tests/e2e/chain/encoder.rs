@@ -36,17 +36,7 @@ fn a_thread_follows_an_encoder_at_a_terminal() {
     ];
     let bench = Operated::new(&instance, &changes, "");
     let drives = instance.file("drives.toml", &line());
-    let interpolator = bench.process(&["interpolator", "--best-effort"]);
-    let emulated = [
-        "ethercat",
-        "--emulated",
-        "--best-effort",
-        "--drives",
-        &drives,
-    ];
-    let bus = bench.process(&emulated);
-    let Some(bus) = super::emulated(&instance, bus) else {
-        let _ended = interpolator.end().expect(0);
+    let Some((interpolator, bus)) = super::emulated_drives(&instance, &bench, &drives) else {
         return;
     };
     let service = bench.service();

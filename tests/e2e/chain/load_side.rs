@@ -29,17 +29,7 @@ fn joints_are_where_encoders_at_a_terminal_say() {
     let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
     let bench = Operated::new(&instance, &[], "");
     let drives = instance.file("drives.toml", &line());
-    let interpolator = bench.process(&["interpolator", "--best-effort"]);
-    let emulated = [
-        "ethercat",
-        "--emulated",
-        "--best-effort",
-        "--drives",
-        &drives,
-    ];
-    let bus = bench.process(&emulated);
-    let Some(bus) = super::emulated(&instance, bus) else {
-        let _ended = interpolator.end().expect(0);
+    let Some((interpolator, bus)) = super::emulated_drives(&instance, &bench, &drives) else {
         return;
     };
     let service = bench.service();

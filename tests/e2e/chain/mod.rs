@@ -23,7 +23,7 @@ use std::time::{Duration, Instant};
 
 use glidepath_link::MachineState;
 use glidepath_testing::leave_out;
-use glidepath_tests::{Instance, Process, Watchdog, planned};
+use glidepath_tests::{Instance, Operated, Process, Watchdog, planned};
 use judge::{COUNTS, Row, judge, rows, was_left_alone};
 
 /// What is left out where the host was not in time.
@@ -60,6 +60,28 @@ fn emulated(instance: &Instance, mut bus: Process) -> Option<Process> {
         std::thread::sleep(Duration::from_millis(20));
     }
     Some(bus)
+}
+
+/// The interpolator of a bench, and a bridge that emulates the drives of a file, when they are there. `None`, and told,
+/// if this host cannot emulate drives.
+fn emulated_drives(
+    instance: &Instance,
+    bench: &Operated<'_>,
+    drives: &str,
+) -> Option<(Process, Process)> {
+    let interpolator = bench.process(&["interpolator", "--best-effort"]);
+    let arguments = [
+        "ethercat",
+        "--emulated",
+        "--best-effort",
+        "--drives",
+        drives,
+    ];
+    let Some(bus) = emulated(instance, bench.process(&arguments)) else {
+        let _ended = interpolator.end().expect(0);
+        return None;
+    };
+    Some((interpolator, bus))
 }
 
 /// A zigzag of about so many seconds.

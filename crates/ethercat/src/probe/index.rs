@@ -153,37 +153,11 @@ impl IndexSearches {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::entry::Mapping;
     use crate::settings::DriveSettings;
 
     /// What the unit comes to by what is seen of its status, one cycle each; `None` where the drive is away.
     fn through(from: Phase, statuses: &[Option<u8>]) -> Phase {
-        let settings = DriveSettings {
-            joint: 0,
-            position: 0,
-            axis: 0,
-            map_step: 0x10,
-            vendor: 0,
-            product: 0,
-            alias: 0,
-            process_at: None,
-            mapping: Mapping::Written,
-            counts_per_unit: 1000.0,
-            is_modulo: false,
-            is_inverted: false,
-            home_offset: 0.0,
-            homing: None,
-            following_error: 2.0,
-            following_ms: 10,
-            enable_window: 0.05,
-            quick_stop_a: 4000.0,
-            torque_limits: [None; 2],
-            feed_forward: None,
-            probe: None,
-            index: Some(1),
-            has_inputs: false,
-            max_v: 200.0,
-        };
+        let settings = DriveSettings::of_1000_counts();
         statuses.iter().fold(from, |phase, status| {
             let seen = Seen {
                 settings: &settings,

@@ -14,9 +14,9 @@ fn options() -> Options {
     }
 }
 
-/// Minutes that the last move takes at its feed.
-fn minutes(text: &str, options: Options) -> f64 {
-    let moves = Program::new(text.as_bytes(), options)
+/// Minutes that every move takes at its feed.
+fn all_minutes(text: &str, options: Options) -> Vec<f64> {
+    Program::new(text.as_bytes(), options)
         .map(|item| item.unwrap_or_else(|d| panic!("{text}\n{d}")))
         .filter_map(|item| match item.kind {
             ItemKind::Move {
@@ -25,8 +25,14 @@ fn minutes(text: &str, options: Options) -> f64 {
                 ..
             } => Some(segment.length() / feed_v / 60.0),
             _ => None,
-        });
-    moves.collect::<Vec<_>>().pop().expect("a move at feed")
+        })
+        .collect()
+}
+
+/// The same of the last move.
+fn minutes(text: &str, options: Options) -> f64 {
+    let all = all_minutes(text, options);
+    *all.last().expect("a move at feed")
 }
 
 #[track_caller]
@@ -67,19 +73,9 @@ fn an_arc_in_inverse_time_is_as_fast_as_its_radius() {
     takes("G20 G93 G2 I1. F1.", 2.0 * PI);
 }
 
-/// Minutes of all moves at feed.
+/// The same of all moves together.
 fn minutes_in_all(text: &str, options: Options) -> f64 {
-    Program::new(text.as_bytes(), options)
-        .map(|item| item.unwrap_or_else(|d| panic!("{text}\n{d}")))
-        .filter_map(|item| match item.kind {
-            ItemKind::Move {
-                segment,
-                rate: Rate::Feed(feed_v),
-                ..
-            } => Some(segment.length() / feed_v / 60.0),
-            _ => None,
-        })
-        .sum()
+    all_minutes(text, options).into_iter().sum()
 }
 
 /// Frames change nothing of F, whether they are turned or tilted.

@@ -6,39 +6,8 @@
 )]
 
 use super::*;
-use crate::entry::Mapping;
 use crate::settings::DriveSettings;
 use crate::terminal::At;
-
-/// A drive of 1000 counts a mm with an absolute encoder.
-fn drive() -> DriveSettings {
-    DriveSettings {
-        joint: 0,
-        position: 0,
-        axis: 0,
-        map_step: 0x10,
-        vendor: 0,
-        product: 0,
-        alias: 0,
-        process_at: None,
-        mapping: Mapping::Written,
-        counts_per_unit: 1000.0,
-        is_modulo: false,
-        is_inverted: false,
-        home_offset: 0.0,
-        homing: None,
-        following_error: 2.0,
-        following_ms: 10,
-        enable_window: 0.05,
-        quick_stop_a: 4000.0,
-        torque_limits: [None; 2],
-        feed_forward: None,
-        probe: None,
-        index: Some(1),
-        has_inputs: false,
-        max_v: 200.0,
-    }
-}
 
 fn encoder(home_offset: Option<f64>) -> JointEncoderSettings {
     JointEncoderSettings {
@@ -54,7 +23,7 @@ fn encoder(home_offset: Option<f64>) -> JointEncoderSettings {
 
 fn begun(home_offset: Option<f64>) -> (LoadSide, Axis) {
     let mut load_side = LoadSide::new(encoder(home_offset), 0.0, 0.5);
-    let mut axis = Axis::new(drive());
+    let mut axis = Axis::new(DriveSettings::of_1000_counts());
     load_side.begin(&mut axis);
     assert_eq!(load_side.sample(Some(0.0), &mut axis, 0), 0.0);
     (load_side, axis)

@@ -1,17 +1,11 @@
 //! Tests of `joint_encoders` of a device.
 
 use super::super::parse;
-use super::{machine, wrong};
+use super::{machine, three_drives, wrong};
 use glidepath_ethercat::{At, EncoderUse};
 
 fn file(devices: &str) -> String {
-    let drive = |joint: usize| {
-        format!(
-            "[[drive]]\njoint = {joint}\nposition = {joint}\ncounts_per_mm = 1000.0\nfollowing_error = 1.0\n\
-             quick_stop = 2000.0\n"
-        )
-    };
-    let drives: String = (0..3).map(drive).collect();
+    let drives = three_drives();
     format!("[bus]\ninterface = \"eth9\"\n{drives}[[device]]\nposition = 3\n{devices}")
 }
 

@@ -12,6 +12,17 @@ use super::{Found, parse, written};
 use crate::config::{self, MachineConfig};
 use glidepath_ethercat::{ClockKind, Device, Identity, Mapping, SyncManager};
 
+/// The drives of a machine with three joints, as far as a file has to tell of them.
+fn three_drives() -> String {
+    let drive = |joint: usize| {
+        format!(
+            "[[drive]]\njoint = {joint}\nposition = {joint}\ncounts_per_mm = 1000.0\nfollowing_error = 1.0\n\
+             quick_stop = 2000.0\n"
+        )
+    };
+    (0..3).map(drive).collect()
+}
+
 fn machine(homing: &str) -> MachineConfig {
     let text = config::EMBEDDED.replace("homing = \"none\"", &format!("homing = \"{homing}\""));
     config::parse("machine.toml", &text).unwrap()
