@@ -212,7 +212,13 @@ fn a_machine_is_held_and_aborted_with_no_free_page() {
         assert_eq!(output.status.code(), Some(5), "{process}: {output:?}");
         let text = stderr(&output);
         assert!(text.contains("/dev/shm/glidepath/default"), "{text}");
-        assert!(text.contains("no room for 1048576 bytes"), "{text}");
+        // The first thing for which a page is lacking may be small: what an ended process left is given back by
+        // whoever comes next.
+        let bytes = text
+            .split_once("no room for ")
+            .and_then(|(_, rest)| rest.split_once(" bytes"))
+            .and_then(|(count, _)| count.parse::<u64>().ok());
+        assert!(bytes.is_some_and(|count| count > 0), "{process}: {text}");
         assert!(text.contains("df -h"), "{text}");
     }
     // That is enough.
