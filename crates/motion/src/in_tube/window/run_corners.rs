@@ -67,7 +67,7 @@ impl<const D: usize> ScaledPath<D> {
             };
             let segment = &self.segments[i];
             // Lengths of the path by the unit of the window.
-            let scale = piece.tolerance_mm / self.unit_mm / piece.tolerance_mm;
+            let scale = self.unit_mm.recip();
             let run_start = segment.s - (piece.start_s - piece.run_from_s) * scale;
             let start = self.vertex_before(piece, (i, scale), run_end);
             let is_first = start.as_ref().is_some_and(|vertex| vertex.s >= segment.s);
