@@ -92,6 +92,7 @@ pub fn check<R: BufRead>(reader: R, options: Options) -> Report {
         survey.add(item);
         part.add(&program.interpreter, item);
     });
+    survey.pole_turns = program.interpreter.pole_turns;
     Report {
         diagnostics: found.diagnostics,
         more: found.more,

@@ -94,6 +94,7 @@ pub use setup::threading::Threading;
 pub use setup::tool_table::{MAX_TOOLS, Tool, ToolTable};
 pub use setup::work_offsets::{CoordinateSystem, SYSTEMS, WorkOffsets};
 pub use summary::part_box::PartBox;
+pub use summary::pole_turns::PoleTurns;
 pub use summary::remark::{Remark, RemarkKind};
 pub use summary::survey::{Corner, Survey};
 pub use summary::totals::Totals;

@@ -8,6 +8,7 @@ use crate::execute::state::plain_run::PlainRun;
 use crate::execute::state::program_state::State;
 use crate::execute::state::soft_limits::SoftLimits;
 use crate::setup::options::Options;
+use crate::summary::pole_turns::PoleTurns;
 use crate::syntax::letters::Letters;
 
 /// Moves that were left out because they go nowhere.
@@ -36,6 +37,8 @@ pub(crate) struct Interpreter {
     pub(crate) spline_log: SplineLog,
     /// What the block executed last has left out: nobody counts that of one that was refused.
     pub(crate) zero_length: ZeroLength,
+    /// Turns in the cut that were made.
+    pub(crate) pole_turns: PoleTurns,
     /// Straight moves of plain lines are judged, and not given out: no block changes that.
     pub(crate) only_judges: bool,
     /// The block executed last was one of them, and so was not refused.
@@ -63,6 +66,7 @@ impl Interpreter {
             thread_goes_on: false,
             spline_log: SplineLog::default(),
             zero_length: ZeroLength::default(),
+            pole_turns: PoleTurns::default(),
             only_judges: false,
             has_judged: false,
             judged_time_s: 0.0,

@@ -2,6 +2,7 @@
 
 pub(crate) mod extent;
 pub(crate) mod part_box;
+pub(crate) mod pole_turns;
 pub(crate) mod remark;
 pub(crate) mod survey;
 pub(crate) mod totals;

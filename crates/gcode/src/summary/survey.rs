@@ -1,6 +1,7 @@
 //! The survey of a program's path: its sharpest corner, and its time at the feedrate as if there
 //! were no acceleration.
 
+use crate::summary::pole_turns::PoleTurns;
 use glidepath_geometry::{AxisVector, Segment, feed_length};
 use glidepath_program::{Item, ItemKind};
 
@@ -24,6 +25,8 @@ pub struct Survey {
     pub straight_time_s: f64,
     /// Time of the arcs at their feedrate, as if there were no acceleration, s.
     pub arc_time_s: f64,
+    /// Turns of C at the pole in the cut.
+    pub pole_turns: PoleTurns,
     /// The cosine of the angle at `corner`.
     least_cosine: f64,
     /// Direction at the end of the last feed move.

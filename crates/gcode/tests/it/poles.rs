@@ -4,7 +4,9 @@
 //! cos A) on the work, which is written out here.
 
 use core::fmt::Write as _;
-use glidepath_gcode::{AxisTravel, Dialect, Machine, Options, Program, Tool, ToolTable};
+use glidepath_gcode::{
+    AxisTravel, Dialect, Machine, Options, PoleTurns, Program, Tool, ToolTable, check,
+};
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_program::{DirectionTolerance, ItemKind, Rate};
 use nalgebra::Vector3;
@@ -175,6 +177,18 @@ fn from_the_pole_c_turns_before_the_tool_leans() {
     assert!(is_turn(turn));
     near(turn.1, at(0.0, 0.0, 20.0, 0.0, 90.0));
     near(lean.1, at(10.0, 0.0, 20.0, 45.0, 90.0));
+    // It is told with its line.
+    let turns = |text: &str| {
+        let report = check(text.as_bytes(), machine(WIDE, ROUNDS));
+        let PoleTurns {
+            count,
+            line,
+            angle_deg,
+        } = report.survey.pole_turns;
+        (count, line, angle_deg.round())
+    };
+    assert_eq!(turns(text), (1, 3, 90.0));
+    assert_eq!(turns(&text.replace("G1 X10", "G0 X10")), (0, 0, 0.0));
     // A rapid goes all at once; in G93 a block has one time.
     for text in [
         text.replace("G1 X10", "G0 X10"),

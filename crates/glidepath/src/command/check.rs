@@ -228,6 +228,15 @@ fn survey(report: &Report) -> String {
             corner.angle_deg, corner.line
         ));
     }
+    let turns = report.survey.pole_turns;
+    if turns.count > 0 {
+        text.push_str(&format!(
+            "  {} of C at the pole, at rapid while the tip rests in the cut: the widest by {:.1}° in line {}\n",
+            counted(turns.count.into(), "turn"),
+            turns.angle_deg,
+            turns.line
+        ));
+    }
     let beyond = report.soft_limit_violations();
     if beyond > 0 {
         text.push_str(&format!(
@@ -279,6 +288,11 @@ fn program(name: &str, report: &Report) -> Value {
             "angle_deg": corner.angle_deg,
             "position": corner.at.as_slice(),
         })),
+        "pole_turns": json!({
+            "count": report.survey.pole_turns.count,
+            "line": report.survey.pole_turns.line,
+            "angle_deg": report.survey.pole_turns.angle_deg,
+        }),
         "soft_limit_violations": report.soft_limit_violations(),
         "warnings": warnings(report.lacks).collect::<Vec<_>>(),
         "findings": findings,

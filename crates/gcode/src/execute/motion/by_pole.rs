@@ -221,13 +221,19 @@ impl Interpreter {
             Way::TurnFirst(end) => {
                 let turn = turned(start, (here.0, end.1));
                 self.straight(block, turn, Pace::Rapid, out)?;
-                self.straight(block, turned(target, end), pace, out)
+                self.straight(block, turned(target, end), pace, out)?;
+                self.pole_turns.add(self.line, (end.1 - here.1).abs());
+                Ok(())
             }
             Way::ByPole { share, at, end } => {
                 let middle = start + (target - start) * share;
                 self.straight(block, turned(middle, at[0]), pace, out)?;
                 self.straight(block, turned(middle, at[1]), Pace::Rapid, out)?;
-                self.straight(block, turned(target, end), pace, out)
+                self.straight(block, turned(target, end), pace, out)?;
+                if pace == Pace::Feed {
+                    self.pole_turns.add(self.line, (at[1].1 - at[0].1).abs());
+                }
+                Ok(())
             }
         }
     }

@@ -97,6 +97,7 @@ pub(super) fn judge(
             has_drives: expects_feedback,
         },
     );
+    let program = judge.program(raw.program, &mechanism, expects_feedback);
     let config = MachineConfig {
         mechanism,
         home_of_joints,
@@ -115,7 +116,7 @@ pub(super) fn judge(
         superposition,
         preview: judge.preview(&raw.preview),
         instance: judge.instance(raw.link),
-        program: judge.program(raw.program, expects_feedback),
+        program,
         m_codes,
         stops: stopped::stopped(&raw.stops),
         state_directory: raw.state.directory.map(|path| path.into_inner().into()),

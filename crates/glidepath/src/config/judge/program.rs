@@ -3,13 +3,14 @@
 use super::values::{Judge, Range};
 use crate::config::diagnostic::ConfigDiagnostic;
 use crate::config::program::ProgramConfig;
-use crate::config::raw::RawProgram;
+use crate::config::raw::{Optional, RawProgram};
 use glidepath_gcode::{
     Arctangent, BoreShift, Connections, Dialect, FanucControl, FanucParameters, FeedAtStart,
     Firmware, LatheX, OffsetMemory, OuterCorners, PointInput, SiemensParameters, ToolChangeBy,
     Units, WorkOffsets,
 };
 use glidepath_geometry::Axis;
+use glidepath_kinematics::Mechanism;
 use std::path::PathBuf;
 use std::sync::Arc;
 use toml::Spanned;
@@ -38,7 +39,12 @@ const SWIVEL: Range = Range {
 };
 
 impl Judge {
-    pub(super) fn program(&mut self, mut raw: RawProgram, expects_feedback: bool) -> ProgramConfig {
+    pub(super) fn program(
+        &mut self,
+        mut raw: RawProgram,
+        mechanism: &Mechanism,
+        expects_feedback: bool,
+    ) -> ProgramConfig {
         let dialects = [
             ("auto", None),
             ("linuxcnc", Some(Dialect::LinuxCnc)),
@@ -80,11 +86,7 @@ impl Judge {
             subroutines: None,
             connections,
             extruder: self.choice("program.extruder", raw.extruder, &EXTRUDERS),
-            unwinds_at_rapid: self.choice(
-                "program.unwind",
-                raw.unwind,
-                &[("never", false), ("rapids", true)],
-            ),
+            unwinds_at_rapid: self.unwinds_at_rapid(raw.unwind, mechanism),
             firmware: self.choice("program.firmware", raw.firmware, &FIRMWARES),
             in_force: None,
             stands: None,
@@ -92,6 +94,23 @@ impl Judge {
             watch: None,
             may_run_unchecked: false,
         }
+    }
+
+    fn unwinds_at_rapid(&mut self, value: Optional<String>, mechanism: &Mechanism) -> bool {
+        const KEY: &str = "program.unwind";
+        let span = value.as_ref().map(Spanned::span);
+        let unwinds = self.choice(KEY, value, &[("never", false), ("rapids", true)]);
+        if unwinds && !matches!(mechanism, Mechanism::FiveAxis(_)) {
+            self.diagnostics.push(ConfigDiagnostic {
+                key: KEY.to_owned(),
+                message: format!("{KEY} = \"rapids\" on a machine without five axes"),
+                help: Some(
+                    "leave it out: there is no direction of a tool that C winds up for".to_owned(),
+                ),
+                span,
+            });
+        }
+        unwinds
     }
 
     /// What the parameters of a FANUC control say.

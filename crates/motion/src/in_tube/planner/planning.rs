@@ -13,7 +13,7 @@
 use super::state::{ActiveMotion, MOST_LEGS, PlannerState};
 use super::worth::{Candidate, commit};
 use crate::in_tube::fallback::{Baseline, StopLeg};
-use crate::in_tube::path::{Bounds, TubePiece, directional};
+use crate::in_tube::path::{Bounds, Displacement, TubePiece, directional};
 use crate::in_tube::verify::NearPieces;
 use crate::in_tube::window::{
     FEED_INTERVALS, Grid, LEAST_INTERVALS, View, WindowContext, WindowSearch, first_work, left_work,
@@ -262,9 +262,10 @@ impl PlannerState {
         let along = directional(&self.limits, &(velocity / speed_v));
         let Bounds { path, .. } = piece.within_joints(along, 1.0);
         let stop_s = 0.5 * speed_v * speed_v / path.accel_a;
-        let room = piece.tolerance_mm.max(piece.tolerance_deg);
-        let rest_s = feed_length(&(piece.end - self.history.last()));
-        stop_s <= FAR_TOO_FAST * (rest_s + room)
+        let in_mm = |way: AxisVector| piece.in_mm(Displacement::of(&way));
+        let stop_mm = in_mm(velocity * (stop_s / speed_v));
+        let rest_mm = in_mm(piece.end - self.history.last());
+        stop_mm <= FAR_TOO_FAST * (rest_mm + piece.tolerance_mm)
     }
 
     /// True if nothing moves or will move without a new plan.

@@ -104,6 +104,7 @@ fn all_of(program: &Program<&[u8]>) -> String {
         plain_run: _,
         mapped_items: _,
         line: _,
+        pole_turns: _,
     } = interpreter;
     let open = state.open.spline;
     let curve = open.map(|open| {
