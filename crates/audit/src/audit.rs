@@ -47,12 +47,16 @@ impl Audit {
     #[must_use]
     pub fn with_joints(mut self, bounds: Vec<JointBounds>) -> Self {
         self.joints = Some(JointAudit::new(bounds, self.period_t));
+        self.matching.slow_down.leave_to_joints();
         self
     }
 
     /// Judges the direction of the tool, too, and no longer the rotary axes that turn it so.
     #[must_use]
-    pub const fn with_tool(mut self, tool: Option<ToolAxis>) -> Self {
+    pub fn with_tool(mut self, tool: Option<ToolAxis>) -> Self {
+        if tool.is_some() {
+            self.matching.slow_down.leave_to_joints();
+        }
         self.matching.rows.tool = tool;
         self
     }

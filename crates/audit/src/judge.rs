@@ -135,6 +135,7 @@ impl Matching {
         if self.out_of_tolerance.is_some() {
             self.still.lose(spot.tick);
             self.cruise.lose();
+            self.slow_down.lose();
             return;
         }
         let speed_v = self.speed_v(&column.chord, ticks);
@@ -143,6 +144,7 @@ impl Matching {
             line: spot.line,
             position: spot.position,
             ticks,
+            is_between_frames: spot.is_between_frames,
             rested_at,
             still: row.piece.still,
             level: row.chord.from,
@@ -163,6 +165,7 @@ impl Matching {
         }
         self.still.next(&place, &mut self.tremors);
         self.cruise.next(&place, &mut self.tremors);
+        self.slow_down.next(&place, &mut self.tremors);
     }
 
     pub(crate) fn is_reached(&mut self, goal: Goal, reach: &Reach) -> bool {

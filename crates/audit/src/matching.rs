@@ -30,7 +30,7 @@ use crate::out_of_tolerance::{Goal, OutOfTolerance};
 use crate::program::{DiagramRows, Presence, SMALLEST_TOLERANCE_MM};
 use crate::sample::Seen;
 use crate::settings::AuditSettings;
-use crate::tremor::{Cruise, StillAxes};
+use crate::tremor::{Cruise, SlowDown, StillAxes};
 use crate::violation::{ViolationKind, ViolationList, Worst};
 use glidepath_geometry::AxisVector;
 use glidepath_program::Item;
@@ -50,6 +50,7 @@ pub(crate) struct Spot {
     pub(crate) tick: u64,
     pub(crate) line: u32,
     pub(crate) position: AxisVector,
+    pub(crate) is_between_frames: bool,
 }
 
 /// A sample that waits for the program.
@@ -69,6 +70,7 @@ pub(crate) struct Matching {
     pub(crate) violations: ViolationList,
     pub(crate) still: StillAxes,
     pub(crate) cruise: Cruise,
+    pub(crate) slow_down: SlowDown,
     pub(crate) tremors: ViolationList,
     /// The deviation in mm, as `ratio`, and where it was met.
     pub(crate) max_deviation: Worst,
@@ -114,6 +116,7 @@ impl Matching {
             violations: ViolationList::default(),
             still: StillAxes::new(settings.period_t),
             cruise: Cruise::new(settings),
+            slow_down: SlowDown::new(settings),
             tremors: ViolationList::default(),
             max_deviation: Worst::default(),
             max_feed: Worst::default(),
@@ -162,6 +165,7 @@ impl Matching {
             tick: sample.tick,
             line: sample.line,
             position: *sample.position,
+            is_between_frames: sample.is_between_frames,
         };
         let (mut ticks, mut rest_ticks) = (1, 0);
         if let Some(previous) = &mut self.last_fed {

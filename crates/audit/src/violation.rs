@@ -139,6 +139,13 @@ pub enum ViolationKind {
         /// How far it may be off.
         allowed_j: f64,
     },
+    /// The motion slowed down where the feed was reached before and behind: see [`crate::tremor`].
+    SlowedDown {
+        /// The slowest it was, mm/s.
+        speed_v: f64,
+        /// The programmed feed, mm/s.
+        feed_v: f64,
+    },
     /// The motion left the path by so much that it could not be followed any more; what comes
     /// after is not checked for deviation.
     Lost,
@@ -280,6 +287,10 @@ impl fmt::Display for Violation {
                 over_j,
                 allowed_j,
             } => write_unsteady(f, axis, [over_j, allowed_j]),
+            ViolationKind::SlowedDown { speed_v, feed_v } => write!(
+                f,
+                "slowed down to {speed_v:.3} of {feed_v:.3} mm/s in the middle of a move"
+            ),
             ViolationKind::Lost => write!(f, "the motion does not follow the program any more"),
             ViolationKind::Incomplete => write!(f, "the motion ends before the program does"),
         }

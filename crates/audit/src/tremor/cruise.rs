@@ -2,12 +2,12 @@
 //! piece.
 
 use super::matched_sample::MatchedSample;
+use super::round::is_bound_by_feed;
 use super::settling::settling_ticks;
 use crate::piece::{Piece, Shape};
 use crate::settings::AuditSettings;
 use crate::violation::{ViolationKind, ViolationList};
 use glidepath_geometry::{AXES, Axis, AxisVector};
-use glidepath_program::Limits;
 use std::collections::VecDeque;
 
 /// A cruise goes on as long as speed is off the feed by no more than this share.
@@ -16,8 +16,6 @@ const FEED_R: f64 = 0.05;
 /// leads there and away is a ramp. On an arc, whose curvature takes its share of acceleration and jerk, a
 /// ramp is longer in the band of [`FEED_R`] than the limits of the axes tell.
 const REACHED_R: f64 = 0.005;
-/// A circle is run at the feed if that asks for no more than this share of what an axis can do.
-const BOUND_R: f64 = 0.9;
 /// How far jerk may be off that of the piece, as a share of it.
 const PIECE_SLACK_R: f64 = 0.1;
 /// How far in addition, as a share of the limit of the axis.
@@ -169,7 +167,7 @@ fn judge(run: &mut Run, place: &MatchedSample, jerk: &AxisVector, settings: &Aud
         if way_mm <= 0.0 || radius_mm <= 0.0 {
             return;
         }
-        if !run.is_bound_by_feed(radius_mm, [first, second], &settings.limits) {
+        if !is_bound_by_feed(run.feed_v, radius_mm, [first, second], &settings.limits) {
             return;
         }
         // The jerk of a circle is against its direction.
@@ -191,16 +189,6 @@ fn judge(run: &mut Run, place: &MatchedSample, jerk: &AxisVector, settings: &Aud
 }
 
 impl Run {
-    /// True if the axes' limits leave room to what the feed asks of them on a circle. Where they do not,
-    /// speed differs by its direction, and so does jerk.
-    fn is_bound_by_feed(&self, radius_mm: f64, axes: [Axis; 2], limits: &Limits) -> bool {
-        let asked_a = self.feed_v * self.feed_v / radius_mm;
-        let asked_j = asked_a * self.feed_v / radius_mm;
-        axes.into_iter().map(Axis::index).all(|i| {
-            asked_a <= BOUND_R * limits.acceleration[i] && asked_j <= BOUND_R * limits.jerk[i]
-        })
-    }
-
     /// Takes note of what jerk of an axis is too much, and keeps it if that is no single step.
     fn hear(&mut self, place: &MatchedSample, axis: Axis, over_j: f64, allowed_j: f64) {
         // What is far below leaves the mean as it is, and is nearly all there is.

@@ -11,6 +11,8 @@ pub(crate) struct MatchedSample {
     pub(crate) position: AxisVector,
     /// Periods since the sample before.
     pub(crate) ticks: u64,
+    /// Whether program time does not run at its own rate there.
+    pub(crate) is_between_frames: bool,
     /// Where the sample before was, if the machine rested there.
     pub(crate) rested_at: Option<AxisVector>,
     /// Axes that none of the moves changes on which the sample may be.

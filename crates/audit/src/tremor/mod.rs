@@ -1,6 +1,6 @@
 //! Tremor: motion that the program does not ask for, inside all limits and tolerances.
 //!
-//! Two rules, judged from positions alone, with the program matched to them:
+//! Three rules, judged from positions alone, with the program matched to them:
 //!
 //! 1. **An axis that the program leaves alone is still** (`still`). Where consecutive moves keep a
 //!    coordinate of an axis exactly constant, every sample has that coordinate, to
@@ -23,12 +23,15 @@
 
 mod cruise;
 mod matched_sample;
+mod round;
 mod settling;
+mod slow_down;
 mod still;
 
 pub(crate) use cruise::Cruise;
 pub(crate) use matched_sample::MatchedSample;
 pub use settling::{SETTLING_PERIODS, SETTLING_T};
+pub(crate) use slow_down::SlowDown;
 pub use still::STILL_MM;
 pub(crate) use still::StillAxes;
 

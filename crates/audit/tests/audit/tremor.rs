@@ -158,6 +158,35 @@ fn an_offset_that_stays_is_found_and_rounding_is_not() {
     assert_eq!(report.tremor_count, 0);
 }
 
+/// A line of 100 mm at the feed, on which the motion falls behind by so much between 30 and 70 mm.
+fn falling_behind(by_mm: f64) -> Vec<(u64, ViolationKind)> {
+    let program = [at_feed(
+        1,
+        Segment::line(point(0.0, 0.0), point(100.0, 0.0)),
+    )];
+    let (report, _) = audit(mill(), &program, 100.0 + by_mm, |_, s| {
+        let u = ((s - 30.0) / 40.0).clamp(0.0, 1.0);
+        point(s - by_mm * u.powi(3) * (10.0 - 15.0 * u + 6.0 * u * u), 0.0)
+    });
+    assert!(report.is_clean(), "{:?}", report.violations);
+    let kept = report.tremors.iter();
+    kept.map(|tremor| (tremor.tick, tremor.kind)).collect()
+}
+
+#[test]
+fn a_motion_that_slows_down_in_the_middle_of_a_move_is_found() {
+    // Slower by 15/8 of the mean: by 4.7 %, and by 9.4 % in the middle of 40 mm.
+    assert_eq!(falling_behind(1.0), []);
+    let found = falling_behind(2.0);
+    let [(tick, ViolationKind::SlowedDown { speed_v, feed_v })] = found[..] else {
+        panic!("{found:?}")
+    };
+    assert!((speed_v - 45.3125).abs() < 0.01, "{speed_v}");
+    assert_eq!(feed_v, FEED_V);
+    let there_mm = distance(tick as f64 * PERIOD, 102.0);
+    assert!((there_mm - 50.0).abs() < 1.0, "{there_mm}");
+}
+
 #[test]
 fn jerk_that_swings_in_a_cruise_is_found() {
     // 0.05 s to and fro along the path; jerk A·ω³ against a hundredth of 40 000.
