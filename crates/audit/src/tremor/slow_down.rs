@@ -6,9 +6,12 @@ use super::round::is_bound_by_feed;
 use crate::piece::Shape;
 use crate::settings::AuditSettings;
 use crate::violation::{ViolationKind, ViolationList};
+use glidepath_geometry::ROTARY_ABC;
 
 /// Speed is the feed if it is off by no more than this share.
 const REACHED_R: f64 = 0.005;
+/// Samples in a row in which it is: a motion that rounds a corner from a slow move to a rapid passes its feed, too.
+const REACHED_IN: u32 = 2;
 /// A motion has slowed down if it is below the feed by more than this share: as far as that, it is a cruise.
 const SLOW_R: f64 = 0.05;
 
@@ -21,11 +24,15 @@ pub(crate) struct SlowDown {
     run: Option<Run>,
 }
 
-/// Samples in a row on one piece, from where the feed was reached.
+/// Samples in a row on one piece.
 #[derive(Debug)]
 struct Run {
     piece: u64,
     feed_v: f64,
+    /// Samples in a row at the feed, up to this one.
+    at_feed: u32,
+    /// It was the feed.
+    is_reached: bool,
     /// The slowest sample since, if it is slower than a cruise.
     slowest: Option<Slow>,
 }
@@ -62,20 +69,29 @@ impl SlowDown {
         if self.run.as_ref().is_some_and(is_other) {
             self.run = None;
         }
-        if place.speed_v >= (1.0 - REACHED_R) * place.feed_v {
-            let run = self.run.replace(Run {
-                piece: piece.number,
-                feed_v: place.feed_v,
-                slowest: None,
-            });
-            if let Some(slow) = run.and_then(|run| run.slowest) {
-                let kind = ViolationKind::SlowedDown {
-                    speed_v: slow.speed_v,
-                    feed_v: place.feed_v,
-                };
-                found.push(slow.tick, slow.line, kind);
+        let run = self.run.get_or_insert(Run {
+            piece: piece.number,
+            feed_v: place.feed_v,
+            at_feed: 0,
+            is_reached: false,
+            slowest: None,
+        });
+        if (place.speed_v - place.feed_v).abs() <= REACHED_R * place.feed_v {
+            run.at_feed += 1;
+            if run.at_feed >= REACHED_IN {
+                run.is_reached = true;
+                if let Some(slow) = run.slowest.take() {
+                    let kind = ViolationKind::SlowedDown {
+                        speed_v: slow.speed_v,
+                        feed_v: place.feed_v,
+                    };
+                    found.push(slow.tick, slow.line, kind);
+                }
             }
-        } else if let Some(run) = &mut self.run
+            return;
+        }
+        run.at_feed = 0;
+        if run.is_reached
             && place.speed_v < (1.0 - SLOW_R) * place.feed_v
             && run.slowest.is_none_or(|slow| place.speed_v < slow.speed_v)
         {
@@ -92,8 +108,8 @@ impl SlowDown {
         self.run = None;
     }
 
-    /// True where nothing but the feed bounds the speed: where program time runs at its own rate, on a line, or on
-    /// an arc that leaves the axes room.
+    /// True where nothing but the feed bounds the speed: where program time runs at its own rate, on a line in
+    /// space, or on an arc that leaves the axes room.
     fn keeps_the_feed(&self, place: &MatchedSample) -> bool {
         if self.has_joints
             || place.is_between_frames
@@ -102,9 +118,16 @@ impl SlowDown {
         {
             return false;
         }
-        match place.piece.map(|piece| piece.shape) {
-            Some(Shape::Line) => true,
-            Some(Shape::Arc { plane, center }) => {
+        let Some(piece) = place.piece else {
+            return false;
+        };
+        // The least motion of X, Y and Z hides the speed of the rotary axes.
+        if ROTARY_ABC.into_iter().any(|axis| !piece.still[axis]) {
+            return false;
+        }
+        match piece.shape {
+            Shape::Line => true,
+            Shape::Arc { plane, center } => {
                 let (first, second) = plane.axes();
                 let off = |i: usize, center_mm: f64| place.position[i] - center_mm;
                 let radius_mm = off(first.index(), center[0]).hypot(off(second.index(), center[1]));
@@ -112,7 +135,7 @@ impl SlowDown {
                 radius_mm > 0.0
                     && is_bound_by_feed(place.feed_v, radius_mm, [first, second], limits)
             }
-            Some(Shape::Other) | None => false,
+            Shape::Other => false,
         }
     }
 }

@@ -121,6 +121,15 @@ impl StopLeg {
         }
     }
 
+    /// When it has come to its top speed, s after its start: at once if it does not.
+    pub(crate) fn cruise_from_t(&self) -> f64 {
+        if self.eager_t() > 0.0 {
+            self.profile.cruise_t().start
+        } else {
+            0.0
+        }
+    }
+
     /// Where it is `t` ≥ 0 seconds after the start; at its end from then on.
     pub(crate) fn position(&self, t: f64) -> AxisVector {
         if t >= self.duration_t() {

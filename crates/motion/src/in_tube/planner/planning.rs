@@ -44,7 +44,13 @@ impl PlannerState {
                     ..
                 },
                 Some(grid),
-            ) => leg.eager_t() - leg_t <= TRIAL_INTERVALS * grid.knot_t,
+            ) => {
+                // In front of a short cruise the leg has acceleration left, with which a window would be too fast.
+                let brakes_in_t = leg.eager_t() - leg_t;
+                let is_cruising = *leg_t >= leg.cruise_from_t();
+                brakes_in_t <= TRIAL_INTERVALS * grid.knot_t
+                    && (is_cruising || brakes_in_t <= self.period_t)
+            }
             _ => false,
         }
     }

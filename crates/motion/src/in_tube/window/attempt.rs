@@ -1,9 +1,11 @@
 //! One window: how much of the path it sees, which axes move, and what becomes of it.
 
+use super::one_sided::StartOffset;
 use super::optimiser::{JudgeQuestion, Optimiser};
 use super::scaled_path::{ScaledPath, moving_axes};
 use super::search_bias::SearchBias;
 use super::spline::Grid;
+use super::tube::settling_periods;
 use super::window_start::WindowStart;
 use crate::in_tube::path::{ReferencePath, directional};
 use crate::in_tube::period::State;
@@ -283,6 +285,7 @@ fn passes<const D: usize>(
     let mut history = context.history.clone();
     let mut follower = context.follower.to(context.end);
     let mut place = context.progress;
+    let start = start_offset(context, path);
     let periods = context.grid.periods_in(points.len() - 3);
     // Into the rest, too, as far as third differences look back.
     for period in 1..=periods + 3 {
@@ -314,7 +317,7 @@ fn passes<const D: usize>(
         if context.corners == Corners::Inner {
             let reachable = &follower.reachable;
             place = reachable.nearest(context.reference_path, &next.position, place);
-            if !path.is_on_its_sides(place, [&before, &next.position]) {
+            if !path.is_on_its_sides(place, [&before, &next.position], (period - 1, &start)) {
                 return false;
             }
         }
@@ -324,6 +327,24 @@ fn passes<const D: usize>(
     let may_set_out = follower.least_reach() >= follower.reachable.last();
     may_set_out
         && (question == JudgeQuestion::IsValid || follower.reachable.is_at_end_of(context.end - 1))
+}
+
+/// How far a window begins beside the path.
+fn start_offset<const D: usize>(
+    context: &WindowContext<'_>,
+    path: &ScaledPath<D>,
+) -> StartOffset<D> {
+    let (index, u) = context.progress;
+    let i = index - path.first;
+    let along = path.segments.get(i);
+    let progress = along.map_or(0.0, |segment| segment.s + segment.length * u);
+    let settling_periods = settling_periods(path, context.period_t);
+    StartOffset::new(
+        path,
+        (i, progress),
+        &path.inside(&context.history.last()),
+        settling_periods,
+    )
 }
 
 /// False if no motion with no more jerk than that of each axis can lead from one state to the next: a jerk of

@@ -2,9 +2,12 @@
 
 use super::solver::dot;
 
-/// Cosine of how much a run may have turned from its corner, 60°: further on the inner side of the corner is not
-/// that of the run.
-const STILL_OF_CORNER_COS: f64 = 0.5;
+/// Cosines of how much a run may have turned from its corner, 60° and 75°: up to the first its border is next to it,
+/// beyond the second the inner side of the corner is not that of the run. Between them the border goes out of the
+/// tube little by little. Where it ended at once, a motion at the feed that goes over to the inner side of an arc was
+/// refused for a sample that the judge took to be in front of that end and the rows behind it, and slowed down.
+const LEAVING_CORNER_COS: f64 = 0.5;
+const STILL_OF_CORNER_COS: f64 = 0.258_819_045_102_520_74;
 /// Share of a run, or of a rest of an axis, on both sides of its middle in which neither end is the nearer one:
 /// where the sides of both ends are opposite ones, the motion goes over there.
 const MIDDLE: f64 = 0.08;
@@ -16,8 +19,8 @@ pub(super) struct CornerSide<const D: usize> {
     pub(super) at: [f64; D],
     /// The direction to the inner side.
     pub(super) inner: [f64; D],
-    /// How far outside of the piece the border is.
-    pub(super) beyond: f64,
+    /// How far outside of the piece the border is, at the start of the piece and at its end.
+    pub(super) beyond: [f64; 2],
     /// The direction to the inner side of the other run, next to the corner.
     pub(super) other: Option<[f64; D]>,
 }
@@ -72,6 +75,14 @@ impl<const D: usize> RunCorners<D> {
 }
 
 impl<const D: usize> Vertex<D> {
+    /// How far the border of a run has left it, of 1, where its direction is a unit vector: see
+    /// [`LEAVING_CORNER_COS`].
+    pub(super) fn left_r(&self, along: &[f64; D], is_after: bool) -> f64 {
+        let turned = dot(along, &self.along[usize::from(is_after)]);
+        let left_r = (LEAVING_CORNER_COS - turned) / (LEAVING_CORNER_COS - STILL_OF_CORNER_COS);
+        left_r.clamp(0.0, 1.0)
+    }
+
     /// The direction to the inner side of a piece along a unit vector, before or after it; none where it has
     /// turned too far.
     pub(super) fn inner(&self, along: &[f64; D], is_after: bool) -> Option<[f64; D]> {

@@ -145,9 +145,10 @@ impl<const D: usize> ScaledPath<D> {
         let height = (4.0 * u * (1.0 - u)).max(0.0);
         segment.sides.corners.inner_sides(progress, |side, normal| {
             let at = dot(normal, &side.at) + height * dot(normal, &segment.sagitta_vector);
+            let [from, to] = side.beyond;
             give(HalfSpace {
                 normal: *normal,
-                least: at - side.beyond,
+                least: at - (from + u.clamp(0.0, 1.0) * (to - from)),
                 axis: None,
             });
         });
@@ -160,11 +161,13 @@ impl<const D: usize> ScaledPath<D> {
     }
 
     /// True if the end of a period is on the sides on which the motion is to stay at a parameter of a
-    /// piece, by its number on the whole path; give or take the way of the period, or a little of the piece.
+    /// piece, by its number on the whole path; give or take the way of the period, or a little of the piece. As far
+    /// as a window that begins with an offset is still going over after some periods, it may be beside them.
     pub(crate) fn is_on_its_sides(
         &self,
         (index, u): (usize, f64),
         [from, to]: [&AxisVector; 2],
+        (periods, start): (usize, &StartOffset<D>),
     ) -> bool {
         let i = index - self.first;
         let Some(segment) = self.segments.get(i) else {
@@ -179,8 +182,10 @@ impl<const D: usize> ScaledPath<D> {
             // Where on the piece the period belongs is only known to within its way: one place is enough.
             let mut is_inside = true;
             let at = (progress + shift).max(ends[0]).min(ends[1]);
+            let here = self.position(i, at);
             self.half_spaces(i, at, |side| {
-                is_inside &= dot(&side.normal, &place) >= side.least - allowed;
+                let room = start.room(periods, &side, &here, allowed);
+                is_inside &= dot(&side.normal, &place) >= side.least - allowed.max(room);
             });
             is_inside
         })
@@ -189,38 +194,56 @@ impl<const D: usize> ScaledPath<D> {
 
 /// The offset of a window's start from the path, where that is outside of a border.
 ///
-/// Where a corner comes into sight after the middle of its run, the motion that is given is up to what the
-/// judge allows on the side of the corner before. Asked to be on the other side at once, it would swing
-/// over within two periods, and swing out by several times as much. So it goes over while it settles.
+/// Where a corner comes into sight after the middle of its run, the motion that is given may be on the inner side of
+/// the corner before, and that is the outer one of this. Asked to be on the other side at once, it would swing
+/// over within two periods, and swing out by several times as much; judged at once, it would have to stop. So it goes
+/// over while it settles. Borders that were known before have to be kept as they are: there it may only go over from
+/// what the judge allows.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct StartOffset<const D: usize> {
+pub(crate) struct StartOffset<const D: usize> {
     offset: [f64; D],
+    /// It is further beyond a border of its own place than the judge allows.
+    is_beyond: bool,
     settling_periods: usize,
 }
 
 impl<const D: usize> StartOffset<D> {
     /// That of a window whose first sample is on piece `i` at a progress.
-    pub(super) fn new(
+    pub(crate) fn new(
         path: &ScaledPath<D>,
         (i, progress): (usize, f64),
         start: &[f64; D],
         settling_periods: usize,
     ) -> Self {
         let center = path.center(i, progress);
+        let least = -path.allowed_beyond(i);
+        let mut is_beyond = false;
+        path.half_spaces(i, progress, |side| {
+            is_beyond |= side.axis.is_none() && dot(&side.normal, start) - side.least < least;
+        });
         Self {
             offset: core::array::from_fn(|k| start[k] - center[k]),
+            is_beyond,
             settling_periods,
         }
     }
 
-    /// How far sample `k` may be outside of the border of a side that leaves so much `inside` of it to the path.
-    fn room(&self, k: usize, (normal, inside): (&[f64; D], f64), most: f64) -> f64 {
-        let outside = -inside - dot(normal, &self.offset);
-        if k >= self.settling_periods || outside <= 0.0 {
+    /// How far the end of period `k` may be outside of the border of a side, where the path is `here`: less and less
+    /// from period to period. The end of an axis' way stays where it is: no plunge goes
+    /// below its depth, whatever comes into sight.
+    fn room(&self, k: usize, side: &HalfSpace<D>, here: &[f64; D], allowed: f64) -> f64 {
+        let inside = dot(&side.normal, here) - side.least;
+        let outside = -inside - dot(&side.normal, &self.offset);
+        if side.axis.is_some() || k >= self.settling_periods || outside <= 0.0 {
             return 0.0;
         }
         #[expect(clippy::cast_precision_loss, reason = "a few periods")]
         let left_r = 1.0 - k as f64 / self.settling_periods as f64;
+        let most = if self.is_beyond {
+            outside.max(allowed)
+        } else {
+            allowed
+        };
         most * left_r
     }
 }
@@ -246,11 +269,7 @@ pub(super) fn keep<const D: usize>(
         if is_given || inside >= NEAR_R * radius {
             return;
         }
-        // The end of an axis' way stays where it is: no plunge goes below its depth, whatever comes into sight.
-        let room = match side.axis {
-            None => start.room(k, (&side.normal, inside), allowed),
-            Some(_) => 0.0,
-        };
+        let room = start.room(k, &side, &here, allowed);
         problem.keep_beyond(&side.normal, side.least - room, radius);
     });
 }

@@ -9,7 +9,7 @@
 //! ```
 
 use super::corner::{CornerSide, RunCorners, Vertex};
-use super::scaled_path::{ScaledPath, ScaledSegment};
+use super::scaled_path::ScaledPath;
 use super::solver::dot;
 use crate::in_tube::path::{ReferencePath, TubePiece};
 
@@ -23,33 +23,6 @@ const FAR_BEYOND_R: f64 = 0.01;
 const REVERSAL_COS: f64 = -0.999;
 /// Share of a displacement that is all of it but for rounding.
 const ALL_OF_IT: f64 = 0.999;
-
-/// The side of a piece after a corner, or before it, with a point of the piece; whether the piece is next to the
-/// corner.
-fn side<const D: usize>(
-    vertex: Option<&Vertex<D>>,
-    segment: &ScaledSegment<D>,
-    (at, is_next): ([f64; D], bool),
-    is_after: bool,
-) -> Option<CornerSide<D>> {
-    let vertex = vertex?;
-    let [before, after] = &vertex.along;
-    let other = if is_after { before } else { after };
-    Some(CornerSide {
-        at,
-        inner: vertex.inner(&segment.tangent, is_after)?,
-        beyond: if is_next {
-            0.0
-        } else {
-            FAR_BEYOND_R * segment.radius
-        },
-        other: if is_next {
-            vertex.inner(other, !is_after)
-        } else {
-            None
-        },
-    })
-}
 
 impl<const D: usize> ScaledPath<D> {
     /// Gives every piece the corners at the ends of its run, from the last piece to the first.
@@ -74,8 +47,8 @@ impl<const D: usize> ScaledPath<D> {
             let end_s = segment.s + segment.length;
             let is_last = next.as_ref().is_some_and(|vertex| vertex.s <= end_s);
             let sides = [
-                side(start.as_ref(), segment, (segment.start, is_first), true),
-                side(next.as_ref(), segment, (self.vertex(i), is_last), false),
+                self.side(start.as_ref(), (i, segment.start, is_first), true),
+                self.side(next.as_ref(), (i, self.vertex(i), is_last), false),
             ];
             let run = [run_start, run_end];
             if piece.run_from_s >= piece.start_s {
@@ -84,6 +57,42 @@ impl<const D: usize> ScaledPath<D> {
             }
             self.segments[i].sides.corners = RunCorners { sides, run };
         }
+    }
+
+    /// The side of piece `i` after a corner, or before it, with a point of the piece; whether the piece is next to the
+    /// corner.
+    fn side(
+        &self,
+        vertex: Option<&Vertex<D>>,
+        (i, at, is_next): (usize, [f64; D], bool),
+        is_after: bool,
+    ) -> Option<CornerSide<D>> {
+        let vertex = vertex?;
+        let segment = &self.segments[i];
+        let [before, after] = &vertex.along;
+        let other = if is_after { before } else { after };
+        let beyond = if is_next {
+            [0.0; 2]
+        } else {
+            // Pieces that meet there have the border in common.
+            let here_r = vertex.left_r(&segment.tangent, is_after);
+            let left_r = |i: usize| {
+                let segment = self.segments.get(i);
+                segment.map_or(here_r, |segment| vertex.left_r(&segment.tangent, is_after))
+            };
+            let ends = [i.saturating_sub(1), i + 1].map(|next| 0.5 * (here_r + left_r(next)));
+            ends.map(|left_r| left_r.max(FAR_BEYOND_R) * segment.radius)
+        };
+        Some(CornerSide {
+            at,
+            inner: vertex.inner(&segment.tangent, is_after)?,
+            beyond,
+            other: if is_next {
+                vertex.inner(other, !is_after)
+            } else {
+                None
+            },
+        })
     }
 
     /// The corner at which the run of piece `i` begins, if it is one of a figure.

@@ -136,19 +136,24 @@ impl Style {
         slowest_j.recip().cbrt()
     }
 
-    /// Periods to settle in after a corner, by the limit of jerk: by the priced one 35 programs took the same time.
+    /// Periods to settle in after a corner.
     pub(crate) fn settling_periods<const D: usize>(&self, path: &ScaledPath<D>) -> usize {
-        let slowest_j = path.usual[1].iter().copied().fold(f64::INFINITY, f64::min);
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "a few, and clamped"
-        )]
-        let periods = (SETTLING * slowest_j.recip().cbrt() / self.period_t)
-            .ceil()
-            .min(1e6) as usize;
-        periods
+        settling_periods(path, self.period_t)
     }
+}
+
+/// Periods to settle in, by the limit of jerk: by the priced one 35 programs took the same time.
+pub(crate) fn settling_periods<const D: usize>(path: &ScaledPath<D>, period_t: f64) -> usize {
+    let slowest_j = path.usual[1].iter().copied().fold(f64::INFINITY, f64::min);
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a few, and clamped"
+    )]
+    let periods = (SETTLING * slowest_j.recip().cbrt() / period_t)
+        .ceil()
+        .min(1e6) as usize;
+    periods
 }
 
 /// Extent of each piece's line beyond its ends, found when first asked for.
