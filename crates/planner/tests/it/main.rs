@@ -8,6 +8,7 @@ mod directions;
 mod families;
 mod from_line;
 mod joints;
+mod kept_feed;
 mod listen;
 mod nurbs;
 mod nurbs_chords;
