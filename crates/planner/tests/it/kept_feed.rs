@@ -4,6 +4,77 @@ use crate::support::family::audited;
 use glidepath_audit::ViolationKind;
 use glidepath_program::{Corners, DirectionTolerance, Effort, Limits, Settings, Smoothing};
 
+/// A row of a relief, in arcs and lines.
+const ROW: &str = "G21
+G0 Z3.0000
+G17 G40
+G80 G90 G94
+S12000 M3
+G64 P0.0200
+F1200.0000
+G18
+F300.0000
+G0 X51.9250 Y40.0000
+G1 Z-4.2985
+G3 X51.800000 Z-4.423530 R0.125000
+F1200.0000
+G1 X51.6000 Z-4.4706
+ X51.2000 Z-4.4941
+ X50.6000 Z-4.4706
+ X49.2000 Z-4.3294
+ X49.0000 Z-4.2588
+ X48.4000 Z-4.1882
+ X48.0000 Z-4.2353
+ X47.6000 Z-4.3765
+G3 X46.8000 Y40.0000 Z-4.7294 I-2.1491 K3.7882
+G1 X46.6000 Z-4.7765
+ X46.2000 Z-4.8000
+G2 X45.8000 Y40.0000 Z-4.7294 I-0.5083 K-1.7118
+G1 X44.6000 Z-4.3765
+ X42.8000 Z-3.9765
+ X42.0000 Z-3.6941
+G2 X41.6000 Y40.0000 Z-3.5294 I-1.0163 K-1.9000
+G1 X41.4000 Z-3.4118
+ X40.2000 Z-2.9176
+G3 X39.4000 Y40.0000 Z-2.6588 I0.7914 K3.8118
+G3 X38.8000 Y40.0000 Z-2.4235 I0.8661 K3.0912
+G2 X38.0000 Y40.0000 Z-2.2353 I-1.2415 K-3.4824
+G3 X36.6000 Y40.0000 Z-2.0941 I0.5083 K12.0529
+G1 X36.2000 Z-2.0000
+ X35.2000 Z-1.8824
+ X35.0000 Z-1.8118
+ X34.8000
+ X34.0000 Z-1.6471
+ X33.6000 Z-1.6000
+ X32.8000 Z-1.6471
+ X32.0000 Z-1.8353
+M2
+";
+
+/// The first rows of another one, in inches, each with an arc to its depth.
+const ROWS: &str = "G20 G90
+G0 Z0.1000
+G64 P0.0010
+F40.0000
+G18
+F12.0000
+G0 X-0.1225 Y1.1520
+G2 X0.000000 Z0.000000 R0.125000
+F40.0000
+G1 X2.2640
+F12.0000
+G0 Z0.1000
+ X-0.1225 Y1.1200
+G2 X0.000000 Z0.000000 R0.125000
+F40.0000
+G1 X2.2640
+F12.0000
+G0 Z0.1000
+ X-0.1225 Y1.0880
+G2 X0.000000 Z0.000000 R0.125000
+M2
+";
+
 /// How often the motion slows down in the middle of a move, with where and to what.
 #[track_caller]
 fn keeps_the_feed(text: &str) {
@@ -37,27 +108,16 @@ fn half_circles_out_of_corners_are_run_at_the_feed() {
     );
 }
 
-/// A row of a relief in arcs and lines. The corner at the end of a bend came into sight when the motion was behind the
+/// The corner at the end of a bend came into sight when the motion was behind the
 /// middle of it, and on the outer side of that corner: it had to stop there.
 #[test]
 fn a_bend_whose_end_is_seen_late_is_run_at_the_feed() {
-    keeps_the_feed(
-        "G21 G90 G18 G64\nG0 X49.2 Y40 Z0\nG1 Z-4.0471 F600\nF1200\n\
-         X48.4 Z-4.1882\nX48 Z-4.2353\nX47.6 Z-4.3765\nG3 X46.8 Z-4.7294 I-2.1491 K3.7882\nG1 X46.6 Z-4.7765\n\
-         X46.2 Z-4.8\nG2 X45.8 Z-4.7294 I-0.5083 K-1.7118\nG1 X44.6 Z-4.3765\nX42.8 Z-3.9765\nX42 Z-3.6941\n\
-         G2 X41.6 Z-3.5294 I-1.0163 K-1.9\nG1 X41.4 Z-3.4118\nX40.2 Z-2.9176\nG3 X39.4 Z-2.6588 I0.7914 K3.8118\n\
-         G3 X38.8 Z-2.4235 I0.8661 K3.0912\nG2 X38 Z-2.2353 I-1.2415 K-3.4824\n\
-         G3 X36.6 Z-2.0941 I0.5083 K12.0529\nG1 X36.2 Z-2\nX35.2 Z-1.8824\nX35 Z-1.8118\nX34.8\nX34.6 Z-1.7647\n\
-         X34.2\nX33.8 Z-1.6706\nX33 Z-1.6235\nG0 Z5\nM2\n",
-    );
+    keeps_the_feed(ROW);
 }
 
 /// An arc at 5 mm/s from a corner on. Windows were tried while a leg to the end of a chord was about to come to the feed,
 /// and were faster than that at once: all legs were driven, each to its stop.
 #[test]
 fn an_arc_that_begins_with_legs_is_run_at_the_feed() {
-    keeps_the_feed(
-        "G20 G90 G64 P0.001\nG0 Z0.1\nG18 F12\nG0 X-0.1225 Y1.152\nG2 X0 Z0 R0.125\nF40\nG1 X2.264\nF12\n\
-         G0 Z0.1\nX-0.1225 Y1.12\nG2 X0 Z0 R0.125\nF40\nG1 X2.264\nG0 Z0.1\nM2\n",
-    );
+    keeps_the_feed(ROWS);
 }
