@@ -39,5 +39,6 @@ mod tap_pair;
 mod target;
 pub(crate) mod thread;
 mod thread_chain;
+pub(crate) mod thread_lead;
 pub(crate) mod tilted_plane;
 pub(crate) mod tip_map;

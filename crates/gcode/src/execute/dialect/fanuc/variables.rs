@@ -233,13 +233,14 @@ impl Interpreter {
         let (state, modal) = (&self.state, &self.state.modal);
         match letter {
             b'D' => f64::from(state.fanuc.radius_offset),
-            b'F' => modal.feed.map_or(0.0, |feed| {
-                let per = match modal.feed_mode {
-                    FeedMode::PerRevolution => 1.0,
-                    _ => 60.0,
-                };
-                round(feed.linear_v * per / modal.units.mm())
-            }),
+            b'F' => {
+                let feed = modal.feed.map(|feed| match modal.feed_mode {
+                    FeedMode::PerRevolution => feed.linear_v,
+                    _ => 60.0 * feed.linear_v,
+                });
+                let in_force = feed.or(state.fanuc.lead_mm).unwrap_or(0.0);
+                round(in_force / modal.units.mm())
+            }
             b'H' => f64::from(state.fanuc.length_offset.unwrap_or(0)),
             b'M' => f64::from(state.fanuc.m_code),
             b'N' => f64::from(state.fanuc.sequence),
