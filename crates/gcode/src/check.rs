@@ -198,7 +198,9 @@ impl Bred {
         was_in_doubt
             && !begins_series
             && diagnostic.code == DiagnosticCode::MissingWord
-            && diagnostic.message.starts_with(name(cycle))
+            && diagnostic
+                .message
+                .starts_with(name(cycle, program.block().is_lathe))
     }
 
     /// True for a consequence of a diagnostic that was told; `place` is where the machine is taken

@@ -22,6 +22,7 @@ mod fanuc_broken_corners;
 mod fanuc_calls;
 mod fanuc_corners;
 mod fanuc_cycles;
+mod fanuc_face_cycles;
 mod fanuc_feeds;
 mod fanuc_heads;
 mod fanuc_increments;
