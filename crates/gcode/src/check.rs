@@ -166,6 +166,8 @@ fn read<R: BufRead>(
     // Programs of printers just end.
     let may_just_end = program.interpreter.options.dialect == Dialect::Marlin;
     found.lacks.end = program.ran_out && !may_just_end;
+    let doubts = program.interpreter.doubts;
+    (found.lacks.crossing, found.lacks.dwell) = (doubts.crosses_below_r, doubts.did_not_wait);
     found.lines = program.totals().lines;
     found
 }

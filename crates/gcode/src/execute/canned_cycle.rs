@@ -50,6 +50,8 @@ use crate::syntax::word_check::{whole, whole_count};
 const BACK_OFF_MM: f64 = 0.254;
 /// Depths as near to the bottom as this are the bottom, mm.
 const BOTTOM_MM: f64 = 1e-6;
+/// Places as near to each other as this are one, mm.
+const HERE_MM: f64 = 1e-6;
 /// Most pecks of one block.
 const MAX_PECKS: f64 = 10_000.0;
 /// Most holes of one block.
@@ -206,6 +208,12 @@ impl Interpreter {
         }
         for place in places {
             let target = self.absolute_target(place);
+            let way = target - self.state.position;
+            let (first, second) = self.state.modal.plane.axes();
+            let is_aside = [first, second]
+                .iter()
+                .any(|axis| way[axis.index()].abs() > HERE_MM);
+            self.doubts.crosses_below_r |= goes_across && is_aside && level < hole.r - HERE_MM;
             self.straight(block, target, Pace::Rapid, out)?;
             if hole.sticky.cycle == CannedCycle::BackBore {
                 let levels = [hole.r, hole.bottom, hole.clear];
