@@ -207,7 +207,10 @@ impl Interpreter {
             self.along(block, normal, level, Pace::Rapid, out)?;
         }
         for place in places {
-            let target = self.absolute_target(place);
+            let mut target = self.absolute_target(place);
+            if self.state.modal.distance == Distance::Absolute {
+                target = self.rolled_over(block, target);
+            }
             let way = target - self.state.position;
             let (first, second) = self.state.modal.plane.axes();
             let is_aside = [first, second]

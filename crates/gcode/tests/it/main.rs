@@ -37,6 +37,7 @@ mod fanuc_lengths;
 mod fanuc_mill_words;
 mod fanuc_mirror_switch;
 mod fanuc_patterns;
+mod fanuc_roll_over;
 mod fanuc_threads;
 mod five_axes;
 mod flow;

@@ -28,6 +28,7 @@ mod pole;
 pub(crate) mod position_offsets;
 mod probe;
 pub(crate) mod rigid_tap;
+mod roll_over;
 pub(crate) mod settled;
 pub(crate) mod speed;
 mod spindle_axis;

@@ -189,6 +189,7 @@ impl Interpreter {
     fn place(&self, place: Place, axis: usize) -> f64 {
         let axis = self.numbered_axis(axis).map_or(0, Axis::index);
         let program = || self.state.offsets.to_program(self.state.position);
+        let is_of_tool = place == Place::ToolOffset;
         let place = match place {
             Place::Program => program(),
             Place::Machine => self.state.position,
@@ -196,7 +197,11 @@ impl Interpreter {
             Place::Contact => self.state.probe.contact + self.state.offsets.tool,
             Place::ToolOffset => self.state.offsets.tool,
         };
-        self.shown(place, axis)
+        let value = self.shown(place, axis);
+        match Axis::ALL.get(axis) {
+            Some(of_turn) if !is_of_tool => self.within_a_turn(*of_turn, value),
+            _ => value,
+        }
     }
 
     /// A place on an axis as the program writes it: in its units, X of a lathe as a diameter.
