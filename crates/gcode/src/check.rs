@@ -167,6 +167,8 @@ fn read<R: BufRead>(
     // Programs of printers just end.
     let may_just_end = program.interpreter.options.dialect == Dialect::Marlin;
     found.lacks.end = program.ran_out && !may_just_end;
+    let doubts = program.interpreter.doubts;
+    (found.lacks.crossing, found.lacks.dwell) = (doubts.crosses_below_r, doubts.did_not_wait);
     found.lines = program.totals().lines;
     found
 }
@@ -199,7 +201,9 @@ impl Bred {
         was_in_doubt
             && !begins_series
             && diagnostic.code == DiagnosticCode::MissingWord
-            && diagnostic.message.starts_with(name(cycle))
+            && diagnostic
+                .message
+                .starts_with(name(cycle, program.block().is_lathe))
     }
 
     /// True for a consequence of a diagnostic that was told; `place` is where the machine is taken

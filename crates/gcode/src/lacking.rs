@@ -20,6 +20,11 @@ pub struct Lacking {
     /// A program of a SINUMERIK's lathe moves before it says what X is, and nothing else says it: it is read as a radius,
     /// and the part is twice as thick if diameters were meant.
     pub diameter: bool,
+    /// A cycle of a FANUC goes across to its hole below its R plane: it begins there, and the control stays at that
+    /// level.
+    pub crossing: bool,
+    /// Klipper does not wait at a `G4 S`: it has P alone, in milliseconds.
+    pub dwell: bool,
 }
 
 /// What a program has not said yet and nothing else says, and where it begins: a move from there needs it.

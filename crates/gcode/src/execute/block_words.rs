@@ -168,6 +168,7 @@ fn taken_by_motion(block: &Block, motion: Option<Motion>) -> Letters {
         },
         Some(Motion::Cycle(_)) if block.dialect == Dialect::Fanuc => Letters::of(b"RLPQKIJ"),
         Some(Motion::Turning(Turning::Face)) => Letters::of(b"RK"),
+        Some(Motion::Turning(Turning::Thread)) => Letters::of(b"RIQ"),
         Some(Motion::Turning(_)) => Letters::of(b"RI"),
         Some(Motion::TapIn | Motion::TapOut) => Letters::of(b"IJK"),
         Some(Motion::CirclePocket(_)) => Letters::of(b"IKQLD"),

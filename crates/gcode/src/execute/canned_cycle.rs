@@ -50,6 +50,8 @@ use crate::syntax::word_check::{whole, whole_count};
 const BACK_OFF_MM: f64 = 0.254;
 /// Depths as near to the bottom as this are the bottom, mm.
 const BOTTOM_MM: f64 = 1e-6;
+/// Places as near to each other as this are one, mm.
+const HERE_MM: f64 = 1e-6;
 /// Most pecks of one block.
 const MAX_PECKS: f64 = 10_000.0;
 /// Most holes of one block.
@@ -205,7 +207,16 @@ impl Interpreter {
             self.along(block, normal, level, Pace::Rapid, out)?;
         }
         for place in places {
-            let target = self.absolute_target(place);
+            let mut target = self.absolute_target(place);
+            if self.state.modal.distance == Distance::Absolute {
+                target = self.rolled_over(block, target);
+            }
+            let way = target - self.state.position;
+            let (first, second) = self.state.modal.plane.axes();
+            let is_aside = [first, second]
+                .iter()
+                .any(|axis| way[axis.index()].abs() > HERE_MM);
+            self.doubts.crosses_below_r |= goes_across && is_aside && level < hole.r - HERE_MM;
             self.straight(block, target, Pace::Rapid, out)?;
             if hole.sticky.cycle == CannedCycle::BackBore {
                 let levels = [hole.r, hole.bottom, hole.clear];

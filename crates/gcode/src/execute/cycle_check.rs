@@ -5,6 +5,7 @@ use glidepath_geometry::Axis;
 use crate::diagnostic::block_diagnostic::{BlockDiagnostic, Outcome};
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::span::SourceSpan;
+use crate::execute::cycle_words::name;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::state::sticky_words::StickyWords;
 use crate::execute::tapping_cycle::tap_turns;
@@ -15,6 +16,7 @@ impl Interpreter {
     /// Refuses cycles that cannot be made.
     pub(super) fn check_cycle(&self, block: &Block, sticky: &StickyWords) -> Outcome<()> {
         let (span, cycle) = (block.motion_span(), sticky.cycle);
+        self.check_cycle_of_lathe(block, cycle)?;
         let refuse = |span: SourceSpan, message: String, reason: &str, help: &str| {
             Err(
                 BlockDiagnostic::new(DiagnosticCode::CannedCycle, span, message)
@@ -54,6 +56,7 @@ impl Interpreter {
         if wrong {
             let message = "the spindle does not turn as the cycle needs it";
             let help = match cycle {
+                CannedCycle::TapLeft if block.is_lathe => "write M4 before G184",
                 CannedCycle::TapLeft => "write M4 before G74",
                 CannedCycle::TapRight => "write M3 before G84",
                 _ => "write M3 or M4 before the cycle",
@@ -63,5 +66,27 @@ impl Interpreter {
                 .help(help));
         }
         Ok(())
+    }
+
+    /// Refuses the cycles on the face that a Haas has, and FANUC's lathes have not or on the side.
+    fn check_cycle_of_lathe(&self, block: &Block, cycle: CannedCycle) -> Outcome<()> {
+        use CannedCycle::{BoreDwell, BoreStop, Drill, DrillDwell, TapLeft};
+        let is_of_haas = matches!(cycle, Drill | DrillDwell | BoreStop | BoreDwell | TapLeft);
+        if !block.is_lathe || !is_of_haas || self.options.fanuc.is_haas() {
+            return Ok(());
+        }
+        let message = format!("{} on a lathe of FANUC", name(cycle, true));
+        let why = if cycle == BoreDwell {
+            "it works on the side of the part there, which is not made; on a Haas it bores the face"
+        } else {
+            "its cycles on the face are G83, G84 and G85; a Haas has this one"
+        };
+        Err(
+            BlockDiagnostic::new(DiagnosticCode::NotSupported, block.motion_span(), message)
+                .because(why)
+                .help(
+                    "set `offset_memory = \"haas\"` of [program] if the program is of a Haas, or write G83, G84 or G85",
+                ),
+        )
     }
 }

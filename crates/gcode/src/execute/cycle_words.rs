@@ -19,7 +19,7 @@ impl Interpreter {
     /// The words of the block, with those kept from the block before where they are missing.
     pub(super) fn keep(&mut self, block: &Block, cycle: CannedCycle) -> Outcome<StickyWords> {
         let span = block.motion_span();
-        let name = name(cycle);
+        let name = name(cycle, block.is_lathe);
         let scale = self.state.modal.units.mm();
         // R, Z and P of FANUC stay until G80, whichever cycle is next.
         let before = self.state.cycles.last;
@@ -114,7 +114,7 @@ impl Interpreter {
             (sticky.peck, sticky.less, sticky.least) = (last.peck, last.less, last.least);
             return Ok(());
         }
-        let name = name(sticky.cycle);
+        let name = name(sticky.cycle, block.is_lathe);
         // Without Q that of a lathe drills at once.
         let at_once = block.is_lathe.then_some(0.0);
         sticky.peck = written
@@ -172,7 +172,7 @@ impl Interpreter {
         if cycle == CannedCycle::ChipBreak && deep > 0.0 {
             return Ok(deep * self.state.modal.units.mm());
         }
-        let message = format!("K{deep} in {} of a Haas", name(cycle));
+        let message = format!("K{deep} in {} of a Haas", name(cycle, block.is_lathe));
         Err(
             BlockDiagnostic::new(DiagnosticCode::UnusedWord, block.span(b'K'), message)
                 .because("K is the least depth there beside I, and in G73 how deep it goes before it comes out to R; L counts holes")
@@ -238,9 +238,10 @@ fn check_haas_words(block: &Block, cycle: CannedCycle) -> Outcome<()> {
     Ok(())
 }
 
-pub(crate) const fn name(cycle: CannedCycle) -> &'static str {
+pub(crate) const fn name(cycle: CannedCycle, is_lathe: bool) -> &'static str {
     match cycle {
         CannedCycle::ChipBreak => "G73",
+        CannedCycle::TapLeft if is_lathe => "G184",
         CannedCycle::TapLeft => "G74",
         CannedCycle::FineBore => "G76",
         CannedCycle::Drill => "G81",

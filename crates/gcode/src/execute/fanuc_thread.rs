@@ -137,7 +137,7 @@ impl Interpreter {
         let [height, first] = if is_one_block { ["K", "D"] } else { ["P", "Q"] };
         let height_mm = need(height_mm, height, "the height of the thread")?;
         let first_mm = need(first_mm, first, "the depth of the first pass")?;
-        let lead_mm = need(block.get(b'F'), "F", "the way of a revolution")? * scale;
+        let lead_mm = self.fanuc_lead_mm(block, "G76")?;
         let start = self.state.offsets.to_program(self.state.position);
         let across = if self.state.modal.diameter {
             0.5 * scale

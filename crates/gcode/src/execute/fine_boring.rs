@@ -37,7 +37,7 @@ impl Interpreter {
         cycle: CannedCycle,
         last: Option<StickyWords>,
     ) -> Outcome<[f64; 2]> {
-        let (span, name) = (block.motion_span(), name(cycle));
+        let (span, name) = (block.motion_span(), name(cycle, block.is_lathe));
         if self.state.modal.plane != Plane::Xy {
             let message = format!("{name} outside G17");
             return Err(

@@ -3,6 +3,7 @@
 use glidepath_program::{Item, ItemKind};
 
 use crate::execute::motion::speed::Pace;
+use crate::execute::state::doubts::Doubts;
 use crate::execute::state::open_spline::SplineLog;
 use crate::execute::state::plain_run::PlainRun;
 use crate::execute::state::program_state::State;
@@ -51,6 +52,8 @@ pub(crate) struct Interpreter {
     pub(crate) plain_run: PlainRun,
     /// Items of the block whose moves are those of the axes already: a place in what the block gives out.
     pub(crate) mapped_items: usize,
+    /// What is told when all was read: a block that was refused afterwards is told anyhow.
+    pub(crate) doubts: Doubts,
     /// Line of the block being executed: that of a diagnostic, too.
     pub(crate) line: u32,
 }
@@ -72,6 +75,7 @@ impl Interpreter {
             judged_time_s: 0.0,
             plain_run: PlainRun::new(),
             mapped_items: 0,
+            doubts: Doubts::default(),
             line: 0,
         }
     }

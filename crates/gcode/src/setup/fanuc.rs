@@ -124,6 +124,8 @@ pub struct FanucParameters {
     pub bore_shift: BoreShift,
     /// The way round outer corners.
     pub outer_corners: OuterCorners,
+    /// Whether A, B and C roll over (parameter 1008: ROAx 1, RABx 0): to an angle in G90 they turn the shorter way.
+    pub rolls_over: bool,
 }
 
 impl FanucParameters {

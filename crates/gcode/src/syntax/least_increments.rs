@@ -12,7 +12,7 @@ use crate::syntax::modes::{NonModal, Units};
 use crate::syntax::plain_line::WordSink;
 
 /// What an angle counts, degrees, and a dwell, seconds.
-pub(super) const OF_ANGLES: f64 = 0.001;
+pub(crate) const OF_ANGLES: f64 = 0.001;
 
 impl Block {
     /// Counts the words that have no point; the block has all its codes.

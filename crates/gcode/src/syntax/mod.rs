@@ -23,7 +23,7 @@ pub(crate) mod duplicate_word;
 pub(crate) mod expression;
 mod foreign;
 pub(crate) mod frame_codes;
-mod least_increments;
+pub(crate) mod least_increments;
 pub(crate) mod letters;
 pub(crate) mod line_source;
 pub(crate) mod modes;

@@ -144,3 +144,41 @@ fn r_of_repeated_passes_is_their_number() {
     };
     assert_eq!(ends(&text("R3"), lathe()), ends(&text("R3."), lathe()));
 }
+
+/// Arguments of a macro without a point count the least increments of their letters: angles in inches, too.
+#[test]
+fn arguments_count_as_their_letters_do() {
+    let called = |units: &str, arguments: &str, move_by: &str| {
+        let text = format!("{units}\nG65 P9001 {arguments}\nM30\nO9001\nG21 G0 {move_by}\nM99");
+        last(&text)
+    };
+    assert_eq!(
+        called("G21", "X5000 A5000", "X#24 A#1"),
+        [5.0, 0.0, 0.0, 5.0]
+    );
+    assert_eq!(
+        called("G20", "X50000 A5000", "X#24 A#1"),
+        [5.0, 0.0, 0.0, 5.0]
+    );
+    assert_eq!(
+        called("G21", "F120 S300 D7", "X#9 Y#19 Z#7"),
+        [120.0, 300.0, 7.0, 0.0]
+    );
+    finds(
+        "G20\nG65 P9001 F120\nM30\nO9001\nM99",
+        mill(),
+        &["2:11 ambiguous-word"],
+    );
+    let calculator = Options {
+        fanuc: FanucParameters {
+            point: PointInput::Calculator,
+            ..mill().fanuc
+        },
+        ..mill()
+    };
+    let text = "G20\nG65 P9001 X50 A5 F120\nM30\nO9001\nG21 G0 X#24 Y#9 A#1\nM99";
+    assert_eq!(
+        ends(text, calculator).last(),
+        Some(&[50.0, 120.0, 0.0, 5.0])
+    );
+}

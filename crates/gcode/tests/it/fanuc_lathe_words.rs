@@ -4,8 +4,8 @@
 use std::sync::Arc;
 
 use glidepath_gcode::{
-    Connections, Dialect, FanucControl, FanucParameters, FeedAtStart, Machine, Options, Program,
-    Tool, ToolTable, check,
+    Connections, Dialect, FanucControl, FanucParameters, FeedAtStart, Machine, OffsetMemory,
+    Options, Program, Tool, ToolTable, check,
 };
 use glidepath_geometry::Axis;
 use glidepath_program::{ItemKind, Rate};
@@ -329,4 +329,47 @@ fn the_feed_at_start_may_be_said() {
     };
     assert_eq!(rate(FeedAtStart::PerRevolution), 120.0);
     assert_eq!(rate(FeedAtStart::PerMinute), 0.2);
+}
+
+/// X of a work offset is a diameter, and so is that of G54.1.
+#[test]
+fn work_offsets_beyond_g59() {
+    let set = "G10 L20 P1 X10. Z5.\nG10 L20 P27 X-4. Z1.\nG0 X100. Z80.\n";
+    for code in ["G54.1 P1", "G54 P1", "G154 P1", "G110"] {
+        let at = ends(&format!("{set}{code}\nG0 X20. Z3."));
+        assert_eq!(at.last(), Some(&[15.0, 8.0]), "{code}");
+    }
+    let at = ends(&format!("{set}G54.1 P27\nG0 X20. Z3.\nG54\nX20. Z3."));
+    assert_eq!(at[1..], [[8.0, 4.0], [10.0, 3.0]]);
+    finds("G154 P2", &["1:1 not-supported"]);
+}
+
+/// A control has the depth in a block of its own, or in D: two that differ are refused, and what a Haas lacks is D.
+#[test]
+fn a_depth_of_roughing_is_said_once() {
+    let profile = "N1 G0 X20.\nG1 Z-10.\nN2 X60.\nM30";
+    let cycle = |words: &str| format!("G97 G99 S600 M3\nG0 X60. Z2.\n{words} F0.2\n{profile}");
+    finds(
+        &cycle("G71 U3. R1.\nG71 P1 Q2 U0 W0 D2."),
+        &["4:17 ambiguous-word"],
+    );
+    finds(&cycle("G71 U2. R1.\nG71 P1 Q2 U0 W0 D2."), &[]);
+    let haas = Options {
+        fanuc: FanucParameters {
+            offset_memory: OffsetMemory::Haas,
+            ..options().fanuc
+        },
+        ..options()
+    };
+    let report = check(cycle("G71 P1 Q2 U0 W0").as_bytes(), haas);
+    assert_eq!(report.diagnostics[0].message, "the cycle without D");
+}
+
+/// Z of a profile does not change its direction, in the form for pockets either: FANUC's alarm 064, and Haas' manual.
+#[test]
+fn a_profile_that_turns_back_along_z_says_whose_rule_that_is() {
+    let text = "G97 G99 S600 M3\nG0 X60. Z2.\nG71 U2. R1.\nG71 P1 Q2 U0 W0 F0.2\nN1 G0 X20. Z2.\nG1 Z-10.\nX60.\nN2 Z2.\nM30";
+    let report = check(text.as_bytes(), options());
+    assert_eq!(listed(&report), ["4:8 canned-cycle"]);
+    assert!(report.diagnostics[0].reason.contains("alarm 064"));
 }

@@ -2,7 +2,8 @@
 
 use crate::support::listed;
 use glidepath_gcode::{
-    Dialect, FanucControl, FanucParameters, Options, PointInput, Program, Threading, check,
+    Dialect, FanucControl, FanucParameters, OffsetMemory, Options, PointInput, Program, Threading,
+    check,
 };
 use glidepath_program::{Event, ItemKind, Limits, PHASE_STEPS, PathMode};
 
@@ -230,5 +231,102 @@ fn blocks_of_a_thread_are_one_pass() {
     finds(
         "S600 M3\nG0 X20 Z4\nG32 Z-20 F1.5\nW-9 Q90000",
         "4:1 not-supported",
+    );
+}
+
+/// The example of FANUC's manual for a straight thread (G32, metric, diameters): the second cut has no F.
+#[test]
+fn the_lead_stays_in_force_behind_rapids() {
+    let text = "S60 M3\nG0 X100. Z80.\nG00 U-62.0\nG32 W-74.5 F4.0\nG00 U62.0\nW74.5\nU-64.0\nG32 W-74.5\nG00 U64.0\nW74.5";
+    assert_eq!(cuts(text), ["4@0 19,5.5", "4@0 18,5.5"]);
+    // In G98, too, and in G92 and G76 behind it.
+    let text = "G98 S60 M3\nG0 X100 Z80\nG32 X98 Z5 F4\nG0 X102\nZ80\nG92 X97 Z5\nG76 P010000 Q0 R0\nG76 X96 Z5 P1000 Q1000";
+    let leads: Vec<String> = cuts(text)
+        .iter()
+        .map(|cut| cut.split('@').next().unwrap_or_default().to_owned())
+        .collect();
+    assert_eq!(leads, ["4", "4", "4", "4"]);
+}
+
+/// F is one word of the control: in G99 the feed in force is the lead, and the lead the feed.
+#[test]
+fn lead_and_feed_are_one_word() {
+    let text = "G99 S60 M3\nG0 X20 Z10\nG1 Z9 F1.25\nG32 Z-20\nG0 X24\nZ4";
+    assert_eq!(cuts(text), ["1.25@0 10,-20"]);
+    // Not the lead of the thread before: F was written since.
+    let text = "G99 S60 M3\nG0 X20 Z10\nG92 X18 Z-20 F2\nG1 X19 F1.5\nG0 X20\nG92 X17.5 Z-20";
+    let leads = cuts(text);
+    assert!(
+        leads[0].starts_with("2@0") && leads[1].starts_with("1.5@0"),
+        "{leads:?}"
+    );
+    // 60 turns a minute, 2 mm each.
+    let feeds: Vec<f64> = Program::new(
+        &b"G99 S60 M3\nG0 X20 Z10\nG32 Z-20 F2\nG0 X24\nG1 Z-10\nM30"[..],
+        lathe(),
+    )
+    .filter_map(|item| match item.expect("a sound program").kind {
+        ItemKind::Move { rate, .. } if !rate.is_synchronised() => rate.feed_v(),
+        _ => None,
+    })
+    .collect();
+    assert_eq!(feeds, [2.0]);
+}
+
+#[test]
+fn an_f_per_minute_is_no_lead() {
+    finds(
+        "G98 S60 M3\nG0 X20 Z10\nG1 Z9 F100\nG32 Z-20",
+        "4:1 missing-word",
+    );
+    finds(
+        "G98 S60 M3\nG0 X20 Z10\nG1 Z9 F100\nG32 Z-20 F2\nG0 X24\nG1 Z-10",
+        "6:1 missing-feed",
+    );
+    finds(
+        "G98 S60 M3\nG0 X20 Z10\nG32 Z-20 F2\nG0 X24\nG1 X23 F100\nG0 Z10\nX20\nG32 Z-20",
+        "8:1 missing-word",
+    );
+    // The message has the code that was written, and Haas' manual asks for G99.
+    let said = |text: &str, options: Options| {
+        let report = check(text.as_bytes(), options);
+        report
+            .diagnostics
+            .first()
+            .map(|found| found.message.clone())
+    };
+    let g32 = Some("G32 without F".to_owned());
+    assert_eq!(said("G99 S60 M3\nG0 X20 Z10\nG32 Z-20", lathe()), g32);
+    let haas = Options {
+        fanuc: FanucParameters {
+            offset_memory: OffsetMemory::Haas,
+            ..lathe().fanuc
+        },
+        ..lathe()
+    };
+    let text = "G98 S60 M3\nG0 X20 Z10\nG32 Z-20 F2";
+    let in_g98 = "G32 of a Haas with a feed per minute (G98)".to_owned();
+    assert_eq!(said(text, haas), Some(in_g98));
+}
+
+/// Two threads beside each other: Q is the angle at which a pass begins, in thousandths of a degree, and is of its
+/// block alone, as FANUC's manual says.
+#[test]
+fn g92_begins_at_an_angle() {
+    let text =
+        "S60 M3\nG0 X24 Z4\nG92 X19 Z-20 F4\nX18\nG92 X19 Z-20 F4 Q180000\nX18 Q180000\nX17.5";
+    let phases: Vec<u32> = cuts(text)
+        .iter()
+        .filter_map(|cut| cut.split(['@', ' ']).nth(1)?.parse().ok())
+        .collect();
+    let half = PHASE_STEPS / 2;
+    assert_eq!(phases, [0, 0, half, half, 0]);
+    finds(
+        "S60 M3\nG0 X24 Z4\nG92 X19 Z-20 F4 Q180.",
+        "3:17 ambiguous-word",
+    );
+    finds(
+        "S60 M3\nG0 X24 Z4\nG90 X19 Z-20 F4 Q180",
+        "3:17 unused-word",
     );
 }

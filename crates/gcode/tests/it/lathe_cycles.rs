@@ -281,3 +281,18 @@ fn the_passes_keep_to_the_travel_of_the_axes() {
     assert_eq!(report.soft_limit_violations(), 1);
     assert_eq!(report.diagnostics[0].line, 8);
 }
+
+/// Units on other controls: whoever means them finds the codes that they are here.
+#[test]
+fn g70_and_g71_alone_may_be_meant_as_units() {
+    for text in ["G70", "G71", "G17 G71 G90"] {
+        let report = check(text.as_bytes(), Options::default());
+        assert!(
+            report.diagnostics[0]
+                .help
+                .contains("G20 (inches) or G21 (mm)")
+        );
+    }
+    let report = check(&b"G18\nG71 D0.5 I1"[..], Options::default());
+    assert!(!report.diagnostics[0].help.contains("G20"));
+}

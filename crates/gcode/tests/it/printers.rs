@@ -235,3 +235,24 @@ fn circles_come_before_the_arc_which_may_be_one_itself() {
         &["3:1 not-supported"],
     );
 }
+
+/// Klipper's G4 has P alone, in milliseconds; Marlin's has S, too, in seconds.
+#[test]
+fn klipper_does_not_wait_by_s() {
+    let waits = |text: &str| -> f64 {
+        Program::new(text.as_bytes(), options())
+            .map(|item| item.unwrap_or_else(|d| panic!("{text}\n{d}")))
+            .filter_map(|item| match item.kind {
+                ItemKind::Dwell(seconds) => Some(seconds),
+                _ => None,
+            })
+            .sum()
+    };
+    let lacks = |text: &str| check(text.as_bytes(), options()).lacks.dwell;
+    assert_eq!(waits("G4 S2\nG4 P500"), 2.5);
+    assert!(!lacks("G4 S2\nG4 P500"));
+    let klipper = "SET_PRESSURE_ADVANCE ADVANCE=0.05\n";
+    assert_eq!(waits(&format!("{klipper}G4 S2\nG4 P500")), 0.5);
+    assert!(lacks(&format!("{klipper}G4 S2")));
+    assert!(!lacks(&format!("{klipper}G4 P500")));
+}

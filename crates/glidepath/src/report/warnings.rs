@@ -11,6 +11,12 @@ const NO_UNITS: &str = "it moves before G20 or G21, and is read in millimetres: 
 const NO_DIAMETER: &str = "it moves before DIAMON or DIAMOF, and X is read as a radius: write one of them, or say what X is \
                            where a program begins: `lathe_x` of [program] in the configuration";
 
+const CROSSING: &str = "a cycle begins below its R plane: the tool goes across to its hole at that level, as a FANUC does: \
+                        make sure that nothing stands there, or write a higher level before the cycle";
+
+const NO_DWELL: &str =
+    "Klipper reads over S of G4 and does not wait: write G4 P, in milliseconds, if it shall";
+
 /// What stands in front of a warning in a text that says other things, too.
 pub const WARNING: &str = "warning: ";
 
@@ -20,6 +26,8 @@ pub fn warnings(lacks: Lacking) -> impl Iterator<Item = &'static str> {
         (lacks.end, NO_END),
         (lacks.units, NO_UNITS),
         (lacks.diameter, NO_DIAMETER),
+        (lacks.crossing, CROSSING),
+        (lacks.dwell, NO_DWELL),
     ];
     all.into_iter()
         .filter_map(|(is_told, words)| is_told.then_some(words))
@@ -35,10 +43,12 @@ mod tests {
             end: true,
             units: true,
             diameter: true,
+            crossing: true,
+            dwell: true,
         };
         assert_eq!(
             warnings(all).collect::<Vec<_>>(),
-            [NO_END, NO_UNITS, NO_DIAMETER]
+            [NO_END, NO_UNITS, NO_DIAMETER, CROSSING, NO_DWELL]
         );
         let units = Lacking {
             units: true,

@@ -28,6 +28,7 @@ impl Interpreter {
             if modal.feed_mode != code {
                 // The F of one mode means nothing in the other.
                 modal.feed = None;
+                self.state.fanuc.lead_mm = None;
             }
             modal.feed_mode = code;
             self.state.fanuc.is_feed_unsaid = false;
@@ -39,6 +40,9 @@ impl Interpreter {
                 Some(Motion::Thread | Motion::ThreadCycle | Motion::Turning(Turning::Thread))
             );
         self.check_counted_feed(block, is_pitch)?;
+        if let Some(lead) = block.get(b'F').filter(|_| is_pitch) {
+            self.keep_lead(block, lead);
+        }
         // On a printer the F of G61 is that of its move alone.
         let is_own = is_pitch || block.codes.kept_place.is_some();
         let Some(feed) = block.get(b'F').filter(|_| !is_own) else {
@@ -76,7 +80,7 @@ impl Interpreter {
     }
 
     /// What a value counts as a feed in the mode and the units in force; `None`: it is a time (G93).
-    fn feed_of(&self, block: &Block, feed: f64) -> Option<Feed> {
+    pub(crate) fn feed_of(&self, block: &Block, feed: f64) -> Option<Feed> {
         let modal = &self.state.modal;
         let per_second = match modal.feed_mode {
             FeedMode::PerMinute => 60.0,

@@ -6,6 +6,7 @@ use crate::diagnostic::block_diagnostic::Outcome;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::state::coolant::Coolant;
 use crate::execute::state::spindle::SpindleDirection;
+use crate::setup::firmware::Firmware;
 use crate::syntax::block::Block;
 use crate::syntax::codes::Coded;
 use crate::syntax::dialect::Dialect;
@@ -64,6 +65,8 @@ impl Interpreter {
                 };
                 missing(span, "G4", word, "how long")
             })?;
+            let is_written = block.dialect == Dialect::Marlin && block.get(b'S').is_some();
+            self.doubts.did_not_wait |= is_written && self.is_klipper();
             if seconds < 0.0 {
                 return Err(negative(block, b'P', "the dwell"));
             }
@@ -79,6 +82,8 @@ impl Interpreter {
         match block.dialect {
             Dialect::LinuxCnc => block.get(b'P'),
             Dialect::Siemens => block.get(b'P').or_else(|| self.seconds_of_turns(block)),
+            // Klipper's has P alone: without it there is no wait.
+            Dialect::Marlin if self.is_klipper() => milliseconds().or(Some(0.0)),
             Dialect::Marlin => block.get(b'S').or_else(milliseconds),
             Dialect::Fanuc => {
                 let seconds = block.get(b'X').or_else(|| block.get(b'U'));
@@ -88,6 +93,10 @@ impl Interpreter {
                 written.or(is_alone.then_some(0.0))
             }
         }
+    }
+
+    fn is_klipper(&self) -> bool {
+        self.state.firmware == Some(Firmware::Klipper)
     }
 
     /// How long the spindle takes for the turns of S; `None` where it stands.

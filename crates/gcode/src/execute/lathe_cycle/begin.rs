@@ -12,6 +12,7 @@ use crate::execute::lathe_cycle::open::LatheCycleWords;
 use crate::execute::motion::settled::MIN_MOVE;
 use crate::execute::motion::speed::Pace;
 use crate::syntax::block::Block;
+use crate::syntax::letters::Letters;
 use crate::syntax::modes::{FeedMode, LatheCycle};
 use crate::syntax::word_check::{missing, negative, whole};
 
@@ -150,11 +151,11 @@ impl Interpreter {
 /// The subroutine of a cycle.
 pub(crate) fn label(block: &Block) -> Outcome<u32> {
     whole(block, b'Q', MAX_LABEL)?.ok_or_else(|| {
-        missing(
-            block.motion_span(),
-            "a lathe cycle",
-            "Q",
-            "the number of the subroutine with the profile",
-        )
+        let meaning = "the number of the subroutine with the profile";
+        let found = missing(block.motion_span(), "a lathe cycle", "Q", meaning);
+        if block.has_any(Letters::of(b"DIPRE")) {
+            return found;
+        }
+        found.help("add the Q word; if units are meant, as G70 and G71 are on other controls, write G20 (inches) or G21 (mm)")
     })
 }

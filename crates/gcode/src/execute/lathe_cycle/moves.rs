@@ -17,6 +17,7 @@ use crate::execute::lathe_cycle::profile::LatheProfile;
 use crate::execute::motion::settled::{MIN_MOVE, settled};
 use crate::execute::motion::speed::Pace;
 use crate::syntax::block::Block;
+use crate::syntax::dialect::Dialect;
 use crate::syntax::modes::LatheCycle;
 
 /// Arcs whose ends are as near as this are straight, mm.
@@ -220,7 +221,12 @@ fn turns_back(block: &Block, facing: bool, from: Option<&[Element]>) -> Box<Bloc
     let message =
         format!("the profile turns back along {axis} behind X{x:.4} Z{z:.4} mm (X: radius)");
     BlockDiagnostic::new(DiagnosticCode::CannedCycle, block.span(b'Q'), message)
-        .because("it must lead one way along it, with arcs of at most half a turn")
+        .because(if block.dialect == Dialect::Fanuc {
+            "along it a profile must not change its direction, in pockets (type II) either: the controls refuse that, \
+             too (FANUC's alarm 064)"
+        } else {
+            "it must lead one way along it, with arcs of at most half a turn"
+        })
         .help(if from.len() == 1 {
             "end the profile in front of its last element, and write that way back behind the cycle"
                 .to_owned()

@@ -77,12 +77,17 @@ impl Interpreter {
 
     fn feed_in_force(&self, block: &Block) -> Outcome<Feed> {
         self.state.modal.feed.ok_or_else(|| {
+            let why = if self.state.fanuc.lead_mm.is_some() {
+                "the F in force is the lead of a thread, and what that is as a feed per minute is not known here"
+            } else {
+                "no F word came before it since the program, or its feed mode, began"
+            };
             BlockDiagnostic::new(
                 DiagnosticCode::MissingFeed,
                 block.motion_span(),
                 "a feed move without a feedrate",
             )
-            .because("no F word came before it since the program, or its feed mode, began")
+            .because(why)
             .help("write an F word")
         })
     }

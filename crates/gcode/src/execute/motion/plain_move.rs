@@ -18,7 +18,7 @@
 //!   M3              ends it, whatever it does
 //! ```
 
-use glidepath_geometry::{AXES, AxisVector, Line, Segment};
+use glidepath_geometry::{AXES, Axis, AxisVector, Line, Segment};
 use glidepath_program::{Item, ItemKind, Rate};
 
 use crate::execute::interpreter::Interpreter;
@@ -35,6 +35,7 @@ use crate::syntax::straight_line::{WORDS, is_straight};
 
 /// Axes beside X, Y and Z.
 const OTHER_AXES: Letters = Letters::of(b"ABCUVW");
+const ROTARY_AXES: Letters = Letters::of(b"ABC");
 
 impl Interpreter {
     /// Makes the straight move of a plain line; false if it makes none, or one that may have to be
@@ -56,8 +57,10 @@ impl Interpreter {
             && words.has_any(OTHER_AXES)
             && self.options.dialect == Dialect::Fanuc
             && !self.options.fanuc.is_haas();
+        let rolls_over = words.has_any(ROTARY_AXES) && self.rolls_over(Axis::A);
         let is_move = is_straight(motion)
             && !shares_feed
+            && !rolls_over
             && words.has_any(AXIS_WORDS)
             && words.beside(WORDS).is_empty()
             && !words.has_any(self.lacking);

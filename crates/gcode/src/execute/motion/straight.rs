@@ -116,7 +116,7 @@ impl Interpreter {
             let stays = [self.options.extruder, self.spindle_axis()].contains(&Some(axis));
             let goes = self.options.machine.has(axis) && !stays;
             if values[i].is_some() || (all && goes) {
-                target[i] = reference[i];
+                target[i] = self.reference_within_a_turn(block, axis, reference[i])?;
             }
         }
         self.straight(block, target, Pace::Rapid, out)?;

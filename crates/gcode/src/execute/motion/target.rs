@@ -24,10 +24,11 @@ impl Interpreter {
                     *value = value.map(|value| value + self.state.offsets.tool[axis]);
                 }
             }
-            return Ok(overlay(self.state.position, &values));
+            let target = overlay(self.state.position, &values);
+            return Ok(self.rolled_over(block, target));
         }
         if self.state.modal.distance == Distance::Absolute {
-            return Ok(self.absolute_target(&values));
+            return Ok(self.rolled_over(block, self.absolute_target(&values)));
         }
         self.add_length_on_way(block, &mut values);
         if self.state.untraversed.is_any() {

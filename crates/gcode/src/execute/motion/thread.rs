@@ -12,6 +12,7 @@ use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::settled::{MIN_MOVE, settled};
+use crate::execute::motion::thread_lead::thread_name;
 use crate::execute::state::open_thread::Groove;
 use crate::setup::threading::{SPEED_RESERVE, Threading};
 use crate::syntax::block::Block;
@@ -29,12 +30,14 @@ impl Interpreter {
             Dialect::LinuxCnc | Dialect::Marlin => (b'K', b'F'),
         };
         let name = char::from(letter);
-        // F of a FANUC stays from block to block of a thread.
-        let before = self.state.open.thread.as_ref().filter(|_| is_fanuc);
-        let pitch = block.get(letter).or(before.map(|open| open.pitch));
-        let Some(pitch) = pitch else {
+        let code = thread_name(block);
+        let pitch_mm = if is_fanuc {
+            self.fanuc_lead_mm(block, code)?
+        } else if let Some(pitch) = block.get(letter) {
+            pitch * self.state.modal.units.mm()
+        } else {
             let meaning = "the way of a revolution along the thread";
-            return Err(missing(span, "G33", &name.to_string(), meaning));
+            return Err(missing(span, code, &name.to_string(), meaning));
         };
         if block.dialect == Dialect::Siemens
             && let Some(second) = second_lead(block, letter)
@@ -43,7 +46,7 @@ impl Interpreter {
         }
         // F of a SINUMERIK is that of the moves that follow.
         if block.dialect != Dialect::Siemens && block.get(other).is_some() {
-            let message = format!("G33 with {}", char::from(other));
+            let message = format!("{code} with {}", char::from(other));
             return Err(BlockDiagnostic::new(
                 DiagnosticCode::InvalidValue,
                 block.span(other),
@@ -54,7 +57,8 @@ impl Interpreter {
                 "the way of a revolution is {name}; remove the other word"
             )));
         }
-        if pitch <= 0.0 {
+        if pitch_mm <= 0.0 {
+            let pitch = block.get(letter).unwrap_or_default();
             return Err(no_pitch(block, letter, pitch));
         }
         let target = self.target(block)?;
@@ -87,13 +91,11 @@ impl Interpreter {
         };
         let groove = Groove {
             end,
-            pitch_mm: pitch * self.state.modal.units.mm() * along,
+            pitch_mm: pitch_mm * along,
             corner_mm: 0.0,
             line: self.line,
         };
         if self.thread_goes_on || self.state.open.thread.is_some() {
-            let open = self.state.open.thread.get_or_insert_default();
-            open.pitch = pitch;
             return self.chain_thread(block, (groove, target), phase, out);
         }
         self.pass(block, &[groove], phase, out)?;
@@ -106,6 +108,10 @@ impl Interpreter {
         let Some(angle) = block.get(b'Q') else {
             return Ok(0);
         };
+        let is_fanuc = block.dialect == Dialect::Fanuc;
+        if is_fanuc && !block.has_no_point(b'Q') && angle > 0.0 && angle <= 360.0 {
+            return Err(angle_with_point(block, angle));
+        }
         let degrees = match block.dialect {
             Dialect::Fanuc => angle / 1000.0,
             _ => angle,
@@ -271,6 +277,15 @@ fn no_pitch(block: &Block, letter: u8, pitch: f64) -> Box<BlockDiagnostic> {
     let message = format!("the pitch {name}{pitch} is not above zero");
     BlockDiagnostic::new(DiagnosticCode::InvalidValue, block.span(letter), message)
         .help("write the way of a revolution; the axis words give its direction")
+}
+
+/// Q90. of a FANUC, which takes no point there: 0.09 degrees are hardly meant.
+#[cold]
+fn angle_with_point(block: &Block, angle: f64) -> Box<BlockDiagnostic> {
+    let message = format!("the angle Q{angle} of a thread has a decimal point");
+    BlockDiagnostic::new(DiagnosticCode::AmbiguousWord, block.span(b'Q'), message)
+        .because("Q counts thousandths of a degree there, without a point")
+        .help(format!("write Q{:.0} for {angle} degrees", 1000.0 * angle))
 }
 
 /// The letters that a SINUMERIK's thread has its lead in.

@@ -27,7 +27,7 @@ pub(crate) struct FanucModal {
     pub(crate) is_feed_unsaid: bool,
     /// What G90, G92 or G94 of a lathe keep from block to block.
     pub(crate) turning: Option<TurningWords>,
-    /// The lead of G92, mm.
+    /// F of the last thread, mm: the F in force while there is no feed.
     pub(crate) lead_mm: Option<f64>,
     /// M24: threads of G92 have no way out at their end.
     pub(crate) ends_thread_straight: bool,

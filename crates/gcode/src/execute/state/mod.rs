@@ -2,6 +2,7 @@
 
 pub(crate) mod contour_plane;
 pub(crate) mod coolant;
+pub(crate) mod doubts;
 pub(crate) mod extruder;
 pub(crate) mod fanuc_modal;
 pub(crate) mod fanuc_offsets;

@@ -21,6 +21,4 @@ pub(crate) struct OpenThread {
     /// At which angle of the spindle it begins, as in
     /// [`Event::Synchronise`](glidepath_program::Event::Synchronise).
     pub(crate) phase: u32,
-    /// The way of a revolution as the last block has it, in the units in force.
-    pub(crate) pitch: f64,
 }

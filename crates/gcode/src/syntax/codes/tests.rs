@@ -72,7 +72,7 @@ fn every_g_number_is_a_code_of_its_own() {
     are_one_code(
         'G',
         |codes, value, span| codes.add_fanuc_g(value, true, None, span),
-        &["G62 G63 G64"],
+        &["G54.1 G154", "G62 G63 G64"],
     );
 }
 

@@ -124,6 +124,7 @@ impl Codes {
             920 => Motion::Turning(Turning::Thread),
             940 => Motion::Turning(Turning::Face),
             760 => Motion::ThreadCycle,
+            1840 => Motion::Cycle(CannedCycle::TapLeft),
             500 => return set(&mut self.non_modal, NonModal::LatheSetting, span),
             980 => return set(&mut self.feed_mode, FeedMode::PerMinute, span),
             990 => return set(&mut self.feed_mode, FeedMode::PerRevolution, span),

@@ -250,3 +250,17 @@ fn cycles_count_radii_where_the_tool_stands() {
         finds(&format!("{head}{cycle}"), &["4:1 canned-cycle"]);
     }
 }
+
+/// A lathe begins in G18, whose cycles are along Y: who has none is told of the plane, and not of a word.
+#[test]
+fn holes_on_the_face_are_in_g17() {
+    let text = "G0 X0 Z5 F100 S500 M3\nCYCLE81(10,0,2,-20)";
+    let report = check(text.as_bytes(), lathe());
+    assert_eq!(listed(&report), ["2:1 canned-cycle"]);
+    assert!(report.diagnostics[0].help.contains("G17"));
+    let ends: Vec<f64> = moves(&format!("G17 {text}"))
+        .iter()
+        .map(|(end, _)| end[1])
+        .collect();
+    assert_eq!(ends, [5.0, 2.0, -20.0, 10.0]);
+}

@@ -16,6 +16,7 @@ mod lathes;
 mod m_functions;
 mod motion;
 mod older_pockets;
+mod pockets;
 mod program_frame;
 mod programs;
 mod references;

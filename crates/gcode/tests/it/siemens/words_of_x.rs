@@ -168,8 +168,8 @@ fn the_others_are_refused_by_name() {
         ),
         ("CYCLE952(\"A\",\"\",\"\",1101311)", "1:1 not-supported"),
         (
-            "MCALL CYCLE81(20,0,2,-10)\nHOLES1(0,0,0,10,10,2)",
-            "2:1 canned-cycle",
+            "G17\nMCALL CYCLE81(20,0,2,-10)\nHOLES1(0,0,0,10,10,2)",
+            "3:1 canned-cycle",
         ),
         ("POS[X]=20", "1:1 not-supported"),
     ] {

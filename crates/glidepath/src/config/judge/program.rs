@@ -162,6 +162,11 @@ impl Judge {
                     ("-Y", BoreShift::MinusY),
                 ],
             ),
+            rolls_over: self.choice(
+                "program.roll_over",
+                raw.roll_over.take(),
+                &[("off", false), ("shorter-way", true)],
+            ),
             outer_corners: self.choice(
                 "program.outer_corners",
                 raw.outer_corners.take(),

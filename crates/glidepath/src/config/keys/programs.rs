@@ -55,7 +55,8 @@ pub(super) const PROGRAM: &[Key] = &[
         },
         LeftOut::Value("\"unsaid\""),
         "what a coordinate without a decimal point is on a FANUC control (parameter 3401#0): \
-         \"calculator\": X1000 is 1000 mm; \"increment\": it is 1 mm; \"unsaid\": up to 999 it is \
+         \"calculator\": X1000 is 1000 mm; \"increment\": it is 1 mm, A1000 1 degree, G4 X1000 1 s, and F is mm/min or \
+         refused; \"unsaid\": up to 999 it is \
          read as mm, above it is refused",
     ),
     key(
@@ -94,6 +95,15 @@ pub(super) const PROGRAM: &[Key] = &[
         LeftOut::Value("\"unsaid\""),
         "how the tool goes round outer corners with G41 and G42 on a FANUC (parameter 19607#2); \"unsaid\": \
          in lines, but on arcs with offset_memory = \"haas\"",
+    ),
+    key(
+        "program.roll_over",
+        Takes::Choice {
+            of: &["off", "shorter-way"],
+        },
+        LeftOut::Value("\"off\""),
+        "whether A, B and C of a FANUC roll over (parameter 1008): \"shorter-way\": to an angle in G90 they turn the \
+         shorter way (ROAx 1, RABx 0); \"off\": they go to the angle that is written (ROAx 0)",
     ),
     key(
         "program.unwind",

@@ -4,8 +4,9 @@
 //! #4 to #6, then #7 to #9 and so on: a set of them ends where a letter comes that is not behind the
 //! last one. Of two words for the same variable the later one counts.
 //!
-//! Where coordinates without a point count least increments, A, B, C, I to K, Q, R and U to Z of a macro do,
-//! too; the other letters are numbers.
+//! Where coordinates without a point count least increments, the arguments of a macro count those of their letters, as
+//! FANUC's manual says: A, B and C thousandths of a degree, I to K, Q, R and U to Z those of lengths, E and F those of
+//! feeds; the other letters are numbers.
 
 use std::io::BufRead;
 
@@ -15,6 +16,7 @@ use crate::diagnostic::span::SourceSpan;
 use crate::execute::dialect::macro_call::Arguments;
 use crate::execute::parameters::FANUC_LOCALS;
 use crate::execute::program::Program;
+use crate::setup::fanuc::PointInput;
 use crate::syntax::bad_byte::bad_byte;
 use crate::syntax::block_reader_of_dialects::{is_without_point, without_point_value};
 use crate::syntax::cursor::Cursor;
@@ -22,7 +24,9 @@ use crate::syntax::dialect::fanuc::{Call, CallCode};
 use crate::syntax::expression::name::name;
 use crate::syntax::expression::vacant::{VACANT, is_vacant};
 use crate::syntax::expression::value::value;
+use crate::syntax::least_increments::OF_ANGLES;
 use crate::syntax::letters::Letters;
+use crate::syntax::modes::{FeedMode, Units};
 use crate::syntax::word_check::unused;
 
 /// Variables of the letters, from A; zero: not an argument.
@@ -144,8 +148,8 @@ impl<R: BufRead> Program<R> {
             let is_whole = is_without_point(&cursor);
             let argument = value(&mut cursor, start, &self.scope())?;
             let span = SourceSpan::new(start, cursor.end_of_word());
-            let argument = if is_whole && is_macro && COUNTED.has(letter) {
-                without_point_value(self.block.point, letter, argument, &self.scope(), span)?
+            let argument = if is_whole && is_macro {
+                self.argument_without_point(letter, argument, span)?
             } else {
                 argument
             };
@@ -174,6 +178,39 @@ impl<R: BufRead> Program<R> {
         }
         Ok(words)
     }
+}
+
+impl<R: BufRead> Program<R> {
+    /// What an argument of a macro without a decimal point is: it counts least increments of its letter.
+    fn argument_without_point(&self, letter: u8, value: f64, span: SourceSpan) -> Outcome<f64> {
+        let point = self.block.point;
+        let modal = &self.interpreter.state.modal;
+        let is_plain = modal.units == Units::Millimetre && modal.feed_mode == FeedMode::PerMinute;
+        match letter {
+            // An angle, in inches too.
+            b'A'..=b'C' if point == PointInput::Increment => Ok(value * OF_ANGLES),
+            b'E' | b'F' if point == PointInput::Increment && !is_plain => {
+                Err(feed_without_point(letter, value, span))
+            }
+            _ if COUNTED.has(letter) => {
+                without_point_value(point, letter, value, &self.scope(), span)
+            }
+            _ => Ok(value),
+        }
+    }
+}
+
+/// F of a macro counts as F of a block does, whose increment in inches and per revolution is not known.
+#[cold]
+fn feed_without_point(letter: u8, value: f64, span: SourceSpan) -> Box<BlockDiagnostic> {
+    let letter = char::from(letter);
+    let message = format!("{letter}{value} of a macro has no decimal point");
+    BlockDiagnostic::new(DiagnosticCode::AmbiguousWord, span, message)
+        .because(
+            "with `point = \"increment\"` it counts least increments of a feed in inches, per revolution and in G93, \
+             and how much one is a parameter of the control says",
+        )
+        .help(format!("write the point: {letter}{value}. if that is the value"))
 }
 
 fn too_many(span: SourceSpan) -> Box<BlockDiagnostic> {

@@ -42,6 +42,8 @@ use crate::syntax::word_check::{missing, unused, whole, whole_count};
 const MOST_NUMBER: u32 = 99_999_999;
 /// Most passes of G73.
 const MOST_PASSES: u32 = 1000;
+/// Depths as near to each other as this are one, mm.
+const SAME_DEPTH_MM: f64 = 1e-9;
 /// The deepest pass that a word without a decimal point is taken for, where nothing says what that is.
 const MOST_WITHOUT_POINT_MM: f64 = 20.0;
 
@@ -246,6 +248,14 @@ fn check_alone(block: &Block) -> Outcome<()> {
 }
 
 #[cold]
+fn two_depths(block: &Block, [own, before]: [f64; 2]) -> Box<BlockDiagnostic> {
+    let message = format!("two depths of a pass: {own} mm by D, {before} mm by the block before");
+    BlockDiagnostic::new(DiagnosticCode::AmbiguousWord, block.span(b'D'), message)
+        .because("a control has one of both forms: the depth in a block of its own, or D")
+        .help("leave D out, or the block with the depth")
+}
+
+#[cold]
 fn statement_in_profile(span: SourceSpan) -> Box<BlockDiagnostic> {
     let message = "a statement in the profile of a cycle";
     BlockDiagnostic::new(DiagnosticCode::NotSupported, span, message)
@@ -342,12 +352,27 @@ impl Interpreter {
             (true, Units::Inch) => 1e-4,
         };
         let own = block.get(b'D').map(|depth| depth * unit * mm);
+        if let (Some(own), Some(before)) = (own, self.state.fanuc.depth_mm)
+            && (own - before).abs() > SAME_DEPTH_MM
+        {
+            return Err(two_depths(block, [own, before]));
+        }
         let depth_mm = own
             .or(self.state.fanuc.depth_mm)
             .filter(|depth| *depth > 0.0)
             .ok_or_else(|| {
-                let meaning = "the depth of a pass, in a block of its own: G71 U2. R1.";
-                missing(block.motion_span(), "the cycle", "U", meaning)
+                let (word, meaning) = if self.options.fanuc.is_haas() {
+                    (
+                        "D",
+                        "the depth of a pass, D2.; a setting of the control has it otherwise",
+                    )
+                } else {
+                    (
+                        "U",
+                        "the depth of a pass, in a block of its own: G71 U2. R1.",
+                    )
+                };
+                missing(block.motion_span(), "the cycle", word, meaning)
             })?;
         Ok(LatheCycleWords::of_fanuc(
             cycle,

@@ -24,7 +24,9 @@ use crate::execute::state::mode_codes::cycle_number;
 use crate::setup::fanuc::FanucControl;
 use crate::syntax::block::Block;
 use crate::syntax::dialect::Dialect;
-use crate::syntax::modes::{Distance, FeedMode, Motion, Retract, Side, Turning, Units};
+use crate::syntax::modes::{
+    CannedCycle, Distance, FeedMode, Motion, Retract, Side, Turning, Units,
+};
 
 fn one_of(first: bool, yes: f64, no: f64) -> f64 {
     if first { yes } else { no }
@@ -82,7 +84,10 @@ impl Interpreter {
                 FeedMode::PerRevolution => one_of(is_a, 99.0, 95.0),
                 _ => one_of(is_a, 98.0, 94.0),
             },
-            10 => cycle_code(&self.state.modal),
+            10 => match self.state.modal.motion {
+                Some(Motion::Cycle(CannedCycle::TapLeft)) => 184.0,
+                _ => cycle_code(&self.state.modal),
+            },
             11 => self.retract_code(),
             16 => self.plane_code(),
             _ => return self.mode_of_both(group),

@@ -108,12 +108,7 @@ impl Interpreter {
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
         let TurningWords { x, z, taper, .. } = words;
-        let lead = block
-            .get(b'F')
-            .map(|lead| lead * self.state.modal.units.mm());
-        let lead_mm = lead
-            .or(self.state.fanuc.lead_mm)
-            .ok_or_else(|| missing(block.motion_span(), "G92", "F", "the way of a revolution"))?;
+        let lead_mm = self.fanuc_lead_mm(block, "G92")?;
         let [from_x, from_z] = [start[0], start[2]];
         let (way_z, side) = (z - from_z, 1.0_f64.copysign(from_x - x));
         let rises_mm = side * (from_x - x);
@@ -141,7 +136,6 @@ impl Interpreter {
                 ),
             ],
         )?;
-        self.state.fanuc.lead_mm = Some(lead_mm);
         let at = |x: f64, z: f64| {
             let mut point = start;
             (point[0], point[2]) = (x, z);

@@ -189,6 +189,7 @@ impl Interpreter {
     fn place(&self, place: Place, axis: usize) -> f64 {
         let axis = self.numbered_axis(axis).map_or(0, Axis::index);
         let program = || self.state.offsets.to_program(self.state.position);
+        let is_of_tool = place == Place::ToolOffset;
         let place = match place {
             Place::Program => program(),
             Place::Machine => self.state.position,
@@ -196,7 +197,11 @@ impl Interpreter {
             Place::Contact => self.state.probe.contact + self.state.offsets.tool,
             Place::ToolOffset => self.state.offsets.tool,
         };
-        self.shown(place, axis)
+        let value = self.shown(place, axis);
+        match Axis::ALL.get(axis) {
+            Some(of_turn) if !is_of_tool => self.within_a_turn(*of_turn, value),
+            _ => value,
+        }
     }
 
     /// A place on an axis as the program writes it: in its units, X of a lathe as a diameter.
@@ -233,13 +238,14 @@ impl Interpreter {
         let (state, modal) = (&self.state, &self.state.modal);
         match letter {
             b'D' => f64::from(state.fanuc.radius_offset),
-            b'F' => modal.feed.map_or(0.0, |feed| {
-                let per = match modal.feed_mode {
-                    FeedMode::PerRevolution => 1.0,
-                    _ => 60.0,
-                };
-                round(feed.linear_v * per / modal.units.mm())
-            }),
+            b'F' => {
+                let feed = modal.feed.map(|feed| match modal.feed_mode {
+                    FeedMode::PerRevolution => feed.linear_v,
+                    _ => 60.0 * feed.linear_v,
+                });
+                let in_force = feed.or(state.fanuc.lead_mm).unwrap_or(0.0);
+                round(in_force / modal.units.mm())
+            }
             b'H' => f64::from(state.fanuc.length_offset.unwrap_or(0)),
             b'M' => f64::from(state.fanuc.m_code),
             b'N' => f64::from(state.fanuc.sequence),

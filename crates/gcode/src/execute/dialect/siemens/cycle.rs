@@ -81,6 +81,17 @@ pub(super) fn plane_axes(
             )
             .help("write G17, G18 or G19"));
     }
+    let normal = plane.normal();
+    if !interpreter.options.machine.has(normal) {
+        return Err(arguments
+            .refused(
+                format!("it works along {normal}, and the machine has no such axis"),
+                "cycles work along the axis that is normal to the plane in force",
+            )
+            .help(
+                "write the plane before it: G17 for what is along Z, as on the face of a lathe",
+            ));
+    }
     Ok(axes)
 }
 

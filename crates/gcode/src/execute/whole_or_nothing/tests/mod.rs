@@ -103,6 +103,7 @@ fn all_of(program: &Program<&[u8]>) -> String {
         judged_time_s: _,
         plain_run: _,
         mapped_items: _,
+        doubts: _,
         line: _,
         pole_turns: _,
     } = interpreter;

@@ -10,6 +10,8 @@ pub(crate) const fn g(tenths: u32) -> Option<Meaning> {
         // G32, G50; G70 to G75; G90, G92 and G94, which are cycles; G98 and G99, which say
         // what F is.
         320 | 500 | 700 | 710 | 720 | 730 | 740 | 750 | 900 | 920 | 940 | 980 | 990 => Own,
+        // G184 of a Haas.
+        1840 => Own,
         330 => Refused("a thread in another system of codes", "write G32"),
         921 => Refused(
             "offsets of G92 taken back",
@@ -20,15 +22,18 @@ pub(crate) const fn g(tenths: u32) -> Option<Meaning> {
             "a code of the systems B and C",
             "write the codes of system A: U and W for G91, G98 and G99 for G94 and G95",
         ),
-        870 | 880 | 890 => Refused("a cycle on the side of the part", PLAIN_BLOCKS),
+        870 | 880 => Refused(
+            "a cycle on the side of the part, of a Haas boring with retraction by hand",
+            PLAIN_BLOCKS,
+        ),
         120 | 130 | 150 | 160 | 434 | 435 | 440 | 531 | 682 | 2340 | 2540 | 2550 | 501 | 510
-        | 511 | 541 | 1540 | 680 | 690 => Refused("a code of mills", PLAIN_BLOCKS),
+        | 511 | 680 | 690 => Refused("a code of mills", PLAIN_BLOCKS),
         450 | 460 | 470 | 480 => Refused(
             "a tool offset that makes moves longer or shorter",
             PLAIN_BLOCKS,
         ),
         1000 | 1010 => Refused("a mirror image switched on and off", PLAIN_BLOCKS),
-        430 | 490 | 810 | 820 | 860 => Refused("a code of mills", "write T0101, or G83"),
+        430 | 490 => Refused("a code of mills", "write T0101"),
         _ => return fanuc::g(tenths),
     })
 }

@@ -1,0 +1,85 @@
+//! Tests of the cycles for holes on the face of FANUC's and Haas' lathes.
+
+use glidepath_gcode::{FanucControl, FanucParameters, OffsetMemory, Program};
+use glidepath_program::ItemKind;
+
+use crate::fanuc_lathe_passes::{ends_with, options, with};
+
+#[test]
+fn r_of_a_hole_is_a_way_or_a_place() {
+    let a = FanucParameters::default();
+    let haas = FanucParameters {
+        offset_memory: OffsetMemory::Haas,
+        ..a
+    };
+    let b = FanucParameters {
+        control: Some(FanucControl::LatheB),
+        ..a
+    };
+    let z = |text: &str, fanuc: FanucParameters| -> Vec<f64> {
+        let text = format!("G97 S600 M3\n{text}");
+        ends_with(&text, with(fanuc))
+            .iter()
+            .map(|end| end[1])
+            .collect()
+    };
+    // Without Q at once. R is 8 below the initial level.
+    let plain = [10.0, 2.0, -30.0, 10.0];
+    assert_eq!(z("G98 G0 X0 Z10\nG83 Z-30 R-8 F200", a), plain);
+    // Away from the hole: it is the place, as Haas writes it.
+    assert_eq!(z("G98 G0 X0 Z10\nG83 Z-30 R2 F200", a), plain);
+    assert_eq!(z("G98 G0 X0 Z10\nG83 Z-30 R2 F200", haas), plain);
+    assert_eq!(
+        z("G98 G0 X0 Z10\nG83 Z-30 R-2 F200", haas),
+        [10.0, -2.0, -30.0, 10.0]
+    );
+    assert_eq!(z("G98 G0 X0 Z10\nG83 Z-30 F200", haas), [10.0, -30.0, 10.0]);
+    // System B: as G90 and G91 say.
+    assert_eq!(
+        z("G94 G90 G0 X0 Z10\nG99 G83 Z-30 R2 F300", b),
+        [10.0, 2.0, -30.0, 2.0]
+    );
+    assert_eq!(
+        z("G94 G90 G0 X0 Z10\nG91 G99 G83 Z-32 R-8 F300", b),
+        [10.0, 2.0, -30.0, 2.0]
+    );
+}
+
+#[test]
+fn p_of_holes_on_the_face_is_a_dwell_at_the_bottom() {
+    let dwells = |cycle: &str| -> Vec<f64> {
+        let text = format!("G98 G0 X0 Z10\n{cycle} Z-30 R-8 P1500 F200");
+        Program::new(text.as_bytes(), options())
+            .map(|item| item.unwrap_or_else(|d| panic!("{text}\n{d}")))
+            .filter_map(|item| match item.kind {
+                ItemKind::Dwell(seconds) => Some(seconds),
+                _ => None,
+            })
+            .collect()
+    };
+    assert_eq!(dwells("G83"), [1.5]);
+    assert_eq!(dwells("G83 Q9000"), [1.5]);
+    assert_eq!(dwells("G85"), [1.5]);
+}
+
+/// A FANUC's lathe comes out of a bore at twice the feed.
+#[test]
+fn a_bore_is_left_at_twice_the_feed() {
+    let text = "G98 G0 X0 Z10\nG85 Z-30 R-8 F200\nG80\nG1 Z20";
+    let feeds = |offset_memory| -> Vec<f64> {
+        let fanuc = FanucParameters {
+            offset_memory,
+            ..options().fanuc
+        };
+        Program::new(text.as_bytes(), with(fanuc))
+            .map(|item| item.unwrap_or_else(|d| panic!("{text}\n{d}")))
+            .filter_map(|item| match item.kind {
+                ItemKind::Move { rate, .. } => rate.feed_v().filter(|_| !rate.is_rapid()),
+                _ => None,
+            })
+            .map(|feed_v| (feed_v * 60.0).round())
+            .collect()
+    };
+    assert_eq!(feeds(OffsetMemory::Unsaid), [200.0, 400.0, 200.0]);
+    assert_eq!(feeds(OffsetMemory::Haas), [200.0, 200.0, 200.0]);
+}
