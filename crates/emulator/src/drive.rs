@@ -259,6 +259,11 @@ impl Drive {
         };
         let told = match self.power {
             _ if self.is_stuck || objects.value(MOST_TORQUE) == 0 => None,
+            Power::Enabled if self.outputs.mode == CYCLIC_POSITION => {
+                // Its loop of position asks for all of the way in one step, as far as the torque goes.
+                let behind = self.outputs.target.wrapping_sub(self.actual());
+                Some(f64::from(behind) / step_t)
+            }
             Power::Enabled => {
                 let Outputs { mode, control, .. } = self.outputs;
                 let targets = (self.outputs.velocity, self.outputs.speed_rpm);

@@ -80,7 +80,7 @@ pub use record::{
     LinesState, LinesWish, LongText, Loss, MachineState, ModeCode, MotionMode, OVERRIDE_MAX,
     PERIOD_NS_MAX, PlaneCode, Power, Quantiles, Record, RecordError, RequestKind, SegmentOutcome,
     SegmentRefusal, SegmentReply, SegmentRequest, Setpoint, SetpointFrame, SetpointMarks,
-    SpindleFlags, SpindleState, Status, StreamItem, SuperpositionState, TOLD_SYSTEMS,
+    OrientTurn, SpindleFlags, SpindleState, Status, StreamItem, SuperpositionState, TOLD_SYSTEMS,
     TOLERANCE_RATIOS, Text, decode,
 };
 pub use service::Capacity;

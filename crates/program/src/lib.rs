@@ -50,7 +50,7 @@ mod travel;
 pub use frame::{Frame, FrameFlags};
 pub use frame_events::{EVENTS_MOST, FrameEvents, TimedEvent};
 pub use item::{
-    CodeWord, Event, Item, ItemKind, PHASE_STEPS, PathMode, ProgramLine, Rate, TAP_DEPTHS_UM,
+    CodeWord, Event, Item, ItemKind, OrientWay, PHASE_STEPS, PathMode, ProgramLine, Rate, TAP_DEPTHS_UM,
     TAP_OVERTRAVEL,
 };
 pub use limits::{Limits, PathBounds};

@@ -7,7 +7,7 @@
 //! | `commands` | what is commanded, and when |
 //! | `bits`, `wiring` | where in the process data everything is |
 //! | `driven` | outputs, cycle by cycle |
-//! | `spindle_settings`, `spindle_wiring`, `spindle_drive` | a spindle on a drive in velocity mode |
+//! | `spindle_settings`, `spindle_wiring`, `spindle_drive`, `orienting` | a spindle on a drive in velocity mode, and at an angle |
 //! | `encoder_settings`, `encoder_wiring`, `encoder` | the spindle's encoder |
 //! | `joint_encoder` | encoders of joints |
 //! | `counter` | a counter without its wraps, of both |
@@ -24,6 +24,7 @@ mod encoder_wiring;
 mod joint_encoder;
 mod settings;
 mod signal;
+mod orienting;
 mod spindle_drive;
 mod spindle_settings;
 mod spindle_wiring;
@@ -39,6 +40,7 @@ pub use settings::{
     Parameter, TerminalSettings,
 };
 pub use signal::{Quantity, Signal};
+pub use orienting::OrientationSettings;
 pub use spindle_settings::{SpindleMode, SpindleSettings};
 
 pub(crate) use driven::at_rest;

@@ -27,6 +27,7 @@ mod matrix;
 mod modulo;
 mod probing;
 mod segments;
+mod orientation;
 mod spindle;
 mod terminals;
 mod terminals_up;

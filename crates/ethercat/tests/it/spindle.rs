@@ -14,7 +14,7 @@ use glidepath_ethercat::{
 use glidepath_interpolator::{AnswerSource, MCodeWait};
 use glidepath_link::{Command, MachineState, Setpoint, SpindleFlags};
 
-const SPINDLE: usize = 5;
+pub(crate) const SPINDLE: usize = 5;
 /// As many as 0x60FF and 0x606C have in a revolution.
 const COUNTS: f64 = 60_000.0;
 const CUT: &str = "G21 G90 G64 P0.02 F3000\nS6000 M3\nG1 X10\nS3000 M4\nG1 X0\nM5\nG1 Y1\nM2\n";
@@ -32,11 +32,12 @@ fn settings(mode: SpindleMode) -> SpindleSettings {
         max_rpm: 8000.0,
         ramp_rpm_per_s: 10_000.0,
         at_speed_r: 0.02,
+        orientation: None,
         mapping: Mapping::Written,
     }
 }
 
-fn setup(mode: SpindleMode) -> Setup {
+pub(crate) fn setup(mode: SpindleMode) -> Setup {
     let mut setup = Setup::absolute(2_000_000);
     setup.emulated.extend([
         Emulated::terminal("COUPLER", ClockKind::Bits64),

@@ -335,6 +335,7 @@ impl MachineConfig {
                     spindle_a: spindle.acceleration,
                     overtravel: spindle.overtravel,
                 }),
+            orients: self.spindle.is_some_and(|spindle| spindle.orientation),
             spindle_axis: self.spindle.and_then(|spindle| {
                 Some(SpindleAxis {
                     axis: spindle.axis?,

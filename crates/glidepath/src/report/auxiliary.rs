@@ -9,7 +9,10 @@ pub fn spindle_words(record: &Auxiliary) -> String {
     match record.spindle() {
         Ok(SpindleState::Clockwise) => format!("M3 S{speed}"),
         Ok(SpindleState::Counterclockwise) => format!("M4 S{speed}"),
-        Ok(SpindleState::Oriented) => "M19".to_owned(),
+        Ok(SpindleState::Oriented) => match record.orientation() {
+            Some((deg, _)) => format!("M19 R{deg}"),
+            None => "M19".to_owned(),
+        },
         _ => "M5".to_owned(),
     }
 }

@@ -213,7 +213,7 @@ fn frames_out_of_range_are_refused() {
         bad.to_frame(),
         Err(RecordError::UnknownFlags { bits: 256, .. })
     ));
-    for code in [0, 15] {
+    for code in [0, 16] {
         let bad = with_events(good, &[EventRecord { kind: code, ..tool }]);
         assert!(matches!(
             bad.to_frame(),
@@ -360,7 +360,7 @@ fn codes_are_consecutive_and_known() {
     in_sequence(LatchKind::ALL.iter().map(|code| code.code()), 0, 4);
     in_sequence(Loss::ALL.iter().map(|code| code.code()), 0, 4);
     in_sequence(DriveState::ALL.iter().map(|code| code.code()), 0, 8);
-    in_sequence(EventKind::ALL.iter().map(|code| code.code()), 0, 14);
+    in_sequence(EventKind::ALL.iter().map(|code| code.code()), 0, 15);
     assert_eq!(FrameRefusal::ALL.len(), FRAME_REFUSALS);
     assert!(
         FrameRefusal::ALL

@@ -3,7 +3,7 @@
 use glidepath_geometry::{Arc, AxisVector, Plane, Quintic, Segment};
 use glidepath_link::{ALL_JOINTS, Command, EventId, OVERRIDE_MAX, StreamItem};
 use glidepath_program::{
-    CodeWord, EVENTS_MOST, Event, Frame, FrameEvents, FrameFlags, Item, ItemKind, PHASE_STEPS,
+    CodeWord, EVENTS_MOST, Event, Frame, FrameEvents, FrameFlags, Item, ItemKind, OrientWay, PHASE_STEPS,
     PathMode, Rate, TAP_DEPTHS_UM,
 };
 use proptest::prelude::*;
@@ -25,6 +25,14 @@ pub(crate) fn vector() -> impl Strategy<Value = AxisVector> {
 pub(crate) fn event() -> impl Strategy<Value = Event> {
     prop_oneof![
         finite().prop_map(Event::SpindleSpeed),
+        (0.0..=360.0, 0..3_usize).prop_map(|(deg, way)| Event::SpindleAngle {
+            deg,
+            way: [
+                OrientWay::Shortest,
+                OrientWay::Clockwise,
+                OrientWay::Counterclockwise
+            ][way],
+        }),
         any::<u32>().prop_map(Event::SelectTool),
         any::<u32>().prop_map(Event::MCode),
         any::<u32>().prop_map(Event::PassingCode),

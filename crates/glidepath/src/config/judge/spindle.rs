@@ -21,6 +21,18 @@ pub(super) struct SpindleSurroundings<'a> {
     pub(super) has_drives: bool,
 }
 
+impl SpindleSurroundings<'_> {
+    /// Whether the machine waits for a code where it stands.
+    fn is_awaited(&self, code: u32) -> bool {
+        let mut rules = self.m_codes.iter();
+        let rule = rules
+            .find(|rule| (rule.m_code_wait.first..=rule.m_code_wait.last).contains(&code));
+        rule.is_some_and(|rule| {
+            rule.m_code_wait.answer != AnswerSource::Nobody && rule.at == WaitsAt::Code
+        })
+    }
+}
+
 impl Judge {
     /// The spindle, if programs may follow its angle or turn it as an axis.
     pub(super) fn spindle(
@@ -50,6 +62,19 @@ impl Judge {
         let rigid_tapping = raw.rigid_tapping.as_ref().filter(|taps| *taps.get_ref());
         let encoder = raw.encoder.as_ref().filter(|encoder| *encoder.get_ref());
         let axis = self.spindle_axis(raw.axis, of);
+        let orientation = raw
+            .orientation
+            .as_ref()
+            .filter(|orients| *orients.get_ref());
+        if let Some(orients) = orientation.filter(|_| of.has_drives && !of.is_awaited(19)) {
+            self.spindle_finding(
+                "orientation",
+                orients.span(),
+                "nobody says when the spindle stands at its angle, and the program goes on before it does",
+                "add a table [m_codes.M19] with done = \"spindle-oriented\" or what else says so, \
+                 and without at",
+            );
+        }
         if let (Some(taps), None, None) = (rigid_tapping, encoder, axis) {
             self.spindle_finding(
                 "rigid_tapping",
@@ -66,8 +91,10 @@ impl Judge {
                 "leave it out, or set machine.kinematics = \"trivial\"",
             );
         }
-        (encoder.is_some() || axis.is_some()).then_some(SpindleConfig {
+        let is_told = encoder.is_some() || axis.is_some() || orientation.is_some();
+        is_told.then_some(SpindleConfig {
             encoder: encoder.is_some(),
+            orientation: orientation.is_some(),
             axis,
             rigid_tapping: rigid_tapping.is_some(),
             acceleration,
@@ -105,14 +132,7 @@ impl Judge {
                 "leave it out, or set machine.kinematics = \"trivial\"",
             );
         }
-        let stop = of
-            .m_codes
-            .iter()
-            .find(|rule| (rule.m_code_wait.first..=rule.m_code_wait.last).contains(&5));
-        let is_awaited = stop.is_some_and(|rule| {
-            rule.m_code_wait.answer != AnswerSource::Nobody && rule.at == WaitsAt::Code
-        });
-        if of.has_drives && !is_awaited {
+        if of.has_drives && !of.is_awaited(5) {
             self.spindle_finding(
                 "axis",
                 span.clone(),

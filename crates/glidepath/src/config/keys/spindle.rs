@@ -22,6 +22,14 @@ pub(super) const SPINDLE: &[Key] = &[
          [m_codes.M5] that says when the spindle stands",
     ),
     key(
+        "spindle.orientation",
+        Takes::Flag,
+        LeftOut::Value("false"),
+        "the spindle is turned to the angle that a program gives it (M19 R, SPOS) and held there; without \
+         it such a program is refused. With feedback of drives it takes a table [m_codes.M19] that says when \
+         it stands there",
+    ),
+    key(
         "spindle.rigid_tapping",
         Takes::Flag,
         LeftOut::Value("false"),
