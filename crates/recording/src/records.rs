@@ -140,6 +140,7 @@ message!(Status, "glidepath.Status", {
     86 superposed,
     87 freeze_reason,
     88 job_stream,
+    89 spindle_override,
 });
 
 #[cfg(test)]

@@ -170,7 +170,7 @@ structure! {
 
 structure! {
     /// What the interpolator does and how well. Counts are of this life of it.
-    STATUS: "gp_status" = Status, Status::NAME, 1888 {
+    STATUS: "gp_status" = Status, Status::NAME, 1896 {
         /// Identifies one life of the interpolator.
         boot_id: u64,
         /// When this was true, ns of CLOCK_MONOTONIC. A reader takes an old one for a dead
@@ -355,6 +355,8 @@ structure! {
         freeze_reason: u32,
         /// 1 if the job that a planner has told of last is a stream of segments, 0 if not.
         job_stream: u32,
+        /// Spindle override as commanded.
+        spindle_override: f64,
     }
 }
 

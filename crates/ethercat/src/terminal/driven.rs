@@ -85,6 +85,8 @@ pub(super) struct DrivenOutputs {
     /// The drive of the spindle, and the speed at which it is to turn, rev/min.
     spindle: Gate,
     spindle_rpm: f64,
+    /// The same as the program gave it, without the operator's override and a direction.
+    programmed_rpm: f64,
     /// The angle at which it is to stand.
     spindle_angle: Option<(f64, OrientWay)>,
     has_spindle: bool,
@@ -177,6 +179,7 @@ impl DrivenOutputs {
         let is_on = wanted_rpm.abs() > 0.0 || angle.is_some();
         let rests = self.spindle.rests(is_on, (Of::Spindle, cycle));
         self.spindle_rpm = if rests { 0.0 } else { wanted_rpm };
+        self.programmed_rpm = record.spindle_speed.abs();
         self.spindle_angle = angle.filter(|_| !rests);
         has_dropped | (self.has_spindle && self.spindle.drops(rests, !is_on, cycle))
     }
@@ -184,6 +187,11 @@ impl DrivenOutputs {
     /// The speed at which the drive of the spindle is to turn, rev/min.
     pub(super) const fn spindle_rpm(&self) -> f64 {
         self.spindle_rpm
+    }
+
+    /// The speed that the program gave it, rev/min.
+    pub(super) const fn programmed_rpm(&self) -> f64 {
+        self.programmed_rpm
     }
 
     /// The angle at which it is to stand instead, degrees, and the way there.

@@ -116,8 +116,8 @@ impl Quantity {
                 output.copied().unwrap_or(0.0)
             }
             _ if !Signal::SpindleOn.is_on(record) => 0.0,
-            Self::SpindleVelocity if backwards => -record.spindle_speed.abs(),
-            Self::SpindleSpeed | Self::SpindleVelocity => record.spindle_speed.abs(),
+            Self::SpindleVelocity if backwards => -record.spindle_rpm().abs(),
+            Self::SpindleSpeed | Self::SpindleVelocity => record.spindle_rpm().abs(),
         }
     }
 

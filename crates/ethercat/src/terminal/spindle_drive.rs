@@ -58,6 +58,8 @@ pub(super) struct SpindleCycle {
     pub(super) now_ns: u64,
     /// The speed that is commanded, rev/min, negative counterclockwise; 0 to stand.
     pub(super) wanted_rpm: f64,
+    /// The speed as the program gave it, without the operator's override, rev/min.
+    pub(super) programmed_rpm: f64,
     /// The angle at which it is to stand, if it is to stand at one.
     pub(super) angle: Option<Angle>,
     /// Whether its device is there.
@@ -159,8 +161,8 @@ impl SpindleDrive {
         let state = state::of(said.status);
         self.fail_by(state, said, tell);
         let control = self.step(&cycle, state, since_ns, tell);
-        // What is beyond its highest speed is never reached.
-        let is_reachable = cycle.wanted_rpm.abs() <= most;
+        // What a program asks for beyond its highest speed is never reached; an operator has that at most.
+        let is_reachable = cycle.programmed_rpm <= most;
         self.judge_speed(cycle.now_ns, is_reachable);
         let outputs = self.outputs(control);
         self.wired.put(image, &outputs);

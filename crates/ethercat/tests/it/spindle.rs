@@ -98,6 +98,8 @@ enum Upset {
     /// The spindle's drive reports a fault, which is reset later.
     Fault(u16),
     Pause,
+    /// The operator sets its override.
+    Override(f64),
     /// A device is unplugged for a while.
     Unplugged(usize),
     /// A drive of a joint falls out of OP.
@@ -145,6 +147,9 @@ impl Cutting {
             Upset::End => hands.wants.end = true,
             Upset::Fault(code) => {
                 segment.inject(SPINDLE, InjectedFault::Fault(code), hands.now_ns);
+            }
+            Upset::Override(ratio) => {
+                hands.wants.command = Some(Command::SpindleOverride(ratio));
             }
             Upset::Pause => hands.wants.pause = Some(15),
             Upset::Unplugged(device) => segment.unplug(device..device + 1, true, hands.now_ns),
@@ -319,6 +324,35 @@ fn an_abort_stops_it_along_its_ramp() {
     assert!(speeds[last].1.abs() < 45.0, "{:?}", speeds[last]);
     // Outputs of programs stay.
     assert_eq!(cutting.outputs, [true]);
+}
+
+#[test]
+fn it_turns_as_fast_as_the_operator_has_it_unless_a_program_does_not_allow_that() {
+    const LOCKED: &str = "G21 G90 G64 P0.02 F1200\nM49\nS6000 M3\nM62 P5\nG1 X50\nM2\n";
+    for (program, ratio, wanted) in [
+        (LONG, 0.8, 4800.0),
+        (LONG, 1.2, 7200.0),
+        // As far as the drive goes: 8000 rev/min.
+        (LONG, 1.5, 8000.0),
+        (LOCKED, 0.8, 6000.0),
+        // The machine does not allow it.
+        (LONG, 1.6, 6000.0),
+    ] {
+        let mut setup = setup(SpindleMode::CyclicVelocity);
+        setup.spindle_override = [0.5, 1.5];
+        let mut cutting = Cutting::new(program, Upset::Override(ratio));
+        let (outcome, speeds) = spun(&setup, &mut cutting);
+        let mut setpoints = outcome.setpoints.iter();
+        let last = setpoints.find(|s| s.position[0] > 30.0).unwrap();
+        let rpm = speed_at(&speeds, last.apply_ns + setup.bus.delay_ns);
+        assert!((rpm - wanted).abs() < 10.0, "{program} {ratio}: {rpm}");
+        for pair in speeds.windows(11) {
+            let t = (pair[10].0 - pair[0].0) as f64 * 1e-9;
+            assert!((pair[10].1 - pair[0].1).abs() / t < 10_500.0);
+        }
+        let flags = cutting.told.iter().rfind(|(number, ..)| *number == last.number);
+        assert!(flags.is_some_and(|(.., flags)| flags.contains(SpindleFlags::AT_SPEED)));
+    }
 }
 
 #[test]

@@ -195,6 +195,7 @@ pub(super) fn machine_object(status: &Status, asked: &AwaitedEvent) -> Map<Strin
         "following_error": by_joint(status, &status.following_error),
         "following_peak": by_joint(status, &status.following_peak),
         "spindle_rpm": spindle_rpm(status),
+        "spindle_override": status.spindle_override,
         "spindle_at_speed": status.spindle().contains(SpindleFlags::AT_SPEED),
         "awaited": awaited(status, asked),
     });

@@ -98,7 +98,8 @@ pub struct Auxiliary {
     pub line: u32,
     /// The words of the event that is awaited: those of [`CodeWords`] that it has.
     pub awaited_words: CodeWords,
-    /// Speed that the spindle is to have when it turns, rev/min.
+    /// Speed that the spindle is to have when it turns, rev/min, as the program gave it: times
+    /// `spindle_override`.
     pub spindle_speed: f64,
     /// Code of a [`SpindleState`].
     pub spindle: u32,
@@ -114,8 +115,10 @@ pub struct Auxiliary {
     /// Analog outputs, in whatever unit they have.
     pub analog_out: [f64; ANALOG_OUTPUTS],
     /// The angle at which the spindle is to stand where it is to stand at one, degrees from 0 to 360,
-    /// rising as it turns clockwise; means something if the next field does.
+    /// rising as it turns clockwise; means something if `spindle_turn` says so.
     pub spindle_angle: f64,
+    /// What the operator makes of its speed, a ratio; 1 where a program allows none (M49).
+    pub spindle_override: f64,
     /// Code of an [`OrientTurn`]: whether a program gave that angle, and the way there.
     pub spindle_turn: u32,
     /// Must be zero.
@@ -130,6 +133,12 @@ impl Auxiliary {
     /// An unknown code.
     pub fn spindle(&self) -> Result<SpindleState, RecordError> {
         Fields(Self::NAME).code("spindle", self.spindle)
+    }
+
+    /// The speed that the spindle is to have when it turns, with its override, rev/min.
+    #[must_use]
+    pub fn spindle_rpm(&self) -> f64 {
+        self.spindle_speed * self.spindle_override
     }
 
     /// The angle at which the spindle is to stand, degrees, and the way there; `None` where it is to
@@ -221,7 +230,10 @@ impl Auxiliary {
 impl Default for Auxiliary {
     /// As nothing was said yet.
     fn default() -> Self {
-        bytemuck::Zeroable::zeroed()
+        Self {
+            spindle_override: 1.0,
+            ..bytemuck::Zeroable::zeroed()
+        }
     }
 }
 
@@ -233,6 +245,7 @@ impl Record for Auxiliary {
         self.spindle()?;
         fields.flags("coolant", self.coolant, Coolant::KNOWN)?;
         fields.finite("spindle_speed", self.spindle_speed)?;
+        fields.override_ratio("spindle_override", self.spindle_override)?;
         fields.range("spindle_angle", self.spindle_angle, 0.0, 360.0)?;
         fields.code::<OrientTurn>("spindle_turn", self.spindle_turn)?;
         fields.zero("reserved", self.reserved)?;

@@ -196,6 +196,7 @@ pub(crate) fn command() -> impl Strategy<Value = Command> {
         Just(Command::Forward),
         (0.0..=OVERRIDE_MAX).prop_map(Command::RapidOverride),
         (0.0..=1.0).prop_map(Command::JogOverride),
+        (0.0..=2.0).prop_map(Command::SpindleOverride),
         any::<bool>().prop_map(Command::SingleBlock),
         (0..9_u32, finite()).prop_map(|(joint, position)| Command::SetPosition { joint, position }),
         (0..=ALL_JOINTS).prop_map(Command::Home),

@@ -33,7 +33,36 @@ impl SpindleSurroundings<'_> {
     }
 }
 
+/// The least and the highest spindle override, if the file does not say.
+const OVERRIDE: [f64; 2] = [0.5, 1.2];
+/// The highest one where threads follow the spindle: they are planned for one that turns so much faster.
+const OF_THREADS: f64 = 1.1;
+
 impl Judge {
+    /// The least and the highest override of the spindle's speed.
+    pub(super) fn spindle_override(&mut self, raw: &RawSpindle) -> [f64; 2] {
+        let range = |min, max, help| Range {
+            min,
+            max,
+            unit: "",
+            help,
+        };
+        let least = range(0.1, 1.0, "a part of the programmed speed: 0.5 is 50 %");
+        let is_followed = raw.encoder.as_ref().is_some_and(|it| *it.get_ref());
+        let (most, of_most) = if is_followed {
+            let help = "passes of a thread are planned for a spindle that is a tenth faster than programmed \
+                        (encoder = true), and would stop with a fault beyond that";
+            (range(1.0, OF_THREADS, help), OF_THREADS)
+        } else {
+            let help = "what the spindle and its tools allow: 1.2 is 120 %";
+            (range(1.0, 2.0, help), OVERRIDE[1])
+        };
+        [
+            self.number_or("spindle.override_min", &raw.override_min, &least, OVERRIDE[0]),
+            self.number_or("spindle.override_max", &raw.override_max, &most, of_most),
+        ]
+    }
+
     /// The spindle, if programs may follow its angle or turn it as an axis.
     pub(super) fn spindle(
         &mut self,

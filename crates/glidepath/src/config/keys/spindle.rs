@@ -43,6 +43,19 @@ pub(super) const SPINDLE: &[Key] = &[
          much above the bottom of its hole",
     ),
     key(
+        "spindle.override_min",
+        number(0.1, 1.0, ""),
+        LeftOut::Value("0.5"),
+        "the least spindle override that an operator may set: 0.5 is 50 %",
+    ),
+    key(
+        "spindle.override_max",
+        number(1.0, 2.0, ""),
+        LeftOut::Means("1.2, and 1.1 with encoder = true"),
+        "the highest spindle override that an operator may set; at most 1.1 with encoder = true, because threads \
+         are planned for a spindle that turns that much faster than programmed",
+    ),
+    key(
         "spindle.overtravel",
         number(0.1, 100.0, "revolutions"),
         LeftOut::Value("10"),
