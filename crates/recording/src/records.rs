@@ -141,6 +141,7 @@ message!(Status, "glidepath.Status", {
     87 freeze_reason,
     88 job_stream,
     89 spindle_override,
+    90 spindle_load,
 });
 
 #[cfg(test)]

@@ -22,9 +22,9 @@ mod encoder;
 mod encoder_settings;
 mod encoder_wiring;
 mod joint_encoder;
+mod orienting;
 mod settings;
 mod signal;
-mod orienting;
 mod spindle_drive;
 mod spindle_settings;
 mod spindle_wiring;
@@ -35,12 +35,12 @@ mod worked;
 pub use at::At;
 pub use encoder_settings::EncoderSettings;
 pub use joint_encoder::{EncoderUse, JointEncoderSettings};
+pub use orienting::OrientationSettings;
 pub use settings::{
     ANALOG_INPUTS, AnalogInput, AnalogOutput, DIGITAL_INPUTS, DigitalInput, DigitalOutput,
     Parameter, TerminalSettings,
 };
 pub use signal::{Quantity, Signal};
-pub use orienting::OrientationSettings;
 pub use spindle_settings::{SpindleMode, SpindleSettings};
 
 pub(crate) use driven::at_rest;

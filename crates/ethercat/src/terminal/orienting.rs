@@ -186,7 +186,10 @@ mod tests {
                     }
                     let found = angle_of(orienting.target(), is_inverted);
                     let off = (found - deg + 180.0).rem_euclid(360.0) - 180.0;
-                    assert!(orienting.has_arrived() && off.abs() < 0.01, "{place} {deg} {off}");
+                    assert!(
+                        orienting.has_arrived() && off.abs() < 0.01,
+                        "{place} {deg} {off}"
+                    );
                 }
             }
         }

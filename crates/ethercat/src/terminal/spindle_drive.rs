@@ -33,6 +33,8 @@ const RESET_NS: u64 = 1_000_000_000;
 const SETTLED_NS: u64 = 20_000_000;
 /// A pause between two cycles counts as so long at most, ns: the speed does not step.
 const LONGEST_NS: u64 = 20_000_000;
+/// The time constant of the load that is told, ns: torque trembles with the teeth of a tool.
+const LOAD_NS: f64 = 1e8;
 /// "Generic error" by CiA 301, of a drive that does not tell its own.
 const ANY_FAULT: u16 = 0x1000;
 /// Cyclic synchronous position, as 0x6060 has it.
@@ -80,6 +82,8 @@ pub(super) struct SpindleDrive {
     /// The speed that it is told, rev/min.
     told_rpm: f64,
     actual_rpm: f64,
+    /// Its load, smoothed, as a part of its rated torque.
+    load_r: f64,
     /// Since when its speed is near what is commanded, ns.
     near_ns: Option<u64>,
     last_ns: u64,
@@ -100,6 +104,7 @@ impl SpindleDrive {
             phase: Phase::Off,
             told_rpm: 0.0,
             actual_rpm: 0.0,
+            load_r: 0.0,
             near_ns: None,
             last_ns: 0,
             wanted_rpm: 0.0,
@@ -158,6 +163,7 @@ impl SpindleDrive {
         } else {
             self.told_rpm
         };
+        self.smooth_load(said.torque, since_ns);
         let state = state::of(said.status);
         self.fail_by(state, said, tell);
         let control = self.step(&cycle, state, since_ns, tell);
@@ -166,6 +172,14 @@ impl SpindleDrive {
         self.judge_speed(cycle.now_ns, is_reachable);
         let outputs = self.outputs(control);
         self.wired.put(image, &outputs);
+    }
+
+    /// Takes the torque of a cycle into the load.
+    #[allow(clippy::cast_precision_loss, reason = "some milliseconds")]
+    fn smooth_load(&mut self, torque: Option<i16>, since_ns: u64) {
+        let now_r = torque.map_or(0.0, |torque| f64::from(torque).abs() * 1e-3);
+        let share = 1.0 - (-(since_ns as f64) / LOAD_NS).exp();
+        self.load_r += share * (now_r - self.load_r);
     }
 
     /// What it is told. Where it is not led in position it is told where it is, so that it stays there when
@@ -365,6 +379,7 @@ impl SpindleDrive {
             return;
         }
         feedback.spindle_v = self.actual_rpm / 60.0;
+        feedback.spindle_load = self.load_r;
         let is_settled = self
             .near_ns
             .is_some_and(|since| self.last_ns >= since + SETTLED_NS)
@@ -374,13 +389,17 @@ impl SpindleDrive {
             feedback.spindle_flags |= if is { flag.0 } else { 0 };
         };
         set(SpindleFlags::SPEED, true);
+        set(SpindleFlags::LOAD, self.settings().tells_load);
         set(
             SpindleFlags::AT_SPEED,
             is_settled && !stands && self.phase == Phase::Turning,
         );
         set(SpindleFlags::STOPPED, is_settled && stands);
         let is_held = matches!(self.phase, Phase::Orienting(Some(_)));
-        set(SpindleFlags::ORIENTED, is_settled && is_held && self.angle.is_some());
+        set(
+            SpindleFlags::ORIENTED,
+            is_settled && is_held && self.angle.is_some(),
+        );
         set(SpindleFlags::FAULT, self.failed.is_some());
     }
 }

@@ -71,6 +71,8 @@ pub struct SpindleSettings {
     pub at_speed_r: f64,
     /// How it is turned to an angle; `None` if it is not. It takes cyclic velocity.
     pub orientation: Option<OrientationSettings>,
+    /// Its drive tells its torque (0x6077), thousandths of the rated one.
+    pub tells_load: bool,
     /// Who says what is in its process data.
     pub mapping: Mapping,
 }
@@ -133,6 +135,9 @@ impl SpindleSettings {
         if self.orientation.is_some() {
             outputs.push(0x607a_0020);
             inputs.push(0x6064_0020);
+        }
+        if self.tells_load {
+            inputs.push(0x6077_0010);
         }
         (outputs, inputs)
     }

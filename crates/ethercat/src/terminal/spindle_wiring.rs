@@ -17,6 +17,7 @@ pub(crate) struct WiredSpindle {
     actual: usize,
     fault: Option<usize>,
     place: Option<WiredPlace>,
+    torque: Option<usize>,
 }
 
 /// Where the objects of its position are, if it is turned to an angle.
@@ -50,6 +51,8 @@ pub(crate) struct SpindleInputs {
     /// Where it is, counts, and the mode it is in, if it is turned to an angle.
     pub(crate) place: i32,
     pub(crate) mode: i8,
+    /// Thousandths of its rated torque, if it tells that.
+    pub(crate) torque: Option<i16>,
 }
 
 impl SpindleInputs {
@@ -60,6 +63,7 @@ impl SpindleInputs {
         fault: None,
         place: 0,
         mode: 0,
+        torque: None,
     };
 }
 
@@ -90,7 +94,12 @@ impl WiredSpindle {
                 shown: input(0x6061, 8).ok_or((0x6061, false))?,
             }),
         };
+        let torque = settings
+            .tells_load
+            .then(|| input(0x6077, 16).ok_or((0x6077, false)))
+            .transpose()?;
         Ok(Self {
+            torque,
             place,
             settings,
             nth,
@@ -117,8 +126,11 @@ impl WiredSpindle {
             status: word(self.status),
             actual: (number(image, self.actual, bits) << unused) as i32 >> unused,
             fault: self.fault.map(word),
+            torque: self.torque.map(|bit| word(bit) as i16),
             place: self.place.map_or(0, |p| number(image, p.actual, 32) as i32),
-            mode: self.place.map_or(0, |p| number(image, p.shown, 8) as u8 as i8),
+            mode: self
+                .place
+                .map_or(0, |p| number(image, p.shown, 8) as u8 as i8),
         }
     }
 

@@ -43,6 +43,7 @@ fn setup(period_ns: u64, bits: u32, has_index: bool) -> Setup {
         ramp_rpm_per_s: 10_000.0,
         at_speed_r: 0.02,
         orientation: None,
+        tells_load: false,
         mapping: Mapping::Written,
     };
     let encoder = EncoderSettings {

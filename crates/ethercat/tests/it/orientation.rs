@@ -118,7 +118,11 @@ impl Case for Orienting {
     }
 }
 
-fn oriented(setup: &Setup, program: &'static str, upset: Upset) -> (Outcome, Orienting, Vec<SyncRecord>) {
+fn oriented(
+    setup: &Setup,
+    program: &'static str,
+    upset: Upset,
+) -> (Outcome, Orienting, Vec<SyncRecord>) {
     let mut case = Orienting {
         program,
         upset,
@@ -156,7 +160,9 @@ fn a_program_goes_on_when_the_spindle_stands_at_its_angle_and_it_is_held_there()
         let (outcome, case, records) = oriented(&setup, PROGRAM, Upset::Nothing);
         assert_eq!(case.fault, None);
         assert_eq!(outcome.allocations, 0, "the bus thread allocates");
-        let wrapped = records.windows(2).any(|two| two[0].actual > 0 && two[1].actual < 0);
+        let wrapped = records
+            .windows(2)
+            .any(|two| two[0].actual > 0 && two[1].actual < 0);
         assert!(wrapped || is_inverted, "the counter goes round");
         let mut seen = [0; 3];
         let mut back = false;
@@ -172,7 +178,10 @@ fn a_program_goes_on_when_the_spindle_stands_at_its_angle_and_it_is_held_there()
             let at_ns = setpoint.apply_ns + setup.bus.delay_ns;
             let record = records.iter().find(|record| record.at_ns >= at_ns).unwrap();
             let off = off_deg(record.actual, deg, is_inverted);
-            assert!(off.abs() <= WINDOW_DEG && is_powered(record), "{x} {off} {is_inverted}");
+            assert!(
+                off.abs() <= WINDOW_DEG && is_powered(record),
+                "{x} {off} {is_inverted}"
+            );
             seen[nth] += 1;
         }
         assert!(seen.iter().all(|seen| *seen > 10), "{seen:?}");
@@ -183,7 +192,11 @@ fn a_program_goes_on_when_the_spindle_stands_at_its_angle_and_it_is_held_there()
         });
         let most_rpm = most.fold(0.0, f64::max) / f64::from(TURN) * 60.0;
         assert!((2900.0..3100.0).contains(&most_rpm), "{most_rpm}");
-        assert!(case.flags.iter().any(|flags| flags.contains(SpindleFlags::ORIENTED)));
+        assert!(
+            case.flags
+                .iter()
+                .any(|flags| flags.contains(SpindleFlags::ORIENTED))
+        );
         assert!(!records.last().is_some_and(is_powered), "M5 lets it go");
     }
 }
@@ -199,11 +212,20 @@ fn one_that_does_not_come_to_its_angle_stops_the_program_in_the_time_of_q() {
     assert!((farthest.fold(0.0, f64::max) - 10.0).abs() < 1e-9);
     // Not in the time of the machine, which is ten seconds.
     let first = |is_it: &dyn Fn(&Setpoint) -> bool| {
-        outcome.setpoints.iter().find(|s| is_it(s)).map(|s| s.scheduled_ns).unwrap()
+        outcome
+            .setpoints
+            .iter()
+            .find(|s| is_it(s))
+            .map(|s| s.scheduled_ns)
+            .unwrap()
     };
     let from = first(&|s| s.position[0] > 9.999 && s.state == MachineState::Awaiting.code());
     let to = first(&|s| s.state == MachineState::Faulted.code());
-    assert!((990_000_000..1_050_000_000).contains(&(to - from)), "{}", to - from);
+    assert!(
+        (990_000_000..1_050_000_000).contains(&(to - from)),
+        "{}",
+        to - from
+    );
 }
 
 #[test]
@@ -214,7 +236,10 @@ fn an_abort_and_a_fault_of_its_drive_end_the_hold() {
     assert!(!records.last().is_some_and(is_powered));
     let (outcome, case, records) = oriented(&setup, PROGRAM, Upset::Fault);
     let fault = case.fault.expect("a fault");
-    assert!(fault.starts_with("the drive of the spindle has failed"), "{fault}");
+    assert!(
+        fault.starts_with("the drive of the spindle has failed"),
+        "{fault}"
+    );
     assert!(!records.last().is_some_and(is_powered));
     assert!(outcome.setpoints.last().is_some_and(|s| !moves(s)));
 }

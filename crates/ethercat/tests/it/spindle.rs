@@ -33,6 +33,7 @@ fn settings(mode: SpindleMode) -> SpindleSettings {
         ramp_rpm_per_s: 10_000.0,
         at_speed_r: 0.02,
         orientation: None,
+        tells_load: false,
         mapping: Mapping::Written,
     }
 }
@@ -115,6 +116,8 @@ struct Cutting {
     done: Option<u64>,
     /// Speed (rev/min) and flags that were told with each setpoint, by its number.
     told: Vec<(u64, f64, SpindleFlags)>,
+    /// Its load as status and feedback had it then.
+    loads: Vec<(f64, f64)>,
     fault: Option<String>,
     outputs: Vec<bool>,
     resets: bool,
@@ -131,6 +134,7 @@ impl Cutting {
             began: None,
             done: None,
             told: Vec::new(),
+            loads: Vec::new(),
             fault: None,
             outputs: Vec::new(),
             resets: false,
@@ -163,6 +167,8 @@ impl Case for Cutting {
         if let (Some(said), Some(last)) = (hands.feedback, hands.last) {
             let flags = SpindleFlags(said.spindle_flags);
             self.told.push((last.number, 60.0 * said.spindle_v, flags));
+            let status = hands.status.map_or(0.0, |status| status.spindle_load);
+            self.loads.push((status, said.spindle_load));
         }
         self.runs = hands.state() == Some(MachineState::Running);
         let (state, rested) = (hands.state(), hands.tick > self.asked + 25);
@@ -350,9 +356,44 @@ fn it_turns_as_fast_as_the_operator_has_it_unless_a_program_does_not_allow_that(
             let t = (pair[10].0 - pair[0].0) as f64 * 1e-9;
             assert!((pair[10].1 - pair[0].1).abs() / t < 10_500.0);
         }
-        let flags = cutting.told.iter().rfind(|(number, ..)| *number == last.number);
+        let flags = cutting
+            .told
+            .iter()
+            .rfind(|(number, ..)| *number == last.number);
         assert!(flags.is_some_and(|(.., flags)| flags.contains(SpindleFlags::AT_SPEED)));
     }
+}
+
+#[test]
+fn its_load_is_told() {
+    let mut setup = setup(SpindleMode::CyclicVelocity);
+    if let Some(spindle) = &mut setup.terminals[1].spindle {
+        spindle.tells_load = true;
+    }
+    let mut cutting = Cutting::new(CUT, Upset::Nothing);
+    let (outcome, _) = spun(&setup, &mut cutting);
+    assert_eq!(outcome.allocations, 0);
+    // Its ramp takes half of what the motor has; at its speed it takes nothing.
+    let most = cutting
+        .loads
+        .iter()
+        .map(|(_, load)| *load)
+        .fold(0.0, f64::max);
+    assert!((most - 0.5).abs() < 0.02, "{most}");
+    let at_speed = cutting.told.iter().zip(&cutting.loads);
+    let steady = at_speed.filter(|((.., rpm, flags), _)| {
+        assert!(flags.contains(SpindleFlags::LOAD));
+        (*rpm - 6000.0).abs() < 1.0
+    });
+    let least = steady.map(|(_, (_, load))| *load).fold(1.0, f64::min);
+    assert!(least < 0.05, "{least}");
+    // The status has it from there.
+    let seen = cutting
+        .loads
+        .iter()
+        .map(|(status, _)| *status)
+        .fold(0.0, f64::max);
+    assert!((seen - most).abs() < 0.05, "{seen}");
 }
 
 #[test]

@@ -78,6 +78,7 @@ const fn spindle(mode: SpindleMode, mapping: Mapping) -> SpindleSettings {
         ramp_rpm_per_s: 8000.0,
         at_speed_r: 0.03,
         orientation: None,
+        tells_load: false,
         mapping,
     }
 }

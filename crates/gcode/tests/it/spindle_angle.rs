@@ -73,13 +73,7 @@ fn what_would_not_come_to_the_spindle_is_refused() {
         refuses_with(text, not_turned.clone(), "not-connected");
     }
     refuses_with("M19 R30 Q1", options(true, false), "not-connected");
-    for text in [
-        "M19 R-1",
-        "M19 R360.5",
-        "M19 P3",
-        "M19 Q0",
-        "M19 Q-1",
-    ] {
+    for text in ["M19 R-1", "M19 R360.5", "M19 P3", "M19 Q0", "M19 Q-1"] {
         refuses_with(text, options(true, true), "invalid-value");
     }
 }

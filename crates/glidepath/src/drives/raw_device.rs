@@ -72,6 +72,8 @@ pub(super) struct RawSpindle {
     pub(super) invert: bool,
     #[serde(default)]
     pub(super) map: RawMap,
+    #[serde(default)]
+    pub(super) load: bool,
     pub(super) orientation: Optional<RawOrientation>,
 }
 

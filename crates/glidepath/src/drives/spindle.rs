@@ -89,7 +89,9 @@ fn orientation(
     if counts_per_rev.is_none() {
         tell(
             "orientation.counts_per_rev",
-            format!("device.spindle.orientation.counts_per_rev = {counts} is no power of two from 4 to 2^29"),
+            format!(
+                "device.spindle.orientation.counts_per_rev = {counts} is no power of two from 4 to 2^29"
+            ),
             "its counter goes round at 32 bits, and an angle is the same in the next round only where a turn is a \
              power of two: set the drive's gear (0x6091, 0x608F) so",
             raw.counts_per_rev.span(),
@@ -99,8 +101,12 @@ fn orientation(
     let key = "device.spindle.orientation.max_rpm";
     let max_rpm = judge.number(key, &raw.max_rpm, &WAY_SPEED);
     too_fast(judge, &raw.max_rpm, most_rpm);
-    let window_deg =
-        judge.number_or("device.spindle.orientation.window", &raw.window, &WINDOW, WINDOW_DEG);
+    let window_deg = judge.number_or(
+        "device.spindle.orientation.window",
+        &raw.window,
+        &WINDOW,
+        WINDOW_DEG,
+    );
     Some(OrientationSettings {
         counts_per_rev: counts_per_rev?,
         zero_deg,
@@ -181,6 +187,7 @@ pub(super) fn spindle(judge: &mut Judge, raw: &RawSpindle) -> Option<SpindleSett
     let orientation = orientation(judge, &raw.orientation, (mode, max_rpm));
     Some(SpindleSettings {
         orientation,
+        tells_load: raw.load,
         mode: mode?,
         units_per_rpm,
         is_inverted: raw.invert,

@@ -97,7 +97,8 @@ impl AuxiliaryBook {
                 self.tool_change = Some(change);
             }
             self.record.take(event);
-            if let Event::PassingCode(code @ (ALLOW | LOCK)) | Event::MCode(code @ (ALLOW | LOCK)) = event
+            if let Event::PassingCode(code @ (ALLOW | LOCK)) | Event::MCode(code @ (ALLOW | LOCK)) =
+                event
             {
                 self.is_locked = code == LOCK;
                 self.put_override();

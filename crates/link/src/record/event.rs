@@ -8,7 +8,9 @@
 use super::check::{Fields, RecordError};
 use super::code::coded;
 use glidepath_geometry::AXES;
-use glidepath_program::{CodeWord, EVENTS_MOST, Event, OrientWay, PHASE_STEPS, TAP_DEPTHS_UM, TimedEvent};
+use glidepath_program::{
+    CodeWord, EVENTS_MOST, Event, OrientWay, PHASE_STEPS, TAP_DEPTHS_UM, TimedEvent,
+};
 use iceoryx2::prelude::ZeroCopySend;
 
 coded! {

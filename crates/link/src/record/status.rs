@@ -205,6 +205,9 @@ pub struct Status {
     pub job_stream: u32,
     /// Spindle override as commanded; the [`super::Auxiliary`] has what is in force.
     pub spindle_override: f64,
+    /// Load of the spindle as it was measured last: the magnitude of its torque as a part of its rated one; means
+    /// something if [`SpindleFlags::LOAD`] is set.
+    pub spindle_load: f64,
 }
 
 /// Drives that have said nothing for so long are silent: nobody knows where they are, ns.

@@ -3,8 +3,8 @@
 use glidepath_geometry::{Arc, AxisVector, Plane, Quintic, Segment};
 use glidepath_link::{ALL_JOINTS, Command, EventId, OVERRIDE_MAX, StreamItem};
 use glidepath_program::{
-    CodeWord, EVENTS_MOST, Event, Frame, FrameEvents, FrameFlags, Item, ItemKind, OrientWay, PHASE_STEPS,
-    PathMode, Rate, TAP_DEPTHS_UM,
+    CodeWord, EVENTS_MOST, Event, Frame, FrameEvents, FrameFlags, Item, ItemKind, OrientWay,
+    PHASE_STEPS, PathMode, Rate, TAP_DEPTHS_UM,
 };
 use proptest::prelude::*;
 

@@ -150,6 +150,7 @@ fn terminals() -> Vec<TerminalSettings> {
                 ramp_rpm_per_s: RAMP,
                 at_speed_r: NEAR,
                 orientation: None,
+                tells_load: false,
                 mapping: Mapping::Written,
             }),
             ..at(SPINDLE)

@@ -18,7 +18,7 @@ use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::syntax::block::Block;
 use crate::syntax::named_word::{Named, NamedValue};
-use crate::syntax::word_check::{whole};
+use crate::syntax::word_check::whole;
 
 const ORIENTED: u32 = 19;
 const TURN: f64 = 360.0;

@@ -2,8 +2,8 @@
 
 use core::f64::consts::TAU;
 
-use glidepath_geometry::Segment;
 use glidepath_gcode::{Options, Program};
+use glidepath_geometry::Segment;
 use glidepath_program::{Event, Item, ItemKind, OrientWay, PathMode, Rate};
 
 use super::{ends, finds, items, moves, options};

@@ -25,8 +25,8 @@ impl SpindleSurroundings<'_> {
     /// Whether the machine waits for a code where it stands.
     fn is_awaited(&self, code: u32) -> bool {
         let mut rules = self.m_codes.iter();
-        let rule = rules
-            .find(|rule| (rule.m_code_wait.first..=rule.m_code_wait.last).contains(&code));
+        let rule =
+            rules.find(|rule| (rule.m_code_wait.first..=rule.m_code_wait.last).contains(&code));
         rule.is_some_and(|rule| {
             rule.m_code_wait.answer != AnswerSource::Nobody && rule.at == WaitsAt::Code
         })
@@ -58,7 +58,12 @@ impl Judge {
             (range(1.0, 2.0, help), OVERRIDE[1])
         };
         [
-            self.number_or("spindle.override_min", &raw.override_min, &least, OVERRIDE[0]),
+            self.number_or(
+                "spindle.override_min",
+                &raw.override_min,
+                &least,
+                OVERRIDE[0],
+            ),
             self.number_or("spindle.override_max", &raw.override_max, &most, of_most),
         ]
     }

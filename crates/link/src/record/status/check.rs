@@ -73,6 +73,7 @@ impl Record for Status {
         self.job_stage()?;
         fields.flags("job_held", self.job_held, 1)?;
         fields.finite("spindle_v", self.spindle_v)?;
+        fields.finite("spindle_load", self.spindle_load)?;
         fields.flags("spindle_flags", self.spindle_flags, SpindleFlags::KNOWN)?;
         fields.all_finite("superposed", &self.superposed)?;
         self.superposition()?;
