@@ -44,6 +44,7 @@ pub(super) struct RawJointEncoder {
     #[serde(default)]
     pub(super) invert: bool,
     pub(super) home_offset: Optional<f64>,
+    pub(super) signed: Optional<bool>,
     pub(super) apart: Spanned<f64>,
 }
 

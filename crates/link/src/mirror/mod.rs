@@ -28,8 +28,8 @@ mod shortage;
 pub use error::MirrorError;
 pub use gap::Gap;
 pub use obstacle::obstacle;
-pub use shortage::MirrorNote;
 pub use record::{SetpointMirror, StatusMirror};
+pub use shortage::MirrorNote;
 
 use crate::{LinkError, Record as _, Transport};
 use copies::{Copies, Depth, Domain};

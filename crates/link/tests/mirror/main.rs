@@ -11,7 +11,8 @@ use core::fmt::Debug;
 use core::sync::atomic::{AtomicBool, Ordering};
 use core::time::Duration;
 use glidepath_link::mirror::{
-    Gap, Mirror, MirrorCounts, MirrorError, MirrorNote, MirrorSettings, SetpointMirror, StatusMirror,
+    Gap, Mirror, MirrorCounts, MirrorError, MirrorNote, MirrorSettings, SetpointMirror,
+    StatusMirror,
 };
 use glidepath_link::{Ipc, LinkConfig, MachineState, Setpoint, Status, Transport};
 use glidepath_testing::{Pulse, skip};
